@@ -1,0 +1,158 @@
+//! What a [`Program`] must satisfy before anything is solved. Every refusal names the place.
+
+use crate::program::{BlockRows, Program};
+use crate::{Cone, ProblemError};
+
+/// Refuses a problem whose shape is malformed: no variables, names used twice, variables of another problem,
+/// rows that do not divide into cones.
+pub(crate) fn shape(program: &Program) -> Result<(), ProblemError> {
+    let count = program.variable_count();
+    if count == 0 {
+        return Err(ProblemError::Empty);
+    }
+    distinct_names(program.groups.iter().map(|group| group.name.as_ref()))?;
+    distinct_names(program.blocks.iter().map(|block| block.name.as_ref()))?;
+    for &(i, j) in &program.quadratic.position {
+        known(i.max(j), count, || "the quadratic cost".to_owned())?;
+    }
+    for block in &program.blocks {
+        for &(row, variable) in &block.entries.position {
+            known(variable, count, || place_of(block, row))?;
+        }
+        let rows = block.right_hand_side.len();
+        if let Cone::SecondOrder { dimension } = block.cone
+            && (dimension == 0 || !rows.is_multiple_of(dimension))
+        {
+            let block = block.name.to_string();
+            return Err(ProblemError::ConeSize {
+                block,
+                rows,
+                dimension,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses numbers that are not finite, linear costs of variables of another problem, and a quadratic cost
+/// with a negative diagonal entry. (That the diagonal is not negative is necessary for convexity; that P as a
+/// whole is positive semidefinite is the caller's to ensure, since its proof costs a factorisation.)
+pub(crate) fn values(program: &Program) -> Result<(), ProblemError> {
+    let count = program.variable_count();
+    for (&(i, j), &value) in program
+        .quadratic
+        .position
+        .iter()
+        .zip(&program.quadratic.value)
+    {
+        finite(value, || {
+            let (i, j) = (program.variable_name(i), program.variable_name(j));
+            format!("the quadratic cost of {i} and {j}")
+        })?;
+    }
+    for &(i, value) in &program.linear {
+        known(i, count, || "the linear cost".to_owned())?;
+        finite(value, || {
+            format!("the linear cost of {}", program.variable_name(i))
+        })?;
+    }
+    for block in &program.blocks {
+        for (&(row, variable), &value) in block.entries.position.iter().zip(&block.entries.value) {
+            finite(value, || {
+                let variable = program.variable_name(variable);
+                format!("the coefficient of {variable} in {}", place_of(block, row))
+            })?;
+        }
+        for (row, &value) in block.right_hand_side.iter().enumerate() {
+            finite(value, || {
+                format!("the right-hand side of {}", place_of(block, row))
+            })?;
+        }
+    }
+    nonnegative_diagonal(program)
+}
+
+/// Refuses a diagonal entry of P that is negative beyond the rounding errors of its parts.
+fn nonnegative_diagonal(program: &Program) -> Result<(), ProblemError> {
+    let mut diagonal = vec![0.0; program.variable_count()];
+    let mut largest = 0.0_f64;
+    for (&(i, j), &value) in program
+        .quadratic
+        .position
+        .iter()
+        .zip(&program.quadratic.value)
+    {
+        if i == j {
+            diagonal[i] += value;
+        }
+        largest = largest.max(value.abs());
+    }
+    match diagonal.iter().position(|&value| value < -1e-12 * largest) {
+        Some(i) => Err(ProblemError::NegativeCurvature {
+            variable: program.variable_name(i),
+            value: diagonal[i],
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses `program` when its variables, blocks or entries are not those of `other`.
+pub(crate) fn same_pattern(program: &Program, other: &Program) -> Result<(), ProblemError> {
+    let changed = |place: String| Err(ProblemError::PatternChanged { place });
+    if program.groups != other.groups {
+        return changed("the list of variables".to_owned());
+    }
+    if program.blocks.len() != other.blocks.len() {
+        return changed("the list of blocks".to_owned());
+    }
+    if program.quadratic.position != other.quadratic.position {
+        return changed("the quadratic cost".to_owned());
+    }
+    for (block, other) in program.blocks.iter().zip(&other.blocks) {
+        let same = block.name == other.name
+            && block.cone == other.cone
+            && block.right_hand_side.len() == other.right_hand_side.len()
+            && block.entries.position == other.entries.position;
+        if !same {
+            return changed(format!("block `{}`", block.name));
+        }
+    }
+    Ok(())
+}
+
+fn distinct_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<(), ProblemError> {
+    let mut names: Vec<&str> = names.collect();
+    names.sort_unstable();
+    match names.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(ProblemError::DuplicateName {
+            name: pair[0].to_owned(),
+        }),
+        None => Ok(()),
+    }
+}
+
+fn known(index: usize, count: usize, place: impl Fn() -> String) -> Result<(), ProblemError> {
+    if index < count {
+        Ok(())
+    } else {
+        let place = place();
+        Err(ProblemError::NoSuchVariable {
+            place,
+            index,
+            count,
+        })
+    }
+}
+
+fn finite(value: f64, place: impl Fn() -> String) -> Result<(), ProblemError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        let place = place();
+        Err(ProblemError::NotFinite { place, value })
+    }
+}
+
+fn place_of(block: &BlockRows, row: usize) -> String {
+    format!("row {row} of block `{}`", block.name)
+}

@@ -1,0 +1,156 @@
+//! What can go wrong: a problem that cannot be posed ([`ProblemError`]), and a problem that was posed and
+//! has no answer, or whose answer was not found ([`SolveError`]).
+
+use std::fmt;
+
+/// The problem, or the settings, are malformed: nothing was solved.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ProblemError {
+    /// There is nothing to decide.
+    #[error("the problem has no variables: declare some with Program::variables")]
+    Empty,
+    /// Two groups of variables, or two blocks of rows, bear one name.
+    #[error("the name `{name}` is used twice: names tell variables and rows apart in errors")]
+    DuplicateName {
+        /// The repeated name.
+        name: String,
+    },
+    /// A cost or a row uses a variable that this problem does not have.
+    #[error(
+        "{place} uses variable number {index}, but the problem has {count}: the handle is another problem's"
+    )]
+    NoSuchVariable {
+        /// The cost or row.
+        place: String,
+        /// The position of the variable, from zero.
+        index: usize,
+        /// How many variables there are.
+        count: usize,
+    },
+    /// A number is infinite or not a number.
+    #[error("{place} is {value}: every number of a problem must be finite")]
+    NotFinite {
+        /// The cost or row.
+        place: String,
+        /// The offending number.
+        value: f64,
+    },
+    /// The rows of a second-order block do not divide into cones.
+    #[error(
+        "block `{block}` has {rows} rows, not a multiple of its cones' dimension {dimension} (at least 1)"
+    )]
+    ConeSize {
+        /// The block.
+        block: String,
+        /// How many rows it has.
+        rows: usize,
+        /// Rows of one cone.
+        dimension: usize,
+    },
+    /// The quadratic cost curves downwards along one variable, so it is not convex.
+    #[error("the quadratic cost of {variable} is {value}: a convex cost needs at least zero")]
+    NegativeCurvature {
+        /// The variable, as `name[index]`.
+        variable: String,
+        /// The diagonal entry of P.
+        value: f64,
+    },
+    /// An update has other variables, rows or entries than the problem the solver was built for.
+    #[error(
+        "{place} differs in shape from the problem this solver was built for: build a new solver"
+    )]
+    PatternChanged {
+        /// The first place that differs.
+        place: String,
+    },
+    /// A setting is out of range.
+    #[error("setting `{name}` is {value}: it must be {wanted}")]
+    Setting {
+        /// The field of [`Settings`](crate::Settings).
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would work.
+        wanted: &'static str,
+    },
+    /// The solver library refused a problem that this crate found well-formed.
+    #[error("the solver library refused the problem: {reason}")]
+    Refused {
+        /// The library's own words.
+        reason: String,
+    },
+}
+
+/// The problem was posed, but there is no solution to return.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// No x satisfies every row: proved by a certificate z with Aᵀz = 0, z ∈ K*, bᵀz = −1.
+    #[error("no point satisfies every row (shown in {iterations} iterations); the conflict is among {}", list(.conflict))]
+    PrimalInfeasible {
+        /// Interior-point iterations.
+        iterations: u32,
+        /// Blocks that carry the certificate, in the problem's order: without them it proves nothing.
+        conflict: Vec<String>,
+        /// z, one number a row, blocks in the problem's order.
+        certificate: Vec<f64>,
+    },
+    /// The cost falls without end: proved by a direction x with Px = 0, −Ax ∈ K, qᵀx = −1.
+    #[error("the cost is unbounded below (shown in {iterations} iterations), along {}", list(.unbounded))]
+    DualInfeasible {
+        /// Interior-point iterations.
+        iterations: u32,
+        /// Groups of variables that move along the direction, in the problem's order.
+        unbounded: Vec<String>,
+        /// x, one number a variable.
+        certificate: Vec<f64>,
+    },
+    /// Neither a solution nor a certificate was found.
+    #[error("unsolved after {iterations} iterations: {status}")]
+    Unsolved {
+        /// Why the solver stopped.
+        status: Status,
+        /// Interior-point iterations.
+        iterations: u32,
+    },
+}
+
+/// Why the solver stopped without a result that could be accepted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Status {
+    /// The iterate nearly solves the problem, but its residuals exceed the accepted tolerance.
+    AlmostSolved,
+    /// The iterate nearly proves infeasibility, but its certificate exceeds the accepted tolerance.
+    AlmostPrimalInfeasible,
+    /// The iterate nearly proves unboundedness, but its certificate exceeds the accepted tolerance.
+    AlmostDualInfeasible,
+    /// The iteration limit was reached.
+    IterationLimit,
+    /// The linear algebra broke down.
+    NumericalError,
+    /// The steps became too small.
+    InsufficientProgress,
+    /// The solver stopped for a reason this crate never asks for (time limit, callback, not started).
+    Interrupted,
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::AlmostSolved => "nearly solved, beyond the accepted tolerance",
+            Self::AlmostPrimalInfeasible => {
+                "nearly shown infeasible, beyond the accepted tolerance"
+            }
+            Self::AlmostDualInfeasible => "nearly shown unbounded, beyond the accepted tolerance",
+            Self::IterationLimit => "iteration limit reached",
+            Self::NumericalError => "the linear algebra broke down",
+            Self::InsufficientProgress => "no further progress",
+            Self::Interrupted => "interrupted",
+        })
+    }
+}
+
+fn list(names: &[String]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}

@@ -1,0 +1,148 @@
+//! Optimality and infeasibility, checked from the problem's data rather than on the solver's word.
+//!
+//! With s = b − Ax, a pair (x, z) is optimal exactly when
+//!
+//! | condition | residual |
+//! |---|---|
+//! | stationarity: Px + q + Aᵀz = 0 | ‖Px + q + Aᵀz‖∞ |
+//! | primal feasibility: s ∈ K | largest distance of a cone's part of s to the cone |
+//! | dual feasibility: z ∈ K* | largest distance of a cone's part of z to the dual cone |
+//! | complementarity: sᵀz = 0, cone by cone | largest \|sᵀz\| of one cone (of one row for inequalities) |
+//!
+//! Each residual is divided by max(1, the largest magnitude that took part in it), so that a residual of 1e-8
+//! means eight digits for large data and eight decimals for small data.
+
+use std::ops::Range;
+
+use crate::standard::StandardForm;
+use crate::{Cone, ProblemError, Program, Solution};
+
+/// The four residuals of the optimality conditions, relative as described in [`crate::kkt`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residuals {
+    /// Of Px + q + Aᵀz = 0.
+    pub stationarity: f64,
+    /// Of b − Ax ∈ K.
+    pub primal: f64,
+    /// Of z ∈ K*.
+    pub dual: f64,
+    /// Of (b − Ax)ᵀz = 0, cone by cone.
+    pub complementarity: f64,
+}
+
+impl Residuals {
+    /// The largest of the four.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        // `f64::max` would let a NaN pass for a small residual.
+        let all = [
+            self.stationarity,
+            self.primal,
+            self.dual,
+            self.complementarity,
+        ];
+        all.into_iter().fold(
+            0.0,
+            |worst, v| if v > worst || v.is_nan() { v } else { worst },
+        )
+    }
+}
+
+/// The residuals of `solution` as an answer to `program`.
+///
+/// # Errors
+/// As [`Solver::new`](crate::Solver::new), when `program` is malformed.
+///
+/// # Panics
+/// When `solution` answers a problem of other sizes.
+pub fn residuals(program: &Program, solution: &Solution) -> Result<Residuals, ProblemError> {
+    let form = StandardForm::new(program)?;
+    Ok(of(&form, solution.point(), solution.duals()).residuals)
+}
+
+/// What the conditions say about a pair (x, z), and what they computed on the way.
+pub(crate) struct Report {
+    pub(crate) residuals: Residuals,
+    /// s = b − Ax.
+    pub(crate) slack: Vec<f64>,
+    /// ½xᵀPx + qᵀx.
+    pub(crate) objective: f64,
+}
+
+pub(crate) fn of(form: &StandardForm, x: &[f64], z: &[f64]) -> Report {
+    let px = form.p.symmetric_times(x);
+    let ax = form.a.times(x);
+    let atz = form.a.transposed_times(z);
+    let slack: Vec<f64> = form.b.iter().zip(&ax).map(|(b, ax)| b - ax).collect();
+    let gradient: Vec<f64> = px
+        .iter()
+        .zip(&form.q)
+        .zip(&atz)
+        .map(|((px, q), atz)| px + q + atz)
+        .collect();
+    let quadratic = 0.5 * dot(x, &px);
+    let linear = dot(&form.q, x);
+    // At an optimum the two objectives agree: ½xᵀPx + qᵀx = −½xᵀPx − bᵀz.
+    let objectives = [quadratic + linear, quadratic + dot(&form.b, z)];
+    let residuals = Residuals {
+        stationarity: norm(&gradient) / scale(&[&px, &form.q, &atz]),
+        primal: worst(form, |cone, rows| cone.distance(&slack[rows])) / scale(&[&ax, &form.b]),
+        dual: worst(form, |cone, rows| cone.dual_distance(&z[rows])) / scale(&[z]),
+        complementarity: worst(form, |cone, rows| {
+            cone.complementarity(&slack[rows.clone()], &z[rows])
+        }) / scale(&[&objectives]),
+    };
+    Report {
+        residuals,
+        slack,
+        objective: objectives[0],
+    }
+}
+
+/// How far z, once scaled to bᵀz = −1, is from proving that no x is feasible: the largest of ‖Aᵀz‖∞ and of
+/// the distance of z to K*. Infinite when bᵀz ≥ 0. For z ∈ K*, every feasible x has (Aᵀz)ᵀx ≤ bᵀz = −1, so a
+/// residual ρ proves that there is none with ‖x‖₁ < 1/ρ.
+pub(crate) fn infeasibility(form: &StandardForm, z: &[f64]) -> f64 {
+    let gain = -dot(&form.b, z);
+    let atz = form.a.transposed_times(z);
+    let outside = worst(form, |cone, rows| cone.dual_distance(&z[rows]));
+    relative(norm(&atz).max(outside), gain)
+}
+
+/// How far x, once scaled to qᵀx = −1, is from a direction of unlimited descent: the largest of ‖Px‖∞ and of
+/// the distance of −Ax to K. Infinite when qᵀx ≥ 0.
+pub(crate) fn unboundedness(form: &StandardForm, x: &[f64]) -> f64 {
+    let gain = -dot(&form.q, x);
+    let px = form.p.symmetric_times(x);
+    let slack: Vec<f64> = form.a.times(x).iter().map(|v| -v).collect();
+    let outside = worst(form, |cone, rows| cone.distance(&slack[rows]));
+    relative(norm(&px).max(outside), gain)
+}
+
+fn relative(residual: f64, gain: f64) -> f64 {
+    if gain > 0.0 {
+        residual / gain
+    } else {
+        f64::INFINITY
+    }
+}
+
+fn worst(form: &StandardForm, residual: impl Fn(Cone, Range<usize>) -> f64) -> f64 {
+    form.cones.iter().fold(0.0, |worst, (cone, rows)| {
+        residual(*cone, rows.clone()).max(worst)
+    })
+}
+
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().fold(0.0, |worst, v| v.abs().max(worst))
+}
+
+fn scale(parts: &[&[f64]]) -> f64 {
+    parts
+        .iter()
+        .fold(1.0, |largest, part| norm(part).max(largest))
+}

@@ -1,0 +1,74 @@
+//! Sparse convex problems, built by name and solved into a [`Result`].
+//!
+//! # The problem
+//!
+//! ```text
+//! minimise   ½ xᵀP x + qᵀx          P symmetric, positive semidefinite
+//! subject to A x + s = b,  s ∈ K    K a product of cones
+//! ```
+//!
+//! Rows come in named blocks, each with its [`Cone`]: equalities (aᵀx = b), inequalities (aᵀx ≤ b) and
+//! second-order cones (b − Ax ∈ { (t, u) : ‖u‖₂ ≤ t }). The duals z ∈ K* carry the sign for which
+//!
+//! ```text
+//! P x + q + Aᵀz = 0,    sᵀz = 0,
+//! ```
+//!
+//! so the dual of an inequality is at least zero, and raising b by one lowers the optimal cost by z (to first
+//! order). [`kkt`] checks these conditions from the problem's data.
+//!
+//! # Use
+//!
+//! Write a [`Program`], give it to a [`Solver`], read the [`Solution`] by handle. The point of a disc of
+//! radius 1 that is nearest to (3, 4) lies on the ray towards it:
+//!
+//! ```
+//! use interplay_convex::{Program, Settings, Solver};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut program = Program::new();
+//! let x = program.variables("x", 2);
+//! let disc = program.second_order("disc", 3);
+//! for (variable, target) in x.iter().zip([3.0, 4.0]) {
+//!     program.quadratic(variable, variable, 1.0); // ½ (x − target)², up to a constant
+//!     program.linear(variable, -target);
+//! }
+//! program.row(disc, [], 1.0); // s₀ = 1
+//! program.row(disc, [(x.at(0), -1.0)], 0.0); // s₁ = x₀
+//! program.row(disc, [(x.at(1), -1.0)], 0.0); // s₂ = x₁
+//!
+//! let mut solver = Solver::new(&program, &Settings::default())?;
+//! let solution = solver.solve()?;
+//! assert!((solution.at(x.at(0)) - 0.6).abs() < 1e-6);
+//! assert!((solution.at(x.at(1)) - 0.8).abs() < 1e-6);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! To solve the same shape again, [`Program::clear`] and write the new numbers at the same positions in the
+//! same order, then [`Solver::update`]: the ordering and symbolic factorisation are kept, a changed pattern
+//! is refused, and the result is bit for bit that of a new solver.
+//!
+//! # Outcomes
+//!
+//! [`Solver::new`] and [`Solver::update`] refuse a malformed problem ([`ProblemError`]). [`Solver::solve`]
+//! returns a solution or says why there is none ([`SolveError`]): infeasible and unbounded come with a
+//! certificate and the names involved, anything else is unsolved, with the [`Status`] and the iterations.
+
+mod check;
+mod cone;
+mod error;
+pub mod kkt;
+mod program;
+mod settings;
+mod solution;
+mod solver;
+mod sparse;
+mod standard;
+
+pub use cone::Cone;
+pub use error::{ProblemError, SolveError, Status};
+pub use program::{Block, Program, Variable, Variables};
+pub use settings::Settings;
+pub use solution::Solution;
+pub use solver::Solver;

@@ -1,0 +1,66 @@
+//! The answer to a problem, read by the handles that the problem gave out.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::kkt::Residuals;
+use crate::{Block, Variable, Variables};
+
+/// An optimal point x with its duals z.
+///
+/// The readers panic when given a handle of a problem with more variables or blocks, like a slice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    pub(crate) x: Vec<f64>,
+    pub(crate) z: Vec<f64>,
+    pub(crate) slack: Vec<f64>,
+    pub(crate) blocks: Arc<[Range<usize>]>,
+    /// ½xᵀPx + qᵀx.
+    pub objective: f64,
+    /// Interior-point iterations.
+    pub iterations: u32,
+    /// How well (x, z) satisfies the optimality conditions, computed from the problem's data.
+    pub residuals: Residuals,
+    /// Whether the solver stopped short of [`Settings::tolerance`](crate::Settings::tolerance), and the point
+    /// was accepted because its residuals are below
+    /// [`Settings::accepted_tolerance`](crate::Settings::accepted_tolerance).
+    pub almost: bool,
+}
+
+impl Solution {
+    /// The values of a group of variables.
+    #[must_use]
+    pub fn value(&self, variables: Variables) -> &[f64] {
+        &self.x[variables.range()]
+    }
+
+    /// The value of one variable.
+    #[must_use]
+    pub fn at(&self, variable: Variable) -> f64 {
+        self.x[variable.0]
+    }
+
+    /// The duals z of a block's rows: the optimal cost changes by −z per unit that b is raised.
+    #[must_use]
+    pub fn dual(&self, block: Block) -> &[f64] {
+        &self.z[self.blocks[block.0].clone()]
+    }
+
+    /// The slacks b − Ax of a block's rows: zero where an inequality binds.
+    #[must_use]
+    pub fn slack(&self, block: Block) -> &[f64] {
+        &self.slack[self.blocks[block.0].clone()]
+    }
+
+    /// Every variable, in the order of declaration.
+    #[must_use]
+    pub fn point(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// Every dual, block after block.
+    #[must_use]
+    pub fn duals(&self) -> &[f64] {
+        &self.z
+    }
+}

@@ -1,0 +1,224 @@
+//! The interior-point solver: the one place that names Clarabel.
+//!
+//! Clarabel orders and factorises one KKT matrix whose pattern is that of P, A and the cones. The ordering
+//! and the symbolic factorisation are made once in [`Solver::new`]; [`Solver::update`] changes numbers only.
+//!
+//! Clarabel's own data update keeps the scaling (equilibration) of the first data, so that a result would
+//! depend on the solver's past. Here every update scales the new data afresh, which costs a few passes over
+//! the entries. Thus an updated solver and a new one return the same result, bit for bit.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::traits::ProblemData;
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+
+use crate::sparse::Sparse;
+use crate::standard::StandardForm;
+use crate::{Cone, ProblemError, Program, Settings, Solution, SolveError, Status, kkt};
+
+/// A problem ready to be solved, and to be solved again with other numbers in the same pattern.
+pub struct Solver {
+    form: StandardForm,
+    backend: DefaultSolver<f64>,
+    backend_settings: DefaultSettings<f64>,
+    accepted_tolerance: f64,
+}
+
+impl Solver {
+    /// Checks `program`, finds its pattern and prepares the factorisation.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when the problem or the settings are malformed; the error names the place.
+    pub fn new(program: &Program, settings: &Settings) -> Result<Self, ProblemError> {
+        settings.check()?;
+        let form = StandardForm::new(program)?;
+        let backend_settings = backend_settings(settings);
+        let cones: Vec<_> = form
+            .cones
+            .iter()
+            .map(|(cone, rows)| match cone {
+                Cone::Zero => SupportedConeT::ZeroConeT(rows.len()),
+                Cone::Nonnegative => SupportedConeT::NonnegativeConeT(rows.len()),
+                Cone::SecondOrder { .. } => SupportedConeT::SecondOrderConeT(rows.len()),
+            })
+            .collect();
+        let backend = DefaultSolver::new(
+            &columns(&form.p),
+            &form.q,
+            &columns(&form.a),
+            &form.b,
+            &cones,
+            backend_settings.clone(),
+        )
+        .map_err(refused)?;
+        let accepted_tolerance = settings.accepted_tolerance;
+        let mut solver = Self {
+            form,
+            backend,
+            backend_settings,
+            accepted_tolerance,
+        };
+        solver.load()?;
+        Ok(solver)
+    }
+
+    /// Takes the numbers of `program`, which must have the variables, blocks and entries (positions, in the
+    /// order written) of the program this solver was built for.
+    ///
+    /// # Errors
+    /// [`ProblemError::PatternChanged`] when it has not, [`ProblemError::NotFinite`],
+    /// [`ProblemError::NoSuchVariable`] or [`ProblemError::NegativeCurvature`] when a number is not
+    /// acceptable. The solver then still holds the problem it held before.
+    pub fn update(&mut self, program: &Program) -> Result<(), ProblemError> {
+        self.form.refill(program)?;
+        self.load()
+    }
+
+    /// Solves the problem last given. The result depends on that problem and the settings only.
+    ///
+    /// The solver's verdict is believed when it was reached at full tolerance. A verdict that the solver
+    /// itself calls "almost" (its limits were reached near a solution or a certificate) is accepted only if
+    /// the residuals recomputed from the data are below
+    /// [`Settings::accepted_tolerance`]; those of a certificate are taken at bᵀz = −1 or qᵀx = −1.
+    ///
+    /// # Errors
+    /// [`SolveError`]: infeasible or unbounded, with a certificate, or unsolved, with the reason.
+    pub fn solve(&mut self) -> Result<Solution, SolveError> {
+        self.backend.solve();
+        let result = &self.backend.solution;
+        let form = &self.form;
+        let accepted = |residual: f64| residual <= self.accepted_tolerance;
+        let status = match result.status {
+            SolverStatus::Solved => return Ok(self.solution(false)),
+            SolverStatus::AlmostSolved => {
+                let solution = self.solution(true);
+                if accepted(solution.residuals.largest()) {
+                    return Ok(solution);
+                }
+                Status::AlmostSolved
+            }
+            SolverStatus::PrimalInfeasible => return Err(self.primal_infeasible()),
+            SolverStatus::AlmostPrimalInfeasible => {
+                if accepted(kkt::infeasibility(form, &result.z)) {
+                    return Err(self.primal_infeasible());
+                }
+                Status::AlmostPrimalInfeasible
+            }
+            SolverStatus::DualInfeasible => return Err(self.dual_infeasible()),
+            SolverStatus::AlmostDualInfeasible => {
+                if accepted(kkt::unboundedness(form, &result.x)) {
+                    return Err(self.dual_infeasible());
+                }
+                Status::AlmostDualInfeasible
+            }
+            SolverStatus::MaxIterations => Status::IterationLimit,
+            SolverStatus::NumericalError => Status::NumericalError,
+            SolverStatus::InsufficientProgress => Status::InsufficientProgress,
+            SolverStatus::MaxTime | SolverStatus::CallbackTerminated | SolverStatus::Unsolved => {
+                Status::Interrupted
+            }
+        };
+        let iterations = result.iterations;
+        Err(SolveError::Unsolved { status, iterations })
+    }
+
+    /// Hands the standard form to Clarabel: raw numbers, fresh scaling, then the KKT matrix from both.
+    fn load(&mut self) -> Result<(), ProblemError> {
+        let data = &mut self.backend.data;
+        data.P.nzval.copy_from_slice(&self.form.p.value);
+        data.q.copy_from_slice(&self.form.q);
+        data.A.nzval.copy_from_slice(&self.form.a.value);
+        data.b.copy_from_slice(&self.form.b);
+        data.equilibration.d.fill(1.0);
+        data.equilibration.e.fill(1.0);
+        data.equilibration.c = 1.0;
+        data.equilibrate(&self.backend.cones, &self.backend_settings);
+        // An empty update leaves the data alone, and refreshes what Clarabel derives from it: the KKT matrix
+        // from P and A, the norms of q and b.
+        let unchanged: [f64; 0] = [];
+        self.backend
+            .update_data(&unchanged, &unchanged, &unchanged, &unchanged)
+            .map_err(refused)
+    }
+
+    fn solution(&self, almost: bool) -> Solution {
+        let result = &self.backend.solution;
+        let report = kkt::of(&self.form, &result.x, &result.z);
+        Solution {
+            x: result.x.clone(),
+            z: result.z.clone(),
+            slack: report.slack,
+            blocks: self.form.blocks.clone(),
+            objective: report.objective,
+            iterations: result.iterations,
+            residuals: report.residuals,
+            almost,
+        }
+    }
+
+    fn primal_infeasible(&self) -> SolveError {
+        let z = &self.backend.solution.z;
+        let certificate = scaled(z, -kkt::dot(&self.form.b, z));
+        SolveError::PrimalInfeasible {
+            iterations: self.backend.solution.iterations,
+            conflict: self.form.blocks_in(&certificate),
+            certificate,
+        }
+    }
+
+    fn dual_infeasible(&self) -> SolveError {
+        let x = &self.backend.solution.x;
+        let certificate = scaled(x, -kkt::dot(&self.form.q, x));
+        SolveError::DualInfeasible {
+            iterations: self.backend.solution.iterations,
+            unbounded: self.form.groups_in(&certificate),
+            certificate,
+        }
+    }
+}
+
+impl std::fmt::Debug for Solver {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Solver")
+            .field("form", &self.form)
+            .finish_non_exhaustive()
+    }
+}
+
+/// One thread, no clock, no output, and nothing that would change the pattern.
+fn backend_settings(settings: &Settings) -> DefaultSettings<f64> {
+    DefaultSettings {
+        max_iter: settings.iteration_limit,
+        time_limit: f64::INFINITY,
+        verbose: false,
+        tol_gap_abs: settings.tolerance,
+        tol_gap_rel: settings.tolerance,
+        tol_feas: settings.tolerance,
+        tol_infeas_abs: settings.tolerance,
+        tol_infeas_rel: settings.tolerance,
+        max_threads: 1,
+        direct_solve_method: "qdldl".to_owned(),
+        presolve_enable: false,
+        input_sparse_dropzeros: false,
+        ..DefaultSettings::default()
+    }
+}
+
+fn columns(matrix: &Sparse) -> CscMatrix<f64> {
+    CscMatrix::new(
+        matrix.rows,
+        matrix.columns(),
+        matrix.start.clone(),
+        matrix.row.clone(),
+        matrix.value.clone(),
+    )
+}
+
+fn scaled(vector: &[f64], divisor: f64) -> Vec<f64> {
+    vector.iter().map(|v| v / divisor).collect()
+}
+
+fn refused(error: impl std::fmt::Display) -> ProblemError {
+    ProblemError::Refused {
+        reason: error.to_string(),
+    }
+}

@@ -1,0 +1,141 @@
+//! Compressed sparse columns whose values can be filled again in place.
+//!
+//! The pattern is found once from a list of (row, column) entries; entries at one position share a slot and
+//! add up. Filling is then a single pass over the entries' values, with no sorting and no allocation.
+
+/// A sparse matrix by columns: the entries of column j are `start[j]..start[j + 1]`, rows ascending.
+#[derive(Debug, Clone)]
+pub(crate) struct Sparse {
+    pub(crate) rows: usize,
+    pub(crate) start: Vec<usize>,
+    pub(crate) row: Vec<usize>,
+    pub(crate) value: Vec<f64>,
+    /// Where the k-th entry of the list adds its value.
+    slot: Vec<usize>,
+}
+
+impl Sparse {
+    /// The zero matrix whose pattern holds every listed (row, column), all within `rows` × `columns`.
+    pub(crate) fn with_pattern(
+        rows: usize,
+        columns: usize,
+        entries: impl Iterator<Item = (usize, usize)>,
+    ) -> Self {
+        let mut order: Vec<(usize, usize, usize)> =
+            entries.enumerate().map(|(k, (i, j))| (j, i, k)).collect();
+        order.sort_unstable();
+        let mut start = vec![0; columns + 1];
+        let mut row = Vec::with_capacity(order.len());
+        let mut slot = vec![0; order.len()];
+        let mut previous = None;
+        for (j, i, k) in order {
+            if previous != Some((j, i)) {
+                previous = Some((j, i));
+                row.push(i);
+                start[j + 1] = row.len();
+            }
+            slot[k] = row.len() - 1;
+        }
+        for j in 0..columns {
+            start[j + 1] = start[j + 1].max(start[j]);
+        }
+        let value = vec![0.0; row.len()];
+        Self {
+            rows,
+            start,
+            row,
+            value,
+            slot,
+        }
+    }
+
+    /// Replaces every value: the k-th of `values` belongs to the k-th entry of the pattern's list.
+    pub(crate) fn fill(&mut self, values: impl Iterator<Item = f64>) {
+        self.value.fill(0.0);
+        for (&slot, value) in self.slot.iter().zip(values) {
+            self.value[slot] += value;
+        }
+    }
+
+    /// Number of columns.
+    pub(crate) fn columns(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    /// Every stored (row, column, value), by columns.
+    fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        self.start
+            .windows(2)
+            .enumerate()
+            .flat_map(move |(j, ends)| {
+                (ends[0]..ends[1]).map(move |k| (self.row[k], j, self.value[k]))
+            })
+    }
+
+    /// M x.
+    pub(crate) fn times(&self, x: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; self.rows];
+        for (i, j, value) in self.entries() {
+            product[i] += value * x[j];
+        }
+        product
+    }
+
+    /// Mᵀ y.
+    pub(crate) fn transposed_times(&self, y: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; self.columns()];
+        for (i, j, value) in self.entries() {
+            product[j] += value * y[i];
+        }
+        product
+    }
+
+    /// S x for the symmetric matrix S of which this is the upper triangle.
+    pub(crate) fn symmetric_times(&self, x: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; self.rows];
+        for (i, j, value) in self.entries() {
+            product[i] += value * x[j];
+            if i != j {
+                product[j] += value * x[i];
+            }
+        }
+        product
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// [1 2 0; 0 3 0], its middle entry in two parts, plus an explicit zero at the lower right.
+    fn sample() -> Sparse {
+        let entries = [(1, 2), (1, 1), (0, 0), (0, 1), (1, 1)];
+        let mut matrix = Sparse::with_pattern(2, 3, entries.into_iter());
+        matrix.fill([0.0, 1.0, 1.0, 2.0, 2.0].into_iter());
+        matrix
+    }
+
+    #[test]
+    fn repeated_entries_share_a_slot_and_zeros_stay() {
+        let matrix = sample();
+        assert_eq!(matrix.start, [0, 1, 3, 4]);
+        assert_eq!(matrix.row, [0, 0, 1, 1]);
+        assert_eq!(matrix.value, [1.0, 2.0, 3.0, 0.0]);
+    }
+
+    #[test]
+    fn products() {
+        let matrix = sample();
+        assert_eq!(matrix.times(&[1.0, 10.0, 100.0]), [21.0, 30.0]);
+        assert_eq!(matrix.transposed_times(&[1.0, 10.0]), [1.0, 32.0, 0.0]);
+        let mut upper = Sparse::with_pattern(2, 2, [(0, 0), (0, 1)].into_iter());
+        upper.fill([4.0, 5.0].into_iter());
+        assert_eq!(upper.symmetric_times(&[1.0, 2.0]), [14.0, 5.0]);
+    }
+
+    #[test]
+    fn empty_columns_are_allowed() {
+        let matrix = Sparse::with_pattern(2, 4, [(1, 2)].into_iter());
+        assert_eq!(matrix.start, [0, 0, 0, 1, 1]);
+    }
+}

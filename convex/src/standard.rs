@@ -1,0 +1,133 @@
+//! From a [`Program`] to the standard form (P, q, A, b, K), and again for each refill of the same pattern.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::program::Program;
+use crate::sparse::Sparse;
+use crate::{Cone, ProblemError, check};
+
+/// min ½xᵀPx + qᵀx subject to b − Ax ∈ K, with the rows of the blocks stacked in their order.
+#[derive(Debug, Clone)]
+pub(crate) struct StandardForm {
+    /// Upper triangle of P, n × n.
+    pub(crate) p: Sparse,
+    /// q, n numbers.
+    pub(crate) q: Vec<f64>,
+    /// A, m × n.
+    pub(crate) a: Sparse,
+    /// b, m numbers.
+    pub(crate) b: Vec<f64>,
+    /// K as a product of single cones, each with its rows.
+    pub(crate) cones: Vec<(Cone, Range<usize>)>,
+    /// The rows of each block.
+    pub(crate) blocks: Arc<[Range<usize>]>,
+    /// The problem this was made from: its pattern and names (its values are those of the first time).
+    source: Program,
+}
+
+impl StandardForm {
+    /// Checks `program` and writes it in standard form.
+    pub(crate) fn new(program: &Program) -> Result<Self, ProblemError> {
+        check::shape(program)?;
+        let variables = program.variable_count();
+        let mut blocks = Vec::with_capacity(program.blocks.len());
+        let mut cones = Vec::new();
+        let mut rows = 0;
+        for block in &program.blocks {
+            let count = block.right_hand_side.len();
+            let range = rows..rows + count;
+            rows = range.end;
+            if count > 0 {
+                let step = block.cone.rows_of_one(count);
+                let starts = range.clone().step_by(step);
+                cones.extend(starts.map(|start| (block.cone, start..start + step)));
+            }
+            blocks.push(range);
+        }
+        let entries = program
+            .blocks
+            .iter()
+            .zip(&blocks)
+            .flat_map(|(block, range)| {
+                block
+                    .entries
+                    .position
+                    .iter()
+                    .map(|&(row, variable)| (range.start + row, variable))
+            });
+        let a = Sparse::with_pattern(rows, variables, entries);
+        let p = Sparse::with_pattern(
+            variables,
+            variables,
+            program.quadratic.position.iter().copied(),
+        );
+        let mut form = Self {
+            p,
+            q: vec![0.0; variables],
+            a,
+            b: vec![0.0; rows],
+            cones,
+            blocks: blocks.into(),
+            source: program.clone(),
+        };
+        form.fill(program)?;
+        Ok(form)
+    }
+
+    /// Takes the values of a program of the same pattern. On an error nothing has changed.
+    pub(crate) fn refill(&mut self, program: &Program) -> Result<(), ProblemError> {
+        check::same_pattern(program, &self.source)?;
+        self.fill(program)
+    }
+
+    fn fill(&mut self, program: &Program) -> Result<(), ProblemError> {
+        check::values(program)?;
+        self.p.fill(program.quadratic.value.iter().copied());
+        self.q.fill(0.0);
+        for &(i, value) in &program.linear {
+            self.q[i] += value;
+        }
+        let coefficients = program.blocks.iter().flat_map(|block| &block.entries.value);
+        self.a.fill(coefficients.copied());
+        let right_hand_sides = program
+            .blocks
+            .iter()
+            .flat_map(|block| &block.right_hand_side);
+        for (b, value) in self.b.iter_mut().zip(right_hand_sides) {
+            *b = *value;
+        }
+        Ok(())
+    }
+
+    /// Names of the blocks in which `dual` (m numbers) is not negligible.
+    pub(crate) fn blocks_in(&self, dual: &[f64]) -> Vec<String> {
+        let blocks = self.source.blocks.iter().zip(self.blocks.iter());
+        carriers(
+            dual,
+            blocks.map(|(block, range)| (block.name.as_ref(), range.clone())),
+        )
+    }
+
+    /// Names of the groups of variables in which `direction` (n numbers) is not negligible.
+    pub(crate) fn groups_in(&self, direction: &[f64]) -> Vec<String> {
+        let groups = self.source.groups.iter();
+        carriers(
+            direction,
+            groups.map(|group| (group.name.as_ref(), group.variables.range())),
+        )
+    }
+}
+
+/// The names of the parts of `vector` that hold a number above 1e-6 of the largest.
+fn carriers<'a>(
+    vector: &[f64],
+    parts: impl Iterator<Item = (&'a str, Range<usize>)>,
+) -> Vec<String> {
+    let largest = |part: &[f64]| part.iter().fold(0.0_f64, |worst, v| v.abs().max(worst));
+    let negligible = 1e-6 * largest(vector);
+    parts
+        .filter(|(_, range)| largest(&vector[range.clone()]) > negligible)
+        .map(|(name, _)| name.to_owned())
+        .collect()
+}
