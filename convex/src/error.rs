@@ -89,7 +89,7 @@ pub enum SolveError {
     PrimalInfeasible {
         /// Interior-point iterations.
         iterations: u32,
-        /// Blocks that carry the certificate, in the problem's order: without them it proves nothing.
+        /// Blocks with a notable part in the certificate, in the problem's order: where to look first.
         conflict: Vec<String>,
         /// z, one number a row, blocks in the problem's order.
         certificate: Vec<f64>,
@@ -99,7 +99,7 @@ pub enum SolveError {
     DualInfeasible {
         /// Interior-point iterations.
         iterations: u32,
-        /// Groups of variables that move along the direction, in the problem's order.
+        /// Groups of variables with a notable part in the direction, in the problem's order.
         unbounded: Vec<String>,
         /// x, one number a variable.
         certificate: Vec<f64>,

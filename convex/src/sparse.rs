@@ -63,7 +63,7 @@ impl Sparse {
     }
 
     /// Every stored (row, column, value), by columns.
-    fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         self.start
             .windows(2)
             .enumerate()

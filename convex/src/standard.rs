@@ -100,16 +100,23 @@ impl StandardForm {
         Ok(())
     }
 
-    /// Names of the blocks in which `dual` (m numbers) is not negligible.
+    /// Names of the blocks that carry `dual` (m numbers): those with a row whose weight, |zᵢ| times the
+    /// largest number of the row, is above a thousandth of the largest weight.
     pub(crate) fn blocks_in(&self, dual: &[f64]) -> Vec<String> {
+        let mut magnitude: Vec<f64> = self.b.iter().map(|b| b.abs()).collect();
+        for (row, _, value) in self.a.entries() {
+            magnitude[row] = magnitude[row].max(value.abs());
+        }
+        let weights: Vec<f64> = magnitude.iter().zip(dual).map(|(m, z)| m * z).collect();
         let blocks = self.source.blocks.iter().zip(self.blocks.iter());
         carriers(
-            dual,
+            &weights,
             blocks.map(|(block, range)| (block.name.as_ref(), range.clone())),
         )
     }
 
-    /// Names of the groups of variables in which `direction` (n numbers) is not negligible.
+    /// Names of the groups of variables with a number of `direction` (n numbers) above a thousandth of the
+    /// largest.
     pub(crate) fn groups_in(&self, direction: &[f64]) -> Vec<String> {
         let groups = self.source.groups.iter();
         carriers(
@@ -119,15 +126,15 @@ impl StandardForm {
     }
 }
 
-/// The names of the parts of `vector` that hold a number above 1e-6 of the largest.
+/// The names of the parts of `weights` that hold a number above a thousandth of the largest.
 fn carriers<'a>(
-    vector: &[f64],
+    weights: &[f64],
     parts: impl Iterator<Item = (&'a str, Range<usize>)>,
 ) -> Vec<String> {
     let largest = |part: &[f64]| part.iter().fold(0.0_f64, |worst, v| v.abs().max(worst));
-    let negligible = 1e-6 * largest(vector);
+    let negligible = 1e-3 * largest(weights);
     parts
-        .filter(|(_, range)| largest(&vector[range.clone()]) > negligible)
+        .filter(|(_, range)| largest(&weights[range.clone()]) > negligible)
         .map(|(name, _)| name.to_owned())
         .collect()
 }

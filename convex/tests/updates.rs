@@ -1,0 +1,135 @@
+//! What an update may change, and what it refuses.
+
+use interplay_convex::{Block, ProblemError, Program, Settings, Solver, Variables};
+
+/// min ½(x − target)² + 0·xy with y = x and x ≤ limit.
+struct Follow {
+    program: Program,
+    x: Variables,
+    same: Block,
+    limit: Block,
+}
+
+impl Follow {
+    fn new() -> Self {
+        let mut program = Program::new();
+        let x = program.variables("x", 2);
+        let same = program.equal("same");
+        let limit = program.at_most("limit");
+        let mut follow = Self {
+            program,
+            x,
+            same,
+            limit,
+        };
+        follow.write(1.0, 2.0, 0.0);
+        follow
+    }
+
+    fn write(&mut self, target: f64, limit: f64, coupling: f64) {
+        let [x, y] = [0, 1].map(|i| self.x.at(i));
+        self.program.clear();
+        self.program.quadratic(x, x, 1.0);
+        self.program.quadratic(x, y, coupling);
+        self.program.linear(x, -target);
+        self.program.row(self.same, [(x, 1.0), (y, -1.0)], 0.0);
+        self.program
+            .row(self.limit, [(x, 1.0), (y, coupling)], limit);
+    }
+
+    fn solver(&self) -> Solver {
+        Solver::new(&self.program, &Settings::default()).expect("well-formed")
+    }
+}
+
+#[test]
+fn a_solver_follows_a_moving_target_and_a_zero_keeps_its_place() {
+    let mut follow = Follow::new();
+    let mut solver = follow.solver();
+    for k in 0..20 {
+        let target = 0.25 * f64::from(k) - 1.0;
+        let coupling = if k % 3 == 0 { 0.0 } else { 0.5 };
+        follow.write(target, 2.1, coupling);
+        solver.update(&follow.program).expect("the same pattern");
+        let solution = solver.solve().expect("solvable");
+        // With y = x: ½x² + c x² − t x, and (1 + c) x ≤ 2.1, which is never just met by the free minimum.
+        let want = (target / (1.0 + 2.0 * coupling)).min(2.1 / (1.0 + coupling));
+        assert!(
+            (solution.at(follow.x.at(0)) - want).abs() < 1e-6,
+            "{k}: {solution:?}"
+        );
+        assert!(
+            (solution.at(follow.x.at(1)) - want).abs() < 1e-6,
+            "{k}: {solution:?}"
+        );
+    }
+}
+
+#[test]
+fn solving_twice_gives_the_same_bits() {
+    let mut solver = Follow::new().solver();
+    assert_eq!(solver.solve(), solver.solve());
+}
+
+#[test]
+fn the_past_does_not_matter_however_badly_scaled_or_infeasible() {
+    let mut follow = Follow::new();
+    let mut solver = follow.solver();
+    let want = solver.solve();
+    for (target, limit, coupling) in [(1e9, 1e-6, 1e6), (0.0, 0.0, 0.0), (-1e-9, -1e9, 1e-9)] {
+        let mut other = Follow::new();
+        other.write(target, limit, coupling);
+        solver.update(&other.program).expect("the same pattern");
+        let _ = solver.solve();
+    }
+    follow.write(1.0, 2.0, 0.0);
+    solver.update(&follow.program).expect("the same pattern");
+    assert_eq!(solver.solve(), want);
+}
+
+#[test]
+fn a_changed_pattern_is_refused_by_place_and_changes_nothing() {
+    let follow = Follow::new();
+    let mut solver = follow.solver();
+    let before = solver.solve();
+    let mut refused = |change: &dyn Fn(&mut Program), want: &str| {
+        let mut program = follow.program.clone();
+        change(&mut program);
+        let place = want.to_owned();
+        assert_eq!(
+            solver.update(&program),
+            Err(ProblemError::PatternChanged { place })
+        );
+    };
+    let (x, y) = (follow.x.at(0), follow.x.at(1));
+    refused(
+        &|p| {
+            p.variables("more", 1);
+        },
+        "the list of variables",
+    );
+    refused(
+        &|p| {
+            p.equal("more");
+        },
+        "the list of blocks",
+    );
+    refused(&|p| p.quadratic(y, y, 0.0), "the quadratic cost");
+    refused(&|p| p.row(follow.limit, [(x, 1.0)], 1.0), "block `limit`");
+    refused(&|p| p.row(follow.same, [(x, 1.0)], 1.0), "block `same`");
+    refused(&Program::clear, "the quadratic cost");
+    assert_eq!(solver.solve(), before);
+}
+
+#[test]
+fn a_refused_number_changes_nothing() {
+    let mut follow = Follow::new();
+    let mut solver = follow.solver();
+    let before = solver.solve();
+    follow.write(5.0, f64::INFINITY, 0.0);
+    let error = solver
+        .update(&follow.program)
+        .expect_err("an infinite limit");
+    assert!(matches!(error, ProblemError::NotFinite { .. }), "{error}");
+    assert_eq!(solver.solve(), before);
+}
