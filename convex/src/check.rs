@@ -24,11 +24,7 @@ pub(crate) fn shape(program: &Program) -> Result<(), ProblemError> {
             && (dimension == 0 || !rows.is_multiple_of(dimension))
         {
             let block = block.name.to_string();
-            return Err(ProblemError::ConeSize {
-                block,
-                rows,
-                dimension,
-            });
+            return Err(ProblemError::ConeSize { block, rows, dimension });
         }
     }
     Ok(())
@@ -39,12 +35,7 @@ pub(crate) fn shape(program: &Program) -> Result<(), ProblemError> {
 /// whole is positive semidefinite is the caller's to ensure, since its proof costs a factorisation.)
 pub(crate) fn values(program: &Program) -> Result<(), ProblemError> {
     let count = program.variable_count();
-    for (&(i, j), &value) in program
-        .quadratic
-        .position
-        .iter()
-        .zip(&program.quadratic.value)
-    {
+    for (&(i, j), &value) in program.quadratic.position.iter().zip(&program.quadratic.value) {
         finite(value, || {
             let (i, j) = (program.variable_name(i), program.variable_name(j));
             format!("the quadratic cost of {i} and {j}")
@@ -52,9 +43,7 @@ pub(crate) fn values(program: &Program) -> Result<(), ProblemError> {
     }
     for &(i, value) in &program.linear {
         known(i, count, || "the linear cost".to_owned())?;
-        finite(value, || {
-            format!("the linear cost of {}", program.variable_name(i))
-        })?;
+        finite(value, || format!("the linear cost of {}", program.variable_name(i)))?;
     }
     for block in &program.blocks {
         for (&(row, variable), &value) in block.entries.position.iter().zip(&block.entries.value) {
@@ -64,9 +53,7 @@ pub(crate) fn values(program: &Program) -> Result<(), ProblemError> {
             })?;
         }
         for (row, &value) in block.right_hand_side.iter().enumerate() {
-            finite(value, || {
-                format!("the right-hand side of {}", place_of(block, row))
-            })?;
+            finite(value, || format!("the right-hand side of {}", place_of(block, row)))?;
         }
     }
     nonnegative_diagonal(program)
@@ -76,22 +63,14 @@ pub(crate) fn values(program: &Program) -> Result<(), ProblemError> {
 fn nonnegative_diagonal(program: &Program) -> Result<(), ProblemError> {
     let mut diagonal = vec![0.0; program.variable_count()];
     let mut largest = 0.0_f64;
-    for (&(i, j), &value) in program
-        .quadratic
-        .position
-        .iter()
-        .zip(&program.quadratic.value)
-    {
+    for (&(i, j), &value) in program.quadratic.position.iter().zip(&program.quadratic.value) {
         if i == j {
             diagonal[i] += value;
         }
         largest = largest.max(value.abs());
     }
     match diagonal.iter().position(|&value| value < -1e-12 * largest) {
-        Some(i) => Err(ProblemError::NegativeCurvature {
-            variable: program.variable_name(i),
-            value: diagonal[i],
-        }),
+        Some(i) => Err(ProblemError::NegativeCurvature { variable: program.variable_name(i), value: diagonal[i] }),
         None => Ok(()),
     }
 }
@@ -124,9 +103,7 @@ fn distinct_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<(), Proble
     let mut names: Vec<&str> = names.collect();
     names.sort_unstable();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(ProblemError::DuplicateName {
-            name: pair[0].to_owned(),
-        }),
+        Some(pair) => Err(ProblemError::DuplicateName { name: pair[0].to_owned() }),
         None => Ok(()),
     }
 }
@@ -136,11 +113,7 @@ fn known(index: usize, count: usize, place: impl Fn() -> String) -> Result<(), P
         Ok(())
     } else {
         let place = place();
-        Err(ProblemError::NoSuchVariable {
-            place,
-            index,
-            count,
-        })
+        Err(ProblemError::NoSuchVariable { place, index, count })
     }
 }
 

@@ -6,6 +6,8 @@
 //! | nonnegative | s ≥ 0 | z ≥ 0 |
 //! | second order | ‖(s₁, …)‖₂ ≤ s₀ | the same |
 
+use crate::norm::{euclidean, largest};
+
 /// What a block of rows asks of its slack s = b − Ax.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -33,8 +35,8 @@ impl Cone {
     /// Euclidean distance (for the rows of zero and nonnegative cones: largest per row) from `s` to K.
     pub(crate) fn distance(self, s: &[f64]) -> f64 {
         match self {
-            Self::Zero => s.iter().fold(0.0, |worst, v| v.abs().max(worst)),
-            Self::Nonnegative => s.iter().fold(0.0, |worst, v| (-v).max(worst)),
+            Self::Zero => largest(s.iter().map(|v| v.abs())),
+            Self::Nonnegative => largest(s.iter().map(|v| -v)),
             Self::SecondOrder { .. } => second_order_distance(s),
         }
     }
@@ -53,7 +55,7 @@ impl Cone {
         let products = s.iter().zip(z).map(|(s, z)| s * z);
         match self {
             Self::Zero => 0.0,
-            Self::Nonnegative => products.fold(0.0, |worst, v| v.abs().max(worst)),
+            Self::Nonnegative => largest(products.map(f64::abs)),
             Self::SecondOrder { .. } => products.sum::<f64>().abs(),
         }
     }
@@ -72,10 +74,6 @@ fn second_order_distance(s: &[f64]) -> f64 {
     } else {
         (norm - bound) * std::f64::consts::FRAC_1_SQRT_2
     }
-}
-
-fn euclidean(vector: &[f64]) -> f64 {
-    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]
@@ -101,9 +99,6 @@ mod tests {
     #[test]
     fn inequalities_count_only_the_violated_side() {
         assert_eq!(Cone::Nonnegative.distance(&[3.0, -0.25]), 0.25);
-        assert_eq!(
-            Cone::Nonnegative.complementarity(&[3.0, 0.0], &[0.5, 9.0]),
-            1.5
-        );
+        assert_eq!(Cone::Nonnegative.complementarity(&[3.0, 0.0], &[0.5, 9.0]), 1.5);
     }
 }

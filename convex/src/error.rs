@@ -16,9 +16,7 @@ pub enum ProblemError {
         name: String,
     },
     /// A cost or a row uses a variable that this problem does not have.
-    #[error(
-        "{place} uses variable number {index}, but the problem has {count}: the handle is another problem's"
-    )]
+    #[error("{place} uses variable number {index}, but the problem has {count}: the handle is another problem's")]
     NoSuchVariable {
         /// The cost or row.
         place: String,
@@ -36,9 +34,7 @@ pub enum ProblemError {
         value: f64,
     },
     /// The rows of a second-order block do not divide into cones.
-    #[error(
-        "block `{block}` has {rows} rows, not a multiple of its cones' dimension {dimension} (at least 1)"
-    )]
+    #[error("block `{block}` has {rows} rows, not a multiple of its cones' dimension {dimension} (at least 1)")]
     ConeSize {
         /// The block.
         block: String,
@@ -56,9 +52,7 @@ pub enum ProblemError {
         value: f64,
     },
     /// An update has other variables, rows or entries than the problem the solver was built for.
-    #[error(
-        "{place} differs in shape from the problem this solver was built for: build a new solver"
-    )]
+    #[error("{place} differs in shape from the problem this solver was built for: build a new solver")]
     PatternChanged {
         /// The first place that differs.
         place: String,
@@ -138,9 +132,7 @@ impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::AlmostSolved => "nearly solved, beyond the accepted tolerance",
-            Self::AlmostPrimalInfeasible => {
-                "nearly shown infeasible, beyond the accepted tolerance"
-            }
+            Self::AlmostPrimalInfeasible => "nearly shown infeasible, beyond the accepted tolerance",
             Self::AlmostDualInfeasible => "nearly shown unbounded, beyond the accepted tolerance",
             Self::IterationLimit => "iteration limit reached",
             Self::NumericalError => "the linear algebra broke down",

@@ -14,6 +14,7 @@
 
 use std::ops::Range;
 
+use crate::norm::{dot, largest, magnitude};
 use crate::standard::StandardForm;
 use crate::{Cone, ProblemError, Program, Solution};
 
@@ -35,16 +36,8 @@ impl Residuals {
     #[must_use]
     pub fn largest(&self) -> f64 {
         // `f64::max` would let a NaN pass for a small residual.
-        let all = [
-            self.stationarity,
-            self.primal,
-            self.dual,
-            self.complementarity,
-        ];
-        all.into_iter().fold(
-            0.0,
-            |worst, v| if v > worst || v.is_nan() { v } else { worst },
-        )
+        let all = [self.stationarity, self.primal, self.dual, self.complementarity];
+        all.into_iter().fold(0.0, |worst, v| if v > worst || v.is_nan() { v } else { worst })
     }
 }
 
@@ -74,29 +67,19 @@ pub(crate) fn of(form: &StandardForm, x: &[f64], z: &[f64]) -> Report {
     let ax = form.a.times(x);
     let atz = form.a.transposed_times(z);
     let slack: Vec<f64> = form.b.iter().zip(&ax).map(|(b, ax)| b - ax).collect();
-    let gradient: Vec<f64> = px
-        .iter()
-        .zip(&form.q)
-        .zip(&atz)
-        .map(|((px, q), atz)| px + q + atz)
-        .collect();
+    let gradient: Vec<f64> = px.iter().zip(&form.q).zip(&atz).map(|((px, q), atz)| px + q + atz).collect();
     let quadratic = 0.5 * dot(x, &px);
     let linear = dot(&form.q, x);
     // At an optimum the two objectives agree: ½xᵀPx + qᵀx = −½xᵀPx − bᵀz.
     let objectives = [quadratic + linear, quadratic + dot(&form.b, z)];
     let residuals = Residuals {
-        stationarity: norm(&gradient) / scale(&[&px, &form.q, &atz]),
+        stationarity: magnitude(&gradient) / scale(&[&px, &form.q, &atz]),
         primal: worst(form, |cone, rows| cone.distance(&slack[rows])) / scale(&[&ax, &form.b]),
         dual: worst(form, |cone, rows| cone.dual_distance(&z[rows])) / scale(&[z]),
-        complementarity: worst(form, |cone, rows| {
-            cone.complementarity(&slack[rows.clone()], &z[rows])
-        }) / scale(&[&objectives]),
+        complementarity: worst(form, |cone, rows| cone.complementarity(&slack[rows.clone()], &z[rows]))
+            / scale(&[&objectives]),
     };
-    Report {
-        residuals,
-        slack,
-        objective: objectives[0],
-    }
+    Report { residuals, slack, objective: objectives[0] }
 }
 
 /// How far z, once scaled to bᵀz = −1, is from proving that no x is feasible: the largest of ‖Aᵀz‖∞ and of
@@ -106,7 +89,7 @@ pub(crate) fn infeasibility(form: &StandardForm, z: &[f64]) -> f64 {
     let gain = -dot(&form.b, z);
     let atz = form.a.transposed_times(z);
     let outside = worst(form, |cone, rows| cone.dual_distance(&z[rows]));
-    relative(norm(&atz).max(outside), gain)
+    relative(magnitude(&atz).max(outside), gain)
 }
 
 /// How far x, once scaled to qᵀx = −1, is from a direction of unlimited descent: the largest of ‖Px‖∞ and of
@@ -116,33 +99,17 @@ pub(crate) fn unboundedness(form: &StandardForm, x: &[f64]) -> f64 {
     let px = form.p.symmetric_times(x);
     let slack: Vec<f64> = form.a.times(x).iter().map(|v| -v).collect();
     let outside = worst(form, |cone, rows| cone.distance(&slack[rows]));
-    relative(norm(&px).max(outside), gain)
+    relative(magnitude(&px).max(outside), gain)
 }
 
 fn relative(residual: f64, gain: f64) -> f64 {
-    if gain > 0.0 {
-        residual / gain
-    } else {
-        f64::INFINITY
-    }
+    if gain > 0.0 { residual / gain } else { f64::INFINITY }
 }
 
 fn worst(form: &StandardForm, residual: impl Fn(Cone, Range<usize>) -> f64) -> f64 {
-    form.cones.iter().fold(0.0, |worst, (cone, rows)| {
-        residual(*cone, rows.clone()).max(worst)
-    })
-}
-
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn norm(vector: &[f64]) -> f64 {
-    vector.iter().fold(0.0, |worst, v| v.abs().max(worst))
+    largest(form.cones.iter().map(|(cone, rows)| residual(*cone, rows.clone())))
 }
 
 fn scale(parts: &[&[f64]]) -> f64 {
-    parts
-        .iter()
-        .fold(1.0, |largest, part| norm(part).max(largest))
+    parts.iter().fold(1.0, |scale, part| magnitude(part).max(scale))
 }

@@ -59,6 +59,7 @@ mod check;
 mod cone;
 mod error;
 pub mod kkt;
+mod norm;
 mod program;
 mod settings;
 mod solution;

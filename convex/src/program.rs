@@ -22,11 +22,7 @@ impl Variables {
     /// When `index` is not below [`Variables::count`], like a slice.
     #[must_use]
     pub fn at(self, index: usize) -> Variable {
-        assert!(
-            index < self.count,
-            "variable {index} of a group of {}",
-            self.count
-        );
+        assert!(index < self.count, "variable {index} of a group of {}", self.count);
         Variable(self.start + index)
     }
 
@@ -152,12 +148,7 @@ impl Program {
     ///
     /// # Panics
     /// When `block` is not of this problem.
-    pub fn row(
-        &mut self,
-        block: Block,
-        coefficients: impl IntoIterator<Item = (Variable, f64)>,
-        right_hand_side: f64,
-    ) {
+    pub fn row(&mut self, block: Block, coefficients: impl IntoIterator<Item = (Variable, f64)>, right_hand_side: f64) {
         let block = &mut self.blocks[block.0];
         let row = block.right_hand_side.len();
         for (variable, value) in coefficients {
@@ -190,28 +181,20 @@ impl Program {
     /// How many scalar variables were declared.
     #[must_use]
     pub fn variable_count(&self) -> usize {
-        self.groups
-            .last()
-            .map_or(0, |group| group.variables.range().end)
+        self.groups.last().map_or(0, |group| group.variables.range().end)
     }
 
     /// How many rows all blocks have together.
     #[must_use]
     pub fn row_count(&self) -> usize {
-        self.blocks
-            .iter()
-            .map(|block| block.right_hand_side.len())
-            .sum()
+        self.blocks.iter().map(|block| block.right_hand_side.len()).sum()
     }
 
     /// The variable at a position, as `name[index]`.
     pub(crate) fn variable_name(&self, index: usize) -> String {
-        self.groups
-            .iter()
-            .find(|group| group.variables.range().contains(&index))
-            .map_or_else(
-                || format!("variable number {index}"),
-                |group| format!("{}[{}]", group.name, index - group.variables.start),
-            )
+        self.groups.iter().find(|group| group.variables.range().contains(&index)).map_or_else(
+            || format!("variable number {index}"),
+            |group| format!("{}[{}]", group.name, index - group.variables.start),
+        )
     }
 }

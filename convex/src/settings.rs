@@ -16,37 +16,22 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            tolerance: 1e-8,
-            accepted_tolerance: 1e-6,
-            iteration_limit: 200,
-        }
+        Self { tolerance: 1e-8, accepted_tolerance: 1e-6, iteration_limit: 200 }
     }
 }
 
 impl Settings {
     /// Refuses settings under which nothing can be solved.
     pub(crate) fn check(&self) -> Result<(), ProblemError> {
-        let tolerances = [
-            ("tolerance", self.tolerance),
-            ("accepted_tolerance", self.accepted_tolerance),
-        ];
+        let tolerances = [("tolerance", self.tolerance), ("accepted_tolerance", self.accepted_tolerance)];
         for (name, value) in tolerances {
             if !(value > 0.0 && value < 1.0) {
                 let wanted = "between 0 and 1";
-                return Err(ProblemError::Setting {
-                    name,
-                    value,
-                    wanted,
-                });
+                return Err(ProblemError::Setting { name, value, wanted });
             }
         }
         if self.iteration_limit == 0 {
-            return Err(ProblemError::Setting {
-                name: "iteration_limit",
-                value: 0.0,
-                wanted: "at least 1",
-            });
+            return Err(ProblemError::Setting { name: "iteration_limit", value: 0.0, wanted: "at least 1" });
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::traits::ProblemData;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
+use crate::norm::dot;
 use crate::sparse::Sparse;
 use crate::standard::StandardForm;
 use crate::{Cone, ProblemError, Program, Settings, Solution, SolveError, Status, kkt};
@@ -51,12 +52,7 @@ impl Solver {
         )
         .map_err(refused)?;
         let accepted_tolerance = settings.accepted_tolerance;
-        let mut solver = Self {
-            form,
-            backend,
-            backend_settings,
-            accepted_tolerance,
-        };
+        let mut solver = Self { form, backend, backend_settings, accepted_tolerance };
         solver.load()?;
         Ok(solver)
     }
@@ -113,9 +109,7 @@ impl Solver {
             SolverStatus::MaxIterations => Status::IterationLimit,
             SolverStatus::NumericalError => Status::NumericalError,
             SolverStatus::InsufficientProgress => Status::InsufficientProgress,
-            SolverStatus::MaxTime | SolverStatus::CallbackTerminated | SolverStatus::Unsolved => {
-                Status::Interrupted
-            }
+            SolverStatus::MaxTime | SolverStatus::CallbackTerminated | SolverStatus::Unsolved => Status::Interrupted,
         };
         let iterations = result.iterations;
         Err(SolveError::Unsolved { status, iterations })
@@ -135,9 +129,7 @@ impl Solver {
         // An empty update leaves the data alone, and refreshes what Clarabel derives from it: the KKT matrix
         // from P and A, the norms of q and b.
         let unchanged: [f64; 0] = [];
-        self.backend
-            .update_data(&unchanged, &unchanged, &unchanged, &unchanged)
-            .map_err(refused)
+        self.backend.update_data(&unchanged, &unchanged, &unchanged, &unchanged).map_err(refused)
     }
 
     fn solution(&self, almost: bool) -> Solution {
@@ -157,7 +149,7 @@ impl Solver {
 
     fn primal_infeasible(&self) -> SolveError {
         let z = &self.backend.solution.z;
-        let certificate = scaled(z, -kkt::dot(&self.form.b, z));
+        let certificate = scaled(z, -dot(&self.form.b, z));
         SolveError::PrimalInfeasible {
             iterations: self.backend.solution.iterations,
             conflict: self.form.blocks_in(&certificate),
@@ -167,7 +159,7 @@ impl Solver {
 
     fn dual_infeasible(&self) -> SolveError {
         let x = &self.backend.solution.x;
-        let certificate = scaled(x, -kkt::dot(&self.form.q, x));
+        let certificate = scaled(x, -dot(&self.form.q, x));
         SolveError::DualInfeasible {
             iterations: self.backend.solution.iterations,
             unbounded: self.form.groups_in(&certificate),
@@ -178,9 +170,7 @@ impl Solver {
 
 impl std::fmt::Debug for Solver {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Solver")
-            .field("form", &self.form)
-            .finish_non_exhaustive()
+        f.debug_struct("Solver").field("form", &self.form).finish_non_exhaustive()
     }
 }
 
@@ -204,13 +194,7 @@ fn backend_settings(settings: &Settings) -> DefaultSettings<f64> {
 }
 
 fn columns(matrix: &Sparse) -> CscMatrix<f64> {
-    CscMatrix::new(
-        matrix.rows,
-        matrix.columns(),
-        matrix.start.clone(),
-        matrix.row.clone(),
-        matrix.value.clone(),
-    )
+    CscMatrix::new(matrix.rows, matrix.columns(), matrix.start.clone(), matrix.row.clone(), matrix.value.clone())
 }
 
 fn scaled(vector: &[f64], divisor: f64) -> Vec<f64> {
@@ -218,7 +202,5 @@ fn scaled(vector: &[f64], divisor: f64) -> Vec<f64> {
 }
 
 fn refused(error: impl std::fmt::Display) -> ProblemError {
-    ProblemError::Refused {
-        reason: error.to_string(),
-    }
+    ProblemError::Refused { reason: error.to_string() }
 }

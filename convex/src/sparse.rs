@@ -16,13 +16,8 @@ pub(crate) struct Sparse {
 
 impl Sparse {
     /// The zero matrix whose pattern holds every listed (row, column), all within `rows` × `columns`.
-    pub(crate) fn with_pattern(
-        rows: usize,
-        columns: usize,
-        entries: impl Iterator<Item = (usize, usize)>,
-    ) -> Self {
-        let mut order: Vec<(usize, usize, usize)> =
-            entries.enumerate().map(|(k, (i, j))| (j, i, k)).collect();
+    pub(crate) fn with_pattern(rows: usize, columns: usize, entries: impl Iterator<Item = (usize, usize)>) -> Self {
+        let mut order: Vec<(usize, usize, usize)> = entries.enumerate().map(|(k, (i, j))| (j, i, k)).collect();
         order.sort_unstable();
         let mut start = vec![0; columns + 1];
         let mut row = Vec::with_capacity(order.len());
@@ -40,13 +35,7 @@ impl Sparse {
             start[j + 1] = start[j + 1].max(start[j]);
         }
         let value = vec![0.0; row.len()];
-        Self {
-            rows,
-            start,
-            row,
-            value,
-            slot,
-        }
+        Self { rows, start, row, value, slot }
     }
 
     /// Replaces every value: the k-th of `values` belongs to the k-th entry of the pattern's list.
@@ -67,9 +56,7 @@ impl Sparse {
         self.start
             .windows(2)
             .enumerate()
-            .flat_map(move |(j, ends)| {
-                (ends[0]..ends[1]).map(move |k| (self.row[k], j, self.value[k]))
-            })
+            .flat_map(move |(j, ends)| (ends[0]..ends[1]).map(move |k| (self.row[k], j, self.value[k])))
     }
 
     /// M x.

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::norm::magnitude;
 use crate::program::Program;
 use crate::sparse::Sparse;
 use crate::{Cone, ProblemError, check};
@@ -45,23 +46,11 @@ impl StandardForm {
             }
             blocks.push(range);
         }
-        let entries = program
-            .blocks
-            .iter()
-            .zip(&blocks)
-            .flat_map(|(block, range)| {
-                block
-                    .entries
-                    .position
-                    .iter()
-                    .map(|&(row, variable)| (range.start + row, variable))
-            });
+        let entries = program.blocks.iter().zip(&blocks).flat_map(|(block, range)| {
+            block.entries.position.iter().map(|&(row, variable)| (range.start + row, variable))
+        });
         let a = Sparse::with_pattern(rows, variables, entries);
-        let p = Sparse::with_pattern(
-            variables,
-            variables,
-            program.quadratic.position.iter().copied(),
-        );
+        let p = Sparse::with_pattern(variables, variables, program.quadratic.position.iter().copied());
         let mut form = Self {
             p,
             q: vec![0.0; variables],
@@ -90,10 +79,7 @@ impl StandardForm {
         }
         let coefficients = program.blocks.iter().flat_map(|block| &block.entries.value);
         self.a.fill(coefficients.copied());
-        let right_hand_sides = program
-            .blocks
-            .iter()
-            .flat_map(|block| &block.right_hand_side);
+        let right_hand_sides = program.blocks.iter().flat_map(|block| &block.right_hand_side);
         for (b, value) in self.b.iter_mut().zip(right_hand_sides) {
             *b = *value;
         }
@@ -103,38 +89,30 @@ impl StandardForm {
     /// Names of the blocks that carry `dual` (m numbers): those with a row whose weight, |zᵢ| times the
     /// largest number of the row, is above a thousandth of the largest weight.
     pub(crate) fn blocks_in(&self, dual: &[f64]) -> Vec<String> {
-        let mut magnitude: Vec<f64> = self.b.iter().map(|b| b.abs()).collect();
+        let mut weights: Vec<f64> = self.b.iter().map(|b| b.abs()).collect();
         for (row, _, value) in self.a.entries() {
-            magnitude[row] = magnitude[row].max(value.abs());
+            weights[row] = weights[row].max(value.abs());
         }
-        let weights: Vec<f64> = magnitude.iter().zip(dual).map(|(m, z)| m * z).collect();
+        for (weight, z) in weights.iter_mut().zip(dual) {
+            *weight *= z.abs();
+        }
         let blocks = self.source.blocks.iter().zip(self.blocks.iter());
-        carriers(
-            &weights,
-            blocks.map(|(block, range)| (block.name.as_ref(), range.clone())),
-        )
+        carriers(&weights, blocks.map(|(block, range)| (block.name.as_ref(), range.clone())))
     }
 
     /// Names of the groups of variables with a number of `direction` (n numbers) above a thousandth of the
     /// largest.
     pub(crate) fn groups_in(&self, direction: &[f64]) -> Vec<String> {
         let groups = self.source.groups.iter();
-        carriers(
-            direction,
-            groups.map(|group| (group.name.as_ref(), group.variables.range())),
-        )
+        carriers(direction, groups.map(|group| (group.name.as_ref(), group.variables.range())))
     }
 }
 
 /// The names of the parts of `weights` that hold a number above a thousandth of the largest.
-fn carriers<'a>(
-    weights: &[f64],
-    parts: impl Iterator<Item = (&'a str, Range<usize>)>,
-) -> Vec<String> {
-    let largest = |part: &[f64]| part.iter().fold(0.0_f64, |worst, v| v.abs().max(worst));
-    let negligible = 1e-3 * largest(weights);
+fn carriers<'a>(weights: &[f64], parts: impl Iterator<Item = (&'a str, Range<usize>)>) -> Vec<String> {
+    let negligible = 1e-3 * magnitude(weights);
     parts
-        .filter(|(_, range)| largest(&weights[range.clone()]) > negligible)
+        .filter(|(_, range)| magnitude(&weights[range.clone()]) > negligible)
         .map(|(name, _)| name.to_owned())
         .collect()
 }

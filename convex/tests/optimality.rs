@@ -61,28 +61,20 @@ fn complementary(seed: &[f64]) -> (Vec<f64>, Vec<f64>) {
 
 /// P = MᵀM + curvature·I with M of fewer rows than columns.
 fn known(curvature: f64) -> impl Strategy<Value = Known> {
-    (
-        sparse_matrix(3),
-        sparse_matrix(ROWS),
-        numbers(VARIABLES),
-        numbers(ROWS),
-    )
-        .prop_map(move |(m, a, x, seed)| {
-            let mut p = vec![vec![0.0; VARIABLES]; VARIABLES];
-            for (i, row) in p.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    *entry = m.iter().map(|r| r[i] * r[j]).sum();
-                }
-                row[i] += curvature;
+    (sparse_matrix(3), sparse_matrix(ROWS), numbers(VARIABLES), numbers(ROWS)).prop_map(move |(m, a, x, seed)| {
+        let mut p = vec![vec![0.0; VARIABLES]; VARIABLES];
+        for (i, row) in p.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = m.iter().map(|r| r[i] * r[j]).sum();
             }
-            let (s, z) = complementary(&seed);
-            let b = a.iter().zip(&s).map(|(row, s)| dot(row, &x) + s).collect();
-            let column = |j: usize| a.iter().map(|row| row[j]).collect::<Vec<f64>>();
-            let q = (0..VARIABLES)
-                .map(|j| -dot(&p[j], &x) - dot(&column(j), &z))
-                .collect();
-            Known { p, q, a, b, x }
-        })
+            row[i] += curvature;
+        }
+        let (s, z) = complementary(&seed);
+        let b = a.iter().zip(&s).map(|(row, s)| dot(row, &x) + s).collect();
+        let column = |j: usize| a.iter().map(|row| row[j]).collect::<Vec<f64>>();
+        let q = (0..VARIABLES).map(|j| -dot(&p[j], &x) - dot(&column(j), &z)).collect();
+        Known { p, q, a, b, x }
+    })
 }
 
 struct Handles {
@@ -95,10 +87,7 @@ fn declare(program: &mut Program) -> Handles {
     let equal = program.equal("equal");
     let at_most = program.at_most("at most");
     let cones = program.second_order("cones", DIMENSION);
-    Handles {
-        x,
-        blocks: [equal, at_most, cones],
-    }
+    Handles { x, blocks: [equal, at_most, cones] }
 }
 
 fn write(program: &mut Program, handles: &Handles, known: &Known) {
@@ -123,9 +112,7 @@ fn program(known: &Known) -> Program {
 }
 
 fn solve(program: &Program) -> Result<Solution, SolveError> {
-    Solver::new(program, &Settings::default())
-        .expect("well-formed")
-        .solve()
+    Solver::new(program, &Settings::default()).expect("well-formed").solve()
 }
 
 impl Known {
@@ -142,38 +129,19 @@ impl Known {
             let gradient = dot(&self.p[j], x) + self.q[j] + atz;
             assert!(gradient.abs() < tolerance, "stationarity {gradient}");
         }
-        let s: Vec<f64> = self
-            .a
-            .iter()
-            .zip(&self.b)
-            .map(|(row, b)| b - dot(row, x))
-            .collect();
-        assert!(
-            s[..EQUALITIES].iter().all(|s| s.abs() < tolerance),
-            "equalities {s:?}"
-        );
+        let s: Vec<f64> = self.a.iter().zip(&self.b).map(|(row, b)| b - dot(row, x)).collect();
+        assert!(s[..EQUALITIES].iter().all(|s| s.abs() < tolerance), "equalities {s:?}");
         let cones = EQUALITIES + INEQUALITIES;
         for i in EQUALITIES..cones {
-            assert!(
-                s[i] > -tolerance && z[i] > -tolerance,
-                "inequality {}, {}",
-                s[i],
-                z[i]
-            );
+            assert!(s[i] > -tolerance && z[i] > -tolerance, "inequality {}, {}", s[i], z[i]);
         }
         for start in (cones..ROWS).step_by(DIMENSION) {
             for v in [&s[start..start + DIMENSION], &z[start..start + DIMENSION]] {
-                assert!(
-                    dot(&v[1..], &v[1..]).sqrt() < v[0] + tolerance,
-                    "cone {v:?}"
-                );
+                assert!(dot(&v[1..], &v[1..]).sqrt() < v[0] + tolerance, "cone {v:?}");
             }
         }
         let gap = dot(&s, z);
-        assert!(
-            gap.abs() < tolerance * (1.0 + solution.objective.abs()),
-            "gap {gap}"
-        );
+        assert!(gap.abs() < tolerance * (1.0 + solution.objective.abs()), "gap {gap}");
     }
 }
 

@@ -1,8 +1,6 @@
 //! Every way a problem can end: solved, infeasible, unbounded, unsolved, refused.
 
-use interplay_convex::{
-    Block, ProblemError, Program, Settings, Solution, SolveError, Solver, Status, Variables,
-};
+use interplay_convex::{Block, ProblemError, Program, Settings, Solution, SolveError, Solver, Status, Variables};
 
 fn solver(program: &Program) -> Solver {
     Solver::new(program, &Settings::default()).expect("well-formed")
@@ -34,20 +32,11 @@ fn projection_onto_a_disc_has_its_closed_form() {
         let solution = solver(&program).solve().expect("solvable");
         let shrink = (radius / 5.0).min(1.0);
         let value = solution.value(x);
-        assert!(
-            (value[0] - 3.0 * shrink).abs() < 1e-6,
-            "{radius}: {value:?}"
-        );
-        assert!(
-            (value[1] - 4.0 * shrink).abs() < 1e-6,
-            "{radius}: {value:?}"
-        );
+        assert!((value[0] - 3.0 * shrink).abs() < 1e-6, "{radius}: {value:?}");
+        assert!((value[1] - 4.0 * shrink).abs() < 1e-6, "{radius}: {value:?}");
         // The multiplier of ‖x‖ ≤ r is the distance left over, and bounds that of the vector part.
         let dual = solution.dual(disc);
-        assert!(
-            (dual[0] - (5.0 - radius).max(0.0)).abs() < 1e-5,
-            "{radius}: {dual:?}"
-        );
+        assert!((dual[0] - (5.0 - radius).max(0.0)).abs() < 1e-5, "{radius}: {dual:?}");
         assert!((solution.slack(disc)[0] - radius).abs() < 1e-12);
         assert!(!solution.almost);
     }
@@ -97,11 +86,7 @@ fn rows_of_several_blocks_may_be_written_in_turn() {
     // x₀ = 1, xₖ₊₁ = ½xₖ, xₖ ≥ 0.2: least sum.
     let mut program = Program::new();
     let x = program.variables("x", 3);
-    let (halving, floor, empty) = (
-        program.at_most("halving"),
-        program.at_most("floor"),
-        program.equal("empty"),
-    );
+    let (halving, floor, empty) = (program.at_most("halving"), program.at_most("floor"), program.equal("empty"));
     for k in 0..3 {
         program.linear(x.at(k), 1.0);
         program.row(floor, [(x.at(k), -1.0)], -0.2);
@@ -123,8 +108,7 @@ fn rows_of_several_blocks_may_be_written_in_turn() {
 fn infeasible() -> Program {
     let mut program = Program::new();
     let [x, y] = ["x", "y"].map(|name| program.variables(name, 1).at(0));
-    let [floor, ceiling, innocent] =
-        ["floor", "ceiling", "innocent"].map(|name| program.at_most(name));
+    let [floor, ceiling, innocent] = ["floor", "ceiling", "innocent"].map(|name| program.at_most(name));
     program.quadratic(x, x, 1.0);
     program.quadratic(y, y, 1.0);
     program.row(floor, [(x, -1.0)], -2.0);
@@ -137,12 +121,7 @@ fn infeasible() -> Program {
 fn infeasible_rows_are_named_and_certified() {
     let error = solver(&infeasible()).solve().expect_err("infeasible");
     let message = error.to_string();
-    let SolveError::PrimalInfeasible {
-        conflict,
-        certificate,
-        ..
-    } = error
-    else {
+    let SolveError::PrimalInfeasible { conflict, certificate, .. } = error else {
         panic!("wrong error: {message}");
     };
     assert_eq!(conflict, ["floor", "ceiling"]);
@@ -168,12 +147,7 @@ fn unbounded() -> Program {
 #[test]
 fn an_unbounded_cost_is_named_and_certified() {
     let error = solver(&unbounded()).solve().expect_err("unbounded");
-    let SolveError::DualInfeasible {
-        unbounded,
-        certificate,
-        ..
-    } = &error
-    else {
+    let SolveError::DualInfeasible { unbounded, certificate, .. } = &error else {
         panic!("wrong error: {error}");
     };
     assert_eq!(unbounded, &["x"]);
@@ -182,31 +156,17 @@ fn an_unbounded_cost_is_named_and_certified() {
 
 #[test]
 fn the_iteration_limit_leaves_a_problem_unsolved() {
-    let settings = Settings {
-        iteration_limit: 1,
-        ..Settings::default()
-    };
-    let outcome = Solver::new(&disc(1.0).0, &settings)
-        .expect("well-formed")
-        .solve();
-    let want = SolveError::Unsolved {
-        status: Status::IterationLimit,
-        iterations: 1,
-    };
+    let settings = Settings { iteration_limit: 1, ..Settings::default() };
+    let outcome = Solver::new(&disc(1.0).0, &settings).expect("well-formed").solve();
+    let want = SolveError::Unsolved { status: Status::IterationLimit, iterations: 1 };
     assert_eq!(outcome, Err(want));
 }
 
 /// What comes of a problem when the solver is stopped after 1, 2, … iterations, up to the last but one it needs.
 fn stopped_early(program: &Program, accepted_tolerance: f64) -> Vec<Result<Solution, SolveError>> {
     let outcome = |iteration_limit| {
-        let settings = Settings {
-            iteration_limit,
-            accepted_tolerance,
-            ..Settings::default()
-        };
-        Solver::new(program, &settings)
-            .expect("well-formed")
-            .solve()
+        let settings = Settings { iteration_limit, accepted_tolerance, ..Settings::default() };
+        Solver::new(program, &settings).expect("well-formed").solve()
     };
     let needed = match outcome(200) {
         Ok(solution) => solution.iterations,
@@ -232,41 +192,26 @@ fn an_almost_solved_problem_is_accepted_by_its_residuals_only() {
     let program = disc(1.0).0;
     let generous = stopped_early(&program, 1e-3);
     let accepted: Vec<_> = generous.iter().flatten().collect();
-    assert!(
-        !accepted.is_empty(),
-        "no early stop was accepted: {generous:?}"
-    );
+    assert!(!accepted.is_empty(), "no early stop was accepted: {generous:?}");
     for solution in accepted {
-        assert!(
-            solution.almost && solution.residuals.largest() <= 1e-3,
-            "{solution:?}"
-        );
+        assert!(solution.almost && solution.residuals.largest() <= 1e-3, "{solution:?}");
     }
 
     let strict = stopped_early(&program, 1e-15);
     assert!(strict.iter().all(Result::is_err), "{strict:?}");
-    assert!(
-        statuses(&strict).contains(&Status::AlmostSolved),
-        "{strict:?}"
-    );
+    assert!(statuses(&strict).contains(&Status::AlmostSolved), "{strict:?}");
 }
 
 #[test]
 fn an_almost_infeasible_problem_is_accepted_by_its_certificate_only() {
-    for (program, status) in [
-        (infeasible(), Status::AlmostPrimalInfeasible),
-        (unbounded(), Status::AlmostDualInfeasible),
-    ] {
+    for (program, status) in
+        [(infeasible(), Status::AlmostPrimalInfeasible), (unbounded(), Status::AlmostDualInfeasible)]
+    {
         let generous = stopped_early(&program, 0.1);
         let certified = generous
             .iter()
             .flat_map(|outcome| outcome.as_ref().err())
-            .any(|error| {
-                matches!(
-                    error,
-                    SolveError::PrimalInfeasible { .. } | SolveError::DualInfeasible { .. }
-                )
-            });
+            .any(|error| matches!(error, SolveError::PrimalInfeasible { .. } | SolveError::DualInfeasible { .. }));
         assert!(certified, "no early stop was accepted: {generous:?}");
         let strict = stopped_early(&program, 1e-15);
         assert!(statuses(&strict).contains(&status), "{strict:?}");
@@ -280,29 +225,18 @@ fn malformed_problems_are_refused_by_name() {
     let mut program = Program::new();
     program.variables("x", 2);
     program.variables("x", 1);
-    assert_eq!(
-        refusal(&program),
-        ProblemError::DuplicateName { name: "x".into() }
-    );
+    assert_eq!(refusal(&program), ProblemError::DuplicateName { name: "x".into() });
 
     let mut program = disc(1.0).0;
     let short = program.second_order("short", 3);
     program.row(short, [], 1.0);
-    let want = ProblemError::ConeSize {
-        block: "short".into(),
-        rows: 1,
-        dimension: 3,
-    };
+    let want = ProblemError::ConeSize { block: "short".into(), rows: 1, dimension: 3 };
     assert_eq!(refusal(&program), want);
 
     let mut program = Program::new();
     program.variables("x", 1);
     program.second_order("flat", 0);
-    let want = ProblemError::ConeSize {
-        block: "flat".into(),
-        rows: 0,
-        dimension: 0,
-    };
+    let want = ProblemError::ConeSize { block: "flat".into(), rows: 0, dimension: 0 };
     assert_eq!(refusal(&program), want);
 }
 
@@ -317,38 +251,17 @@ fn variables_of_another_problem_are_refused() {
 
     program.row(limit, [(x.at(0), 1.0), (foreign, 1.0)], 1.0);
     let place = "row 1 of block `limit`".to_owned();
-    assert_eq!(
-        refusal(&program),
-        ProblemError::NoSuchVariable {
-            place,
-            index: 8,
-            count: 2
-        }
-    );
+    assert_eq!(refusal(&program), ProblemError::NoSuchVariable { place, index: 8, count: 2 });
 
     let mut program = clean.clone();
     program.quadratic(foreign, x.at(0), 1.0);
     let place = "the quadratic cost".to_owned();
-    assert_eq!(
-        refusal(&program),
-        ProblemError::NoSuchVariable {
-            place,
-            index: 8,
-            count: 2
-        }
-    );
+    assert_eq!(refusal(&program), ProblemError::NoSuchVariable { place, index: 8, count: 2 });
 
     let mut program = clean;
     program.linear(foreign, 1.0);
     let place = "the linear cost".to_owned();
-    assert_eq!(
-        refusal(&program),
-        ProblemError::NoSuchVariable {
-            place,
-            index: 8,
-            count: 2
-        }
-    );
+    assert_eq!(refusal(&program), ProblemError::NoSuchVariable { place, index: 8, count: 2 });
 }
 
 #[test]
@@ -363,14 +276,9 @@ fn numbers_that_are_not_finite_are_refused_where_they_stand() {
         refusal(&program).to_string()
     };
     let (nan, inf) = (f64::NAN, f64::INFINITY);
-    assert!(
-        write(nan, 0.0, 0.0, 0.0).starts_with("the quadratic cost of speed[0] and speed[1] is NaN")
-    );
+    assert!(write(nan, 0.0, 0.0, 0.0).starts_with("the quadratic cost of speed[0] and speed[1] is NaN"));
     assert!(write(0.0, inf, 0.0, 0.0).starts_with("the linear cost of speed[1] is inf"));
-    assert!(
-        write(0.0, 0.0, nan, 0.0)
-            .starts_with("the coefficient of speed[1] in row 0 of block `limit`")
-    );
+    assert!(write(0.0, 0.0, nan, 0.0).starts_with("the coefficient of speed[1] in row 0 of block `limit`"));
     assert!(write(0.0, 0.0, 0.0, inf).starts_with("the right-hand side of row 0 of block `limit`"));
 }
 
@@ -380,10 +288,7 @@ fn a_cost_that_curves_downwards_is_refused() {
     let x = program.variables("x", 3);
     program.quadratic(x.at(2), x.at(2), 1.0);
     program.quadratic(x.at(2), x.at(2), -1.5);
-    let want = ProblemError::NegativeCurvature {
-        variable: "x[2]".into(),
-        value: -0.5,
-    };
+    let want = ProblemError::NegativeCurvature { variable: "x[2]".into(), value: -0.5 };
     assert_eq!(refusal(&program), want);
 }
 
@@ -392,22 +297,10 @@ fn settings_out_of_range_are_refused() {
     let program = disc(1.0).0;
     let default = Settings::default();
     let bad = [
-        Settings {
-            tolerance: 0.0,
-            ..default
-        },
-        Settings {
-            tolerance: f64::NAN,
-            ..default
-        },
-        Settings {
-            accepted_tolerance: 2.0,
-            ..default
-        },
-        Settings {
-            iteration_limit: 0,
-            ..default
-        },
+        Settings { tolerance: 0.0, ..default },
+        Settings { tolerance: f64::NAN, ..default },
+        Settings { accepted_tolerance: 2.0, ..default },
+        Settings { iteration_limit: 0, ..default },
     ];
     for settings in bad {
         let error = Solver::new(&program, &settings).expect_err("out of range");

@@ -16,12 +16,7 @@ impl Follow {
         let x = program.variables("x", 2);
         let same = program.equal("same");
         let limit = program.at_most("limit");
-        let mut follow = Self {
-            program,
-            x,
-            same,
-            limit,
-        };
+        let mut follow = Self { program, x, same, limit };
         follow.write(1.0, 2.0, 0.0);
         follow
     }
@@ -33,8 +28,7 @@ impl Follow {
         self.program.quadratic(x, y, coupling);
         self.program.linear(x, -target);
         self.program.row(self.same, [(x, 1.0), (y, -1.0)], 0.0);
-        self.program
-            .row(self.limit, [(x, 1.0), (y, coupling)], limit);
+        self.program.row(self.limit, [(x, 1.0), (y, coupling)], limit);
     }
 
     fn solver(&self) -> Solver {
@@ -54,14 +48,8 @@ fn a_solver_follows_a_moving_target_and_a_zero_keeps_its_place() {
         let solution = solver.solve().expect("solvable");
         // With y = x: ½x² + c x² − t x, and (1 + c) x ≤ 2.1, which is never just met by the free minimum.
         let want = (target / (1.0 + 2.0 * coupling)).min(2.1 / (1.0 + coupling));
-        assert!(
-            (solution.at(follow.x.at(0)) - want).abs() < 1e-6,
-            "{k}: {solution:?}"
-        );
-        assert!(
-            (solution.at(follow.x.at(1)) - want).abs() < 1e-6,
-            "{k}: {solution:?}"
-        );
+        assert!((solution.at(follow.x.at(0)) - want).abs() < 1e-6, "{k}: {solution:?}");
+        assert!((solution.at(follow.x.at(1)) - want).abs() < 1e-6, "{k}: {solution:?}");
     }
 }
 
@@ -96,10 +84,7 @@ fn a_changed_pattern_is_refused_by_place_and_changes_nothing() {
         let mut program = follow.program.clone();
         change(&mut program);
         let place = want.to_owned();
-        assert_eq!(
-            solver.update(&program),
-            Err(ProblemError::PatternChanged { place })
-        );
+        assert_eq!(solver.update(&program), Err(ProblemError::PatternChanged { place }));
     };
     let (x, y) = (follow.x.at(0), follow.x.at(1));
     refused(
@@ -127,9 +112,7 @@ fn a_refused_number_changes_nothing() {
     let mut solver = follow.solver();
     let before = solver.solve();
     follow.write(5.0, f64::INFINITY, 0.0);
-    let error = solver
-        .update(&follow.program)
-        .expect_err("an infinite limit");
+    let error = solver.update(&follow.program).expect_err("an infinite limit");
     assert!(matches!(error, ProblemError::NotFinite { .. }), "{error}");
     assert_eq!(solver.solve(), before);
 }

@@ -1,0 +1,13 @@
+//! What a scenario file may say about the conservative planner.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The conservative baseline (eq. 6.13).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
+    /// improved without trouble; 0 tries them only in trouble.
+    pub look_around_every: usize,
+}

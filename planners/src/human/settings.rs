@@ -1,0 +1,51 @@
+//! What a scenario file may say about a human driver.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How much a human driver minds being crowded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Style {
+    /// Yields to whoever threatens to enter its safety ellipse: weight 50.
+    Nice,
+    /// Iron-nerved, ignores the others: weight 0.
+    Tough,
+}
+
+impl Style {
+    /// The safety weight that the word stands for.
+    pub fn safety_weight(self) -> f64 {
+        match self {
+            Style::Nice => 50.0,
+            Style::Tough => 0.0,
+        }
+    }
+}
+
+/// A human driver: a model-predictive controller with a weight on safety.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// A word for the safety weight. Not together with `safety_weight`. Without either the driver is nice.
+    pub style: Option<Style>,
+    /// Weight of the squared intrusion of others into the safety ellipse, at constant velocity; 0 ignores them.
+    pub safety_weight: Option<f64>,
+    /// Weight of the same kind for the vehicle ahead in the same lane, whatever the style.
+    pub following_weight: f64,
+    /// Whether keeping on, yielding and passing are all weighed at every step, or only the last plan improved.
+    pub reconsiders: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { style: None, safety_weight: None, following_weight: 20.0, reconsiders: true }
+    }
+}
+
+impl Settings {
+    /// The safety weight: stated, or that of the style, or a nice driver's.
+    pub fn weight(&self) -> f64 {
+        self.safety_weight.unwrap_or_else(|| self.style.unwrap_or(Style::Nice).safety_weight())
+    }
+}

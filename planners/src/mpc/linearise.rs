@@ -1,0 +1,161 @@
+//! From the trajectory problem at an iterate to a quadratic programme in stage form.
+//!
+//! First derivatives are exact. Second derivatives of the cost are exact too, as it is quadratic. The curvature of
+//! dynamics and rows enters only when multipliers of a previous step are given (the exact Hessian of the Lagrangian);
+//! without them the step is Gauss-Newton.
+
+use super::adjoint::costates;
+use super::problem::{Iterate, Participant, Penalty, Problem};
+use super::stage::{Interval, Row, RowBlock, StageQp, StageSolution, StateCost, TrajectoryRow, VehicleStages};
+use crate::dynamics::Curvature;
+
+/// Beyond this squared elliptical distance an ellipse is left out of the step: the merit still counts it.
+const FAR_SQUARED: f64 = 25.0;
+
+/// Fills `qp` with the Gauss-Newton step problem of `problem` at `iterate` (whose states obey the dynamics).
+pub fn linearise(problem: &Problem, iterate: &Iterate, qp: &mut StageQp) {
+    qp.horizon = problem.horizon;
+    qp.vehicles.resize_with(problem.participants.len(), VehicleStages::default);
+    for (i, participant) in problem.participants.iter().enumerate() {
+        linearise_vehicle(participant, problem.horizon, i, iterate, &mut qp.vehicles[i]);
+    }
+    fill_blocks(problem, iterate, qp);
+    qp.trajectory_row = trajectory_row(problem, iterate, qp.trajectory_row.take());
+}
+
+/// Adds the exact curvature of dynamics and rows, weighted with the multipliers of an earlier step, to a problem that
+/// [`linearise`] has just filled.
+pub fn add_curvature(problem: &Problem, iterate: &Iterate, multipliers: &mut StageSolution, qp: &mut StageQp) {
+    multipliers.rest();
+    let costates = costates(qp, multipliers);
+    for (i, participant) in problem.participants.iter().enumerate() {
+        let stages = &mut qp.vehicles[i];
+        for k in stages.first..qp.horizon {
+            let (state, input) = (&iterate.states[i][k], &iterate.inputs[i][k]);
+            stages.curvatures[k] = participant.model.curvature(state, input, &costates[i][k]);
+        }
+    }
+    for (block, multipliers) in qp.blocks.iter_mut().zip(&multipliers.row_multipliers) {
+        for (row, multiplier) in block.rows.iter_mut().zip(multipliers) {
+            // `Row::curvature` holds ∇²c until here.
+            row.curvature = row.curvature.map(|bend| -multiplier * bend);
+        }
+    }
+}
+
+/// Sets every curvature to zero, which makes the step Gauss-Newton (and convex).
+pub fn drop_curvature(qp: &mut StageQp) {
+    for stages in &mut qp.vehicles {
+        stages.curvatures.fill(Curvature::default());
+    }
+    for block in &mut qp.blocks {
+        for row in &mut block.rows {
+            row.curvature = [0.0; 4];
+        }
+    }
+}
+
+fn linearise_vehicle(
+    participant: &Participant,
+    horizon: usize,
+    index: usize,
+    iterate: &Iterate,
+    stages: &mut VehicleStages,
+) {
+    let (states, inputs) = (&iterate.states[index], &iterate.inputs[index]);
+    let limits = &participant.limits;
+    stages.first = participant.first();
+    stages.change_weights = participant.comfort;
+    stages.jacobians.clear();
+    stages.state_costs.clear();
+    stages.changes.clear();
+    stages.input_boxes.clear();
+    stages.speed_boxes.clear();
+    stages.curvatures.clear();
+    stages.curvatures.resize(horizon, Curvature::default());
+    let mut previous = participant.previous_input.to_array();
+    for k in 0..horizon {
+        let input = inputs[k].to_array();
+        stages.jacobians.push(participant.model.jacobian(&states[k], &inputs[k]));
+        let (state, target) = (states[k + 1].to_array(), participant.tracking.targets[k].to_array());
+        let weights = participant.tracking.weights;
+        stages.state_costs.push(StateCost {
+            gradient: std::array::from_fn(|i| 2.0 * weights[i] * (state[i] - target[i])),
+            hessian: weights.map(|weight| 2.0 * weight),
+        });
+        stages.changes.push([input[0] - previous[0], input[1] - previous[1]]);
+        previous = input;
+        stages.input_boxes.push([
+            Interval { lower: limits.acceleration_min_mps2 - input[0], upper: limits.acceleration_max_mps2 - input[0] },
+            Interval { lower: -limits.steering_max_rad - input[1], upper: limits.steering_max_rad - input[1] },
+        ]);
+        let [slowest, fastest] = participant.speed_bounds(k + 1);
+        stages.speed_boxes.push(Interval { lower: slowest - state[3], upper: fastest - state[3] });
+    }
+}
+
+/// One block for each corner and keep-out of each participant, then one for each separation.
+fn fill_blocks(problem: &Problem, iterate: &Iterate, qp: &mut StageQp) {
+    let mut blocks = std::mem::take(&mut qp.blocks).into_iter();
+    let mut filled = Vec::with_capacity(blocks.len());
+    let mut next = |vehicle, other, penalty| {
+        let mut rows = blocks.next().map(|block: RowBlock| block.rows).unwrap_or_default();
+        rows.clear();
+        RowBlock { vehicle, other, penalty: Some(penalty), rows }
+    };
+    for (i, participant) in problem.participants.iter().enumerate() {
+        let mut corners: [RowBlock; 4] = std::array::from_fn(|_| next(i, None, Penalty::EXACT));
+        for state in &iterate.states[i][1..] {
+            let clearances = participant.corridor.clearances(&participant.body, state);
+            let active = corners[0].rows.len() >= participant.first();
+            for (block, c) in corners.iter_mut().zip(clearances) {
+                block.rows.push(Row { active, value: c.value, gradient: c.gradient, curvature: c.curvature });
+            }
+        }
+        filled.extend(corners);
+        for keep_out in &participant.keep_outs {
+            let mut block = next(i, None, keep_out.penalty);
+            let [xx, xy, yy] = keep_out.ellipse.curvature(keep_out.heading_rad);
+            for (state, centre) in iterate.states[i][1..].iter().zip(&keep_out.centres) {
+                let d = keep_out.ellipse.distance(state.position(), *centre, keep_out.heading_rad);
+                block.rows.push(ellipse_row(d.squared, d.gradient, [xx, xy, yy, 0.0]));
+            }
+            filled.push(block);
+        }
+    }
+    for pair in &problem.separations {
+        let mut block = next(pair.of, Some(pair.from), pair.penalty);
+        let [xx, xy, yy] = pair.ellipse.curvature(pair.heading_rad);
+        for (of, from) in iterate.states[pair.of][1..].iter().zip(&iterate.states[pair.from][1..]) {
+            let d = pair.ellipse.distance(of.position(), from.position(), pair.heading_rad);
+            block.rows.push(ellipse_row(d.squared, d.gradient, [xx, xy, yy, 0.0]));
+        }
+        filled.push(block);
+    }
+    qp.blocks = filled;
+}
+
+fn ellipse_row(squared: f64, [x, y]: [f64; 2], curvature: [f64; 4]) -> Row {
+    Row { active: squared < FAR_SQUARED, value: squared - 1.0, gradient: [x, y, 0.0], curvature }
+}
+
+/// The persuasion constraint is quadratic in the positions, so it is exact here:
+/// `α‖p − toward‖² − ‖p − away‖²` has gradient `2(α(p − toward) − (p − away))` and `β = α − 1`.
+fn trajectory_row(problem: &Problem, iterate: &Iterate, old: Option<TrajectoryRow>) -> Option<TrajectoryRow> {
+    let leaning = problem.leaning.as_ref()?;
+    let (mut gradients, mut bends) = old.map(|row| (row.gradients, row.bends)).unwrap_or_default();
+    gradients.clear();
+    bends.clear();
+    let states = &iterate.states[0];
+    for t in 1..=problem.horizon {
+        let references = leaning.toward.get(t).zip(leaning.away.get(t));
+        let (gradient, bend) = references.map_or(([0.0; 2], 0.0), |(toward, away)| {
+            let p = states[t].position();
+            let slope = |i: usize| 2.0 * (leaning.strength * (p[i] - toward[i]) - (p[i] - away[i]));
+            ([slope(0), slope(1)], leaning.strength - 1.0)
+        });
+        gradients.push(gradient);
+        bends.push(bend);
+    }
+    Some(TrajectoryRow { value: leaning.value(states), gradients, bends, penalty: leaning.penalty })
+}

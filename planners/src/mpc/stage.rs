@@ -1,0 +1,207 @@
+//! The quadratic programme of one step of the sequential method, in stage form, and the trait of its solvers.
+//!
+//! Unknowns are deviations from an iterate that obeys the dynamics: per vehicle `w_k = δu_k` and `d_{k+1} = δx_{k+1}`
+//! with `d_0 = 0` and
+//!
+//! ```text
+//! d_{k+1} = A_k d_k + B_k w_k                                       k = 0…N−1
+//! minimise  Σ_k  g_k·d_{k+1} + ½ d_{k+1}ᵀ H_k d_{k+1}                tracking, x_{k+1}
+//!              + ½ (d_k, w_k)ᵀ C_k (d_k, w_k)                        curvature of the dynamics
+//!              + Σ_i r_i (Δū_{k,i} + w_{k,i} − w_{k−1,i})²           comfort, w_{first−1} = 0
+//!              + Σ_rows  linear·s + quadratic·s² + ½ pᵀ K p          soft rows, p the position they speak of
+//! such that  c + ∇c·p + s ≥ 0,  s ≥ 0                                rows
+//!            lower ≤ w_k ≤ upper,  lower ≤ δv_{k+1} ≤ upper          boxes
+//!            c₀ + Σ_k b_k·p_{k+1} + β Σ_k‖p_{k+1}‖² ≤ s              at most one row over the whole trajectory
+//! ```
+//!
+//! A vehicle whose inputs are known until `first` has `w_k = 0` before.
+
+use thiserror::Error;
+
+use super::Penalty;
+use crate::dynamics::{Curvature, Jacobian};
+
+/// Lower and upper bound of one number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Lower bound.
+    pub lower: f64,
+    /// Upper bound.
+    pub upper: f64,
+}
+
+/// Gradient and Hessian of the tracking cost at one stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StateCost {
+    /// Gradient over `(x, y, θ, v)`.
+    pub gradient: [f64; 4],
+    /// Diagonal of the Hessian over `(x, y, θ, v)`.
+    pub hessian: [f64; 4],
+}
+
+/// One vehicle's stages.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VehicleStages {
+    /// First stage whose input is free.
+    pub first: usize,
+    /// `A_k, B_k`; `N` long.
+    pub jacobians: Vec<Jacobian>,
+    /// `g_k, H_k` on `d_{k+1}`; `N` long.
+    pub state_costs: Vec<StateCost>,
+    /// `C_k` on `(d_k, w_k)`; `N` long, all zero for a Gauss-Newton step.
+    pub curvatures: Vec<Curvature>,
+    /// `r` on `(a, δ)`.
+    pub change_weights: [f64; 2],
+    /// `Δū_k`; `N` long.
+    pub changes: Vec<[f64; 2]>,
+    /// Box on `w_k = (δa, δδ)`; `N` long.
+    pub input_boxes: Vec<[Interval; 2]>,
+    /// Box on `δv_{k+1}`; `N` long.
+    pub speed_boxes: Vec<Interval>,
+}
+
+/// One row at one stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Whether the row exists at this stage.
+    pub active: bool,
+    /// `c` at the iterate.
+    pub value: f64,
+    /// `∇c` over `(x, y, θ)` of the vehicle; a row of a pair depends on the difference of positions, so its gradient
+    /// over the other vehicle's `(x, y)` is the negative.
+    pub gradient: [f64; 3],
+    /// `K`: what the row adds to the Hessian of the Lagrangian over `(xx, xy, yy, θθ)`; zero for Gauss-Newton.
+    pub curvature: [f64; 4],
+}
+
+/// The same soft row at every stage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowBlock {
+    /// Whose position the row speaks of.
+    pub vehicle: usize,
+    /// For a pair: the vehicle whose position is subtracted.
+    pub other: Option<usize>,
+    /// What a violation costs; `None` for a hard row.
+    pub penalty: Option<Penalty>,
+    /// One row a stage, on `d_{k+1}`; `N` long.
+    pub rows: Vec<Row>,
+}
+
+/// A convex quadratic row over the whole trajectory of vehicle 0: `value + Σ b_k·p_{k+1} + β Σ‖p_{k+1}‖² ≤ s`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrajectoryRow {
+    /// `c₀`.
+    pub value: f64,
+    /// `b_k` over `(x, y)` at stage `k`; `N` long.
+    pub gradients: Vec<[f64; 2]>,
+    /// `β ≥ 0` at stage `k`; `N` long (zero where the row says nothing).
+    pub bends: Vec<f64>,
+    /// What a violation costs.
+    pub penalty: Penalty,
+}
+
+/// A quadratic programme in stage form.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StageQp {
+    /// Number of stages `N`.
+    pub horizon: usize,
+    /// The vehicles.
+    pub vehicles: Vec<VehicleStages>,
+    /// The soft rows.
+    pub blocks: Vec<RowBlock>,
+    /// The row over the whole trajectory.
+    pub trajectory_row: Option<TrajectoryRow>,
+}
+
+/// The optimum of a [`StageQp`] with its multipliers (all non-negative).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StageSolution {
+    /// Per vehicle and stage, `w_k`.
+    pub inputs: Vec<Vec<[f64; 2]>>,
+    /// Per vehicle and stage, `d_{k+1}`.
+    pub states: Vec<Vec<[f64; 4]>>,
+    /// Per vehicle and stage: multipliers of the lower and upper bounds of `δa`, `δδ` and `δv`, in that order.
+    pub bound_multipliers: Vec<Vec<[[f64; 2]; 3]>>,
+    /// Per block and stage.
+    pub row_multipliers: Vec<Vec<f64>>,
+    /// Of the row over the whole trajectory.
+    pub trajectory_multiplier: f64,
+    /// Iterations that the solver took.
+    pub iterations: usize,
+}
+
+/// Why a stage problem has no solution to offer.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum StageError {
+    /// No point satisfies the boxes and hard rows.
+    #[error("the boxes and hard rows contradict each other ({iterations} iterations)")]
+    Infeasible {
+        /// Iterations taken.
+        iterations: usize,
+    },
+    /// The Hessian is not positive definite on the dynamics.
+    #[error("the problem is not convex at stage {stage}")]
+    NotConvex {
+        /// Where the factorisation failed.
+        stage: usize,
+    },
+    /// The iteration limit or a numerical breakdown.
+    #[error("not solved after {iterations} iterations: {status}")]
+    Unsolved {
+        /// What the solver said.
+        status: String,
+        /// Iterations taken.
+        iterations: usize,
+    },
+}
+
+/// A solver of stage problems. It may keep memory between calls, but the answer must not depend on it beyond the stated
+/// tolerance.
+pub trait StageSolver {
+    /// Whether the solver accepts an indefinite Hessian (and refuses it with [`StageError::NotConvex`] where it
+    /// matters). Others are given Gauss-Newton problems only.
+    fn accepts_curvature(&self) -> bool;
+
+    /// Solves `problem`, writing the optimum and its multipliers to `solution`.
+    ///
+    /// # Errors
+    /// [`StageError`]; `solution` is then meaningless.
+    fn solve(&mut self, problem: &StageQp, solution: &mut StageSolution) -> Result<(), StageError>;
+}
+
+impl VehicleStages {
+    /// `Δū_k + w_k − w_{k−1}` of one input.
+    pub(super) fn change(&self, inputs: &[[f64; 2]], k: usize, axis: usize) -> f64 {
+        let before = if k > self.first { inputs[k - 1][axis] } else { 0.0 };
+        self.changes[k][axis] + inputs[k][axis] - before
+    }
+}
+
+impl TrajectoryRow {
+    /// The left side `value + Σ b_k·p + β Σ‖p‖²` at given deviations of position.
+    pub(super) fn value_at(&self, positions: impl Iterator<Item = [f64; 2]>) -> f64 {
+        let terms = positions.zip(&self.gradients).zip(&self.bends);
+        self.value
+            + terms
+                .map(|(([x, y], gradient), bend)| gradient[0] * x + gradient[1] * y + bend * (x * x + y * y))
+                .sum::<f64>()
+    }
+}
+
+impl StageSolution {
+    /// Gives every field the shape of `problem`, keeping allocations.
+    pub fn shape_like(&mut self, problem: &StageQp) {
+        let (horizon, vehicles) = (problem.horizon, problem.vehicles.len());
+        shape(&mut self.inputs, vehicles, horizon, [0.0; 2]);
+        shape(&mut self.states, vehicles, horizon, [0.0; 4]);
+        shape(&mut self.bound_multipliers, vehicles, horizon, [[0.0; 2]; 3]);
+        shape(&mut self.row_multipliers, problem.blocks.len(), horizon, 0.0);
+    }
+}
+
+fn shape<T: Copy>(field: &mut Vec<Vec<T>>, outer: usize, inner: usize, value: T) {
+    field.resize_with(outer, Vec::new);
+    for part in field {
+        part.resize(inner, value);
+    }
+}

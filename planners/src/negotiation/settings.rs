@@ -1,0 +1,52 @@
+//! What a scenario file may say about the negotiation planner.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Negotiation with concession and persuasion (chapter 6).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// How fast the ego concedes, `β` of eq. 6.18; below 1.
+    pub beta: f64,
+    /// How much acceptance strengthens persuasion, `γ` of `α = 1 + γ p_a` (eq. 6.20); 0 or more.
+    pub gamma: f64,
+    /// A rise of the acceptance probability of at most this much counts as no progress, `ε`.
+    pub epsilon: f64,
+    /// Steps without progress after which the next vehicle is asked.
+    pub patience_steps: usize,
+    /// Steps during which the other is assumed to follow the prediction, `T_n` of eq. 6.15.
+    pub settled_steps: usize,
+    /// Normaliser of the ego's cost, `Z_1` of eq. 6.14.
+    pub ego_normaliser: f64,
+    /// Normaliser of the other's deviation, `Z_2` of eq. 6.14. The deviation that full braking causes over 3 s is of
+    /// order 100, so 100 makes both terms of order one at the first tick; at 1 the proposal asks for nothing.
+    pub other_normaliser: f64,
+    /// Smallest weight `w` of the ego's cost (eq. 6.18 never lets it recover).
+    pub weight_floor: f64,
+    /// Whether the persuasion constraint is imposed (eq. 6.23).
+    pub persuasion: bool,
+    /// Whether the negotiated input is applied only if a conservative plan still exists after it.
+    pub safety_filter: bool,
+    /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
+    /// improved without trouble; 0 tries them only in trouble.
+    pub look_around_every: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            beta: 0.8,
+            gamma: 1.0,
+            epsilon: 0.01,
+            patience_steps: 5,
+            settled_steps: 6,
+            ego_normaliser: 1.0,
+            other_normaliser: 100.0,
+            weight_floor: 0.02,
+            persuasion: true,
+            safety_filter: true,
+            look_around_every: 0,
+        }
+    }
+}

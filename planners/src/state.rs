@@ -1,0 +1,128 @@
+//! The nouns of motion: a vehicle's state, its input, and a trajectory of both.
+//!
+//! All lengths are in metres, angles in radians counter-clockwise from the x axis, times in seconds.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// State of one vehicle, `x = (x, y, θ, v)` of eq. 6.1-6.4.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// Position of the mass centre along the world's x axis \[m\].
+    pub x_m: f64,
+    /// Position of the mass centre along the world's y axis \[m\].
+    pub y_m: f64,
+    /// Yaw angle, counter-clockwise from the x axis \[rad\].
+    #[serde(default)]
+    pub heading_rad: f64,
+    /// Speed of the mass centre \[m/s\].
+    pub speed_mps: f64,
+}
+
+impl State {
+    /// The position `(x, y)` \[m\].
+    pub fn position(&self) -> [f64; 2] {
+        [self.x_m, self.y_m]
+    }
+
+    /// The state as the array `[x, y, θ, v]`.
+    pub fn to_array(self) -> [f64; 4] {
+        [self.x_m, self.y_m, self.heading_rad, self.speed_mps]
+    }
+
+    /// The state whose array is `[x, y, θ, v]`.
+    pub fn from_array([x_m, y_m, heading_rad, speed_mps]: [f64; 4]) -> Self {
+        State { x_m, y_m, heading_rad, speed_mps }
+    }
+
+    /// Whether every component is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.to_array().iter().all(|value| value.is_finite())
+    }
+}
+
+/// Input of one vehicle, `u = (a, δ)` of eq. 6.1-6.4.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Input {
+    /// Acceleration along the heading \[m/s²\].
+    pub acceleration_mps2: f64,
+    /// Steering angle of the front wheel \[rad\].
+    pub steering_rad: f64,
+}
+
+impl Input {
+    /// The input as the array `[a, δ]`.
+    pub fn to_array(self) -> [f64; 2] {
+        [self.acceleration_mps2, self.steering_rad]
+    }
+
+    /// The input whose array is `[a, δ]`.
+    pub fn from_array([acceleration_mps2, steering_rad]: [f64; 2]) -> Self {
+        Input { acceleration_mps2, steering_rad }
+    }
+}
+
+/// States at `t = 0…N` and the inputs at `t = 0…N−1` that lead from each to the next.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    /// `N + 1` states, the first of them the present one.
+    pub states: Vec<State>,
+    /// `N` inputs.
+    pub inputs: Vec<Input>,
+}
+
+impl Trajectory {
+    /// The number of steps `N`.
+    pub fn horizon(&self) -> usize {
+        self.inputs.len()
+    }
+
+    /// The same plan one step later: the first state is dropped and the last one moves on as it did in the last
+    /// step (straight-line extrapolation), with no further input.
+    ///
+    /// A trajectory without steps is returned as it is.
+    pub fn shifted(&self) -> Trajectory {
+        let [.., before, last] = self.states.as_slice() else { return self.clone() };
+        let end = State { x_m: 2.0 * last.x_m - before.x_m, y_m: 2.0 * last.y_m - before.y_m, ..*last };
+        let states = self.states[1..].iter().copied().chain([end]).collect();
+        let inputs = self.inputs[1..].iter().copied().chain([Input::default()]).collect();
+        Trajectory { states, inputs }
+    }
+
+    /// Sum over `t = 0…N−1` of the squared distance between the positions of two trajectories, `‖trj_a − trj_b‖²` of
+    /// eq. 6.19-6.23 \[m²\]. The shorter horizon counts.
+    pub fn squared_distance(&self, other: &Trajectory) -> f64 {
+        let steps = self.horizon().min(other.horizon());
+        let pairs = self.states.iter().zip(&other.states).take(steps);
+        pairs.map(|(a, b)| (a.x_m - b.x_m).powi(2) + (a.y_m - b.y_m).powi(2)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn straight(speed_mps: f64, steps: usize) -> Trajectory {
+        let states = (0..=steps).map(|t| State { x_m: 0.1 * speed_mps * t as f64, speed_mps, ..State::default() });
+        Trajectory { states: states.collect(), inputs: vec![Input::default(); steps] }
+    }
+
+    #[test]
+    fn a_straight_plan_shifted_is_the_same_line_one_step_on() {
+        let plan = straight(1.0, 5);
+        let shifted = plan.shifted();
+        assert_eq!(shifted.horizon(), 5);
+        for (t, state) in shifted.states.iter().enumerate() {
+            assert!((state.x_m - 0.1 * (t + 1) as f64).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn squared_distance_leaves_out_the_last_state_and_is_symmetric() {
+        let (slow, fast) = (straight(1.0, 2), straight(2.0, 2));
+        assert!((slow.squared_distance(&fast) - 0.01).abs() < 1e-12);
+        assert_eq!(slow.squared_distance(&fast), fast.squared_distance(&slow));
+    }
+}
