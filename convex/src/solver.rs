@@ -174,7 +174,8 @@ impl std::fmt::Debug for Solver {
     }
 }
 
-/// One thread, no clock, no output, and nothing that would change the pattern.
+/// One thread, no clock, no output, and nothing that would change the pattern. (With Clarabel's feature `sdp`
+/// that must include `chordal_decomposition_enable: false`.)
 fn backend_settings(settings: &Settings) -> DefaultSettings<f64> {
     DefaultSettings {
         max_iter: settings.iteration_limit,

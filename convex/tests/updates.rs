@@ -1,6 +1,6 @@
 //! What an update may change, and what it refuses.
 
-use interplay_convex::{Block, ProblemError, Program, Settings, Solver, Variables};
+use interplay_convex::{Block, Cone, ProblemError, Program, Settings, Solver, Variables};
 
 /// min ½(x − target)² + 0·xy with y = x and x ≤ limit.
 struct Follow {
@@ -104,6 +104,23 @@ fn a_changed_pattern_is_refused_by_place_and_changes_nothing() {
     refused(&|p| p.row(follow.same, [(x, 1.0)], 1.0), "block `same`");
     refused(&Program::clear, "the quadratic cost");
     assert_eq!(solver.solve(), before);
+}
+
+#[test]
+fn a_changed_cone_is_refused_though_its_rows_are_the_same() {
+    let program = |cone| {
+        let mut program = Program::new();
+        let x = program.variables("x", 1).at(0);
+        let limit = program.block("limit", cone);
+        program.row(limit, [(x, 1.0)], 1.0);
+        program
+    };
+    let inequality = program(Cone::Nonnegative);
+    let mut solver = Solver::new(&inequality, &Settings::default()).expect("well-formed");
+    let place = "block `limit`".to_owned();
+    let refusal = solver.update(&program(Cone::Zero));
+    assert_eq!(refusal, Err(ProblemError::PatternChanged { place }));
+    assert_eq!(solver.update(&inequality), Ok(()));
 }
 
 #[test]
