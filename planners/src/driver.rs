@@ -3,7 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{conservative, human, negotiation};
+use crate::conservative::{self, Conservative};
+use crate::human::{self, Human};
+use crate::negotiation::{self, Negotiation};
+use crate::{Plan, PlanError, Scene};
 
 /// The driver of a vehicle with its settings; `kind` in a scenario file chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -15,4 +18,54 @@ pub enum Driver {
     Conservative(conservative::Settings),
     /// Negotiation with concession and persuasion (chapter 6).
     Negotiation(negotiation::Settings),
+}
+
+/// A driver at work: its settings and all that it remembers.
+#[derive(Clone, Debug)]
+pub enum Planner {
+    /// See [`Human`].
+    Human(Human),
+    /// See [`Conservative`].
+    Conservative(Conservative),
+    /// See [`Negotiation`].
+    Negotiation(Box<Negotiation>),
+}
+
+impl Driver {
+    /// A planner of this kind that has not planned yet.
+    pub fn planner(&self) -> Planner {
+        match self {
+            Driver::Human(settings) => Planner::Human(Human::new(*settings)),
+            Driver::Conservative(settings) => Planner::Conservative(Conservative::new(*settings)),
+            Driver::Negotiation(settings) => Planner::Negotiation(Box::new(Negotiation::new(*settings))),
+        }
+    }
+
+    /// The word for this kind of driver in a scenario file.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Driver::Human(_) => "human",
+            Driver::Conservative(_) => "conservative",
+            Driver::Negotiation(_) => "negotiation",
+        }
+    }
+
+    /// Whether the driver plans before those who rely on knowing its plan.
+    pub fn goes_first(&self) -> bool {
+        matches!(self, Driver::Human(_))
+    }
+}
+
+impl Planner {
+    /// Plans the next move.
+    ///
+    /// # Errors
+    /// [`PlanError`] if there is no plan; the caller falls back.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        match self {
+            Planner::Human(planner) => planner.plan(scene),
+            Planner::Conservative(planner) => planner.plan(scene),
+            Planner::Negotiation(planner) => planner.plan(scene),
+        }
+    }
 }

@@ -1,34 +1,35 @@
 //! Interplay: planners for vehicles that interact.
-pub mod conservative {
-    mod settings;
-    pub use settings::Settings;
-}
-pub mod human {
-    mod settings;
-    pub use settings::{Settings, Style};
-}
-pub mod negotiation {
-    mod settings;
-    pub use settings::Settings;
-}
+//!
+//! Pure functions of plain values: a planner is given a [`Scene`] (what one vehicle knows at a moment) and answers with a
+//! [`Plan`] or a [`PlanError`]. Nothing here knows of time, files, physics or pictures.
+//!
+//! - nouns: [`State`], [`Input`], [`Trajectory`], [`Body`], [`SafetyEllipse`], [`Corridor`], [`Scene`], [`Plan`]
+//! - [`dynamics`]: vehicle models with derivatives
+//! - [`predict`]: what the others will do
+//! - [`mpc`]: one trajectory optimiser
+//! - drivers, one folder each: [`human`], [`conservative`], [`negotiation`]; [`Driver`] lists them
+//!
+//! Sines, exponentials and the like come from `libm`, so that results are the same bit for bit on every machine.
+//!
+//! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
+//! 2019); "corrected" marks where the printed equation is in error.
+
+pub mod conservative;
 mod driver;
 pub mod dynamics;
 mod footprint;
+pub mod human;
+pub mod mpc;
+pub mod negotiation;
+mod plan;
+pub mod predict;
 mod road;
+mod scene;
 mod state;
-pub use driver::Driver;
+
+pub use driver::{Driver, Planner};
 pub use footprint::{Body, EllipticalDistance, SafetyEllipse};
+pub use plan::{Diagnostic, Plan, PlanError, Proposal};
 pub use road::{Clearance, Corridor, LaneEnd};
+pub use scene::{Agent, Goal, Scene};
 pub use state::{Input, State, Trajectory};
-pub mod mpc {
-    //! One trajectory optimiser.
-    mod adjoint;
-    pub mod kkt;
-    mod linearise;
-    mod problem;
-    mod stage;
-    pub use adjoint::costates;
-    pub use linearise::*;
-    pub use problem::*;
-    pub use stage::*;
-}

@@ -26,6 +26,24 @@ impl Residual {
         self.stationarity.max(self.primal).max(self.dual).max(self.complementarity)
     }
 
+    /// A row of value `c`: hard (`c ≥ 0`), or soft with the violation that its multiplier implies. From
+    /// `λ = linear + 2·quadratic·s` for `s > 0`, else `λ ≤ linear`, follows `s = (λ − linear)₊/(2·quadratic)`; without
+    /// a quadratic weight `s` is the violation itself and costs `linear − λ ≥ 0` where it is not zero.
+    fn row(&mut self, value: f64, multiplier: f64, penalty: Option<Penalty>) {
+        match penalty {
+            None => self.inequality(value, multiplier),
+            Some(p) if p.quadratic > 0.0 => {
+                let violation = ((multiplier - p.linear) / (2.0 * p.quadratic)).max(0.0);
+                self.inequality(value + violation, multiplier);
+            }
+            Some(p) => {
+                let violation = (-value).max(0.0);
+                self.inequality(value + violation, multiplier);
+                self.inequality(violation, p.linear - multiplier);
+            }
+        }
+    }
+
     fn inequality(&mut self, slack: f64, multiplier: f64) {
         self.primal = self.primal.max(-slack);
         self.dual = self.dual.max(-multiplier);
@@ -43,27 +61,15 @@ pub fn residual(qp: &StageQp, solution: &StageSolution) -> Residual {
     for (block, multipliers) in qp.blocks.iter().zip(&solution.row_multipliers) {
         for (k, (row, multiplier)) in block.rows.iter().zip(multipliers).enumerate() {
             if row.active {
-                let value = row_value(block, row, solution, k);
-                residual.inequality(value + implied_slack(block.penalty, *multiplier), *multiplier);
+                residual.row(row_value(block, row, solution, k), *multiplier, block.penalty);
             }
         }
     }
     if let Some(row) = &qp.trajectory_row {
-        let multiplier = solution.trajectory_multiplier;
         let value = row.value_at(solution.states[0].iter().map(|d| [d[0], d[1]]));
-        residual.inequality(implied_slack(Some(row.penalty), multiplier) - value, multiplier);
+        residual.row(-value, solution.trajectory_multiplier, Some(row.penalty));
     }
     residual
-}
-
-/// The slack at which a soft row has this multiplier: `λ = linear + 2·quadratic·s` for `s > 0`, else `λ ≤ linear`.
-fn implied_slack(penalty: Option<Penalty>, multiplier: f64) -> f64 {
-    penalty.map_or(
-        0.0,
-        |p| {
-            if p.quadratic > 0.0 { ((multiplier - p.linear) / (2.0 * p.quadratic)).max(0.0) } else { 0.0 }
-        },
-    )
 }
 
 /// `c + ∇c·p` of a row at the solution's deviations.

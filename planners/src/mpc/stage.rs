@@ -113,6 +113,15 @@ pub struct StageQp {
     pub trajectory_row: Option<TrajectoryRow>,
 }
 
+impl StageQp {
+    /// Whether curvature of dynamics or rows was added, so that the problem may not be convex.
+    pub fn is_curved(&self) -> bool {
+        let rows = self.blocks.iter().flat_map(|block| &block.rows);
+        self.vehicles.iter().any(|stages| stages.curvatures.iter().any(|c| *c != Curvature::default()))
+            || rows.into_iter().any(|row| row.curvature != [0.0; 4])
+    }
+}
+
 /// The optimum of a [`StageQp`] with its multipliers (all non-negative).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StageSolution {
@@ -162,11 +171,12 @@ pub trait StageSolver {
     /// matters). Others are given Gauss-Newton problems only.
     fn accepts_curvature(&self) -> bool;
 
-    /// Solves `problem`, writing the optimum and its multipliers to `solution`.
+    /// Solves `problem`, writing the optimum and its multipliers to `solution`. With `warm`, the multipliers that
+    /// `solution` holds belong to a neighbouring problem of the same shape and may serve as a start.
     ///
     /// # Errors
     /// [`StageError`]; `solution` is then meaningless.
-    fn solve(&mut self, problem: &StageQp, solution: &mut StageSolution) -> Result<(), StageError>;
+    fn solve(&mut self, problem: &StageQp, solution: &mut StageSolution, warm: bool) -> Result<(), StageError>;
 }
 
 impl VehicleStages {
@@ -174,6 +184,13 @@ impl VehicleStages {
     pub(super) fn change(&self, inputs: &[[f64; 2]], k: usize, axis: usize) -> f64 {
         let before = if k > self.first { inputs[k - 1][axis] } else { 0.0 };
         self.changes[k][axis] + inputs[k][axis] - before
+    }
+}
+
+impl RowBlock {
+    /// Whether a violation costs anything; a block that does not may be left out.
+    pub(super) fn costs_something(&self) -> bool {
+        self.penalty.is_none_or(|penalty| penalty.linear > 0.0 || penalty.quadratic > 0.0)
     }
 }
 

@@ -15,6 +15,8 @@ pub struct Settings {
     pub epsilon: f64,
     /// Steps without progress after which the next vehicle is asked.
     pub patience_steps: usize,
+    /// A vehicle that is this far ahead in the target lane is not asked any more \[m\].
+    pub clear_lead_m: f64,
     /// Steps during which the other is assumed to follow the prediction, `T_n` of eq. 6.15.
     pub settled_steps: usize,
     /// Normaliser of the ego's cost, `Z_1` of eq. 6.14.
@@ -40,6 +42,7 @@ impl Default for Settings {
             gamma: 1.0,
             epsilon: 0.01,
             patience_steps: 5,
+            clear_lead_m: 0.2,
             settled_steps: 6,
             ego_normaliser: 1.0,
             other_normaliser: 100.0,

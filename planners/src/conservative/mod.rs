@@ -1,0 +1,73 @@
+//! The conservative baseline (eq. 6.13): the others' predictions are constraints, whoever has the right of way.
+
+mod settings;
+
+pub use settings::Settings;
+
+use crate::mpc::{Cost, DescentError, Optimiser, Optimum, Penalty, Problem, Robust};
+use crate::predict::steady;
+use crate::{Agent, Input, Plan, PlanError, Scene, Trajectory};
+
+/// A conservative planner with the plan it made last.
+#[derive(Clone, Debug)]
+pub struct Conservative {
+    settings: Settings,
+    optimiser: Optimiser<Robust>,
+    last: Option<Trajectory>,
+}
+
+/// The conservative problem for the planning vehicle among given others.
+pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
+    let keep_outs = others
+        .iter()
+        .map(|other| scene.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT))
+        .collect();
+    Problem {
+        horizon: scene.horizon,
+        participants: vec![scene.participant(keep_outs)],
+        separations: Vec::new(),
+        leaning: None,
+    }
+}
+
+/// Inputs that brake or accelerate as hard as the vehicle can, straight on.
+pub(crate) fn extremes(scene: &Scene) -> [Vec<Input>; 2] {
+    let limits = &scene.ego.limits;
+    [limits.acceleration_min_mps2, limits.acceleration_max_mps2]
+        .map(|acceleration| steady(&scene.ego.state, acceleration, limits, scene.horizon, scene.step_s))
+}
+
+impl Conservative {
+    /// A planner that has not planned yet.
+    pub fn new(settings: Settings) -> Self {
+        Conservative { settings, optimiser: Optimiser::new(Robust::default()), last: None }
+    }
+
+    /// Plans around the predictions of all others.
+    ///
+    /// # Errors
+    /// [`PlanError`] if none of the guesses leads to an optimum.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let optimum = self.optimise(scene)?;
+        let Cost { total, safety_slack, .. } = optimum.cost;
+        Ok(Plan {
+            trajectory: optimum.trajectory(0),
+            diagnostics: vec![("cost", total), ("safety slack", safety_slack)],
+            statistics: optimum.statistics,
+            ..Plan::default()
+        })
+    }
+
+    /// The same as [`Conservative::plan`], with the optimum's cost.
+    pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Optimum, DescentError> {
+        let others: Vec<&Agent> = scene.others.iter().collect();
+        let keep = self.last.as_ref().map_or_else(Vec::new, |last| last.shifted().inputs);
+        let [brake, accelerate] = extremes(scene);
+        let guesses = [vec![keep], vec![brake], vec![accelerate]];
+        let every = self.settings.look_around_every;
+        let look_around = every > 0 && scene.tick.is_multiple_of(every);
+        let optimum = self.optimiser.best_of(&problem(scene, &others), &guesses, look_around)?;
+        self.last = Some(optimum.trajectory(0));
+        Ok(optimum)
+    }
+}

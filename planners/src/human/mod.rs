@@ -1,0 +1,133 @@
+//! The human driver: model-predictive control with a safety weight.
+//!
+//! Cost: tracking and comfort (eq. 6.6), plus for every vehicle that might cut in
+//!
+//! ```text
+//! weight · Σ_t max(0, 1 − d²(p_t, q_t))²
+//! ```
+//!
+//! where `q` is the other's position at constant velocity *with its present heading*, so that a nudge of the steering
+//! wheel is seen, and `d` the elliptical distance along the other's road. The hinge is sharp: a driver yields only to what
+//! threatens to enter. Where roads cross the driver minds both ellipses, along the other's road and along its own; this is
+//! our choice, as with one of them drivers and planners disagree about who is in whose way. The car ahead in the same lane
+//! is followed with at least `following_weight`, whatever the style; whoever is behind in the same lane is ignored.
+//!
+//! The source only says that nice drivers have a higher safety weight (section 6.5). Ties between going first and yielding
+//! are decided by the initial guess, so a driver who reconsiders tries all three: the last plan, braking and accelerating.
+
+mod settings;
+
+pub use settings::{Settings, Style};
+
+use crate::mpc::{DescentError, KeepOut, Optimiser, Optimum, Penalty, Problem, Robust};
+use crate::predict::{constant_velocity, steady};
+use crate::{Agent, Input, Plan, PlanError, Scene, Trajectory};
+
+/// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
+const RESOLVE: f64 = 0.5;
+/// The very first guess leans towards yielding.
+const FIRST_GUESS: f64 = 0.3;
+/// Another plan must be cheaper by this share to be preferred to improving the last one.
+const HYSTERESIS: f64 = 1e-3;
+
+/// A human driver with the plan it made last.
+#[derive(Clone, Debug)]
+pub struct Human {
+    settings: Settings,
+    optimiser: Optimiser<Robust>,
+    last: Option<Trajectory>,
+}
+
+impl Human {
+    /// A driver who has not planned yet.
+    pub fn new(settings: Settings) -> Self {
+        Human { settings, optimiser: Optimiser::new(Robust::default()), last: None }
+    }
+
+    /// Plans the next move.
+    ///
+    /// # Errors
+    /// [`PlanError`] if none of the guesses leads to an optimum.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let problem = Problem {
+            horizon: scene.horizon,
+            participants: vec![scene.participant(self.keep_outs(scene))],
+            separations: Vec::new(),
+            leaning: None,
+        };
+        let (best, statistics) = self.decide(&problem, scene)?;
+        let trajectory = best.trajectory(0);
+        self.last = Some(trajectory.clone());
+        Ok(Plan {
+            trajectory,
+            diagnostics: vec![("safety weight", self.settings.weight())],
+            statistics,
+            ..Plan::default()
+        })
+    }
+
+    /// The cheapest of keeping on, yielding and passing.
+    fn decide(
+        &mut self,
+        problem: &Problem,
+        scene: &Scene,
+    ) -> Result<(Optimum, crate::mpc::Statistics), DescentError> {
+        let steady = |share: f64| {
+            let limits = &scene.ego.limits;
+            let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
+            steady(&scene.ego.state, share * bound, limits, scene.horizon, scene.step_s)
+        };
+        let keep = self.last.as_ref().map_or_else(|| steady(-FIRST_GUESS), |last| last.shifted().inputs);
+        let mut best = self.optimiser.descend(problem, &[keep]);
+        let mut statistics = best.as_ref().map(|optimum| optimum.statistics).unwrap_or_default();
+        let minds_others = problem.participants.iter().any(|participant| !participant.keep_outs.is_empty());
+        if best.is_err() || (self.settings.reconsiders && minds_others) {
+            let mut guesses: Vec<Vec<Input>> = vec![steady(-RESOLVE), steady(RESOLVE)];
+            if best.is_err() {
+                guesses.insert(0, steady(0.0));
+            }
+            for guess in guesses {
+                let Ok(other) = self.optimiser.descend(problem, &[guess]) else { continue };
+                statistics.add(&other.statistics);
+                let better = |held: &Optimum| other.cost.total < held.cost.total - HYSTERESIS * (1.0 + held.cost.total);
+                if best.as_ref().map_or(true, better) {
+                    best = Ok(other);
+                }
+            }
+        }
+        best.map(|optimum| (optimum, statistics))
+    }
+
+    /// Everything the driver minds.
+    fn keep_outs(&self, scene: &Scene) -> Vec<KeepOut> {
+        let ego = &scene.ego;
+        let leader = leader(scene);
+        let weight = self.settings.weight();
+        let mut keep_outs = Vec::new();
+        for other in &scene.others {
+            if leader.is_some_and(|leader| leader.name == other.name) {
+                let penalty = Penalty::hinge(weight.max(self.settings.following_weight));
+                keep_outs.push(scene.keep_out(&other.prediction, ego.corridor.heading_rad, penalty));
+                continue;
+            }
+            let behind = ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
+            if weight == 0.0 || behind {
+                continue;
+            }
+            let predicted = constant_velocity(&other.state, scene.horizon, scene.step_s);
+            keep_outs.push(scene.keep_out(&predicted, other.corridor.heading_rad, Penalty::hinge(weight)));
+            if ego.crosses(other) {
+                keep_outs.push(scene.keep_out(&predicted, ego.corridor.heading_rad, Penalty::hinge(weight)));
+            }
+        }
+        keep_outs
+    }
+}
+
+/// The nearest vehicle ahead in the same lane.
+fn leader(scene: &Scene) -> Option<&Agent> {
+    let ahead = scene.others.iter().filter(|other| {
+        scene.ego.shares_lane_with(other) && scene.ego.lead_of(other) > 0.0
+    });
+    ahead.min_by(|a, b| scene.ego.lead_of(a).total_cmp(&scene.ego.lead_of(b)))
+}

@@ -1,0 +1,27 @@
+//! One trajectory optimiser for every planner: costs, constraints and a sequential convex programme.
+//!
+//! A planner poses a [`Problem`]; an [`Optimiser`] descends to a local optimum of it by a sequence of quadratic
+//! programmes in stage form ([`StageQp`]), each solved by a [`StageSolver`]. [`kkt`] checks optimality independently.
+
+mod adjoint;
+pub mod kkt;
+mod linearise;
+mod model;
+mod problem;
+mod robust;
+mod scp;
+mod sparse;
+mod stage;
+mod structured;
+
+pub use linearise::{add_curvature, drop_curvature, linearise};
+pub use problem::{
+    Cost, Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking,
+};
+pub use robust::Robust;
+pub use scp::{DescentError, Optimiser, Optimum, Statistics, Tolerances};
+pub use stage::{
+    Interval, Row, RowBlock, StageError, StageQp, StageSolution, StageSolver, StateCost, TrajectoryRow, VehicleStages,
+};
+pub use sparse::Sparse;
+pub use structured::Structured;

@@ -1,0 +1,57 @@
+//! The value of a stage problem's model: what a step is predicted to change.
+
+use super::adjoint::curvature_gradient;
+use super::kkt::row_value;
+use super::problem::Penalty;
+use super::stage::{StageQp, StageSolution};
+
+impl StageQp {
+    /// How the cost of the model changes from the iterate (all deviations zero) to the solution; negative for a
+    /// decrease. Hard rows count nothing.
+    pub fn change(&self, solution: &StageSolution) -> f64 {
+        let vehicles: f64 = (0..self.vehicles.len()).map(|i| self.vehicle_change(solution, i)).sum();
+        let rows: f64 = (0..self.blocks.len()).map(|i| self.block_change(solution, i)).sum();
+        let trajectory = self.trajectory_row.as_ref().map_or(0.0, |row| {
+            let after = row.value_at(solution.states[0].iter().map(|d| [d[0], d[1]]));
+            row.penalty.cost(-after) - row.penalty.cost(-row.value)
+        });
+        vehicles + rows + trajectory
+    }
+
+    fn vehicle_change(&self, solution: &StageSolution, vehicle: usize) -> f64 {
+        let stages = &self.vehicles[vehicle];
+        let (inputs, states) = (&solution.inputs[vehicle], &solution.states[vehicle]);
+        let mut change = 0.0;
+        for k in 0..self.horizon {
+            let (cost, d) = (&stages.state_costs[k], states[k]);
+            for i in 0..4 {
+                change += (cost.gradient[i] + 0.5 * cost.hessian[i] * d[i]) * d[i];
+            }
+            if k >= stages.first {
+                for axis in 0..2 {
+                    let (old, new) = (stages.changes[k][axis], stages.change(inputs, k, axis));
+                    change += stages.change_weights[axis] * (new * new - old * old);
+                }
+            }
+            let before = solution.state_before(vehicle, k);
+            let ([heading, speed], steering) = curvature_gradient(&stages.curvatures[k], &before, &inputs[k]);
+            change += 0.5 * (heading * before[2] + speed * before[3] + steering * inputs[k][1]);
+        }
+        change
+    }
+
+    fn block_change(&self, solution: &StageSolution, index: usize) -> f64 {
+        let block = &self.blocks[index];
+        let cost = |value: f64| block.penalty.map_or(0.0, |penalty: Penalty| penalty.cost(value));
+        let mut change = 0.0;
+        for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| row.active) {
+            change += cost(row_value(block, row, solution, k)) - cost(row.value);
+            let own = solution.states[block.vehicle][k];
+            let other = block.other.map_or([0.0; 4], |other| solution.states[other][k]);
+            let (x, y) = (own[0] - other[0], own[1] - other[1]);
+            let [xx, xy, yy, turn] = row.curvature;
+            change += 0.5 * (xx * x * x + 2.0 * xy * x * y + yy * y * y + turn * own[2] * own[2]);
+        }
+        change
+    }
+}

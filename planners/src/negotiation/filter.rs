@@ -1,0 +1,50 @@
+//! The safety filter: no step that a conservative driver could not answer for.
+//!
+//! The negotiated input is applied only if, from the state it leads to and with the others one step further along their
+//! predictions, a conservative plan still keeps its slack small. There is no guarantee if a prediction changes, so every
+//! intervention is recorded.
+
+use crate::conservative::{extremes, problem};
+use crate::mpc::{Optimiser, Optimum, Robust};
+use crate::{Agent, Scene};
+
+/// Slack that a conservative plan may need after the step.
+const SLACK: f64 = 2e-3;
+/// It may also need this much more than the retreat needs now.
+const GROWTH: f64 = 1.2;
+/// A proposal that itself violates safety by this much is refused.
+const OWN_SLACK: f64 = 0.05;
+
+#[derive(Clone, Debug, Default)]
+pub(super) struct Filter {
+    optimiser: Optimiser<Robust>,
+}
+
+impl Filter {
+    /// Whether the first input of `optimum` may be applied.
+    pub(super) fn admits(&mut self, scene: &Scene, optimum: &Optimum, retreat: &Optimum) -> bool {
+        if optimum.cost.safety_slack > OWN_SLACK {
+            return false;
+        }
+        let next = successor(scene, optimum);
+        let others: Vec<&Agent> = next.others.iter().collect();
+        let [brake, accelerate] = extremes(&next);
+        let guesses = [vec![retreat.trajectory(0).shifted().inputs], vec![brake], vec![accelerate]];
+        let allowed = SLACK.max(GROWTH * retreat.cost.safety_slack);
+        self.optimiser
+            .best_of(&problem(&next, &others), &guesses, false)
+            .is_ok_and(|optimum| optimum.cost.safety_slack <= allowed)
+    }
+}
+
+/// The scene after the first input, if everybody does what is predicted.
+fn successor(scene: &Scene, optimum: &Optimum) -> Scene {
+    let mut next = scene.clone();
+    next.ego.state = optimum.iterate.states[0][1];
+    next.ego.previous_input = optimum.iterate.inputs[0][0];
+    for other in &mut next.others {
+        other.prediction = other.prediction.shifted();
+        other.state = other.prediction.states.first().copied().unwrap_or(other.state);
+    }
+    next
+}

@@ -1,0 +1,195 @@
+//! Negotiation with concession and persuasion (chapter 6).
+//!
+//! At every step the planner
+//!
+//! 1. makes a conservative plan (eq. 6.13), its retreat;
+//! 2. chooses whom to ask ([`interlocutor`]);
+//! 3. reads from the other's new prediction how far the last proposal was accepted ([`acceptance`], eq. 6.19);
+//! 4. concedes: lowers the weight of its own cost the less it was accepted ([`concession`], eq. 6.18);
+//! 5. leans towards its last proposal and away from its retreat, the more the better it was received ([`persuasion`],
+//!    eq. 6.20-6.23);
+//! 6. solves for its own plan and a proposal to the other at once ([`proposal`], eq. 6.24);
+//! 7. applies the first input only if a conservative plan still exists after it ([`filter`]).
+
+mod acceptance;
+mod concession;
+mod filter;
+mod interlocutor;
+mod persuasion;
+mod proposal;
+mod settings;
+
+pub use acceptance::acceptance;
+pub use concession::Concession;
+pub use proposal::problem;
+pub use settings::Settings;
+
+use crate::conservative::{self, Conservative, extremes};
+use crate::mpc::{Leaning, Optimiser, Optimum, Robust};
+use crate::{Agent, Plan, PlanError, Proposal, Scene, Trajectory};
+use filter::Filter;
+use interlocutor::Interlocutor;
+
+/// A negotiating planner with what it remembers of the talk.
+#[derive(Clone, Debug)]
+pub struct Negotiation {
+    settings: Settings,
+    retreat: Conservative,
+    filter: Filter,
+    optimiser: Optimiser<Robust>,
+    interlocutor: Interlocutor,
+    talk: Talk,
+}
+
+/// What was said so far to one vehicle; begun anew with the next one.
+#[derive(Clone, Debug, Default)]
+struct Talk {
+    concession: Concession,
+    last: Option<Round>,
+}
+
+/// One round of the talk.
+#[derive(Clone, Debug)]
+struct Round {
+    /// The ego's cooperative plan.
+    cooperative: Trajectory,
+    /// The ego's conservative plan.
+    conservative: Option<Trajectory>,
+    /// What was proposed to the other.
+    proposal: Trajectory,
+    /// What the other was expected to do.
+    prediction: Trajectory,
+}
+
+impl Negotiation {
+    /// A planner that has not talked to anyone yet.
+    pub fn new(settings: Settings) -> Self {
+        let look_around_every = settings.look_around_every;
+        Negotiation {
+            settings,
+            retreat: Conservative::new(conservative::Settings { look_around_every }),
+            filter: Filter::default(),
+            optimiser: Optimiser::new(Robust::default()),
+            interlocutor: Interlocutor::default(),
+            talk: Talk::default(),
+        }
+    }
+
+    /// Plans the next move and the next proposal.
+    ///
+    /// # Errors
+    /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
+        let mut events = Vec::new();
+        let Some(partner) = self.choose(scene, &mut events) else {
+            return Ok(Plan { events, ..retreating(&retreat?) });
+        };
+        let accepted = self.listen(partner);
+        let leaning = persuasion::leaning(&self.settings, self.talk.last.as_ref(), accepted);
+        let outcome = self.propose(scene, partner, leaning.clone());
+        let optimum = match outcome {
+            Ok(optimum) => optimum,
+            Err(error) => {
+                events.push(format!("no proposal: {error}"));
+                return Ok(Plan { events, ..retreating(&retreat?) });
+            }
+        };
+        self.remember(&optimum, &retreat, partner);
+        let mut plan = self.speak(&optimum, partner, accepted, leaning.as_ref());
+        plan.events = events;
+        self.filter(scene, &retreat, &optimum, &mut plan);
+        Ok(plan)
+    }
+
+    fn choose<'a>(&mut self, scene: &'a Scene, events: &mut Vec<String>) -> Option<&'a Agent> {
+        let before = self.interlocutor.current().map(str::to_owned);
+        let partner = self.interlocutor.choose(scene, &self.settings);
+        let now = partner.map(|partner| partner.name.clone());
+        if before != now {
+            self.talk = Talk::default();
+            events.push(match &now {
+                Some(name) => format!("asks {name}"),
+                None => "nobody left to ask".to_owned(),
+            });
+        }
+        partner
+    }
+
+    /// Acceptance of the last proposal, after which the ego concedes.
+    fn listen(&mut self, partner: &Agent) -> f64 {
+        let accepted = self.talk.last.as_ref().map(|round| {
+            acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted())
+        });
+        if let Some(accepted) = accepted {
+            self.talk.concession.concede(accepted, self.settings.beta, self.settings.weight_floor);
+            self.interlocutor.note(accepted, &self.settings);
+        }
+        accepted.unwrap_or(1.0)
+    }
+
+    fn propose(&mut self, scene: &Scene, partner: &Agent, leaning: Option<Leaning>) -> Result<Optimum, PlanError> {
+        let problem = problem(scene, partner, self.talk.concession.weight(), leaning, &self.settings);
+        let keep = self.talk.last.as_ref().map_or_else(
+            || vec![Vec::new(), partner.prediction.inputs.clone()],
+            |round| vec![round.cooperative.shifted().inputs, round.proposal.shifted().inputs],
+        );
+        let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
+        let every = self.settings.look_around_every;
+        let look_around = every > 0 && scene.tick.is_multiple_of(every);
+        Ok(self.optimiser.best_of(&problem, &[keep, brake, accelerate], look_around)?)
+    }
+
+    fn remember(&mut self, optimum: &Optimum, retreat: &Result<Optimum, PlanError>, partner: &Agent) {
+        self.talk.last = Some(Round {
+            cooperative: optimum.trajectory(0),
+            conservative: retreat.as_ref().ok().map(|retreat| retreat.trajectory(0)),
+            proposal: optimum.trajectory(1),
+            prediction: partner.prediction.clone(),
+        });
+    }
+
+    fn speak(&self, optimum: &Optimum, partner: &Agent, accepted: f64, leaning: Option<&Leaning>) -> Plan {
+        let trajectory = optimum.trajectory(0);
+        let active = leaning.is_some_and(|leaning| persuasion::is_active(leaning, &trajectory));
+        Plan {
+            trajectory,
+            proposal: Some(Proposal { to: partner.name.clone(), trajectory: optimum.trajectory(1) }),
+            diagnostics: vec![
+                ("acceptance", accepted),
+                ("concession weight", self.talk.concession.weight()),
+                ("persuasion strength", leaning.map_or(0.0, |leaning| leaning.strength)),
+                ("persuasion active", f64::from(u8::from(active))),
+                ("cost", optimum.cost.total),
+                ("safety slack", optimum.cost.safety_slack),
+            ],
+            events: Vec::new(),
+            statistics: optimum.statistics,
+        }
+    }
+
+    /// Replaces the plan by the retreat where the filter demands it.
+    fn filter(&mut self, scene: &Scene, retreat: &Result<Optimum, PlanError>, optimum: &Optimum, plan: &mut Plan) {
+        let Ok(retreat) = retreat else {
+            plan.events.push("no conservative plan to retreat to".to_owned());
+            return;
+        };
+        plan.statistics.add(&retreat.statistics);
+        let refused = self.settings.safety_filter && !self.filter.admits(scene, optimum, retreat);
+        if refused {
+            plan.trajectory = retreat.trajectory(0);
+            plan.events.push("safety filter: conservative input".to_owned());
+        }
+        plan.diagnostics.push(("safety filter", f64::from(u8::from(refused))));
+    }
+}
+
+/// The conservative plan as it is.
+fn retreating(retreat: &Optimum) -> Plan {
+    Plan {
+        trajectory: retreat.trajectory(0),
+        diagnostics: vec![("cost", retreat.cost.total), ("safety slack", retreat.cost.safety_slack)],
+        statistics: retreat.statistics,
+        ..Plan::default()
+    }
+}

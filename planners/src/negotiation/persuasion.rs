@@ -1,0 +1,60 @@
+//! Leaning towards cooperation (eq. 6.20-6.23).
+
+use super::{Round, Settings};
+use crate::mpc::{Leaning, Penalty};
+use crate::Trajectory;
+
+/// Below this squared distance of cooperative and conservative plan the ball has collapsed \[m²\].
+const INDISTINCT: f64 = 1e-3;
+/// What falling short costs: mild, as persuasion must never overrule safety.
+const PENALTY: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
+
+/// The persuasion constraint `‖trj − con‖² ≥ α ‖trj − coop‖²`, `α = 1 + γ p_a` (eq. 6.23, corrected: as printed the right
+/// norm is not squared). It starts with the second round, and is left out where the two references nearly coincide.
+pub(super) fn leaning(settings: &Settings, last: Option<&Round>, accepted: f64) -> Option<Leaning> {
+    let round = last.filter(|_| settings.persuasion)?;
+    let conservative = round.conservative.as_ref()?.shifted();
+    let cooperative = round.cooperative.shifted();
+    if conservative.squared_distance(&cooperative) < INDISTINCT {
+        return None;
+    }
+    Some(Leaning {
+        toward: positions(&cooperative),
+        away: positions(&conservative),
+        strength: 1.0 + settings.gamma * accepted,
+        penalty: PENALTY,
+    })
+}
+
+/// Whether the constraint holds with equality (or falls short).
+pub(super) fn is_active(leaning: &Leaning, trajectory: &Trajectory) -> bool {
+    let apart: f64 = leaning.toward.iter().zip(&leaning.away).map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sum();
+    leaning.value(&trajectory.states) > -1e-4 * apart.max(1.0)
+}
+
+/// Positions at `t = 0…N−1`.
+fn positions(trajectory: &Trajectory) -> Vec<[f64; 2]> {
+    trajectory.states.iter().take(trajectory.horizon()).map(|state| state.position()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::State;
+
+    /// For α > 1 the constraint is the ball with the centre and radius that its documentation names.
+    #[test]
+    fn the_boundary_is_the_apollonius_ball() {
+        let (toward, away, strength) = ([0.3, -0.1], [1.0, 0.4], 1.7);
+        let leaning =
+            Leaning { toward: vec![toward], away: vec![away], strength, penalty: PENALTY };
+        let centre: [f64; 2] = std::array::from_fn(|i| (strength * toward[i] - away[i]) / (strength - 1.0));
+        let apart = ((toward[0] - away[0]).powi(2) + (toward[1] - away[1]).powi(2)).sqrt();
+        let radius = strength.sqrt() * apart / (strength - 1.0);
+        for angle in 0..12 {
+            let (sin, cos) = libm::sincos(0.5 * f64::from(angle));
+            let state = State { x_m: centre[0] + radius * cos, y_m: centre[1] + radius * sin, ..State::default() };
+            assert!(leaning.value(&[state]).abs() < 1e-12);
+        }
+    }
+}

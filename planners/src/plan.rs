@@ -1,0 +1,88 @@
+//! What a planner answers: a plan with its reasons, or why there is none.
+
+use thiserror::Error;
+
+use crate::Trajectory;
+use crate::mpc::{DescentError, Optimum, StageError, Statistics};
+
+/// A named number that explains a plan, for plots.
+pub type Diagnostic = (&'static str, f64);
+
+/// What a vehicle will do, what it asks of another, and why.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plan {
+    /// The planned motion; its first input is applied.
+    pub trajectory: Trajectory,
+    /// What the planner asks of another vehicle.
+    pub proposal: Option<Proposal>,
+    /// Named numbers, in a fixed order for one planner.
+    pub diagnostics: Vec<Diagnostic>,
+    /// What happened in this step, in words.
+    pub events: Vec<String>,
+    /// The work of all optimisations behind the plan.
+    pub statistics: Statistics,
+}
+
+/// The motion that a planner would like another vehicle to choose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proposal {
+    /// Whom it is made to.
+    pub to: String,
+    /// The motion.
+    pub trajectory: Trajectory,
+}
+
+/// Why there is no plan.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum PlanError {
+    /// No input sequence satisfies the hard bounds.
+    #[error("infeasible: {0}")]
+    Infeasible(String),
+    /// The optimiser gave up.
+    #[error("unsolved after {iterations} iterations: {status}")]
+    Unsolved {
+        /// What it said.
+        status: String,
+        /// Quadratic programmes solved.
+        iterations: usize,
+    },
+    /// The scene holds a number that is not finite.
+    #[error("bad input: {0}")]
+    BadInput(String),
+}
+
+impl From<DescentError> for PlanError {
+    fn from(error: DescentError) -> Self {
+        match error {
+            DescentError::Step { source: StageError::Infeasible { .. }, .. } => {
+                PlanError::Infeasible(error.to_string())
+            }
+            DescentError::Step { step, .. } => PlanError::Unsolved { status: error.to_string(), iterations: step },
+            DescentError::NotConverged(statistics) => {
+                PlanError::Unsolved { status: error.to_string(), iterations: statistics.programmes }
+            }
+            DescentError::NotFinite => PlanError::BadInput(error.to_string()),
+        }
+    }
+}
+
+impl Optimum {
+    /// The motion of one participant.
+    pub fn trajectory(&self, participant: usize) -> Trajectory {
+        Trajectory {
+            states: self.iterate.states[participant].clone(),
+            inputs: self.iterate.inputs[participant].clone(),
+        }
+    }
+}
+
+impl Statistics {
+    /// Adds the work of another optimisation; the worse residual counts.
+    pub fn add(&mut self, other: &Statistics) {
+        self.starts += other.starts;
+        self.programmes += other.programmes;
+        self.inner_iterations += other.inner_iterations;
+        self.fallbacks += other.fallbacks;
+        self.residual = self.residual.max(other.residual);
+    }
+}

@@ -1,0 +1,54 @@
+//! What the others will do, and simple motions to start a search from.
+
+use crate::mpc::Limits;
+use crate::{Input, State, Trajectory};
+
+/// The straight line that a vehicle would drive with its present heading and speed.
+pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajectory {
+    let (sin, cos) = libm::sincos(state.heading_rad);
+    let states = (0..=horizon).map(|t| {
+        let distance = state.speed_mps * step_s * t as f64;
+        State { x_m: state.x_m + distance * cos, y_m: state.y_m + distance * sin, ..*state }
+    });
+    Trajectory { states: states.collect(), inputs: vec![Input::default(); horizon] }
+}
+
+/// Inputs that drive straight on with a constant acceleration, as far as the speed limits let it.
+pub fn steady(state: &State, acceleration_mps2: f64, limits: &Limits, horizon: usize, step_s: f64) -> Vec<Input> {
+    let mut speed = state.speed_mps;
+    let inputs = (0..horizon).map(|_| {
+        let low = (limits.speed_min_mps - speed) / step_s;
+        let high = (limits.speed_max_mps - speed) / step_s;
+        let acceleration_mps2 = acceleration_mps2.min(high).max(low);
+        speed += step_s * acceleration_mps2;
+        Input { acceleration_mps2, steering_rad: 0.0 }
+    });
+    inputs.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Body;
+    use crate::dynamics::Bicycle;
+
+    #[test]
+    fn constant_velocity_is_the_bicycle_without_input() {
+        let state = State { x_m: 1.0, y_m: -1.0, heading_rad: 0.8, speed_mps: 1.2 };
+        let predicted = constant_velocity(&state, 30, 0.1);
+        let mut states = Vec::new();
+        Bicycle::new(&Body::default(), 0.1).roll_out(&state, &predicted.inputs, &mut states);
+        for (a, b) in predicted.states.iter().zip(&states) {
+            assert!((a.x_m - b.x_m).abs() < 1e-12 && (a.y_m - b.y_m).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_steady_brake_ends_at_rest() {
+        let state = State { speed_mps: 0.55, ..State::default() };
+        let inputs = steady(&state, -1.0, &Limits::default(), 10, 0.1);
+        let speed: f64 = 0.55 + inputs.iter().map(|input| 0.1 * input.acceleration_mps2).sum::<f64>();
+        assert!(speed.abs() < 1e-12);
+        assert!((inputs[5].acceleration_mps2 + 0.5).abs() < 1e-9 && inputs[6].acceleration_mps2.abs() < 1e-9);
+    }
+}

@@ -1,0 +1,111 @@
+//! What a driver knows when it plans: plain values, agents by name.
+
+use crate::dynamics::Bicycle;
+use crate::mpc::{KeepOut, Limits, Participant, Penalty, Tracking};
+use crate::{Body, Corridor, Input, SafetyEllipse, State, Trajectory};
+
+/// A vehicle as anyone sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Agent {
+    /// Its name in the scenario.
+    pub name: String,
+    /// Where it is.
+    pub state: State,
+    /// What it did last.
+    pub previous_input: Input,
+    /// What it covers.
+    pub body: Body,
+    /// What it can do.
+    pub limits: Limits,
+    /// The road it uses.
+    pub corridor: Corridor,
+    /// What it is expected to do: its current plan where that is known, else constant velocity. Starts at `state`.
+    pub prediction: Trajectory,
+}
+
+/// What a vehicle wants and how it weighs it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// Desired state, `x_des` of eq. 6.6.
+    pub target: State,
+    /// Diagonal of `Q` on (x, y, θ, v).
+    pub tracking: [f64; 4],
+    /// Diagonal of `R` on (Δa, Δδ).
+    pub comfort: [f64; 2],
+    /// The ellipse around others that this vehicle keeps out of.
+    pub safety: SafetyEllipse,
+}
+
+/// A moment, seen by one vehicle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// How many plans were made before.
+    pub tick: usize,
+    /// Time step of the plan \[s\].
+    pub step_s: f64,
+    /// Number of steps `N` of the plan.
+    pub horizon: usize,
+    /// The planning vehicle.
+    pub ego: Agent,
+    /// What it wants.
+    pub goal: Goal,
+    /// Everybody else, in the scenario's order.
+    pub others: Vec<Agent>,
+}
+
+/// Headings that differ by more than this belong to different roads \[rad\].
+const SAME_ROAD_RAD: f64 = 0.1;
+
+impl Agent {
+    /// Whether two vehicles' roads cross (or meet head-on) rather than run side by side.
+    pub fn crosses(&self, other: &Agent) -> bool {
+        let difference = self.corridor.heading_rad - other.corridor.heading_rad;
+        libm::cos(difference) < libm::cos(SAME_ROAD_RAD)
+    }
+
+    /// How far `other`'s centre is ahead along this vehicle's road \[m\].
+    pub fn lead_of(&self, other: &Agent) -> f64 {
+        self.corridor.along(other.state.position()) - self.corridor.along(self.state.position())
+    }
+
+    /// Whether two vehicles on one road overlap across it, so that one would run into the other.
+    pub fn shares_lane_with(&self, other: &Agent) -> bool {
+        let apart = self.corridor.across(other.state.position()) - self.corridor.across(self.state.position());
+        !self.crosses(other) && apart.abs() < 0.5 * (self.body.width_m + other.body.width_m)
+    }
+}
+
+impl Scene {
+    /// The bicycle of the planning vehicle.
+    pub fn model(&self) -> Bicycle {
+        Bicycle::new(&self.ego.body, self.step_s)
+    }
+
+    /// The planning vehicle as a participant of a trajectory problem that avoids `keep_outs`.
+    pub fn participant(&self, keep_outs: Vec<KeepOut>) -> Participant {
+        Participant {
+            model: self.model(),
+            body: self.ego.body,
+            limits: self.ego.limits,
+            corridor: self.ego.corridor,
+            start: self.ego.state,
+            previous_input: self.ego.previous_input,
+            known_inputs: Vec::new(),
+            tracking: Tracking { weights: self.goal.tracking, targets: vec![self.goal.target; self.horizon] },
+            comfort: self.goal.comfort,
+            keep_outs,
+        }
+    }
+
+    /// An ellipse of the planning vehicle's safety distance around a predicted motion.
+    pub fn keep_out(&self, prediction: &Trajectory, heading_rad: f64, penalty: Penalty) -> KeepOut {
+        let last = prediction.states.last().copied().unwrap_or_default();
+        let centre = |t: usize| prediction.states.get(t).unwrap_or(&last).position();
+        KeepOut {
+            centres: (1..=self.horizon).map(centre).collect(),
+            heading_rad,
+            ellipse: self.goal.safety,
+            penalty,
+        }
+    }
+}

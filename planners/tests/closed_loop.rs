@@ -1,0 +1,104 @@
+//! Planners and humans together on a road, with the bicycle as the plant.
+
+use interplay_planners::dynamics::Bicycle;
+use interplay_planners::mpc::Limits;
+use interplay_planners::predict::constant_velocity;
+use interplay_planners::{
+    Agent, Body, Corridor, Driver, Goal, Input, Planner, SafetyEllipse, Scene, State, conservative, human, negotiation,
+};
+
+const STEP_S: f64 = 0.1;
+const HORIZON: usize = 30;
+
+struct Vehicle {
+    agent: Agent,
+    goal: Goal,
+    planner: Planner,
+}
+
+fn vehicle(name: &str, x_m: f64, y_m: f64, speed_mps: f64, wanted: f64, tracking: [f64; 4], driver: Driver) -> Vehicle {
+    let state = State { x_m, y_m, heading_rad: 0.0, speed_mps };
+    let agent = Agent {
+        name: name.to_owned(),
+        state,
+        previous_input: Input::default(),
+        body: Body::default(),
+        limits: Limits::default(),
+        corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
+        prediction: constant_velocity(&state, HORIZON, STEP_S),
+    };
+    let target = State { x_m: 0.0, y_m: 0.555, heading_rad: 0.0, speed_mps: wanted };
+    let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };
+    Vehicle { agent, goal, planner: driver.planner() }
+}
+
+/// Humans plan first, from the front of the road to its rear; then the ego, which is vehicle 0.
+fn run(vehicles: &mut [Vehicle], ticks: usize, mut watch: impl FnMut(usize, &[Vehicle])) {
+    for tick in 0..ticks {
+        for index in (1..vehicles.len()).chain([0]) {
+            let others = vehicles.iter().enumerate().filter(|(i, _)| *i != index);
+            let scene = Scene {
+                tick,
+                step_s: STEP_S,
+                horizon: HORIZON,
+                ego: vehicles[index].agent.clone(),
+                goal: vehicles[index].goal,
+                others: others.map(|(_, other)| other.agent.clone()).collect(),
+            };
+            let plan = vehicles[index].planner.plan(&scene).expect("a plan");
+            if std::env::var("SHOW").is_ok() && index == 0 {
+                println!("{tick} {:?} {:?} {:?}", plan.diagnostics, plan.events, plan.statistics);
+            }
+            vehicles[index].agent.prediction = plan.trajectory;
+        }
+        for vehicle in vehicles.iter_mut() {
+            let agent = &mut vehicle.agent;
+            let input = agent.prediction.inputs[0];
+            agent.state = Bicycle::new(&agent.body, STEP_S).step(&agent.state, &input);
+            agent.previous_input = input;
+            agent.prediction = agent.prediction.shifted();
+        }
+        watch(tick, vehicles);
+    }
+}
+
+fn lane_change(driver: Driver, styles: [human::Style; 2]) -> (f64, Vec<String>, f64) {
+    let human = |style| Driver::Human(human::Settings { style: Some(style), ..human::Settings::default() });
+    let tracking = [0.0, 4.0, 1.0, 1.0];
+    let mut vehicles = vec![
+        vehicle("ego", 0.0, 0.185, 1.0, 1.0, [0.0, 1.0, 0.5, 1.0], driver),
+        vehicle("front", -0.4, 0.555, 1.4, 1.4, tracking, human(styles[0])),
+        vehicle("rear", -1.7, 0.555, 1.4, 1.4, tracking, human(styles[1])),
+    ];
+    let (mut merged_s, mut order, mut nearest) = (f64::INFINITY, Vec::new(), f64::INFINITY);
+    run(&mut vehicles, 120, |tick, vehicles| {
+        let ego = &vehicles[0].agent;
+        for other in &vehicles[1..] {
+            let d = SafetyEllipse::default().distance(ego.state.position(), other.agent.state.position(), 0.0);
+            nearest = nearest.min(d.squared.sqrt());
+        }
+        if ego.state.y_m > 0.5 && merged_s.is_infinite() {
+            merged_s = STEP_S * (tick + 1) as f64;
+            let mut names: Vec<&Agent> = vehicles.iter().map(|vehicle| &vehicle.agent).collect();
+            names.sort_by(|a, b| b.state.x_m.total_cmp(&a.state.x_m));
+            order = names.iter().map(|agent| agent.name.clone()).collect();
+        }
+    });
+    (merged_s, order, nearest)
+}
+
+#[test]
+fn lane_change_orders() {
+    use human::Style::{Nice, Tough};
+    let look_around_every = 3;
+    for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
+        for driver in [
+            Driver::Conservative(conservative::Settings { look_around_every }),
+            Driver::Negotiation(negotiation::Settings { look_around_every, ..negotiation::Settings::default() }),
+        ] {
+            let kind = driver.kind();
+            let clock = std::time::Instant::now();
+            println!("{styles:?} {kind} {:?} wall {:?}", lane_change(driver, styles), clock.elapsed());
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! The structured solver against the general one, and both against the optimality conditions.
+
+mod common;
+
+use common::{Random, alone, iterate, pair};
+use interplay_planners::mpc::{
+    Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt, linearise,
+};
+
+fn step_problem(problem: &Problem, seed: u64) -> StageQp {
+    let mut qp = StageQp::default();
+    linearise(problem, &iterate(problem, &mut Random(seed)), &mut qp);
+    interplay_planners::mpc::drop_curvature(&mut qp);
+    qp
+}
+
+fn compare(problem: &Problem, seed: u64) {
+    let qp = step_problem(problem, seed);
+    let (mut structured, mut sparse) = (StageSolution::default(), StageSolution::default());
+    Structured::default().solve(&qp, &mut structured, false).expect("structured");
+    Sparse::default().solve(&qp, &mut sparse, false).expect("sparse");
+    let (ours, theirs) = (qp.change(&structured), qp.change(&sparse));
+    assert!((ours - theirs).abs() <= 1e-6 * (1.0 + theirs.abs()), "seed {seed}: {ours} against {theirs}");
+    let residual = kkt::residual(&qp, &structured);
+    println!("{seed} {} {residual:?}", structured.iterations);
+    assert!(residual.largest() < 1e-2, "seed {seed}: {residual:?}");
+    let residual = kkt::residual(&qp, &sparse);
+    assert!(residual.largest() < 1e-1, "seed {seed}, sparse: {residual:?}");
+}
+
+#[test]
+fn one_vehicle() {
+    for seed in 0..200 {
+        compare(&alone(seed), seed);
+    }
+}
+
+#[test]
+fn two_vehicles_with_persuasion() {
+    for seed in 0..100 {
+        compare(&pair(seed, 1.0 + 0.01 * seed as f64), seed);
+    }
+}
+
+#[test]
+fn a_warm_start_changes_the_way_and_not_the_answer() {
+    for seed in 0..50 {
+        let problem = alone(seed);
+        let (first, second) = (step_problem(&problem, seed), step_problem(&problem, seed + 1000));
+        let mut solver = Structured::default();
+        let (mut warm, mut cold) = (StageSolution::default(), StageSolution::default());
+        solver.solve(&first, &mut warm, false).expect("first");
+        solver.solve(&second, &mut warm, true).expect("warm");
+        Structured::default().solve(&second, &mut cold, false).expect("cold");
+        let (warm, cold) = (second.change(&warm), second.change(&cold));
+        assert!((warm - cold).abs() <= 1e-7 * (1.0 + cold.abs()));
+    }
+}
