@@ -73,6 +73,10 @@ fn lane_change(driver: Driver, styles: [human::Style; 2]) -> (f64, Vec<String>, 
     let (mut merged_s, mut order, mut nearest) = (f64::INFINITY, Vec::new(), f64::INFINITY);
     run(&mut vehicles, 120, |tick, vehicles| {
         let ego = &vehicles[0].agent;
+        if std::env::var("SHOW").is_ok() {
+            let show = |v: &Vehicle| format!("{:.2} {:.2} v{:.2} a{:.2}", v.agent.state.x_m, v.agent.state.y_m, v.agent.state.speed_mps, v.agent.previous_input.acceleration_mps2);
+            println!("T {tick} {}", vehicles.iter().map(show).collect::<Vec<_>>().join(" | "));
+        }
         for other in &vehicles[1..] {
             let d = SafetyEllipse::default().distance(ego.state.position(), other.agent.state.position(), 0.0);
             nearest = nearest.min(d.squared.sqrt());
@@ -90,7 +94,7 @@ fn lane_change(driver: Driver, styles: [human::Style; 2]) -> (f64, Vec<String>, 
 #[test]
 fn lane_change_orders() {
     use human::Style::{Nice, Tough};
-    let look_around_every = 3;
+    let look_around_every = std::env::var("LA").map_or(3, |v| v.parse().unwrap());
     for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
         for driver in [
             Driver::Conservative(conservative::Settings { look_around_every }),

@@ -24,7 +24,7 @@ use crate::predict::{constant_velocity, steady};
 use crate::{Agent, Input, Plan, PlanError, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
-const RESOLVE: f64 = 0.5;
+const RESOLVE: f64 = 1.0;
 /// The very first guess leans towards yielding.
 const FIRST_GUESS: f64 = 0.3;
 /// Another plan must be cheaper by this share to be preferred to improving the last one.

@@ -128,7 +128,7 @@ impl<S: StageSolver> Optimiser<S> {
         linearise(problem, &now.iterate, &mut self.qp);
         let mut hessian = Hessian::GaussNewton;
         loop {
-            if now.statistics.programmes == self.tolerances.iteration_limit {
+            if now.statistics.programmes >= self.tolerances.iteration_limit {
                 return Err(DescentError::NotConverged(now.statistics));
             }
             let predicted = self.direction(problem, &mut now, hessian)?;
