@@ -1,0 +1,71 @@
+//! What one tick looked like: plain values, handed from the world to whoever watches it.
+
+use interplay_planners::{Input, Plan, State, Trajectory};
+
+/// One tick of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Ticks before this one.
+    pub tick: usize,
+    /// Simulated time at which the plans were made and the states hold \[s\].
+    pub time_s: f64,
+    /// Every vehicle, in the scenario's order.
+    pub vehicles: Vec<VehicleFrame>,
+    /// What happened, in order.
+    pub events: Vec<Event>,
+    /// Smallest distance of the ego's footprint to another one \[m\]; none without others.
+    pub gap_m: Option<f64>,
+}
+
+/// One vehicle at one tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VehicleFrame {
+    /// Its name.
+    pub name: String,
+    /// Its state when it planned.
+    pub state: State,
+    /// The input that it applies from now on.
+    pub input: Input,
+    /// What it decided; after a failure, the fallback.
+    pub plan: Plan,
+    /// Where the plan comes from.
+    pub origin: Origin,
+    /// What the others expected of it when they planned.
+    pub prediction: Trajectory,
+    /// Wall time of planning \[ms\]; never part of a digest.
+    pub plan_ms: f64,
+}
+
+/// Where a plan comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Origin {
+    /// The planner found it.
+    #[default]
+    Planned,
+    /// The planner failed: the previous plan goes on.
+    Continued,
+    /// The planner failed and there was nothing to continue: full braking.
+    Braking,
+}
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// Whom it concerns.
+    pub vehicle: String,
+    /// How serious it is.
+    pub level: Level,
+    /// What happened, in words.
+    pub text: String,
+}
+
+/// How serious an event is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Worth knowing.
+    Note,
+    /// A planner failed or a filter intervened.
+    Warning,
+    /// A collision.
+    Alarm,
+}
