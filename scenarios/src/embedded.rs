@@ -1,0 +1,29 @@
+//! The authored scenarios, embedded in the binary.
+
+/// One authored scenario.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Embedded {
+    /// Its name: the path below `files`, without the extension.
+    pub name: &'static str,
+    /// The file as written.
+    pub text: &'static str,
+}
+
+macro_rules! files {
+    ($($name:literal),* $(,)?) => {
+        &[$(Embedded { name: $name, text: include_str!(concat!("../files/", $name, ".toml")) }),*]
+    };
+}
+
+/// Sorted by name.
+static FILES: &[Embedded] = files!["lane-change/both-tough", "lane-change/front-nice", "lane-change/front-tough"];
+
+/// Every authored scenario, sorted by name.
+pub fn embedded() -> &'static [Embedded] {
+    FILES
+}
+
+/// The authored scenario of that name.
+pub(crate) fn find(name: &str) -> Option<&'static Embedded> {
+    FILES.iter().find(|file| file.name == name)
+}

@@ -1,0 +1,222 @@
+//! Located errors.
+//!
+//! A [`Problem`] is one thing wrong at one [`Place`] of one [`Document`]; a [`LoadError`] holds all that were found.
+//! Both are `miette` diagnostics, so that whoever shows them decides how.
+
+use std::{fmt, ops::Range, sync::Arc};
+
+use miette::{Diagnostic, LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+use thiserror::Error;
+
+/// Excerpts longer than this are cut around the error \[bytes\].
+const EXCERPT_BYTES: usize = 2000;
+/// How much of a long line is shown before the error \[bytes\].
+const LEAD_BYTES: usize = 60;
+/// How much of a long text is underlined \[bytes\].
+const LABEL_BYTES: usize = 100;
+
+/// A text in which an error may lie: a file, or the argument of a flag.
+#[derive(Debug)]
+pub(crate) struct Document {
+    /// The name that errors give it.
+    pub name: String,
+    /// The text with control characters masked, byte for byte as long as the original.
+    text: String,
+    /// Errors are listed by rank of their document: flags first, then the file, then what it extends.
+    rank: usize,
+}
+
+impl Document {
+    pub fn new(name: impl Into<String>, text: &str, rank: usize) -> Arc<Document> {
+        Arc::new(Document { name: name.into(), text: text.chars().map(masked).collect(), rank })
+    }
+
+    /// Line and column of a byte offset, both from 1, the column in characters.
+    fn line_and_column(&self, offset: usize) -> (usize, usize) {
+        let before = &self.text[..self.text.floor_char_boundary(offset)];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    }
+
+    /// The part of a line around `span`, where whole lines would be too long to read.
+    fn window(&self, span: &SourceSpan) -> Range<usize> {
+        let (offset, text) = (self.text.floor_char_boundary(span.offset()), &self.text);
+        let line_start = text[..offset].rfind('\n').map_or(0, |newline| newline + 1);
+        let line_end = text[offset..].find('\n').map_or(text.len(), |newline| offset + newline);
+        let start = text.floor_char_boundary(offset.saturating_sub(LEAD_BYTES)).max(line_start);
+        let end = text.ceil_char_boundary(offset + span.len() + LEAD_BYTES).min(line_end);
+        start..end.max(start)
+    }
+}
+
+/// Control characters could play tricks on a terminal; a dot of the same length takes their place.
+fn masked(character: char) -> char {
+    match character {
+        '\n' | '\t' | '\r' => character,
+        _ if !character.is_control() => character,
+        _ if character.len_utf8() == 1 => '.',
+        _ => '·',
+    }
+}
+
+impl SourceCode for Document {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        lines_before: usize,
+        lines_after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let lines = self.text.as_str().read_span(span, lines_before, lines_after)?;
+        let (range, line, column) = if lines.data().len() <= EXCERPT_BYTES {
+            let start = lines.span().offset();
+            (start..start + lines.span().len(), lines.line(), lines.column())
+        } else {
+            let window = self.window(span);
+            let (line, column) = self.line_and_column(window.start);
+            (window, line - 1, column - 1)
+        };
+        let data = &self.text.as_bytes()[range.clone()];
+        let span = SourceSpan::from((range.start, range.len()));
+        Ok(Box::new(MietteSpanContents::new_named(self.name.clone(), data, span, line, column, lines.line_count())))
+    }
+}
+
+/// Where something is written.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    pub document: Arc<Document>,
+    pub span: Range<usize>,
+}
+
+impl Place {
+    pub fn new(document: &Arc<Document>, span: Range<usize>) -> Place {
+        Place { document: Arc::clone(document), span }
+    }
+
+    /// The span to underline: within the text, on one line, not too long.
+    fn underlined(&self) -> SourceSpan {
+        let text = &self.document.text;
+        let start = text.floor_char_boundary(self.span.start);
+        let line_end = text[start..].find(['\n', '\r']).map_or(text.len(), |newline| start + newline);
+        let end = self.span.end.min(line_end).min(start + LABEL_BYTES);
+        SourceSpan::from((start, text.floor_char_boundary(end).saturating_sub(start)))
+    }
+}
+
+/// One thing that is wrong with a scenario, and what would work instead.
+#[derive(Clone, Debug, Error)]
+#[error("{message}")]
+pub struct Problem {
+    message: String,
+    help: Option<String>,
+    place: Option<Place>,
+    labels: Vec<LabeledSpan>,
+}
+
+impl Problem {
+    /// A problem that no text can be blamed for, such as a missing file.
+    pub(crate) fn new(message: impl Into<String>) -> Problem {
+        Problem { message: message.into(), help: None, place: None, labels: Vec::new() }
+    }
+
+    /// A problem at a place; `label` stands beside the underlined text.
+    pub(crate) fn at(place: &Place, label: &str, message: impl Into<String>) -> Problem {
+        let span = LabeledSpan::new_primary_with_span(Some(label.to_owned()), place.underlined());
+        Problem { message: message.into(), help: None, place: Some(place.clone()), labels: vec![span] }
+    }
+
+    /// With a hint at what would work.
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Problem {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// With a second place, shown if it is in the same document.
+    pub(crate) fn also(mut self, other: &Place, label: &str) -> Problem {
+        if self.place.as_ref().is_some_and(|place| Arc::ptr_eq(&place.document, &other.document)) {
+            self.labels.push(LabeledSpan::new_with_span(Some(label.to_owned()), other.underlined()));
+        }
+        self
+    }
+
+    /// The same problem, blamed on the text that led there.
+    pub(crate) fn moved_to(self, place: &Place) -> Problem {
+        Problem { help: self.help, ..Problem::at(place, "from here", self.message) }
+    }
+
+    /// What is wrong.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// The file, or the flag, in which the error lies; `None` if there is no text to blame.
+    pub fn file(&self) -> Option<&str> {
+        self.place.as_ref().map(|place| place.document.name.as_str())
+    }
+
+    /// Line and column of the error, both from 1; `None` if there is no text to blame.
+    pub fn line_and_column(&self) -> Option<(usize, usize)> {
+        self.place.as_ref().map(|place| place.document.line_and_column(place.span.start))
+    }
+
+    fn order(&self) -> (usize, usize) {
+        self.place.as_ref().map_or((0, 0), |place| (place.document.rank, place.span.start))
+    }
+}
+
+impl Diagnostic for Problem {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.place.as_ref().map(|place| place.document.as_ref() as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(self.labels.iter().cloned()))
+    }
+}
+
+/// A scenario that cannot be used, with everything that was found wrong.
+#[derive(Clone, Debug, Error, Diagnostic)]
+#[error("cannot use scenario {}: {}", quoted(scenario), counted(problems.len() + left_out))]
+pub struct LoadError {
+    scenario: String,
+    #[related]
+    problems: Vec<Problem>,
+    left_out: usize,
+    #[help]
+    more: Option<String>,
+}
+
+impl LoadError {
+    /// How many problems are reported at most.
+    const MOST: usize = 20;
+
+    pub(crate) fn new(scenario: impl Into<String>, mut problems: Vec<Problem>) -> LoadError {
+        problems.sort_by_key(Problem::order);
+        let left_out = problems.len().saturating_sub(LoadError::MOST);
+        problems.truncate(LoadError::MOST);
+        let more = (left_out > 0).then(|| format!("{left_out} more are not shown; mend these first"));
+        LoadError { scenario: scenario.into(), problems, left_out, more }
+    }
+
+    /// What is wrong, in the order of the text; at most 20.
+    pub fn problems(&self) -> &[Problem] {
+        &self.problems
+    }
+}
+
+fn counted(problems: usize) -> String {
+    if problems == 1 { "1 error".to_owned() } else { format!("{problems} errors") }
+}
+
+/// A text from outside in backticks, without control characters and not too long.
+pub(crate) fn quoted(text: &str) -> String {
+    const MOST: usize = 80;
+    let shown: String =
+        text.chars().take(MOST).map(masked).map(|c| if c == '\n' || c == '\r' { ' ' } else { c }).collect();
+    let dots = if text.chars().nth(MOST).is_some() { "…" } else { "" };
+    format!("`{shown}{dots}`")
+}

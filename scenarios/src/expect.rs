@@ -1,0 +1,59 @@
+//! What makes a run pass. Each key that is present is one expectation; what is absent is not judged.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The expectations of a scenario.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Expect {
+    /// Whether nobody may touch anybody (`true`), or a collision must happen (`false`).
+    pub no_collision: Option<bool>,
+    /// The vehicles from first to last along the road at the end of the run; those left out are not judged.
+    pub order: Option<Vec<String>>,
+    /// The footprint of the ego never comes nearer to another than this \[m\].
+    #[schemars(extend("minimum" = 0.0))]
+    pub min_gap_m: Option<f64>,
+    /// At most so many plans fail, all vehicles together.
+    pub plan_failures_at_most: Option<usize>,
+    /// Vehicles that must reach their goal, one `[[expect.completes]]` each.
+    pub completes: Vec<Completes>,
+    /// Bounds on the extremes of speeds over the run, one `[[expect.speed]]` each.
+    pub speed: Vec<SpeedRange>,
+}
+
+/// A vehicle reaches its goal (lane), within a window of time if one is stated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Completes {
+    /// Name of the vehicle.
+    pub vehicle: String,
+    /// Not before this time \[s\].
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0.0))]
+    pub after_s: Option<f64>,
+    /// Not after this time \[s\].
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0.0))]
+    pub before_s: Option<f64>,
+}
+
+/// Bounds on the smallest and the largest speed of a vehicle over the run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpeedRange {
+    /// Name of the vehicle.
+    pub vehicle: String,
+    /// Its smallest speed is below this: it did slow down \[m/s\].
+    #[serde(default)]
+    pub min_below_mps: Option<f64>,
+    /// Its smallest speed is above this: it did not slow down further \[m/s\].
+    #[serde(default)]
+    pub min_above_mps: Option<f64>,
+    /// Its largest speed is below this: it did not go faster \[m/s\].
+    #[serde(default)]
+    pub max_below_mps: Option<f64>,
+    /// Its largest speed is above this: it did go faster \[m/s\].
+    #[serde(default)]
+    pub max_above_mps: Option<f64>,
+}

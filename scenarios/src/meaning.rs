@@ -1,0 +1,249 @@
+//! The check of what a scenario means: positions, names and times that do not fit together.
+//!
+//! By now every key has the right type and range; the tree says where each is written.
+
+use interplay_planners::{Driver, State};
+
+use crate::error::{Place, Problem, quoted};
+use crate::nearest::suggestion;
+use crate::tree::Node;
+use crate::{Road, Scenario, Vehicle};
+
+/// The most ticks a run may take.
+const MOST_TICKS: f64 = 100_000.0;
+/// How far a corner may stick out of the road by rounding \[m\].
+const TOLERANCE_M: f64 = 1e-9;
+
+/// Everything that does not fit together.
+pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
+    let mut checker = Checker { scenario, tree, problems: Vec::new() };
+    checker.times();
+    checker.names();
+    for (index, vehicle) in scenario.vehicles.iter().enumerate() {
+        checker.limits(index, vehicle);
+        checker.goal(index, vehicle);
+        checker.driver(index, vehicle);
+    }
+    checker.starts();
+    checker.expectations();
+    checker.problems
+}
+
+struct Checker<'a> {
+    scenario: &'a Scenario,
+    tree: &'a Node,
+    problems: Vec<Problem>,
+}
+
+impl Checker<'_> {
+    fn place(&self, path: &str) -> &Place {
+        self.tree.place_of(path)
+    }
+
+    /// Records a problem with the value at a path.
+    fn refuse(&mut self, path: &str, label: &str, message: String, help: &str) {
+        let problem = Problem::at(self.place(path), label, message);
+        self.problems.push(if help.is_empty() { problem } else { problem.help(help) });
+    }
+
+    fn times(&mut self) {
+        let Scenario { duration_s, step_s, .. } = *self.scenario;
+        if duration_s < step_s {
+            let message = format!("`duration_s` ({duration_s}) is shorter than one step (`step_s` = {step_s})");
+            self.refuse("duration_s", "too short", message, "simulate at least one step");
+        } else if duration_s / step_s > MOST_TICKS {
+            let message = format!("{duration_s} s in steps of {step_s} s are more than {MOST_TICKS} ticks");
+            self.refuse("duration_s", "too long", message, "shorten `duration_s` or lengthen `step_s`");
+        }
+    }
+
+    fn names(&mut self) {
+        let vehicles = &self.scenario.vehicles;
+        for (index, vehicle) in vehicles.iter().enumerate() {
+            if let Some(first) = vehicles[..index].iter().position(|earlier| earlier.name == vehicle.name) {
+                let message = format!("two vehicles are called {}", quoted(&vehicle.name));
+                let problem = Problem::at(self.place(&format!("vehicle.{index}.name")), "the second", message);
+                let problem = problem.also(self.place(&format!("vehicle.{first}.name")), "the first");
+                self.problems.push(problem.help("give each vehicle a name of its own"));
+            }
+        }
+    }
+
+    fn limits(&mut self, index: usize, vehicle: &Vehicle) {
+        let (name, limits, path) = (&vehicle.name, vehicle.limits, format!("vehicle.{index}"));
+        let (slowest, fastest) = (limits.speed_min_mps, limits.speed_max_mps);
+        if slowest >= fastest {
+            let message =
+                format!("`vehicle.{name}.limits`: the smallest speed ({slowest}) is not below the largest ({fastest})");
+            self.refuse(&format!("{path}.limits.speed_min_mps"), "not below the largest", message, "");
+            return;
+        }
+        let speeds = [("start", Some(vehicle.start.speed_mps)), ("goal", vehicle.goal.speed_mps)];
+        for (table, speed) in speeds {
+            if let Some(speed) = speed.filter(|speed| !(slowest..=fastest).contains(speed)) {
+                let message = format!("`vehicle.{name}.{table}.speed_mps` ({speed}) is outside the vehicle's limits");
+                let help = format!(
+                    "its speed may be from {slowest} to {fastest}: `speed_min_mps` and `speed_max_mps` in its `limits`"
+                );
+                self.refuse(&format!("{path}.{table}.speed_mps"), "outside the limits", message, &help);
+            }
+        }
+    }
+
+    fn goal(&mut self, index: usize, vehicle: &Vehicle) {
+        let (name, goal, road) = (&vehicle.name, vehicle.goal, &self.scenario.road);
+        let (path, lanes) = (format!("vehicle.{index}.goal"), road.lane_count());
+        if goal.lane.is_some() && goal.y_m.is_some() {
+            let message = format!("`vehicle.{name}.goal` states both `lane` and `y_m`");
+            self.refuse(&format!("{path}.y_m"), "beside `lane`", message, "state the one or the other");
+        }
+        if let Some(lane) = goal.lane.filter(|lane| *lane >= lanes) {
+            let message = format!(
+                "`vehicle.{name}.goal.lane` is {lane}, but the road has only {lanes} {}",
+                plural(lanes, "lane")
+            );
+            let help = format!("lanes are counted from the right: 0 to {}", lanes.saturating_sub(1));
+            self.refuse(&format!("{path}.lane"), "no such lane", message, &help);
+        }
+        if let Some(y_m) = goal.y_m.filter(|y_m| !(0.0..=road.width_m()).contains(y_m)) {
+            let message = format!("`vehicle.{name}.goal.y_m` ({y_m}) is beside the road");
+            self.refuse(&format!("{path}.y_m"), "beside the road", message, &extent(road));
+        }
+        if vehicle.weights.x > 0.0 {
+            let message =
+                format!("`vehicle.{name}.weights.x` is not 0, but nothing along x can be a goal on this road");
+            self.refuse(&format!("vehicle.{index}.weights.x"), "must be 0", message, "");
+        }
+    }
+
+    fn driver(&mut self, index: usize, vehicle: &Vehicle) {
+        let (name, path) = (&vehicle.name, format!("vehicle.{index}.driver"));
+        match &vehicle.driver {
+            Driver::Human(human) if human.style.is_some() && human.safety_weight.is_some() => {
+                let message = format!("`vehicle.{name}.driver` states both `style` and `safety_weight`");
+                let help = "`style` is a word for a `safety_weight`: state the one or the other";
+                self.refuse(&format!("{path}.safety_weight"), "beside `style`", message, help);
+            }
+            Driver::Negotiation(negotiation) if negotiation.settled_steps >= self.scenario.horizon_steps => {
+                let (settled, horizon) = (negotiation.settled_steps, self.scenario.horizon_steps);
+                let message = format!(
+                    "`vehicle.{name}.driver.settled_steps` ({settled}) must be below `horizon_steps` ({horizon})"
+                );
+                let help =
+                    "a plan must reach beyond the steps during which the other is assumed to follow the prediction";
+                self.refuse(&format!("{path}.settled_steps"), "too long", message, help);
+            }
+            _ => {}
+        }
+    }
+
+    fn starts(&mut self) {
+        let (scenario, starts) = (self.scenario, self.scenario.starts());
+        let corridor = scenario.road.corridor();
+        let jitter = scenario.start_jitter;
+        let moved = if jitter.position_m > 0.0 { " (moved by `start_jitter`)" } else { "" };
+        let pairs = || scenario.vehicles.iter().zip(&starts).enumerate();
+        for (index, (vehicle, start)) in pairs() {
+            let path = format!("vehicle.{index}.start");
+            if !corridor.contains(&vehicle.body, start, TOLERANCE_M) {
+                let message = format!("vehicle {} starts outside the road{moved}", quoted(&vehicle.name));
+                let help = format!("{}, and the whole body must lie on it", extent(&scenario.road));
+                self.refuse(&path, "a corner is beside the road", message, &help);
+            }
+            for (other_index, (other, other_start)) in pairs().take(index) {
+                if touch((vehicle, start), (other, other_start)) {
+                    let message = format!(
+                        "vehicles {} and {} overlap at the start{moved}",
+                        quoted(&other.name),
+                        quoted(&vehicle.name)
+                    );
+                    let problem = Problem::at(self.place(&path), "overlaps", message);
+                    let problem = problem.also(self.place(&format!("vehicle.{other_index}.start")), "with this one");
+                    self.problems.push(
+                        problem.help(
+                            "`x_m` and `y_m` are the mass centre; `body` says how far the vehicle reaches from it",
+                        ),
+                    );
+                }
+            }
+        }
+    }
+
+    fn expectations(&mut self) {
+        let expect = &self.scenario.expect;
+        let order = expect.order.iter().flatten();
+        for (index, name) in order.clone().enumerate() {
+            let path = format!("expect.order.{index}");
+            self.known(&path, name);
+            if order.clone().take(index).any(|earlier| earlier == name) {
+                let message = format!("`expect.order` names {} twice", quoted(name));
+                self.refuse(&path, "again", message, "");
+            }
+        }
+        for (index, completes) in expect.completes.iter().enumerate() {
+            let path = format!("expect.completes.{index}");
+            self.known(&format!("{path}.vehicle"), &completes.vehicle);
+            self.window(&path, completes.after_s, completes.before_s);
+        }
+        for (index, speed) in expect.speed.iter().enumerate() {
+            let path = format!("expect.speed.{index}");
+            self.known(&format!("{path}.vehicle"), &speed.vehicle);
+            let bounds = [speed.min_below_mps, speed.min_above_mps, speed.max_below_mps, speed.max_above_mps];
+            if bounds.iter().all(Option::is_none) {
+                let message = format!("`expect.speed` for {} expects nothing", quoted(&speed.vehicle));
+                let help = "state `min_below_mps`, `min_above_mps`, `max_below_mps` or `max_above_mps`";
+                self.refuse(&path, "no bound", message, help);
+            }
+        }
+    }
+
+    fn known(&mut self, path: &str, name: &str) {
+        if self.scenario.vehicle(name).is_none() {
+            let names: Vec<&str> = self.scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()).collect();
+            let message = format!("there is no vehicle {}", quoted(name));
+            self.refuse(path, "unknown vehicle", message, &suggestion(name, "the vehicles are", &names));
+        }
+    }
+
+    fn window(&mut self, path: &str, after_s: Option<f64>, before_s: Option<f64>) {
+        let duration_s = self.scenario.duration_s;
+        match (after_s, before_s) {
+            (Some(after), Some(before)) if after >= before => {
+                let message = format!("nothing is both after {after} s and before {before} s");
+                self.refuse(&format!("{path}.after_s"), "not before `before_s`", message, "");
+            }
+            (Some(after), _) if after >= duration_s => {
+                let message = format!("`after_s` ({after}) is not before the end of the run at {duration_s} s");
+                self.refuse(&format!("{path}.after_s"), "after the end", message, "");
+            }
+            _ => {}
+        }
+    }
+}
+
+fn extent(road: &Road) -> String {
+    format!("the road reaches from y = 0 to y = {}", road.width_m())
+}
+
+fn plural(count: usize, noun: &str) -> String {
+    if count == 1 { noun.to_owned() } else { format!("{noun}s") }
+}
+
+/// Whether two footprints share more than a line: no edge of either separates them (separating axis theorem).
+fn touch((first, at): (&Vehicle, &State), (second, other_at): (&Vehicle, &State)) -> bool {
+    let (corners, other_corners) = (first.body.corners(at), second.body.corners(other_at));
+    let headings = [at.heading_rad, other_at.heading_rad].map(libm::sincos);
+    let axes = headings.iter().flat_map(|(sin, cos)| [[*cos, *sin], [-sin, *cos]]);
+    let mut gaps = axes.map(|axis| {
+        let (low, high) = shadow(&corners, axis);
+        let (other_low, other_high) = shadow(&other_corners, axis);
+        (other_low - high).max(low - other_high)
+    });
+    gaps.all(|gap| gap < -TOLERANCE_M)
+}
+
+/// The interval that a rectangle covers along an axis.
+fn shadow(corners: &[[f64; 2]; 4], [x, y]: [f64; 2]) -> (f64, f64) {
+    let along = corners.map(|corner| corner[0] * x + corner[1] * y);
+    along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(*at), high.max(*at)))
+}

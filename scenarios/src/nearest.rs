@@ -1,0 +1,41 @@
+//! The known word that an unknown one was probably meant to be.
+
+/// The candidate with the fewest edits from `word`, if those are few enough to be a slip.
+pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // Longer than any word we know: not a slip, and the distance would take long.
+    if word.len() > 100 {
+        return None;
+    }
+    let scored = candidates.into_iter().map(|candidate| (strsim::osa_distance(word, candidate), candidate));
+    let (edits, best) = scored.min_by_key(|(edits, _)| *edits)?;
+    let tolerated = 1 + word.len().max(best.len()) / 3;
+    (edits <= tolerated && edits < best.len()).then_some(best)
+}
+
+/// `did you mean …?` if a word is near, otherwise the list of all.
+pub(crate) fn suggestion(word: &str, what: &str, candidates: &[&str]) -> String {
+    match nearest(word, candidates.iter().copied()) {
+        Some(best) => format!("did you mean `{best}`?"),
+        None => format!("{what}: {}", listed(candidates)),
+    }
+}
+
+/// Words in backticks, separated by commas.
+pub(crate) fn listed(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    quoted.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_are_found_and_strangers_are_not() {
+        assert_eq!(nearest("sped_mps", ["speed_mps", "x_m"]), Some("speed_mps"));
+        assert_eq!(nearest("fornt", ["front", "rear"]), Some("front"));
+        assert_eq!(nearest("elephant", ["x_m", "y_m"]), None);
+        assert_eq!(nearest("a", ["x"]), None);
+        assert_eq!(nearest("anything", []), None);
+    }
+}

@@ -1,0 +1,136 @@
+//! Changes of a scenario from the command line, such as `--set vehicle.ego.goal.speed_mps=1.2`.
+//!
+//! A change is laid over the file like a file over the one it extends, and then checked like it. Its document is the
+//! text of the flag, so errors point into the flag.
+
+use std::sync::Arc;
+
+use crate::error::{Document, Place, Problem, quoted};
+use crate::merge::merge_tables;
+use crate::nearest::suggestion;
+use crate::scenario::EGO;
+use crate::tree::{Entry, Node, Table, Value, kind_of, parse_value};
+
+/// A change of a scenario by a flag.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Override {
+    /// `--set path.to.key=value`. Vehicles are addressed by name (`vehicle.ego.goal.lane=1`), entries of
+    /// `expect.completes` and `expect.speed` by their vehicle. The value is TOML; what is not TOML is taken as text.
+    Set(String),
+    /// `--seed N`.
+    Seed(u64),
+    /// `--planner KIND`: who drives the ego. Settings of another kind of driver are dropped.
+    Planner(String),
+}
+
+/// One word of a path and where it stands in the flag.
+struct Step {
+    word: String,
+    place: Place,
+}
+
+impl Override {
+    /// Lays the change over a scenario.
+    pub(crate) fn apply(&self, root: &mut Table) -> Result<(), Problem> {
+        let (steps, value) = match self {
+            Override::Set(assignment) => assignment_of(assignment)?,
+            Override::Seed(seed) => {
+                let place = whole("--seed", &seed.to_string());
+                (steps_of(&["seed"], &place), Node { place, value: Value::Integer(i128::from(*seed)) })
+            }
+            Override::Planner(kind) => {
+                let place = whole("--planner", kind);
+                let path = ["vehicle", &ego_name(root), "driver", "kind"];
+                (steps_of(&path, &place), Node { place, value: Value::Text(kind.clone()) })
+            }
+        };
+        lay(root, &steps, value)
+    }
+}
+
+/// The whole argument of a flag.
+fn whole(flag: &str, argument: &str) -> Place {
+    Place::new(&Document::new(flag, argument, 0), 0..argument.len())
+}
+
+fn steps_of(path: &[&str], place: &Place) -> Vec<Step> {
+    path.iter().map(|word| Step { word: (*word).to_owned(), place: place.clone() }).collect()
+}
+
+/// Path and value of `path.to.key=value`.
+fn assignment_of(assignment: &str) -> Result<(Vec<Step>, Node), Problem> {
+    let document = Document::new("--set", assignment, 0);
+    let place = Place::new(&document, 0..assignment.len());
+    let example = "write for example `--set vehicle.ego.goal.speed_mps=1.2`";
+    let Some((path, value)) = assignment.split_once('=') else {
+        return Err(Problem::at(&place, "no `=` here", "`--set` needs PATH=VALUE").help(example));
+    };
+    let mut steps = Vec::new();
+    let mut offset = 0;
+    for word in path.split('.') {
+        let place = Place::new(&document, offset..offset + word.len());
+        offset += word.len() + 1;
+        if word.trim().is_empty() {
+            return Err(Problem::at(&place, "a key is missing here", "`--set` needs PATH=VALUE").help(example));
+        }
+        steps.push(Step { word: word.trim().to_owned(), place });
+    }
+    Ok((steps, value_of(&document, path.len() + 1, value)))
+}
+
+fn value_of(document: &Arc<Document>, offset: usize, value: &str) -> Node {
+    let text = || Node {
+        place: Place::new(document, offset..offset + value.len()),
+        value: Value::Text(value.trim().to_owned()),
+    };
+    parse_value(document, offset, value).unwrap_or_else(text)
+}
+
+fn ego_name(root: &Table) -> String {
+    let Some(Value::Array(vehicles)) = root.get("vehicle").map(|entry| &entry.node.value) else {
+        return EGO.to_owned();
+    };
+    let names: Vec<&str> = vehicles.iter().filter_map(Node::label).collect();
+    let ego = names.iter().find(|name| **name == EGO).or(names.first());
+    ego.map_or(EGO, |name| *name).to_owned()
+}
+
+/// Lays a value over a table at the end of a path, making the tables on the way that are not there yet.
+fn lay(table: &mut Table, steps: &[Step], value: Node) -> Result<(), Problem> {
+    let [step, rest @ ..] = steps else { return Ok(()) };
+    if rest.is_empty() {
+        let change = Table::from([(step.word.clone(), Entry { key: step.place.clone(), node: value })]);
+        *table = merge_tables(std::mem::take(table), change);
+        return Ok(());
+    }
+    let entry = table.entry(step.word.clone()).or_insert_with(|| Entry {
+        key: step.place.clone(),
+        node: Node { place: step.place.clone(), value: Value::Table(Table::new()) },
+    });
+    match &mut entry.node.value {
+        Value::Table(table) => lay(table, rest, value),
+        Value::Array(items) => lay_in_list(items, step, rest, value),
+        other => {
+            let message = format!("{} is {}, not a table", quoted(&step.word), kind_of(other));
+            Err(Problem::at(&step.place, "nothing is below this", message))
+        }
+    }
+}
+
+/// Lays a value over the item of a list that the first step names.
+fn lay_in_list(items: &mut [Node], list: &Step, steps: &[Step], value: Node) -> Result<(), Problem> {
+    let [step, rest @ ..] = steps else { return Ok(()) };
+    let labels: Vec<String> = items.iter().filter_map(|item| item.label().map(str::to_owned)).collect();
+    let Some(item) = items.iter_mut().find(|item| item.label() == Some(step.word.as_str())) else {
+        let known: Vec<&str> = labels.iter().map(String::as_str).collect();
+        let message = format!("there is no {} in {}", quoted(&step.word), quoted(&list.word));
+        return Err(Problem::at(&step.place, "unknown", message).help(suggestion(&step.word, "there are", &known)));
+    };
+    match &mut item.value {
+        Value::Table(table) if !rest.is_empty() => lay(table, rest, value),
+        _ => {
+            *item = value;
+            Ok(())
+        }
+    }
+}

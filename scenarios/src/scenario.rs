@@ -1,0 +1,224 @@
+//! The nouns of a scenario file: what is simulated, on which road, by which vehicles.
+//!
+//! Everything here is plain data in SI units, already checked: a [`Scenario`] that came from [`load`](crate::load) keeps
+//! every promise that the descriptions below make.
+
+use interplay_planners::{Body, Driver, SafetyEllipse, State, human, mpc::Limits};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::{Expect, Road, jitter};
+
+/// One scenario: agents, their world, and what is expected of the run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// What the scenario is called, in a few words.
+    #[schemars(length(min = 1))]
+    pub title: String,
+    /// What it shows, in one sentence.
+    #[schemars(length(min = 1))]
+    pub shows: String,
+    /// The figure of the dissertation that it reproduces.
+    #[serde(default)]
+    pub figure: Option<String>,
+    /// Simulated time \[s\].
+    #[serde(default = "defaults::duration_s")]
+    #[schemars(range(min = 0.001))]
+    pub duration_s: f64,
+    /// Time from one tick to the next: everybody plans and moves once a tick \[s\].
+    #[serde(default = "defaults::step_s")]
+    #[schemars(range(min = 0.001))]
+    pub step_s: f64,
+    /// How many ticks every plan looks ahead.
+    #[serde(default = "defaults::horizon_steps")]
+    #[schemars(range(min = 2, max = 200))]
+    pub horizon_steps: usize,
+    /// From which all random numbers are drawn.
+    #[serde(default = "defaults::seed")]
+    pub seed: u64,
+    /// What moves the vehicles.
+    #[serde(default)]
+    pub plant: Plant,
+    /// The road.
+    #[serde(default)]
+    pub road: Road,
+    /// Random change of every start, drawn from the seed; none by default.
+    #[serde(default)]
+    pub start_jitter: StartJitter,
+    /// The vehicles, one `[[vehicle]]` each.
+    #[serde(rename = "vehicle")]
+    #[schemars(length(min = 1, max = 64))]
+    pub vehicles: Vec<Vehicle>,
+    /// What makes the run pass; nothing by default.
+    #[serde(default)]
+    pub expect: Expect,
+}
+
+mod defaults {
+    pub fn duration_s() -> f64 {
+        12.0
+    }
+    pub fn step_s() -> f64 {
+        0.1
+    }
+    pub fn horizon_steps() -> usize {
+        30
+    }
+    pub fn seed() -> u64 {
+        1
+    }
+}
+
+impl Scenario {
+    /// Index of the ego in [`Scenario::vehicles`]: the vehicle called `ego` if there is one, otherwise the first.
+    pub fn ego_index(&self) -> usize {
+        self.vehicles.iter().position(|vehicle| vehicle.name == EGO).unwrap_or(0)
+    }
+
+    /// The ego: the vehicle called `ego` if there is one, otherwise the first; `None` only without vehicles.
+    pub fn ego(&self) -> Option<&Vehicle> {
+        self.vehicles.get(self.ego_index())
+    }
+
+    /// The vehicle of that name.
+    pub fn vehicle(&self, name: &str) -> Option<&Vehicle> {
+        self.vehicles.iter().find(|vehicle| vehicle.name == name)
+    }
+
+    /// How many ticks the run takes: `duration_s / step_s`, rounded.
+    pub fn tick_count(&self) -> usize {
+        (self.duration_s / self.step_s).round() as usize
+    }
+
+    /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
+    /// same seed gives the same starts.
+    pub fn starts(&self) -> Vec<State> {
+        jitter::starts(self)
+    }
+}
+
+/// The name that makes a vehicle the ego.
+pub(crate) const EGO: &str = "ego";
+
+/// What moves the vehicles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Plant {
+    /// Exactly the bicycle model that the planners use (eq. 6.1-6.4).
+    #[default]
+    Kinematic,
+}
+
+/// A random change of every start, uniform over `±` the stated amounts and drawn from the seed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct StartJitter {
+    /// Largest shift along the vehicle's own heading \[m\].
+    #[schemars(range(min = 0.0))]
+    pub position_m: f64,
+    /// Largest change of the speed, which stays within the vehicle's limits \[m/s\].
+    #[schemars(range(min = 0.0))]
+    pub speed_mps: f64,
+}
+
+/// One vehicle: where it starts, what it wants, what it is like and who drives it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Vehicle {
+    /// Its name, unique in the file; it becomes part of paths in the recording.
+    #[schemars(extend("pattern" = crate::schema::NAME_PATTERN))]
+    pub name: String,
+    /// Where it starts: mass centre, heading and speed.
+    pub start: State,
+    /// What it wants; by default to carry on as it starts.
+    #[serde(default)]
+    pub goal: Goal,
+    /// What deviations from its goal and what changes of its inputs cost it.
+    #[serde(default)]
+    pub weights: Weights,
+    /// Its size and axles; by default Table 6.1.
+    #[serde(default)]
+    pub body: Body,
+    /// The bounds of its inputs and its speed; by default Table 6.2.
+    #[serde(default)]
+    pub limits: Limits,
+    /// The ellipse around each other vehicle that it keeps out of; by default Table 6.2.
+    #[serde(default)]
+    pub safety: SafetyEllipse,
+    /// Who drives it, `kind` choosing; by default a nice human.
+    #[serde(default = "default_driver")]
+    pub driver: Driver,
+}
+
+fn default_driver() -> Driver {
+    Driver::Human(human::Settings::default())
+}
+
+impl Vehicle {
+    /// The state that the vehicle wants: the lateral position of its goal (that of its start without one), along the
+    /// road, at the wanted speed. The coordinate along the road is that of the start and nobody tracks it.
+    pub fn target(&self, road: &Road) -> State {
+        let lateral = self.goal.lane.map(|lane| road.lane_centre_m(lane)).or(self.goal.y_m);
+        State {
+            x_m: self.start.x_m,
+            y_m: lateral.unwrap_or(self.start.y_m),
+            heading_rad: road.heading_rad(),
+            speed_mps: self.goal.speed_mps.unwrap_or(self.start.speed_mps),
+        }
+    }
+}
+
+/// What a vehicle wants. Whatever is not said stays as it is at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Goal {
+    /// The lane whose centre it wants, counted from the right; 0 is the rightmost. Not together with `y_m`.
+    pub lane: Option<usize>,
+    /// The lateral position that it wants. Not together with `lane` \[m\].
+    pub y_m: Option<f64>,
+    /// The speed that it wants \[m/s\].
+    pub speed_mps: Option<f64>,
+}
+
+/// Diagonals of `Q` (on the deviation from the goal) and of `R` (on the change of the inputs) in eq. 6.6.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Weights {
+    /// Of the position along x; 0 where the road runs along x, since nobody there wants to stay at one place.
+    #[schemars(range(min = 0.0))]
+    pub x: f64,
+    /// Of the position along y \[1/m²\].
+    #[schemars(range(min = 0.0))]
+    pub y: f64,
+    /// Of the heading \[1/rad²\].
+    #[schemars(range(min = 0.0))]
+    pub heading: f64,
+    /// Of the speed \[s²/m²\].
+    #[schemars(range(min = 0.0))]
+    pub speed: f64,
+    /// Of the change of acceleration from one tick to the next \[s⁴/m²\].
+    #[schemars(range(min = 0.0))]
+    pub acceleration_change: f64,
+    /// Of the change of the steering angle from one tick to the next \[1/rad²\].
+    #[schemars(range(min = 0.0))]
+    pub steering_change: f64,
+}
+
+impl Default for Weights {
+    fn default() -> Self {
+        Weights { x: 0.0, y: 1.0, heading: 0.5, speed: 1.0, acceleration_change: 0.1, steering_change: 0.1 }
+    }
+}
+
+impl Weights {
+    /// Diagonal of `Q` on (x, y, θ, v).
+    pub fn tracking(&self) -> [f64; 4] {
+        [self.x, self.y, self.heading, self.speed]
+    }
+
+    /// Diagonal of `R` on (Δa, Δδ).
+    pub fn comfort(&self) -> [f64; 2] {
+        [self.acceleration_change, self.steering_change]
+    }
+}

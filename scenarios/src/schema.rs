@@ -1,0 +1,177 @@
+//! The JSON Schema of a scenario file: what editors complete from, and what the loader checks against.
+//!
+//! It is generated from [`Scenario`], then tightened by [`BOUNDS`], the ranges within which the planners' own settings
+//! make sense. [`complete`] describes a whole scenario, all that it extends included. [`schema`] describes one file,
+//! which may leave to its parent whatever it does not state.
+
+use std::sync::LazyLock;
+
+use schemars::generate::SchemaSettings;
+use serde_json::{Map, Value as Json, json};
+
+use crate::Scenario;
+
+/// What a name must look like, since it becomes part of paths.
+pub(crate) const NAME_PATTERN: &str = "^[a-z0-9_-]{1,64}$";
+
+/// Ranges of the planners' settings: table (a definition, or the kind of a driver), key, bounds. Lengths are at least a
+/// millimetre, so that nothing is divided by almost nothing.
+const BOUNDS: &[(&str, &str, &[(&str, f64)])] = &[
+    ("Body", "front_m", &[("minimum", 0.001)]),
+    ("Body", "rear_m", &[("minimum", 0.001)]),
+    ("Body", "width_m", &[("minimum", 0.001)]),
+    ("Body", "front_axle_m", &[("minimum", 0.001)]),
+    ("Body", "rear_axle_m", &[("minimum", 0.001)]),
+    ("SafetyEllipse", "along_m", &[("minimum", 0.001)]),
+    ("SafetyEllipse", "across_m", &[("minimum", 0.001)]),
+    ("Limits", "acceleration_min_mps2", &[("exclusiveMaximum", 0.0)]),
+    ("Limits", "acceleration_max_mps2", &[("exclusiveMinimum", 0.0)]),
+    ("Limits", "steering_max_rad", &[("exclusiveMinimum", 0.0), ("maximum", 1.5)]),
+    ("Limits", "speed_min_mps", &[("minimum", 0.0)]),
+    ("Limits", "speed_max_mps", &[("exclusiveMinimum", 0.0)]),
+    ("human", "safety_weight", &[("minimum", 0.0)]),
+    ("human", "following_weight", &[("minimum", 0.0)]),
+    ("negotiation", "beta", &[("exclusiveMinimum", 0.0), ("exclusiveMaximum", 1.0)]),
+    ("negotiation", "gamma", &[("minimum", 0.0)]),
+    ("negotiation", "epsilon", &[("minimum", 0.0)]),
+    ("negotiation", "patience_steps", &[("minimum", 1.0)]),
+    ("negotiation", "settled_steps", &[("minimum", 1.0)]),
+    ("negotiation", "ego_normaliser", &[("exclusiveMinimum", 0.0)]),
+    ("negotiation", "other_normaliser", &[("exclusiveMinimum", 0.0)]),
+    ("negotiation", "weight_floor", &[("minimum", 0.0), ("maximum", 1.0)]),
+];
+
+static COMPLETE: LazyLock<Json> = LazyLock::new(|| {
+    let generator = SchemaSettings::draft2020_12().into_generator();
+    let mut schema = generator.into_root_schema_for::<Scenario>().to_value();
+    for (table, key, bounds) in BOUNDS {
+        if let Some(property) = properties_of(&mut schema, table).and_then(|properties| properties.get_mut(*key)) {
+            for (keyword, bound) in *bounds {
+                property[*keyword] = json!(bound);
+            }
+        }
+    }
+    polish(&mut schema);
+    schema
+});
+
+/// The schema of a whole scenario, all that it extends included.
+pub(crate) fn complete() -> &'static Json {
+    &COMPLETE
+}
+
+/// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat what that one states.
+pub fn schema() -> Json {
+    let whole = complete();
+    let mut schema = whole.clone();
+    let mut required = requirements(whole, whole).unwrap_or_else(|| json!({}));
+    drop_requirements(&mut schema);
+    if let Some(properties) = schema.get_mut("properties").and_then(Json::as_object_mut) {
+        properties.insert("extends".to_owned(), extends());
+    }
+    required["not"] = json!({ "required": ["extends"] });
+    schema["title"] = json!("Interplay scenario");
+    schema["anyOf"] = json!([{ "required": ["extends"] }, required]);
+    schema
+}
+
+fn extends() -> Json {
+    json!({
+        "type": "string",
+        "description": "Another scenario from which this one differs only in what it states: a file relative to this \
+                        one, or the name of an embedded scenario. Tables merge key by key, vehicles by name.",
+    })
+}
+
+/// The properties of a definition, or of the driver of that kind.
+fn properties_of<'a>(schema: &'a mut Json, table: &str) -> Option<&'a mut Map<String, Json>> {
+    let definitions = schema.get_mut("$defs")?.as_object_mut()?;
+    let definition = if definitions.contains_key(table) {
+        definitions.get_mut(table)?
+    } else {
+        let kinds = definitions.get_mut("Driver")?.get_mut("oneOf")?.as_array_mut()?;
+        kinds.iter_mut().find(|kind| kind_of(kind) == Some(table))?
+    };
+    definition.get_mut("properties")?.as_object_mut()
+}
+
+/// The `kind` that an alternative of a tagged table requires.
+pub(crate) fn kind_of(alternative: &Json) -> Option<&str> {
+    alternative.get("properties")?.get("kind")?.get("const")?.as_str()
+}
+
+/// What `$ref` refers to, if there is one.
+pub(crate) fn resolved<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
+    let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
+    name.and_then(|name| root.get("$defs")?.get(name)).unwrap_or(schema)
+}
+
+/// Descriptions without the escapes of doc comments, and one for each `kind`.
+fn polish(schema: &mut Json) {
+    match schema {
+        Json::Object(object) => {
+            if let Some(Json::String(description)) = object.get_mut("description") {
+                *description = description.replace("\\[", "[").replace("\\]", "]").replace('\n', " ");
+            }
+            if let Some(kind) = object.get_mut("kind").and_then(Json::as_object_mut)
+                && kind.contains_key("const")
+            {
+                kind.entry("description").or_insert_with(|| json!("Chooses what this table describes."));
+            }
+            object.values_mut().for_each(polish);
+        }
+        Json::Array(items) => items.iter_mut().for_each(polish),
+        _ => {}
+    }
+}
+
+/// The skeleton of a schema: only which keys are required, and of which tables below.
+fn requirements(root: &Json, schema: &Json) -> Option<Json> {
+    let schema = resolved(root, schema);
+    let mut skeleton = Map::new();
+    if let Some(required) = schema.get("required") {
+        skeleton.insert("required".to_owned(), required.clone());
+    }
+    if let Some(properties) = schema.get("properties").and_then(Json::as_object) {
+        let below = properties.iter().filter_map(|(key, schema)| Some((key.clone(), requirements(root, schema)?)));
+        let below: Map<String, Json> = below.collect();
+        if !below.is_empty() {
+            skeleton.insert("properties".to_owned(), Json::Object(below));
+        }
+    }
+    if let Some(items) = schema.get("items").and_then(|items| requirements(root, items)) {
+        skeleton.insert("items".to_owned(), items);
+    }
+    (!skeleton.is_empty()).then_some(Json::Object(skeleton))
+}
+
+/// Removes `required` from everything but the alternatives of tagged tables, which need their `kind`.
+fn drop_requirements(schema: &mut Json) {
+    match schema {
+        Json::Object(object) => {
+            if object.get("required").is_some_and(Json::is_array) {
+                object.remove("required");
+            }
+            object.iter_mut().filter(|(key, _)| *key != "oneOf").for_each(|(_, below)| drop_requirements(below));
+        }
+        Json::Array(items) => items.iter_mut().for_each(drop_requirements),
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bound_belongs_to_a_key() {
+        let mut schema = complete().clone();
+        for (table, key, bounds) in BOUNDS {
+            let properties = properties_of(&mut schema, table).unwrap_or_else(|| panic!("no table {table}"));
+            let property = properties.get(*key).unwrap_or_else(|| panic!("no key {key} in {table}"));
+            for (keyword, bound) in *bounds {
+                assert_eq!(property.get(*keyword), Some(&json!(bound)), "{table}.{key}");
+            }
+        }
+    }
+}

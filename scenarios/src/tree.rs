@@ -1,0 +1,158 @@
+//! A TOML text as a tree whose every key and value knows where it is written.
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::{Document, Place, Problem};
+
+/// A value and where it is written.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub place: Place,
+    pub value: Value,
+}
+
+/// A TOML value. Numbers are wider than what a scenario may hold, so that the check can say what is wrong with them.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    Text(String),
+    Integer(i128),
+    Float(f64),
+    Bool(bool),
+    Datetime,
+    Array(Vec<Node>),
+    Table(Table),
+}
+
+/// Keys with their values.
+pub(crate) type Table = BTreeMap<String, Entry>;
+
+/// A value with the place of its key.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub key: Place,
+    pub node: Node,
+}
+
+/// How many syntax errors are reported at most; later ones tend to follow from the first.
+const MOST_SYNTAX_ERRORS: usize = 3;
+
+/// Parses a document. The nesting depth is bounded by the parser.
+pub(crate) fn parse(document: &Arc<Document>, text: &str) -> Result<Node, Vec<Problem>> {
+    let (table, errors) = DeTable::parse_recoverable(text);
+    if errors.is_empty() {
+        return Ok(Node { place: Place::new(document, 0..0), value: from_table(document, 0, table.into_inner()) });
+    }
+    let problems = errors.iter().take(MOST_SYNTAX_ERRORS).map(|error| {
+        let place = Place::new(document, error.span().unwrap_or(0..0));
+        Problem::at(&place, "here", format!("not valid TOML: {}", error.message().replace('\n', ", ")))
+    });
+    Err(problems.collect())
+}
+
+/// Parses a single value that is written at `offset` in the document; `None` if it is not TOML.
+pub(crate) fn parse_value(document: &Arc<Document>, offset: usize, text: &str) -> Option<Node> {
+    DeValue::parse(text).ok().map(|value| from_value(document, offset, value))
+}
+
+fn from_table(document: &Arc<Document>, offset: usize, table: DeTable<'_>) -> Value {
+    let entries = table.into_iter().map(|(key, value)| {
+        let place = Place::new(document, offset + key.span().start..offset + key.span().end);
+        (key.into_inner().into_owned(), Entry { key: place, node: from_value(document, offset, value) })
+    });
+    Value::Table(entries.collect())
+}
+
+fn from_value(document: &Arc<Document>, offset: usize, value: Spanned<DeValue<'_>>) -> Node {
+    let place = Place::new(document, offset + value.span().start..offset + value.span().end);
+    let value = match value.into_inner() {
+        DeValue::String(text) => Value::Text(text.into_owned()),
+        DeValue::Integer(integer) => Value::Integer(widened(integer.as_str(), integer.radix())),
+        DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(truth) => Value::Bool(truth),
+        DeValue::Datetime(_) => Value::Datetime,
+        DeValue::Array(items) => {
+            Value::Array(items.into_iter().map(|item| from_value(document, offset, item)).collect())
+        }
+        DeValue::Table(table) => from_table(document, offset, table),
+    };
+    Node { place, value }
+}
+
+/// An integer of any length; one beyond all bounds becomes the largest of its sign.
+fn widened(digits: &str, radix: u32) -> i128 {
+    let extreme = if digits.starts_with('-') { i128::MIN } else { i128::MAX };
+    i128::from_str_radix(digits, radix).unwrap_or(extreme)
+}
+
+impl Node {
+    /// The entries, if this is a table.
+    pub fn table(&self) -> Option<&Table> {
+        match &self.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The text, if this is one.
+    pub fn text(&self) -> Option<&str> {
+        match &self.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The node below this one under a key or, in an array, an index.
+    fn child(&self, step: &str) -> Option<&Node> {
+        match &self.value {
+            Value::Table(table) => table.get(step).map(|entry| &entry.node),
+            Value::Array(items) => items.get(step.parse::<usize>().ok()?),
+            _ => None,
+        }
+    }
+
+    /// Where the value at a path such as `vehicle.0.start.x_m` is written, or the innermost table around it that is.
+    pub fn place_of(&self, path: &str) -> &Place {
+        let mut node = self;
+        for step in path.split('.') {
+            let Some(child) = node.child(step) else { break };
+            node = child;
+        }
+        &node.place
+    }
+
+    /// The word by which a table in an array is addressed: its `name`, or the `vehicle` it is about.
+    pub fn label(&self) -> Option<&str> {
+        let table = self.table()?;
+        ["name", "vehicle"].iter().find_map(|key| table.get(*key)?.node.text())
+    }
+
+    /// The same value as JSON, for serde. A number that JSON cannot hold becomes null; the check has refused it before.
+    pub fn to_json(&self) -> serde_json::Value {
+        use serde_json::{Number, Value as Json};
+        match &self.value {
+            Value::Text(text) => Json::String(text.clone()),
+            Value::Integer(integer) => Number::from_i128(*integer).map_or(Json::Null, Json::Number),
+            Value::Float(float) => Number::from_f64(*float).map_or(Json::Null, Json::Number),
+            Value::Bool(truth) => Json::Bool(*truth),
+            Value::Datetime => Json::Null,
+            Value::Array(items) => items.iter().map(Node::to_json).collect(),
+            Value::Table(table) => table.iter().map(|(key, entry)| (key.clone(), entry.node.to_json())).collect(),
+        }
+    }
+}
+
+/// What a value is, in the words of an error message.
+pub(crate) fn kind_of(value: &Value) -> &'static str {
+    match value {
+        Value::Text(_) => "a text",
+        Value::Integer(_) => "a whole number",
+        Value::Float(_) => "a number",
+        Value::Bool(_) => "true or false",
+        Value::Datetime => "a date",
+        Value::Array(_) => "a list",
+        Value::Table(_) => "a table",
+    }
+}
