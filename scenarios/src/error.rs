@@ -23,7 +23,7 @@ pub(crate) struct Document {
     /// The text with control characters masked, byte for byte as long as the original.
     text: String,
     /// Errors are listed by rank of their document: flags first, then the file, then what it extends.
-    rank: usize,
+    pub rank: usize,
 }
 
 impl Document {

@@ -22,7 +22,8 @@ pub fn load(name_or_path: &str, overrides: &[Override]) -> Result<Scenario, Load
     finish(name_or_path, tree, overrides)
 }
 
-/// Loads a scenario from a text; `name` is what errors call it. It may extend authored scenarios.
+/// Loads a scenario from a text; `name` is what errors call it. It may extend authored scenarios, and
+/// files relative to `name` taken as a path.
 ///
 /// # Errors
 ///
@@ -97,7 +98,7 @@ fn inherited(mut under: Table) -> Table {
 }
 
 fn refuse_cycle(parent: &Source, chain: &[Source], place: &Place) -> Result<(), Problem> {
-    let names = || chain.iter().chain([parent]).map(Source::title).collect::<Vec<_>>().join(" -> ");
+    let names = || chain.iter().chain([parent]).map(Source::name).collect::<Vec<_>>().join(" -> ");
     if chain.iter().any(|link| link.identity() == parent.identity()) {
         let message = format!("{} extends itself: {}", quoted(&parent.title()), names());
         return Err(Problem::at(place, "back to the beginning", message));

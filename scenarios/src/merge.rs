@@ -1,9 +1,10 @@
 //! How a file is laid over the one that it extends, and a flag over the file.
 //!
 //! Tables merge key by key, the later one winning; lists are replaced, except `[[vehicle]]`, whose entries merge by
-//! `name`. Two rules keep a variant from having to undo its parent: a table that names another `kind` replaces the whole
-//! table, and of two keys that exclude each other the later one removes the earlier.
+//! `name`. Two rules keep a variant from having to undo its parent: where a table names another `kind`, the keys that this
+//! kind does not know are dropped, and of two keys that exclude each other the later one removes the earlier.
 
+use crate::schema;
 use crate::tree::{Entry, Node, Table, Value};
 
 /// Keys of which only one may be present.
@@ -11,8 +12,9 @@ const EXCLUSIVE: [(&str, &str); 2] = [("lane", "y_m"), ("style", "safety_weight"
 
 /// Lays one table over another.
 pub(crate) fn merge_tables(mut under: Table, over: Table) -> Table {
-    if kind(&over).is_some_and(|new| kind(&under) != Some(new)) {
-        return over;
+    if let Some(new) = kind(&over).filter(|new| kind(&under) != Some(new)) {
+        let known: Vec<&str> = schema::keys_of_kind(new).into_iter().flatten().collect();
+        under.retain(|key, _| known.contains(&key.as_str()));
     }
     for (one, other) in EXCLUSIVE.iter().flat_map(|(a, b)| [(a, b), (b, a)]) {
         if over.contains_key(*one) && !over.contains_key(*other) {

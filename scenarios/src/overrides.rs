@@ -11,6 +11,9 @@ use crate::nearest::suggestion;
 use crate::scenario::EGO;
 use crate::tree::{Entry, Node, Table, Value, kind_of, parse_value};
 
+/// The most words that a path may have; bounds the depth of what `--set` can make.
+const LONGEST_PATH: usize = 16;
+
 /// A change of a scenario by a flag.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Override {
@@ -19,7 +22,7 @@ pub enum Override {
     Set(String),
     /// `--seed N`.
     Seed(u64),
-    /// `--planner KIND`: who drives the ego. Settings of another kind of driver are dropped.
+    /// `--planner KIND`: who drives the ego. Settings that this kind does not know are dropped.
     Planner(String),
 }
 
@@ -68,6 +71,10 @@ fn assignment_of(assignment: &str) -> Result<(Vec<Step>, Node), Problem> {
     let mut steps = Vec::new();
     let mut offset = 0;
     for word in path.split('.') {
+        if steps.len() == LONGEST_PATH {
+            let message = format!("no key of a scenario has more than {LONGEST_PATH} words");
+            return Err(Problem::at(&place, "too long", message).help(example));
+        }
         let place = Place::new(&document, offset..offset + word.len());
         offset += word.len() + 1;
         if word.trim().is_empty() {
@@ -78,11 +85,12 @@ fn assignment_of(assignment: &str) -> Result<(Vec<Step>, Node), Problem> {
     Ok((steps, value_of(&document, path.len() + 1, value)))
 }
 
-fn value_of(document: &Arc<Document>, offset: usize, value: &str) -> Node {
-    let text = || Node {
-        place: Place::new(document, offset..offset + value.len()),
-        value: Value::Text(value.trim().to_owned()),
-    };
+/// The value that follows the `=`, with blanks around it ignored.
+fn value_of(document: &Arc<Document>, offset: usize, written: &str) -> Node {
+    let value = written.trim();
+    let offset = offset + (written.len() - written.trim_start().len());
+    let place = Place::new(document, offset..offset + value.len());
+    let text = || Node { place, value: Value::Text(value.to_owned()) };
     parse_value(document, offset, value).unwrap_or_else(text)
 }
 

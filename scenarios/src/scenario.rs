@@ -40,7 +40,7 @@ pub struct Scenario {
     /// What moves the vehicles.
     #[serde(default)]
     pub plant: Plant,
-    /// The road.
+    /// Where vehicles may drive, `kind` choosing; by default two lanes for 1/10 scale cars.
     #[serde(default)]
     pub road: Road,
     /// Random change of every start, drawn from the seed; none by default.

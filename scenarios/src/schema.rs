@@ -35,6 +35,7 @@ const BOUNDS: &[(&str, &str, &[(&str, f64)])] = &[
     ("negotiation", "gamma", &[("minimum", 0.0)]),
     ("negotiation", "epsilon", &[("minimum", 0.0)]),
     ("negotiation", "patience_steps", &[("minimum", 1.0)]),
+    ("negotiation", "clear_lead_m", &[("minimum", 0.0)]),
     ("negotiation", "settled_steps", &[("minimum", 1.0)]),
     ("negotiation", "ego_normaliser", &[("exclusiveMinimum", 0.0)]),
     ("negotiation", "other_normaliser", &[("exclusiveMinimum", 0.0)]),
@@ -100,16 +101,27 @@ pub(crate) fn kind_of(alternative: &Json) -> Option<&str> {
     alternative.get("properties")?.get("kind")?.get("const")?.as_str()
 }
 
+/// The keys that a table of this `kind` may have.
+pub(crate) fn keys_of_kind(kind: &str) -> Option<impl Iterator<Item = &'static str>> {
+    let definitions = complete().get("$defs")?.as_object()?;
+    let mut alternatives = definitions.values().filter_map(|schema| schema.get("oneOf")?.as_array()).flatten();
+    let alternative = alternatives.find(|one| kind_of(one) == Some(kind))?;
+    Some(alternative.get("properties")?.as_object()?.keys().map(String::as_str))
+}
+
 /// What `$ref` refers to, if there is one.
 pub(crate) fn resolved<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
     let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
     name.and_then(|name| root.get("$defs")?.get(name)).unwrap_or(schema)
 }
 
-/// Descriptions without the escapes of doc comments, and one for each `kind`.
+/// Makes the schema speak TOML: no nulls, which TOML cannot write; descriptions without the escapes of doc comments, and
+/// one for each `kind`.
 fn polish(schema: &mut Json) {
     match schema {
         Json::Object(object) => {
+            object.retain(|_, value| !value.is_null());
+            drop_nothing(object);
             if let Some(Json::String(description)) = object.get_mut("description") {
                 *description = description.replace("\\[", "[").replace("\\]", "]").replace('\n', " ");
             }
@@ -122,6 +134,25 @@ fn polish(schema: &mut Json) {
         }
         Json::Array(items) => items.iter_mut().for_each(polish),
         _ => {}
+    }
+}
+
+/// Takes the alternative "null" from a schema: an optional key is one that may be absent.
+fn drop_nothing(schema: &mut Map<String, Json>) {
+    if let Some(Json::Array(types)) = schema.get_mut("type") {
+        types.retain(|word| word != "null");
+        if let [only] = types.as_slice() {
+            let only = only.clone();
+            schema.insert("type".to_owned(), only);
+        }
+    }
+    if let Some(Json::Array(alternatives)) = schema.get_mut("anyOf") {
+        alternatives.retain(|one| one.get("type").is_none_or(|word| word != "null"));
+        if let [Json::Object(only)] = alternatives.as_slice() {
+            let only = only.clone();
+            schema.remove("anyOf");
+            schema.extend(only);
+        }
     }
 }
 

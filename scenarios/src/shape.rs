@@ -45,15 +45,15 @@ impl Checker {
     }
 
     fn node(&mut self, node: &Node, stated: &'static Json, path: &Path) {
-        let schema = substance(self.root, stated);
+        let schema = schema::resolved(self.root, stated);
         if let Some(alternatives) = schema.get("oneOf").and_then(Json::as_array) {
             return self.alternatives(node, alternatives, stated, path);
         }
         if let Some(words) = schema.get("enum").and_then(Json::as_array) {
             let words: Vec<&str> = words.iter().filter_map(Json::as_str).collect();
-            return self.word(node, &words, stated, path);
+            return self.word(node, &words, path);
         }
-        match (type_of(schema), &node.value) {
+        match (schema.get("type").and_then(Json::as_str), &node.value) {
             (Some("object"), Value::Table(table)) => self.table(node, table, schema, path),
             (Some("array"), Value::Array(items)) => self.list(node, items, schema, path),
             (Some("string"), Value::Text(text)) => self.text(node, text, schema, path),
@@ -90,7 +90,7 @@ impl Checker {
             other => kind_of(other).to_owned(),
         };
         let message = format!("{} must be {wanted}, not {got}", quoted(&path.0));
-        let help = described(stated, substance(self.root, stated));
+        let help = described(stated, schema::resolved(self.root, stated));
         self.refuse(&node.place, &format!("not {wanted}"), message, help);
     }
 
@@ -111,7 +111,7 @@ impl Checker {
         for key in required.filter_map(Json::as_str).filter(|key| !table.contains_key(*key)) {
             let stated = property(key).unwrap_or(&NULL);
             let message = format!("{} is missing", quoted(&path.join(key).0));
-            let help = described(stated, substance(self.root, stated));
+            let help = described(stated, schema::resolved(self.root, stated));
             self.refuse(&node.place, &format!("has no `{key}`"), message, help);
         }
     }
@@ -173,7 +173,7 @@ impl Checker {
     fn alternatives(&mut self, node: &Node, alternatives: &'static [Json], stated: &'static Json, path: &Path) {
         let words: Vec<&str> = alternatives.iter().filter_map(|word| word.get("const")?.as_str()).collect();
         if !words.is_empty() {
-            return self.word(node, &words, stated, path);
+            return self.word(node, &words, path);
         }
         let Value::Table(table) = &node.value else {
             return self.wrong_type(node, Some("object"), stated, path);
@@ -188,35 +188,22 @@ impl Checker {
             .find(|one| schema::kind_of(one).is_some() && schema::kind_of(one) == entry.node.text())
         {
             Some(schema) => self.table(node, table, schema, path),
-            None => self.word(&entry.node, &kinds, &NULL, &path.join("kind")),
+            None => self.word(&entry.node, &kinds, &path.join("kind")),
         }
     }
 
-    fn word(&mut self, node: &Node, words: &[&str], stated: &'static Json, path: &Path) {
+    fn word(&mut self, node: &Node, words: &[&str], path: &Path) {
         match node.text() {
             Some(text) if words.contains(&text) => {}
             Some(text) => {
                 let message = format!("{} cannot be {}", quoted(&path.0), quoted(text));
                 self.refuse(&node.place, "unknown word", message, suggestion(text, "choose from", words));
             }
-            None => self.wrong_type(node, Some("string"), stated, path),
+            None => {
+                let message = format!("{} must be a text, not {}", quoted(&path.0), kind_of(&node.value));
+                self.refuse(&node.place, "not a text", message, format!("choose from: {}", listed(words)));
+            }
         }
-    }
-}
-
-/// What a schema is about: references followed, and the alternative "nothing" left out, which TOML cannot write.
-fn substance(root: &'static Json, schema: &'static Json) -> &'static Json {
-    let schema = schema::resolved(root, schema);
-    let alternatives = schema.get("anyOf").and_then(Json::as_array);
-    let something = alternatives.and_then(|all| all.iter().find(|one| one.get("type") != Some(&Json::from("null"))));
-    something.map_or(schema, |one| schema::resolved(root, one))
-}
-
-/// The type that a schema wants, "or nothing" left out.
-fn type_of(schema: &Json) -> Option<&str> {
-    match schema.get("type")? {
-        Json::Array(types) => types.iter().filter_map(Json::as_str).find(|word| *word != "null"),
-        word => word.as_str(),
     }
 }
 
@@ -234,4 +221,36 @@ fn entries(count: u64) -> &'static str {
 fn is_name(text: &str) -> bool {
     let fits = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_' || byte == b'-';
     (1..=64).contains(&text.len()) && text.bytes().all(fits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Keywords that the check obeys, and those that only inform.
+    const UNDERSTOOD: &str = "$ref $defs oneOf const enum type properties required additionalProperties items minItems \
+        maxItems minLength pattern minimum maximum exclusiveMinimum exclusiveMaximum format default description title \
+        $schema";
+
+    #[test]
+    fn every_keyword_of_the_schema_is_understood() {
+        fn walk(schema: &Json) {
+            let Json::Object(object) = schema else { return };
+            for (keyword, value) in object {
+                assert!(UNDERSTOOD.split_whitespace().any(|word| word == keyword), "unknown keyword {keyword}");
+                match (keyword.as_str(), value) {
+                    ("properties" | "$defs", Json::Object(below)) => below.values().for_each(walk),
+                    ("oneOf", Json::Array(alternatives)) => alternatives.iter().for_each(walk),
+                    ("items", below) => walk(below),
+                    ("additionalProperties", value) => assert_eq!(value, false),
+                    ("pattern", value) => assert_eq!(value, schema::NAME_PATTERN),
+                    ("type", value) => assert!(value.is_string(), "{value}"),
+                    _ => {}
+                }
+            }
+            let closed = object.get("additionalProperties").is_some();
+            assert_eq!(object.contains_key("properties"), closed, "a table that takes unknown keys: {schema}");
+        }
+        walk(schema::complete());
+    }
 }

@@ -110,7 +110,7 @@ fn other_names(missing: &str) -> String {
     let names = || embedded::embedded().iter().map(|file| file.name);
     let last_part = |name: &'static str| name.rsplit('/').next().unwrap_or(name);
     let near = nearest(word, names()).or_else(|| {
-        let near = nearest(word, names().map(last_part))?;
+        let near = nearest(word.rsplit(['/', '\\']).next()?, names().map(last_part))?;
         names().find(|name| last_part(name) == near)
     });
     match near {

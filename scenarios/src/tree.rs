@@ -113,14 +113,18 @@ impl Node {
         }
     }
 
-    /// Where the value at a path such as `vehicle.0.start.x_m` is written, or the innermost table around it that is.
+    /// Where the value at a path such as `vehicle.0.start.x_m` is written, or the innermost table around it that is. Of
+    /// a table, that is the part that was stated last, so that a flag is blamed for what it changed.
     pub fn place_of(&self, path: &str) -> &Place {
         let mut node = self;
         for step in path.split('.') {
-            let Some(child) = node.child(step) else { break };
-            node = child;
+            match node.child(step) {
+                Some(child) => node = child,
+                None => return &node.place,
+            }
         }
-        &node.place
+        let parts = node.table().into_iter().flat_map(|table| table.values().map(|entry| &entry.key));
+        parts.chain([&node.place]).min_by_key(|place| (place.document.rank, place.span.start)).unwrap_or(&node.place)
     }
 
     /// The word by which a table in an array is addressed: its `name`, or the `vehicle` it is about.

@@ -1,0 +1,321 @@
+//! Every error as its reader sees it: each case is rendered and compared with the snapshots, and must name what
+//! matters.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+use interplay_scenarios::{LoadError, Override, Scenario, from_text, load};
+use miette::{GraphicalReportHandler, GraphicalTheme};
+
+/// A scenario without fault, for the cases to spoil.
+const GOOD: &str = r#"title = "Two cars"
+shows = "One follows the other"
+duration_s = 5.0
+
+[road]
+kind = "lanes"
+lane_count = 2
+
+[[vehicle]]
+name = "ego"
+start = { x_m = 0.0, y_m = 0.185, speed_mps = 1.0 }
+goal = { lane = 1 }
+driver = { kind = "negotiation", beta = 0.8 }
+
+[[vehicle]]
+name = "front"
+start = { x_m = 1.0, y_m = 0.185, speed_mps = 1.0 }
+body = { width_m = 0.19 }
+driver = { kind = "human", style = "nice" }
+
+[expect]
+no_collision = true
+order = ["front", "ego"]
+
+[[expect.completes]]
+vehicle = "ego"
+before_s = 4.0
+"#;
+
+/// The error as a reader without colours sees it.
+fn rendered(error: &LoadError, width: usize) -> String {
+    let mut text = String::new();
+    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(width);
+    handler.render_report(&mut text, error).expect("writing to a string cannot fail");
+    // No line may end in blanks, which editors would take away.
+    text.lines().map(|line| line.trim_end().to_owned() + "\n").collect()
+}
+
+/// The good scenario with each text replaced, which must be there.
+fn spoiled(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(GOOD.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from} is not in the good scenario");
+        text.replacen(from, to, 1)
+    })
+}
+
+/// The errors of one test, as they will be read.
+#[derive(Default)]
+struct Catalogue(String);
+
+impl Catalogue {
+    /// Expects an error whose rendering has all the fragments.
+    fn add<T>(&mut self, name: &str, result: Result<T, LoadError>, width: usize, fragments: &[&str]) {
+        let error = result.err().unwrap_or_else(|| panic!("{name}: accepted"));
+        let text = rendered(&error, width);
+        for fragment in fragments {
+            assert!(text.contains(fragment), "{name}: no {fragment:?} in\n{text}");
+        }
+        writeln!(self.0, "=== {name}\n{text}").expect("writing to a string cannot fail");
+    }
+
+    fn error(&mut self, name: &str, result: Result<Scenario, LoadError>, fragments: &[&str]) {
+        self.add(name, result, 100, fragments);
+    }
+
+    /// Expects that the spoiled scenario is refused.
+    fn refusal(&mut self, name: &str, changes: &[(&str, &str)], fragments: &[&str]) {
+        self.error(name, from_text("bad.toml", &spoiled(changes), &[]), fragments);
+    }
+
+    /// Expects that a file is refused. Lines are not broken, since that depends on the length of the folder's path.
+    fn file(&mut self, folder: &Path, file: &str, fragments: &[&str]) {
+        let path = folder.join(file);
+        self.add(file, load(&path.to_string_lossy(), &[]), 2000, fragments);
+        self.0 = self.0.replace(&*folder.to_string_lossy(), "FOLDER");
+    }
+
+    fn compare(self, snapshot: &str) {
+        insta::assert_snapshot!(snapshot, self.0);
+    }
+}
+
+#[test]
+fn the_good_scenario_is_good() {
+    from_text("good.toml", GOOD, &[]).expect("nothing is wrong with it");
+}
+
+#[test]
+fn syntax() {
+    let mut errors = Catalogue::default();
+    errors.refusal("syntax", &[("lane_count = 2", "lane_count = = 2")], &["bad.toml:7:", "not valid TOML"]);
+    errors.refusal(
+        "twice_the_same_key",
+        &[("duration_s = 5.0", "title = \"Again\"")],
+        &["bad.toml:3:1", "duplicate key"],
+    );
+    errors.error("control_characters", from_text("bad.toml", "title = \u{1b}[31m", &[]), &["not valid TOML"]);
+    errors.compare("syntax");
+}
+
+#[test]
+fn keys() {
+    let mut errors = Catalogue::default();
+    errors.refusal("unknown_key", &[("speed_mps", "sped_mps")], &["bad.toml:11:", "`speed_mps`?", "is missing"]);
+    errors.refusal("unknown_key_far_from_all", &[("lane_count", "elephants")], &["bad.toml:7:1", "`lane_width_m`"]);
+    errors.refusal("missing_title", &[("title = \"Two cars\"", "")], &["`title` is missing", "in a few words"]);
+    errors.refusal(
+        "missing_start",
+        &[("start = { x_m = 1.0, y_m = 0.185, speed_mps = 1.0 }\n", "")],
+        &["bad.toml:15:1", "`vehicle.front.start` is missing"],
+    );
+    errors.refusal("missing_kind", &[("kind = \"human\", ", "")], &["`vehicle.front.driver.kind`", "`conservative`"]);
+    errors.error(
+        "no_vehicle",
+        from_text("bad.toml", "title = 'a'\nshows = 'b'\nvehicle = []", &[]),
+        &["at least 1 entry"],
+    );
+    errors.compare("keys");
+}
+
+#[test]
+fn types_and_words() {
+    let mut errors = Catalogue::default();
+    errors.refusal("not_a_number", &[("5.0", "\"long\"")], &["bad.toml:3:14", "must be a number", "`long`"]);
+    errors.refusal("not_a_whole_number", &[("lane_count = 2", "lane_count = 2.5")], &["whole number", "2.5"]);
+    errors.refusal("not_a_table", &[("{ lane = 1 }", "1")], &["`vehicle.ego.goal` must be a table"]);
+    errors.refusal("not_a_list", &[("[\"front\", \"ego\"]", "\"front\"")], &["`expect.order` must be a list"]);
+    errors.refusal("not_true_or_false", &[("true", "1979-05-27")], &["`expect.no_collision` must be true or false"]);
+    errors.refusal("unknown_word", &[("\"nice\"", "\"nise\"")], &["`nise`", "did you mean `nice`?"]);
+    errors.refusal("unknown_kind", &[("\"lanes\"", "\"motorway\"")], &["`road.kind`", "`motorway`", "`lanes`"]);
+    errors.refusal("not_a_name", &[("\"front\"\nstart", "\"The front\"\nstart")], &["`The front` is not a name"]);
+    errors.refusal("empty_text", &[("\"Two cars\"", "\" \"")], &["`title` must not be empty"]);
+    errors.compare("types_and_words");
+}
+
+#[test]
+fn numbers() {
+    let mut errors = Catalogue::default();
+    errors.refusal("not_finite", &[("x_m = 1.0", "x_m = nan")], &["`vehicle.front.start.x_m`", "finite"]);
+    errors.refusal("infinite", &[("5.0", "inf")], &["`duration_s`", "finite"]);
+    errors.refusal("too_large_to_compute", &[("x_m = 1.0", "x_m = 1e300")], &["between -1e9 and 1e9"]);
+    errors.refusal(
+        "negative_width",
+        &[("width_m = 0.19", "width_m = -0.19")],
+        &["`vehicle.front.body.width_m`", "-0.19"],
+    );
+    errors.refusal("negative_duration", &[("5.0", "-5.0")], &["`duration_s` must be at least 0.001"]);
+    errors.refusal("beta_not_below_one", &[("beta = 0.8", "beta = 1")], &["`vehicle.ego.driver.beta` must be below 1"]);
+    errors.refusal("horizon_too_long", &[("[road]", "horizon_steps = 201\n[road]")], &["at most 200"]);
+    let seed = [("[road]", "seed = 99999999999999999999999999999999999999999999\n[road]")];
+    errors.refusal("seed_too_large", &seed, &["`seed` must be at most 18446744073709551615"]);
+    errors.compare("numbers");
+}
+
+#[test]
+fn places() {
+    let mut errors = Catalogue::default();
+    errors.refusal(
+        "start_outside_the_road",
+        &[("y_m = 0.185", "y_m = 0.05")],
+        &["bad.toml:11:9", "`ego` starts outside"],
+    );
+    errors.refusal("overlapping_cars", &[("x_m = 1.0", "x_m = 0.39")], &["`ego` and `front` overlap", "with this one"]);
+    errors.refusal("lane_out_of_range", &[("lane = 1", "lane = 2")], &["bad.toml:12:17", "only 2 lanes", "0 to 1"]);
+    errors.refusal("goal_beside_the_road", &[("lane = 1", "y_m = 1.0")], &["beside the road", "0.74"]);
+    errors.refusal("lane_and_position", &[("lane = 1", "lane = 1, y_m = 0.5")], &["both `lane` and `y_m`"]);
+    errors.refusal("weight_on_x", &[("goal = { lane = 1 }", "weights = { x = 1 }")], &["weights.x"]);
+    errors.compare("places");
+}
+
+#[test]
+fn names_and_times() {
+    let mut errors = Catalogue::default();
+    errors.refusal(
+        "same_name_twice",
+        &[("name = \"front\"", "name = \"ego\"")],
+        &["called `ego`", "the first", "the second"],
+    );
+    errors.refusal("unknown_vehicle_in_order", &[("[\"front\"", "[\"fornt\"")], &["`fornt`", "did you mean `front`?"]);
+    errors.refusal("named_twice_in_order", &[("[\"front\"", "[\"ego\"")], &["names `ego` twice"]);
+    errors.refusal(
+        "unknown_vehicle_in_completes",
+        &[("vehicle = \"ego\"", "vehicle = \"truck\"")],
+        &["`truck`", "`front`"],
+    );
+    errors.refusal(
+        "empty_window",
+        &[("before_s = 4.0", "before_s = 4.0\nafter_s = 4.5")],
+        &["after 4.5 s and before 4 s"],
+    );
+    errors.refusal("window_after_the_end", &[("before_s = 4.0", "after_s = 5.0")], &["the end of the run at 5 s"]);
+    errors.refusal(
+        "expects_nothing",
+        &[("[[expect.completes]]", "[[expect.speed]]"), ("before_s = 4.0\n", "")],
+        &["nothing"],
+    );
+    errors.refusal("too_many_ticks", &[("5.0", "1e6")], &["more than 100000 ticks"]);
+    errors.refusal("shorter_than_a_step", &[("5.0", "0.05")], &["shorter than one step"]);
+    errors.compare("names_and_times");
+}
+
+#[test]
+fn drivers_and_limits() {
+    let mut errors = Catalogue::default();
+    let limits = |text: &'static str| [("goal = { lane = 1 }", text)];
+    errors.refusal("limits_inverted", &limits("limits = { speed_min_mps = 2.0 }"), &["not below the largest"]);
+    errors.refusal("start_outside_limits", &limits("limits = { speed_max_mps = 0.9 }"), &["start.speed_mps", "0.9"]);
+    errors.refusal("goal_outside_limits", &limits("goal = { speed_mps = 1.6 }"), &["goal.speed_mps", "1.5"]);
+    errors.refusal(
+        "style_and_weight",
+        &[("style = \"nice\"", "style = \"nice\", safety_weight = 8")],
+        &["both `style`"],
+    );
+    errors.refusal("settled_too_long", &[("beta = 0.8", "settled_steps = 30")], &["settled_steps", "(30)"]);
+    errors.compare("drivers_and_limits");
+}
+
+#[test]
+fn all_independent_errors_at_once() {
+    let mut errors = Catalogue::default();
+    let changes =
+        [("5.0", "-1"), ("lane_count", "lanes"), ("\"nice\"", "3"), ("no_collision = true", "no_collision = 0")];
+    errors.refusal("several", &changes, &["4 errors", "bad.toml:3:", "bad.toml:7:", "bad.toml:19:", "bad.toml:22:"]);
+    let mut many = GOOD.to_owned();
+    for index in 0..30 {
+        writeln!(many, "unknown_{index:02} = 1").expect("writing to a string cannot fail");
+    }
+    let error = from_text("bad.toml", &many, &[]).expect_err("unknown keys");
+    assert_eq!(error.problems().len(), 20);
+    assert!(rendered(&error, 100).contains("10 more are not shown"));
+    errors.compare("all_independent_errors_at_once");
+}
+
+#[test]
+fn long_lines_are_cut_around_the_error() {
+    let long = format!("# {}\nshows = [{}nan]", "a".repeat(5000), "0.5, ".repeat(2000));
+    let error = from_text("bad.toml", &long, &[]).expect_err("not a text");
+    let text = rendered(&error, 100);
+    assert!(text.chars().count() < 6000, "{} characters", text.chars().count());
+    assert!(error.problems().iter().any(|problem| problem.line_and_column() == Some((2, 9))), "{text}");
+}
+
+#[test]
+fn overrides() {
+    let mut errors = Catalogue::default();
+    let set = |text: &str| from_text("good.toml", GOOD, &[Override::Set(text.to_owned())]);
+    errors.error("set_unknown_vehicle", set("vehicle.eggo.goal.lane=1"), &["--set:1:9", "`eggo`", "`ego`?"]);
+    errors.error("set_unknown_key", set("vehicle.ego.goal.sped=1"), &["--set:1:18", "unknown key `sped`"]);
+    errors.error("set_wrong_type", set("duration_s=long"), &["--set:1:12", "must be a number"]);
+    errors.error("set_without_value", set("duration_s"), &["PATH=VALUE", "for example"]);
+    errors.error("set_without_key", set("vehicle..goal=1"), &["--set:1:9", "a key is missing here"]);
+    errors.error("set_below_a_number", set("duration_s.x=1"), &["--set:1:1", "not a table"]);
+    errors.error("set_outside_the_road", set("vehicle.ego.start.y_m=0.05"), &["--set:1:19", "outside the road"]);
+    errors.error("set_too_deep", set(&format!("{}=1", "a.".repeat(100_000))), &["no key of a scenario"]);
+    let planner = from_text("good.toml", GOOD, &[Override::Planner("negotiate".to_owned())]);
+    errors.error("unknown_planner", planner, &["--planner:1:1", "`negotiation`?"]);
+    errors.compare("overrides");
+}
+
+#[test]
+fn missing_files() {
+    let mut errors = Catalogue::default();
+    errors.error("no_such_name", load("lane-change/front-nicer", &[]), &["did you mean", "lane-change/front-nice"]);
+    errors.error("no_such_name_near", load("something-else-entirely", &[]), &["interplay list"]);
+    errors.error("no_such_file", load("front-tuogh.toml", &[]), &["no file", "lane-change/front-tough"]);
+    errors.error("no_name", load("", &[]), &["no scenario and no file"]);
+    errors.compare("missing_files");
+}
+
+#[test]
+fn unreadable_files() {
+    let mut errors = Catalogue::default();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).expect("a writable folder");
+    write("empty.toml", b"");
+    write("blank.toml", b"\n  \n");
+    write("binary.toml", b"title = 'a'\n\x80\xff");
+    let mut state = 1_u32;
+    let random = (0..10 << 20).map(|_| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        state.to_be_bytes()[0]
+    });
+    write("large.toml", &random.collect::<Vec<u8>>());
+    errors.file(folder.path(), "empty.toml", &["is empty", "`title`"]);
+    errors.file(folder.path(), "blank.toml", &["is empty"]);
+    errors.file(folder.path(), "binary.toml", &["binary.toml:2:1", "not UTF-8"]);
+    errors.file(folder.path(), "large.toml", &["larger than 1 MiB"]);
+    errors.file(folder.path(), "", &["is a directory"]);
+    errors.compare("unreadable_files");
+}
+
+#[test]
+fn chains_of_files() {
+    let mut errors = Catalogue::default();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("a writable folder");
+    write("a.toml", "extends = 'b.toml'\ntitle = 'a'\n");
+    write("b.toml", "title = 'b'\nextends = 'a.toml'\n");
+    write("itself.toml", "extends = 'itself.toml'\n");
+    write("orphan.toml", "title = 'a'\nextends = 'front-nise.toml'\n");
+    write("list.toml", "extends = ['a.toml']\n");
+    write("parent.toml", &spoiled(&[("width_m = 0.19", "widht_m = 0.19")]));
+    write("child.toml", "extends = 'parent.toml'\ntitle = 'The error is my parent’s'\n");
+    errors.file(folder.path(), "a.toml", &["b.toml:2:11", "extends itself"]);
+    errors.file(folder.path(), "itself.toml", &["itself.toml:1:11", "extends itself"]);
+    errors.file(folder.path(), "orphan.toml", &["orphan.toml:2:11", "lane-change/front-nice"]);
+    errors.file(folder.path(), "list.toml", &["list.toml:1:11", "`extends`"]);
+    errors.file(folder.path(), "child.toml", &["parent.toml:18:10", "`width_m`?"]);
+    errors.compare("chains_of_files");
+}

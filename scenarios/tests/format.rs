@@ -1,0 +1,211 @@
+//! What the format means: variants, overrides, defaults, the schema, and the authored files.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use interplay_planners::{Driver, human::Style};
+use interplay_scenarios::{Override, Road, Scenario, Source, embedded, from_text, load, schema};
+use serde_json::{Map, Value as Json};
+
+/// As little as a scenario can say.
+const LEAST: &str =
+    "title = 'a'\nshows = 'b'\n[[vehicle]]\nname = 'car'\nstart = { x_m = 0, y_m = 0.2, speed_mps = 1 }\n";
+
+fn least(more: &str, overrides: &[Override]) -> Scenario {
+    from_text("least.toml", &format!("{more}\n{LEAST}"), overrides).expect("a scenario without fault")
+}
+
+fn set(assignment: &str) -> Override {
+    Override::Set(assignment.to_owned())
+}
+
+#[test]
+fn every_file_on_disk_is_embedded_and_loads_from_both() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("files");
+    let mut on_disk = BTreeSet::new();
+    for family in fs::read_dir(&folder).expect("the folder of authored files") {
+        let family = family.expect("readable").path();
+        for file in fs::read_dir(&family).expect("a folder for each family") {
+            let path = file.expect("readable").path().with_extension("");
+            let name = path.strip_prefix(&folder).expect("below the folder").to_string_lossy().replace('\\', "/");
+            on_disk.insert(name);
+        }
+    }
+    let names: Vec<&str> = embedded().iter().map(|file| file.name).collect();
+    assert_eq!(names, on_disk.iter().map(String::as_str).collect::<Vec<_>>(), "embedded, sorted, and complete");
+    for file in embedded() {
+        assert!(file.text.starts_with("# "), "{} opens with what to look for", file.name);
+        let scenario = load(file.name, &[]).unwrap_or_else(|error| panic!("{}: {error:?}", file.name));
+        let path = folder.join(file.name).with_extension("toml");
+        assert_eq!(load(&path.to_string_lossy(), &[]).expect("the same text"), scenario);
+    }
+}
+
+#[test]
+fn a_written_scenario_reads_back_the_same() {
+    for file in embedded() {
+        let scenario = load(file.name, &[]).expect("authored files load");
+        let text = toml::to_string(&scenario).expect("plain data");
+        assert_eq!(from_text("copy.toml", &text, &[]).expect("what was written"), scenario);
+    }
+}
+
+#[test]
+fn a_variant_states_only_its_difference() {
+    let (nice, tough) = (load("lane-change/front-nice", &[]), load("lane-change/front-tough", &[]));
+    let (nice, tough) = (nice.expect("authored"), tough.expect("authored"));
+    let style = |scenario: &Scenario, name: &str| match &scenario.vehicle(name).expect("a vehicle").driver {
+        Driver::Human(human) => human.style,
+        other => panic!("{other:?} is not human"),
+    };
+    assert_eq!((style(&nice, "front"), style(&tough, "front")), (Some(Style::Nice), Some(Style::Tough)));
+    assert_eq!(style(&tough, "rear"), Some(Style::Nice));
+    assert_eq!(tough.vehicle("front").map(|v| v.start), nice.vehicle("front").map(|v| v.start));
+    assert_eq!(tough.expect.order.as_deref().map(|order| order.join(" ")), Some("front ego rear".to_owned()));
+    assert_eq!(tough.expect.no_collision, Some(true), "what a variant does not state stays");
+    assert_eq!(load("lane-change/both-tough", &[]).expect("authored").figure, None, "a variant is another picture");
+}
+
+#[test]
+fn a_file_extends_a_file_beside_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("a writable folder");
+    write("a.toml", "extends = 'sub.toml'\n[[vehicle]]\nname = 'rear'\ngoal.speed_mps = 0.7");
+    write(
+        "sub.toml",
+        "extends = 'lane-change/front-nice'\ntitle = 'Sub'\nvehicle = [{ name = 'rear', goal.y_m = 0.5 }]",
+    );
+    let path = folder.path().join("a.toml");
+    let scenario = load(&path.to_string_lossy(), &[]).expect("a chain of three");
+    let goal = scenario.vehicle("rear").expect("inherited").goal;
+    assert_eq!((goal.lane, goal.y_m, goal.speed_mps), (None, Some(0.5), Some(0.7)), "`y_m` takes the place of `lane`");
+    assert_eq!((scenario.title.as_str(), scenario.vehicles.len()), ("Sub", 3));
+    assert_eq!(Source::find(&path.to_string_lossy()).expect("there").name(), "a");
+}
+
+#[test]
+fn overrides_change_what_they_name_in_their_order() {
+    let changes = [
+        set("vehicle.ego.goal.speed_mps=1.2"),
+        set("vehicle.front.driver.safety_weight = 8"),
+        set("expect.completes.ego.before_s=9"),
+        set("title=Not TOML but a text"),
+        set("road={ lane_count = 3 }"),
+        Override::Seed(u64::MAX),
+        set("duration_s=1.0"),
+        set("duration_s=10"),
+    ];
+    let scenario = load("lane-change/front-nice", &changes).expect("all keys exist");
+    assert_eq!(scenario.ego().and_then(|ego| ego.goal.speed_mps), Some(1.2));
+    let Driver::Human(front) = &scenario.vehicle("front").expect("there").driver else { panic!("not human") };
+    assert_eq!((front.style, front.weight()), (None, 8.0), "`safety_weight` takes the place of `style`");
+    assert_eq!(scenario.expect.completes[0].before_s, Some(9.0));
+    assert_eq!((scenario.title.as_str(), scenario.seed, scenario.duration_s), ("Not TOML but a text", u64::MAX, 10.0));
+    assert_eq!((scenario.road.lane_count(), scenario.road.lane_width_m()), (3, 0.37));
+}
+
+#[test]
+fn another_planner_keeps_the_settings_that_it_knows() {
+    let scenario = load("lane-change/front-nice", &[Override::Planner("conservative".to_owned())]).expect("a planner");
+    let Some(Driver::Conservative(settings)) = scenario.ego().map(|ego| &ego.driver) else {
+        panic!("not conservative")
+    };
+    assert_eq!(settings.look_around_every, 3);
+    let same = load("lane-change/front-nice", &[Override::Planner("negotiation".to_owned())]).expect("a planner");
+    assert_eq!(same, load("lane-change/front-nice", &[]).expect("authored"));
+    let first = least("", &[Override::Planner("conservative".to_owned())]);
+    assert!(matches!(first.vehicles[0].driver, Driver::Conservative(_)), "without an `ego` the first vehicle is it");
+}
+
+#[test]
+fn whoever_says_nothing_carries_on() {
+    let scenario = least("", &[]);
+    let car = &scenario.vehicles[0];
+    assert_eq!(car.target(&scenario.road), car.start);
+    assert_eq!(scenario.road, Road::default());
+    assert_eq!((scenario.tick_count(), scenario.ego_index()), (120, 0));
+    let changing = least("", &[set("vehicle.car.goal.lane=1")]);
+    assert!((changing.vehicles[0].target(&changing.road).y_m - 0.555).abs() < 1e-15);
+}
+
+#[test]
+fn jitter_is_bounded_and_repeats_with_the_seed() {
+    let jittered = |seed| least("start_jitter = { position_m = 0.1, speed_mps = 0.6 }", &[Override::Seed(seed)]);
+    let mut positions = BTreeSet::new();
+    for seed in 0..200 {
+        let (scenario, again) = (jittered(seed), jittered(seed));
+        let start = scenario.starts()[0];
+        assert_eq!(start, again.starts()[0]);
+        assert!(start.x_m.abs() <= 0.1 && (0.4..=1.5).contains(&start.speed_mps), "{start:?}");
+        assert_eq!(start.y_m, 0.2, "only along the heading");
+        positions.insert(start.x_m.to_bits());
+    }
+    assert_eq!(positions.len(), 200, "every seed is another start");
+    assert_eq!(least("", &[]).starts()[0], least("", &[]).vehicles[0].start);
+}
+
+/// Calls `visit` with every property of the schema, by path.
+fn each_property(root: &Json, schema: &Json, path: &str, visit: &mut impl FnMut(&str, &Json)) {
+    let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
+    let schema = name.map_or(schema, |name| &root["$defs"][name]);
+    for alternative in schema.get("oneOf").and_then(Json::as_array).into_iter().flatten() {
+        each_property(root, alternative, path, visit);
+    }
+    for (key, property) in schema.get("properties").and_then(Json::as_object).into_iter().flatten() {
+        let path = format!("{path}.{key}");
+        visit(&path, property);
+        each_property(root, property, &path, visit);
+    }
+    if let Some(items) = schema.get("items") {
+        each_property(root, items, path, visit);
+    }
+}
+
+#[test]
+fn the_schema_describes_every_key() {
+    let root = schema();
+    let mut paths = Vec::new();
+    each_property(&root, &root, "", &mut |path, property| {
+        let description = property.get("description").and_then(Json::as_str).unwrap_or_default();
+        assert!(description.len() > 10, "{path} is not described");
+        assert!(!description.contains("\\["), "{path}: {description}");
+        paths.push(path.to_owned());
+    });
+    assert!(paths.contains(&".vehicle.driver.beta".to_owned()), "{paths:?}");
+    assert!(paths.contains(&".extends".to_owned()));
+    assert!(!root.to_string().contains("null"), "TOML has no null");
+}
+
+/// A value with every default of the schema written out, over what `stated` has.
+fn with_defaults(root: &Json, schema: &Json, stated: &Json) -> Json {
+    let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
+    let schema = name.map_or(schema, |name| &root["$defs"][name]);
+    let of_kind = |one: &&Json| one["properties"]["kind"]["const"] == stated["kind"];
+    let alternatives = schema.get("oneOf").and_then(Json::as_array);
+    let schema = alternatives.and_then(|all| all.iter().find(of_kind)).unwrap_or(schema);
+    if let (Some(items), Some(stated)) = (schema.get("items"), stated.as_array()) {
+        return stated.iter().map(|item| with_defaults(root, items, item)).collect();
+    }
+    let (Some(properties), Some(stated)) = (schema.get("properties").and_then(Json::as_object), stated.as_object())
+    else {
+        return stated.clone();
+    };
+    let mut filled = Map::new();
+    for (key, property) in properties {
+        if let Some(value) = stated.get(key).or_else(|| property.get("default")) {
+            filled.insert(key.clone(), with_defaults(root, property, value));
+        }
+    }
+    Json::Object(filled)
+}
+
+#[test]
+fn writing_out_every_default_of_the_schema_changes_nothing() {
+    let root = schema();
+    let stated: Json = toml::from_str(LEAST).expect("TOML");
+    let written = with_defaults(&root, &root, &stated);
+    let text = toml::to_string(&written).expect("no nulls");
+    assert!(text.contains("following_weight") && text.contains("lane_width_m"), "{text}");
+    assert_eq!(from_text("full.toml", &text, &[]).expect("the schema's own defaults"), least("", &[]));
+}
