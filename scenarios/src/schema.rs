@@ -14,9 +14,12 @@ use crate::Scenario;
 /// What a name must look like, since it becomes part of paths.
 pub(crate) const NAME_PATTERN: &str = "^[a-z0-9_-]{1,64}$";
 
+/// Keywords of JSON Schema with their bounds.
+type Keywords = &'static [(&'static str, f64)];
+
 /// Ranges of the planners' settings: table (a definition, or the kind of a driver), key, bounds. Lengths are at least a
 /// millimetre, so that nothing is divided by almost nothing.
-const BOUNDS: &[(&str, &str, &[(&str, f64)])] = &[
+const BOUNDS: &[(&str, &str, Keywords)] = &[
     ("Body", "front_m", &[("minimum", 0.001)]),
     ("Body", "rear_m", &[("minimum", 0.001)]),
     ("Body", "width_m", &[("minimum", 0.001)]),
@@ -162,6 +165,8 @@ fn requirements(root: &Json, schema: &Json) -> Option<Json> {
     let mut skeleton = Map::new();
     if let Some(required) = schema.get("required") {
         skeleton.insert("required".to_owned(), required.clone());
+    } else if schema.as_object().is_some_and(is_tagged) {
+        skeleton.insert("required".to_owned(), json!(["kind"]));
     }
     if let Some(properties) = schema.get("properties").and_then(Json::as_object) {
         let below = properties.iter().filter_map(|(key, schema)| Some((key.clone(), requirements(root, schema)?)));
@@ -176,18 +181,30 @@ fn requirements(root: &Json, schema: &Json) -> Option<Json> {
     (!skeleton.is_empty()).then_some(Json::Object(skeleton))
 }
 
-/// Removes `required` from everything but the alternatives of tagged tables, which need their `kind`.
+/// Removes `required` everywhere. A tagged table may then leave its `kind` to the parent, so that more than one
+/// alternative can fit.
 fn drop_requirements(schema: &mut Json) {
     match schema {
         Json::Object(object) => {
             if object.get("required").is_some_and(Json::is_array) {
                 object.remove("required");
             }
-            object.iter_mut().filter(|(key, _)| *key != "oneOf").for_each(|(_, below)| drop_requirements(below));
+            if is_tagged(object)
+                && let Some(alternatives) = object.remove("oneOf")
+            {
+                object.insert("anyOf".to_owned(), alternatives);
+            }
+            object.values_mut().for_each(drop_requirements);
         }
         Json::Array(items) => items.iter_mut().for_each(drop_requirements),
         _ => {}
     }
+}
+
+/// Whether a schema describes tables of several kinds.
+fn is_tagged(schema: &Map<String, Json>) -> bool {
+    let alternatives = schema.get("oneOf").and_then(Json::as_array);
+    alternatives.is_some_and(|all| all.iter().any(|one| kind_of(one).is_some()))
 }
 
 #[cfg(test)]
@@ -204,5 +221,20 @@ mod tests {
                 assert_eq!(property.get(*keyword), Some(&json!(bound)), "{table}.{key}");
             }
         }
+    }
+
+    #[test]
+    fn a_variant_may_leave_out_what_a_complete_file_must_state() {
+        let file = schema();
+        let definitions = file["$defs"].to_string();
+        assert!(!definitions.contains("required"), "{definitions}");
+        let [variant, whole] = file["anyOf"].as_array().expect("two cases").as_slice() else { panic!("two cases") };
+        assert_eq!(variant, &json!({ "required": ["extends"] }));
+        assert_eq!(whole["not"], *variant);
+        assert_eq!(whole["required"], complete()["required"]);
+        let vehicle = &whole["properties"]["vehicle"]["items"];
+        assert_eq!(vehicle["required"], json!(["name", "start"]));
+        assert_eq!(vehicle["properties"]["start"]["required"], json!(["x_m", "y_m", "speed_mps"]));
+        assert_eq!(vehicle["properties"]["driver"]["required"], json!(["kind"]));
     }
 }

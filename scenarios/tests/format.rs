@@ -149,7 +149,9 @@ fn jitter_is_bounded_and_repeats_with_the_seed() {
 fn each_property(root: &Json, schema: &Json, path: &str, visit: &mut impl FnMut(&str, &Json)) {
     let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
     let schema = name.map_or(schema, |name| &root["$defs"][name]);
-    for alternative in schema.get("oneOf").and_then(Json::as_array).into_iter().flatten() {
+    // Alternatives that only say what is required have no type.
+    let alternatives = ["oneOf", "anyOf"].iter().filter_map(|key| schema.get(*key)?.as_array()).flatten();
+    for alternative in alternatives.filter(|one| one.get("type").is_some()) {
         each_property(root, alternative, path, visit);
     }
     for (key, property) in schema.get("properties").and_then(Json::as_object).into_iter().flatten() {
@@ -182,8 +184,8 @@ fn with_defaults(root: &Json, schema: &Json, stated: &Json) -> Json {
     let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
     let schema = name.map_or(schema, |name| &root["$defs"][name]);
     let of_kind = |one: &&Json| one["properties"]["kind"]["const"] == stated["kind"];
-    let alternatives = schema.get("oneOf").and_then(Json::as_array);
-    let schema = alternatives.and_then(|all| all.iter().find(of_kind)).unwrap_or(schema);
+    let tagged = stated.get("kind").and(schema.get("anyOf")).and_then(Json::as_array);
+    let schema = tagged.and_then(|all| all.iter().find(of_kind)).unwrap_or(schema);
     if let (Some(items), Some(stated)) = (schema.get("items"), stated.as_array()) {
         return stated.iter().map(|item| with_defaults(root, items, item)).collect();
     }
