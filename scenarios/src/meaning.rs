@@ -247,3 +247,31 @@ fn shadow(corners: &[[f64; 2]; 4], [x, y]: [f64; 2]) -> (f64, f64) {
     let along = corners.map(|corner| corner[0] * x + corner[1] * y);
     along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(*at), high.max(*at)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two equal cars of 0.4 m × 0.19 m, the second elsewhere and turned.
+    fn touches(x_m: f64, y_m: f64, heading_rad: f64) -> bool {
+        let text =
+            "title = 'a'\nshows = 'b'\nvehicle = [{ name = 'a', start = { x_m = 0, y_m = 0.2, speed_mps = 1 } }]";
+        let scenario = crate::from_text("cars.toml", text, &[]).expect("a scenario without fault");
+        let (car, start) = (&scenario.vehicles[0], State::default());
+        let other = State { x_m, y_m, heading_rad, speed_mps: 0.0 };
+        let (one_way, other_way) = (touch((car, &start), (car, &other)), touch((car, &other), (car, &start)));
+        assert_eq!(one_way, other_way, "touching is mutual");
+        one_way
+    }
+
+    #[test]
+    fn footprints_touch_when_no_edge_separates_them() {
+        assert!(touches(0.0, 0.0, 0.0));
+        assert!(touches(0.399, 0.189, 0.0));
+        assert!(!touches(0.4, 0.0, 0.0), "bumper to bumper");
+        assert!(!touches(0.0, 0.19, 0.0), "door to door");
+        // Turned by 45°, the bounding boxes overlap, the rectangles do not.
+        assert!(!touches(0.40, 0.21, -std::f64::consts::FRAC_PI_4));
+        assert!(touches(0.28, 0.14, -std::f64::consts::FRAC_PI_4));
+    }
+}
