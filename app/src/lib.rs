@@ -1,1 +1,23 @@
-//! Interplay.
+//! Interplay: a simulator for agents that must interact.
+//!
+//! ```text
+//! scenario file -> Scenario -> entities -> sense -> predict -> plan -> act -> physics -> measure -> record -> report
+//! ```
+//!
+//! [`run`](run::run) does all of it. The loop is one visible list in [`phases`]; each phase is one file.
+
+pub mod act;
+pub mod cli;
+pub mod components;
+pub mod frame;
+pub mod measure;
+pub mod phases;
+pub mod physics;
+pub mod plan;
+pub mod predict;
+pub mod record;
+pub mod report;
+pub mod run;
+pub mod sense;
+pub mod spawn;
+pub mod watch;

@@ -1,2 +1,5 @@
-//! The command line.
-fn main() {}
+//! The `interplay` command.
+
+fn main() -> std::process::ExitCode {
+    interplay::cli::main()
+}

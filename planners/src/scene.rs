@@ -101,11 +101,6 @@ impl Scene {
     pub fn keep_out(&self, prediction: &Trajectory, heading_rad: f64, penalty: Penalty) -> KeepOut {
         let last = prediction.states.last().copied().unwrap_or_default();
         let centre = |t: usize| prediction.states.get(t).unwrap_or(&last).position();
-        KeepOut {
-            centres: (1..=self.horizon).map(centre).collect(),
-            heading_rad,
-            ellipse: self.goal.safety,
-            penalty,
-        }
+        KeepOut { centres: (1..=self.horizon).map(centre).collect(), heading_rad, ellipse: self.goal.safety, penalty }
     }
 }

@@ -74,7 +74,15 @@ fn lane_change(driver: Driver, styles: [human::Style; 2]) -> (f64, Vec<String>, 
     run(&mut vehicles, 120, |tick, vehicles| {
         let ego = &vehicles[0].agent;
         if std::env::var("SHOW").is_ok() {
-            let show = |v: &Vehicle| format!("{:.2} {:.2} v{:.2} a{:.2}", v.agent.state.x_m, v.agent.state.y_m, v.agent.state.speed_mps, v.agent.previous_input.acceleration_mps2);
+            let show = |v: &Vehicle| {
+                format!(
+                    "{:.2} {:.2} v{:.2} a{:.2}",
+                    v.agent.state.x_m,
+                    v.agent.state.y_m,
+                    v.agent.state.speed_mps,
+                    v.agent.previous_input.acceleration_mps2
+                )
+            };
             println!("T {tick} {}", vehicles.iter().map(show).collect::<Vec<_>>().join(" | "));
         }
         for other in &vehicles[1..] {

@@ -21,8 +21,15 @@ fn both_solvers_lead_to_optima_of_the_same_cost() {
             let theirs = Optimiser::new(Sparse::default()).descend(&problem, &start);
             let took2 = clock.elapsed().as_micros() - took;
             match (&ours, &theirs) {
-                (Ok(a), Ok(b)) => println!("{seed} {took} {took2} {:.9} {:.9} {:?} {:?}", a.cost.total, b.cost.total, a.statistics, b.statistics),
-                _ => println!("{seed} {took} {took2} {:?} {:?}", ours.as_ref().map(|o| (o.cost, o.statistics)), theirs.as_ref().map(|o| (o.cost, o.statistics))),
+                (Ok(a), Ok(b)) => println!(
+                    "{seed} {took} {took2} {:.9} {:.9} {:?} {:?}",
+                    a.cost.total, b.cost.total, a.statistics, b.statistics
+                ),
+                _ => println!(
+                    "{seed} {took} {took2} {:?} {:?}",
+                    ours.as_ref().map(|o| (o.cost, o.statistics)),
+                    theirs.as_ref().map(|o| (o.cost, o.statistics))
+                ),
             }
         }
     }

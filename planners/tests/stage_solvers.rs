@@ -3,9 +3,7 @@
 mod common;
 
 use common::{Random, alone, iterate, pair};
-use interplay_planners::mpc::{
-    Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt, linearise,
-};
+use interplay_planners::mpc::{Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt, linearise};
 
 fn step_problem(problem: &Problem, seed: u64) -> StageQp {
     let mut qp = StageQp::default();

@@ -67,11 +67,7 @@ impl Human {
     }
 
     /// The cheapest of keeping on, yielding and passing.
-    fn decide(
-        &mut self,
-        problem: &Problem,
-        scene: &Scene,
-    ) -> Result<(Optimum, crate::mpc::Statistics), DescentError> {
+    fn decide(&mut self, problem: &Problem, scene: &Scene) -> Result<(Optimum, crate::mpc::Statistics), DescentError> {
         let steady = |share: f64| {
             let limits = &scene.ego.limits;
             let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
@@ -126,8 +122,6 @@ impl Human {
 
 /// The nearest vehicle ahead in the same lane.
 fn leader(scene: &Scene) -> Option<&Agent> {
-    let ahead = scene.others.iter().filter(|other| {
-        scene.ego.shares_lane_with(other) && scene.ego.lead_of(other) > 0.0
-    });
+    let ahead = scene.others.iter().filter(|other| scene.ego.shares_lane_with(other) && scene.ego.lead_of(other) > 0.0);
     ahead.min_by(|a, b| scene.ego.lead_of(a).total_cmp(&scene.ego.lead_of(b)))
 }

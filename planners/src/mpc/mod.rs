@@ -15,13 +15,11 @@ mod stage;
 mod structured;
 
 pub use linearise::{add_curvature, drop_curvature, linearise};
-pub use problem::{
-    Cost, Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking,
-};
+pub use problem::{Cost, Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
 pub use robust::Robust;
 pub use scp::{DescentError, Optimiser, Optimum, Statistics, Tolerances};
+pub use sparse::Sparse;
 pub use stage::{
     Interval, Row, RowBlock, StageError, StageQp, StageSolution, StageSolver, StateCost, TrajectoryRow, VehicleStages,
 };
-pub use sparse::Sparse;
 pub use structured::Structured;

@@ -231,7 +231,8 @@ impl<S: StageSolver> Optimiser<S> {
             total.starts += 1;
             total.programmes += candidate.statistics.programmes;
             total.inner_iterations += candidate.statistics.inner_iterations;
-            let cheaper = |held: &Optimum| candidate.cost.total < held.cost.total - 1e-9 * (1.0 + held.cost.total.abs());
+            let cheaper =
+                |held: &Optimum| candidate.cost.total < held.cost.total - 1e-9 * (1.0 + held.cost.total.abs());
             if best.as_ref().map_or(true, cheaper) {
                 best = Ok(candidate);
             }

@@ -78,10 +78,8 @@ impl StageSolver for Sparse {
     fn solve(&mut self, qp: &StageQp, solution: &mut StageSolution, _warm: bool) -> Result<(), StageError> {
         let shape = Shape::of(qp);
         solution.shape_like(qp);
-        let refused = |error: interplay_convex::ProblemError| StageError::Unsolved {
-            status: error.to_string(),
-            iterations: 0,
-        };
+        let refused =
+            |error: interplay_convex::ProblemError| StageError::Unsolved { status: error.to_string(), iterations: 0 };
         let mut kept = match self.kept.take() {
             Some(mut kept) if kept.shape == shape => {
                 kept.program.clear();
@@ -107,7 +105,9 @@ impl StageSolver for Sparse {
             Err(_) => 0,
         };
         outcome.map(|_| ()).map_err(|error| match error {
-            SolveError::PrimalInfeasible { iterations, .. } => StageError::Infeasible { iterations: iterations as usize },
+            SolveError::PrimalInfeasible { iterations, .. } => {
+                StageError::Infeasible { iterations: iterations as usize }
+            }
             SolveError::DualInfeasible { .. } => StageError::NotConvex { stage: 0 },
             SolveError::Unsolved { status, iterations } => {
                 StageError::Unsolved { status: format!("{status:?}"), iterations: iterations as usize }
@@ -189,12 +189,7 @@ impl Layout {
     fn write_dynamics(&self, qp: &StageQp, vehicle: usize, k: usize, program: &mut Program) {
         let stages = &qp.vehicles[vehicle];
         let j = &stages.jacobians[k];
-        let inputs = [
-            [0.0, j.x_steering],
-            [0.0, j.y_steering],
-            [0.0, j.heading_steering],
-            [j.speed_acceleration, 0.0],
-        ];
+        let inputs = [[0.0, j.x_steering], [0.0, j.y_steering], [0.0, j.heading_steering], [j.speed_acceleration, 0.0]];
         let states = [
             [1.0, 0.0, j.x_heading, j.x_speed],
             [0.0, 1.0, j.y_heading, j.y_speed],

@@ -118,9 +118,11 @@ impl Negotiation {
 
     /// Acceptance of the last proposal, after which the ego concedes.
     fn listen(&mut self, partner: &Agent) -> f64 {
-        let accepted = self.talk.last.as_ref().map(|round| {
-            acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted())
-        });
+        let accepted = self
+            .talk
+            .last
+            .as_ref()
+            .map(|round| acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted()));
         if let Some(accepted) = accepted {
             self.talk.concession.concede(accepted, self.settings.beta, self.settings.weight_floor);
             self.interlocutor.note(accepted, &self.settings);

@@ -1,8 +1,8 @@
 //! Leaning towards cooperation (eq. 6.20-6.23).
 
 use super::{Round, Settings};
-use crate::mpc::{Leaning, Penalty};
 use crate::Trajectory;
+use crate::mpc::{Leaning, Penalty};
 
 /// Below this squared distance of cooperative and conservative plan the ball has collapsed \[m²\].
 const INDISTINCT: f64 = 1e-3;
@@ -28,7 +28,8 @@ pub(super) fn leaning(settings: &Settings, last: Option<&Round>, accepted: f64) 
 
 /// Whether the constraint holds with equality (or falls short).
 pub(super) fn is_active(leaning: &Leaning, trajectory: &Trajectory) -> bool {
-    let apart: f64 = leaning.toward.iter().zip(&leaning.away).map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sum();
+    let apart: f64 =
+        leaning.toward.iter().zip(&leaning.away).map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sum();
     leaning.value(&trajectory.states) > -1e-4 * apart.max(1.0)
 }
 
@@ -46,8 +47,7 @@ mod tests {
     #[test]
     fn the_boundary_is_the_apollonius_ball() {
         let (toward, away, strength) = ([0.3, -0.1], [1.0, 0.4], 1.7);
-        let leaning =
-            Leaning { toward: vec![toward], away: vec![away], strength, penalty: PENALTY };
+        let leaning = Leaning { toward: vec![toward], away: vec![away], strength, penalty: PENALTY };
         let centre: [f64; 2] = std::array::from_fn(|i| (strength * toward[i] - away[i]) / (strength - 1.0));
         let apart = ((toward[0] - away[0]).powi(2) + (toward[1] - away[1]).powi(2)).sqrt();
         let radius = strength.sqrt() * apart / (strength - 1.0);

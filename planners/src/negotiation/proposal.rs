@@ -23,17 +23,10 @@ const DEVIATION: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
 const OTHER_COMFORT: f64 = 1e-2;
 
 /// The negotiation problem: participant 0 is the ego, participant 1 the `partner`; `weight` is the concession weight `w`.
-pub fn problem(
-    scene: &Scene,
-    partner: &Agent,
-    weight: f64,
-    leaning: Option<Leaning>,
-    settings: &Settings,
-) -> Problem {
+pub fn problem(scene: &Scene, partner: &Agent, weight: f64, leaning: Option<Leaning>, settings: &Settings) -> Problem {
     let others = scene.others.iter().filter(|other| other.name != partner.name);
-    let keep_outs = others
-        .map(|other| scene.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT))
-        .collect();
+    let keep_outs =
+        others.map(|other| scene.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT)).collect();
     let mut ego = scene.participant(keep_outs);
     let share = weight / settings.ego_normaliser;
     ego.tracking.weights = ego.tracking.weights.map(|q| share * q);

@@ -2,9 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use interplay_planners::dynamics::Bicycle;
-use interplay_planners::mpc::{
-    Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking,
-};
+use interplay_planners::mpc::{Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
 use interplay_planners::{Body, Corridor, Input, SafetyEllipse, State};
 
 /// SplitMix64: small, seeded, the same everywhere.
@@ -42,10 +40,7 @@ pub fn lane_change(random: &mut Random) -> Participant {
             heading_rad: random.between(-0.1, 0.1),
             speed_mps: random.between(0.5, 1.3),
         },
-        previous_input: Input {
-            acceleration_mps2: random.between(-0.3, 0.3),
-            steering_rad: random.between(-0.1, 0.1),
-        },
+        previous_input: Input { acceleration_mps2: random.between(-0.3, 0.3), steering_rad: random.between(-0.1, 0.1) },
         known_inputs: Vec::new(),
         tracking: Tracking {
             weights: [0.0, random.between(0.5, 4.0), random.between(0.5, 1.0), 1.0],
@@ -66,8 +61,7 @@ pub fn lane_change(random: &mut Random) -> Participant {
 /// A vehicle that follows its plan until `first` and may then be asked to deviate.
 pub fn follower(random: &mut Random, first: usize) -> Participant {
     let start = State { x_m: random.between(-0.6, 0.1), y_m: 0.555, heading_rad: 0.0, speed_mps: 1.2 };
-    let targets =
-        (1..=HORIZON).map(|t| State { x_m: start.x_m + 0.12 * t as f64, ..start }).collect();
+    let targets = (1..=HORIZON).map(|t| State { x_m: start.x_m + 0.12 * t as f64, ..start }).collect();
     Participant {
         start,
         previous_input: Input::default(),

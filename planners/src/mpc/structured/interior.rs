@@ -296,8 +296,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 }
                 if k > 0 {
                     let (before, curvature) = (at - vehicles, &stages.curvatures[k]);
-                    let ([heading, speed], steering) =
-                        curvature_gradient(curvature, &states[before], &inputs[at]);
+                    let ([heading, speed], steering) = curvature_gradient(curvature, &states[before], &inputs[at]);
                     self.cost_gradient.states[before][2] += heading;
                     self.cost_gradient.states[before][3] += speed;
                     self.cost_gradient.inputs[at][1] += steering;

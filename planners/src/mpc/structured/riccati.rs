@@ -113,10 +113,7 @@ fn times_a(row: &[f64; 4], j: &Jacobian) -> [f64; 4] {
 /// `Xᵀ B` for one row of four.
 #[inline(always)]
 fn times_b(row: &[f64; 4], j: &Jacobian) -> [f64; 2] {
-    [
-        j.speed_acceleration * row[3],
-        j.x_steering * row[0] + j.y_steering * row[1] + j.heading_steering * row[2],
-    ]
+    [j.speed_acceleration * row[3], j.x_steering * row[0] + j.y_steering * row[1] + j.heading_steering * row[2]]
 }
 
 impl<const W: usize, const Z: usize> Riccati<W, Z> {

@@ -100,7 +100,9 @@ impl Row {
     /// `η₁ − d₁ e/D`: the multiplier that the row would take if nothing else moved.
     #[inline(always)]
     pub(super) fn pull(&self, soft: Option<[f64; 2]>) -> f64 {
-        soft.map_or(self.eta1, |weights| self.eta1 - self.d1 * self.pressure(weights) / (weights[1] + self.d1 + self.d2))
+        soft.map_or(self.eta1, |weights| {
+            self.eta1 - self.d1 * self.pressure(weights) / (weights[1] + self.d1 + self.d2)
+        })
     }
 
     /// `e = η₁ + η₂ − ℓ − q σ`.
@@ -112,9 +114,8 @@ impl Row {
     /// The row's part of the Newton step for `slope = g·Δz`; returns the largest relative decrease of a positive number.
     #[inline(always)]
     pub(super) fn step(&mut self, slope: f64, soft: Option<[f64; 2]>) -> f64 {
-        self.violation_step = soft.map_or(0.0, |weights| {
-            (self.pressure(weights) - self.d1 * slope) / (weights[1] + self.d1 + self.d2)
-        });
+        self.violation_step =
+            soft.map_or(0.0, |weights| (self.pressure(weights) - self.d1 * slope) / (weights[1] + self.d1 + self.d2));
         self.slack_step = slope + self.violation_step + self.residual;
         self.multiplier_step = self.eta1 - self.d1 * (slope + self.violation_step) - self.multiplier;
         let ratio = (-self.slack_step / self.slack).max(-self.multiplier_step / self.multiplier);
@@ -122,8 +123,8 @@ impl Row {
             return ratio;
         }
         self.violation_multiplier_step = self.eta2 - self.d2 * self.violation_step - self.violation_multiplier;
-        let violation = (-self.violation_step / self.violation)
-            .max(-self.violation_multiplier_step / self.violation_multiplier);
+        let violation =
+            (-self.violation_step / self.violation).max(-self.violation_multiplier_step / self.violation_multiplier);
         ratio.max(violation)
     }
 

@@ -48,13 +48,7 @@ impl Inequality {
 
     /// Adds `weight · gradient` to the gradients of states and inputs.
     #[inline(always)]
-    pub(super) fn pull(
-        &self,
-        weight: f64,
-        states: &mut [[f64; 4]],
-        inputs: &mut [[f64; 2]],
-        along: &[[f64; 2]],
-    ) {
+    pub(super) fn pull(&self, weight: f64, states: &mut [[f64; 4]], inputs: &mut [[f64; 2]], along: &[[f64; 2]]) {
         match self.subject {
             Subject::Box { at, axis: 2, sign } => states[at][3] += weight * sign,
             Subject::Box { at, axis, sign } => inputs[at][axis] += weight * sign,

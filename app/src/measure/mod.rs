@@ -1,0 +1,101 @@
+//! Measure: one metric a file, all fed with the same frames.
+
+mod collisions;
+mod comfort;
+mod completion;
+mod digest;
+mod gap;
+mod planning;
+mod speed;
+
+use bevy::ecs::prelude::*;
+use interplay_planners::State;
+use interplay_scenarios::Scenario;
+
+pub use collisions::Collision;
+pub use comfort::Comfort;
+pub use completion::Completion;
+pub use digest::{Digest, PhaseDigests};
+pub use gap::Gap;
+pub use planning::Planning;
+pub use speed::SpeedRange;
+
+use crate::components::{Clock, Identity, Motion, Present};
+
+/// Everything that is measured in a run.
+#[derive(Resource, Clone, Debug)]
+pub struct Measures {
+    /// Contacts, in order.
+    pub collisions: Vec<Collision>,
+    /// Distance of the ego's footprint to the others'.
+    pub gap: Gap,
+    /// Digest of the run, by phase.
+    pub digest: Digest,
+    /// Per vehicle, in the scenario's order.
+    pub vehicles: Vec<VehicleMeasures>,
+}
+
+/// What is measured of one vehicle.
+#[derive(Clone, Debug)]
+pub struct VehicleMeasures {
+    /// When it reached its goal.
+    pub completion: Completion,
+    /// How smoothly it drove.
+    pub comfort: Comfort,
+    /// How fast it drove.
+    pub speed: SpeedRange,
+    /// How its planner did.
+    pub planning: Planning,
+    /// Its last state.
+    pub last: State,
+}
+
+impl Measures {
+    /// Nothing measured yet.
+    pub fn new(scenario: &Scenario) -> Self {
+        let vehicles = scenario.vehicles.iter().zip(scenario.starts()).map(|(vehicle, start)| VehicleMeasures {
+            completion: Completion::new(vehicle, &scenario.road),
+            comfort: Comfort::new(scenario.step_s),
+            speed: SpeedRange::new(start.speed_mps),
+            planning: Planning::default(),
+            last: start,
+        });
+        Measures {
+            collisions: Vec::new(),
+            gap: Gap::new(scenario),
+            digest: Digest::default(),
+            vehicles: vehicles.collect(),
+        }
+    }
+
+    /// Notes a contact.
+    pub fn collide(&mut self, collision: Collision) {
+        self.collisions.push(collision);
+    }
+}
+
+/// Feeds the tick's frame and the states that it led to into every metric.
+pub fn measure(
+    vehicles: Query<(&Identity, &Motion)>,
+    clock: Res<Clock>,
+    mut present: ResMut<Present>,
+    mut measures: ResMut<Measures>,
+) {
+    let frame = &mut present.0;
+    let measures = &mut *measures;
+    let before: Vec<State> = frame.vehicles.iter().map(|vehicle| vehicle.state).collect();
+    frame.gap_m = measures.gap.observe(&before);
+    let mut after = before.clone();
+    for (identity, motion) in &vehicles {
+        after[identity.index] = motion.state;
+    }
+    for ((vehicle, measured), state) in frame.vehicles.iter().zip(&mut measures.vehicles).zip(&after) {
+        measured.planning.observe(vehicle);
+        measured.comfort.observe(&vehicle.input);
+        measured.completion.observe(state, clock.time_s());
+        measured.speed.observe(state.speed_mps);
+        measured.last = *state;
+    }
+    measures.gap.observe(&after);
+    measures.digest.observe(frame, &after);
+}

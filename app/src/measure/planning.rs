@@ -1,0 +1,32 @@
+//! How a planner does: how often it fails and how long it takes.
+
+use crate::frame::{Origin, VehicleFrame};
+
+/// Counts and times of one vehicle's plans.
+#[derive(Clone, Debug, Default)]
+pub struct Planning {
+    times_ms: Vec<f64>,
+    /// Plans that failed and were replaced by a fallback.
+    pub failed: usize,
+}
+
+impl Planning {
+    /// Takes one tick.
+    pub fn observe(&mut self, vehicle: &VehicleFrame) {
+        self.times_ms.push(vehicle.plan_ms);
+        self.failed += usize::from(vehicle.origin != Origin::Planned);
+    }
+
+    /// How many plans were made.
+    pub fn count(&self) -> usize {
+        self.times_ms.len()
+    }
+
+    /// Wall time below which this share of the plans took \[ms\]; 0 without plans.
+    pub fn quantile_ms(&self, share: f64) -> f64 {
+        let mut sorted = self.times_ms.clone();
+        sorted.sort_by(f64::total_cmp);
+        let last = sorted.len().saturating_sub(1);
+        sorted.get((share * last as f64).round() as usize).copied().unwrap_or(0.0)
+    }
+}

@@ -1,0 +1,51 @@
+//! The loop as one visible list.
+
+use bevy::ecs::prelude::*;
+use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
+
+use crate::{act, measure, physics, plan, predict, sense, watch};
+
+/// One tick, phase by phase. Data flows one way: nothing upstream knows anything downstream.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// Components become plain values that planners can be given.
+    Sense,
+    /// What everybody is expected to do.
+    Predict,
+    /// Every driver decides; failures fall back.
+    Plan,
+    /// The first input of each plan is applied.
+    Act,
+    /// Bodies move; contacts become collisions.
+    Physics,
+    /// What happened is measured.
+    Measure,
+    /// What happened is written down.
+    Record,
+}
+
+/// The schedule of a driving world.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Tick;
+
+/// The loop: phases in order, one thread inside a world (worlds run side by side), ambiguity an error.
+pub fn schedule() -> Schedule {
+    use Phase::{Act, Measure, Physics, Plan, Predict, Record, Sense};
+    let mut schedule = Schedule::new(Tick);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule.set_build_settings(ScheduleBuildSettings {
+        ambiguity_detection: LogLevel::Error,
+        ..ScheduleBuildSettings::default()
+    });
+    schedule.configure_sets((Sense, Predict, Plan, Act, Physics, Measure, Record).chain());
+    schedule.add_systems((
+        sense::sense.in_set(Sense),
+        predict::predict.in_set(Predict),
+        plan::plan.in_set(Plan),
+        act::act.in_set(Act),
+        physics::step.in_set(Physics),
+        measure::measure.in_set(Measure),
+        watch::show.in_set(Record),
+    ));
+    schedule
+}

@@ -1,0 +1,71 @@
+//! A run in a few readable lines.
+
+use std::fmt::Write;
+
+use super::{Report, VehicleReport};
+
+/// The report for a person: who merged where and when, the smallest gap, planner times, expectations.
+pub fn summary(title: &str, report: &Report) -> String {
+    let mut text = String::new();
+    // Writing to a String cannot fail.
+    let _ = write_summary(&mut text, title, report);
+    text
+}
+
+fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
+    let factor = report.simulated_s / report.wall_s.max(1e-9);
+    writeln!(text, "{title}  [{}]", report.scenario)?;
+    writeln!(text, "  {:.1} s simulated in {:.2} s ({factor:.0} times real time)", report.simulated_s, report.wall_s)?;
+    for vehicle in &report.vehicles {
+        if let Some(time_s) = vehicle.completed_s {
+            writeln!(text, "  {} reached its goal at {time_s:.1} s", vehicle.name)?;
+        }
+    }
+    writeln!(text, "  order at the end: {}", report.order.join(", "))?;
+    match report.min_gap_m {
+        Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
+        None => writeln!(text, "  the ego is alone")?,
+    }
+    for collision in &report.collisions {
+        let [a, b] = &collision.between;
+        writeln!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
+    }
+    write_vehicles(text, &report.vehicles)?;
+    if report.expectations.is_empty() {
+        return writeln!(text, "  nothing was expected of this run");
+    }
+    for expectation in &report.expectations {
+        let mark = if expectation.passed { "ok  " } else { "FAIL" };
+        writeln!(text, "  {mark} {}: want {}, got {}", expectation.what, expectation.want, expectation.got)?;
+    }
+    let failed = report.expectations.iter().filter(|expectation| !expectation.passed).count();
+    match failed {
+        0 => writeln!(text, "  PASSED: all {} expectations held", report.expectations.len()),
+        _ => writeln!(text, "  FAILED: {failed} of {} expectations", report.expectations.len()),
+    }
+}
+
+fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Result {
+    let width = vehicles.iter().map(|vehicle| vehicle.name.len()).max().unwrap_or(0).max("vehicle".len());
+    writeln!(
+        text,
+        "  {:width$}  {:13}  {:>11}  {:>11}  {:>7}  {:>9}  {:>6}",
+        "vehicle", "driver", "speed m/s", "|a| m/s²", "plans", "median ms", "p99 ms"
+    )?;
+    for vehicle in vehicles {
+        let plans = &vehicle.plans;
+        let failed = if plans.failed > 0 { format!(", {} FAILED", plans.failed) } else { String::new() };
+        writeln!(
+            text,
+            "  {:width$}  {:13}  {:>11}  {:>11.2}  {:>7}  {:>9.2}  {:>6.2}{failed}",
+            vehicle.name,
+            vehicle.driver,
+            format!("{:.2}-{:.2}", vehicle.min_speed_mps, vehicle.max_speed_mps),
+            vehicle.mean_abs_acceleration,
+            plans.count,
+            plans.median_ms,
+            plans.p99_ms
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,58 @@
+//! Record: every tick is shown to whoever watches: a recorder, a progress bar.
+
+use bevy::ecs::prelude::*;
+
+use crate::components::Present;
+use crate::frame::Frame;
+
+/// Somebody who is shown every tick.
+pub trait Watcher: Send + Sync {
+    /// Looks at one tick.
+    ///
+    /// # Errors
+    /// In words, if it cannot be kept; the run goes on and reports the first of them at its end.
+    fn tick(&mut self, frame: &Frame) -> Result<(), String>;
+
+    /// The run is over.
+    ///
+    /// # Errors
+    /// In words, if what was seen cannot be kept.
+    fn finish(self: Box<Self>) -> Result<(), String>;
+}
+
+/// Those who watch a world.
+#[derive(Resource, Default)]
+pub struct Watchers {
+    watchers: Vec<Box<dyn Watcher>>,
+    failure: Option<String>,
+}
+
+impl Watchers {
+    /// Watchers of a world.
+    pub fn new(watchers: Vec<Box<dyn Watcher>>) -> Self {
+        Watchers { watchers, failure: None }
+    }
+
+    /// Ends the watch.
+    ///
+    /// # Errors
+    /// The first thing that went wrong.
+    pub fn finish(self) -> Result<(), String> {
+        let mut failure = self.failure;
+        for watcher in self.watchers {
+            let ended = watcher.finish();
+            failure = failure.or(ended.err());
+        }
+        failure.map_or(Ok(()), Err)
+    }
+}
+
+/// Shows the tick to everybody.
+pub fn show(present: Res<Present>, mut watchers: ResMut<Watchers>) {
+    let Watchers { watchers, failure } = &mut *watchers;
+    for watcher in watchers {
+        if let Err(error) = watcher.tick(&present.0) {
+            failure.get_or_insert(error);
+        }
+    }
+}
