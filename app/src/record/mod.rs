@@ -1,23 +1,191 @@
-//! TEMP
-use crate::frame::Frame;
-use crate::watch::Watcher;
-use interplay_scenarios::Scenario;
+//! The one room that names Rerun: a run becomes a recording that opens ready to read.
+//!
+//! A recording has two timelines, simulated time ([`SIM_TIME`]) and ticks ([`TICK`]), and no clock of the wall, so
+//! that two recordings of one run can be compared. Entities have names, never numbers:
+//!
+//! ```text
+//! world/road/{surface,edges,markings}                 static
+//! world/vehicle/<name>/{body,label,trace}             where it is and was
+//! world/vehicle/<name>/{plan,prediction,proposal}     what it will do, is expected to do, asks another to do
+//! world/vehicle/<name>/safety                         where the ego keeps out
+//! plots/{speed,acceleration,steering,planner-ms}/<name>
+//! plots/<kind of planner>/<diagnostic>[/<name>]       the name if several vehicles have that planner
+//! plots/gap                                           the ego's distance to the nearest footprint
+//! log, about                                          events; what the recording shows
+//! ```
+
+mod blueprint;
+mod error;
+mod file;
+mod layout;
+mod palette;
+mod plots;
+mod stage;
+mod vehicles;
+
+use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::path::PathBuf;
+use std::time::Duration;
+
+use interplay_scenarios::Scenario;
+use re_sdk::log::ChunkBatcherConfig;
+use re_sdk::sink::MemorySinkStorage;
+use re_sdk::{DEFAULT_SERVER_PORT, RecordingStream, RecordingStreamBuilder};
+
+pub use error::RecordError;
+use file::PartialFile;
+use plots::Plots;
+use vehicles::Cast;
+
+use crate::frame::Frame;
+
+/// Simulated time.
+pub const SIM_TIME: &str = "sim_time";
+/// Ticks.
+pub const TICK: &str = "tick";
+
+/// What the viewer calls the sort of recording; it keeps one layout for each.
+const APPLICATION: &str = "interplay";
+/// How long to wait for a viewer.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// A recording into a file is cut into pieces by size only, not by the wall's clock.
+const NEVER: Duration = Duration::from_secs(24 * 3600);
+
+/// Where a recording goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Sink {
+    /// Into a file, usually `*.rrd`, which appears when the recording is finished.
     File(PathBuf),
+    /// To the viewer that listens on its default port.
     Live,
 }
-pub struct Recorder;
+
+/// A recording in the making. Dropped unfinished, it leaves no file.
+pub struct Recorder {
+    stream: RecordingStream,
+    output: Output,
+    scenario: Scenario,
+    cast: Cast,
+    plots: Plots,
+    /// Longitudinal coordinates between which somebody was \[m\].
+    driven_m: Option<[f64; 2]>,
+}
+
+enum Output {
+    File {
+        file: PartialFile,
+        content: MemorySinkStorage,
+    },
+    /// To a viewer; with how many series the layout was last sent.
+    Live {
+        series: usize,
+    },
+}
+
 impl Recorder {
-    pub fn begin(_: &Scenario, _: &str, _: &Sink) -> Result<Recorder, String> {
-        Ok(Recorder)
+    /// Begins a recording of `scenario`, known as `name`, with all that never changes. `command` is what a reader
+    /// types to get the run again.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`] or [`RecordError::NoViewer`], before anything is simulated.
+    pub fn begin(scenario: &Scenario, name: &str, command: &str, sink: &Sink) -> Result<Recorder, RecordError> {
+        let builder = RecordingStreamBuilder::new(APPLICATION).enabled(true);
+        let (stream, output) = match sink {
+            Sink::File(path) => {
+                let file = PartialFile::create(path)?;
+                let pieces = ChunkBatcherConfig { flush_tick: NEVER, ..ChunkBatcherConfig::DEFAULT };
+                let (stream, content) =
+                    builder.recording_id(identity(scenario, name)).batcher_config(pieces).memory()?;
+                (stream, Output::File { file, content })
+            }
+            Sink::Live => {
+                find_viewer()?;
+                (builder.send_properties(false).connect_grpc()?, Output::Live { series: 0 })
+            }
+        };
+        stream.set_log_time_enabled(false);
+        stream.set_log_tick_enabled(false);
+        stream.send_recording_name(format!("{name}: {}", scenario.title))?;
+        let paints = palette::paints(scenario);
+        stage::road(&stream, scenario, expected_road(scenario))?;
+        stage::about(&stream, scenario, &paints, command)?;
+        let cast = Cast::enter(&stream, scenario, &paints)?;
+        let plots = Plots::begin(&stream, scenario, &paints)?;
+        Ok(Recorder { stream, output, scenario: scenario.clone(), cast, plots, driven_m: None })
+    }
+
+    /// Records one tick.
+    ///
+    /// # Errors
+    /// [`RecordError::Broken`] if Rerun refuses the data.
+    pub fn tick(&mut self, frame: &Frame) -> Result<(), RecordError> {
+        self.stream.set_duration_secs(SIM_TIME, frame.time_s);
+        self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
+        self.cast.tick(&self.stream, frame)?;
+        self.plots.tick(&self.stream, frame)?;
+        let corridor = self.scenario.road.corridor();
+        for vehicle in &frame.vehicles {
+            let along = corridor.along(vehicle.state.position());
+            let [from, to] = self.driven_m.unwrap_or([along, along]);
+            self.driven_m = Some([from.min(along), to.max(along)]);
+        }
+        let count = self.plots.seen().len();
+        if let Output::Live { series } = &mut self.output
+            && *series != count
+        {
+            *series = count;
+            self.arrange(expected_road(&self.scenario))?;
+        }
+        Ok(())
+    }
+
+    /// Ends the recording: only now a file appears at its place.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`] if the disk refuses the file, [`RecordError::Broken`] if the viewer went away.
+    pub fn finish(self) -> Result<(), RecordError> {
+        let road_m = self.driven_m.map(|[from, to]| [from - margin(&self.scenario), to + margin(&self.scenario)]);
+        self.arrange(road_m.unwrap_or_else(|| expected_road(&self.scenario)))?;
+        let broken = |error: &dyn std::fmt::Display| RecordError::Broken(error.to_string());
+        match self.output {
+            Output::File { file, content } => file.finish(&content.drain_as_bytes().map_err(|error| broken(&error))?),
+            Output::Live { .. } => self.stream.flush_with_timeout(PATIENCE).map_err(|error| broken(&error)),
+        }
+    }
+
+    /// Sends the layout.
+    fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
+        let panel = layout::layout(&self.scenario, &self.plots, road_m);
+        Ok(blueprint::send(&self.stream, APPLICATION, &panel)?)
     }
 }
-impl Watcher for Recorder {
-    fn tick(&mut self, _: &Frame) -> Result<(), String> {
-        Ok(())
+
+/// A name for the recording that tells runs of one scenario by different drivers apart.
+fn identity(scenario: &Scenario, name: &str) -> String {
+    let drivers: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect();
+    format!("{name} ({}; seed {})", drivers.join(", "), scenario.seed)
+}
+
+/// Space on the road before the first and after the last vehicle \[m\].
+fn margin(scenario: &Scenario) -> f64 {
+    2.0 * scenario.road.lane_width_m()
+}
+
+/// The longitudinal coordinates between which the vehicles will stay if they drive as they wish \[m\].
+fn expected_road(scenario: &Scenario) -> [f64; 2] {
+    let corridor = scenario.road.corridor();
+    let mut road = [f64::INFINITY, f64::NEG_INFINITY];
+    for vehicle in &scenario.vehicles {
+        let start = corridor.along(vehicle.start.position());
+        let speed = vehicle.start.speed_mps.max(vehicle.target(&scenario.road).speed_mps);
+        road = [road[0].min(start), road[1].max(start + speed * scenario.duration_s)];
     }
-    fn finish(self: Box<Self>) -> Result<(), String> {
-        Ok(())
-    }
+    [road[0] - margin(scenario), road[1] + margin(scenario)]
+}
+
+fn find_viewer() -> Result<(), RecordError> {
+    let address = SocketAddr::from((Ipv4Addr::LOCALHOST, DEFAULT_SERVER_PORT));
+    let refuse =
+        |error: std::io::Error| RecordError::NoViewer { address: address.to_string(), reason: error.to_string() };
+    TcpStream::connect_timeout(&address, PATIENCE).map(drop).map_err(refuse)
 }

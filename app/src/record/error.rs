@@ -1,0 +1,38 @@
+//! Why a recording failed.
+
+use std::path::PathBuf;
+
+use re_sdk::RecordingStreamError;
+use thiserror::Error;
+
+/// Why there is no recording. Nothing half-written is left behind.
+#[derive(Debug, Error)]
+pub enum RecordError {
+    /// The file cannot be written.
+    #[error("cannot write the recording {}: {reason}; name another file with --record, or do without (--no-record)", path.display())]
+    Unwritable {
+        /// The file that was asked for.
+        path: PathBuf,
+        /// What is in the way.
+        reason: String,
+    },
+    /// No viewer listens.
+    #[error(
+        "no Rerun viewer listens on {address} ({reason}); start one first (`rerun`), or record into a file instead of --connect"
+    )]
+    NoViewer {
+        /// Where one was looked for.
+        address: String,
+        /// What the system says.
+        reason: String,
+    },
+    /// Rerun refused data or lost the viewer.
+    #[error("the recording broke off: {0}")]
+    Broken(String),
+}
+
+impl From<RecordingStreamError> for RecordError {
+    fn from(error: RecordingStreamError) -> Self {
+        RecordError::Broken(error.to_string())
+    }
+}

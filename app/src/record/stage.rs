@@ -1,0 +1,99 @@
+//! What stands still: the road, and the text that says what one is looking at.
+
+use interplay_scenarios::{Scenario, Vehicle};
+use re_sdk::{RecordingStream, RecordingStreamResult};
+use re_sdk_types::archetypes::{LineStrips2D, TextDocument, Transform3D};
+use re_sdk_types::components::{MediaType, Radius};
+
+use super::palette::{ASPHALT, MARKING, Paint};
+
+/// Length of a lane marking and of the space behind it, in lane widths.
+const DASH_LANES: f64 = 0.8;
+
+/// Logs the road between two longitudinal coordinates \[m\].
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn road(stream: &RecordingStream, scenario: &Scenario, [from_m, to_m]: [f64; 2]) -> RecordingStreamResult<()> {
+    let (width, lane, lanes) = (scenario.road.width_m(), scenario.road.lane_width_m(), scenario.road.lane_count());
+    // The viewer's y axis points down; the road's points to the left of who drives along it.
+    stream.log_static("world", &Transform3D::from_scale([1.0, -1.0, 1.0]))?;
+    let heading = scenario.road.heading_rad();
+    stream.log_static("world/road", &Transform3D::from_mat3x3(turn(heading)))?;
+    let along = |lateral: f64, from: f64, to: f64| [[from as f32, lateral as f32], [to as f32, lateral as f32]];
+    stream.log_static(
+        "world/road/surface",
+        &LineStrips2D::new([along(0.5 * width, from_m, to_m)])
+            .with_radii([Radius::new_scene_units(0.5 * width as f32)])
+            .with_colors([ASPHALT.solid()])
+            .with_draw_order(-3.0),
+    )?;
+    stream.log_static(
+        "world/road/edges",
+        &LineStrips2D::new([along(0.0, from_m, to_m), along(width, from_m, to_m)])
+            .with_radii([Radius::new_ui_points(1.2)])
+            .with_colors([MARKING.solid()])
+            .with_draw_order(-2.0),
+    )?;
+    let period = 2.0 * DASH_LANES * lane;
+    let dashes = ((to_m - from_m) / period).ceil() as usize;
+    let marking = |between: usize| {
+        (0..dashes).map(move |dash| {
+            let start = from_m + dash as f64 * period;
+            along(between as f64 * lane, start, start + 0.5 * period)
+        })
+    };
+    stream.log_static(
+        "world/road/markings",
+        &LineStrips2D::new((1..lanes).flat_map(marking))
+            .with_radii([Radius::new_ui_points(0.8)])
+            .with_colors([MARKING.solid()])
+            .with_draw_order(-2.0),
+    )
+}
+
+/// Columns of the matrix that turns by an angle about z.
+pub fn turn(angle_rad: f64) -> [[f32; 3]; 3] {
+    let (sin, cos) = (angle_rad.sin() as f32, angle_rad.cos() as f32);
+    [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
+}
+
+/// Logs the text beside the pictures.
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn about(
+    stream: &RecordingStream,
+    scenario: &Scenario,
+    paints: &[Paint],
+    command: &str,
+) -> RecordingStreamResult<()> {
+    let text = description(scenario, paints, command);
+    stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
+}
+
+fn description(scenario: &Scenario, paints: &[Paint], command: &str) -> String {
+    let figure = scenario.figure.as_ref().map(|figure| format!(" (figure {figure})")).unwrap_or_default();
+    let who: String =
+        scenario.vehicles.iter().zip(paints).map(|(vehicle, paint)| row(scenario, vehicle, *paint)).collect();
+    format!(
+        "### {title}\n\n{shows}{figure}.\n\n\
+         | vehicle | colour | driver | wants |\n|---|---|---|---|\n{who}\n\
+         In a vehicle's colour: pale behind it, the path it drove; solid ahead, its plan; dashed, what others expect \
+         of it; dotted, what it asks another to do. Ellipses: where the ego's centre keeps out. A plan in {failure} \
+         is a fallback, because the planner failed.\n\n\
+         Again: `{command}`\n",
+        title = scenario.title,
+        shows = scenario.shows.trim_end_matches('.'),
+        failure = super::palette::FAILURE.word,
+    )
+}
+
+fn row(scenario: &Scenario, vehicle: &Vehicle, paint: Paint) -> String {
+    let target = vehicle.target(&scenario.road);
+    let wish = match vehicle.goal.lane {
+        Some(lane) => format!("lane {lane} at {:.2} m/s", target.speed_mps),
+        None => format!("{:.2} m/s", target.speed_mps),
+    };
+    format!("| **{}** | {} | {} | {wish} |\n", vehicle.name, paint.word, vehicle.driver.kind())
+}
