@@ -4,16 +4,16 @@
 //! UUID. The builder in the SDK cannot set bounds or axes of the views used here, so the tree is written directly;
 //! and it counts the UUIDs, so that the same layout is the same blueprint.
 
-use re_sdk::external::re_log_types::BlueprintActivationCommand;
-use re_sdk::log::LogMsg;
-use re_sdk::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
-use re_sdk_types::blueprint::archetypes::{
+use super::re_sdk_types::blueprint::archetypes::{
     ContainerBlueprint, PanelBlueprint, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
 };
-use re_sdk_types::blueprint::components::{
+use super::re_sdk_types::blueprint::components::{
     ColumnShare, ContainerKind, IncludedContent, LoopMode, PanelState, PlayState, RootContainer, RowShare,
 };
-use re_sdk_types::datatypes::Uuid;
+use super::re_sdk_types::datatypes::Uuid;
+use rerun::external::re_log_types::BlueprintActivationCommand;
+use rerun::log::LogMsg;
+use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
 /// A part of the window.
 pub enum Panel {

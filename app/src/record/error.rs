@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use re_sdk::RecordingStreamError;
+use rerun::RecordingStreamError;
 use thiserror::Error;
 
 /// Why there is no recording. Nothing half-written is left behind.

@@ -3,14 +3,15 @@
 //! The close-up and the whole road lie across the window, since roads are long and narrow; below them the numbers,
 //! and at the bottom the words.
 
-use interplay_scenarios::Scenario;
-use re_sdk_types::blueprint::archetypes::{
+use super::re_sdk_types;
+use super::re_sdk_types::blueprint::archetypes::{
     PlotLegend, ScalarAxis, TextLogColumns, TimeAxis, VisibleTimeRanges, VisualBounds2D,
 };
-use re_sdk_types::blueprint::components::{Corner2D, LinkAxis, VisibleTimeRange};
-use re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
-use re_sdk_types::components::Range1D;
-use re_sdk_types::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
+use super::re_sdk_types::blueprint::components::{Corner2D, LinkAxis, VisibleTimeRange};
+use super::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
+use super::re_sdk_types::components::Range1D;
+use super::re_sdk_types::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
+use interplay_scenarios::Scenario;
 
 use super::blueprint::{Panel, View};
 use super::plots::{self, Plots};

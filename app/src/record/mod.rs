@@ -27,10 +27,11 @@ use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::path::PathBuf;
 use std::time::Duration;
 
+use rerun::external::re_sdk_types;
 use interplay_scenarios::Scenario;
-use re_sdk::log::ChunkBatcherConfig;
-use re_sdk::sink::MemorySinkStorage;
-use re_sdk::{DEFAULT_SERVER_PORT, RecordingStream, RecordingStreamBuilder};
+use rerun::log::ChunkBatcherConfig;
+use rerun::sink::MemorySinkStorage;
+use rerun::{DEFAULT_SERVER_PORT, RecordingStream, RecordingStreamBuilder};
 
 pub use error::RecordError;
 use file::PartialFile;
@@ -38,6 +39,7 @@ use plots::Plots;
 use vehicles::Cast;
 
 use crate::frame::Frame;
+use crate::watch::Watcher;
 
 /// Simulated time.
 pub const SIM_TIME: &str = "sim_time";
@@ -83,12 +85,11 @@ enum Output {
 }
 
 impl Recorder {
-    /// Begins a recording of `scenario`, known as `name`, with all that never changes. `command` is what a reader
-    /// types to get the run again.
+    /// Begins a recording of `scenario`, known as `name`, with all that never changes.
     ///
     /// # Errors
     /// [`RecordError::Unwritable`] or [`RecordError::NoViewer`], before anything is simulated.
-    pub fn begin(scenario: &Scenario, name: &str, command: &str, sink: &Sink) -> Result<Recorder, RecordError> {
+    pub fn begin(scenario: &Scenario, name: &str, sink: &Sink) -> Result<Recorder, RecordError> {
         let builder = RecordingStreamBuilder::new(APPLICATION).enabled(true);
         let (stream, output) = match sink {
             Sink::File(path) => {
@@ -108,10 +109,19 @@ impl Recorder {
         stream.send_recording_name(format!("{name}: {}", scenario.title))?;
         let paints = palette::paints(scenario);
         stage::road(&stream, scenario, expected_road(scenario))?;
-        stage::about(&stream, scenario, &paints, command)?;
+        stage::about(&stream, scenario, &paints, None)?;
         let cast = Cast::enter(&stream, scenario, &paints)?;
         let plots = Plots::begin(&stream, scenario, &paints)?;
         Ok(Recorder { stream, output, scenario: scenario.clone(), cast, plots, driven_m: None })
+    }
+
+    /// Adds to the text of the recording what a reader types to get the run again.
+    ///
+    /// # Errors
+    /// [`RecordError::Broken`] if Rerun refuses the text.
+    pub fn repeat_with(&self, command: &str) -> Result<(), RecordError> {
+        let paints = palette::paints(&self.scenario);
+        Ok(stage::about(&self.stream, &self.scenario, &paints, Some(command))?)
     }
 
     /// Records one tick.
@@ -157,6 +167,16 @@ impl Recorder {
     fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
         let panel = layout::layout(&self.scenario, &self.plots, road_m);
         Ok(blueprint::send(&self.stream, APPLICATION, &panel)?)
+    }
+}
+
+impl Watcher for Recorder {
+    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+        Recorder::tick(self, frame).map_err(|error| error.to_string())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), String> {
+        Recorder::finish(*self).map_err(|error| error.to_string())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Who is drawn in which colour: the palette of Okabe and Ito, which survives colour blindness.
 
+use super::re_sdk_types::components::Color;
 use interplay_scenarios::Scenario;
-use re_sdk_types::components::Color;
 
 /// The ego, orange.
 const EGO: [u8; 3] = [0xE6, 0x9F, 0x00];

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
+use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
 use interplay_scenarios::Scenario;
-use re_sdk::{RecordingStream, RecordingStreamResult};
-use re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
-use re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
+use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::palette::{self, FAILURE, NEUTRAL, Paint};
 use crate::frame::{Frame, Level, Origin, VehicleFrame};

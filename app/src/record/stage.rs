@@ -1,9 +1,9 @@
 //! What stands still: the road, and the text that says what one is looking at.
 
+use super::re_sdk_types::archetypes::{LineStrips2D, TextDocument, Transform3D};
+use super::re_sdk_types::components::{MediaType, Radius};
 use interplay_scenarios::{Scenario, Vehicle};
-use re_sdk::{RecordingStream, RecordingStreamResult};
-use re_sdk_types::archetypes::{LineStrips2D, TextDocument, Transform3D};
-use re_sdk_types::components::{MediaType, Radius};
+use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::palette::{ASPHALT, MARKING, Paint};
 
@@ -66,13 +66,14 @@ pub fn about(
     stream: &RecordingStream,
     scenario: &Scenario,
     paints: &[Paint],
-    command: &str,
+    command: Option<&str>,
 ) -> RecordingStreamResult<()> {
     let text = description(scenario, paints, command);
     stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
 }
 
-fn description(scenario: &Scenario, paints: &[Paint], command: &str) -> String {
+fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> String {
+    let again = command.map(|command| format!("Again: `{command}`\n")).unwrap_or_default();
     let figure = scenario.figure.as_ref().map(|figure| format!(" (figure {figure})")).unwrap_or_default();
     let who: String =
         scenario.vehicles.iter().zip(paints).map(|(vehicle, paint)| row(scenario, vehicle, *paint)).collect();
@@ -81,8 +82,7 @@ fn description(scenario: &Scenario, paints: &[Paint], command: &str) -> String {
          | vehicle | colour | driver | wants |\n|---|---|---|---|\n{who}\n\
          In a vehicle's colour: pale behind it, the path it drove; solid ahead, its plan; dashed, what others expect \
          of it; dotted, what it asks another to do. Ellipses: where the ego's centre keeps out. A plan in {failure} \
-         is a fallback, because the planner failed.\n\n\
-         Again: `{command}`\n",
+         is a fallback, because the planner failed.\n\n{again}",
         title = scenario.title,
         shows = scenario.shows.trim_end_matches('.'),
         failure = super::palette::FAILURE.word,

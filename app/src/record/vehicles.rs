@@ -1,10 +1,10 @@
 //! What moves: bodies with their labels, the paths behind them and the lines ahead of them.
 
+use super::re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
+use super::re_sdk_types::components::Radius;
 use interplay_planners::{Body, State, Trajectory};
 use interplay_scenarios::Scenario;
-use re_sdk::{RecordingStream, RecordingStreamResult};
-use re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
-use re_sdk_types::components::Radius;
+use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::palette::{FAILURE, NEUTRAL, Paint};
 use super::stage::turn;
