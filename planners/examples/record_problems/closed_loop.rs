@@ -1,0 +1,113 @@
+//! The embedded lane changes in a tiny closed loop: no physics, every vehicle moves as the bicycle says.
+
+use interplay_planners::dynamics::Bicycle;
+use interplay_planners::human::{self, Style};
+use interplay_planners::mpc::Limits;
+use interplay_planners::predict::constant_velocity;
+use interplay_planners::{
+    Agent, Body, Corridor, Driver, Goal, Input, Plan, Planner, SafetyEllipse, Scene, State, Trajectory,
+};
+
+use crate::Result;
+
+const STEP_S: f64 = 0.1;
+const HORIZON: usize = 30;
+const TICKS: usize = 120;
+/// Every how many steps the planners look around, as in the scenario files.
+pub const LOOK_AROUND_EVERY: usize = 3;
+
+/// What sets the lane changes apart.
+#[derive(Clone, Copy)]
+pub struct Scenario {
+    /// Its name.
+    pub name: &'static str,
+    front: Style,
+    rear: Style,
+}
+
+/// The lane changes of `scenarios/files/lane-change/`.
+pub const SCENARIOS: [Scenario; 3] = [
+    Scenario { name: "front-nice", front: Style::Nice, rear: Style::Nice },
+    Scenario { name: "front-tough", front: Style::Tough, rear: Style::Nice },
+    Scenario { name: "both-tough", front: Style::Tough, rear: Style::Tough },
+];
+
+/// One driver's decision.
+pub struct Decision<'a> {
+    /// Who decides.
+    pub driver: &'a Driver,
+    /// What it was shown.
+    pub scene: &'a Scene,
+    /// What it planned the step before.
+    pub last: Option<&'a Trajectory>,
+    /// What it answered.
+    pub plan: &'a Plan,
+}
+
+struct Vehicle {
+    agent: Agent,
+    goal: Goal,
+    driver: Driver,
+    planner: Planner,
+    last: Option<Trajectory>,
+}
+
+fn vehicle(name: &str, [x_m, y_m, speed_mps]: [f64; 3], tracking: [f64; 4], driver: Driver) -> Vehicle {
+    let state = State { x_m, y_m, heading_rad: 0.0, speed_mps };
+    let agent = Agent {
+        name: name.to_owned(),
+        state,
+        previous_input: Input::default(),
+        body: Body::default(),
+        limits: Limits::default(),
+        corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
+        prediction: constant_velocity(&state, HORIZON, STEP_S),
+    };
+    let target = State { x_m: 0.0, y_m: 0.555, heading_rad: 0.0, speed_mps };
+    let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };
+    Vehicle { agent, goal, planner: driver.planner(), driver, last: None }
+}
+
+/// Drives a scenario with `ego` as the ego's driver and shows every decision to `watch`. The humans plan first, from the
+/// front of the road to its rear.
+///
+/// # Errors
+/// A planner's, or that of `watch`.
+pub fn run(scenario: &Scenario, ego: Driver, mut watch: impl FnMut(&Decision) -> Result<()>) -> Result<()> {
+    let human = |style| Driver::Human(human::Settings { style: Some(style), ..Default::default() });
+    let mut vehicles = [
+        vehicle("front", [-0.4, 0.555, 1.4], [0.0, 4.0, 1.0, 1.0], human(scenario.front)),
+        vehicle("rear", [-1.7, 0.555, 1.4], [0.0, 4.0, 1.0, 1.0], human(scenario.rear)),
+        vehicle("ego", [0.0, 0.185, 1.0], [0.0, 1.0, 0.5, 1.0], ego),
+    ];
+    for tick in 0..TICKS {
+        for index in 0..vehicles.len() {
+            let scene = scene(tick, &vehicles, index);
+            let Vehicle { agent, driver, planner, last, .. } = &mut vehicles[index];
+            let plan = planner.plan(&scene)?;
+            watch(&Decision { driver, scene: &scene, last: last.as_ref(), plan: &plan })?;
+            agent.prediction = plan.trajectory.clone();
+            *last = Some(plan.trajectory);
+        }
+        for Vehicle { agent, .. } in &mut vehicles {
+            let input = agent.prediction.inputs[0];
+            agent.state = Bicycle::new(&agent.body, STEP_S).step(&agent.state, &input);
+            agent.previous_input = input;
+            agent.prediction = agent.prediction.shifted();
+        }
+    }
+    Ok(())
+}
+
+/// The moment as one vehicle sees it.
+fn scene(tick: usize, vehicles: &[Vehicle], index: usize) -> Scene {
+    let others = vehicles.iter().enumerate().filter(|(other, _)| *other != index);
+    Scene {
+        tick,
+        step_s: STEP_S,
+        horizon: HORIZON,
+        ego: vehicles[index].agent.clone(),
+        goal: vehicles[index].goal,
+        others: others.map(|(_, vehicle)| vehicle.agent.clone()).collect(),
+    }
+}

@@ -1,0 +1,128 @@
+//! Records the trajectory problems that planners pose in closed loop, with the guesses they start from.
+//!
+//! ```sh
+//! cargo run --release -p interplay-planners --example record_problems
+//! ```
+//!
+//! drives the three embedded lane changes with the conservative and with the negotiation planner, on the bicycle as the
+//! plant, and writes `planners/tests/data/{human,conservative,negotiation}.json`.
+//!
+//! Problems are rebuilt from outside, from what a planner was shown and what it answered. Every one is checked before it
+//! is kept: solved again it must have exactly the cost that the planner stated. (A human states none: its plan must be an
+//! optimum of the rebuilt problem.)
+
+mod closed_loop;
+mod human_view;
+mod negotiation_view;
+#[path = "../../tests/common/recorded.rs"]
+mod recorded;
+
+use std::error::Error;
+use std::io::Write;
+
+use interplay_planners::mpc::{Iterate, Optimiser, Problem, Robust};
+use interplay_planners::{Agent, Driver, Plan, conservative, human, negotiation};
+
+use closed_loop::{Decision, LOOK_AROUND_EVERY, SCENARIOS};
+use negotiation_view::{NegotiationView, Posed};
+use recorded::{KINDS, Recorded};
+
+/// How many problems of a kind are kept.
+const KEPT: usize = 200;
+/// The first ticks of every run are always kept: there is little to start from yet.
+const FIRST_TICKS: usize = 2;
+/// By how much a human's plan may be improved upon, relative.
+const OPTIMAL: f64 = 1e-5;
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+/// A problem and the tick at which it was met.
+struct Met {
+    tick: usize,
+    recorded: Recorded,
+}
+
+fn main() -> Result<()> {
+    let mut met: [Vec<Met>; 3] = Default::default();
+    for scenario in SCENARIOS {
+        let asking = negotiation::Settings { look_around_every: LOOK_AROUND_EVERY, ..Default::default() };
+        let baseline = conservative::Settings { look_around_every: LOOK_AROUND_EVERY };
+        for ego in [Driver::Conservative(baseline), Driver::Negotiation(asking)] {
+            let run = format!("{}/{}", scenario.name, ego.kind());
+            let mut view = NegotiationView::new(asking);
+            closed_loop::run(&scenario, ego, |decision| {
+                let posed = match decision.driver {
+                    Driver::Human(settings) => Some(posed_by_human(decision, settings)?),
+                    Driver::Conservative(_) => Some(posed_by_conservative(decision)?),
+                    Driver::Negotiation(_) => view.rebuild(decision.scene, decision.plan)?,
+                };
+                let kind = KINDS.iter().position(|kind| *kind == decision.driver.kind()).ok_or("a new kind")?;
+                let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
+                if let Some((problem, guess)) = posed {
+                    let recorded = Recorded::new(format!("{run}/{tick}/{name}"), &problem, &guess);
+                    if recorded.problem() != problem {
+                        return Err(format!("the record of {} lost something", recorded.id).into());
+                    }
+                    met[kind].push(Met { tick, recorded });
+                }
+                Ok(())
+            })?;
+        }
+    }
+    for (kind, met) in KINDS.into_iter().zip(met) {
+        let (all, kept) = (met.len(), thin_out(met));
+        recorded::save(kind, &kept)?;
+        let bytes = std::fs::metadata(recorded::path(kind))?.len();
+        writeln!(std::io::stdout(), "{kind}: {} of {all} problems kept, {bytes} bytes", kept.len())?;
+    }
+    Ok(())
+}
+
+fn posed_by_human(decision: &Decision, settings: &human::Settings) -> Result<Posed> {
+    let problem = human_view::problem(decision.scene, settings);
+    let cost = cost_of_plan(&problem, decision.plan);
+    let better =
+        Optimiser::new(Robust::default()).descend(&problem, std::slice::from_ref(&decision.plan.trajectory.inputs))?;
+    if better.cost.total < cost - OPTIMAL * (1.0 + cost) {
+        let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
+        return Err(format!("tick {tick}: the plan of {name} is no optimum: {cost}, {}", better.cost.total).into());
+    }
+    Ok((problem, vec![human_view::guess(decision.scene, decision.last)]))
+}
+
+fn posed_by_conservative(decision: &Decision) -> Result<Posed> {
+    let others: Vec<&Agent> = decision.scene.others.iter().collect();
+    let problem = conservative::problem(decision.scene, &others);
+    let (cost, stated) = (cost_of_plan(&problem, decision.plan), stated(decision.plan, "cost")?);
+    if cost != stated {
+        return Err(format!("tick {}: the rebuilt problem costs {cost}, not {stated}", decision.scene.tick).into());
+    }
+    Ok((problem, vec![decision.last.map_or_else(Vec::new, |last| last.shifted().inputs)]))
+}
+
+/// What a lone vehicle's plan costs in a problem.
+fn cost_of_plan(problem: &Problem, plan: &Plan) -> f64 {
+    let (inputs, states) = (plan.trajectory.inputs.clone(), plan.trajectory.states.clone());
+    problem.cost(&Iterate { inputs: vec![inputs], states: vec![states] }).total
+}
+
+/// A number that a plan states about itself.
+fn stated(plan: &Plan, what: &str) -> Result<f64> {
+    let found = plan.diagnostics.iter().find(|(name, _)| *name == what);
+    found.map(|(_, value)| *value).ok_or_else(|| format!("the plan states no {what}").into())
+}
+
+/// The first ticks of every run, and an even choice of the rest.
+fn thin_out(met: Vec<Met>) -> Vec<Recorded> {
+    let rest = met.iter().filter(|met| met.tick >= FIRST_TICKS).count();
+    let wanted = (KEPT + rest).saturating_sub(met.len()).min(rest);
+    let mut index = 0;
+    let kept = met.into_iter().filter(|met| {
+        if met.tick < FIRST_TICKS {
+            return true;
+        }
+        index += 1;
+        index * wanted / rest > (index - 1) * wanted / rest
+    });
+    kept.map(|met| met.recorded).collect()
+}

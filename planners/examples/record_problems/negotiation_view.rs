@@ -1,0 +1,117 @@
+//! The negotiation planner's problem, rebuilt from its scene and answer by keeping the same minutes of the talk.
+
+use interplay_planners::conservative::{self, Conservative};
+use interplay_planners::mpc::{Leaning, Optimiser, Penalty, Problem, Robust};
+use interplay_planners::negotiation::{self, Concession, Settings, acceptance};
+use interplay_planners::predict::steady;
+use interplay_planners::{Agent, Input, Plan, Scene, Trajectory};
+
+use crate::{Result, stated};
+
+/// Below this squared distance of its two references the persuasion constraint is left out \[m²\].
+const INDISTINCT: f64 = 1e-3;
+/// What falling short of it costs.
+const PERSUASION: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
+
+/// A problem with the guess to start from.
+pub type Posed = (Problem, Vec<Vec<Input>>);
+
+/// The minutes of a negotiation, and planners that repeat what the observed one does unseen.
+pub struct NegotiationView {
+    settings: Settings,
+    retreat: Conservative,
+    optimiser: Optimiser<Robust>,
+    talk: Option<Talk>,
+}
+
+struct Talk {
+    partner: String,
+    concession: Concession,
+    last: Option<Round>,
+}
+
+struct Round {
+    cooperative: Trajectory,
+    conservative: Trajectory,
+    proposal: Trajectory,
+    prediction: Trajectory,
+}
+
+impl NegotiationView {
+    /// The view of a planner that has not talked yet.
+    pub fn new(settings: Settings) -> Self {
+        let look_around_every = settings.look_around_every;
+        NegotiationView {
+            settings,
+            retreat: Conservative::new(conservative::Settings { look_around_every }),
+            optimiser: Optimiser::new(Robust::default()),
+            talk: None,
+        }
+    }
+
+    /// The problem behind a plan, if it proposes something.
+    ///
+    /// # Errors
+    /// The rebuilt problem does not lead to the cost that the plan states.
+    pub fn rebuild(&mut self, scene: &Scene, plan: &Plan) -> Result<Option<Posed>> {
+        let conservative = self.retreat.plan(scene)?.trajectory;
+        let asked = plan.proposal.as_ref().map(|proposal| proposal.to.as_str());
+        let Some(partner) = scene.others.iter().find(|other| Some(other.name.as_str()) == asked) else {
+            self.talk = None;
+            return Ok(None);
+        };
+        let mut talk = self.talk.take().filter(|talk| talk.partner == partner.name).unwrap_or_else(|| Talk {
+            partner: partner.name.clone(),
+            concession: Concession::default(),
+            last: None,
+        });
+        let accepted = listen(&mut talk, partner, &self.settings);
+        let leaning = talk.last.as_ref().and_then(|round| leaning(round, 1.0 + self.settings.gamma * accepted));
+        let weight = talk.concession.weight();
+        let problem = negotiation::problem(scene, partner, weight, leaning, &self.settings);
+        let keep = talk.last.as_ref().map_or_else(
+            || vec![Vec::new(), partner.prediction.inputs.clone()],
+            |round| vec![round.cooperative.shifted().inputs, round.proposal.shifted().inputs],
+        );
+        let mut guesses = vec![keep.clone()];
+        guesses.extend(extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]));
+        let look_around = scene.tick.is_multiple_of(self.settings.look_around_every.max(1));
+        let optimum = self.optimiser.best_of(&problem, &guesses, look_around)?;
+        if optimum.cost.total != stated(plan, "cost")? {
+            return Err(format!("tick {}: the rebuilt negotiation costs {}", scene.tick, optimum.cost.total).into());
+        }
+        talk.last = Some(Round {
+            cooperative: optimum.trajectory(0),
+            conservative,
+            proposal: optimum.trajectory(1),
+            prediction: partner.prediction.clone(),
+        });
+        self.talk = Some(talk);
+        Ok(Some((problem, keep)))
+    }
+}
+
+/// The acceptance of the last proposal; concedes accordingly.
+fn listen(talk: &mut Talk, partner: &Agent, settings: &Settings) -> f64 {
+    let Some(round) = &talk.last else { return 1.0 };
+    let accepted = acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted());
+    talk.concession.concede(accepted, settings.beta, settings.weight_floor);
+    accepted
+}
+
+fn leaning(round: &Round, strength: f64) -> Option<Leaning> {
+    let (toward, away) = (round.cooperative.shifted(), round.conservative.shifted());
+    let positions = |of: &Trajectory| of.states.iter().take(of.horizon()).map(|state| state.position()).collect();
+    (away.squared_distance(&toward) >= INDISTINCT).then(|| Leaning {
+        toward: positions(&toward),
+        away: positions(&away),
+        strength,
+        penalty: PERSUASION,
+    })
+}
+
+fn extremes(scene: &Scene) -> [Vec<Input>; 2] {
+    let limits = &scene.ego.limits;
+    [limits.acceleration_min_mps2, limits.acceleration_max_mps2]
+        .map(|acceleration| steady(&scene.ego.state, acceleration, limits, scene.horizon, scene.step_s))
+}
