@@ -1,8 +1,8 @@
 //! The interior-point iteration (see the parent module for the equations).
 
+use super::columns::{Columns, Start, larger};
 use super::riccati::{PairHessian, Riccati, VehicleHessian};
-use super::row::{Row, Start};
-use super::rows::{Inequality, Subject, list};
+use super::rows::{BOXES, Inequalities, Point};
 use crate::mpc::adjoint::curvature_gradient;
 use crate::mpc::stage::{StageError, StageQp, StageSolution, StageSolver};
 
@@ -41,45 +41,16 @@ impl StageSolver for Structured {
     }
 }
 
-/// Values over states and inputs of all vehicles, indexed `k * M + vehicle`.
-#[derive(Clone, Debug, Default)]
-struct Point {
-    states: Vec<[f64; 4]>,
-    inputs: Vec<[f64; 2]>,
-}
-
-impl Point {
-    fn clear(&mut self, count: usize) {
-        self.states.clear();
-        self.states.resize(count, [0.0; 4]);
-        self.inputs.clear();
-        self.inputs.resize(count, [0.0; 2]);
-    }
-
-    fn add(&mut self, share: f64, step: &Point) {
-        for (value, step) in self.states.iter_mut().zip(&step.states) {
-            for axis in 0..4 {
-                value[axis] += share * step[axis];
-            }
-        }
-        for (value, step) in self.inputs.iter_mut().zip(&step.inputs) {
-            for axis in 0..2 {
-                value[axis] += share * step[axis];
-            }
-        }
-    }
-}
-
 /// The memory of one solver of `W/2` vehicles; nothing is allocated once it has its size.
 #[derive(Clone, Debug, Default)]
-struct Interior<const W: usize, const Z: usize> {
+pub(super) struct Interior<const W: usize, const Z: usize> {
     riccati: Riccati<W, Z>,
-    inequalities: Vec<Inequality>,
-    rows: Vec<Row>,
+    pub(super) inequalities: Inequalities,
+    pub(super) columns: Columns,
     hessians: Vec<VehicleHessian>,
     pairs: Vec<Vec<PairHessian>>,
     /// Where the iteration stands.
-    point: Point,
+    pub(super) point: Point,
     /// Its next step.
     step: Point,
     /// Gradient of the smooth cost at the point.
@@ -93,28 +64,24 @@ struct Interior<const W: usize, const Z: usize> {
 }
 
 impl<const W: usize, const Z: usize> Interior<W, Z> {
-    const VEHICLES: usize = W / 2;
+    pub(super) const VEHICLES: usize = W / 2;
 
     fn solve(&mut self, qp: &StageQp, solution: &mut StageSolution, warm: bool) -> Result<(), StageError> {
-        list(qp, &mut self.inequalities);
-        self.point.clear(qp.horizon * Self::VEHICLES);
+        self.inequalities.fill(qp);
+        let hard = BOXES * self.inequalities.boxes.len() + self.inequalities.rows.len() - self.soft_rows(qp);
+        let same_shape = self.columns.shape(hard, self.inequalities.weights.iter().copied());
         self.along.clear();
         self.along.resize(if qp.trajectory_row.is_some() { qp.horizon } else { 0 }, [0.0; 2]);
         let mut iterations = 0;
-        let outcome = if warm && self.rows.len() == self.inequalities.len() {
+        let mut outcome = Err(StageError::Unsolved { status: String::new(), iterations });
+        if warm && same_shape {
             self.begin(qp, Start::WARM, true);
-            self.iterate(qp, &mut iterations)
-        } else {
-            Err(StageError::Unsolved { status: String::new(), iterations: 0 })
-        };
-        let outcome = match outcome {
-            Err(StageError::Unsolved { .. }) => {
-                self.point.clear(qp.horizon * Self::VEHICLES);
-                self.begin(qp, Start::COLD, false);
-                self.iterate(qp, &mut iterations)
-            }
-            other => other,
-        };
+            outcome = self.iterate(qp, &mut iterations);
+        }
+        if let Err(StageError::Unsolved { .. }) = outcome {
+            self.begin(qp, Start::COLD, false);
+            outcome = self.iterate(qp, &mut iterations);
+        }
         solution.shape_like(qp);
         solution.iterations = iterations;
         outcome?;
@@ -122,121 +89,118 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         Ok(())
     }
 
-    /// Slacks and multipliers at the start.
+    fn soft_rows(&self, qp: &StageQp) -> usize {
+        self.inequalities.weights.len() - usize::from(qp.trajectory_row.is_some())
+    }
+
+    /// Slacks and multipliers at the iterate itself.
     fn begin(&mut self, qp: &StageQp, start: Start, warm: bool) {
-        self.rows.resize(self.inequalities.len(), Row::default());
-        self.refresh_along(qp);
-        for (row, inequality) in self.rows.iter_mut().zip(&self.inequalities) {
-            row.begin(inequality.value, inequality.soft, start, warm);
-        }
+        self.point.clear(qp.horizon * Self::VEHICLES);
+        self.refresh_values(qp);
+        self.columns.begin(start, warm);
     }
 
     /// Newton's method with predictor and corrector until every residual is small.
     fn iterate(&mut self, qp: &StageQp, iterations: &mut usize) -> Result<(), StageError> {
-        let count = self.rows.iter().map(Row::pairs).sum::<usize>() as f64;
+        let count = self.columns.pairs() as f64;
         // The dual residual is linear in the unknowns, so every step of length α leaves 1 − α of it.
         let mut dual_share = 1.0;
         for _ in 0..ITERATION_LIMIT {
-            let (complementarity, primal) = self.measure(qp, count);
+            let (complementarity, primal) = self.columns.measure();
             if complementarity < TOLERANCE && primal < TOLERANCE && dual_share < TOLERANCE {
                 return Ok(());
             }
             if !complementarity.is_finite() {
                 break;
             }
-            let largest = self.rows.iter().map(|row| row.multiplier).fold(0.0, f64::max);
+            let largest = self.columns.multiplier.iter().copied().fold(0.0, larger);
             if largest > INFEASIBLE_MULTIPLIER && primal > TOLERANCE.sqrt() {
                 return Err(StageError::Infeasible { iterations: *iterations });
             }
             *iterations += 1;
+            self.columns.weigh();
             self.factor(qp)?;
             self.fill_cost_gradient(qp);
-            self.rows.iter_mut().for_each(Row::aim_at_zero);
-            let ratio = self.newton(qp);
-            let share = if ratio > 1.0 { 1.0 / ratio } else { 1.0 };
-            let affine = self.rows.iter().map(|row| row.complementarity_after(share)).sum::<f64>() / count;
-            let centring = (affine / complementarity).powi(3).max(1e-8) * complementarity;
-            self.rows.iter_mut().for_each(|row| row.aim_at(centring));
-            let ratio = self.newton(qp);
+            self.columns.aim(0.0, false);
+            self.newton(qp);
+            let affine = self.columns.step();
+            let share = if affine.ratio > 1.0 { 1.0 / affine.ratio } else { 1.0 };
+            let left = complementarity + share * (affine.linear + share * affine.quadratic) / count;
+            let centring = (left / complementarity).powi(3).max(1e-8) * complementarity;
+            self.columns.aim(centring, true);
+            self.newton(qp);
+            let ratio = self.columns.step().ratio;
             let boundary = 1.0 - complementarity.clamp(1e-6, 5e-3);
             let share = if ratio > boundary { boundary / ratio } else { 1.0 };
-            self.rows.iter_mut().for_each(|row| row.advance(share));
+            self.columns.advance(share);
             self.point.add(share, &self.step);
             dual_share *= 1.0 - share;
+            self.refresh_values(qp);
         }
-        let worst = self.rows.iter().map(|row| row.residual.abs()).fold(0.0, f64::max);
+        let (_, worst) = self.columns.measure();
         let status = format!("residual {worst:.1e}, dual residual at {dual_share:.1e} of its start");
         Err(StageError::Unsolved { status, iterations: *iterations })
     }
 
-    /// Refreshes the rows' residuals; returns mean complementarity and the largest residual.
-    fn measure(&mut self, qp: &StageQp, count: f64) -> (f64, f64) {
-        self.refresh_along(qp);
-        let (mut complementarity, mut primal) = (0.0, 0.0_f64);
-        for (row, inequality) in self.rows.iter_mut().zip(&self.inequalities) {
-            let value = match (inequality.subject, &qp.trajectory_row) {
-                (Subject::Trajectory { stride }, Some(trajectory)) => {
-                    -trajectory.value_at(self.point.states.iter().step_by(stride).map(|d| [d[0], d[1]]))
-                }
-                _ => inequality.value + inequality.slope(&self.point.states, &self.point.inputs, &[]),
-            };
-            row.residual = value + row.violation - row.slack;
-            complementarity += row.complementarity();
-            primal = primal.max(row.residual.abs());
+    /// Every inequality at the point, and the gradient of the row over the whole trajectory.
+    fn refresh_values(&mut self, qp: &StageQp) {
+        let values = &mut self.columns.value;
+        let (boxed, rows) = values.split_at_mut(BOXES * self.inequalities.boxes.len());
+        for (boxes, values) in self.inequalities.boxes.iter().zip(boxed.chunks_exact_mut(BOXES)) {
+            let ([a, d], v) = (self.point.inputs[boxes.at], self.point.states[boxes.at][3]);
+            for (value, (room, moved)) in values.iter_mut().zip(boxes.room.iter().zip([a, -a, d, -d, v, -v])) {
+                *value = room + moved;
+            }
         }
-        (complementarity / count, primal)
-    }
-
-    fn refresh_along(&mut self, qp: &StageQp) {
-        if let Some(row) = &qp.trajectory_row {
-            for (k, v) in self.along.iter_mut().enumerate() {
-                let d = &self.point.states[k * Self::VEHICLES];
-                *v = std::array::from_fn(|axis| row.gradients[k][axis] + 2.0 * row.bends[k] * d[axis]);
+        for (row, value) in self.inequalities.rows.iter().zip(rows.iter_mut()) {
+            *value = row.value + row.slope(&self.point.states);
+        }
+        if let (Some(row), Some(value)) = (&qp.trajectory_row, rows.last_mut()) {
+            let states = || self.point.states.iter().step_by(Self::VEHICLES);
+            *value = -row.value_at(states().map(|d| [d[0], d[1]]));
+            for ((v, d), (b, beta)) in self.along.iter_mut().zip(states()).zip(row.gradients.iter().zip(&row.bends)) {
+                *v = [b[0] + 2.0 * beta * d[0], b[1] + 2.0 * beta * d[1]];
             }
         }
     }
 
-    /// Assembles the second derivatives with the rows' weights `ω` and factors them.
+    /// Assembles the second derivatives with the weights `ω` and factors them.
     fn factor(&mut self, qp: &StageQp) -> Result<(), StageError> {
         self.cost_hessians(qp);
-        let mut bend = 0.0;
-        for (row, inequality) in self.rows.iter_mut().zip(&self.inequalities) {
-            let weight = row.weigh(inequality.soft);
-            match inequality.subject {
-                Subject::Box { at, axis: 2, .. } => self.hessians[at].speed += weight,
-                Subject::Box { at, axis, .. } => self.hessians[at].input[axis] += weight,
-                Subject::Pose { at, gradient: [x, y, t] } => {
-                    let pose = &mut self.hessians[at].pose;
-                    for (value, product) in pose.iter_mut().zip([x * x, x * y, x * t, y * y, y * t, t * t]) {
-                        *value += weight * product;
-                    }
+        let (boxed, rows) = self.columns.weight.split_at(BOXES * self.inequalities.boxes.len());
+        for (boxes, w) in self.inequalities.boxes.iter().zip(boxed.chunks_exact(BOXES)) {
+            let hessian = &mut self.hessians[boxes.at];
+            hessian.input[0] += w[0] + w[1];
+            hessian.input[1] += w[2] + w[3];
+            hessian.speed += w[4] + w[5];
+        }
+        for (row, weight) in self.inequalities.rows.iter().zip(rows) {
+            let [x, y, t] = row.gradient;
+            if let Some(other) = row.other {
+                let position = [weight * x * x, weight * x * y, weight * y * y];
+                add_pair(&mut self.hessians, &mut self.pairs, Self::VEHICLES, [row.at, other], position);
+            } else {
+                let pose = &mut self.hessians[row.at].pose;
+                for (value, product) in pose.iter_mut().zip([x * x, x * y, x * t, y * y, y * t, t * t]) {
+                    *value += weight * product;
                 }
-                Subject::Pair { at, other, gradient: [x, y] } => {
-                    let position = [weight * x * x, weight * x * y, weight * y * y];
-                    add_pair(&mut self.hessians, &mut self.pairs, Self::VEHICLES, [at, other], position);
-                }
-                Subject::Trajectory { .. } => bend = 2.0 * row.multiplier,
             }
         }
-        if let Some(row) = &qp.trajectory_row {
-            for (k, beta) in row.bends.iter().enumerate() {
-                let pose = &mut self.hessians[k * Self::VEHICLES].pose;
-                pose[0] += bend * beta;
-                pose[3] += bend * beta;
-            }
+        let Some(row) = &qp.trajectory_row else { return self.riccati.factor(qp, &self.hessians, &self.pairs) };
+        let multiplier = self.columns.multiplier.last().copied().unwrap_or_default();
+        for (k, beta) in row.bends.iter().enumerate() {
+            let pose = &mut self.hessians[k * Self::VEHICLES].pose;
+            pose[0] += 2.0 * multiplier * beta;
+            pose[3] += 2.0 * multiplier * beta;
         }
         self.riccati.factor(qp, &self.hessians, &self.pairs)?;
-        if qp.trajectory_row.is_some() {
-            self.gradient.clear(qp.horizon * Self::VEHICLES);
-            for (k, v) in self.along.iter().enumerate() {
-                // The gradient −v makes the solve return H⁻¹ v.
-                self.gradient.states[k * Self::VEHICLES] = [-v[0], -v[1], 0.0, 0.0];
-            }
-            self.along_response.clear(qp.horizon * Self::VEHICLES);
-            let response = &mut self.along_response;
-            let gradient = &self.gradient;
-            self.riccati.solve(qp, &gradient.states, &gradient.inputs, &mut response.states, &mut response.inputs);
+        self.gradient.clear(qp.horizon * Self::VEHICLES);
+        for (k, v) in self.along.iter().enumerate() {
+            // The gradient −v makes the solve return H⁻¹ v.
+            self.gradient.states[k * Self::VEHICLES] = [-v[0], -v[1], 0.0, 0.0];
         }
+        self.along_response.clear(qp.horizon * Self::VEHICLES);
+        self.riccati.solve(qp, &self.gradient, &mut self.along_response);
         Ok(())
     }
 
@@ -287,28 +251,26 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 }
                 for axis in 0..2 {
                     let before = if k > stages.first { inputs[at - vehicles][axis] } else { 0.0 };
-                    let pull =
-                        2.0 * stages.change_weights[axis] * (stages.changes[k][axis] + inputs[at][axis] - before);
+                    let change = stages.changes[k][axis] + inputs[at][axis] - before;
+                    let pull = 2.0 * stages.change_weights[axis] * change;
                     self.cost_gradient.inputs[at][axis] += pull;
                     if k > stages.first {
                         self.cost_gradient.inputs[at - vehicles][axis] -= pull;
                     }
                 }
+                let before = if k > 0 { states[at - vehicles] } else { [0.0; 4] };
+                let ([heading, speed], steering) = curvature_gradient(&stages.curvatures[k], &before, &inputs[at]);
+                self.cost_gradient.inputs[at][1] += steering;
                 if k > 0 {
-                    let (before, curvature) = (at - vehicles, &stages.curvatures[k]);
-                    let ([heading, speed], steering) = curvature_gradient(curvature, &states[before], &inputs[at]);
-                    self.cost_gradient.states[before][2] += heading;
-                    self.cost_gradient.states[before][3] += speed;
-                    self.cost_gradient.inputs[at][1] += steering;
-                } else {
-                    self.cost_gradient.inputs[at][1] += stages.curvatures[0].steering_steering * inputs[at][1];
+                    self.cost_gradient.states[at - vehicles][2] += heading;
+                    self.cost_gradient.states[at - vehicles][3] += speed;
                 }
             }
         }
-        self.row_curvature_gradient(qp);
+        self.add_row_curvature(qp);
     }
 
-    fn row_curvature_gradient(&mut self, qp: &StageQp) {
+    fn add_row_curvature(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
         for block in &qp.blocks {
             for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| row.active) {
@@ -330,65 +292,60 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         }
     }
 
-    /// One Newton step towards the rows' targets; returns the largest share by which a slack or multiplier would shrink.
-    fn newton(&mut self, qp: &StageQp) -> f64 {
+    /// One Newton step towards the targets; leaves its slopes in the columns.
+    fn newton(&mut self, qp: &StageQp) {
         self.gradient.states.clone_from(&self.cost_gradient.states);
         self.gradient.inputs.clone_from(&self.cost_gradient.inputs);
-        let mut along_weight = 0.0;
-        for (row, inequality) in self.rows.iter_mut().zip(&self.inequalities) {
-            let pull = row.pull(inequality.soft);
-            inequality.pull(-pull, &mut self.gradient.states, &mut self.gradient.inputs, &self.along);
-            if let Subject::Trajectory { .. } = inequality.subject {
-                along_weight = row.weigh(inequality.soft);
+        let boxed = BOXES * self.inequalities.boxes.len();
+        let (pulls, row_pulls) = self.columns.pull.split_at(boxed);
+        for (boxes, p) in self.inequalities.boxes.iter().zip(pulls.chunks_exact(BOXES)) {
+            let input = &mut self.gradient.inputs[boxes.at];
+            input[0] += p[1] - p[0];
+            input[1] += p[3] - p[2];
+            self.gradient.states[boxes.at][3] += p[5] - p[4];
+        }
+        for (row, pull) in self.inequalities.rows.iter().zip(row_pulls) {
+            row.pull(-pull, &mut self.gradient.states);
+        }
+        if let (Some(_), Some(pull)) = (&qp.trajectory_row, row_pulls.last()) {
+            for (k, v) in self.along.iter().enumerate() {
+                self.gradient.states[k * Self::VEHICLES][0] += pull * v[0];
+                self.gradient.states[k * Self::VEHICLES][1] += pull * v[1];
             }
         }
-        let (gradient, step) = (&self.gradient, &mut self.step);
-        step.states.resize(gradient.states.len(), [0.0; 4]);
-        step.inputs.resize(gradient.inputs.len(), [0.0; 2]);
-        self.riccati.solve(qp, &gradient.states, &gradient.inputs, &mut step.states, &mut step.inputs);
-        if qp.trajectory_row.is_some() {
-            let dot = |point: &Point| -> f64 {
-                let terms = self.along.iter().enumerate().map(|(k, v)| (v, &point.states[k * Self::VEHICLES]));
-                terms.map(|(v, d)| v[0] * d[0] + v[1] * d[1]).sum()
-            };
-            let share = along_weight * dot(&self.step) / (1.0 + along_weight * dot(&self.along_response));
-            self.step.add(-share, &self.along_response);
-        }
-        let mut ratio = 1e-12_f64;
-        for (row, inequality) in self.rows.iter_mut().zip(&self.inequalities) {
-            let slope = inequality.slope(&self.step.states, &self.step.inputs, &self.along);
-            ratio = ratio.max(row.step(slope, inequality.soft));
-        }
-        ratio
+        self.step.states.resize(self.gradient.states.len(), [0.0; 4]);
+        self.step.inputs.resize(self.gradient.inputs.len(), [0.0; 2]);
+        self.riccati.solve(qp, &self.gradient, &mut self.step);
+        self.correct_along(qp);
+        self.fill_slopes(qp);
     }
 
-    /// Copies point and multipliers into the solution's shape.
-    fn write(&self, qp: &StageQp, solution: &mut StageSolution) {
-        let vehicles = Self::VEHICLES;
-        for (at, (state, input)) in self.point.states.iter().zip(&self.point.inputs).enumerate() {
-            solution.states[at % vehicles][at / vehicles] = *state;
-            solution.inputs[at % vehicles][at / vehicles] = *input;
+    /// Sherman and Morrison: the rank-one part of the Hessian that the factorisation leaves out.
+    fn correct_along(&mut self, qp: &StageQp) {
+        let (Some(_), Some(weight)) = (&qp.trajectory_row, self.columns.weight.last()) else { return };
+        let share = weight * self.along(&self.step) / (1.0 + weight * self.along(&self.along_response));
+        self.step.add(-share, &self.along_response);
+    }
+
+    /// `v·p` over the whole trajectory.
+    fn along(&self, point: &Point) -> f64 {
+        let states = point.states.iter().step_by(Self::VEHICLES);
+        self.along.iter().zip(states).map(|(v, d)| v[0] * d[0] + v[1] * d[1]).sum()
+    }
+
+    fn fill_slopes(&mut self, qp: &StageQp) {
+        let total = qp.trajectory_row.as_ref().map(|_| self.along(&self.step));
+        let (boxed, rows) = self.columns.slope.split_at_mut(BOXES * self.inequalities.boxes.len());
+        for (boxes, slopes) in self.inequalities.boxes.iter().zip(boxed.chunks_exact_mut(BOXES)) {
+            let ([a, d], v) = (self.step.inputs[boxes.at], self.step.states[boxes.at][3]);
+            slopes.copy_from_slice(&[a, -a, d, -d, v, -v]);
         }
-        solution.bound_multipliers.iter_mut().for_each(|bounds| bounds.fill([[0.0; 2]; 3]));
-        let mut rows = self.rows.iter();
-        for (i, stages) in qp.vehicles.iter().enumerate() {
-            for k in stages.first..qp.horizon {
-                for axis in 0..3 {
-                    for side in 0..2 {
-                        let multiplier = rows.next().map_or(0.0, |row| row.multiplier);
-                        solution.bound_multipliers[i][k][axis][side] = multiplier;
-                    }
-                }
-            }
+        for (row, slope) in self.inequalities.rows.iter().zip(rows.iter_mut()) {
+            *slope = row.slope(&self.step.states);
         }
-        for (block, multipliers) in qp.blocks.iter().zip(&mut solution.row_multipliers) {
-            let listed = block.costs_something();
-            for (row, multiplier) in block.rows.iter().zip(multipliers) {
-                let here = row.active && listed;
-                *multiplier = if here { rows.next().map_or(0.0, |row| row.multiplier) } else { 0.0 };
-            }
+        if let (Some(total), Some(slope)) = (total, rows.last_mut()) {
+            *slope = -total;
         }
-        solution.trajectory_multiplier = rows.next().map_or(0.0, |row| row.multiplier);
     }
 }
 

@@ -10,6 +10,7 @@
 //!
 //! Vehicles meet only where rows of a pair fill the off-diagonal blocks of `P`.
 
+use super::rows::Point;
 use crate::dynamics::Jacobian;
 use crate::mpc::stage::{StageError, StageQp};
 
@@ -211,16 +212,8 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
         (f_ww, f_wz, f_zz)
     }
 
-    /// Solves for the step that minimises the factored quadratic with the given gradients over `d_{k+1}` and `w_k`
-    /// (indexed `[k * M + vehicle]`), writing `d` and `w` in the same order.
-    pub(super) fn solve(
-        &mut self,
-        qp: &StageQp,
-        state_gradients: &[[f64; 4]],
-        input_gradients: &[[f64; 2]],
-        states: &mut [[f64; 4]],
-        inputs: &mut [[f64; 2]],
-    ) {
+    /// Solves for the step that minimises the factored quadratic with the given gradients over `d_{k+1}` and `w_k`.
+    pub(super) fn solve(&mut self, qp: &StageQp, gradient: &Point, step: &mut Point) {
         let vehicles = Self::VEHICLES;
         let mut p = [0.0; Z];
         for k in (0..qp.horizon).rev() {
@@ -228,20 +221,20 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             let mut carried = [0.0; Z];
             for i in 0..vehicles {
                 let (stages, z) = (&qp.vehicles[i], BLOCK * i);
-                let gradient = state_gradients[k * vehicles + i];
-                let row: [f64; 4] = std::array::from_fn(|axis| p[z + axis] + gradient[axis]);
+                let pull = gradient.states[k * vehicles + i];
+                let row: [f64; 4] = std::array::from_fn(|axis| p[z + axis] + pull[axis]);
                 let from_state = times_b(&row, &stages.jacobians[k]);
                 if k >= stages.first {
                     for axis in 0..2 {
                         f_w[2 * i + axis] =
-                            input_gradients[k * vehicles + i][axis] + from_state[axis] + p[z + 4 + axis];
+                            gradient.inputs[k * vehicles + i][axis] + from_state[axis] + p[z + 4 + axis];
                     }
                 }
                 carried[z..z + 4].copy_from_slice(&times_a(&row, &stages.jacobians[k]));
             }
-            let mut step: [f64; W] = std::array::from_fn(|row| -f_w[row]);
-            self.factors[k].solve(&mut step);
-            self.feed_forward[k] = step;
+            let mut feed: [f64; W] = std::array::from_fn(|row| -f_w[row]);
+            self.factors[k].solve(&mut feed);
+            self.feed_forward[k] = feed;
             if k == 0 {
                 break;
             }
@@ -254,10 +247,10 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
                 p[column] = value;
             }
         }
-        self.roll_forward(qp, states, inputs);
+        self.roll_forward(qp, step);
     }
 
-    fn roll_forward(&self, qp: &StageQp, states: &mut [[f64; 4]], inputs: &mut [[f64; 2]]) {
+    fn roll_forward(&self, qp: &StageQp, step: &mut Point) {
         let vehicles = Self::VEHICLES;
         let mut z = [0.0; Z];
         for k in 0..qp.horizon {
@@ -276,8 +269,8 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
                 let state = qp.vehicles[i].jacobians[k].apply(&before, &input);
                 z[at..at + 4].copy_from_slice(&state);
                 z[at + 4..at + 6].copy_from_slice(&input);
-                states[k * vehicles + i] = state;
-                inputs[k * vehicles + i] = input;
+                step.states[k * vehicles + i] = state;
+                step.inputs[k * vehicles + i] = input;
             }
         }
     }

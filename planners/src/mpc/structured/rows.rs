@@ -1,121 +1,140 @@
-//! The inequalities of a stage problem in one list: boxes first, then the active rows.
+//! The inequalities of a stage problem: boxes, then hard rows, then soft rows, then the row over the whole trajectory.
 
 use crate::mpc::Penalty;
 use crate::mpc::stage::{RowBlock, StageQp};
 
-/// What an inequality `value + gradient·z + σ ≥ 0` speaks of.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Subject {
-    /// One of the two inputs `w_k` (`axis` 0 or 1) or the speed of `d_{k+1}` (`axis` 2), with the sign of its gradient.
-    Box { at: usize, axis: usize, sign: f64 },
-    /// The pose of a vehicle after stage `k`.
-    Pose { at: usize, gradient: [f64; 3] },
-    /// The difference of the positions of two vehicles after stage `k`.
-    Pair { at: usize, other: usize, gradient: [f64; 2] },
-    /// The whole trajectory of vehicle 0, whose positions stand `stride` apart; the gradient changes with the point.
-    Trajectory { stride: usize },
+/// Values over states and inputs of all vehicles, indexed `k * M + vehicle`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Point {
+    /// `(x, y, θ, v)` after stage `k`.
+    pub states: Vec<[f64; 4]>,
+    /// `(a, δ)` at stage `k`.
+    pub inputs: Vec<[f64; 2]>,
 }
 
-/// One inequality. `at` and `other` index stage and vehicle as `k * M + vehicle`.
+impl Point {
+    pub(super) fn clear(&mut self, count: usize) {
+        self.states.clear();
+        self.states.resize(count, [0.0; 4]);
+        self.inputs.clear();
+        self.inputs.resize(count, [0.0; 2]);
+    }
+
+    pub(super) fn add(&mut self, share: f64, step: &Point) {
+        for (value, step) in self.states.iter_mut().flatten().zip(step.states.iter().flatten()) {
+            *value += share * step;
+        }
+        for (value, step) in self.inputs.iter_mut().flatten().zip(step.inputs.iter().flatten()) {
+            *value += share * step;
+        }
+    }
+}
+
+/// The six boxes of one vehicle at one stage: lower and upper bound of acceleration, steering and speed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Boxes {
+    /// Index into a [`Point`].
+    pub at: usize,
+    /// `value`: how far the iterate is inside.
+    pub room: [f64; 6],
+}
+
+/// Number of inequalities in [`Boxes`].
+pub(super) const BOXES: usize = 6;
+
+/// One row `c + g·p + σ ≥ 0`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inequality {
-    pub subject: Subject,
+    /// Whose pose, as an index into a [`Point`].
+    pub at: usize,
+    /// For a pair, whose position is subtracted.
+    pub other: Option<usize>,
+    /// `g` over `(x, y, θ)`.
+    pub gradient: [f64; 3],
+    /// `c`.
     pub value: f64,
-    /// Linear weight `ℓ` and curvature `q` of the violation's cost; `None` for a hard row.
-    pub soft: Option<[f64; 2]>,
 }
 
 impl Inequality {
-    /// `gradient·z` at the given deviations; `along` is the gradient `v` of the row over the whole trajectory.
+    /// `g·p`.
     #[inline(always)]
-    pub(super) fn slope(&self, states: &[[f64; 4]], inputs: &[[f64; 2]], along: &[[f64; 2]]) -> f64 {
-        match self.subject {
-            Subject::Box { at, axis: 2, sign } => sign * states[at][3],
-            Subject::Box { at, axis, sign } => sign * inputs[at][axis],
-            Subject::Pose { at, gradient: g } => {
-                let d = &states[at];
-                g[0] * d[0] + g[1] * d[1] + g[2] * d[2]
-            }
-            Subject::Pair { at, other, gradient: g } => {
-                g[0] * (states[at][0] - states[other][0]) + g[1] * (states[at][1] - states[other][1])
-            }
-            Subject::Trajectory { stride } => {
-                let terms = along.iter().enumerate().map(|(k, v)| (v, &states[k * stride]));
-                -terms.map(|(v, d)| v[0] * d[0] + v[1] * d[1]).sum::<f64>()
-            }
+    pub(super) fn slope(&self, states: &[[f64; 4]]) -> f64 {
+        let [x, y, turn] = self.gradient;
+        let own = &states[self.at];
+        let slope = x * own[0] + y * own[1] + turn * own[2];
+        match self.other {
+            None => slope,
+            Some(other) => slope - x * states[other][0] - y * states[other][1],
         }
     }
 
-    /// Adds `weight · gradient` to the gradients of states and inputs.
+    /// Adds `weight · g` to the gradients of states.
     #[inline(always)]
-    pub(super) fn pull(&self, weight: f64, states: &mut [[f64; 4]], inputs: &mut [[f64; 2]], along: &[[f64; 2]]) {
-        match self.subject {
-            Subject::Box { at, axis: 2, sign } => states[at][3] += weight * sign,
-            Subject::Box { at, axis, sign } => inputs[at][axis] += weight * sign,
-            Subject::Pose { at, gradient } => {
-                for axis in 0..3 {
-                    states[at][axis] += weight * gradient[axis];
-                }
-            }
-            Subject::Pair { at, other, gradient } => {
-                for axis in 0..2 {
-                    states[at][axis] += weight * gradient[axis];
-                    states[other][axis] -= weight * gradient[axis];
-                }
-            }
-            Subject::Trajectory { stride } => {
-                for (k, v) in along.iter().enumerate() {
-                    states[k * stride][0] -= weight * v[0];
-                    states[k * stride][1] -= weight * v[1];
-                }
+    pub(super) fn pull(&self, weight: f64, states: &mut [[f64; 4]]) {
+        for axis in 0..3 {
+            states[self.at][axis] += weight * self.gradient[axis];
+        }
+        if let Some(other) = self.other {
+            for axis in 0..2 {
+                states[other][axis] -= weight * self.gradient[axis];
             }
         }
     }
 }
 
-/// Lists the inequalities of a problem: for every vehicle and free stage the lower and upper bounds of acceleration,
-/// steering and speed, then the active rows block by block, then the row over the whole trajectory.
-///
-/// Rows whose violation costs nothing are left out.
-pub(super) fn list(qp: &StageQp, inequalities: &mut Vec<Inequality>) {
-    inequalities.clear();
-    let vehicles = qp.vehicles.len();
-    for (i, stages) in qp.vehicles.iter().enumerate() {
-        for k in stages.first..qp.horizon {
-            let at = k * vehicles + i;
-            let [acceleration, steering] = stages.input_boxes[k];
-            for (axis, interval) in [acceleration, steering, stages.speed_boxes[k]].into_iter().enumerate() {
-                for (sign, value) in [(1.0, -interval.lower), (-1.0, interval.upper)] {
-                    inequalities.push(Inequality { subject: Subject::Box { at, axis, sign }, value, soft: None });
-                }
+/// All inequalities of a problem but the one over the whole trajectory.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Inequalities {
+    pub boxes: Vec<Boxes>,
+    /// Hard rows first.
+    pub rows: Vec<Inequality>,
+    /// Weights `(ℓ, q)` of the soft rows, which are the last of `rows`, and of the row over the whole trajectory.
+    pub weights: Vec<[f64; 2]>,
+}
+
+impl Inequalities {
+    /// Lists the inequalities of a problem. Rows whose violation costs nothing are left out.
+    pub(super) fn fill(&mut self, qp: &StageQp) {
+        let vehicles = qp.vehicles.len();
+        self.boxes.clear();
+        for (i, stages) in qp.vehicles.iter().enumerate() {
+            for k in stages.first..qp.horizon {
+                let [[a, d], v] = [stages.input_boxes[k], [stages.speed_boxes[k]; 2]];
+                let room = [-a.lower, a.upper, -d.lower, d.upper, -v[0].lower, v[0].upper];
+                self.boxes.push(Boxes { at: k * vehicles + i, room });
             }
         }
-    }
-    for block in &qp.blocks {
-        if !block.costs_something() {
-            continue;
+        self.rows.clear();
+        self.weights.clear();
+        for block in listed(qp, false) {
+            self.push(block, vehicles);
         }
-        let soft = block.penalty.map(weights);
-        for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| row.active) {
-            let subject = subject(block, k, vehicles, row.gradient);
-            inequalities.push(Inequality { subject, value: row.value, soft });
+        for block in listed(qp, true) {
+            let before = self.rows.len();
+            self.push(block, vehicles);
+            let added = self.rows.len() - before;
+            self.weights.extend(block.penalty.map(weights).into_iter().cycle().take(added));
         }
+        self.weights.extend(qp.trajectory_row.iter().map(|row| weights(row.penalty)));
     }
-    if let Some(row) = &qp.trajectory_row {
-        let (subject, soft) = (Subject::Trajectory { stride: vehicles }, Some(weights(row.penalty)));
-        inequalities.push(Inequality { subject, value: -row.value, soft });
+
+    fn push(&mut self, block: &RowBlock, vehicles: usize) {
+        let active = block.rows.iter().enumerate().filter(|(_, row)| row.active);
+        self.rows.extend(active.map(|(k, row)| Inequality {
+            at: k * vehicles + block.vehicle,
+            other: block.other.map(|other| k * vehicles + other),
+            gradient: row.gradient,
+            value: row.value,
+        }));
     }
+}
+
+/// The blocks that are listed, hard or soft.
+fn listed(qp: &StageQp, soft: bool) -> impl Iterator<Item = &RowBlock> {
+    qp.blocks.iter().filter(move |block| block.penalty.is_some() == soft && block.costs_something())
 }
 
 /// `ℓ` and `q` of a violation's cost.
 fn weights(penalty: Penalty) -> [f64; 2] {
     [penalty.linear, 2.0 * penalty.quadratic]
-}
-
-fn subject(block: &RowBlock, k: usize, vehicles: usize, gradient: [f64; 3]) -> Subject {
-    let at = k * vehicles + block.vehicle;
-    match block.other {
-        None => Subject::Pose { at, gradient },
-        Some(other) => Subject::Pair { at, other: k * vehicles + other, gradient: [gradient[0], gradient[1]] },
-    }
 }
