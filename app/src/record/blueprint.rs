@@ -41,6 +41,12 @@ impl View {
         View { class, title: title.to_owned(), origin: "/".to_owned(), contents, properties: Vec::new() }
     }
 
+    /// What is written above it.
+    #[cfg(test)]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
     /// The same view without that entity.
     pub fn without(mut self, entity: &str) -> View {
         self.contents.push(format!("- {entity}"));
@@ -65,11 +71,16 @@ impl View {
     }
 }
 
-/// Sends the layout to the viewer or the file behind `stream`, to be shown at once.
+/// Sends the layout to the viewer or the file behind `stream`, to be shown at once with its clock in the state `play`.
 ///
 /// # Errors
 /// If Rerun refuses a component.
-pub fn send(stream: &RecordingStream, application: &'static str, root: &Panel) -> RecordingStreamResult<()> {
+pub fn send(
+    stream: &RecordingStream,
+    application: &'static str,
+    root: &Panel,
+    play: PlayState,
+) -> RecordingStreamResult<()> {
     let (blueprint, messages) =
         RecordingStreamBuilder::new(application).recording_id("layout").blueprint().enabled(true).memory()?;
     blueprint.set_time_sequence("blueprint", 0);
@@ -91,7 +102,7 @@ pub fn send(stream: &RecordingStream, application: &'static str, root: &Panel) -
         &TimePanelBlueprint::new()
             .with_state(PanelState::Collapsed)
             .with_timeline(super::SIM_TIME)
-            .with_play_state(PlayState::Paused)
+            .with_play_state(play)
             .with_loop_mode(LoopMode::All),
     )?;
     let messages = messages.take();

@@ -3,14 +3,14 @@
 //! The close-up and the whole road lie across the window, since roads are long and narrow; below them the numbers,
 //! and at the bottom the words.
 
-use super::re_sdk_types;
 use super::re_sdk_types::blueprint::archetypes::{
     PlotLegend, ScalarAxis, TextLogColumns, TimeAxis, VisibleTimeRanges, VisualBounds2D,
 };
-use super::re_sdk_types::blueprint::components::{Corner2D, LinkAxis, VisibleTimeRange};
+use super::re_sdk_types::blueprint::components::{Corner2D, VisibleTimeRange};
 use super::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
 use super::re_sdk_types::components::Range1D;
 use super::re_sdk_types::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
+use super::re_sdk_types::{blueprint, datatypes};
 use interplay_scenarios::Scenario;
 
 use super::blueprint::{Panel, View};
@@ -18,42 +18,49 @@ use super::plots::{self, Plots};
 use super::vehicles::FOLLOW;
 
 /// Width of the close-up as a multiple of its height.
-const CLOSE_UP_ASPECT: f64 = 4.8;
+const CLOSE_UP_ASPECT: f64 = 5.6;
+/// How much of the land beside the road the close-up shows on either side, in lane widths.
+const BESIDE_LANES: f64 = 0.5;
 /// How much of the close-up lies behind the ego.
 const SHARE_BEHIND: f64 = 0.42;
 
 /// The layout for a scenario of which `plots` were recorded between the longitudinal coordinates `road_m`.
 pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> Panel {
-    let words = [
-        Some((1.0, plot("Time to plan [ms]", vec!["/plots/planner-ms/**".to_owned()], None))),
-        plots.has(plots::LOG).then(|| (1.2, events())),
-        Some((1.3, Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()])))),
-    ];
     Panel::Column(vec![
         (1.9, close_up(scenario)),
         (0.75, whole_road(scenario, road_m)),
         (1.7, Panel::Row(numbers(scenario, plots))),
-        (1.9, Panel::Row(words.into_iter().flatten().collect())),
+        (1.9, Panel::Row(words(scenario, plots))),
     ])
 }
 
 fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
     let fastest = scenario.vehicles.iter().map(|vehicle| vehicle.limits.speed_max_mps).fold(0.0, f64::max);
-    let mut row = vec![(1.0, plot("Speeds [m/s]", vec!["/plots/speed/**".to_owned()], Some([0.0, fastest * 1.05])))];
+    let speeds = Plot::new(scenario, "Speeds [m/s]", vec!["/plots/speed/**".to_owned()]);
+    let mut row = vec![(1.0, speeds.between(0.0, 1.05 * fastest).legend_at(Corner2D::RightBottom))];
     let shares = ["acceptance", "concession-weight", "persuasion-active", "safety-filter"];
     let negotiation = among(plots, "plots/negotiation/", &shares);
     let costs = among(plots, "plots/", &["cost", "safety-slack"]);
     if !negotiation.is_empty() {
-        row.push((
-            1.3,
-            plot("Negotiation: does the other accept, does the ego concede", negotiation, Some([0.0, 1.05])),
-        ));
+        let plot = Plot::new(scenario, "Negotiation: do they accept, does the asker concede?", negotiation);
+        row.push((1.3, plot.between(-0.05, 1.1).legend_at(Corner2D::RightTop)));
     } else if !costs.is_empty() {
-        row.push((1.3, plot("Costs of the plans", costs, None)));
+        row.push((1.3, Plot::new(scenario, "Costs of the plans", costs).legend_at(Corner2D::RightTop)));
     }
     if plots.has(plots::GAP) {
-        row.push((1.0, plot("Gap from the ego to the nearest vehicle [m]", vec![format!("/{}", plots::GAP)], None)));
+        let gap = vec![format!("/{}", plots::GAP)];
+        row.push((1.0, Plot::new(scenario, "Gap from the ego to the nearest vehicle [m]", gap).alone()));
     }
+    row
+}
+
+fn words(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
+    let computing = Plot::new(scenario, "Time to plan [ms]", vec!["/plots/planner-ms/**".to_owned()]);
+    let mut row = vec![(1.0, computing.legend_at(Corner2D::RightTop))];
+    if plots.has(plots::LOG) {
+        row.push((1.1, events()));
+    }
+    row.push((1.4, Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))));
     row
 }
 
@@ -63,14 +70,30 @@ fn among(plots: &Plots, folder: &str, names: &[&str]) -> Vec<String> {
     plots.seen().iter().filter(mine).map(|path| format!("/{path}")).collect()
 }
 
-fn plot(title: &str, contents: Vec<String>, range: Option<[f64; 2]>) -> Panel {
-    let view = View::new("TimeSeries", title, contents)
-        .with("PlotLegend", PlotLegend::new().with_corner(Corner2D::RightTop))
-        .with("TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
-    Panel::View(match range {
-        Some([low, high]) => view.with("ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high))),
-        None => view,
-    })
+/// A plot over the whole run.
+struct Plot(View);
+
+impl Plot {
+    fn new(scenario: &Scenario, title: &str, contents: Vec<String>) -> Plot {
+        let at = |time_s: f64| TimeRangeBoundary::Absolute(TimeInt((time_s * 1e9) as i64));
+        let run = TimeRange { start: at(0.0), end: at(scenario.duration_s) };
+        let axis = TimeAxis::new().with_view_range(blueprint::components::TimeRange(run));
+        Plot(View::new("TimeSeries", title, contents).with("TimeAxis", axis))
+    }
+
+    /// With a fixed vertical axis.
+    fn between(self, low: f64, high: f64) -> Plot {
+        Plot(self.0.with("ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high))))
+    }
+
+    fn legend_at(self, corner: Corner2D) -> Panel {
+        Panel::View(self.0.with("PlotLegend", PlotLegend::new().with_corner(corner)))
+    }
+
+    /// Of one series that the title names.
+    fn alone(self) -> Panel {
+        Panel::View(self.0.with("PlotLegend", PlotLegend::new().with_visible(false)))
+    }
 }
 
 fn events() -> Panel {
@@ -80,10 +103,15 @@ fn events() -> Panel {
     Panel::View(view.with("TextLogColumns", TextLogColumns::new().with_text_log_columns(columns)))
 }
 
+/// Length of road in the close-up \[m\].
+pub fn close_up_span_m(scenario: &Scenario) -> f64 {
+    CLOSE_UP_ASPECT * (scenario.road.width_m() + 2.0 * BESIDE_LANES * scenario.road.lane_width_m())
+}
+
 fn close_up(scenario: &Scenario) -> Panel {
-    let beside = 0.6 * scenario.road.lane_width_m();
+    let beside = BESIDE_LANES * scenario.road.lane_width_m();
     let across = [-scenario.road.width_m() - beside, beside];
-    let span = CLOSE_UP_ASPECT * (across[1] - across[0]);
+    let span = close_up_span_m(scenario);
     let along = [-SHARE_BEHIND * span, (1.0 - SHARE_BEHIND) * span];
     Panel::View(traced(scenario, top_view("Around the ego", along, across).from(FOLLOW)))
 }
@@ -99,7 +127,7 @@ fn whole_road(scenario: &Scenario, road_m: [f64; 2]) -> Panel {
 
 fn top_view(title: &str, [left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> View {
     let bounds = Range2D { x_range: [left, right].into(), y_range: [top, bottom].into() };
-    let bounds = re_sdk_types::blueprint::components::VisualBounds2D(bounds);
+    let bounds = blueprint::components::VisualBounds2D(bounds);
     View::new("2D", title, vec!["/world/**".to_owned()]).with("VisualBounds2D", VisualBounds2D::new(bounds))
 }
 
@@ -108,12 +136,7 @@ fn traced(scenario: &Scenario, view: View) -> View {
     let so_far = || {
         let range =
             TimeRange { start: TimeRangeBoundary::Infinite, end: TimeRangeBoundary::CursorRelative(TimeInt(0)) };
-        let on = |timeline: &str| {
-            VisibleTimeRange(re_sdk_types::datatypes::VisibleTimeRange {
-                timeline: timeline.into(),
-                range: range.clone(),
-            })
-        };
+        let on = |timeline: &str| VisibleTimeRange(datatypes::VisibleTimeRange { timeline: timeline.into(), range });
         VisibleTimeRanges::new([on(super::SIM_TIME), on(super::TICK)])
     };
     scenario

@@ -21,21 +21,23 @@ mod layout;
 mod palette;
 mod plots;
 mod stage;
+#[cfg(test)]
+mod tests;
 mod vehicles;
 
 use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::path::PathBuf;
 use std::time::Duration;
 
-use rerun::external::re_sdk_types;
 use interplay_scenarios::Scenario;
+use rerun::external::re_sdk_types;
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{DEFAULT_SERVER_PORT, RecordingStream, RecordingStreamBuilder};
 
 pub use error::RecordError;
-use file::PartialFile;
 use plots::Plots;
+use re_sdk_types::blueprint::components::PlayState;
 use vehicles::Cast;
 
 use crate::frame::Frame;
@@ -74,14 +76,10 @@ pub struct Recorder {
 }
 
 enum Output {
-    File {
-        file: PartialFile,
-        content: MemorySinkStorage,
-    },
+    /// Everything in memory, and where it goes in the end.
+    File { path: PathBuf, content: MemorySinkStorage },
     /// To a viewer; with how many series the layout was last sent.
-    Live {
-        series: usize,
-    },
+    Live { series: usize },
 }
 
 impl Recorder {
@@ -93,11 +91,11 @@ impl Recorder {
         let builder = RecordingStreamBuilder::new(APPLICATION).enabled(true);
         let (stream, output) = match sink {
             Sink::File(path) => {
-                let file = PartialFile::create(path)?;
+                file::check(path)?;
                 let pieces = ChunkBatcherConfig { flush_tick: NEVER, ..ChunkBatcherConfig::DEFAULT };
                 let (stream, content) =
                     builder.recording_id(identity(scenario, name)).batcher_config(pieces).memory()?;
-                (stream, Output::File { file, content })
+                (stream, Output::File { path: path.clone(), content })
             }
             Sink::Live => {
                 find_viewer()?;
@@ -108,7 +106,9 @@ impl Recorder {
         stream.set_log_tick_enabled(false);
         stream.send_recording_name(format!("{name}: {}", scenario.title))?;
         let paints = palette::paints(scenario);
-        stage::road(&stream, scenario, expected_road(scenario))?;
+        let [from_m, to_m] = expected_road(scenario);
+        let beyond_m = layout::close_up_span_m(scenario);
+        stage::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
         stage::about(&stream, scenario, &paints, None)?;
         let cast = Cast::enter(&stream, scenario, &paints)?;
         let plots = Plots::begin(&stream, scenario, &paints)?;
@@ -157,8 +157,10 @@ impl Recorder {
         let road_m = self.driven_m.map(|[from, to]| [from - margin(&self.scenario), to + margin(&self.scenario)]);
         self.arrange(road_m.unwrap_or_else(|| expected_road(&self.scenario)))?;
         let broken = |error: &dyn std::fmt::Display| RecordError::Broken(error.to_string());
-        match self.output {
-            Output::File { file, content } => file.finish(&content.drain_as_bytes().map_err(|error| broken(&error))?),
+        match &self.output {
+            Output::File { path, content } => {
+                file::write(path, &content.drain_as_bytes().map_err(|error| broken(&error))?)
+            }
             Output::Live { .. } => self.stream.flush_with_timeout(PATIENCE).map_err(|error| broken(&error)),
         }
     }
@@ -166,7 +168,11 @@ impl Recorder {
     /// Sends the layout.
     fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
         let panel = layout::layout(&self.scenario, &self.plots, road_m);
-        Ok(blueprint::send(&self.stream, APPLICATION, &panel)?)
+        let play = match self.output {
+            Output::File { .. } => PlayState::Playing,
+            Output::Live { .. } => PlayState::Following,
+        };
+        Ok(blueprint::send(&self.stream, APPLICATION, &panel, play)?)
     }
 }
 

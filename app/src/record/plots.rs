@@ -14,8 +14,9 @@ use crate::frame::{Frame, Level, Origin, VehicleFrame};
 pub const LOG: &str = "log";
 /// Smallest distance of the ego to another vehicle.
 pub const GAP: &str = "plots/gap";
-/// What is plotted for every vehicle: the folder below `plots`, the name of the series, the number.
-const QUANTITIES: [(&str, fn(&VehicleFrame) -> f64); 4] = [
+/// What is plotted for every vehicle: the folder below `plots`, and the number.
+type Quantity = (&'static str, fn(&VehicleFrame) -> f64);
+const QUANTITIES: [Quantity; 4] = [
     ("speed", |vehicle| vehicle.state.speed_mps),
     ("acceleration", |vehicle| vehicle.input.acceleration_mps2),
     ("steering", |vehicle| vehicle.input.steering_rad),

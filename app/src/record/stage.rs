@@ -73,16 +73,16 @@ pub fn about(
 }
 
 fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> String {
-    let again = command.map(|command| format!("Again: `{command}`\n")).unwrap_or_default();
+    let again = command.map(|command| format!(" Again: `{command}`")).unwrap_or_default();
     let figure = scenario.figure.as_ref().map(|figure| format!(" (figure {figure})")).unwrap_or_default();
     let who: String =
         scenario.vehicles.iter().zip(paints).map(|(vehicle, paint)| row(scenario, vehicle, *paint)).collect();
     format!(
-        "### {title}\n\n{shows}{figure}.\n\n\
+        "### {title}\n\n{shows}{figure}.{again}\n\n\
          | vehicle | colour | driver | wants |\n|---|---|---|---|\n{who}\n\
          In a vehicle's colour: pale behind it, the path it drove; solid ahead, its plan; dashed, what others expect \
          of it; dotted, what it asks another to do. Ellipses: where the ego's centre keeps out. A plan in {failure} \
-         is a fallback, because the planner failed.\n\n{again}",
+         is a fallback, because the planner failed.\n",
         title = scenario.title,
         shows = scenario.shows.trim_end_matches('.'),
         failure = super::palette::FAILURE.word,
