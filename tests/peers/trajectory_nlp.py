@@ -1,0 +1,272 @@
+"""The trajectory problem of `planners/src/mpc/problem.rs` for CasADi and IPOPT.
+
+Multiple shooting: states at t = 1...N and the inputs that are decided are unknowns, the bicycle is an equality between
+them. A soft row c >= 0 gets a slack s >= 0 with c + s >= 0 and the cost linear*s + quadratic*s^2.
+
+One non-linear programme is built for every shape of problem (how many vehicles, ellipses, known inputs); the numbers of a
+problem are its parameters.
+"""
+
+import casadi as ca
+import numpy as np
+
+INF = np.inf
+
+
+def bicycle(x, u, front_axle, rear_axle, step):
+    """Eq. 6.1-6.4."""
+    slip = ca.atan(rear_axle / (front_axle + rear_axle) * ca.tan(u[1]))
+    return ca.vertcat(
+        x[0] + step * x[3] * ca.cos(x[2] + slip),
+        x[1] + step * x[3] * ca.sin(x[2] + slip),
+        x[2] + step * x[3] * ca.sin(slip) / rear_axle,
+        x[3] + step * u[0],
+    )
+
+
+def clearances(x, body, road, lane_end):
+    """Eq. 6.7 in the road's frame: front right, front left, rear right, rear left corner inside its edge."""
+    front, rear, half = body[0], body[1], body[2] / 2
+    heading, right, left = road[0], road[1], road[2]
+    across = -ca.sin(heading) * x[0] + ca.cos(heading) * x[1]
+    sin, cos = ca.sin(x[2] - heading), ca.cos(x[2] - heading)
+    if lane_end is not None:
+        bumper = ca.cos(heading) * x[0] + ca.sin(heading) * x[1] + front
+        end, height, taper = lane_end[0], lane_end[1], lane_end[2]
+        right = right + height / 2 * (1 + ca.tanh((bumper - (end - 2 * taper)) / taper))
+    return ca.vertcat(
+        across + front * sin - half * cos - right,
+        left - (across + front * sin + half * cos),
+        across - rear * sin - half * cos - right,
+        left - (across - rear * sin + half * cos),
+    )
+
+
+def outside(position, centre, shape):
+    """d^2 - 1 of eq. 6.8."""
+    dx, dy = position[0] - centre[0], position[1] - centre[1]
+    sin, cos = ca.sin(shape[0]), ca.cos(shape[0])
+    return ((cos * dx + sin * dy) / shape[1]) ** 2 + ((-sin * dx + cos * dy) / shape[2]) ** 2 - 1
+
+
+def shape_of(problem):
+    """What decides the structure of the programme."""
+    vehicles = tuple(
+        (len(v.get("known_inputs", [])), len(v.get("keep_outs", [])), v.get("lane_end") is not None)
+        for v in problem["vehicles"]
+    )
+    pairs = tuple(tuple(s["pair"]) for s in problem.get("separations", []))
+    return problem["horizon"], vehicles, pairs, problem.get("leaning") is not None
+
+
+class Programme:
+    """The non-linear programme of one shape."""
+
+    EXACT = (1e3, 1e3)
+
+    def __init__(self, shape):
+        self.horizon, self.vehicles, self.pairs, self.leans = shape
+        self.unknowns, self.parameters, self.rows = [], [], []
+        self.cost = 0
+        self.soft_rows = []
+        step = self.parameter("step", 1)
+        self.paths = [self.vehicle(i, *vehicle, step) for i, vehicle in enumerate(self.vehicles)]
+        for j, (of, of_other) in enumerate(self.pairs):
+            form, price = self.parameter(f"pair{j}", 3), self.parameter(f"pair{j}price", 2)
+            for t in range(1, self.horizon + 1):
+                self.soft(outside(self.paths[of][0][t], self.paths[of_other][0][t], form), price)
+        if self.leans:
+            self.lean()
+        slacks = ca.SX.sym("slack", len(self.soft_rows))
+        for j, (row, price) in enumerate(self.soft_rows):
+            self.rows.append(row + slacks[j])
+            self.cost += price[0] * slacks[j] + price[1] * slacks[j] ** 2
+        self.equalities = sum(4 * self.horizon for _ in self.vehicles)
+        p = ca.vertcat(*[symbol for _, symbol in self.parameters])
+        path = ca.vertcat(*self.unknowns)
+        self.soft_values = ca.Function("soft", [path, p], [ca.vertcat(*[row for row, _ in self.soft_rows])])
+        prices = ca.vertcat(*[price[0] for _, price in self.soft_rows], *[price[1] for _, price in self.soft_rows])
+        self.prices = ca.Function("prices", [p], [prices])
+        rows = ca.vertcat(*self.rows)
+        self.problem = {"x": ca.vertcat(path, slacks), "f": self.cost, "g": rows, "p": p}
+        self.lbg = np.zeros(rows.numel())
+        self.ubg = np.concatenate([np.zeros(self.equalities), np.full(len(self.soft_rows), INF)])
+        self.solvers = {}
+
+    def parameter(self, name, *size):
+        symbol = ca.SX.sym(name, *size)
+        self.parameters.append((name, ca.vec(symbol)))
+        return symbol
+
+    def soft(self, row, price):
+        self.soft_rows.append((row, price))
+
+    def vehicle(self, i, known, ellipses, ends, step):
+        n = self.horizon
+        body, road = self.parameter(f"body{i}", 5), self.parameter(f"road{i}", 3)
+        lane_end = self.parameter(f"lane_end{i}", 3) if ends else None
+        start, before = self.parameter(f"start{i}", 4), self.parameter(f"before{i}", 2)
+        given = self.parameter(f"given{i}", 2, known)
+        weights, targets = self.parameter(f"weights{i}", 4), self.parameter(f"targets{i}", 4, n)
+        comfort = self.parameter(f"comfort{i}", 2)
+        states, inputs = [start], []
+        previous = before
+        for t in range(n):
+            if t < known:
+                u = given[:, t]
+            else:
+                u = ca.SX.sym(f"u{i}_{t}", 2)
+                self.unknowns.append(u)
+                self.cost += ca.dot(comfort, (u - previous) ** 2)
+            x = ca.SX.sym(f"x{i}_{t + 1}", 4)
+            self.unknowns.append(x)
+            self.rows.append(bicycle(states[-1], u, body[3], body[4], step) - x)
+            self.cost += ca.dot(weights, (x - targets[:, t]) ** 2)
+            if t >= known:
+                corners = clearances(x, body, road, lane_end)
+                for c in range(4):
+                    self.soft(corners[c], self.EXACT)
+            states.append(x)
+            inputs.append(u)
+            previous = u
+        for j in range(ellipses):
+            centres = self.parameter(f"centres{i}_{j}", 2, n)
+            form, price = self.parameter(f"form{i}_{j}", 3), self.parameter(f"price{i}_{j}", 2)
+            for t in range(n):
+                self.soft(outside(states[t + 1], centres[:, t], form), price)
+        return states, inputs
+
+    def lean(self):
+        """Eq. 6.23, corrected: both norms squared."""
+        n = self.horizon
+        toward, away = self.parameter("toward", 2, n), self.parameter("away", 2, n)
+        strength, price = self.parameter("strength", 1), self.parameter("leaning_price", 2)
+        value = 0
+        for t in range(n):
+            position = self.paths[0][0][t][:2]
+            value += strength * ca.sumsqr(position - toward[:, t]) - ca.sumsqr(position - away[:, t])
+        self.soft(-value, price)
+
+    def numbers(self, problem):
+        """The parameters of a problem."""
+        n, found = self.horizon, {"step": [problem["step_s"]]}
+        for i, v in enumerate(problem["vehicles"]):
+            targets = v["targets"] * n if len(v["targets"]) == 1 else v["targets"]
+            found |= {
+                f"body{i}": v["body"], f"road{i}": v["road"], f"lane_end{i}": v.get("lane_end"),
+                f"start{i}": v["start"], f"before{i}": v["previous_input"], f"given{i}": v.get("known_inputs", []),
+                f"weights{i}": v["weights"], f"targets{i}": targets, f"comfort{i}": v["comfort"],
+            }
+            for j, e in enumerate(v.get("keep_outs", [])):
+                found |= {f"centres{i}_{j}": e["centres"], f"form{i}_{j}": e["shape"], f"price{i}_{j}": e["penalty"]}
+        for j, s in enumerate(problem.get("separations", [])):
+            found |= {f"pair{j}": s["shape"], f"pair{j}price": s["penalty"]}
+        if self.leans:
+            lean = problem["leaning"]
+            found |= {"toward": lean["toward"], "away": lean["away"], "strength": [lean["strength"]],
+                      "leaning_price": lean["penalty"]}
+        return np.concatenate([np.ravel(np.asarray(found[name], float)) for name, _ in self.parameters])
+
+    def bounds(self, problem):
+        """Boxes on inputs and speed; a vehicle that is too fast or slow now must come back only as fast as it can."""
+        low, high = [], []
+        for v, (known, _, _) in zip(problem["vehicles"], self.vehicles):
+            braking, accelerating, steering, slowest, fastest = v["limits"]
+            for t in range(self.horizon):
+                elapsed = problem["step_s"] * (t + 1)
+                if t >= known:
+                    low += [braking, -steering]
+                    high += [accelerating, steering]
+                free = t < known
+                low += [-INF] * 3 + [-INF if free else min(slowest, v["start"][3] + accelerating * elapsed)]
+                high += [INF] * 3 + [INF if free else max(fastest, v["start"][3] + braking * elapsed)]
+        slacks = len(self.soft_rows)
+        return np.array(low + [0.0] * slacks), np.array(high + [INF] * slacks)
+
+    def beginning(self, problem, guess):
+        """Unknowns from inputs, made admissible as `Participant::admissible` does, and rolled out."""
+        unknowns = []
+        for i, v in enumerate(problem["vehicles"]):
+            known, step = v.get("known_inputs", []), problem["step_s"]
+            braking, accelerating, steering, slowest, fastest = v["limits"]
+            x = np.array(v["start"])
+            for t in range(self.horizon):
+                if t < len(known):
+                    u = np.array(known[t])
+                else:
+                    wanted = guess[i][t] if i < len(guess) and t < len(guess[i]) else (0.0, 0.0)
+                    elapsed = step * (t + 1)
+                    low = max(braking, (min(slowest, v["start"][3] + accelerating * elapsed) - x[3]) / step)
+                    high = min(accelerating, (max(fastest, v["start"][3] + braking * elapsed) - x[3]) / step)
+                    u = np.array([max(min(wanted[0], high), low), np.clip(wanted[1], -steering, steering)])
+                    unknowns.append(u)
+                x = np.array(bicycle(ca.DM(x), ca.DM(u), v["body"][3], v["body"][4], step)).ravel()
+                unknowns.append(x)
+        path = np.concatenate(unknowns)
+        violations = np.maximum(0.0, -np.array(self.soft_values(path, self.numbers(problem))).ravel())
+        return np.concatenate([path, violations])
+
+    def penalty(self, problem, inputs):
+        """What the violated rows with a linear weight cost: a row's price is steep, so a violation of 1e-7 shows."""
+        path = self.beginning(problem, inputs)
+        prices = np.array(self.prices(self.numbers(problem))).reshape(2, -1)
+        slacks = path[len(path) - len(self.soft_rows):]
+        return float(np.sum((prices[0] * slacks + prices[1] * slacks**2)[prices[0] > 0]))
+
+    def inputs(self, problem, solution):
+        """Per vehicle, the inputs in a solution."""
+        at, found = 0, []
+        for v, (known, _, _) in zip(problem["vehicles"], self.vehicles):
+            own = [list(u) for u in v.get("known_inputs", [])]
+            for t in range(self.horizon):
+                if t >= known:
+                    own.append([float(solution[at]), float(solution[at + 1])])
+                    at += 2
+                at += 4
+            found.append(own)
+        return found
+
+    def solver(self, options):
+        key = tuple(sorted(options.items()))
+        if key not in self.solvers:
+            self.solvers[key] = ca.nlpsol("ipopt", "ipopt", self.problem, options)
+        return self.solvers[key]
+
+    def solve(self, problem, guess, options):
+        """IPOPT's outcome: status, cost, inputs, iterations and the time of its own work [ms]."""
+        low, high = self.bounds(problem)
+        solver = self.solver(options)
+        answer = solver(x0=self.beginning(problem, guess), p=self.numbers(problem), lbx=low, ubx=high,
+                        lbg=self.lbg, ubg=self.ubg)
+        stats = solver.stats()
+        return {
+            "solved": bool(stats["success"]), "status": stats["return_status"], "cost": float(answer["f"]),
+            "iterations": stats["iter_count"], "time_ms": 1e3 * stats["t_wall_total"],
+            "inputs": self.inputs(problem, np.array(answer["x"]).ravel()),
+        }
+
+
+class Ipopt:
+    """IPOPT with the programmes that it has met."""
+
+    QUIET = {"print_time": 0, "record_time": True, "ipopt.print_level": 0, "ipopt.sb": "yes", "error_on_fail": False}
+    #: From a guess.
+    PLAIN = QUIET | {"ipopt.bound_relax_factor": 0.0, "ipopt.tol": 1e-8, "ipopt.max_iter": 1000}
+    #: From a supposed optimum, without being pushed away from it first, to the last digits: at a tolerance of 1e-8 the
+    #: barrier of some 200 rows still shows in the sixth.
+    NEARBY = PLAIN | {"ipopt.tol": 1e-11, "ipopt.compl_inf_tol": 1e-10, "ipopt.mu_target": 0.0,
+                      "ipopt.nlp_scaling_method": "none", "ipopt.acceptable_iter": 0, "ipopt.mu_init": 1e-6,
+                      "ipopt.bound_push": 1e-9, "ipopt.bound_frac": 1e-9,
+                      "ipopt.slack_bound_push": 1e-9, "ipopt.slack_bound_frac": 1e-9}
+
+    def __init__(self):
+        self.programmes = {}
+
+    def programme(self, problem):
+        shape = shape_of(problem)
+        if shape not in self.programmes:
+            self.programmes[shape] = Programme(shape)
+        return self.programmes[shape]
+
+    def solve(self, problem, guess, options):
+        return self.programme(problem).solve(problem, guess, options)
