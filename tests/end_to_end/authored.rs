@@ -1,0 +1,48 @@
+//! Every authored scenario does what it says.
+
+use interplay_scenarios::embedded;
+use serde_json::json;
+
+use crate::command::{interplay, scratch};
+
+#[test]
+fn every_authored_scenario_passes_without_collision_or_plan_failure() {
+    let folder = scratch("authored");
+    for file in embedded() {
+        let outcome = interplay(&folder, &["run", file.name, "--no-record", "--json"]);
+        let report = outcome.json();
+        assert_eq!(outcome.code, Some(0), "{}: {outcome:?}", file.name);
+        assert_eq!(report["passed"], true, "{}", file.name);
+        assert_eq!(report["collisions"], json!([]), "{}", file.name);
+        assert!(!report["expectations"].as_array().expect("a list").is_empty(), "{} expects nothing", file.name);
+        for vehicle in report["vehicles"].as_array().expect("a list") {
+            assert_eq!(vehicle["plans"]["failed"], 0, "{}: {}", file.name, vehicle["name"]);
+        }
+    }
+}
+
+/// The planners are separated by what they do: who negotiates merges ahead, who does not merges between, no sooner.
+#[test]
+fn the_conservative_planner_merges_between_and_fails_the_expectation() {
+    let folder = scratch("conservative");
+    let arguments = ["run", "lane-change/front-nice", "--planner", "conservative", "--no-record", "--json"];
+    let outcome = interplay(&folder, &arguments);
+    let report = outcome.json();
+    assert_eq!(outcome.code, Some(1), "{outcome:?}");
+    assert_eq!(report["passed"], false);
+    assert_eq!(report["order"], json!(["front", "ego", "rear"]));
+    assert_eq!(report["collisions"], json!([]));
+    let failed: Vec<_> =
+        report["expectations"].as_array().expect("a list").iter().filter(|one| one["passed"] == false).collect();
+    let [order] = failed.as_slice() else { panic!("only the order differs: {failed:?}") };
+    assert_eq!(order["what"], "order");
+}
+
+#[test]
+fn without_a_command_the_first_scenario_runs() {
+    let folder = scratch("default");
+    let outcome = interplay(&folder, &[]);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(outcome.stdout.starts_with("Lane change, front driver nice  [lane-change/front-nice]\n"), "{outcome:?}");
+    assert!(folder.join("recordings/lane-change/front-nice.rrd").is_file());
+}

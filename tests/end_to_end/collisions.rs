@@ -1,0 +1,122 @@
+//! A collision: when, between whom, how hard. And none where nobody touches.
+
+use std::fs;
+
+use interplay_planners::State;
+use interplay_scenarios::{Scenario, from_text};
+
+use crate::command::{interplay, scratch};
+use crate::film::{Film, film};
+use crate::rectangles::distance;
+
+/// A car comes up behind one that stands, in a single lane, and can no longer stop: at 1.5 m/s it needs 1.125 m.
+fn unavoidable(free_m: f64) -> String {
+    format!(
+        r#"
+        title = "A car that cannot stop"
+        shows = "A collision"
+        duration_s = 1.0
+        [road]
+        kind = "lanes"
+        lane_count = 1
+        [[vehicle]]
+        name = "ego"
+        start = {{ x_m = 0.0, y_m = 0.185, speed_mps = 1.5 }}
+        [[vehicle]]
+        name = "standing"
+        start = {{ x_m = {x_m}, y_m = 0.185, speed_mps = 0.0 }}
+        [expect]
+        no_collision = true
+        "#,
+        x_m = free_m + 0.4
+    )
+}
+
+fn scenario(text: &str) -> Scenario {
+    from_text("collision.toml", text, &[]).unwrap_or_else(|error| panic!("{:?}", error.problems()))
+}
+
+/// The state of a vehicle at any time: the physics moves it evenly within a tick.
+fn state(film: &Film, vehicle: usize, time_s: f64) -> State {
+    let step_s = film.scenario.step_s;
+    let tick = ((time_s / step_s) as usize).min(film.frames.len() - 1);
+    let share = time_s / step_s - tick as f64;
+    let last = film.report.vehicles[vehicle].last;
+    let from = film.frames[tick].vehicles[vehicle].state.to_array();
+    let to = film.frames.get(tick + 1).map_or(last, |frame| frame.vehicles[vehicle].state).to_array();
+    State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
+}
+
+fn gap_m(film: &Film, time_s: f64) -> f64 {
+    let [a, b] = [0, 1].map(|vehicle| (&film.scenario.vehicles[vehicle].body, state(film, vehicle, time_s)));
+    distance((a.0, &a.1), (b.0, &b.1))
+}
+
+#[test]
+fn a_collision_has_a_time_parties_and_an_impulse() {
+    for free_m in [0.1, 0.2, 0.33] {
+        let film = film("collision", scenario(&unavoidable(free_m)));
+        let [collision] = film.report.collisions.as_slice() else { panic!("{:?}", film.report.collisions) };
+        assert_eq!(collision.between, ["ego", "standing"]);
+        // Contacts are looked for four times a tick, where the bodies were a quarter before.
+        let quarter_s = film.scenario.step_s / 4.0;
+        let touch_s = (0..4000).map(|i| f64::from(i) * 1e-3).find(|time_s| gap_m(&film, *time_s) < 1e-4);
+        let touch_s = touch_s.expect("they touch");
+        assert!((collision.time_s - touch_s).abs() <= 2.0 * quarter_s, "{} at {touch_s}", collision.time_s);
+        // Two equal cars of 0.4 m × 0.19 m and 185 kg/m²: half the mass of one times the closing speed.
+        let closing_mps = state(&film, 0, collision.time_s).speed_mps - state(&film, 1, collision.time_s).speed_mps;
+        let expected_ns = 0.5 * 185.0 * 0.4 * 0.19 * closing_mps;
+        assert!(collision.impulse_ns > 0.0);
+        assert!((collision.impulse_ns / expected_ns - 1.0).abs() < 1e-6, "{} {expected_ns}", collision.impulse_ns);
+        assert_eq!(film.report.min_gap_m, Some(0.0));
+        let events: Vec<_> = film.frames.iter().flat_map(|frame| &frame.events).collect();
+        let alarms = events.iter().filter(|event| event.text.contains("collides with standing"));
+        assert_eq!(alarms.count(), 1, "{events:?}");
+        assert!(!film.report.passed);
+    }
+}
+
+#[test]
+fn a_collision_fails_the_run_and_is_told() {
+    let folder = scratch("collision");
+    fs::write(folder.join("crash.toml"), unavoidable(0.2)).expect("a scratch file can be written");
+    let outcome = interplay(&folder, &["run", "crash.toml", "--no-record"]);
+    assert_eq!(outcome.code, Some(1), "{outcome:?}");
+    assert!(outcome.stdout.contains("COLLISION of ego and standing at 0."), "{}", outcome.stdout);
+    let report = interplay(&folder, &["run", "crash.toml", "--no-record", "--json"]).json();
+    assert_eq!(report["collisions"][0]["between"], serde_json::json!(["ego", "standing"]));
+}
+
+/// With room to stop outside the safety ellipse (0.35 m from bumper to bumper) a careful driver stops.
+#[test]
+fn a_car_that_can_stop_does_not_collide() {
+    let driver = "driver = { kind = \"conservative\", look_around_every = 1 }";
+    let careful = unavoidable(1.6).replace("speed_mps = 1.5 }", &format!("speed_mps = 1.5 }}\n{driver}"));
+    let film = film("stops", Scenario { duration_s: 5.0, ..scenario(&careful) });
+    assert!(film.report.collisions.is_empty(), "{:?}", film.report.collisions);
+    let (gap_m, speed_mps) = (film.report.min_gap_m.expect("there is another"), film.report.vehicles[0].last.speed_mps);
+    assert!((0.25..0.45).contains(&gap_m) && speed_mps < 1e-6, "{gap_m} {speed_mps}");
+}
+
+/// Side by side with 5 mm between them, at the same speed: near, but nobody touches.
+#[test]
+fn near_is_not_a_collision() {
+    let text = r#"
+        title = "Side by side"
+        shows = "No collision"
+        duration_s = 1.0
+        road = { kind = "lanes", lane_count = 2, lane_width_m = 0.195 }
+        [[vehicle]]
+        name = "ego"
+        start = { x_m = 0.0, y_m = 0.0975, speed_mps = 1.0 }
+        driver = { kind = "human", style = "tough" }
+        [[vehicle]]
+        name = "other"
+        start = { x_m = 0.1, y_m = 0.2925, speed_mps = 1.0 }
+        driver = { kind = "human", style = "tough" }
+    "#;
+    let film = film("near", scenario(text));
+    assert!(film.report.collisions.is_empty(), "{:?}", film.report.collisions);
+    let smallest = film.report.min_gap_m.expect("there is another");
+    assert!((smallest - 0.005).abs() < 1e-4, "{smallest}");
+}

@@ -1,0 +1,113 @@
+//! The documents say what is so: the README's commands, its example and its sample output, and what CI runs.
+
+use std::fs;
+use std::path::Path;
+
+use interplay_scenarios::{embedded, from_text};
+
+use crate::command::{interplay, scratch};
+
+fn document(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The fenced blocks of a Markdown document: language and content, in order.
+fn blocks(text: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        if let Some(language) = line.strip_prefix("```") {
+            let content: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
+            found.push((language.to_owned(), content.join("\n")));
+        }
+    }
+    found
+}
+
+/// The first block in that language that contains `piece`.
+fn block(text: &str, language: &str, piece: &str) -> String {
+    let found = blocks(text).into_iter().find(|(word, content)| word == language && content.contains(piece));
+    found.unwrap_or_else(|| panic!("no `{language}` block with `{piece}`")).1
+}
+
+#[test]
+fn the_readme_opens_with_how_to_run_and_how_to_test() {
+    let readme = document("README.md");
+    let blocks = blocks(&readme);
+    let sh = |command: &str| ("sh".to_owned(), command.to_owned());
+    assert_eq!(blocks[..2], [sh("cargo run --release"), sh("cargo test --release --workspace")]);
+    let first = readme.find("```").expect("there are blocks");
+    assert!(readme[..first].lines().count() <= 4, "the commands come first");
+}
+
+#[test]
+fn ci_runs_the_readme_s_test_command() {
+    let (ci, readme) = (document(".ci/run"), document("README.md"));
+    let test = &blocks(&readme)[1].1;
+    assert!(ci.lines().any(|line| line.starts_with(&format!("run {test} "))), "`{test}` is not in .ci/run");
+    for check in ["cargo fmt", "cargo clippy", "cargo doc"] {
+        assert!(ci.contains(check), "{check} is not in .ci/run");
+    }
+}
+
+/// The sample in the README is the command's own output, but for the numbers.
+#[test]
+fn the_readme_s_sample_is_what_the_command_prints() {
+    let sample = block(&document("README.md"), "text", "[lane-change/front-nice]");
+    let printed = interplay(&scratch("sample"), &["run", "--no-record"]).stdout;
+    let masked = |text: &str| -> Vec<String> {
+        let lines = text.lines().map(|line| {
+            let words = line.split_whitespace().map(|word| {
+                let shape: String = word.chars().map(|c| if c.is_ascii_digit() { '#' } else { c }).collect();
+                shape.split('#').filter(|part| !matches!(*part, "" | ".")).collect::<Vec<_>>().join("#")
+            });
+            words.collect::<Vec<_>>().join(" ")
+        });
+        lines.collect()
+    };
+    assert_eq!(masked(&sample), masked(&printed), "paste the output anew:\n{printed}");
+}
+
+#[test]
+fn the_readme_s_example_is_a_scenario_and_its_commands_exist() {
+    let readme = document("README.md");
+    let example = block(&readme, "toml", "[[vehicle]]");
+    if let Err(error) = from_text("README.toml", &example, &[]) {
+        panic!("{:?}", error.problems());
+    }
+    let help = interplay(&scratch("readme-help"), &["run", "--help"]).stdout;
+    for flag in readme.split(|c: char| !(c.is_alphanumeric() || c == '-')).filter(|word| is_flag(word)) {
+        let known = help.contains(flag) || ["--release", "--workspace"].contains(&flag);
+        assert!(known, "the README speaks of `{flag}`");
+    }
+}
+
+fn is_flag(word: &str) -> bool {
+    word.strip_prefix("--").is_some_and(|name| name.starts_with(char::is_alphabetic))
+}
+
+#[test]
+fn the_readme_lists_every_authored_scenario() {
+    let readme = document("README.md");
+    for file in embedded() {
+        assert!(readme.contains(&format!("`{}`", file.name)), "{} is missing", file.name);
+    }
+}
+
+/// Paths that the documents speak of exist.
+#[test]
+fn the_documents_speak_of_files_that_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for name in ["README.md", "ARCHITECTURE.md"] {
+        for path in document(name).split('`').filter(|word| is_path(word)) {
+            assert!(root.join(path.trim_end_matches('/')).exists(), "{name} speaks of `{path}`");
+        }
+    }
+}
+
+/// Whether a quoted word is a path of this repository, from its root.
+fn is_path(word: &str) -> bool {
+    let rooms = ["convex/", "planners/", "scenarios/", "app/", "tests/", "docs/", ".ci/", "assets/"];
+    rooms.iter().any(|room| word.starts_with(room)) && !word.contains(char::is_whitespace)
+}

@@ -1,0 +1,80 @@
+//! A planner that fails: the previous plan goes on, then the brakes are applied; each time it is told and counted.
+//!
+//! No scenario file makes a planner fail on purpose, so the goal of a vehicle is spoilt in the running world.
+
+use interplay::components::{Identity, Wish};
+use interplay::frame::{Frame, Level, Origin};
+use interplay::measure::Measures;
+use interplay::{phases, spawn};
+use interplay_planners::Input;
+
+use crate::film::{Camera, authored, film};
+
+const HORIZON: usize = 5;
+/// Ticks at which the goal of the front car is not a number.
+const SPOILT: std::ops::Range<usize> = 10..20;
+
+/// A run in which the planner of the front car fails for a while; with the failures that were counted.
+fn run_with_failures() -> (Vec<Frame>, usize) {
+    let scenario = authored("lane-change/front-nice", &["horizon_steps=5", "vehicle.ego.driver.settled_steps=2"]);
+    let camera = Camera::default();
+    let mut world = spawn::world(&scenario, vec![Box::new(camera.clone())]);
+    let mut schedule = phases::schedule();
+    for tick in 0..SPOILT.end + 2 {
+        let mut wishes = world.query::<(&Identity, &mut Wish)>();
+        for (identity, mut wish) in wishes.iter_mut(&mut world) {
+            if identity.name == "front" {
+                wish.0.target.speed_mps = if SPOILT.contains(&tick) { f64::NAN } else { 1.4 };
+            }
+        }
+        schedule.run(&mut world);
+    }
+    (camera.frames(), world.resource::<Measures>().vehicles[1].planning.failed)
+}
+
+#[test]
+fn a_failed_plan_is_continued_then_braked_told_and_counted() {
+    let (frames, failed) = run_with_failures();
+    assert_eq!(failed, SPOILT.len());
+    let last_plan = &frames[SPOILT.start - 1].vehicles[1].plan.trajectory;
+    for (tick, frame) in frames.iter().enumerate() {
+        let front = &frame.vehicles[1];
+        assert_eq!(front.name, "front");
+        let warnings: Vec<_> = frame.events.iter().filter(|event| event.level == Level::Warning).collect();
+        let others = [0, 2].map(|index| frame.vehicles[index].origin);
+        assert_eq!(others, [Origin::Planned; 2], "one failure is not everybody's");
+        if !SPOILT.contains(&tick) {
+            assert_eq!((front.origin, warnings.len()), (Origin::Planned, 0), "tick {tick}");
+            continue;
+        }
+        let [warning] = warnings.as_slice() else { panic!("tick {tick}: {warnings:?}") };
+        assert_eq!(warning.vehicle, "front");
+        assert!(warning.text.starts_with("no plan (bad input"), "{}", warning.text);
+        let since = tick - SPOILT.start + 1;
+        if since < HORIZON {
+            assert_eq!(front.origin, Origin::Continued, "tick {tick}");
+            assert_eq!(front.input, last_plan.inputs[since], "tick {tick}");
+            assert!(warning.text.ends_with("continues its previous plan"), "{}", warning.text);
+        } else if since > HORIZON {
+            let full = Input { acceleration_mps2: -1.0, steering_rad: 0.0 };
+            assert_eq!((front.origin, front.input), (Origin::Braking, full), "tick {tick}");
+            assert!(warning.text.ends_with("brakes"), "{}", warning.text);
+        }
+    }
+}
+
+/// Who never had a plan brakes at once, to a standstill and no further; the report counts every failure.
+#[test]
+fn a_planner_that_never_succeeds_brakes_to_a_standstill() {
+    let mut scenario = authored("lane-change/front-nice", &["duration_s=3"]);
+    scenario.vehicles[0].goal.speed_mps = Some(f64::NAN);
+    let film = film("never", scenario);
+    let ego = film.report.vehicle("ego").expect("there is an ego");
+    assert_eq!((ego.plans.failed, ego.plans.count), (30, 30));
+    assert_eq!(film.frames[0].vehicles[0].origin, Origin::Braking);
+    assert!(film.frames.iter().all(|frame| frame.vehicles[0].origin != Origin::Planned));
+    assert!(ego.last.speed_mps.abs() < 1e-12, "{:?}", ego.last);
+    assert!((ego.last.x_m - 0.5 * (1.0 + 0.1)).abs() < 1e-9, "ten steps from 1 m/s at −1 m/s²: {:?}", ego.last);
+    let counted = film.report.expectations.iter().find(|one| one.what == "plan_failures_at_most");
+    assert!(counted.is_some_and(|one| !one.passed && one.got == 30), "{counted:?}");
+}

@@ -1,0 +1,75 @@
+//! A run of the library, kept frame by frame.
+
+use std::sync::{Arc, LazyLock, Mutex};
+use std::thread;
+
+use interplay::frame::Frame;
+use interplay::report::Report;
+use interplay::run::run;
+use interplay::watch::Watcher;
+use interplay_scenarios::{Override, Scenario, embedded, load};
+
+/// A run and all that was seen of it.
+pub struct Film {
+    pub scenario: Scenario,
+    pub frames: Vec<Frame>,
+    pub report: Report,
+}
+
+/// Keeps what it is shown.
+#[derive(Clone, Default)]
+pub struct Camera(Arc<Mutex<Vec<Frame>>>);
+
+impl Camera {
+    /// The frames so far.
+    pub fn frames(&self) -> Vec<Frame> {
+        self.0.lock().expect("no thread panicked with the camera").clone()
+    }
+}
+
+impl Watcher for Camera {
+    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+        self.0.lock().map_err(|error| error.to_string())?.push(frame.clone());
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// Runs a scenario in front of a camera.
+pub fn film(name: &str, scenario: Scenario) -> Film {
+    let camera = Camera::default();
+    let report = run(name, &scenario, vec![Box::new(camera.clone())]).expect("the run can be finished");
+    Film { frames: camera.frames(), scenario, report }
+}
+
+/// An authored scenario, changed like by `--set`.
+pub fn authored(name: &str, changes: &[&str]) -> Scenario {
+    let changes: Vec<_> = changes.iter().map(|change| Override::Set((*change).to_owned())).collect();
+    load(name, &changes).unwrap_or_else(|error| panic!("{error}: {:?}", error.problems()))
+}
+
+/// Every authored scenario, and the first one with other drivers and starts; made once, in parallel.
+pub static FILMS: LazyLock<Vec<Film>> = LazyLock::new(|| {
+    let mut takes: Vec<(&str, Scenario)> =
+        embedded().iter().map(|file| (file.name, authored(file.name, &[]))).collect();
+    let jitter = ["start_jitter.position_m=0.1", "start_jitter.speed_mps=0.1", "duration_s=6", "seed=7"];
+    for kind in ["conservative", "human", "negotiation"] {
+        let driver = format!("vehicle.ego.driver.kind=\"{kind}\"");
+        takes.push((kind, authored("lane-change/front-nice", &[&jitter[..], &[&driver]].concat())));
+    }
+    thread::scope(|scope| {
+        let running: Vec<_> =
+            takes.into_iter().map(|(name, scenario)| scope.spawn(move || film(name, scenario))).collect();
+        running.into_iter().map(|film| film.join().expect("no run panics")).collect()
+    })
+});
+
+impl Film {
+    /// What the run is called.
+    pub fn name(&self) -> &str {
+        &self.report.scenario
+    }
+}

@@ -1,0 +1,185 @@
+//! The rules of the house: who may depend on whom, who names which library, and how long a file may be.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use toml::Table;
+
+/// Each room and the rooms that it may depend on. Data flows one way.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("convex", &[]),
+    ("planners", &["convex"]),
+    ("scenarios", &["planners"]),
+    ("app", &["planners", "scenarios"]),
+    ("tests", &["app", "planners", "scenarios"]),
+];
+
+/// Libraries that only one room may depend on.
+const OWNERS: &[(&str, &str)] =
+    &[("clarabel", "convex"), ("bevy", "app"), ("rapier", "app"), ("parry", "app"), ("rerun", "app")];
+
+/// Libraries that only one part of the application may name.
+const PARTS: &[(&str, &str)] =
+    &[("rapier2d", "physics.rs"), ("parry2d", "physics.rs"), ("rerun", "record"), ("re_sdk_types", "record")];
+
+/// The most lines of a file, and of a function.
+const FILE_LINES: usize = 400;
+const FUNCTION_LINES: usize = 60;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the tests are a room of the house")
+}
+
+fn manifest(folder: &Path) -> Table {
+    let path = folder.join("Cargo.toml");
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    text.parse().unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn members() -> Vec<String> {
+    let workspace = manifest(root());
+    let members = workspace["workspace"]["members"].as_array().expect("a list");
+    members.iter().map(|member| member.as_str().expect("a path").to_owned()).collect()
+}
+
+/// All that a room depends on, for whatever purpose and on whatever target.
+fn dependencies(table: &Table) -> Vec<String> {
+    let mut found = Vec::new();
+    for (key, value) in table {
+        let Some(below) = value.as_table() else { continue };
+        match key.as_str() {
+            "dependencies" | "dev-dependencies" | "build-dependencies" => found.extend(below.keys().cloned()),
+            _ => found.extend(dependencies(below)),
+        }
+    }
+    found
+}
+
+/// The room that a package of the workspace lives in.
+fn room(package: &str) -> Option<String> {
+    members().into_iter().find(|member| manifest(&root().join(member))["package"]["name"].as_str() == Some(package))
+}
+
+/// The Rust files below a folder, without what a build leaves there.
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
+        let path = entry.expect("the entry can be read").path();
+        if path.is_dir() {
+            found.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn all_rust_files() -> Vec<PathBuf> {
+    members().iter().flat_map(|member| rust_files(&root().join(member))).collect()
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+#[test]
+fn every_room_has_its_place() {
+    let mut rooms: Vec<&str> = ARROWS.iter().map(|(room, _)| *room).collect();
+    let mut members = members();
+    rooms.sort_unstable();
+    members.sort_unstable();
+    assert_eq!(members, rooms, "a new room needs a line in ARROWS");
+}
+
+#[test]
+fn arrows_point_one_way() {
+    for (name, allowed) in ARROWS {
+        for dependency in dependencies(&manifest(&root().join(name))) {
+            if let Some(other) = room(&dependency) {
+                assert!(allowed.contains(&other.as_str()), "{name} must not depend on {other}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_engine_has_one_owner() {
+    for member in members() {
+        for dependency in dependencies(&manifest(&root().join(&member))) {
+            for (library, owner) in OWNERS {
+                assert!(
+                    !dependency.starts_with(library) || member == *owner,
+                    "{member} must not depend on {dependency}"
+                );
+            }
+        }
+    }
+    for (library, owner) in OWNERS {
+        let owned = dependencies(&manifest(&root().join(owner))).iter().any(|name| name.starts_with(library));
+        assert!(owned, "{owner} does not depend on {library} any more: this rule is out of date");
+    }
+}
+
+#[test]
+fn inside_the_application_only_one_part_names_an_engine() {
+    let sources = root().join("app/src");
+    for (library, owner) in PARTS {
+        let mut named = false;
+        for file in rust_files(&sources) {
+            let text = read(&file);
+            let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+            let names = code.filter(|line| has_word(line, library)).count() > 0;
+            let owns = file.strip_prefix(&sources).expect("below the sources").starts_with(owner);
+            assert!(!names || owns, "{} names {library}, which only {owner} may", file.display());
+            named |= names;
+        }
+        assert!(named, "{owner} does not name {library} any more: this rule is out of date");
+    }
+}
+
+/// Whether a line names a crate: the word, followed by a path.
+fn has_word(line: &str, word: &str) -> bool {
+    let path = format!("{word}::");
+    line.match_indices(&path).any(|(at, _)| {
+        let before = line[..at].chars().next_back();
+        before.is_none_or(|character| !character.is_alphanumeric() && character != '_')
+    })
+}
+
+#[test]
+fn files_are_short() {
+    for file in all_rust_files() {
+        let lines = read(&file).lines().count();
+        assert!(lines <= FILE_LINES, "{}: {lines} lines, more than {FILE_LINES}", file.display());
+    }
+}
+
+/// Formatted code ends a function with a brace below its first line.
+#[test]
+fn functions_are_short() {
+    for file in all_rust_files() {
+        let text = read(&file);
+        let lines: Vec<&str> = text.lines().collect();
+        for (start, line) in lines.iter().enumerate() {
+            let indent = line.len() - line.trim_start().len();
+            let opening = ["fn ", "pub fn ", "pub(crate) fn ", "pub(super) fn ", "const fn ", "pub const fn "];
+            if !opening.iter().any(|words| line.trim_start().starts_with(words)) || line.trim_end().ends_with('}') {
+                continue;
+            }
+            let brace = format!("{}}}", " ".repeat(indent));
+            let length = lines[start..].iter().position(|line| *line == brace).unwrap_or_default() + 1;
+            let name = line.trim();
+            assert!(length <= FUNCTION_LINES, "{}: {length} lines in `{name}`", file.display());
+        }
+    }
+}
+
+/// Lints are set once; a room that leaves them out would be silently lax.
+#[test]
+fn every_room_takes_the_lints_of_the_workspace() {
+    for member in members() {
+        let manifest = manifest(&root().join(&member));
+        assert_eq!(manifest["lints"]["workspace"].as_bool(), Some(true), "{member}");
+    }
+}

@@ -1,0 +1,132 @@
+//! What the command prints: results on stdout, the rest on stderr, and one JSON document where that is asked for.
+
+use std::fs;
+use std::process::Stdio;
+
+use interplay_scenarios::embedded;
+use serde_json::Value;
+
+use crate::command::{Outcome, command, interplay, scratch};
+
+/// Holds an object to exactly these keys, in this order.
+#[track_caller]
+fn has_keys(object: &Value, keys: &str) {
+    let found: Vec<&str> = object.as_object().expect("an object").keys().map(String::as_str).collect();
+    let (mut found, mut wanted) = (found, keys.split_whitespace().collect::<Vec<_>>());
+    found.sort_unstable();
+    wanted.sort_unstable();
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn the_report_has_the_keys_of_the_contract() {
+    let arguments = ["run", "--set", "duration_s=2", "--no-record", "--json", "--seed", "5"];
+    let outcome = interplay(&scratch("report"), &arguments);
+    let report = outcome.json();
+    assert_eq!(outcome.stderr, "");
+    has_keys(
+        &report,
+        "scenario passed seed simulated_s wall_s digest phase_digests collisions min_gap_m order vehicles expectations",
+    );
+    assert_eq!(report["scenario"], "lane-change/front-nice");
+    assert_eq!(report["seed"], 5);
+    assert_eq!(report["simulated_s"], 2.0);
+    assert!(report["wall_s"].as_f64().is_some_and(|wall_s| wall_s > 0.0));
+    assert!(report["digest"].as_str().is_some_and(|digest| digest.len() == 32));
+    has_keys(&report["phase_digests"], "predict plan act physics");
+    for vehicle in report["vehicles"].as_array().expect("a list") {
+        has_keys(
+            vehicle,
+            "name driver completed_s final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk plans",
+        );
+        has_keys(&vehicle["final"], "x_m y_m heading_rad speed_mps");
+        has_keys(&vehicle["plans"], "count failed median_ms p99_ms");
+        assert_eq!(vehicle["plans"]["count"], 20);
+    }
+    for expectation in report["expectations"].as_array().expect("a list") {
+        has_keys(expectation, "what want got passed");
+    }
+}
+
+/// Two seconds are too short to change lane: the code says so, and the document is still whole.
+#[test]
+fn a_failed_expectation_is_exit_code_1() {
+    let arguments = ["run", "--set", "duration_s=2", "--no-record", "--json"];
+    let outcome = interplay(&scratch("failed"), &arguments);
+    assert_eq!((outcome.code, &outcome.json()["passed"]), (Some(1), &Value::Bool(false)));
+}
+
+#[test]
+fn results_go_to_stdout_and_the_rest_to_stderr() {
+    let folder = scratch("streams");
+    let outcome = interplay(&folder, &["run", "--set", "duration_s=2", "--record", "my.rrd"]);
+    assert!(outcome.stdout.contains("FAIL completes.ego: want "), "{}", outcome.stdout);
+    assert_eq!(outcome.stderr, "recorded to my.rrd\n");
+}
+
+#[test]
+fn what_is_piped_has_no_colour_and_no_color_is_honoured() {
+    let folder = scratch("colour");
+    let complaint = |variables: &[(&str, &str)]| -> Outcome {
+        let mut command = command(&folder, &["run", "nowhere"]);
+        command.envs(variables.iter().copied()).output().expect("the command can be started").into()
+    };
+    let coloured = |outcome: Outcome| outcome.stderr.contains('\u{1b}');
+    assert!(!coloured(complaint(&[])));
+    // As on a terminal that knows colours.
+    let terminal = [("IGNORE_IS_TERMINAL", "1"), ("TERM", "xterm-256color"), ("COLORTERM", "truecolor")];
+    assert!(coloured(complaint(&terminal)), "without colours there is nothing to switch off");
+    assert!(!coloured(complaint(&[&terminal[..], &[("NO_COLOR", "1")]].concat())));
+}
+
+#[test]
+fn list_names_every_authored_scenario() {
+    let folder = scratch("list");
+    let outcome = interplay(&folder, &["list"]);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
+    let names: Vec<&str> = outcome.stdout.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.iter().copied().eq(embedded().iter().map(|file| file.name)), "{names:?}");
+    let list = interplay(&folder, &["list", "--json"]).json();
+    for (row, file) in list.as_array().expect("a list").iter().zip(embedded()) {
+        has_keys(row, "name title shows figure");
+        assert_eq!(row["name"], file.name);
+    }
+}
+
+#[test]
+fn check_accepts_every_authored_scenario_as_a_file() {
+    let folder = scratch("check-authored");
+    for file in embedded() {
+        let path = folder.join(format!("{}.toml", file.name));
+        fs::create_dir_all(path.parent().expect("a file is in a folder")).expect("a folder can be made");
+        fs::write(path, file.text).expect("a scratch file can be written");
+    }
+    let outcome = interplay(&folder, &["check", "."]);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
+    assert_eq!(outcome.stdout.lines().count(), embedded().len(), "{}", outcome.stdout);
+}
+
+#[test]
+fn every_help_has_an_example() {
+    let folder = scratch("help");
+    for subcommand in ["run", "list", "check"] {
+        let outcome = interplay(&folder, &[subcommand, "--help"]);
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
+        assert!(outcome.stdout.contains(&format!("\n  interplay {subcommand}")), "{}", outcome.stdout);
+    }
+    assert!(interplay(&folder, &["--help"]).stdout.contains("Exit codes: 0 all well"));
+}
+
+/// As in `interplay list | head -0`.
+#[test]
+fn a_reader_that_has_gone_away_is_no_error() {
+    let folder = scratch("closed-pipe");
+    let mut child = command(&folder, &["list", "--json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command can be started");
+    drop(child.stdout.take());
+    let outcome: Outcome = child.wait_with_output().expect("the command ends").into();
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
+}

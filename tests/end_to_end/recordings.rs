@@ -1,0 +1,65 @@
+//! The recording: there after a run that was finished, whole, and nowhere else.
+
+use std::fs;
+use std::path::Path;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::command::{command, contents, interplay, scratch};
+
+const SHORT: [&str; 4] = ["run", "lane-change/front-tough", "--set", "duration_s=1"];
+
+/// The first bytes of every Rerun recording.
+fn is_recording(path: &Path) -> bool {
+    fs::read(path).is_ok_and(|bytes| bytes.starts_with(b"RRF") && bytes.len() > 10_000)
+}
+
+fn short(folder: &Path, more: &[&str]) -> String {
+    let outcome = interplay(folder, &[&SHORT[..], &["--set", "expect.completes=[]"], more].concat());
+    assert!(matches!(outcome.code, Some(0 | 1)), "{outcome:?}");
+    outcome.stderr
+}
+
+#[test]
+fn a_recording_is_made_where_the_scenario_s_name_says() {
+    let folder = scratch("default-recording");
+    let said = short(&folder, &[]);
+    assert_eq!(said, "recorded to recordings/lane-change/front-tough.rrd\n");
+    let place = "recordings/lane-change/front-tough.rrd";
+    assert_eq!(contents(&folder), ["recordings", "recordings/lane-change", place]);
+    assert!(is_recording(&folder.join(place)));
+}
+
+#[test]
+fn a_recording_is_made_where_the_flag_says_and_replaces_what_was_there() {
+    let folder = scratch("named-recording");
+    fs::write(folder.join("my.rrd"), "an old one").expect("a scratch file can be written");
+    short(&folder, &["--record", "my.rrd"]);
+    short(&folder, &["--record", "new/folder/my.rrd"]);
+    assert_eq!(contents(&folder), ["my.rrd", "new", "new/folder", "new/folder/my.rrd"]);
+    assert!(is_recording(&folder.join("my.rrd")) && is_recording(&folder.join("new/folder/my.rrd")));
+}
+
+#[test]
+fn no_record_leaves_nothing() {
+    let folder = scratch("no-record");
+    assert_eq!(short(&folder, &["--no-record"]), "");
+    assert!(contents(&folder).is_empty());
+}
+
+/// Whoever is stopped half-way leaves nothing that looks like a recording.
+#[test]
+fn a_run_that_is_killed_leaves_no_recording() {
+    let folder = scratch("killed");
+    let arguments = ["run", "--set", "duration_s=1000", "--record", "my.rrd"];
+    let mut child = command(&folder, &arguments).spawn().expect("the command can be started");
+    let began = Instant::now();
+    while contents(&folder).is_empty() && began.elapsed() < Duration::from_secs(20) {
+        sleep(Duration::from_millis(20));
+    }
+    assert!(child.try_wait().expect("the command can be asked").is_none(), "it ended too soon to be killed");
+    child.kill().expect("the command can be killed");
+    child.wait().expect("the command ends");
+    let left = contents(&folder);
+    assert!(left.iter().all(|name| name.starts_with('.') && name.ends_with(".part")), "{left:?}");
+}
