@@ -46,9 +46,6 @@ fn run(vehicles: &mut [Vehicle], ticks: usize, mut watch: impl FnMut(usize, &[Ve
                 others: others.map(|(_, other)| other.agent.clone()).collect(),
             };
             let plan = vehicles[index].planner.plan(&scene).expect("a plan");
-            if std::env::var("SHOW").is_ok() && index == 0 {
-                println!("{tick} {:?} {:?} {:?}", plan.diagnostics, plan.events, plan.statistics);
-            }
             vehicles[index].agent.prediction = plan.trajectory;
         }
         for vehicle in vehicles.iter_mut() {
@@ -73,18 +70,6 @@ fn lane_change(driver: Driver, styles: [human::Style; 2]) -> (f64, Vec<String>, 
     let (mut merged_s, mut order, mut nearest) = (f64::INFINITY, Vec::new(), f64::INFINITY);
     run(&mut vehicles, 120, |tick, vehicles| {
         let ego = &vehicles[0].agent;
-        if std::env::var("SHOW").is_ok() {
-            let show = |v: &Vehicle| {
-                format!(
-                    "{:.2} {:.2} v{:.2} a{:.2}",
-                    v.agent.state.x_m,
-                    v.agent.state.y_m,
-                    v.agent.state.speed_mps,
-                    v.agent.previous_input.acceleration_mps2
-                )
-            };
-            println!("T {tick} {}", vehicles.iter().map(show).collect::<Vec<_>>().join(" | "));
-        }
         for other in &vehicles[1..] {
             let d = SafetyEllipse::default().distance(ego.state.position(), other.agent.state.position(), 0.0);
             nearest = nearest.min(d.squared.sqrt());
@@ -99,18 +84,29 @@ fn lane_change(driver: Driver, styles: [human::Style; 2]) -> (f64, Vec<String>, 
     (merged_s, order, nearest)
 }
 
+/// Who is where once the ego has merged: from the front of the road to its rear.
+fn merged_order(driver: Driver, styles: [human::Style; 2]) -> Vec<String> {
+    let (merged_s, order, nearest) = lane_change(driver, styles);
+    assert!(merged_s.is_finite(), "the ego never merged");
+    assert!(nearest > 0.99, "the ego entered a safety ellipse: {nearest}");
+    order
+}
+
 #[test]
-fn lane_change_orders() {
+fn a_negotiator_goes_ahead_of_nice_drivers_and_a_conservative_one_between_them() {
+    let nice = [human::Style::Nice; 2];
+    assert_eq!(merged_order(negotiator(), nice), ["ego", "front", "rear"]);
+    let conservative = Driver::Conservative(conservative::Settings::default());
+    assert_eq!(merged_order(conservative, nice), ["front", "ego", "rear"]);
+}
+
+#[test]
+fn a_tough_driver_is_let_pass() {
     use human::Style::{Nice, Tough};
-    let look_around_every = std::env::var("LA").map_or(3, |v| v.parse().unwrap());
-    for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
-        for driver in [
-            Driver::Conservative(conservative::Settings { look_around_every }),
-            Driver::Negotiation(negotiation::Settings { look_around_every, ..negotiation::Settings::default() }),
-        ] {
-            let kind = driver.kind();
-            let clock = std::time::Instant::now();
-            println!("{styles:?} {kind} {:?} wall {:?}", lane_change(driver, styles), clock.elapsed());
-        }
-    }
+    assert_eq!(merged_order(negotiator(), [Tough, Nice]), ["front", "ego", "rear"]);
+    assert_eq!(merged_order(negotiator(), [Tough, Tough]), ["front", "rear", "ego"]);
+}
+
+fn negotiator() -> Driver {
+    Driver::Negotiation(negotiation::Settings::default())
 }

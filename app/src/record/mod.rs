@@ -29,8 +29,8 @@ use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::path::PathBuf;
 use std::time::Duration;
 
+use ::re_sdk_types;
 use interplay_scenarios::Scenario;
-use rerun::external::re_sdk_types;
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{DEFAULT_SERVER_PORT, RecordingStream, RecordingStreamBuilder};

@@ -109,7 +109,7 @@ fn vehicle_residual(
             let bounds = stages.input_boxes[k][axis];
             residual.inequality(inputs[k][axis] - bounds.lower, lower);
             residual.inequality(bounds.upper - inputs[k][axis], upper);
-            let mut gradient = from_dynamics[axis] + upper - lower;
+            let mut gradient = from_dynamics[axis] + upper - lower + qp.damping * inputs[k][axis];
             gradient += 2.0 * stages.change_weights[axis] * stages.change(inputs, k, axis);
             if k + 1 < qp.horizon {
                 gradient -= 2.0 * stages.change_weights[axis] * stages.change(inputs, k + 1, axis);

@@ -15,6 +15,7 @@ const FAR_SQUARED: f64 = 25.0;
 /// Fills `qp` with the Gauss-Newton step problem of `problem` at `iterate` (whose states obey the dynamics).
 pub fn linearise(problem: &Problem, iterate: &Iterate, qp: &mut StageQp) {
     qp.horizon = problem.horizon;
+    qp.damping = 0.0;
     qp.vehicles.resize_with(problem.participants.len(), VehicleStages::default);
     for (i, participant) in problem.participants.iter().enumerate() {
         linearise_vehicle(participant, problem.horizon, i, iterate, &mut qp.vehicles[i]);
@@ -41,6 +42,25 @@ pub fn add_curvature(problem: &Problem, iterate: &Iterate, multipliers: &mut Sta
             row.curvature = row.curvature.map(|bend| -multiplier * bend);
         }
     }
+}
+
+/// Moves the rows so that at the step's deviations they have the values they really have at `trial`: the second-order
+/// correction. Gradients and costs stay those of the iterate.
+pub fn move_rows(problem: &Problem, trial: &Iterate, step: &StageSolution, qp: &mut StageQp) {
+    let mut blocks = std::mem::take(&mut qp.blocks).into_iter();
+    let mut moved = Vec::with_capacity(blocks.len());
+    for_each_block(problem, trial, |vehicle, other, penalty, rows| {
+        let Some(mut block) = blocks.next() else { return };
+        debug_assert!(block.vehicle == vehicle && block.other == other && block.penalty == Some(penalty));
+        for (k, (row, there)) in block.rows.iter_mut().zip(rows).enumerate() {
+            let own = step.states[vehicle][k];
+            let origin = other.map_or([0.0; 4], |other| step.states[other][k]);
+            let [x, y, turn] = row.gradient;
+            row.value = there.value - (x * (own[0] - origin[0]) + y * (own[1] - origin[1]) + turn * own[2]);
+        }
+        moved.push(block);
+    });
+    qp.blocks = moved;
 }
 
 /// Sets every curvature to zero, which makes the step Gauss-Newton (and convex).
@@ -98,41 +118,52 @@ fn linearise_vehicle(
 fn fill_blocks(problem: &Problem, iterate: &Iterate, qp: &mut StageQp) {
     let mut blocks = std::mem::take(&mut qp.blocks).into_iter();
     let mut filled = Vec::with_capacity(blocks.len());
-    let mut next = |vehicle, other, penalty| {
+    for_each_block(problem, iterate, |vehicle, other, penalty, new| {
         let mut rows = blocks.next().map(|block: RowBlock| block.rows).unwrap_or_default();
         rows.clear();
-        RowBlock { vehicle, other, penalty: Some(penalty), rows }
-    };
+        rows.extend(new);
+        filled.push(RowBlock { vehicle, other, penalty: Some(penalty), rows });
+    });
+    qp.blocks = filled;
+}
+
+/// Hands over vehicle, other vehicle, penalty and rows of every block at an iterate.
+fn for_each_block(
+    problem: &Problem,
+    iterate: &Iterate,
+    mut take: impl FnMut(usize, Option<usize>, Penalty, &mut dyn Iterator<Item = Row>),
+) {
     for (i, participant) in problem.participants.iter().enumerate() {
-        let mut corners: [RowBlock; 4] = std::array::from_fn(|_| next(i, None, Penalty::EXACT));
-        for state in &iterate.states[i][1..] {
+        let states = &iterate.states[i][1..];
+        let mut corners: [Vec<Row>; 4] = Default::default();
+        for (k, state) in states.iter().enumerate() {
             let clearances = participant.corridor.clearances(&participant.body, state);
-            let active = corners[0].rows.len() >= participant.first();
-            for (block, c) in corners.iter_mut().zip(clearances) {
-                block.rows.push(Row { active, value: c.value, gradient: c.gradient, curvature: c.curvature });
+            for (rows, c) in corners.iter_mut().zip(clearances) {
+                let active = k >= participant.first();
+                rows.push(Row { active, value: c.value, gradient: c.gradient, curvature: c.curvature });
             }
         }
-        filled.extend(corners);
+        for rows in corners {
+            take(i, None, Penalty::EXACT, &mut rows.into_iter());
+        }
         for keep_out in &participant.keep_outs {
-            let mut block = next(i, None, keep_out.penalty);
             let [xx, xy, yy] = keep_out.ellipse.curvature(keep_out.heading_rad);
-            for (state, centre) in iterate.states[i][1..].iter().zip(&keep_out.centres) {
+            let rows = states.iter().zip(&keep_out.centres).map(|(state, centre)| {
                 let d = keep_out.ellipse.distance(state.position(), *centre, keep_out.heading_rad);
-                block.rows.push(ellipse_row(d.squared, d.gradient, [xx, xy, yy, 0.0]));
-            }
-            filled.push(block);
+                ellipse_row(d.squared, d.gradient, [xx, xy, yy, 0.0])
+            });
+            take(i, None, keep_out.penalty, &mut { rows });
         }
     }
     for pair in &problem.separations {
-        let mut block = next(pair.of, Some(pair.from), pair.penalty);
         let [xx, xy, yy] = pair.ellipse.curvature(pair.heading_rad);
-        for (of, from) in iterate.states[pair.of][1..].iter().zip(&iterate.states[pair.from][1..]) {
+        let states = iterate.states[pair.of][1..].iter().zip(&iterate.states[pair.from][1..]);
+        let rows = states.map(|(of, from)| {
             let d = pair.ellipse.distance(of.position(), from.position(), pair.heading_rad);
-            block.rows.push(ellipse_row(d.squared, d.gradient, [xx, xy, yy, 0.0]));
-        }
-        filled.push(block);
+            ellipse_row(d.squared, d.gradient, [xx, xy, yy, 0.0])
+        });
+        take(pair.of, Some(pair.from), pair.penalty, &mut { rows });
     }
-    qp.blocks = filled;
 }
 
 fn ellipse_row(squared: f64, [x, y]: [f64; 2], curvature: [f64; 4]) -> Row {

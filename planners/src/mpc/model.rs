@@ -33,6 +33,7 @@ impl StageQp {
                     change += stages.change_weights[axis] * (new * new - old * old);
                 }
             }
+            change += 0.5 * self.damping * (inputs[k][0] * inputs[k][0] + inputs[k][1] * inputs[k][1]);
             let before = solution.state_before(vehicle, k);
             let ([heading, speed], steering) = curvature_gradient(&stages.curvatures[k], &before, &inputs[k]);
             change += 0.5 * (heading * before[2] + speed * before[3] + steering * inputs[k][1]);

@@ -8,13 +8,15 @@
 //! ```
 //!
 //! where `J` is evaluated on rolled-out states. Every iterate is admissible and the cost never rises, so the method
-//! cannot cycle. The first step is Gauss-Newton; later steps use the exact Hessian of the Lagrangian where the solver
-//! accepts it and the direction turns out to be one of descent, which makes the end quadratic.
+//! cannot cycle. A full step that is refused is corrected to second order before it is shortened. The first step is
+//! Gauss-Newton; later steps use the exact Hessian of the Lagrangian, which makes the end quadratic; where it is not positive
+//! definite on the dynamics, `½ μ Σ‖w_k‖²` is added to it (Levenberg and Marquardt), and if that does not help the step is
+//! Gauss-Newton again.
 
 use thiserror::Error;
 
 use super::kkt;
-use super::linearise::{add_curvature, drop_curvature, linearise};
+use super::linearise::{add_curvature, drop_curvature, linearise, move_rows};
 use super::problem::{Cost, Iterate, Problem};
 use super::stage::{StageError, StageQp, StageSolution, StageSolver};
 use crate::Input;
@@ -26,7 +28,7 @@ pub struct Tolerances {
     pub residual: f64,
     /// A step whose predicted decrease is below this share of `1 + |J|` ends the search too.
     pub decrease: f64,
-    /// Most quadratic programmes in one descent.
+    /// Most steps in one descent.
     pub iteration_limit: usize,
     /// A safety row violated by more than this makes a solution suspect (1 − d²).
     pub slack: f64,
@@ -43,7 +45,7 @@ impl Default for Tolerances {
 pub struct Statistics {
     /// Starting guesses tried.
     pub starts: usize,
-    /// Quadratic programmes solved.
+    /// Quadratic programmes posed; those refused as not convex cost little.
     pub programmes: usize,
     /// Iterations inside them.
     pub inner_iterations: usize,
@@ -93,13 +95,33 @@ pub struct Optimiser<S> {
     qp: StageQp,
     step: StageSolution,
     trial: Iterate,
+    held: StageSolution,
 }
 
-/// How a step problem was made.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Hessian {
-    GaussNewton,
-    Exact,
+/// Damping that is tried in turn where the exact Hessian is not positive definite. Comfort weights are of the order of
+/// the first.
+const DAMPING: [f64; 3] = [0.1, 1.0, 10.0];
+
+/// How the next step problem is made.
+#[derive(Clone, Copy, Debug)]
+struct Model {
+    /// Whether the curvature of dynamics and rows is in it.
+    curved: bool,
+    damping: f64,
+}
+
+impl Model {
+    const GAUSS_NEWTON: Model = Model { curved: false, damping: 0.0 };
+    const EXACT: Model = Model { curved: true, damping: 0.0 };
+
+    /// What to try after a step that no search could use; nothing once steps would be too short to matter.
+    fn firmer(self) -> Option<Model> {
+        match self {
+            Model { curved: true, .. } => Some(Model::GAUSS_NEWTON),
+            Model { damping, .. } if damping < 1e4 => Some(Model { curved: false, damping: (10.0 * damping).max(1.0) }),
+            _ => None,
+        }
+    }
 }
 
 impl<S: StageSolver> Optimiser<S> {
@@ -111,6 +133,7 @@ impl<S: StageSolver> Optimiser<S> {
             qp: StageQp::default(),
             step: StageSolution::default(),
             trial: Iterate::default(),
+            held: StageSolution::default(),
         }
     }
 
@@ -126,46 +149,55 @@ impl<S: StageSolver> Optimiser<S> {
             return Err(DescentError::NotFinite);
         }
         linearise(problem, &now.iterate, &mut self.qp);
-        let mut hessian = Hessian::GaussNewton;
-        loop {
-            if now.statistics.programmes >= self.tolerances.iteration_limit {
-                return Err(DescentError::NotConverged(now.statistics));
-            }
-            let predicted = self.direction(problem, &mut now, hessian)?;
-            let ended = predicted <= self.tolerances.decrease * (1.0 + now.cost.total.abs());
-            let moved = self.search(problem, &mut now, predicted);
-            if !moved && hessian == Hessian::Exact && !ended {
-                hessian = Hessian::GaussNewton;
+        let mut model = Model::GAUSS_NEWTON;
+        for _ in 0..self.tolerances.iteration_limit {
+            let predicted = self.direction(problem, &mut now, model)?;
+            // A damped step promises little because it is short, not because there is little to gain.
+            let ended = self.qp.damping == 0.0 && predicted <= self.tolerances.decrease * (1.0 + now.cost.total.abs());
+            let moved = self.take(problem, &mut now, 1.0, predicted)
+                || self.correct(problem, &mut now, predicted)
+                || self.search(problem, &mut now, predicted);
+            if !moved && !ended {
                 now.statistics.fallbacks += 1;
-                continue;
+                let Some(next) = model.firmer() else { break };
+                model = next;
+            } else {
+                model = if self.solver.accepts_curvature() { Model::EXACT } else { Model::GAUSS_NEWTON };
             }
             linearise(problem, &now.iterate, &mut self.qp);
             self.step.rest();
             now.statistics.residual = kkt::residual(&self.qp, &self.step).largest();
-            if ended || !moved || now.statistics.residual <= self.tolerances.residual {
+            if ended || now.statistics.residual <= self.tolerances.residual {
                 return Ok(now);
             }
-            hessian = if self.solver.accepts_curvature() { Hessian::Exact } else { Hessian::GaussNewton };
         }
+        Err(DescentError::NotConverged(now.statistics))
     }
 
     /// Solves the step problem at `now`, returning the decrease that it predicts (at least 0 for Gauss-Newton).
-    fn direction(&mut self, problem: &Problem, now: &mut Optimum, hessian: Hessian) -> Result<f64, DescentError> {
-        let exact = hessian == Hessian::Exact;
+    fn direction(&mut self, problem: &Problem, now: &mut Optimum, model: Model) -> Result<f64, DescentError> {
+        let exact = model.curved;
         if exact {
             add_curvature(problem, &now.iterate, &mut self.step, &mut self.qp);
         } else {
             drop_curvature(&mut self.qp);
         }
+        self.qp.damping = model.damping;
         let warm = now.statistics.programmes > 0;
-        let outcome = match self.solve_step(now, warm) {
-            Err(_) if exact => {
+        let mut outcome = self.solve_step(now, warm);
+        for damping in DAMPING {
+            if exact && matches!(outcome, Err(StageError::NotConvex { .. })) {
                 now.statistics.fallbacks += 1;
-                drop_curvature(&mut self.qp);
-                self.solve_step(now, false)
+                self.qp.damping = damping;
+                outcome = self.solve_step(now, false);
             }
-            other => other,
-        };
+        }
+        if exact && outcome.is_err() {
+            now.statistics.fallbacks += 1;
+            self.qp.damping = 0.0;
+            drop_curvature(&mut self.qp);
+            outcome = self.solve_step(now, false);
+        }
         outcome.map_err(|source| DescentError::Step { step: now.statistics.programmes, source })?;
         Ok(-self.qp.change(&self.step))
     }
@@ -177,22 +209,38 @@ impl<S: StageSolver> Optimiser<S> {
         outcome
     }
 
+    /// Takes a share of the step if the cost falls by a sufficient part of what was predicted.
+    fn take(&mut self, problem: &Problem, now: &mut Optimum, share: f64, predicted: f64) -> bool {
+        const SUFFICIENT: f64 = 1e-4;
+        self.try_step(problem, &now.iterate, share);
+        let cost = problem.cost(&self.trial);
+        let enough = now.cost.total - SUFFICIENT * share * predicted.max(0.0);
+        let accepted = cost.total <= enough && cost.total < now.cost.total;
+        if accepted {
+            std::mem::swap(&mut now.iterate, &mut self.trial);
+            now.cost = cost;
+        }
+        accepted
+    }
+
+    /// Second-order correction: the rows are taken where the full step really led, and the step problem is solved again.
+    /// Without it, steps along a curved boundary are cut short for the little by which they miss it (Maratos).
+    fn correct(&mut self, problem: &Problem, now: &mut Optimum, predicted: f64) -> bool {
+        self.held.clone_from(&self.step);
+        move_rows(problem, &self.trial, &self.step, &mut self.qp);
+        let solved = self.solve_step(now, true).is_ok();
+        let taken = solved && self.take(problem, now, 1.0, predicted);
+        if !taken {
+            self.step.clone_from(&self.held);
+        }
+        taken
+    }
+
     /// The backtracking search along the step; says whether the iterate moved.
     fn search(&mut self, problem: &Problem, now: &mut Optimum, predicted: f64) -> bool {
-        const SUFFICIENT: f64 = 1e-4;
         const SHORTEST: f64 = 1.0 / 1024.0;
-        let mut share = 1.0;
-        while share >= SHORTEST {
-            self.try_step(problem, &now.iterate, share);
-            let cost = problem.cost(&self.trial);
-            if cost.total <= now.cost.total - SUFFICIENT * share * predicted.max(0.0) && cost.total < now.cost.total {
-                std::mem::swap(&mut now.iterate, &mut self.trial);
-                now.cost = cost;
-                return true;
-            }
-            share *= 0.5;
-        }
-        false
+        let shares = std::iter::successors(Some(0.5), |share| Some(0.5 * share)).take_while(|share| *share >= SHORTEST);
+        shares.into_iter().any(|share| self.take(problem, now, share, predicted))
     }
 
     fn try_step(&mut self, problem: &Problem, from: &Iterate, share: f64) {

@@ -8,6 +8,7 @@
 //! minimise  Σ_k  g_k·d_{k+1} + ½ d_{k+1}ᵀ H_k d_{k+1}                tracking, x_{k+1}
 //!              + ½ (d_k, w_k)ᵀ C_k (d_k, w_k)                        curvature of the dynamics
 //!              + Σ_i r_i (Δū_{k,i} + w_{k,i} − w_{k−1,i})²           comfort, w_{first−1} = 0
+//!              + ½ μ Σ_k ‖w_k‖²                                      damping
 //!              + Σ_rows  linear·s + quadratic·s² + ½ pᵀ K p          soft rows, p the position they speak of
 //! such that  c + ∇c·p + s ≥ 0,  s ≥ 0                                rows
 //!            lower ≤ w_k ≤ upper,  lower ≤ δv_{k+1} ≤ upper          boxes
@@ -111,6 +112,8 @@ pub struct StageQp {
     pub blocks: Vec<RowBlock>,
     /// The row over the whole trajectory.
     pub trajectory_row: Option<TrajectoryRow>,
+    /// `μ ≥ 0`: keeps the step short.
+    pub damping: f64,
 }
 
 impl StageQp {

@@ -213,8 +213,7 @@ impl Columns {
         let mut prospect = self.soft_step();
         let n = self.len();
         // Slices of one length let the compiler drop the bounds checks.
-        let (slope, residual, eta1, d1) =
-            (&self.slope[..n], &self.residual[..n], &self.eta1[..n], &self.d1[..n]);
+        let (slope, residual, eta1, d1) = (&self.slope[..n], &self.residual[..n], &self.eta1[..n], &self.d1[..n]);
         let (slack, multiplier, inverse) = (&self.slack[..n], &self.multiplier[..n], &self.inverse_slack[..n]);
         let (slack_step, multiplier_step) = (&mut self.slack_step[..n], &mut self.multiplier_step[..n]);
         let (mut linear, mut quadratic) = (0.0, 0.0);

@@ -7,7 +7,9 @@ use crate::mpc::adjoint::curvature_gradient;
 use crate::mpc::stage::{StageError, StageQp, StageSolution, StageSolver};
 
 /// Tolerance on complementarity, primal and dual residuals.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-8;
+/// Below this complementarity the factorisation has lost digits that matter.
+const REFINED_BELOW: f64 = 1e-4;
 /// Most iterations.
 const ITERATION_LIMIT: usize = 50;
 /// A multiplier beyond this with a row still violated means that the rows contradict each other.
@@ -47,18 +49,20 @@ pub(super) struct Interior<const W: usize, const Z: usize> {
     riccati: Riccati<W, Z>,
     pub(super) inequalities: Inequalities,
     pub(super) columns: Columns,
-    hessians: Vec<VehicleHessian>,
-    pairs: Vec<Vec<PairHessian>>,
+    pub(super) hessians: Vec<VehicleHessian>,
+    pub(super) pairs: Vec<Vec<PairHessian>>,
     /// Where the iteration stands.
     pub(super) point: Point,
     /// Its next step.
-    step: Point,
+    pub(super) step: Point,
+    /// What refinement adds to it.
+    correction: Point,
     /// Gradient of the smooth cost at the point.
     cost_gradient: Point,
     /// The same with the rows' pull.
-    gradient: Point,
+    pub(super) gradient: Point,
     /// Gradient `v` of the row over the whole trajectory at the point; empty without such a row.
-    along: Vec<[f64; 2]>,
+    pub(super) along: Vec<[f64; 2]>,
     /// `H⁻¹ v`, for Sherman and Morrison.
     along_response: Point,
 }
@@ -122,13 +126,13 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             self.factor(qp)?;
             self.fill_cost_gradient(qp);
             self.columns.aim(0.0, false);
-            self.newton(qp);
+            self.newton(qp, false);
             let affine = self.columns.step();
             let share = if affine.ratio > 1.0 { 1.0 / affine.ratio } else { 1.0 };
             let left = complementarity + share * (affine.linear + share * affine.quadratic) / count;
             let centring = (left / complementarity).powi(3).max(1e-8) * complementarity;
             self.columns.aim(centring, true);
-            self.newton(qp);
+            self.newton(qp, complementarity < REFINED_BELOW);
             let ratio = self.columns.step().ratio;
             let boundary = 1.0 - complementarity.clamp(1e-6, 5e-3);
             let share = if ratio > boundary { boundary / ratio } else { 1.0 };
@@ -214,7 +218,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             for stages in &qp.vehicles {
                 let [x, y, heading, speed] = stages.state_costs[k].hessian;
                 let pose = [x, 0.0, 0.0, y, 0.0, heading];
-                self.hessians.push(VehicleHessian { pose, speed, input: [0.0; 2] });
+                self.hessians.push(VehicleHessian { pose, speed, input: [qp.damping; 2] });
             }
         }
         for block in &qp.blocks {
@@ -253,7 +257,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                     let before = if k > stages.first { inputs[at - vehicles][axis] } else { 0.0 };
                     let change = stages.changes[k][axis] + inputs[at][axis] - before;
                     let pull = 2.0 * stages.change_weights[axis] * change;
-                    self.cost_gradient.inputs[at][axis] += pull;
+                    self.cost_gradient.inputs[at][axis] += pull + qp.damping * inputs[at][axis];
                     if k > stages.first {
                         self.cost_gradient.inputs[at - vehicles][axis] -= pull;
                     }
@@ -292,8 +296,8 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         }
     }
 
-    /// One Newton step towards the targets; leaves its slopes in the columns.
-    fn newton(&mut self, qp: &StageQp) {
+    /// One Newton step towards the targets, if asked with a refinement; leaves its slopes in the columns.
+    fn newton(&mut self, qp: &StageQp, refined: bool) {
         self.gradient.states.clone_from(&self.cost_gradient.states);
         self.gradient.inputs.clone_from(&self.cost_gradient.inputs);
         let boxed = BOXES * self.inequalities.boxes.len();
@@ -316,21 +320,20 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         self.step.states.resize(self.gradient.states.len(), [0.0; 4]);
         self.step.inputs.resize(self.gradient.inputs.len(), [0.0; 2]);
         self.riccati.solve(qp, &self.gradient, &mut self.step);
-        self.correct_along(qp);
+        correct_along(qp, &self.columns, &self.along, &self.along_response, &mut self.step);
+        if refined {
+            self.leave_residual(qp);
+            self.correction.clear(qp.horizon * Self::VEHICLES);
+            self.riccati.solve(qp, &self.gradient, &mut self.correction);
+            correct_along(qp, &self.columns, &self.along, &self.along_response, &mut self.correction);
+            self.step.add(1.0, &self.correction);
+        }
         self.fill_slopes(qp);
     }
 
-    /// Sherman and Morrison: the rank-one part of the Hessian that the factorisation leaves out.
-    fn correct_along(&mut self, qp: &StageQp) {
-        let (Some(_), Some(weight)) = (&qp.trajectory_row, self.columns.weight.last()) else { return };
-        let share = weight * self.along(&self.step) / (1.0 + weight * self.along(&self.along_response));
-        self.step.add(-share, &self.along_response);
-    }
-
     /// `v·p` over the whole trajectory.
-    fn along(&self, point: &Point) -> f64 {
-        let states = point.states.iter().step_by(Self::VEHICLES);
-        self.along.iter().zip(states).map(|(v, d)| v[0] * d[0] + v[1] * d[1]).sum()
+    pub(super) fn along(&self, point: &Point) -> f64 {
+        along(&self.along, point, Self::VEHICLES)
     }
 
     fn fill_slopes(&mut self, qp: &StageQp) {
@@ -347,6 +350,19 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             *slope = -total;
         }
     }
+}
+
+fn along(slopes: &[[f64; 2]], point: &Point, vehicles: usize) -> f64 {
+    let states = point.states.iter().step_by(vehicles);
+    slopes.iter().zip(states).map(|(v, d)| v[0] * d[0] + v[1] * d[1]).sum()
+}
+
+/// Sherman and Morrison: adds to `step` the rank-one part of the Hessian that the factorisation leaves out.
+fn correct_along(qp: &StageQp, columns: &Columns, slopes: &[[f64; 2]], response: &Point, step: &mut Point) {
+    let (Some(_), Some(weight)) = (&qp.trajectory_row, columns.weight.last()) else { return };
+    let vehicles = qp.vehicles.len();
+    let share = weight * along(slopes, step, vehicles) / (1.0 + weight * along(slopes, response, vehicles));
+    step.add(-share, response);
 }
 
 /// Adds a Hessian over the difference of two positions.

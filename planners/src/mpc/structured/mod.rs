@@ -38,6 +38,7 @@
 
 mod columns;
 mod interior;
+mod refine;
 mod riccati;
 mod rows;
 mod write;
