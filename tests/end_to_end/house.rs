@@ -15,8 +15,14 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// Libraries that only one room may depend on.
-const OWNERS: &[(&str, &str)] =
-    &[("clarabel", "convex"), ("bevy", "app"), ("rapier", "app"), ("parry", "app"), ("rerun", "app")];
+const OWNERS: &[(&str, &str)] = &[
+    ("clarabel", "convex"),
+    ("bevy", "app"),
+    ("rapier", "app"),
+    ("parry", "app"),
+    ("rerun", "app"),
+    ("re_sdk", "app"),
+];
 
 /// Libraries that only one part of the application may name.
 const PARTS: &[(&str, &str)] =
