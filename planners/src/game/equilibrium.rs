@@ -181,7 +181,7 @@ fn least_tempting(ego: &Player, other: &Player) -> Solution {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::game::payoff::{Mind, Stakes};
+    use crate::game::payoff::{MIND, Stakes};
     use crate::game::prospect::ProspectTheory;
     use proptest::prelude::*;
 
@@ -204,8 +204,7 @@ mod tests {
     }
 
     fn solved(stakes: [Stakes; 2], by: fn(&Player, &Player) -> Solution) -> Solution {
-        let mind = Mind::new(ProspectTheory::default());
-        by(&mind.player(stakes[0]), &mind.player(stakes[1]))
+        by(&MIND.player(stakes[0]), &MIND.player(stakes[1]))
     }
 
     proptest! {
@@ -233,8 +232,7 @@ mod tests {
 
         #[test]
         fn a_leader_gains_nothing_by_another_intention(stakes in stakes(), instead in LOWEST..HIGHEST) {
-            let mind = Mind::new(ProspectTheory::default());
-            let [ego, other] = stakes.map(|stakes| mind.player(stakes));
+            let [ego, other] = stakes.map(|stakes| MIND.player(stakes));
             let led = leader_follower(&ego, &other);
             prop_assert_eq!(led.temptation[1], 0.0, "the follower follows");
             // The optimum on the grid may miss a maximum next to a jump of the replies by part of a cell.
@@ -256,9 +254,8 @@ mod tests {
 
     #[test]
     fn a_pair_that_tempts_least_is_what_it_says() {
-        let mind = Mind::new(ProspectTheory::default());
         let stakes = [Stakes { turn: 1.0, accident: 2.0 }, Stakes { turn: 0.7, accident: 2.0 }];
-        let [ego, other] = stakes.map(|stakes| mind.player(stakes));
+        let [ego, other] = stakes.map(|stakes| MIND.player(stakes));
         let at = least_tempting(&ego, &other);
         assert!((at.utilities[0] - ego.utility(at.ego, at.other)).abs() < 1e-15);
         assert!(at.temptation.iter().all(|gain| (0.0..1e-2).contains(gain)), "{at:?}");

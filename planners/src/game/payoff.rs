@@ -188,6 +188,10 @@ impl Player<'_> {
     }
 }
 
+/// A mind that several tests share, as its tables take a while.
+#[cfg(test)]
+pub(super) static MIND: std::sync::LazyLock<Mind> = std::sync::LazyLock::new(|| Mind::new(ProspectTheory::default()));
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -203,17 +207,15 @@ mod tests {
         #[test]
         fn the_tables_agree_with_the_definition(stakes in stakes(), own in 0.05..0.95, other in 0.05..0.95) {
             let theory = ProspectTheory::default();
-            let mind = Mind::new(theory);
-            let (fast, slow) = (mind.player(stakes).utility(own, other), theory.utility(&mut stakes.lottery(own, other)));
+            let (fast, slow) = (MIND.player(stakes).utility(own, other), theory.utility(&mut stakes.lottery(own, other)));
             prop_assert!((fast - slow).abs() < 1e-7 * (1.0 + slow.abs()), "{fast} against {slow}");
         }
 
         #[test]
         fn a_scan_visits_the_nodes(stakes in stakes(), other in 5..=95) {
             let theory = ProspectTheory::default();
-            let mind = Mind::new(theory);
             let mut visited = 0;
-            mind.player(stakes).scan([5, 95], other, |own, utility| {
+            MIND.player(stakes).scan([5, 95], other, |own, utility| {
                 let (p, o) = (f64::from(own) / 100.0, f64::from(other) / 100.0);
                 let slow = theory.utility(&mut stakes.lottery(p, o));
                 assert!((utility - slow).abs() < 1e-9 * (1.0 + slow.abs()), "{own}: {utility} against {slow}");
