@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bayesian::{self, Bayesian};
 use crate::conservative::{self, Conservative};
 use crate::human::{self, Human};
 use crate::negotiation::{self, Negotiation};
@@ -18,6 +19,8 @@ pub enum Driver {
     Conservative(conservative::Settings),
     /// Negotiation with concession and persuasion (chapter 6).
     Negotiation(negotiation::Settings),
+    /// Bayesian persuasion (chapter 7).
+    Bayesian(bayesian::Settings),
 }
 
 /// A driver at work: its settings and all that it remembers.
@@ -29,6 +32,8 @@ pub enum Planner {
     Conservative(Conservative),
     /// See [`Negotiation`].
     Negotiation(Box<Negotiation>),
+    /// See [`Bayesian`].
+    Bayesian(Box<Bayesian>),
 }
 
 impl Driver {
@@ -38,6 +43,7 @@ impl Driver {
             Driver::Human(settings) => Planner::Human(Human::new(*settings)),
             Driver::Conservative(settings) => Planner::Conservative(Conservative::new(*settings)),
             Driver::Negotiation(settings) => Planner::Negotiation(Box::new(Negotiation::new(*settings))),
+            Driver::Bayesian(settings) => Planner::Bayesian(Box::new(Bayesian::new(*settings))),
         }
     }
 
@@ -47,6 +53,7 @@ impl Driver {
             Driver::Human(_) => "human",
             Driver::Conservative(_) => "conservative",
             Driver::Negotiation(_) => "negotiation",
+            Driver::Bayesian(_) => "bayesian",
         }
     }
 
@@ -66,6 +73,7 @@ impl Planner {
             Planner::Human(planner) => planner.plan(scene),
             Planner::Conservative(planner) => planner.plan(scene),
             Planner::Negotiation(planner) => planner.plan(scene),
+            Planner::Bayesian(planner) => planner.plan(scene),
         }
     }
 }
