@@ -101,10 +101,24 @@ impl Run {
         (!self.no_record).then(|| self.record.clone().unwrap_or_else(default))
     }
 
+    /// What a reader of the recording types to get the run again.
+    fn command(&self) -> String {
+        let quoted = |word: &str| {
+            let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:".contains(c);
+            if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+        };
+        let mut words = vec!["interplay run".to_owned(), quoted(self.scenario.as_deref().unwrap_or(DEFAULT))];
+        words.extend(self.planner.iter().map(|kind| format!("--planner {}", quoted(kind))));
+        words.extend(self.sets.iter().map(|set| format!("--set {}", quoted(set))));
+        words.extend(self.seed.iter().map(|seed| format!("--seed {seed}")));
+        words.join(" ")
+    }
+
     fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, String> {
         let sink = if self.connect { Some(Sink::Live) } else { self.recording(name).map(Sink::File) };
         let Some(sink) = sink else { return Ok(Vec::new()) };
         let recorder = Recorder::begin(scenario, name, &sink).map_err(|error| error.to_string())?;
+        recorder.repeat_with(&self.command()).map_err(|error| error.to_string())?;
         Ok(vec![Box::new(recorder)])
     }
 }

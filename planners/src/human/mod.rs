@@ -73,7 +73,7 @@ impl Human {
             let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
             steady(&scene.ego.state, share * bound, limits, scene.horizon, scene.step_s)
         };
-        let keep = self.last.as_ref().map_or_else(|| steady(-FIRST_GUESS), |last| last.shifted().inputs);
+        let keep = self.last.as_ref().map_or_else(|| steady(-FIRST_GUESS), Trajectory::later_inputs);
         let mut best = self.optimiser.descend(problem, &[keep]);
         let mut statistics = best.as_ref().map(|optimum| optimum.statistics).unwrap_or_default();
         let minds_others = problem.participants.iter().any(|participant| !participant.keep_outs.is_empty());

@@ -25,8 +25,8 @@ pub use proposal::problem;
 pub use settings::Settings;
 
 use crate::conservative::{self, Conservative, extremes};
-use crate::mpc::{Leaning, Optimiser, Optimum, Robust};
-use crate::{Agent, Plan, PlanError, Proposal, Scene, Trajectory};
+use crate::mpc::{Leaning, Optimiser, Optimum, Problem, Robust};
+use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use filter::Filter;
 use interlocutor::Interlocutor;
 
@@ -132,14 +132,22 @@ impl Negotiation {
 
     fn propose(&mut self, scene: &Scene, partner: &Agent, leaning: Option<Leaning>) -> Result<Optimum, PlanError> {
         let problem = problem(scene, partner, self.talk.concession.weight(), leaning, &self.settings);
-        let keep = self.talk.last.as_ref().map_or_else(
-            || vec![Vec::new(), partner.prediction.inputs.clone()],
-            |round| vec![round.cooperative.shifted().inputs, round.proposal.shifted().inputs],
-        );
+        let keep = self.guess(&problem, partner);
         let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
         let every = self.settings.look_around_every;
         let look_around = every > 0 && scene.tick.is_multiple_of(every);
         Ok(self.optimiser.best_of(&problem, &[keep, brake, accelerate], look_around)?)
+    }
+
+    /// The last round one step later. The other may have changed its mind since: what was proposed before can be worse than
+    /// what it now does by itself, so the cheaper of the two begins.
+    fn guess(&self, problem: &Problem, partner: &Agent) -> Vec<Vec<Input>> {
+        let own_way = partner.prediction.inputs.clone();
+        let Some(round) = &self.talk.last else { return vec![Vec::new(), own_way] };
+        let cooperative = round.cooperative.later_inputs();
+        let proposed = vec![cooperative.clone(), round.proposal.later_inputs()];
+        let unasked = vec![cooperative, own_way];
+        if problem.cost_of(&proposed) <= problem.cost_of(&unasked) { proposed } else { unasked }
     }
 
     fn remember(&mut self, optimum: &Optimum, retreat: &Result<Optimum, PlanError>, partner: &Agent) {

@@ -7,7 +7,9 @@ use crate::mpc::adjoint::curvature_gradient;
 use crate::mpc::stage::{StageError, StageQp, StageSolution, StageSolver};
 
 /// Tolerance on complementarity, primal and dual residuals.
-const TOLERANCE: f64 = 1e-8;
+const TOLERANCE: f64 = 1e-11;
+/// What is accepted where rounding stops the iteration before that.
+const ACCEPTED: f64 = 1e-7;
 /// Below this complementarity the factorisation has lost digits that matter.
 const REFINED_BELOW: f64 = 1e-4;
 /// Most iterations.
@@ -141,7 +143,10 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             dual_share *= 1.0 - share;
             self.refresh_values(qp);
         }
-        let (_, worst) = self.columns.measure();
+        let (complementarity, worst) = self.columns.measure();
+        if complementarity < ACCEPTED && worst < ACCEPTED && dual_share < ACCEPTED {
+            return Ok(());
+        }
         let status = format!("residual {worst:.1e}, dual residual at {dual_share:.1e} of its start");
         Err(StageError::Unsolved { status, iterations: *iterations })
     }
@@ -218,7 +223,11 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             for stages in &qp.vehicles {
                 let [x, y, heading, speed] = stages.state_costs[k].hessian;
                 let pose = [x, 0.0, 0.0, y, 0.0, heading];
-                self.hessians.push(VehicleHessian { pose, speed, input: [qp.damping; 2] });
+                self.hessians.push(VehicleHessian {
+                    pose,
+                    speed,
+                    input: [0, 1].map(|axis| stages.damping(qp.damping, axis)),
+                });
             }
         }
         for block in &qp.blocks {
@@ -257,7 +266,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                     let before = if k > stages.first { inputs[at - vehicles][axis] } else { 0.0 };
                     let change = stages.changes[k][axis] + inputs[at][axis] - before;
                     let pull = 2.0 * stages.change_weights[axis] * change;
-                    self.cost_gradient.inputs[at][axis] += pull + qp.damping * inputs[at][axis];
+                    self.cost_gradient.inputs[at][axis] += pull + stages.damping(qp.damping, axis) * inputs[at][axis];
                     if k > stages.first {
                         self.cost_gradient.inputs[at - vehicles][axis] -= pull;
                     }
