@@ -27,6 +27,9 @@ use crate::{Agent, Input, Plan, PlanError, Scene, Trajectory};
 const RESOLVE: f64 = 1.0;
 /// The very first guess leans towards yielding.
 const FIRST_GUESS: f64 = 0.3;
+/// The safety ellipse around the car ahead in this size is not entered while brakes can help: a hinge alone lets a driver
+/// be talked into a collision by its wish to go on.
+const TAILGATING: f64 = 0.7;
 /// Another plan must be cheaper by this share to be preferred to improving the last one.
 const HYSTERESIS: f64 = 1e-3;
 
@@ -103,7 +106,10 @@ impl Human {
         for other in &scene.others {
             if leader.is_some_and(|leader| leader.name == other.name) {
                 let penalty = Penalty::hinge(weight.max(self.settings.following_weight));
-                keep_outs.push(scene.keep_out(&other.prediction, ego.corridor.heading_rad, penalty));
+                let comfortable = scene.keep_out(&other.prediction, ego.corridor.heading_rad, penalty);
+                let ellipse = comfortable.ellipse.scaled(TAILGATING);
+                keep_outs.push(KeepOut { ellipse, penalty: Penalty::EXACT, ..comfortable.clone() });
+                keep_outs.push(comfortable);
                 continue;
             }
             let behind = ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;

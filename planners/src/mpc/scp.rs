@@ -42,7 +42,7 @@ pub struct Tolerances {
 
 impl Default for Tolerances {
     fn default() -> Self {
-        Tolerances { residual: 1e-8, decrease: 1e-10, iteration_limit: 50, slack: 1e-3 }
+        Tolerances { residual: 1e-8, decrease: 1e-11, iteration_limit: 50, slack: 1e-3 }
     }
 }
 

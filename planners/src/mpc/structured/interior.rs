@@ -6,8 +6,10 @@ use super::rows::{BOXES, Inequalities, Point};
 use crate::mpc::adjoint::curvature_gradient;
 use crate::mpc::stage::{StageError, StageQp, StageSolution, StageSolver};
 
-/// Tolerance on complementarity, primal and dual residuals.
-const TOLERANCE: f64 = 1e-11;
+/// Tolerance on mean complementarity and on every primal residual.
+const TOLERANCE: f64 = 1e-9;
+/// Tolerance on the dual residual as a share of its start.
+const DUAL_TOLERANCE: f64 = 1e-12;
 /// What is accepted where rounding stops the iteration before that.
 const ACCEPTED: f64 = 1e-7;
 /// Below this complementarity the factorisation has lost digits that matter.
@@ -113,7 +115,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         let mut dual_share = 1.0;
         for _ in 0..ITERATION_LIMIT {
             let (complementarity, primal) = self.columns.measure();
-            if complementarity < TOLERANCE && primal < TOLERANCE && dual_share < TOLERANCE {
+            if complementarity < TOLERANCE && primal < TOLERANCE && dual_share < DUAL_TOLERANCE {
                 return Ok(());
             }
             if !complementarity.is_finite() {
