@@ -116,6 +116,16 @@ pub struct Participant {
     pub keep_outs: Vec<KeepOut>,
 }
 
+impl KeepOut {
+    /// How near a motion comes: the largest `1 − d²` over `t = 1…N`, negative outside. `states` begin at `t = 0`.
+    pub fn intrusion(&self, states: &[State]) -> f64 {
+        let centres = states.iter().skip(1).zip(&self.centres);
+        let distances =
+            centres.map(|(state, centre)| self.ellipse.distance(state.position(), *centre, self.heading_rad).squared);
+        1.0 - distances.fold(f64::INFINITY, f64::min)
+    }
+}
+
 /// Two deciding vehicles keep apart: the first stays outside an ellipse around the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Separation {
