@@ -55,15 +55,8 @@ impl Human {
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let minded = self.minded(scene);
-        let keep_outs = self.followed(scene).into_iter().chain(minded.iter().cloned()).collect();
-        let problem = Problem {
-            horizon: scene.horizon,
-            participants: vec![scene.participant(keep_outs)],
-            separations: Vec::new(),
-            leaning: None,
-        };
-        let (best, statistics) = self.decide(&problem, &minded, scene)?;
+        let minded = minded(scene, &self.settings);
+        let (best, statistics) = self.decide(&problem(scene, &self.settings), &minded, scene)?;
         let trajectory = best.trajectory(0);
         self.last = Some(trajectory.clone());
         Ok(Plan {
@@ -81,12 +74,8 @@ impl Human {
         minded: &[KeepOut],
         scene: &Scene,
     ) -> Result<(Optimum, crate::mpc::Statistics), DescentError> {
-        let steady = |share: f64| {
-            let limits = &scene.ego.limits;
-            let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
-            steady(&scene.ego.state, share * bound, limits, scene.horizon, scene.step_s)
-        };
-        let keep = self.last.as_ref().map_or_else(|| steady(-FIRST_GUESS), Trajectory::later_inputs);
+        let steady = |share| steadily(scene, share);
+        let keep = guess(scene, self.last.as_ref());
         let mut best = self.optimiser.descend(problem, &[keep]);
         let mut statistics = best.as_ref().map(|optimum| optimum.statistics).unwrap_or_default();
         let contested = best.as_ref().is_ok_and(|optimum| {
@@ -108,35 +97,58 @@ impl Human {
         }
         best.map(|optimum| (optimum, statistics))
     }
+}
 
-    /// The vehicle ahead in the same lane: followed at a comfortable distance, and not entered while brakes can help.
-    fn followed(&self, scene: &Scene) -> Vec<KeepOut> {
-        let Some(leader) = leader(scene) else { return Vec::new() };
-        let penalty = Penalty::hinge(self.settings.weight().max(self.settings.following_weight));
-        let comfortable = scene.keep_out(&leader.prediction, scene.ego.corridor.heading_rad, penalty);
-        let ellipse = comfortable.ellipse.scaled(TAILGATING);
-        let firm = KeepOut { ellipse, penalty: Penalty::EXACT, ..comfortable.clone() };
-        vec![comfortable, firm]
+/// The problem that a driver poses.
+pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
+    let keep_outs = followed(scene, settings).into_iter().chain(minded(scene, settings)).collect();
+    Problem {
+        horizon: scene.horizon,
+        participants: vec![scene.participant(keep_outs)],
+        separations: Vec::new(),
+        leaning: None,
     }
+}
 
-    /// Everybody who might cut in or cross.
-    fn minded(&self, scene: &Scene) -> Vec<KeepOut> {
-        let (ego, weight) = (&scene.ego, self.settings.weight());
-        if weight == 0.0 {
-            return Vec::new();
-        }
-        let leader = leader(scene).map(|leader| &leader.name);
-        let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
-        let mut keep_outs = Vec::new();
-        for other in scene.others.iter().filter(|other| Some(&other.name) != leader && !behind(other)) {
-            let predicted = constant_velocity(&other.state, scene.horizon, scene.step_s);
-            keep_outs.push(scene.keep_out(&predicted, other.corridor.heading_rad, Penalty::hinge(weight)));
-            if ego.crosses(other) {
-                keep_outs.push(scene.keep_out(&predicted, ego.corridor.heading_rad, Penalty::hinge(weight)));
-            }
-        }
-        keep_outs
+/// The guess of keeping on: the last plan one step later, or at first a little braking.
+pub fn guess(scene: &Scene, last: Option<&Trajectory>) -> Vec<Input> {
+    last.map_or_else(|| steadily(scene, -FIRST_GUESS), Trajectory::later_inputs)
+}
+
+/// Straight on with a share of the strongest acceleration, or of the strongest braking where it is negative.
+fn steadily(scene: &Scene, share: f64) -> Vec<Input> {
+    let limits = &scene.ego.limits;
+    let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
+    steady(&scene.ego.state, share * bound, limits, scene.horizon, scene.step_s)
+}
+
+/// The vehicle ahead in the same lane: followed at a comfortable distance, and not entered while brakes can help.
+fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
+    let Some(leader) = leader(scene) else { return Vec::new() };
+    let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
+    let comfortable = scene.keep_out(&leader.prediction, scene.ego.corridor.heading_rad, penalty);
+    let ellipse = comfortable.ellipse.scaled(TAILGATING);
+    let firm = KeepOut { ellipse, penalty: Penalty::EXACT, ..comfortable.clone() };
+    vec![comfortable, firm]
+}
+
+/// Everybody who might cut in or cross.
+fn minded(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
+    let (ego, weight) = (&scene.ego, settings.weight());
+    if weight == 0.0 {
+        return Vec::new();
     }
+    let leader = leader(scene).map(|leader| &leader.name);
+    let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
+    let mut keep_outs = Vec::new();
+    for other in scene.others.iter().filter(|other| Some(&other.name) != leader && !behind(other)) {
+        let predicted = constant_velocity(&other.state, scene.horizon, scene.step_s);
+        keep_outs.push(scene.keep_out(&predicted, other.corridor.heading_rad, Penalty::hinge(weight)));
+        if ego.crosses(other) {
+            keep_outs.push(scene.keep_out(&predicted, ego.corridor.heading_rad, Penalty::hinge(weight)));
+        }
+    }
+    keep_outs
 }
 
 /// The nearest vehicle ahead in the same lane.

@@ -20,7 +20,7 @@
 use thiserror::Error;
 
 use super::kkt;
-use super::linearise::{add_curvature, drop_curvature, linearise};
+use super::linearise::{TOLERANCE, add_curvature, drop_curvature, linearise};
 use super::problem::{Cost, Iterate, Problem};
 use super::search::Search;
 use super::stage::{StageError, StageQp, StageSolution, StageSolver};
@@ -95,6 +95,10 @@ pub enum DescentError {
 const GENTLEST: f64 = 1.0;
 /// Where even this damping gains nothing, nothing does.
 const FIRMEST: f64 = 1e6;
+/// Tolerance of the very last step problem where rows on the verge of being active need it.
+const FINEST: f64 = 1e-13;
+/// The residual with which the last step is content.
+const GOOD: f64 = 1e-6;
 /// A smaller share of a step calls for damping.
 const SHORT: f64 = 0.1;
 
@@ -137,9 +141,10 @@ impl<S: StageSolver> Optimiser<S> {
         }
         self.search.restart();
         linearise(problem, &now.iterate, &mut self.qp);
-        let mut damping = 0.0;
+        let (mut damping, mut tolerance) = (0.0, TOLERANCE);
         for step in 0..self.tolerances.iteration_limit {
             self.before.clone_from(&self.step);
+            self.qp.tolerance = tolerance;
             self.direction(problem, &mut now, step > 0, damping)?;
             let predicted = self.predict(&now.cost);
             let little = predicted <= self.tolerances.decrease * (1.0 + now.cost.total.abs());
@@ -161,7 +166,15 @@ impl<S: StageSolver> Optimiser<S> {
             linearise(problem, &now.iterate, &mut self.qp);
             self.step.rest();
             now.statistics.residual = kkt::residual(&self.qp, &self.step).largest();
-            if last || now.statistics.residual <= self.tolerances.residual {
+            let wanted = match last {
+                false => self.tolerances.residual,
+                true if tolerance == TOLERANCE => GOOD,
+                true => f64::INFINITY,
+            };
+            if last {
+                tolerance = FINEST;
+            }
+            if now.statistics.residual <= wanted {
                 return Ok(now);
             }
         }

@@ -112,6 +112,8 @@ pub struct StageQp {
     pub blocks: Vec<RowBlock>,
     /// The row over the whole trajectory.
     pub trajectory_row: Option<TrajectoryRow>,
+    /// Mean complementarity and largest primal residual of a solution that will do.
+    pub tolerance: f64,
     /// `μ ≥ 0`: keeps the step short, in units of the comfort weights.
     pub damping: f64,
 }

@@ -6,10 +6,8 @@ use super::rows::{BOXES, Inequalities, Point};
 use crate::mpc::adjoint::curvature_gradient;
 use crate::mpc::stage::{StageError, StageQp, StageSolution, StageSolver};
 
-/// Tolerance on mean complementarity and on every primal residual.
-const TOLERANCE: f64 = 1e-9;
-/// Tolerance on the dual residual as a share of its start.
-const DUAL_TOLERANCE: f64 = 1e-12;
+/// Tolerance on the dual residual as a share of its start, per tolerance on everything else.
+const DUAL_TOLERANCE: f64 = 1e-3;
 /// What is accepted where rounding stops the iteration before that.
 const ACCEPTED: f64 = 1e-7;
 /// Below this complementarity the factorisation has lost digits that matter.
@@ -115,14 +113,14 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         let mut dual_share = 1.0;
         for _ in 0..ITERATION_LIMIT {
             let (complementarity, primal) = self.columns.measure();
-            if complementarity < TOLERANCE && primal < TOLERANCE && dual_share < DUAL_TOLERANCE {
+            if complementarity < qp.tolerance && primal < qp.tolerance && dual_share < DUAL_TOLERANCE * qp.tolerance {
                 return Ok(());
             }
             if !complementarity.is_finite() {
                 break;
             }
             let largest = self.columns.multiplier.iter().copied().fold(0.0, larger);
-            if largest > INFEASIBLE_MULTIPLIER && primal > TOLERANCE.sqrt() {
+            if largest > INFEASIBLE_MULTIPLIER && primal > qp.tolerance.sqrt() {
                 return Err(StageError::Infeasible { iterations: *iterations });
             }
             *iterations += 1;
