@@ -7,6 +7,7 @@ use interplay::frame::Frame;
 use interplay::report::Report;
 use interplay::run::run;
 use interplay::watch::Watcher;
+use interplay_planners::State;
 use interplay_scenarios::{Override, Scenario, embedded, load};
 
 /// A run and all that was seen of it.
@@ -68,6 +69,14 @@ pub static FILMS: LazyLock<Vec<Film>> = LazyLock::new(|| {
 });
 
 impl Film {
+    /// The states of all vehicles after a tick.
+    pub fn states_after(&self, tick: usize) -> Vec<State> {
+        match self.frames.get(tick + 1) {
+            Some(next) => next.vehicles.iter().map(|vehicle| vehicle.state).collect(),
+            None => self.report.vehicles.iter().map(|vehicle| vehicle.last).collect(),
+        }
+    }
+
     /// What the run is called.
     pub fn name(&self) -> &str {
         &self.report.scenario

@@ -33,7 +33,7 @@ fn the_report_has_the_keys_of_the_contract() {
     assert_eq!(report["simulated_s"], 2.0);
     assert!(report["wall_s"].as_f64().is_some_and(|wall_s| wall_s > 0.0));
     assert!(report["digest"].as_str().is_some_and(|digest| digest.len() == 32));
-    has_keys(&report["phase_digests"], "predict plan act physics");
+    has_keys(&report["phase_digests"], "sense predict plan act physics");
     for vehicle in report["vehicles"].as_array().expect("a list") {
         has_keys(
             vehicle,
