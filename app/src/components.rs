@@ -50,10 +50,10 @@ pub struct Mind {
 /// What a vehicle decided last, to be expected by others and continued if its planner fails.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Intention {
-    /// The plan as it was decided, or as it was continued since.
+    /// The plan as it was decided, or the fallback since.
     pub plan: Option<Trajectory>,
-    /// How many ticks it has been continued without a new one.
-    pub continued: usize,
+    /// How many inputs of the planner's last plan are still to come.
+    pub remaining: usize,
 }
 
 /// Simulated time.

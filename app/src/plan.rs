@@ -43,7 +43,11 @@ pub fn plan(
             agents.0[identity.index].prediction = plan.trajectory.clone();
             vehicle.prediction = plan.trajectory.clone();
         }
-        intention.continued = if origin == Origin::Planned { 0 } else { intention.continued + 1 };
+        intention.remaining = match origin {
+            Origin::Planned => plan.trajectory.horizon().saturating_sub(1),
+            Origin::Continued => intention.remaining.saturating_sub(1),
+            Origin::Braking => 0,
+        };
         intention.plan = Some(plan.trajectory.clone());
         vehicle.input = plan.trajectory.inputs.first().copied().unwrap_or_default();
         vehicle.origin = origin;
@@ -88,11 +92,10 @@ fn settle(
     }
 }
 
-/// The previous plan one step further as long as there is something left of it, then full braking.
+/// The previous plan one step further while inputs of it are left, then full braking.
 fn fallback(scene: &Scene, intention: &Intention) -> (Trajectory, Origin) {
     let limits = &scene.ego.limits;
-    let left = intention.plan.as_ref().filter(|plan| intention.continued < plan.horizon());
-    let (inputs, origin) = match left {
+    let (inputs, origin) = match intention.plan.as_ref().filter(|_| intention.remaining > 0) {
         Some(plan) => (plan.shifted().inputs, Origin::Continued),
         None => {
             let brake = limits.acceleration_min_mps2;
