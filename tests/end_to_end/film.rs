@@ -77,6 +77,19 @@ impl Film {
         }
     }
 
+    /// The states of all vehicles at any time: the physics moves them evenly within a tick.
+    pub fn states_at(&self, time_s: f64) -> Vec<State> {
+        let ticks = time_s / self.scenario.step_s;
+        let tick = (ticks as usize).min(self.frames.len() - 1);
+        let share = ticks - tick as f64;
+        let mixed = |(from, to): (State, State)| {
+            let (from, to) = (from.to_array(), to.to_array());
+            State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
+        };
+        let from = self.frames[tick].vehicles.iter().map(|vehicle| vehicle.state);
+        from.zip(self.states_after(tick)).map(mixed).collect()
+    }
+
     /// What the run is called.
     pub fn name(&self) -> &str {
         &self.report.scenario
