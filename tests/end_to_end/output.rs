@@ -48,6 +48,16 @@ fn the_report_has_the_keys_of_the_contract() {
     }
 }
 
+/// Nobody wants to read 0.30000000000000004.
+#[test]
+fn times_are_round() {
+    let folder = scratch("times");
+    let changes = ["run", "--no-record", "--set", "duration_s=0.3", "--set", "expect.completes=[]"];
+    let outcome = interplay(&folder, &[&changes[..], &["--json"]].concat());
+    assert!(outcome.stdout.contains("\"simulated_s\": 0.3,"), "{}", outcome.stdout);
+    assert!(interplay(&folder, &changes).stdout.contains("\n  0.3 s simulated in "));
+}
+
 /// Two seconds are too short to change lane: the code says so, and the document is still whole.
 #[test]
 fn a_failed_expectation_is_exit_code_1() {

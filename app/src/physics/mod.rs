@@ -105,7 +105,7 @@ pub fn step(
             let between = [a, b].map(|index| moving[index].0.name.clone());
             let text = format!("collides with {} ({impulse_ns:.2} Ns)", between[1]);
             present.0.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
-            let time_s = clock.time_s() + share * clock.step_s;
+            let time_s = clock.within_s(share);
             measures.collide([a, b], Collision { time_s, between, impulse_ns });
         }
     }
