@@ -1,7 +1,7 @@
 //! Physics: the one room that names Rapier and Parry.
 //!
 //! With the kinematic plant every vehicle follows the bicycle model exactly. Within a tick the bodies are looked at as often
-//! as it takes to miss no contact ([`path`]); each time Rapier finds who begins to touch, and Parry the distances between
+//! as it takes to miss no contact (`path`); each time Rapier finds who begins to touch, and Parry the distances between
 //! footprints. Both work in `f32` and the planners in `f64`: the conversion is here, with positions taken relative to a
 //! vehicle, so that precision does not depend on how far along the road one is.
 
