@@ -3,13 +3,13 @@
 //! At every step the planner
 //!
 //! 1. makes a conservative plan (eq. 6.13), its retreat;
-//! 2. chooses whom to ask ([`interlocutor`]);
+//! 2. chooses whom to ask (`interlocutor`);
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`acceptance`], eq. 6.19);
-//! 4. concedes: lowers the weight of its own cost the less it was accepted ([`concession`], eq. 6.18);
-//! 5. leans towards its last proposal and away from its retreat, the more the better it was received ([`persuasion`],
+//! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
+//! 5. leans towards its last proposal and away from its retreat, the more the better it was received (`persuasion`,
 //!    eq. 6.20-6.23);
-//! 6. solves for its own plan and a proposal to the other at once ([`proposal`], eq. 6.24);
-//! 7. applies the first input only if a conservative plan still exists after it ([`filter`]).
+//! 6. solves for its own plan and a proposal to the other at once (`proposal`, eq. 6.24);
+//! 7. applies the first input only if a conservative plan still exists after it (`filter`).
 
 mod acceptance;
 mod concession;
