@@ -18,6 +18,7 @@ pub mod conservative;
 mod driver;
 pub mod dynamics;
 mod footprint;
+pub mod game;
 pub mod human;
 pub mod mpc;
 pub mod negotiation;

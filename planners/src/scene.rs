@@ -94,6 +94,8 @@ impl Scene {
             tracking: Tracking { weights: self.goal.tracking, targets: vec![self.goal.target; self.horizon] },
             comfort: self.goal.comfort,
             keep_outs,
+            distance_costs: Vec::new(),
+            mean_speed: None,
         }
     }
 

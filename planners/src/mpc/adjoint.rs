@@ -3,7 +3,7 @@
 //! With `n_k` the multiplier of `d_{k+1} = A_k d_k + B_k w_k`, stationarity in `d_{k+1}` is the backward recursion
 //!
 //! ```text
-//! n_k = ∂ℓ_k/∂d_{k+1} − Σ λ ∇c − (λ_lower − λ_upper) e_v + κ (b_k + 2β p_{k+1}) + A_{k+1}ᵀ n_{k+1}
+//! n_k = ∂ℓ_k/∂d_{k+1} − Σ λ ∇c − (λ_lower − λ_upper) e_v + Σ κ (b_k + 2β p_{k+1}) + A_{k+1}ᵀ n_{k+1}
 //! ```
 //!
 //! and stationarity in `w_k` needs `B_kᵀ n_k` plus the input's own terms to vanish.
@@ -77,12 +77,13 @@ fn state_gradients(qp: &StageQp, at: &StageSolution) -> Vec<Vec<[f64; 4]>> {
             }
         }
     }
-    if let Some(row) = &qp.trajectory_row {
+    for (row, multiplier) in qp.trajectory_rows.iter().zip(&at.trajectory_multipliers) {
         for k in 0..qp.horizon {
-            for axis in 0..2 {
-                let slope = row.gradients[k][axis] + 2.0 * row.bends[k] * at.states[0][k][axis];
-                gradients[0][k][axis] += at.trajectory_multiplier * slope;
-            }
+            let [x, y, speed] = row.slope_at(k, &at.states[row.vehicle][k]);
+            let gradient = &mut gradients[row.vehicle][k];
+            gradient[0] += multiplier * x;
+            gradient[1] += multiplier * y;
+            gradient[3] += multiplier * speed;
         }
     }
     gradients
@@ -92,7 +93,7 @@ fn state_gradients(qp: &StageQp, at: &StageSolution) -> Vec<Vec<[f64; 4]>> {
 fn vehicle_gradient(qp: &StageQp, at: &StageSolution, vehicle: usize, k: usize) -> [f64; 4] {
     let stages = &qp.vehicles[vehicle];
     let (cost, d) = (&stages.state_costs[k], at.states[vehicle][k]);
-    let mut gradient: [f64; 4] = std::array::from_fn(|i| cost.gradient[i] + cost.hessian[i] * d[i]);
+    let mut gradient = cost.gradient_at(&d);
     let [lower, upper] = at.bound_multipliers[vehicle][k][2];
     gradient[3] += upper - lower;
     if k + 1 < qp.horizon {

@@ -67,9 +67,9 @@ pub fn residual(qp: &StageQp, solution: &StageSolution) -> Residual {
             }
         }
     }
-    if let Some(row) = &qp.trajectory_row {
-        let value = row.value_at(solution.states[0].iter().map(|d| [d[0], d[1]]));
-        residual.row(-value, solution.trajectory_multiplier, Some(row.penalty));
+    for (row, multiplier) in qp.trajectory_rows.iter().zip(&solution.trajectory_multipliers) {
+        let value = row.value_at(solution.states[row.vehicle].iter());
+        residual.row(-value, *multiplier, Some(row.penalty));
     }
     residual
 }

@@ -1,12 +1,13 @@
 //! From the trajectory problem at an iterate to a quadratic programme in stage form.
 //!
-//! First derivatives are exact. Second derivatives of the cost are exact too, as it is quadratic. The curvature of
-//! dynamics and rows enters only when multipliers of a previous step are given (the exact Hessian of the Lagrangian);
+//! First derivatives are exact, and so are second derivatives of the cost where it is convex. The curvature of
+//! dynamics, rows and concave costs enters only when multipliers of a previous step are given (the exact Hessian of the Lagrangian);
 //! without them the step is Gauss-Newton.
 
 use super::adjoint::costates;
-use super::problem::{Iterate, Participant, Penalty, Problem};
+use super::problem::{Iterate, Leaning, Participant, Penalty, Problem};
 use super::stage::{Interval, Row, RowBlock, StageQp, StageSolution, StateCost, TrajectoryRow, VehicleStages};
+use crate::State;
 use crate::dynamics::Curvature;
 
 /// Tolerance of an ordinary step problem.
@@ -24,7 +25,7 @@ pub fn linearise(problem: &Problem, iterate: &Iterate, qp: &mut StageQp) {
         linearise_vehicle(participant, problem.horizon, i, iterate, &mut qp.vehicles[i]);
     }
     fill_blocks(problem, iterate, qp);
-    qp.trajectory_row = trajectory_row(problem, iterate, qp.trajectory_row.take());
+    fill_trajectory_rows(problem, iterate, &mut qp.trajectory_rows);
 }
 
 /// Adds the exact curvature of dynamics and rows, weighted with the multipliers of an earlier step, to a problem that
@@ -70,6 +71,7 @@ pub fn move_rows(problem: &Problem, trial: &Iterate, step: &StageSolution, qp: &
 pub fn drop_curvature(qp: &mut StageQp) {
     for stages in &mut qp.vehicles {
         stages.curvatures.fill(Curvature::default());
+        stages.state_costs.iter_mut().for_each(|cost| cost.curvature = [0.0; 3]);
     }
     for block in &mut qp.blocks {
         for row in &mut block.rows {
@@ -102,10 +104,15 @@ fn linearise_vehicle(
         stages.jacobians.push(participant.model.jacobian(&states[k], &inputs[k]));
         let (state, target) = (states[k + 1].to_array(), participant.tracking.targets[k].to_array());
         let weights = participant.tracking.weights;
-        stages.state_costs.push(StateCost {
+        let mut cost = StateCost {
             gradient: std::array::from_fn(|i| 2.0 * weights[i] * (state[i] - target[i])),
             hessian: weights.map(|weight| 2.0 * weight),
-        });
+            ..StateCost::default()
+        };
+        for distance_cost in &participant.distance_costs {
+            distance_cost.add_to(k, states[k + 1].position(), &mut cost);
+        }
+        stages.state_costs.push(cost);
         stages.changes.push([input[0] - previous[0], input[1] - previous[1]]);
         previous = input;
         stages.input_boxes.push([
@@ -173,23 +180,31 @@ fn ellipse_row(squared: f64, [x, y]: [f64; 2], curvature: [f64; 4]) -> Row {
     Row { active: squared < FAR_SQUARED, value: squared - 1.0, gradient: [x, y, 0.0], curvature }
 }
 
+/// The persuasion row, then those of mean speeds.
+fn fill_trajectory_rows(problem: &Problem, iterate: &Iterate, rows: &mut Vec<TrajectoryRow>) {
+    let old = rows.drain(..).next();
+    rows.extend(problem.leaning.as_ref().map(|leaning| leaning_row(leaning, &iterate.states[0], old)));
+    for (vehicle, participant) in problem.participants.iter().enumerate() {
+        let bounds = participant.mean_speed.iter();
+        rows.extend(bounds.flat_map(|bound| bound.rows(vehicle, &iterate.states[vehicle])));
+    }
+}
+
 /// The persuasion constraint is quadratic in the positions, so it is exact here:
 /// `α‖p − toward‖² − ‖p − away‖²` has gradient `2(α(p − toward) − (p − away))` and `β = α − 1`.
-fn trajectory_row(problem: &Problem, iterate: &Iterate, old: Option<TrajectoryRow>) -> Option<TrajectoryRow> {
-    let leaning = problem.leaning.as_ref()?;
+fn leaning_row(leaning: &Leaning, states: &[State], old: Option<TrajectoryRow>) -> TrajectoryRow {
     let (mut gradients, mut bends) = old.map(|row| (row.gradients, row.bends)).unwrap_or_default();
     gradients.clear();
     bends.clear();
-    let states = &iterate.states[0];
-    for t in 1..=problem.horizon {
+    for (t, state) in states.iter().enumerate().skip(1) {
         let references = leaning.toward.get(t).zip(leaning.away.get(t));
-        let (gradient, bend) = references.map_or(([0.0; 2], 0.0), |(toward, away)| {
-            let p = states[t].position();
+        let (gradient, bend) = references.map_or(([0.0; 3], 0.0), |(toward, away)| {
+            let p = state.position();
             let slope = |i: usize| 2.0 * (leaning.strength * (p[i] - toward[i]) - (p[i] - away[i]));
-            ([slope(0), slope(1)], leaning.strength - 1.0)
+            ([slope(0), slope(1), 0.0], leaning.strength - 1.0)
         });
         gradients.push(gradient);
         bends.push(bend);
     }
-    Some(TrajectoryRow { value: leaning.value(states), gradients, bends, penalty: leaning.penalty })
+    TrajectoryRow { vehicle: 0, value: leaning.value(states), gradients, bends, penalty: leaning.penalty }
 }

@@ -4,8 +4,10 @@
 //! programmes in stage form ([`StageQp`]), each solved by a [`StageSolver`]. [`kkt`] checks optimality independently.
 
 mod adjoint;
+mod distance_cost;
 pub mod kkt;
 mod linearise;
+mod mean_speed;
 mod model;
 mod problem;
 mod robust;
@@ -15,7 +17,9 @@ mod sparse;
 mod stage;
 mod structured;
 
+pub use distance_cost::{DistanceCost, DistancePrice};
 pub use linearise::{add_curvature, drop_curvature, linearise};
+pub use mean_speed::MeanSpeed;
 pub use problem::{Cost, Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
 pub use robust::Robust;
 pub use scp::{DescentError, Optimiser, Optimum, Statistics, Tolerances};

@@ -11,11 +11,11 @@ impl StageQp {
     pub fn change(&self, solution: &StageSolution) -> f64 {
         let vehicles: f64 = (0..self.vehicles.len()).map(|i| self.vehicle_change(solution, i)).sum();
         let rows: f64 = (0..self.blocks.len()).map(|i| self.block_change(solution, i)).sum();
-        let trajectory = self.trajectory_row.as_ref().map_or(0.0, |row| {
-            let after = row.value_at(solution.states[0].iter().map(|d| [d[0], d[1]]));
+        let trajectories = self.trajectory_rows.iter().map(|row| {
+            let after = row.value_at(solution.states[row.vehicle].iter());
             row.penalty.cost(-after) - row.penalty.cost(-row.value)
         });
-        vehicles + rows + trajectory
+        vehicles + rows + trajectories.sum::<f64>()
     }
 
     /// `Σ linear·s` after the step, as the rows' linear model has it, and the largest `λ/linear` of its multipliers.
@@ -35,9 +35,8 @@ impl StageQp {
                 add(penalty, row_value(block, row, solution, k), *multiplier);
             }
         }
-        if let Some(row) = &self.trajectory_row {
-            let value = row.value_at(solution.states[0].iter().map(|d| [d[0], d[1]]));
-            add(row.penalty, -value, solution.trajectory_multiplier);
+        for (row, multiplier) in self.trajectory_rows.iter().zip(&solution.trajectory_multipliers) {
+            add(row.penalty, -row.value_at(solution.states[row.vehicle].iter()), *multiplier);
         }
         (steep, share)
     }
@@ -48,8 +47,9 @@ impl StageQp {
         let mut change = 0.0;
         for k in 0..self.horizon {
             let (cost, d) = (&stages.state_costs[k], states[k]);
+            let after = cost.gradient_at(&d);
             for i in 0..4 {
-                change += (cost.gradient[i] + 0.5 * cost.hessian[i] * d[i]) * d[i];
+                change += 0.5 * (cost.gradient[i] + after[i]) * d[i];
             }
             if k >= stages.first {
                 for axis in 0..2 {

@@ -10,6 +10,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{DistanceCost, MeanSpeed};
 use crate::dynamics::Bicycle;
 use crate::{Body, Corridor, Input, SafetyEllipse, State};
 
@@ -114,6 +115,10 @@ pub struct Participant {
     pub comfort: [f64; 2],
     /// Whom it avoids.
     pub keep_outs: Vec<KeepOut>,
+    /// What distances from others cost it besides.
+    pub distance_costs: Vec<DistanceCost>,
+    /// Bounds on its mean speed.
+    pub mean_speed: Option<MeanSpeed>,
 }
 
 impl KeepOut {
@@ -199,6 +204,8 @@ pub struct Cost {
     pub edge_slack_m: f64,
     /// By how much the persuasion constraint falls short \[m²\].
     pub leaning_slack: f64,
+    /// By how much a mean speed is out of its bounds \[m/s\].
+    pub mean_speed_slack_mps: f64,
 }
 
 /// Inputs and states of every participant.
@@ -274,6 +281,15 @@ impl Participant {
                 let distance =
                     keep_out.ellipse.distance(states[t + 1].position(), keep_out.centres[t], keep_out.heading_rad);
                 cost.add_safety(&keep_out.penalty, distance.squared - 1.0);
+            }
+            for distance_cost in &self.distance_costs {
+                cost.total += distance_cost.value(t, states[t + 1].position());
+            }
+        }
+        if let Some(bound) = &self.mean_speed {
+            for (value, _) in bound.values(states) {
+                cost.add_row(&bound.penalty, -value);
+                cost.mean_speed_slack_mps = cost.mean_speed_slack_mps.max(value);
             }
         }
     }

@@ -4,12 +4,12 @@
 //! code with it and proves infeasibility: the oracle of the tests, and the fallback.
 //!
 //! Variables are `w_k`, `d_{k+1}` and the violations `s`; dynamics are equality rows; boxes, rows and `s ≥ 0` are
-//! inequality rows. The row over the whole trajectory, `value + b·p + β‖p‖² ≤ s`, is the second-order cone
-//! `‖(2√β p, t − 1)‖ ≤ t + 1` with `t = s − value − b·p`.
+//! inequality rows. A row over a whole trajectory, `value + b·(p, v) + β‖p‖² ≤ s`, is the second-order cone
+//! `‖(2√β p, t − 1)‖ ≤ t + 1` with `t = s − value − b·(p, v)`; without `β` it is `−t ≤ 0`.
 
 use interplay_convex::{Block, Program, Settings, Solution, SolveError, Solver, Variable, Variables};
 
-use super::stage::{RowBlock, StageError, StageQp, StageSolution, StageSolver};
+use super::stage::{RowBlock, StageError, StageQp, StageSolution, StageSolver, TrajectoryRow};
 
 /// The general solver; it keeps the symbolic factorisation as long as the shape of the problem stays the same.
 #[derive(Default)]
@@ -43,7 +43,8 @@ struct Shape {
     horizon: usize,
     firsts: Vec<usize>,
     blocks: Vec<(usize, Option<usize>, bool)>,
-    trajectory: bool,
+    /// For each row over a whole trajectory, whose, and whether it is curved.
+    trajectories: Vec<(usize, bool)>,
 }
 
 /// Where everything stands in the program.
@@ -51,12 +52,13 @@ struct Layout {
     inputs: Vec<Variables>,
     states: Vec<Variables>,
     violations: Vec<Option<Variables>>,
-    shortfall: Option<Variables>,
+    shortfalls: Option<Variables>,
     dynamics: Block,
     bounds: Block,
     rows: Block,
     signs: Block,
-    cone: Option<Block>,
+    straight: Block,
+    cones: Vec<Option<Block>>,
 }
 
 impl Shape {
@@ -65,7 +67,7 @@ impl Shape {
             horizon: qp.horizon,
             firsts: qp.vehicles.iter().map(|stages| stages.first).collect(),
             blocks: qp.blocks.iter().map(|block| (block.vehicle, block.other, block.penalty.is_some())).collect(),
-            trajectory: qp.trajectory_row.is_some(),
+            trajectories: qp.trajectory_rows.iter().map(|row| (row.vehicle, is_curved(row))).collect(),
         }
     }
 }
@@ -126,17 +128,24 @@ impl Layout {
         let violations = violations
             .map(|(i, block)| block.penalty.map(|_| program.variables(format!("violations {i}"), horizon)))
             .collect();
-        let shortfall = qp.trajectory_row.as_ref().map(|_| program.variables("shortfall", 1));
+        let count = qp.trajectory_rows.len();
+        let shortfalls = (count > 0).then(|| program.variables("shortfalls", count));
+        let cones =
+            qp.trajectory_rows.iter().enumerate().map(|(i, row)| {
+                is_curved(row).then(|| program.second_order(format!("trajectory {i}"), 2 * horizon + 2))
+            });
+        let cones: Vec<Option<Block>> = cones.collect();
         Layout {
             inputs,
             states,
             violations,
-            shortfall,
+            shortfalls,
             dynamics: program.equal("dynamics"),
             bounds: program.at_most("bounds"),
             rows: program.at_most("rows"),
             signs: program.at_most("signs"),
-            cone: qp.trajectory_row.as_ref().map(|_| program.second_order("trajectory", 2 * horizon + 2)),
+            straight: program.at_most("straight"),
+            cones,
         }
     }
 
@@ -159,7 +168,9 @@ impl Layout {
         for (block, violations) in qp.blocks.iter().zip(&self.violations) {
             self.write_block(block, *violations, program);
         }
-        self.write_trajectory(qp, program);
+        for (index, row) in qp.trajectory_rows.iter().enumerate() {
+            self.write_trajectory(row, index, program);
+        }
     }
 
     fn write_cost(&self, qp: &StageQp, vehicle: usize, k: usize, program: &mut Program) {
@@ -170,6 +181,7 @@ impl Layout {
             program.quadratic(variable, variable, cost.hessian[axis]);
             program.linear(variable, cost.gradient[axis]);
         }
+        program.quadratic(self.state(vehicle, k, 0), self.state(vehicle, k, 1), cost.cross);
         if k < stages.first {
             return;
         }
@@ -244,23 +256,27 @@ impl Layout {
         }
     }
 
-    fn write_trajectory(&self, qp: &StageQp, program: &mut Program) {
-        let (Some(row), Some(cone), Some(shortfall)) = (&qp.trajectory_row, self.cone, self.shortfall) else { return };
-        let shortfall = shortfall.at(0);
+    fn write_trajectory(&self, row: &TrajectoryRow, index: usize, program: &mut Program) {
+        let Some(shortfall) = self.shortfalls.map(|shortfalls| shortfalls.at(index)) else { return };
         program.quadratic(shortfall, shortfall, 2.0 * row.penalty.quadratic);
         program.linear(shortfall, row.penalty.linear);
         program.row(self.signs, [(shortfall, -1.0)], 0.0);
-        // t = s − value − b·p; the cone's slack is right side minus terms.
-        let t = |sign: f64| {
-            let positions = (0..qp.horizon).flat_map(move |k| (0..2).map(move |axis| (k, axis)));
-            let slopes = positions.map(move |(k, axis)| (self.state(0, k, axis), sign * row.gradients[k][axis]));
-            slopes.chain([(shortfall, -sign)])
+        // t = s − value − b·(p, v); the slack of a block is right side minus terms.
+        let t = || {
+            let slopes = row.gradients.iter().enumerate().flat_map(|(k, [x, y, speed])| {
+                [(0, x), (1, y), (3, speed)].map(|(axis, slope)| (self.state(row.vehicle, k, axis), *slope))
+            });
+            slopes.chain([(shortfall, -1.0)])
         };
-        program.row(cone, t(1.0), 1.0 - row.value);
-        program.row(cone, t(1.0), -1.0 - row.value);
-        for k in 0..qp.horizon {
+        let Some(cone) = self.cones[index] else {
+            program.row(self.straight, t(), -row.value);
+            return;
+        };
+        program.row(cone, t(), 1.0 - row.value);
+        program.row(cone, t(), -1.0 - row.value);
+        for (k, bend) in row.bends.iter().enumerate() {
             for axis in 0..2 {
-                program.row(cone, [(self.state(0, k, axis), -2.0 * row.bends[k].sqrt())], 0.0);
+                program.row(cone, [(self.state(row.vehicle, k, axis), -2.0 * bend.sqrt())], 0.0);
             }
         }
     }
@@ -279,10 +295,18 @@ impl Layout {
         for (multipliers, duals) in solution.row_multipliers.iter_mut().zip(rows.chunks(qp.horizon.max(1))) {
             multipliers.copy_from_slice(duals);
         }
-        // The cone's dual is (κ₀, κ₁, …) with κ₀ + κ₁ the multiplier of t.
-        solution.trajectory_multiplier = self.cone.map_or(0.0, |cone| {
-            let dual = found.dual(cone);
-            dual[0] + dual[1]
-        });
+        let mut straight = found.dual(self.straight).iter();
+        for (multiplier, cone) in solution.trajectory_multipliers.iter_mut().zip(&self.cones) {
+            *multiplier = match cone {
+                // The cone's dual is (κ₀, κ₁, …) with κ₀ + κ₁ the multiplier of t.
+                Some(cone) => found.dual(*cone)[..2].iter().sum(),
+                None => straight.next().copied().unwrap_or_default(),
+            };
+        }
     }
+}
+
+/// Whether a row needs a cone.
+fn is_curved(row: &TrajectoryRow) -> bool {
+    row.bends.iter().any(|bend| *bend > 0.0)
 }

@@ -12,7 +12,7 @@
 //!              + Σ_rows  linear·s + quadratic·s² + ½ pᵀ K p          soft rows, p the position they speak of
 //! such that  c + ∇c·p + s ≥ 0,  s ≥ 0                                rows
 //!            lower ≤ w_k ≤ upper,  lower ≤ δv_{k+1} ≤ upper          boxes
-//!            c₀ + Σ_k b_k·p_{k+1} + β Σ_k‖p_{k+1}‖² ≤ s              at most one row over the whole trajectory
+//!            c₀ + Σ_k b_k·(p, v)_{k+1} + Σ_k β_k ‖p_{k+1}‖² ≤ s    rows over a whole trajectory, a few at most
 //! ```
 //!
 //! A vehicle whose inputs are known until `first` has `w_k = 0` before.
@@ -31,13 +31,17 @@ pub struct Interval {
     pub upper: f64,
 }
 
-/// Gradient and Hessian of the tracking cost at one stage.
+/// Gradient and Hessian of the cost of a state at one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StateCost {
     /// Gradient over `(x, y, θ, v)`.
     pub gradient: [f64; 4],
     /// Diagonal of the Hessian over `(x, y, θ, v)`.
     pub hessian: [f64; 4],
+    /// Its entry xy. With the diagonal it is positive semi-definite.
+    pub cross: f64,
+    /// What the Hessian lacks of the exact one over `(xx, xy, yy)` because it is not convex; zero for Gauss-Newton.
+    pub curvature: [f64; 3],
 }
 
 /// One vehicle's stages.
@@ -88,13 +92,15 @@ pub struct RowBlock {
     pub rows: Vec<Row>,
 }
 
-/// A convex quadratic row over the whole trajectory of vehicle 0: `value + Σ b_k·p_{k+1} + β Σ‖p_{k+1}‖² ≤ s`.
+/// A convex quadratic row over the whole trajectory of a vehicle: `value + Σ b_k·(x, y, v)_{k+1} + Σ β_k‖p_{k+1}‖² ≤ s`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrajectoryRow {
+    /// Whose trajectory.
+    pub vehicle: usize,
     /// `c₀`.
     pub value: f64,
-    /// `b_k` over `(x, y)` at stage `k`; `N` long.
-    pub gradients: Vec<[f64; 2]>,
+    /// `b_k` over `(x, y, v)` at stage `k`; `N` long.
+    pub gradients: Vec<[f64; 3]>,
     /// `β ≥ 0` at stage `k`; `N` long (zero where the row says nothing).
     pub bends: Vec<f64>,
     /// What a violation costs.
@@ -110,8 +116,8 @@ pub struct StageQp {
     pub vehicles: Vec<VehicleStages>,
     /// The soft rows.
     pub blocks: Vec<RowBlock>,
-    /// The row over the whole trajectory.
-    pub trajectory_row: Option<TrajectoryRow>,
+    /// The rows over whole trajectories.
+    pub trajectory_rows: Vec<TrajectoryRow>,
     /// Mean complementarity and largest primal residual of a solution that will do.
     pub tolerance: f64,
     /// `μ ≥ 0`: keeps the step short, in units of the comfort weights.
@@ -122,8 +128,10 @@ impl StageQp {
     /// Whether curvature of dynamics or rows was added, so that the problem may not be convex.
     pub fn is_curved(&self) -> bool {
         let rows = self.blocks.iter().flat_map(|block| &block.rows);
+        let costs = self.vehicles.iter().flat_map(|stages| &stages.state_costs);
         self.vehicles.iter().any(|stages| stages.curvatures.iter().any(|c| *c != Curvature::default()))
             || rows.into_iter().any(|row| row.curvature != [0.0; 4])
+            || costs.into_iter().any(|cost| cost.curvature != [0.0; 3])
     }
 }
 
@@ -138,8 +146,8 @@ pub struct StageSolution {
     pub bound_multipliers: Vec<Vec<[[f64; 2]; 3]>>,
     /// Per block and stage.
     pub row_multipliers: Vec<Vec<f64>>,
-    /// Of the row over the whole trajectory.
-    pub trajectory_multiplier: f64,
+    /// Of the rows over whole trajectories.
+    pub trajectory_multipliers: Vec<f64>,
     /// Iterations that the solver took.
     pub iterations: usize,
 }
@@ -193,7 +201,8 @@ impl StageSolution {
         bounds.zip(before.bound_multipliers.iter().flatten().flatten().flatten()).for_each(|(now, was)| mix(now, was));
         let rows = self.row_multipliers.iter_mut().flatten();
         rows.zip(before.row_multipliers.iter().flatten()).for_each(|(now, was)| mix(now, was));
-        mix(&mut self.trajectory_multiplier, &before.trajectory_multiplier);
+        let trajectories = self.trajectory_multipliers.iter_mut();
+        trajectories.zip(&before.trajectory_multipliers).for_each(|(now, was)| mix(now, was));
     }
 }
 
@@ -211,6 +220,25 @@ impl VehicleStages {
     }
 }
 
+impl StateCost {
+    /// The whole Hessian over the position: xx, xy, yy.
+    pub(super) fn position_hessian(&self) -> [f64; 3] {
+        let ([xx, xy, yy], [x, y, ..]) = (self.curvature, self.hessian);
+        [x + xx, self.cross + xy, y + yy]
+    }
+
+    /// The gradient where the state deviates by `d`.
+    pub(super) fn gradient_at(&self, d: &[f64; 4]) -> [f64; 4] {
+        let [xx, xy, yy] = self.position_hessian();
+        [
+            self.gradient[0] + xx * d[0] + xy * d[1],
+            self.gradient[1] + xy * d[0] + yy * d[1],
+            self.gradient[2] + self.hessian[2] * d[2],
+            self.gradient[3] + self.hessian[3] * d[3],
+        ]
+    }
+}
+
 impl RowBlock {
     /// Whether a violation costs anything; a block that does not may be left out.
     pub(super) fn costs_something(&self) -> bool {
@@ -219,13 +247,17 @@ impl RowBlock {
 }
 
 impl TrajectoryRow {
-    /// The left side `value + Σ b_k·p + β Σ‖p‖²` at given deviations of position.
-    pub(super) fn value_at(&self, positions: impl Iterator<Item = [f64; 2]>) -> f64 {
-        let terms = positions.zip(&self.gradients).zip(&self.bends);
-        self.value
-            + terms
-                .map(|(([x, y], gradient), bend)| gradient[0] * x + gradient[1] * y + bend * (x * x + y * y))
-                .sum::<f64>()
+    /// The left side at given deviations of the vehicle's states.
+    pub(super) fn value_at<'a>(&self, states: impl Iterator<Item = &'a [f64; 4]>) -> f64 {
+        let terms = states.zip(&self.gradients).zip(&self.bends);
+        let terms = terms.map(|(([x, y, _, v], b), bend)| b[0] * x + b[1] * y + b[2] * v + bend * (x * x + y * y));
+        self.value + terms.sum::<f64>()
+    }
+
+    /// `b_k + 2 β_k p`: the gradient over `(x, y, v)` at stage `k`, where the state deviates by `d`.
+    pub(super) fn slope_at(&self, k: usize, d: &[f64; 4]) -> [f64; 3] {
+        let ([x, y, speed], bend) = (self.gradients[k], 2.0 * self.bends[k]);
+        [x + bend * d[0], y + bend * d[1], speed]
     }
 }
 
@@ -237,6 +269,7 @@ impl StageSolution {
         shape(&mut self.states, vehicles, horizon, [0.0; 4]);
         shape(&mut self.bound_multipliers, vehicles, horizon, [[0.0; 2]; 3]);
         shape(&mut self.row_multipliers, problem.blocks.len(), horizon, 0.0);
+        self.trajectory_multipliers.resize(problem.trajectory_rows.len(), 0.0);
     }
 }
 

@@ -62,5 +62,7 @@ fn asked(scene: &Scene, partner: &Agent, share: f64, settings: &Settings) -> Par
         },
         comfort: [OTHER_COMFORT; 2],
         keep_outs: Vec::new(),
+        distance_costs: Vec::new(),
+        mean_speed: None,
     }
 }

@@ -1,6 +1,8 @@
 //! Random problems for the tests: what planners meet, and worse.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod derivatives;
+
 use interplay_planners::dynamics::Bicycle;
 use interplay_planners::mpc::{Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
 use interplay_planners::{Body, Corridor, Input, SafetyEllipse, State};
@@ -55,6 +57,8 @@ pub fn lane_change(random: &mut Random) -> Participant {
                 penalty: Penalty::EXACT,
             })
             .into(),
+        distance_costs: Vec::new(),
+        mean_speed: None,
     }
 }
 

@@ -181,6 +181,8 @@ impl Vehicle {
             tracking: Tracking { weights: self.weights, targets: (0..horizon).map(target).collect() },
             comfort: self.comfort,
             keep_outs: self.keep_outs.iter().map(Ellipse::keep_out).collect(),
+            distance_costs: Vec::new(),
+            mean_speed: None,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The interior-point iteration (see the parent module for the equations).
 
+use super::along::Along;
 use super::columns::{Columns, Start, larger};
 use super::riccati::{PairHessian, Riccati, VehicleHessian};
 use super::rows::{BOXES, Inequalities, Point};
@@ -63,10 +64,8 @@ pub(super) struct Interior<const W: usize, const Z: usize> {
     cost_gradient: Point,
     /// The same with the rows' pull.
     pub(super) gradient: Point,
-    /// Gradient `v` of the row over the whole trajectory at the point; empty without such a row.
-    pub(super) along: Vec<[f64; 2]>,
-    /// `H⁻¹ v`, for Sherman and Morrison.
-    along_response: Point,
+    /// The rows over whole trajectories at the point.
+    pub(super) along: Vec<Along>,
 }
 
 impl<const W: usize, const Z: usize> Interior<W, Z> {
@@ -76,8 +75,8 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         self.inequalities.fill(qp);
         let hard = BOXES * self.inequalities.boxes.len() + self.inequalities.rows.len() - self.soft_rows(qp);
         let same_shape = self.columns.shape(hard, self.inequalities.weights.iter().copied());
-        self.along.clear();
-        self.along.resize(if qp.trajectory_row.is_some() { qp.horizon } else { 0 }, [0.0; 2]);
+        self.along.resize_with(qp.trajectory_rows.len(), Along::default);
+        self.along.iter_mut().zip(&qp.trajectory_rows).for_each(|(along, row)| along.shape_like(row));
         let mut iterations = 0;
         let mut outcome = Err(StageError::Unsolved { status: String::new(), iterations });
         if warm && same_shape {
@@ -96,7 +95,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
     }
 
     fn soft_rows(&self, qp: &StageQp) -> usize {
-        self.inequalities.weights.len() - usize::from(qp.trajectory_row.is_some())
+        self.inequalities.weights.len() - qp.trajectory_rows.len()
     }
 
     /// Slacks and multipliers at the iterate itself.
@@ -151,7 +150,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         Err(StageError::Unsolved { status, iterations: *iterations })
     }
 
-    /// Every inequality at the point, and the gradient of the row over the whole trajectory.
+    /// Every inequality at the point, and the gradients of rows over whole trajectories.
     fn refresh_values(&mut self, qp: &StageQp) {
         let values = &mut self.columns.value;
         let (boxed, rows) = values.split_at_mut(BOXES * self.inequalities.boxes.len());
@@ -161,15 +160,12 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 *value = room + moved;
             }
         }
-        for (row, value) in self.inequalities.rows.iter().zip(rows.iter_mut()) {
+        let (rows, trajectories) = rows.split_at_mut(self.inequalities.rows.len());
+        for (row, value) in self.inequalities.rows.iter().zip(rows) {
             *value = row.value + row.slope(&self.point.states);
         }
-        if let (Some(row), Some(value)) = (&qp.trajectory_row, rows.last_mut()) {
-            let states = || self.point.states.iter().step_by(Self::VEHICLES);
-            *value = -row.value_at(states().map(|d| [d[0], d[1]]));
-            for ((v, d), (b, beta)) in self.along.iter_mut().zip(states()).zip(row.gradients.iter().zip(&row.bends)) {
-                *v = [b[0] + 2.0 * beta * d[0], b[1] + 2.0 * beta * d[1]];
-            }
+        for ((row, along), value) in qp.trajectory_rows.iter().zip(&mut self.along).zip(trajectories) {
+            *value = along.refresh(row, &self.point, Self::VEHICLES);
         }
     }
 
@@ -195,22 +191,34 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 }
             }
         }
-        let Some(row) = &qp.trajectory_row else { return self.riccati.factor(qp, &self.hessians, &self.pairs) };
-        let multiplier = self.columns.multiplier.last().copied().unwrap_or_default();
-        for (k, beta) in row.bends.iter().enumerate() {
-            let pose = &mut self.hessians[k * Self::VEHICLES].pose;
-            pose[0] += 2.0 * multiplier * beta;
-            pose[3] += 2.0 * multiplier * beta;
+        let multipliers = &self.columns.multiplier[self.columns.len() - self.along.len()..];
+        for (row, multiplier) in qp.trajectory_rows.iter().zip(multipliers) {
+            for (k, beta) in row.bends.iter().enumerate() {
+                let pose = &mut self.hessians[k * Self::VEHICLES + row.vehicle].pose;
+                pose[0] += 2.0 * multiplier * beta;
+                pose[3] += 2.0 * multiplier * beta;
+            }
         }
         self.riccati.factor(qp, &self.hessians, &self.pairs)?;
-        self.gradient.clear(qp.horizon * Self::VEHICLES);
-        for (k, v) in self.along.iter().enumerate() {
-            // The gradient −v makes the solve return H⁻¹ v.
-            self.gradient.states[k * Self::VEHICLES] = [-v[0], -v[1], 0.0, 0.0];
-        }
-        self.along_response.clear(qp.horizon * Self::VEHICLES);
-        self.riccati.solve(qp, &self.gradient, &mut self.along_response);
+        self.respond(qp);
         Ok(())
+    }
+
+    /// `H⁻¹ v` of every row over a whole trajectory, for Sherman and Morrison.
+    fn respond(&mut self, qp: &StageQp) {
+        let weights = &self.columns.weight[self.columns.len() - self.along.len()..];
+        for index in 0..self.along.len() {
+            let (before, after) = self.along.split_at_mut(index);
+            let along = &mut after[0];
+            self.gradient.clear(qp.horizon * Self::VEHICLES);
+            // The gradient −v makes the solve return H⁻¹ v.
+            along.pull(-1.0, &mut self.gradient, Self::VEHICLES);
+            along.response.clear(qp.horizon * Self::VEHICLES);
+            self.riccati.solve(qp, &self.gradient, &mut along.response);
+            for (earlier, weight) in before.iter().zip(weights) {
+                earlier.correct(*weight, &mut along.response, Self::VEHICLES);
+            }
+        }
     }
 
     /// The smooth cost's second derivatives and the rows' own curvature.
@@ -221,13 +229,11 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         for k in 0..qp.horizon {
             self.pairs[k].clear();
             for stages in &qp.vehicles {
-                let [x, y, heading, speed] = stages.state_costs[k].hessian;
-                let pose = [x, 0.0, 0.0, y, 0.0, heading];
-                self.hessians.push(VehicleHessian {
-                    pose,
-                    speed,
-                    input: [0, 1].map(|axis| stages.damping(qp.damping, axis)),
-                });
+                let cost = &stages.state_costs[k];
+                let ([xx, xy, yy], [.., heading, speed]) = (cost.position_hessian(), cost.hessian);
+                let pose = [xx, xy, 0.0, yy, 0.0, heading];
+                let input = [0, 1].map(|axis| stages.damping(qp.damping, axis));
+                self.hessians.push(VehicleHessian { pose, speed, input });
             }
         }
         for block in &qp.blocks {
@@ -255,9 +261,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         for (i, stages) in qp.vehicles.iter().enumerate() {
             for k in 0..qp.horizon {
                 let at = k * vehicles + i;
-                let (cost, d) = (&stages.state_costs[k], &states[at]);
+                let gradient = stages.state_costs[k].gradient_at(&states[at]);
                 for axis in 0..4 {
-                    self.cost_gradient.states[at][axis] += cost.gradient[axis] + cost.hessian[axis] * d[axis];
+                    self.cost_gradient.states[at][axis] += gradient[axis];
                 }
                 if k < stages.first {
                     continue;
@@ -320,58 +326,44 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         for (row, pull) in self.inequalities.rows.iter().zip(row_pulls) {
             row.pull(-pull, &mut self.gradient.states);
         }
-        if let (Some(_), Some(pull)) = (&qp.trajectory_row, row_pulls.last()) {
-            for (k, v) in self.along.iter().enumerate() {
-                self.gradient.states[k * Self::VEHICLES][0] += pull * v[0];
-                self.gradient.states[k * Self::VEHICLES][1] += pull * v[1];
-            }
+        for (along, pull) in self.along.iter().zip(&row_pulls[self.inequalities.rows.len()..]) {
+            along.pull(*pull, &mut self.gradient, Self::VEHICLES);
         }
         self.step.states.resize(self.gradient.states.len(), [0.0; 4]);
         self.step.inputs.resize(self.gradient.inputs.len(), [0.0; 2]);
         self.riccati.solve(qp, &self.gradient, &mut self.step);
-        correct_along(qp, &self.columns, &self.along, &self.along_response, &mut self.step);
+        correct(&self.columns, &self.along, &mut self.step, Self::VEHICLES);
         if refined {
             self.leave_residual(qp);
             self.correction.clear(qp.horizon * Self::VEHICLES);
             self.riccati.solve(qp, &self.gradient, &mut self.correction);
-            correct_along(qp, &self.columns, &self.along, &self.along_response, &mut self.correction);
+            correct(&self.columns, &self.along, &mut self.correction, Self::VEHICLES);
             self.step.add(1.0, &self.correction);
         }
-        self.fill_slopes(qp);
+        self.fill_slopes();
     }
 
-    /// `v·p` over the whole trajectory.
-    pub(super) fn along(&self, point: &Point) -> f64 {
-        along(&self.along, point, Self::VEHICLES)
-    }
-
-    fn fill_slopes(&mut self, qp: &StageQp) {
-        let total = qp.trajectory_row.as_ref().map(|_| self.along(&self.step));
+    fn fill_slopes(&mut self) {
         let (boxed, rows) = self.columns.slope.split_at_mut(BOXES * self.inequalities.boxes.len());
         for (boxes, slopes) in self.inequalities.boxes.iter().zip(boxed.chunks_exact_mut(BOXES)) {
             let ([a, d], v) = (self.step.inputs[boxes.at], self.step.states[boxes.at][3]);
             slopes.copy_from_slice(&[a, -a, d, -d, v, -v]);
         }
-        for (row, slope) in self.inequalities.rows.iter().zip(rows.iter_mut()) {
+        let (rows, trajectories) = rows.split_at_mut(self.inequalities.rows.len());
+        for (row, slope) in self.inequalities.rows.iter().zip(rows) {
             *slope = row.slope(&self.step.states);
         }
-        if let (Some(total), Some(slope)) = (total, rows.last_mut()) {
-            *slope = -total;
+        for (along, slope) in self.along.iter().zip(trajectories) {
+            *slope = -along.dot(&self.step, Self::VEHICLES);
         }
     }
 }
 
-fn along(slopes: &[[f64; 2]], point: &Point, vehicles: usize) -> f64 {
-    let states = point.states.iter().step_by(vehicles);
-    slopes.iter().zip(states).map(|(v, d)| v[0] * d[0] + v[1] * d[1]).sum()
-}
-
-/// Sherman and Morrison: adds to `step` the rank-one part of the Hessian that the factorisation leaves out.
-fn correct_along(qp: &StageQp, columns: &Columns, slopes: &[[f64; 2]], response: &Point, step: &mut Point) {
-    let (Some(_), Some(weight)) = (&qp.trajectory_row, columns.weight.last()) else { return };
-    let vehicles = qp.vehicles.len();
-    let share = weight * along(slopes, step, vehicles) / (1.0 + weight * along(slopes, response, vehicles));
-    step.add(-share, response);
+/// Turns a step of the factored Hessian into one with the rows over whole trajectories.
+fn correct(columns: &Columns, along: &[Along], step: &mut Point, vehicles: usize) {
+    for (along, weight) in along.iter().zip(&columns.weight[columns.len() - along.len()..]) {
+        along.correct(*weight, step, vehicles);
+    }
 }
 
 /// Adds a Hessian over the difference of two positions.

@@ -23,19 +23,21 @@
 //! row with `ℓ = 0` needs no `σ ≥ 0` (its optimum has it anyway) and takes `d₂ = ν = 0`. What remains is an unconstrained
 //! problem over the dynamics, solved by [`riccati`]. Predictor and corrector (Mehrotra) share its factorisation.
 //!
-//! # The row over the whole trajectory
+//! # Rows over a whole trajectory
 //!
-//! `σ − value − Σ b·p − β Σ‖p‖² ≥ 0` has the gradient `−v`, `v_k = b_k + 2 β_k p_k`, at the current point and adds
+//! `σ − value − Σ b·(p, v) − Σ β‖p‖² ≥ 0` has the gradient `−v`, `v_k = b_k + 2 β_k p_k`, at the current point and adds
 //! `2 λ β` to the Hessian of every position and `ω v vᵀ` to all of it. The second is of rank one: with `y = H⁻¹v`, one more
-//! Riccati solve, Sherman and Morrison give `Δz = Δz₀ − ω (v·Δz₀)/(1 + ω v·y) y`.
+//! Riccati solve, Sherman and Morrison give `Δz = Δz₀ − ω (v·Δz₀)/(1 + ω v·y) y`. With several rows this is done for one
+//! after the other, `H` being what the rows before have made of it.
 //!
 //! # Cost per iteration
 //!
-//! One factorisation and two back-substitutions (three with a trajectory row). Per stage and pair of vehicles the
+//! One factorisation and two back-substitutions (and one for each row over a trajectory). Per stage and pair of vehicles the
 //! factorisation takes some 200 multiplications for `AᵀPA`, `BᵀPA`, `BᵀPB` (the bicycle's `A` has five entries beside its
 //! diagonal, its `B` four), and the gains of `M` vehicles cost `(2M)²·6M` more. For one vehicle that is some 4 µs per
 //! iteration of 30 stages.
 
+mod along;
 mod columns;
 mod interior;
 mod refine;

@@ -20,13 +20,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
     pub(super) fn leave_residual(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
         add_product(qp, &self.hessians, &self.pairs, &self.step, &mut self.gradient);
-        if let (Some(_), Some(weight)) = (&qp.trajectory_row, self.columns.weight.last()) {
-            let share = weight * self.along(&self.step);
-            for (k, v) in self.along.iter().enumerate() {
-                for axis in 0..2 {
-                    self.gradient.states[k * vehicles][axis] += share * v[axis];
-                }
-            }
+        let weights = &self.columns.weight[self.columns.len() - self.along.len()..];
+        for (along, weight) in self.along.iter().zip(weights) {
+            along.pull(weight * along.dot(&self.step, vehicles), &mut self.gradient, vehicles);
         }
         for (i, stages) in qp.vehicles.iter().enumerate() {
             let mut carried = [0.0; 4];

@@ -1,4 +1,4 @@
-//! The inequalities of a stage problem: boxes, then hard rows, then soft rows, then the row over the whole trajectory.
+//! The inequalities of a stage problem: boxes, then hard rows, then soft rows, then the rows over whole trajectories.
 
 use crate::mpc::Penalty;
 use crate::mpc::stage::{RowBlock, StageQp};
@@ -82,13 +82,13 @@ impl Inequality {
     }
 }
 
-/// All inequalities of a problem but the one over the whole trajectory.
+/// All inequalities of a problem but those over whole trajectories.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Inequalities {
     pub boxes: Vec<Boxes>,
     /// Hard rows first.
     pub rows: Vec<Inequality>,
-    /// Weights `(ℓ, q)` of the soft rows, which are the last of `rows`, and of the row over the whole trajectory.
+    /// Weights `(ℓ, q)` of the soft rows, which are the last of `rows`, and of the rows over whole trajectories.
     pub weights: Vec<[f64; 2]>,
 }
 
@@ -115,7 +115,7 @@ impl Inequalities {
             let added = self.rows.len() - before;
             self.weights.extend(block.penalty.map(weights).into_iter().cycle().take(added));
         }
-        self.weights.extend(qp.trajectory_row.iter().map(|row| weights(row.penalty)));
+        self.weights.extend(qp.trajectory_rows.iter().map(|row| weights(row.penalty)));
     }
 
     fn push(&mut self, block: &RowBlock, vehicles: usize) {

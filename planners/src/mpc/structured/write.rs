@@ -32,6 +32,8 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 }
             }
         }
-        solution.trajectory_multiplier = rows.next().copied().unwrap_or_default();
+        for (multiplier, found) in solution.trajectory_multipliers.iter_mut().zip(rows) {
+            *multiplier = *found;
+        }
     }
 }

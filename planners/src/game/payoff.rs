@@ -1,0 +1,239 @@
+//! What the two players of the game have at stake (Table 8.2), and what a pair of intentions is worth to one of them.
+//!
+//! Both players are alike. With the own stake `x`, a player who yields while the other passes loses `x`, one who passes
+//! while the other yields gains `x`, both lose `2x` if both yield, and `M` in the accident:
+//!
+//! | own \ other | yields | passes |
+//! |---|---|---|
+//! | yields | −2x | −x |
+//! | passes | x | −M |
+//!
+//! The stakes are ratios of what the players are believed to intend: `x_e = p_e / p̃_s|e` for the ego, `x_s = p̃_s|e / p̃_e|s`
+//! for the other. As probabilities are clipped to [0.05, 0.95], a stake reaches 19: `M` is of the same order, not "large".
+//!
+//! # Fast evaluation
+//!
+//! With three losses `v₁ ≤ v₂ ≤ v₃` at cumulated probabilities `c₁ ≤ c₂ ≤ c₃`, eq. 8.7 is
+//! `U = v(x) w⁺(p (1 − o)) + (v₁ − v₂) w⁻(c₁) + (v₂ − v₃) w⁻(c₂) + v₃ w⁻(c₃)`: four weights, read from tables. All
+//! probabilities on a grid of hundredths are multiples of 10⁻⁴, which are the nodes of the tables; between them a cubic
+//! Hermite polynomial interpolates to 10⁻⁹.
+
+use super::prospect::{Outcome, ProspectTheory, weighting, weighting_slope};
+
+/// Nodes of the weight tables per unit of probability.
+const NODES: usize = 10_000;
+/// Closer to 0 or 1 than this the weights are too steep for the tables.
+const STEEP: f64 = 2e-3;
+
+/// What one player has at stake.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stakes {
+    /// `x`: gained by passing first, lost by waiting.
+    pub turn: f64,
+    /// `M`: lost in the accident.
+    pub accident: f64,
+}
+
+/// The three ways to lose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Loss {
+    /// Both yield.
+    Stalemate,
+    /// Only the other passes.
+    Wait,
+    /// Both pass.
+    Accident,
+}
+
+impl Stakes {
+    /// The payoff matrix: `[own][other]`, yielding first.
+    pub fn payoffs(&self) -> [[f64; 2]; 2] {
+        [[-2.0 * self.turn, -self.turn], [self.turn, -self.accident]]
+    }
+
+    /// The lottery that a player faces who passes with probability `own` while the other does with `other` (Table 8.3).
+    pub fn lottery(&self, own: f64, other: f64) -> [Outcome; 4] {
+        let [[stalemate, wait], [turn, accident]] = self.payoffs();
+        [
+            Outcome { payoff: stalemate, probability: (1.0 - own) * (1.0 - other) },
+            Outcome { payoff: wait, probability: (1.0 - own) * other },
+            Outcome { payoff: turn, probability: own * (1.0 - other) },
+            Outcome { payoff: accident, probability: own * other },
+        ]
+    }
+
+    /// The losses, worst first.
+    fn losses(&self) -> [(f64, Loss); 3] {
+        let [[stalemate, wait], [_, accident]] = self.payoffs();
+        let mut losses = [(stalemate, Loss::Stalemate), (wait, Loss::Wait), (accident, Loss::Accident)];
+        losses.sort_by(|a, b| a.0.total_cmp(&b.0));
+        losses
+    }
+}
+
+/// A weighting function as a table with slopes.
+#[derive(Clone, Debug)]
+struct Weights {
+    exponent: f64,
+    /// Value at `i · 10⁻⁴`, and the slope times the spacing.
+    nodes: Vec<[f64; 2]>,
+}
+
+impl Weights {
+    fn new(exponent: f64) -> Self {
+        let spacing = 1.0 / NODES as f64;
+        let node = |i: usize| {
+            let p = i as f64 * spacing;
+            let slope = if i == 0 || i == NODES { 0.0 } else { spacing * weighting_slope(p, exponent) };
+            [weighting(p, exponent), slope]
+        };
+        Weights { exponent, nodes: (0..=NODES).map(node).collect() }
+    }
+
+    #[inline(always)]
+    fn at_node(&self, ten_thousandths: i32) -> f64 {
+        self.nodes[ten_thousandths as usize][0]
+    }
+
+    #[inline(always)]
+    fn at(&self, p: f64) -> f64 {
+        if !(STEEP..=1.0 - STEEP).contains(&p) {
+            return weighting(p, self.exponent);
+        }
+        let scaled = p * NODES as f64;
+        let index = scaled as usize;
+        let t = scaled - index as f64;
+        let ([left, left_slope], [right, right_slope]) = (self.nodes[index], self.nodes[index + 1]);
+        let rise = right - left;
+        let (bend, twist) = (3.0 * rise - 2.0 * left_slope - right_slope, left_slope + right_slope - 2.0 * rise);
+        left + t * (left_slope + t * (bend + t * twist))
+    }
+}
+
+/// The mind of a player: prospect theory with tabulated weights.
+#[derive(Clone, Debug)]
+pub struct Mind {
+    theory: ProspectTheory,
+    gains: Weights,
+    losses: Weights,
+}
+
+impl Mind {
+    /// Tabulates the weights of a theory; takes a few milliseconds.
+    pub fn new(theory: ProspectTheory) -> Self {
+        Mind { theory, gains: Weights::new(theory.gamma), losses: Weights::new(theory.eta) }
+    }
+
+    /// A player with this mind and something at stake.
+    pub fn player(&self, stakes: Stakes) -> Player<'_> {
+        let losses = stakes.losses();
+        let [worst, middle, least] = losses.map(|(payoff, _)| self.theory.value(payoff));
+        Player {
+            mind: self,
+            gain: self.theory.value(stakes.turn),
+            steps: [worst - middle, middle - least, least],
+            ranking: losses.map(|(_, loss)| loss),
+        }
+    }
+}
+
+/// The utility function of one player.
+#[derive(Clone, Copy, Debug)]
+pub struct Player<'a> {
+    mind: &'a Mind,
+    /// `v(x)`.
+    gain: f64,
+    /// `v₁ − v₂, v₂ − v₃, v₃`.
+    steps: [f64; 3],
+    ranking: [Loss; 3],
+}
+
+impl Player<'_> {
+    /// `U` of eq. 8.7 for a player who passes with probability `own` while the other does with `other`.
+    pub fn utility(&self, own: f64, other: f64) -> f64 {
+        let mut cumulated = 0.0;
+        let mut utility = self.gain * self.mind.gains.at(own * (1.0 - other));
+        for (loss, step) in self.ranking.iter().zip(self.steps) {
+            cumulated += match loss {
+                Loss::Stalemate => (1.0 - own) * (1.0 - other),
+                Loss::Wait => (1.0 - own) * other,
+                Loss::Accident => own * other,
+            };
+            utility += step * self.mind.losses.at(cumulated);
+        }
+        utility
+    }
+
+    /// The utilities at `own` = `from … to` hundredths for `other` hundredths, handed to `take` one after the other.
+    #[inline(always)]
+    pub fn scan(&self, [from, to]: [i32; 2], other: i32, mut take: impl FnMut(i32, f64)) {
+        // A cumulated probability is `base + own · slope` ten-thousandths.
+        let (mut base, mut slope) = (0, 0);
+        let lines = self.ranking.map(|loss| {
+            let (more, steeper) = match loss {
+                Loss::Stalemate => (100 * (100 - other), other - 100),
+                Loss::Wait => (100 * other, -other),
+                Loss::Accident => (0, other),
+            };
+            (base, slope) = (base + more, slope + steeper);
+            (base, slope)
+        });
+        for own in from..=to {
+            let mut utility = self.gain * self.mind.gains.at_node(own * (100 - other));
+            for ((base, slope), step) in lines.iter().zip(self.steps) {
+                utility += step * self.mind.losses.at_node(base + own * slope);
+            }
+            take(own, utility);
+        }
+    }
+}
+
+/// A mind that several tests share, as its tables take a while.
+#[cfg(test)]
+pub(super) static MIND: std::sync::LazyLock<Mind> = std::sync::LazyLock::new(|| Mind::new(ProspectTheory::default()));
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn stakes() -> impl Strategy<Value = Stakes> {
+        (0.05..19.0, 0.5..60.0).prop_map(|(turn, accident)| Stakes { turn, accident })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn the_tables_agree_with_the_definition(stakes in stakes(), own in 0.05..0.95, other in 0.05..0.95) {
+            let theory = ProspectTheory::default();
+            let (fast, slow) = (MIND.player(stakes).utility(own, other), theory.utility(&mut stakes.lottery(own, other)));
+            prop_assert!((fast - slow).abs() < 1e-7 * (1.0 + slow.abs()), "{fast} against {slow}");
+        }
+
+        #[test]
+        fn a_scan_visits_the_nodes(stakes in stakes(), other in 5..=95) {
+            let theory = ProspectTheory::default();
+            let mut visited = 0;
+            MIND.player(stakes).scan([5, 95], other, |own, utility| {
+                let (p, o) = (f64::from(own) / 100.0, f64::from(other) / 100.0);
+                let slow = theory.utility(&mut stakes.lottery(p, o));
+                assert!((utility - slow).abs() < 1e-9 * (1.0 + slow.abs()), "{own}: {utility} against {slow}");
+                visited += 1;
+            });
+            prop_assert_eq!(visited, 91);
+        }
+    }
+
+    #[test]
+    fn the_payoffs_are_those_of_the_table() {
+        let payoffs = Stakes { turn: 0.5, accident: 2.0 }.payoffs();
+        assert_eq!(payoffs, [[-1.0, -0.5], [0.5, -2.0]]);
+    }
+
+    #[test]
+    fn the_probabilities_of_a_lottery_add_up_to_one() {
+        let lottery = Stakes { turn: 1.0, accident: 2.0 }.lottery(0.3, 0.8);
+        assert!((lottery.iter().map(|outcome| outcome.probability).sum::<f64>() - 1.0).abs() < 1e-15);
+    }
+}

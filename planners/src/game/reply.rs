@@ -1,0 +1,124 @@
+//! Best replies: the intention that serves a player best, given the other's.
+//!
+//! Intentions are probabilities to pass in [0.05, 0.95] ("the extreme events are eliminated"). A utility may have two local
+//! maxima in the own probability (it does in some 3 % of games), so a gradient ascent, as the source proposes, may stop at
+//! the lesser one. A grid of hundredths finds the best cell, and a golden-section search the maximum inside it.
+
+use super::payoff::Player;
+
+/// The lowest intention.
+pub const LOWEST: f64 = 0.05;
+/// The highest intention.
+pub const HIGHEST: f64 = 0.95;
+/// Number of grid points from [`LOWEST`] to [`HIGHEST`].
+pub(super) const POINTS: usize = 91;
+/// Their distance.
+pub(super) const CELL: f64 = 0.01;
+/// Steps of the golden section from two cells to the square root of the rounding error.
+const STEPS: usize = 32;
+
+/// Lowest and highest intention in hundredths.
+pub(super) const HUNDREDTHS: [i32; 2] = [5, 95];
+
+/// The intention at a grid point.
+pub(super) fn intention(point: usize) -> f64 {
+    f64::from(HUNDREDTHS[0] + point as i32) / 100.0
+}
+
+/// The best reply to an intention of the other.
+pub fn best_reply(player: &Player, other: f64) -> f64 {
+    let best = best_of((0..POINTS).map(|point| player.utility(intention(point), other)));
+    reply_near(player, other, intention(best))
+}
+
+/// The best reply on the grid to the grid's intention `other`, as an index.
+pub(super) fn grid_reply(player: &Player, other: usize) -> usize {
+    let mut best = (0, f64::NEG_INFINITY);
+    player.scan(HUNDREDTHS, HUNDREDTHS[0] + other as i32, |own, utility| {
+        if utility > best.1 {
+            best = (own, utility);
+        }
+    });
+    (best.0 - HUNDREDTHS[0]) as usize
+}
+
+/// The best reply within a cell of a guess.
+pub(super) fn reply_near(player: &Player, other: f64, guess: f64) -> f64 {
+    maximum(|own| player.utility(own, other), guess, STEPS)
+}
+
+/// The place of the maximum of `f` within a cell of `guess`, where `f` has one (golden section).
+pub(super) fn maximum(f: impl Fn(f64) -> f64, guess: f64, steps: usize) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let (mut low, mut high) = ((guess - CELL).max(LOWEST), (guess + CELL).min(HIGHEST));
+    let ends = [low, high];
+    let (mut left, mut right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+    let (mut at_left, mut at_right) = (f(left), f(right));
+    for _ in 0..steps {
+        if at_left < at_right {
+            (low, left, at_left) = (left, right, at_right);
+            right = low + GOLDEN * (high - low);
+            at_right = f(right);
+        } else {
+            (high, right, at_right) = (right, left, at_left);
+            left = high - GOLDEN * (high - low);
+            at_left = f(left);
+        }
+    }
+    let inside = 0.5 * (low + high);
+    let found = [inside, ends[0], ends[1], guess];
+    found[best_of(found.iter().map(|at| f(*at)))]
+}
+
+/// The index of the largest number; the first of equals.
+fn best_of(values: impl Iterator<Item = f64>) -> usize {
+    let mut best = (0, f64::NEG_INFINITY);
+    for (index, value) in values.enumerate() {
+        if value > best.1 {
+            best = (index, value);
+        }
+    }
+    best.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::payoff::{MIND, Mind, Stakes};
+    use crate::game::prospect::ProspectTheory;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(100))]
+
+        #[test]
+        fn nothing_on_a_finer_grid_is_better(turn in 0.05..19.0, accident in 0.5..5.0, other in 0.05..0.95) {
+            let player = MIND.player(Stakes { turn, accident });
+            let best = player.utility(best_reply(&player, other), other);
+            for own in (0..=9000).map(|i| LOWEST + f64::from(i) * 1e-4) {
+                prop_assert!(player.utility(own, other) <= best + 1e-9 * (1.0 + best.abs()), "{own}");
+            }
+        }
+
+        #[test]
+        fn the_grid_s_reply_is_the_best_one_in_its_cell(turn in 0.05..19.0, accident in 0.5..5.0, other in 0_usize..91) {
+            let player = MIND.player(Stakes { turn, accident });
+            let (on_grid, exact) = (grid_reply(&player, other), best_reply(&player, intention(other)));
+            let loss = player.utility(exact, intention(other)) - player.utility(intention(on_grid), intention(other));
+            prop_assert!((0.0..1e-3 * (1.0 + turn)).contains(&loss), "{loss}");
+        }
+    }
+
+    /// Without distortion of probabilities utilities are linear in the own probability, so replies are bounds, and they
+    /// change where both bounds are worth the same: `(1 − o) 3x = o (M − x)`.
+    #[test]
+    fn undistorted_replies_change_where_the_other_makes_one_indifferent() {
+        let mind = Mind::new(ProspectTheory::EXPECTED);
+        for (turn, accident) in [(1.0, 2.0), (0.5, 3.0), (2.0, 4.0)] {
+            let player = mind.player(Stakes { turn, accident });
+            let indifferent = 3.0 * turn / (2.0 * turn + accident);
+            assert_eq!(best_reply(&player, indifferent - 0.01), HIGHEST);
+            assert_eq!(best_reply(&player, indifferent + 0.01), LOWEST);
+        }
+    }
+}

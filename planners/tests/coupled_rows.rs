@@ -1,0 +1,82 @@
+//! Rows over whole trajectories and costs of distances: the structured solver against the general one, and both against the
+//! optimality conditions.
+
+mod common;
+
+use common::{HORIZON, Random, iterate, pair};
+use interplay_planners::Input;
+use interplay_planners::mpc::{
+    DistanceCost, DistancePrice, MeanSpeed, Optimiser, Penalty, Problem, Sparse, StageQp, StageSolution, StageSolver,
+    Structured, drop_curvature, kkt, linearise,
+};
+
+const SEEDS: u64 = 60;
+const PENALTY: Penalty = Penalty { linear: 15.0, quadratic: 0.0 };
+
+/// Two vehicles with a persuasion row and bounds on both mean speeds; the first is drawn to the second.
+fn problem(seed: u64) -> Problem {
+    let random = &mut Random(seed + 500);
+    let mut problem = pair(seed, 1.0 + 0.01 * seed as f64);
+    let centres = (1..=HORIZON).map(|t| [0.1 + 0.1 * t as f64, 0.555]).collect();
+    let price = DistancePrice::Linear { weight: random.between(0.02, 0.9) };
+    problem.participants[0].distance_costs = vec![DistanceCost { centres, metric: [1.8, 0.3, 8.2], price }];
+    let lower = random.between(0.6, 1.4);
+    for (participant, width) in problem.participants.iter_mut().zip([0.05, 0.0]) {
+        let (lower_mps, upper_mps) = (Some(lower), Some(lower + width));
+        participant.mean_speed = Some(MeanSpeed { lower_mps, upper_mps, penalty: PENALTY });
+    }
+    problem
+}
+
+#[test]
+fn the_solvers_agree_on_step_problems() {
+    for seed in 0..SEEDS {
+        let problem = problem(seed);
+        let mut qp = StageQp::default();
+        linearise(&problem, &iterate(&problem, &mut Random(seed)), &mut qp);
+        drop_curvature(&mut qp);
+        assert_eq!(qp.trajectory_rows.len(), 5);
+        let (mut structured, mut sparse) = (StageSolution::default(), StageSolution::default());
+        Structured::default().solve(&qp, &mut structured, false).expect("structured");
+        Sparse::default().solve(&qp, &mut sparse, false).expect("sparse");
+        let (ours, theirs) = (qp.change(&structured), qp.change(&sparse));
+        assert!((ours - theirs).abs() <= 1e-6 * (1.0 + theirs.abs()), "seed {seed}: {ours} against {theirs}");
+        let residual = kkt::residual(&qp, &structured);
+        assert!(residual.largest() < 1e-5, "seed {seed}: {residual:?}");
+    }
+}
+
+#[test]
+fn descents_end_at_optima() {
+    for seed in 0..SEEDS {
+        let problem = problem(seed);
+        let guess = vec![vec![Input::default(); HORIZON]; 2];
+        let Ok(ours) = Optimiser::new(Structured::default()).descend(&problem, &guess) else { continue };
+        assert!(ours.statistics.residual <= 1e-4, "seed {seed}: {:?}", ours.statistics);
+        if seed % 6 == 0 {
+            let Ok(theirs) = Optimiser::new(Sparse::default()).descend(&problem, &ours.iterate.inputs) else {
+                continue;
+            };
+            let gained = (ours.cost.total - theirs.cost.total) / (1.0 + ours.cost.total);
+            assert!(gained <= 1e-5, "seed {seed}: {} improved to {}", ours.cost.total, theirs.cost.total);
+        }
+    }
+}
+
+/// A bound on the mean speed that costs nothing to keep is kept, and one that costs too much is not.
+#[test]
+fn a_mean_speed_is_as_binding_as_its_price() {
+    let mut free = common::alone(3);
+    free.participants[0].keep_outs.clear();
+    let guess = vec![vec![Input::default(); HORIZON]];
+    let mean = |weight: f64| {
+        let mut problem = free.clone();
+        let penalty = Penalty { linear: weight, quadratic: 0.0 };
+        problem.participants[0].mean_speed = Some(MeanSpeed { lower_mps: Some(1.25), upper_mps: Some(1.3), penalty });
+        let optimum = Optimiser::new(Structured::default()).descend(&problem, &guess).expect("an optimum");
+        (MeanSpeed::of(&optimum.iterate.states[0]), optimum.cost.mean_speed_slack_mps)
+    };
+    let (dear, cheap) = (mean(1e3), mean(1e-3));
+    assert!((1.25 - 1e-6..=1.3 + 1e-6).contains(&dear.0) && dear.1 < 1e-6, "{dear:?}");
+    assert!(cheap.1 > 0.02, "{cheap:?}");
+}

@@ -1,0 +1,134 @@
+//! The derivatives of every cost and constraint, each alone in a problem, by one checker.
+
+mod common;
+
+use common::derivatives::check;
+use common::{HORIZON, Random, follower, iterate, lane_change};
+use interplay_planners::mpc::{
+    DistanceCost, DistancePrice, KeepOut, Leaning, MeanSpeed, Participant, Penalty, Problem, Separation, Tracking,
+};
+use interplay_planners::{Corridor, LaneEnd, SafetyEllipse, State};
+
+const SEEDS: u64 = 20;
+
+/// A vehicle on a wide road that nothing costs anything.
+fn indifferent(random: &mut Random) -> Participant {
+    let free = lane_change(random);
+    Participant {
+        tracking: Tracking { weights: [0.0; 4], targets: vec![State::default(); HORIZON] },
+        comfort: [0.0; 2],
+        corridor: Corridor { heading_rad: 0.0, right_m: -9.0, left_m: 9.0, end: None },
+        keep_outs: Vec::new(),
+        ..free
+    }
+}
+
+fn alone(participant: Participant) -> Problem {
+    Problem { horizon: HORIZON, participants: vec![participant], separations: Vec::new(), leaning: None }
+}
+
+/// Checks what `pose` makes of random numbers, and that it was there to be checked.
+fn check_all(pose: impl Fn(&mut Random) -> Problem) {
+    let (mut first, mut second) = (0.0_f64, 0.0_f64);
+    for seed in 0..SEEDS {
+        let random = &mut Random(seed);
+        let problem = pose(random);
+        let seen = check(&problem, &iterate(&problem, random), random);
+        (first, second) = (first.max(seen.first), second.max(seen.second));
+    }
+    assert!(first > 1e-3 && second > 1e-3, "nothing costs anything here");
+}
+
+/// Centres beside which the vehicle drives, well inside their ellipses.
+fn beside(random: &mut Random) -> Vec<[f64; 2]> {
+    let (x, speed) = (random.between(-0.2, 0.2), random.between(0.6, 1.2));
+    (1..=HORIZON).map(|t| [x + 0.1 * speed * t as f64, 0.25]).collect()
+}
+
+fn ellipse() -> SafetyEllipse {
+    // Large enough that no stage is near its edge, where the penalty has a kink.
+    SafetyEllipse { along_m: 4.0, across_m: 2.0 }
+}
+
+#[test]
+fn tracking() {
+    check_all(|random| {
+        let target = State { x_m: 1.0, y_m: 0.5, heading_rad: 0.2, speed_mps: 1.3 };
+        let tracking = Tracking { weights: [0.3, 1.0, 0.7, 2.0], targets: vec![target; HORIZON] };
+        alone(Participant { tracking, ..indifferent(random) })
+    });
+}
+
+#[test]
+fn comfort() {
+    check_all(|random| alone(Participant { comfort: [0.2, 0.5], ..indifferent(random) }));
+}
+
+#[test]
+fn road_edges() {
+    // Every right corner is beyond its edge and every left one is inside.
+    let end = LaneEnd { end_m: 2.0, height_m: 0.5, taper_m: 0.6 };
+    let corridor = Corridor { heading_rad: 0.1, right_m: 1.0, left_m: 9.0, end: Some(end) };
+    check_all(|random| alone(Participant { corridor, ..indifferent(random) }));
+}
+
+#[test]
+fn keeping_out_of_ellipses() {
+    for penalty in [Penalty::EXACT, Penalty::hinge(50.0)] {
+        check_all(|random| {
+            let keep_out = KeepOut { centres: beside(random), heading_rad: 0.4, ellipse: ellipse(), penalty };
+            alone(Participant { keep_outs: vec![keep_out], ..indifferent(random) })
+        });
+    }
+}
+
+#[test]
+fn keeping_apart() {
+    check_all(|random| {
+        let other = Participant { known_inputs: follower(random, 6).known_inputs, ..indifferent(random) };
+        let separation = Separation { of: 0, from: 1, heading_rad: 0.3, ellipse: ellipse(), penalty: Penalty::EXACT };
+        let participants = vec![indifferent(random), other];
+        Problem { horizon: HORIZON, participants, separations: vec![separation], leaning: None }
+    });
+}
+
+#[test]
+fn leaning() {
+    for strength in [1.0, 1.6] {
+        check_all(|random| {
+            // Nearer to what it should lean away from.
+            let toward = (0..HORIZON).map(|t| [0.2 * t as f64, 0.9]).collect();
+            let away = (0..HORIZON).map(|t| [0.1 * t as f64, 0.185]).collect();
+            let penalty = Penalty { linear: 100.0, quadratic: 3.0 };
+            let leaning = Some(Leaning { toward, away, strength, penalty });
+            Problem { leaning, ..alone(indifferent(random)) }
+        });
+    }
+}
+
+#[test]
+fn mean_speed() {
+    for (lower_mps, upper_mps) in [(Some(1.6), None), (None, Some(0.1)), (Some(1.6), Some(0.1))] {
+        check_all(|random| {
+            let penalty = Penalty { linear: 75.0, quadratic: 2.0 };
+            let mean_speed = Some(MeanSpeed { lower_mps, upper_mps, penalty });
+            alone(Participant { mean_speed, ..indifferent(random) })
+        });
+    }
+}
+
+#[test]
+fn distances() {
+    let prices = [
+        DistancePrice::Linear { weight: 0.9 },
+        DistancePrice::Exact { base: 1.0, loyalty: 0.5, aversion: 0.3 },
+        DistancePrice::Exact { base: 1.05, loyalty: 5.0, aversion: 0.3 },
+    ];
+    for price in prices {
+        check_all(|random| {
+            let centres = beside(random).into_iter().map(|[x, y]| [x + 0.4, y + 0.3]).collect();
+            let cost = DistanceCost { centres, metric: [1.9, 0.4, 8.0], price };
+            alone(Participant { distance_costs: vec![cost], ..indifferent(random) })
+        });
+    }
+}
