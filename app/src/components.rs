@@ -50,10 +50,10 @@ pub struct Mind {
 /// What a vehicle decided last, to be expected by others and continued if its planner fails.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Intention {
-    /// The plan as it was decided, or as it was continued since.
+    /// The plan as it was decided, or the fallback since.
     pub plan: Option<Trajectory>,
-    /// How many ticks it has been continued without a new one.
-    pub continued: usize,
+    /// How many inputs of the planner's last plan are still to come.
+    pub remaining: usize,
 }
 
 /// Simulated time.
@@ -70,8 +70,19 @@ pub struct Clock {
 impl Clock {
     /// Simulated time at the start of this tick \[s\].
     pub fn time_s(&self) -> f64 {
-        self.step_s * self.tick as f64
+        self.within_s(0.0)
     }
+
+    /// Simulated time when a share of this tick has passed, to the nanosecond: 29 ticks of 0.1 s are 2.9 s and not
+    /// 2.9000000000000004 s \[s\].
+    pub fn within_s(&self, share: f64) -> f64 {
+        to_nanosecond(self.step_s * (self.tick as f64 + share))
+    }
+}
+
+/// A time without the rounding errors of its making \[s\].
+pub fn to_nanosecond(time_s: f64) -> f64 {
+    (time_s * 1e9).round() / 1e9
 }
 
 /// All vehicles as plain values, in the scenario's order; sensed anew every tick.
@@ -81,3 +92,18 @@ pub struct Agents(pub Vec<Agent>);
 /// The tick in the making.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Present(pub Frame);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_what_people_write() {
+        let clock = |tick| Clock { tick, step_s: 0.1, horizon: 30 };
+        for tick in 0..100_000_u32 {
+            let written = format!("{}.{}", tick / 10, tick % 10);
+            assert_eq!(format!("{:?}", clock(tick as usize).time_s()), written);
+        }
+        assert_eq!(clock(29).within_s(0.25), 2.925);
+    }
+}

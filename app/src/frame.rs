@@ -30,7 +30,8 @@ pub struct VehicleFrame {
     pub plan: Plan,
     /// Where the plan comes from.
     pub origin: Origin,
-    /// What the others expected of it when they planned.
+    /// What the others expected of it when they planned: the plan itself if it plans first, else how its last plan goes
+    /// on. Among those who plan first, the ones ahead of it planned before it and knew its last plan only.
     pub prediction: Trajectory,
     /// Wall time of planning \[ms\]; never part of a digest.
     pub plan_ms: f64,

@@ -1,8 +1,8 @@
 //! Plan: every driver decides, those first whose plans others rely on.
 //!
 //! Humans plan from the front of the road to its rear, so that each knows what the car ahead is about to do; the others
-//! follow in the scenario's order and know the humans' plans (the source's assumption of perfect prediction). A planner
-//! that fails falls back to its previous plan, shifted, and then to full braking; the failure is recorded and counted.
+//! follow and know the humans' plans (the source's assumption of perfect prediction), but not one another's: of each
+//! other they expect that the last plan goes on, so that it does not matter who is listed first. A planner that fails falls back to its previous plan, shifted, and then to full braking; the failure is recorded and counted.
 
 use std::time::Instant;
 
@@ -38,10 +38,17 @@ pub fn plan(
         let frame = &mut present.0;
         frame.vehicles[identity.index].plan_ms = 1e3 * began.elapsed().as_secs_f64();
         let (plan, origin) = settle(outcome, &scene, &intention, &mut frame.events);
-        agents.0[identity.index].prediction = plan.trajectory.clone();
-        intention.continued = if origin == Origin::Planned { 0 } else { intention.continued + 1 };
-        intention.plan = Some(plan.trajectory.clone());
         let vehicle = &mut frame.vehicles[identity.index];
+        if mind.goes_first {
+            agents.0[identity.index].prediction = plan.trajectory.clone();
+            vehicle.prediction = plan.trajectory.clone();
+        }
+        intention.remaining = match origin {
+            Origin::Planned => plan.trajectory.horizon().saturating_sub(1),
+            Origin::Continued => intention.remaining.saturating_sub(1),
+            Origin::Braking => 0,
+        };
+        intention.plan = Some(plan.trajectory.clone());
         vehicle.input = plan.trajectory.inputs.first().copied().unwrap_or_default();
         vehicle.origin = origin;
         vehicle.plan = plan;
@@ -85,11 +92,10 @@ fn settle(
     }
 }
 
-/// The previous plan one step further as long as there is something left of it, then full braking.
+/// The previous plan one step further while inputs of it are left, then full braking.
 fn fallback(scene: &Scene, intention: &Intention) -> (Trajectory, Origin) {
     let limits = &scene.ego.limits;
-    let left = intention.plan.as_ref().filter(|plan| intention.continued < plan.horizon());
-    let (inputs, origin) = match left {
+    let (inputs, origin) = match intention.plan.as_ref().filter(|_| intention.remaining > 0) {
         Some(plan) => (plan.shifted().inputs, Origin::Continued),
         None => {
             let brake = limits.acceleration_min_mps2;

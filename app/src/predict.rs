@@ -6,7 +6,7 @@ use interplay_planners::predict::constant_velocity;
 
 use crate::components::{Agents, Clock, Identity, Intention, Present};
 
-/// Fills the predictions of [`Agents`]. Drivers who plan early in the tick replace theirs by what they decide.
+/// Fills the predictions of [`Agents`]. Drivers who plan first replace theirs by what they decide.
 pub fn predict(
     vehicles: Query<(&Identity, &Intention)>,
     clock: Res<Clock>,

@@ -91,6 +91,11 @@ impl Trajectory {
         Trajectory { states, inputs }
     }
 
+    /// The inputs of the same plan one step later, the last one repeated: a guess for the next plan.
+    pub fn later_inputs(&self) -> Vec<Input> {
+        self.inputs.iter().skip(1).chain(self.inputs.last()).copied().collect()
+    }
+
     /// Sum over `t = 0…N−1` of the squared distance between the positions of two trajectories, `‖trj_a − trj_b‖²` of
     /// eq. 6.19-6.23 \[m²\]. The shorter horizon counts.
     pub fn squared_distance(&self, other: &Trajectory) -> f64 {

@@ -20,7 +20,8 @@ fn compare(problem: &Problem, seed: u64) {
     let (ours, theirs) = (qp.change(&structured), qp.change(&sparse));
     assert!((ours - theirs).abs() <= 1e-6 * (1.0 + theirs.abs()), "seed {seed}: {ours} against {theirs}");
     let residual = kkt::residual(&qp, &structured);
-    assert!(residual.largest() < 1e-6, "seed {seed}: {residual:?}");
+    // Multipliers reach 1e3 here, and rounding stops a few problems at a complementarity of 1e-8.
+    assert!(residual.largest() < 3e-5, "seed {seed}: {residual:?}");
     let residual = kkt::residual(&qp, &sparse);
     assert!(residual.largest() < 1e-1, "seed {seed}, sparse: {residual:?}");
 }

@@ -150,7 +150,11 @@ fn a_bad_word_for_a_planner() {
 fn bad_arguments() {
     let folder = scratch("bad-arguments");
     refused(&interplay(&folder, &["runn"]), &["unrecognized subcommand 'runn'", "'run'"]);
-    refused(&interplay(&folder, &["run", "--seed", "two"]), &["'two'", "--seed"]);
+    for seed in ["two", "-1", "1.5", "18446744073709551616"] {
+        let pieces = [&format!("'{seed}'"), "--seed", "a seed is a whole number from 0 to 18446744073709551615"];
+        refused(&interplay(&folder, &["run", "--seed", seed]), &pieces);
+        refused(&interplay(&folder, &["run", &format!("--seed={seed}")]), &pieces);
+    }
     refused(&interplay(&folder, &["run", "--no-record", "--record", "a.rrd"]), &["cannot be used with"]);
     refused(&interplay(&folder, &["check"]), &["FILE"]);
 }

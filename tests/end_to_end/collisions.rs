@@ -2,7 +2,6 @@
 
 use std::fs;
 
-use interplay_planners::State;
 use interplay_scenarios::{Scenario, from_text};
 
 use crate::command::{interplay, scratch};
@@ -36,20 +35,9 @@ fn scenario(text: &str) -> Scenario {
     from_text("collision.toml", text, &[]).unwrap_or_else(|error| panic!("{:?}", error.problems()))
 }
 
-/// The state of a vehicle at any time: the physics moves it evenly within a tick.
-fn state(film: &Film, vehicle: usize, time_s: f64) -> State {
-    let step_s = film.scenario.step_s;
-    let tick = ((time_s / step_s) as usize).min(film.frames.len() - 1);
-    let share = time_s / step_s - tick as f64;
-    let last = film.report.vehicles[vehicle].last;
-    let from = film.frames[tick].vehicles[vehicle].state.to_array();
-    let to = film.frames.get(tick + 1).map_or(last, |frame| frame.vehicles[vehicle].state).to_array();
-    State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
-}
-
 fn gap_m(film: &Film, time_s: f64) -> f64 {
-    let [a, b] = [0, 1].map(|vehicle| (&film.scenario.vehicles[vehicle].body, state(film, vehicle, time_s)));
-    distance((a.0, &a.1), (b.0, &b.1))
+    let (states, vehicles) = (film.states_at(time_s), &film.scenario.vehicles);
+    distance((&vehicles[0].body, &states[0]), (&vehicles[1].body, &states[1]))
 }
 
 #[test]
@@ -58,13 +46,12 @@ fn a_collision_has_a_time_parties_and_an_impulse() {
         let film = film("collision", scenario(&unavoidable(free_m)));
         let [collision] = film.report.collisions.as_slice() else { panic!("{:?}", film.report.collisions) };
         assert_eq!(collision.between, ["ego", "standing"]);
-        // Contacts are looked for four times a tick, where the bodies were a quarter before.
-        let quarter_s = film.scenario.step_s / 4.0;
-        let touch_s = (0..4000).map(|i| f64::from(i) * 1e-3).find(|time_s| gap_m(&film, *time_s) < 1e-4);
+        let touch_s = (0..10_000).map(|i| f64::from(i) * 1e-4).find(|time_s| gap_m(&film, *time_s) == 0.0);
         let touch_s = touch_s.expect("they touch");
-        assert!((collision.time_s - touch_s).abs() <= 2.0 * quarter_s, "{} at {touch_s}", collision.time_s);
+        assert!((collision.time_s - touch_s).abs() <= 2e-4, "{} at {touch_s}", collision.time_s);
         // Two equal cars of 0.4 m × 0.19 m and 185 kg/m²: half the mass of one times the closing speed.
-        let closing_mps = state(&film, 0, collision.time_s).speed_mps - state(&film, 1, collision.time_s).speed_mps;
+        let states = film.states_at(collision.time_s);
+        let closing_mps = states[0].speed_mps - states[1].speed_mps;
         let expected_ns = 0.5 * 185.0 * 0.4 * 0.19 * closing_mps;
         assert!(collision.impulse_ns > 0.0);
         assert!((collision.impulse_ns / expected_ns - 1.0).abs() < 1e-6, "{} {expected_ns}", collision.impulse_ns);

@@ -6,7 +6,8 @@ use interplay::components::{Identity, Wish};
 use interplay::frame::{Frame, Level, Origin};
 use interplay::measure::Measures;
 use interplay::{phases, spawn};
-use interplay_planners::Input;
+use interplay_planners::mpc::Limits;
+use interplay_planners::predict::steady;
 
 use crate::film::{Camera, authored, film};
 
@@ -36,6 +37,7 @@ fn run_with_failures() -> (Vec<Frame>, usize) {
 fn a_failed_plan_is_continued_then_braked_told_and_counted() {
     let (frames, failed) = run_with_failures();
     assert_eq!(failed, SPOILT.len());
+    assert!(SPOILT.len() > HORIZON, "long enough for both fallbacks");
     let last_plan = &frames[SPOILT.start - 1].vehicles[1].plan.trajectory;
     for (tick, frame) in frames.iter().enumerate() {
         let front = &frame.vehicles[1];
@@ -55,11 +57,13 @@ fn a_failed_plan_is_continued_then_braked_told_and_counted() {
             assert_eq!(front.origin, Origin::Continued, "tick {tick}");
             assert_eq!(front.input, last_plan.inputs[since], "tick {tick}");
             assert!(warning.text.ends_with("continues its previous plan"), "{}", warning.text);
-        } else if since > HORIZON {
-            let full = Input { acceleration_mps2: -1.0, steering_rad: 0.0 };
-            assert_eq!((front.origin, front.input), (Origin::Braking, full), "tick {tick}");
+        } else {
+            let full = steady(&front.state, -1.0, &Limits::default(), HORIZON, 0.1);
+            assert_eq!((front.origin, front.input), (Origin::Braking, full[0]), "tick {tick}");
+            assert_eq!(front.plan.trajectory.inputs, full, "tick {tick}");
             assert!(warning.text.ends_with("brakes"), "{}", warning.text);
         }
+        assert!(front.prediction == front.plan.trajectory, "tick {tick}: the others know that it falls back");
     }
 }
 
@@ -71,8 +75,7 @@ fn a_planner_that_never_succeeds_brakes_to_a_standstill() {
     let film = film("never", scenario);
     let ego = film.report.vehicle("ego").expect("there is an ego");
     assert_eq!((ego.plans.failed, ego.plans.count), (30, 30));
-    assert_eq!(film.frames[0].vehicles[0].origin, Origin::Braking);
-    assert!(film.frames.iter().all(|frame| frame.vehicles[0].origin != Origin::Planned));
+    assert!(film.frames.iter().all(|frame| frame.vehicles[0].origin == Origin::Braking));
     assert!(ego.last.speed_mps.abs() < 1e-12, "{:?}", ego.last);
     assert!((ego.last.x_m - 0.5 * (1.0 + 0.1)).abs() < 1e-9, "ten steps from 1 m/s at −1 m/s²: {:?}", ego.last);
     let counted = film.report.expectations.iter().find(|one| one.what == "plan_failures_at_most");

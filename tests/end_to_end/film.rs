@@ -7,6 +7,7 @@ use interplay::frame::Frame;
 use interplay::report::Report;
 use interplay::run::run;
 use interplay::watch::Watcher;
+use interplay_planners::State;
 use interplay_scenarios::{Override, Scenario, embedded, load};
 
 /// A run and all that was seen of it.
@@ -68,6 +69,27 @@ pub static FILMS: LazyLock<Vec<Film>> = LazyLock::new(|| {
 });
 
 impl Film {
+    /// The states of all vehicles after a tick.
+    pub fn states_after(&self, tick: usize) -> Vec<State> {
+        match self.frames.get(tick + 1) {
+            Some(next) => next.vehicles.iter().map(|vehicle| vehicle.state).collect(),
+            None => self.report.vehicles.iter().map(|vehicle| vehicle.last).collect(),
+        }
+    }
+
+    /// The states of all vehicles at any time: the physics moves them evenly within a tick.
+    pub fn states_at(&self, time_s: f64) -> Vec<State> {
+        let ticks = time_s / self.scenario.step_s;
+        let tick = (ticks as usize).min(self.frames.len() - 1);
+        let share = ticks - tick as f64;
+        let mixed = |(from, to): (State, State)| {
+            let (from, to) = (from.to_array(), to.to_array());
+            State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
+        };
+        let from = self.frames[tick].vehicles.iter().map(|vehicle| vehicle.state);
+        from.zip(self.states_after(tick)).map(mixed).collect()
+    }
+
     /// What the run is called.
     pub fn name(&self) -> &str {
         &self.report.scenario

@@ -26,7 +26,7 @@ const OWNERS: &[(&str, &str)] = &[
 
 /// Libraries that only one part of the application may name.
 const PARTS: &[(&str, &str)] =
-    &[("rapier2d", "physics.rs"), ("parry2d", "physics.rs"), ("rerun", "record"), ("re_sdk_types", "record")];
+    &[("rapier2d", "physics"), ("parry2d", "physics"), ("rerun", "record"), ("re_sdk_types", "record")];
 
 /// The most lines of a file, and of a function.
 const FILE_LINES: usize = 400;

@@ -4,13 +4,7 @@ use interplay::frame::Origin;
 use interplay_planners::State;
 use interplay_planners::dynamics::Bicycle;
 
-use crate::film::{FILMS, Film};
-
-/// The state of a vehicle after tick `tick`.
-fn after(film: &Film, tick: usize, vehicle: usize) -> State {
-    let next = film.frames.get(tick + 1);
-    next.map_or_else(|| film.report.vehicles[vehicle].last, |frame| frame.vehicles[vehicle].state)
-}
+use crate::film::FILMS;
 
 #[test]
 fn there_is_a_frame_for_every_tick_and_everybody_is_in_it() {
@@ -43,7 +37,13 @@ fn the_kinematic_plant_is_the_bicycle() {
             let start = film.frames[0].vehicles[index].state;
             Bicycle::new(&vehicle.body, film.scenario.step_s).roll_out(&start, &applied, &mut states);
             for (tick, state) in states[1..].iter().enumerate() {
-                assert_eq!(*state, after(film, tick, index), "{}: {} after tick {tick}", film.name(), vehicle.name);
+                assert_eq!(
+                    *state,
+                    film.states_after(tick)[index],
+                    "{}: {} after tick {tick}",
+                    film.name(),
+                    vehicle.name
+                );
             }
         }
     }
@@ -54,7 +54,7 @@ fn inputs_and_speeds_stay_within_the_limits() {
     for film in FILMS.iter() {
         for (tick, frame) in film.frames.iter().enumerate() {
             for (index, (seen, vehicle)) in frame.vehicles.iter().zip(&film.scenario.vehicles).enumerate() {
-                let (limits, input, speed) = (vehicle.limits, seen.input, after(film, tick, index).speed_mps);
+                let (limits, input, speed) = (vehicle.limits, seen.input, film.states_after(tick)[index].speed_mps);
                 let at = format!("{}: {} at tick {tick}", film.name(), vehicle.name);
                 let accelerations = limits.acceleration_min_mps2..=limits.acceleration_max_mps2;
                 assert!(accelerations.contains(&input.acceleration_mps2), "{at}: {input:?}");

@@ -29,10 +29,16 @@ fn the_gap_is_the_distance_between_the_rectangles() {
             let (measured, expected) = (frame.gap_m.expect("there are others"), gap_m(film, &moments[tick]));
             assert!(measured >= 0.0 && (measured - expected).abs() < 1e-5, "{}: {measured} {expected}", film.name());
         }
-        let smallest = moments.iter().map(|states| gap_m(film, states)).fold(f64::INFINITY, f64::min);
+        // The report looks between the ticks, too, though not at all times.
+        let smallest = |moments: &mut dyn Iterator<Item = Vec<State>>| {
+            moments.map(|states| gap_m(film, &states)).fold(f64::INFINITY, f64::min)
+        };
+        let at_ticks = smallest(&mut moments.iter().cloned());
+        let often = film.frames.len() * 50;
+        let between = smallest(&mut (0..often).map(|i| film.states_at(i as f64 * film.scenario.step_s / 50.0)));
         let measured = film.report.min_gap_m.expect("there are others");
-        assert!((measured - smallest).abs() < 1e-5, "{}: {measured} {smallest}", film.name());
-        assert!(film.report.collisions.is_empty() && smallest > 0.0, "{}", film.name());
+        assert!((between - 1e-3..=at_ticks + 1e-5).contains(&measured), "{}: {measured}", film.name());
+        assert!(film.report.collisions.is_empty() && measured > 0.0, "{}", film.name());
     }
 }
 
@@ -55,7 +61,10 @@ fn the_ego_completes_when_it_reaches_its_lane() {
         let expected = moments(film).iter().position(there).map(|tick| tick as f64 * film.scenario.step_s);
         let measured = film.report.vehicles[ego].completed_s;
         match (measured, expected) {
-            (Some(measured), Some(expected)) => assert!((measured - expected).abs() < 1e-9, "{}", film.name()),
+            (Some(measured), Some(expected)) => {
+                assert!((measured - expected).abs() < 1e-9, "{}", film.name());
+                assert!(measured.to_string().len() < 6, "{}: {measured}", film.name());
+            }
             _ => assert_eq!(measured, expected, "{}", film.name()),
         }
     }

@@ -33,7 +33,7 @@ fn the_report_has_the_keys_of_the_contract() {
     assert_eq!(report["simulated_s"], 2.0);
     assert!(report["wall_s"].as_f64().is_some_and(|wall_s| wall_s > 0.0));
     assert!(report["digest"].as_str().is_some_and(|digest| digest.len() == 32));
-    has_keys(&report["phase_digests"], "predict plan act physics");
+    has_keys(&report["phase_digests"], "sense predict plan act physics");
     for vehicle in report["vehicles"].as_array().expect("a list") {
         has_keys(
             vehicle,
@@ -46,6 +46,16 @@ fn the_report_has_the_keys_of_the_contract() {
     for expectation in report["expectations"].as_array().expect("a list") {
         has_keys(expectation, "what want got passed");
     }
+}
+
+/// Nobody wants to read 0.30000000000000004.
+#[test]
+fn times_are_round() {
+    let folder = scratch("times");
+    let changes = ["run", "--no-record", "--set", "duration_s=0.3", "--set", "expect.completes=[]"];
+    let outcome = interplay(&folder, &[&changes[..], &["--json"]].concat());
+    assert!(outcome.stdout.contains("\"simulated_s\": 0.3,"), "{}", outcome.stdout);
+    assert!(interplay(&folder, &changes).stdout.contains("\n  0.3 s simulated in "));
 }
 
 /// Two seconds are too short to change lane: the code says so, and the document is still whole.

@@ -6,6 +6,7 @@
 mod check;
 mod list;
 mod run;
+mod shell;
 
 use std::io::Write;
 use std::process::ExitCode;

@@ -1,13 +1,14 @@
 //! `interplay run`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use interplay_scenarios::{Override, Scenario, load};
+use interplay_scenarios::{Override, Scenario, embedded, load};
+use serde::Serialize;
 
-use super::{Ending, complain, complain_about, print};
-use crate::record::{Recorder, Sink};
-use crate::report::summary;
+use super::{Ending, complain, complain_about, print, shell};
+use crate::record::{RecordError, Recorder, Sink};
+use crate::report::{Report, summary};
 use crate::run::run;
 use crate::watch::Watcher;
 
@@ -30,7 +31,7 @@ pub(super) struct Run {
     sets: Vec<String>,
 
     /// Seed of all random numbers
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     seed: Option<u64>,
 
     /// Where the recording goes [default: recordings/NAME.rrd]
@@ -54,38 +55,57 @@ const DEFAULT: &str = "lane-change/front-nice";
 
 impl Run {
     pub(super) fn execute(self) -> Ending {
-        let name = self.scenario.clone().unwrap_or_else(|| DEFAULT.to_owned());
-        let scenario = match load(&name, &self.overrides()) {
+        let scenario = match load(self.scenario(), &self.overrides()) {
             Ok(scenario) => scenario,
             Err(error) => {
                 complain_about(error);
                 return Ending::BadInput;
             }
         };
-        let name = short_name(&name);
+        let name = short_name(self.scenario());
         let watchers = match self.watchers(&scenario, &name) {
             Ok(watchers) => watchers,
             Err(error) => {
-                complain(&error);
+                complain(&error.to_string());
                 return Ending::Unfinished;
             }
         };
-        match run(&name, &scenario, watchers) {
-            Ok(report) => {
-                match serde_json::to_string_pretty(&report) {
-                    Ok(text) if self.json => print(&format!("{text}\n")),
-                    _ => print(&summary(&scenario.title, &report)),
-                }
+        let told = run(&name, &scenario, watchers)
+            .map_err(|error| error.to_string())
+            .and_then(|report| self.tell(&scenario.title, &report).map(|()| report.passed));
+        match told {
+            Ok(passed) => {
                 if let Some(path) = self.recording(&name).filter(|_| !self.connect) {
                     complain(&format!("recorded to {}", path.display()));
                 }
-                if report.passed { Ending::Well } else { Ending::Failed }
+                if passed { Ending::Well } else { Ending::Failed }
             }
             Err(error) => {
-                complain(&error.to_string());
+                complain(&error);
                 Ending::Unfinished
             }
         }
+    }
+
+    /// What is run, as it was asked for.
+    fn scenario(&self) -> &str {
+        self.scenario.as_deref().unwrap_or(DEFAULT)
+    }
+
+    /// Prints the report as it was asked for.
+    fn tell(&self, title: &str, report: &Report) -> Result<(), String> {
+        let text = if self.json { json(report)? } else { summary(title, report) };
+        print(&text);
+        Ok(())
+    }
+
+    /// The words that run the same again. What is done with the results is no part of them.
+    fn command(&self) -> String {
+        let seed = self.seed.map(|seed| seed.to_string());
+        let planner = self.planner.iter().flat_map(|kind| ["--planner", kind]);
+        let seed = seed.iter().flat_map(|seed| ["--seed", seed]);
+        let sets = self.sets.iter().flat_map(|change| ["--set", change]);
+        shell::line(["interplay", "run", self.scenario()].into_iter().chain(planner).chain(seed).chain(sets))
     }
 
     /// Changes of the scenario, the most specific last.
@@ -101,17 +121,86 @@ impl Run {
         (!self.no_record).then(|| self.record.clone().unwrap_or_else(default))
     }
 
-    fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, String> {
+    fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
         let sink = if self.connect { Some(Sink::Live) } else { self.recording(name).map(Sink::File) };
         let Some(sink) = sink else { return Ok(Vec::new()) };
-        let recorder = Recorder::begin(scenario, name, &sink).map_err(|error| error.to_string())?;
+        let recorder = Recorder::begin(scenario, name, &sink)?;
+        recorder.repeat_with(&self.command())?;
         Ok(vec![Box::new(recorder)])
     }
 }
 
-/// The name of a scenario without the extension and without leading folders of a path that is not below this one.
-fn short_name(name: &str) -> String {
-    let path = std::path::Path::new(name);
-    let stem = || path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
-    if path.extension().is_some() { stem() } else { name.to_owned() }
+/// A seed as it is written on the command line.
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
+/// One JSON document.
+fn json(value: &impl Serialize) -> Result<String, String> {
+    let text = serde_json::to_string_pretty(value);
+    text.map(|text| text + "\n").map_err(|error| format!("the report cannot be written as JSON: {error}"))
+}
+
+/// What a run is called: an authored scenario by its name, a file by its own name, without folders and extension.
+fn short_name(scenario: &str) -> String {
+    if embedded().iter().any(|file| file.name == scenario) {
+        return scenario.to_owned();
+    }
+    let stem = Path::new(scenario).file_stem();
+    stem.map_or_else(|| "scenario".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Debug, Parser)]
+    struct Alone {
+        #[command(flatten)]
+        run: Run,
+    }
+
+    fn parsed(words: &[&str]) -> Run {
+        Alone::try_parse_from([&["run"], words].concat()).expect("sound arguments").run
+    }
+
+    #[test]
+    fn a_recording_is_named_after_the_scenario_and_never_leaves_its_folder() {
+        for (scenario, name) in [
+            ("lane-change/front-nice", "lane-change/front-nice"),
+            ("my.toml", "my"),
+            ("my", "my"),
+            ("../my", "my"),
+            ("../../lane-change/front-nice", "front-nice"),
+            ("/somewhere/my.v2.toml", "my.v2"),
+            ("./.hidden", ".hidden"),
+            ("..", "scenario"),
+        ] {
+            assert_eq!(short_name(scenario), name, "{scenario}");
+        }
+    }
+
+    #[test]
+    fn the_command_that_repeats_a_run_has_its_words_and_no_others() {
+        assert_eq!(Run::default().command(), "interplay run lane-change/front-nice");
+        let words = ["my file.toml", "--json", "--set", "title=\"It's\"", "--no-record", "--seed", "7"];
+        let run = parsed(&[&words[..], &["--set", "seed=3", "--planner", "human"]].concat());
+        let expected = r#"interplay run 'my file.toml' --planner human --seed 7 --set 'title="It'\''s"' --set seed=3"#;
+        assert_eq!(run.command(), expected);
+        let again =
+            parsed(&["my file.toml", "--planner", "human", "--seed", "7", "--set", words[3], "--set", "seed=3"]);
+        assert_eq!((again.scenario(), again.overrides()), (run.scenario(), run.overrides()));
+    }
+
+    #[test]
+    fn what_cannot_be_written_as_json_is_an_error() {
+        let pairs = BTreeMap::from([([1, 2], 3)]);
+        let error = json(&pairs).expect_err("a key of JSON is a text");
+        assert!(error.starts_with("the report cannot be written as JSON: "), "{error}");
+        assert_eq!(json(&[0.1 + 0.2]).expect("numbers"), "[\n  0.30000000000000004\n]\n");
+    }
 }

@@ -1,4 +1,8 @@
-//! A digest of a run, by phase, bit for bit: if two runs differ, the first phase that differs is the culprit.
+//! Digests of a run, bit for bit and phase by phase.
+//!
+//! Every tick feeds on the one before, so once two runs differ anywhere, nearly all digests of the whole runs differ: they
+//! say that the runs differ, not where it began. The digests of single ticks ([`Digest::of_tick`]) say that: of the first
+//! tick that differs, the first phase that differs is the culprit.
 
 use interplay_planners::{Input, State, Trajectory};
 use serde::Serialize;
@@ -9,23 +13,34 @@ use crate::frame::Frame;
 /// Running digests of what each phase produced.
 #[derive(Clone, Default)]
 pub struct Digest {
+    sense: Xxh3,
     predict: Xxh3,
     plan: Xxh3,
     act: Xxh3,
     physics: Xxh3,
 }
 
-/// The digests in hexadecimal.
+/// The digests in hexadecimal, in the order of the phases.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PhaseDigests {
-    /// Of all predictions.
+    /// Of all states at the beginnings of ticks.
+    pub sense: String,
+    /// Of all predictions, but for those that are plans of the same tick.
     pub predict: String,
     /// Of all plans.
     pub plan: String,
     /// Of all applied inputs.
     pub act: String,
-    /// Of all states: the digest of the run.
+    /// Of all states, at the beginnings and the ends of ticks: the digest of the run.
     pub physics: String,
+}
+
+impl PhaseDigests {
+    /// Every phase by name, in order.
+    pub fn by_name(&self) -> [(&'static str, &str); 5] {
+        let PhaseDigests { sense, predict, plan, act, physics } = self;
+        [("sense", sense), ("predict", predict), ("plan", plan), ("act", act), ("physics", physics)]
+    }
 }
 
 impl std::fmt::Debug for Digest {
@@ -35,10 +50,21 @@ impl std::fmt::Debug for Digest {
 }
 
 impl Digest {
+    /// The digests of a single tick and the states that it led to.
+    pub fn of_tick(frame: &Frame, after: &[State]) -> PhaseDigests {
+        let mut digest = Digest::default();
+        digest.observe(frame, after);
+        digest.phases()
+    }
+
     /// Takes one tick and the states that it led to.
     pub fn observe(&mut self, frame: &Frame, after: &[State]) {
         for (vehicle, state) in frame.vehicles.iter().zip(after) {
-            trajectory(&mut self.predict, &vehicle.prediction);
+            numbers(&mut self.sense, &vehicle.state.to_array());
+            // What is expected of who plans first is its plan: whatever is wrong with that, the phase Plan made it.
+            if vehicle.prediction != vehicle.plan.trajectory {
+                trajectory(&mut self.predict, &vehicle.prediction);
+            }
             trajectory(&mut self.plan, &vehicle.plan.trajectory);
             numbers(&mut self.act, &vehicle.input.to_array());
             numbers(&mut self.physics, &vehicle.state.to_array());
@@ -50,6 +76,7 @@ impl Digest {
     pub fn phases(&self) -> PhaseDigests {
         let hex = |hasher: &Xxh3| format!("{:032x}", hasher.digest128());
         PhaseDigests {
+            sense: hex(&self.sense),
             predict: hex(&self.predict),
             plan: hex(&self.plan),
             act: hex(&self.act),
@@ -66,5 +93,56 @@ fn trajectory(hasher: &mut Xxh3, trajectory: &Trajectory) {
 fn numbers(hasher: &mut Xxh3, values: &[f64]) {
     for value in values {
         hasher.update(&value.to_bits().to_le_bytes());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::VehicleFrame;
+
+    /// A tick of one vehicle that plans in the light of a prediction.
+    fn tick(speed_mps: f64) -> (Frame, Vec<State>) {
+        let state = State { speed_mps, ..State::default() };
+        let trajectory = |speed_mps| Trajectory { states: vec![State { speed_mps, ..state }; 3], inputs: Vec::new() };
+        let mut vehicle = VehicleFrame { state, prediction: trajectory(1.0), ..VehicleFrame::default() };
+        vehicle.plan.trajectory = trajectory(2.0);
+        (Frame { vehicles: vec![vehicle], ..Frame::default() }, vec![State { speed_mps: 3.0, ..state }])
+    }
+
+    /// The names of the phases in which two ticks differ.
+    fn differing(a: &(Frame, Vec<State>), b: &(Frame, Vec<State>)) -> Vec<&'static str> {
+        let digests = [a, b].map(|(frame, after)| Digest::of_tick(frame, after));
+        let pairs = digests[0].by_name().into_iter().zip(digests[1].by_name());
+        pairs.filter(|((_, a), (_, b))| a != b).map(|((name, _), _)| name).collect()
+    }
+
+    #[test]
+    fn the_digests_of_a_tick_tell_the_phases_apart() {
+        let one = tick(1.0);
+        assert!(differing(&one, &tick(1.0)).is_empty());
+        assert_eq!(differing(&one, &tick(1.5)), ["sense", "physics"]);
+        let mut other = one.clone();
+        other.0.vehicles[0].prediction.states[1].x_m = 1.0;
+        assert_eq!(differing(&one, &other), ["predict"]);
+        let mut other = one.clone();
+        other.0.vehicles[0].input.steering_rad = -0.0;
+        assert_eq!(differing(&one, &other), ["act"], "bit for bit: even a zero's sign");
+        let mut other = one.clone();
+        other.1[0].y_m = 1.0;
+        assert_eq!(differing(&one, &other), ["physics"]);
+    }
+
+    /// Who plans first is expected to do what it planned; another plan is not laid at Predict's door.
+    #[test]
+    fn a_prediction_that_is_the_plan_is_digested_as_the_plan() {
+        let told = |x_m: f64| {
+            let (mut frame, after) = tick(1.0);
+            let vehicle = &mut frame.vehicles[0];
+            vehicle.plan.trajectory.states[1].x_m = x_m;
+            vehicle.prediction = vehicle.plan.trajectory.clone();
+            (frame, after)
+        };
+        assert_eq!(differing(&told(1.0), &told(2.0)), ["plan"]);
     }
 }

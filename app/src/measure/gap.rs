@@ -21,6 +21,13 @@ impl Gap {
         Gap { ego: scenario.ego_index(), bodies, smallest_m: None }
     }
 
+    /// Notes that two vehicles touch.
+    pub fn touch(&mut self, pair: [usize; 2]) {
+        if pair.contains(&self.ego) {
+            self.smallest_m = Some(0.0);
+        }
+    }
+
     /// Looks at one moment; returns the distance there \[m\].
     pub fn observe(&mut self, states: &[State]) -> Option<f64> {
         let ego = (self.bodies.get(self.ego)?, states.get(self.ego)?);

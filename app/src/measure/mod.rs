@@ -68,8 +68,9 @@ impl Measures {
         }
     }
 
-    /// Notes a contact.
-    pub fn collide(&mut self, collision: Collision) {
+    /// Notes a contact of two vehicles, given by their indices.
+    pub fn collide(&mut self, pair: [usize; 2], collision: Collision) {
+        self.gap.touch(pair);
         self.collisions.push(collision);
     }
 }

@@ -73,7 +73,7 @@ pub fn about(
 }
 
 fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> String {
-    let again = command.map(|command| format!(" Again: `{command}`")).unwrap_or_default();
+    let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
     let figure = scenario.figure.as_ref().map(|figure| format!(" (figure {figure})")).unwrap_or_default();
     let who: String =
         scenario.vehicles.iter().zip(paints).map(|(vehicle, paint)| row(scenario, vehicle, *paint)).collect();
@@ -89,6 +89,13 @@ fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> 
     )
 }
 
+/// A text to be shown as it is: between more backticks than it has in a row.
+fn code(text: &str) -> String {
+    let most = text.split(|character| character != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(most + 1);
+    if most == 0 { format!("{fence}{text}{fence}") } else { format!("{fence} {text} {fence}") }
+}
+
 fn row(scenario: &Scenario, vehicle: &Vehicle, paint: Paint) -> String {
     let target = vehicle.target(&scenario.road);
     let wish = match vehicle.goal.lane {
@@ -96,4 +103,26 @@ fn row(scenario: &Scenario, vehicle: &Vehicle, paint: Paint) -> String {
         None => format!("{:.2} m/s", target.speed_mps),
     };
     format!("| **{}** | {} | {} | {wish} |\n", vehicle.name, paint.word, vehicle.driver.kind())
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::super::palette::paints;
+    use super::{code, description};
+
+    #[test]
+    fn the_text_says_how_to_repeat_the_run() {
+        let scenario = load("lane-change/front-nice", &[]).expect("embedded");
+        let text = |command| description(&scenario, &paints(&scenario), command);
+        assert!(text(Some("interplay run a --seed 2")).contains("(figure 6.1). Again: `interplay run a --seed 2`\n"));
+        assert!(!text(None).contains("Again"));
+    }
+
+    #[test]
+    fn backticks_in_a_command_do_not_end_it() {
+        assert_eq!(code("interplay run a"), "`interplay run a`");
+        assert_eq!(code("--set 'title=`a` ``b``'"), "``` --set 'title=`a` ``b``' ```");
+    }
 }

@@ -10,6 +10,7 @@ use serde::Serialize;
 pub use expectations::Expectation;
 pub use summary::summary;
 
+use crate::components::to_nanosecond;
 use crate::measure::{Collision, Measures, PhaseDigests, VehicleMeasures};
 
 /// The outcome of one run; its serialisation is the output contract of `--json`.
@@ -90,7 +91,7 @@ impl Report {
             scenario: name.to_owned(),
             passed: true,
             seed: scenario.seed,
-            simulated_s: scenario.step_s * scenario.tick_count() as f64,
+            simulated_s: to_nanosecond(scenario.step_s * scenario.tick_count() as f64),
             wall_s,
             digest: phase_digests.physics.clone(),
             phase_digests,

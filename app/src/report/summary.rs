@@ -15,10 +15,10 @@ pub fn summary(title: &str, report: &Report) -> String {
 fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
     let factor = report.simulated_s / report.wall_s.max(1e-9);
     writeln!(text, "{title}  [{}]", report.scenario)?;
-    writeln!(text, "  {:.1} s simulated in {:.2} s ({factor:.0} times real time)", report.simulated_s, report.wall_s)?;
+    writeln!(text, "  {:?} s simulated in {:.2} s ({factor:.0} times real time)", report.simulated_s, report.wall_s)?;
     for vehicle in &report.vehicles {
         if let Some(time_s) = vehicle.completed_s {
-            writeln!(text, "  {} reached its goal at {time_s:.1} s", vehicle.name)?;
+            writeln!(text, "  {} reached its goal at {time_s:?} s", vehicle.name)?;
         }
     }
     writeln!(text, "  order at the end: {}", report.order.join(", "))?;

@@ -13,8 +13,6 @@ use crate::Result;
 const STEP_S: f64 = 0.1;
 const HORIZON: usize = 30;
 const TICKS: usize = 120;
-/// Every how many steps the planners look around, as in the scenario files.
-pub const LOOK_AROUND_EVERY: usize = 3;
 
 /// What sets the lane changes apart.
 #[derive(Clone, Copy)]
@@ -23,13 +21,17 @@ pub struct Scenario {
     pub name: &'static str,
     front: Style,
     rear: Style,
+    /// Where the front one starts \[m\]; the other is 1.3 m behind it.
+    front_x_m: f64,
+    /// How fast both drive \[m/s\].
+    speed_mps: f64,
 }
 
 /// The lane changes of `scenarios/files/lane-change/`.
 pub const SCENARIOS: [Scenario; 3] = [
-    Scenario { name: "front-nice", front: Style::Nice, rear: Style::Nice },
-    Scenario { name: "front-tough", front: Style::Tough, rear: Style::Nice },
-    Scenario { name: "both-tough", front: Style::Tough, rear: Style::Tough },
+    Scenario { name: "front-nice", front: Style::Nice, rear: Style::Nice, front_x_m: -0.35, speed_mps: 1.25 },
+    Scenario { name: "front-tough", front: Style::Tough, rear: Style::Nice, front_x_m: -0.35, speed_mps: 1.25 },
+    Scenario { name: "both-tough", front: Style::Tough, rear: Style::Tough, front_x_m: -0.4, speed_mps: 1.4 },
 ];
 
 /// One driver's decision.
@@ -76,8 +78,13 @@ fn vehicle(name: &str, [x_m, y_m, speed_mps]: [f64; 3], tracking: [f64; 4], driv
 pub fn run(scenario: &Scenario, ego: Driver, mut watch: impl FnMut(&Decision) -> Result<()>) -> Result<()> {
     let human = |style| Driver::Human(human::Settings { style: Some(style), ..Default::default() });
     let mut vehicles = [
-        vehicle("front", [-0.4, 0.555, 1.4], [0.0, 4.0, 1.0, 1.0], human(scenario.front)),
-        vehicle("rear", [-1.7, 0.555, 1.4], [0.0, 4.0, 1.0, 1.0], human(scenario.rear)),
+        vehicle("front", [scenario.front_x_m, 0.555, scenario.speed_mps], [0.0, 4.0, 1.0, 1.0], human(scenario.front)),
+        vehicle(
+            "rear",
+            [scenario.front_x_m - 1.3, 0.555, scenario.speed_mps],
+            [0.0, 4.0, 1.0, 1.0],
+            human(scenario.rear),
+        ),
         vehicle("ego", [0.0, 0.185, 1.0], [0.0, 1.0, 0.5, 1.0], ego),
     ];
     for tick in 0..TICKS {

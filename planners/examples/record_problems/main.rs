@@ -12,7 +12,6 @@
 //! optimum of the rebuilt problem.)
 
 mod closed_loop;
-mod human_view;
 mod negotiation_view;
 #[path = "../../tests/common/recorded.rs"]
 mod recorded;
@@ -21,9 +20,9 @@ use std::error::Error;
 use std::io::Write;
 
 use interplay_planners::mpc::{Iterate, Optimiser, Problem, Robust};
-use interplay_planners::{Agent, Driver, Plan, conservative, human, negotiation};
+use interplay_planners::{Agent, Driver, Plan, Trajectory, conservative, human, negotiation};
 
-use closed_loop::{Decision, LOOK_AROUND_EVERY, SCENARIOS};
+use closed_loop::{Decision, SCENARIOS};
 use negotiation_view::{NegotiationView, Posed};
 use recorded::{KINDS, Recorded};
 
@@ -45,8 +44,8 @@ struct Met {
 fn main() -> Result<()> {
     let mut met: [Vec<Met>; 3] = Default::default();
     for scenario in SCENARIOS {
-        let asking = negotiation::Settings { look_around_every: LOOK_AROUND_EVERY, ..Default::default() };
-        let baseline = conservative::Settings { look_around_every: LOOK_AROUND_EVERY };
+        let asking = negotiation::Settings::default();
+        let baseline = conservative::Settings::default();
         for ego in [Driver::Conservative(baseline), Driver::Negotiation(asking)] {
             let run = format!("{}/{}", scenario.name, ego.kind());
             let mut view = NegotiationView::new(asking);
@@ -79,7 +78,7 @@ fn main() -> Result<()> {
 }
 
 fn posed_by_human(decision: &Decision, settings: &human::Settings) -> Result<Posed> {
-    let problem = human_view::problem(decision.scene, settings);
+    let problem = human::problem(decision.scene, settings);
     let cost = cost_of_plan(&problem, decision.plan);
     let better =
         Optimiser::new(Robust::default()).descend(&problem, std::slice::from_ref(&decision.plan.trajectory.inputs))?;
@@ -87,7 +86,7 @@ fn posed_by_human(decision: &Decision, settings: &human::Settings) -> Result<Pos
         let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
         return Err(format!("tick {tick}: the plan of {name} is no optimum: {cost}, {}", better.cost.total).into());
     }
-    Ok((problem, vec![human_view::guess(decision.scene, decision.last)]))
+    Ok((problem, vec![human::guess(decision.scene, decision.last)]))
 }
 
 fn posed_by_conservative(decision: &Decision) -> Result<Posed> {
@@ -97,7 +96,7 @@ fn posed_by_conservative(decision: &Decision) -> Result<Posed> {
     if cost != stated {
         return Err(format!("tick {}: the rebuilt problem costs {cost}, not {stated}", decision.scene.tick).into());
     }
-    Ok((problem, vec![decision.last.map_or_else(Vec::new, |last| last.shifted().inputs)]))
+    Ok((problem, vec![decision.last.map_or_else(Vec::new, Trajectory::later_inputs)]))
 }
 
 /// What a lone vehicle's plan costs in a problem.

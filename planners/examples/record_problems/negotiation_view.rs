@@ -69,13 +69,20 @@ impl NegotiationView {
         let leaning = talk.last.as_ref().and_then(|round| leaning(round, 1.0 + self.settings.gamma * accepted));
         let weight = talk.concession.weight();
         let problem = negotiation::problem(scene, partner, weight, leaning, &self.settings);
-        let keep = talk.last.as_ref().map_or_else(
-            || vec![Vec::new(), partner.prediction.inputs.clone()],
-            |round| vec![round.cooperative.shifted().inputs, round.proposal.shifted().inputs],
-        );
+        let own_way = partner.prediction.inputs.clone();
+        let mut keep = vec![Vec::new(), own_way.clone()];
+        if let Some(round) = &talk.last {
+            let cooperative = round.cooperative.later_inputs();
+            keep = vec![cooperative.clone(), round.proposal.later_inputs()];
+            let unasked = vec![cooperative, own_way];
+            if problem.cost_of(&unasked) < problem.cost_of(&keep) {
+                keep = unasked;
+            }
+        }
         let mut guesses = vec![keep.clone()];
         guesses.extend(extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]));
-        let look_around = scene.tick.is_multiple_of(self.settings.look_around_every.max(1));
+        let every = self.settings.look_around_every;
+        let look_around = every > 0 && scene.tick.is_multiple_of(every);
         let optimum = self.optimiser.best_of(&problem, &guesses, look_around)?;
         if optimum.cost.total != stated(plan, "cost")? {
             return Err(format!("tick {}: the rebuilt negotiation costs {}", scene.tick, optimum.cost.total).into());

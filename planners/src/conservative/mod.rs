@@ -61,7 +61,7 @@ impl Conservative {
     /// The same as [`Conservative::plan`], with the optimum's cost.
     pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Optimum, DescentError> {
         let others: Vec<&Agent> = scene.others.iter().collect();
-        let keep = self.last.as_ref().map_or_else(Vec::new, |last| last.shifted().inputs);
+        let keep = self.last.as_ref().map_or_else(Vec::new, Trajectory::later_inputs);
         let [brake, accelerate] = extremes(scene);
         let guesses = [vec![keep], vec![brake], vec![accelerate]];
         let every = self.settings.look_around_every;

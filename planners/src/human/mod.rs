@@ -14,6 +14,7 @@
 //!
 //! The source only says that nice drivers have a higher safety weight (section 6.5). Ties between going first and yielding
 //! are decided by the initial guess, so a driver who reconsiders tries all three: the last plan, braking and accelerating.
+//! Where the last plan, improved, keeps clear of everybody there is no tie: it would be the same without them.
 
 mod settings;
 
@@ -25,8 +26,13 @@ use crate::{Agent, Input, Plan, PlanError, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
 const RESOLVE: f64 = 1.0;
+/// A plan outside the ellipses by this much of `d²` is in nobody's way.
+const OUT_OF_THE_WAY: f64 = 0.1;
 /// The very first guess leans towards yielding.
 const FIRST_GUESS: f64 = 0.3;
+/// The safety ellipse around the car ahead in this size is not entered while brakes can help: a hinge alone lets a driver
+/// be talked into a collision by its wish to go on.
+const TAILGATING: f64 = 0.7;
 /// Another plan must be cheaper by this share to be preferred to improving the last one.
 const HYSTERESIS: f64 = 1e-3;
 
@@ -49,13 +55,8 @@ impl Human {
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let problem = Problem {
-            horizon: scene.horizon,
-            participants: vec![scene.participant(self.keep_outs(scene))],
-            separations: Vec::new(),
-            leaning: None,
-        };
-        let (best, statistics) = self.decide(&problem, scene)?;
+        let minded = minded(scene, &self.settings);
+        let (best, statistics) = self.decide(&problem(scene, &self.settings), &minded, scene)?;
         let trajectory = best.trajectory(0);
         self.last = Some(trajectory.clone());
         Ok(Plan {
@@ -66,18 +67,21 @@ impl Human {
         })
     }
 
-    /// The cheapest of keeping on, yielding and passing.
-    fn decide(&mut self, problem: &Problem, scene: &Scene) -> Result<(Optimum, crate::mpc::Statistics), DescentError> {
-        let steady = |share: f64| {
-            let limits = &scene.ego.limits;
-            let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
-            steady(&scene.ego.state, share * bound, limits, scene.horizon, scene.step_s)
-        };
-        let keep = self.last.as_ref().map_or_else(|| steady(-FIRST_GUESS), |last| last.shifted().inputs);
+    /// The cheapest of keeping on, yielding and passing; the latter two only where somebody minded is near the plan.
+    fn decide(
+        &mut self,
+        problem: &Problem,
+        minded: &[KeepOut],
+        scene: &Scene,
+    ) -> Result<(Optimum, crate::mpc::Statistics), DescentError> {
+        let steady = |share| steadily(scene, share);
+        let keep = guess(scene, self.last.as_ref());
         let mut best = self.optimiser.descend(problem, &[keep]);
         let mut statistics = best.as_ref().map(|optimum| optimum.statistics).unwrap_or_default();
-        let minds_others = problem.participants.iter().any(|participant| !participant.keep_outs.is_empty());
-        if best.is_err() || (self.settings.reconsiders && minds_others) {
+        let contested = best.as_ref().is_ok_and(|optimum| {
+            minded.iter().any(|keep_out| keep_out.intrusion(&optimum.iterate.states[0]) > -OUT_OF_THE_WAY)
+        });
+        if best.is_err() || (self.settings.reconsiders && contested) {
             let mut guesses: Vec<Vec<Input>> = vec![steady(-RESOLVE), steady(RESOLVE)];
             if best.is_err() {
                 guesses.insert(0, steady(0.0));
@@ -93,31 +97,58 @@ impl Human {
         }
         best.map(|optimum| (optimum, statistics))
     }
+}
 
-    /// Everything the driver minds.
-    fn keep_outs(&self, scene: &Scene) -> Vec<KeepOut> {
-        let ego = &scene.ego;
-        let leader = leader(scene);
-        let weight = self.settings.weight();
-        let mut keep_outs = Vec::new();
-        for other in &scene.others {
-            if leader.is_some_and(|leader| leader.name == other.name) {
-                let penalty = Penalty::hinge(weight.max(self.settings.following_weight));
-                keep_outs.push(scene.keep_out(&other.prediction, ego.corridor.heading_rad, penalty));
-                continue;
-            }
-            let behind = ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
-            if weight == 0.0 || behind {
-                continue;
-            }
-            let predicted = constant_velocity(&other.state, scene.horizon, scene.step_s);
-            keep_outs.push(scene.keep_out(&predicted, other.corridor.heading_rad, Penalty::hinge(weight)));
-            if ego.crosses(other) {
-                keep_outs.push(scene.keep_out(&predicted, ego.corridor.heading_rad, Penalty::hinge(weight)));
-            }
-        }
-        keep_outs
+/// The problem that a driver poses.
+pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
+    let keep_outs = followed(scene, settings).into_iter().chain(minded(scene, settings)).collect();
+    Problem {
+        horizon: scene.horizon,
+        participants: vec![scene.participant(keep_outs)],
+        separations: Vec::new(),
+        leaning: None,
     }
+}
+
+/// The guess of keeping on: the last plan one step later, or at first a little braking.
+pub fn guess(scene: &Scene, last: Option<&Trajectory>) -> Vec<Input> {
+    last.map_or_else(|| steadily(scene, -FIRST_GUESS), Trajectory::later_inputs)
+}
+
+/// Straight on with a share of the strongest acceleration, or of the strongest braking where it is negative.
+fn steadily(scene: &Scene, share: f64) -> Vec<Input> {
+    let limits = &scene.ego.limits;
+    let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
+    steady(&scene.ego.state, share * bound, limits, scene.horizon, scene.step_s)
+}
+
+/// The vehicle ahead in the same lane: followed at a comfortable distance, and not entered while brakes can help.
+fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
+    let Some(leader) = leader(scene) else { return Vec::new() };
+    let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
+    let comfortable = scene.keep_out(&leader.prediction, scene.ego.corridor.heading_rad, penalty);
+    let ellipse = comfortable.ellipse.scaled(TAILGATING);
+    let firm = KeepOut { ellipse, penalty: Penalty::EXACT, ..comfortable.clone() };
+    vec![comfortable, firm]
+}
+
+/// Everybody who might cut in or cross.
+fn minded(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
+    let (ego, weight) = (&scene.ego, settings.weight());
+    if weight == 0.0 {
+        return Vec::new();
+    }
+    let leader = leader(scene).map(|leader| &leader.name);
+    let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
+    let mut keep_outs = Vec::new();
+    for other in scene.others.iter().filter(|other| Some(&other.name) != leader && !behind(other)) {
+        let predicted = constant_velocity(&other.state, scene.horizon, scene.step_s);
+        keep_outs.push(scene.keep_out(&predicted, other.corridor.heading_rad, Penalty::hinge(weight)));
+        if ego.crosses(other) {
+            keep_outs.push(scene.keep_out(&predicted, ego.corridor.heading_rad, Penalty::hinge(weight)));
+        }
+    }
+    keep_outs
 }
 
 /// The nearest vehicle ahead in the same lane.

@@ -35,6 +35,8 @@ impl Residual {
             Some(p) if p.quadratic > 0.0 => {
                 let violation = ((multiplier - p.linear) / (2.0 * p.quadratic)).max(0.0);
                 self.inequality(value + violation, multiplier);
+                // A violation costs its linear weight, and only λ of that is accounted for.
+                self.complementarity = self.complementarity.max((p.linear - multiplier).max(0.0) * (-value).max(0.0));
             }
             Some(p) => {
                 let violation = (-value).max(0.0);
@@ -109,7 +111,7 @@ fn vehicle_residual(
             let bounds = stages.input_boxes[k][axis];
             residual.inequality(inputs[k][axis] - bounds.lower, lower);
             residual.inequality(bounds.upper - inputs[k][axis], upper);
-            let mut gradient = from_dynamics[axis] + upper - lower + qp.damping * inputs[k][axis];
+            let mut gradient = from_dynamics[axis] + upper - lower + stages.damping(qp.damping, axis) * inputs[k][axis];
             gradient += 2.0 * stages.change_weights[axis] * stages.change(inputs, k, axis);
             if k + 1 < qp.horizon {
                 gradient -= 2.0 * stages.change_weights[axis] * stages.change(inputs, k + 1, axis);

@@ -10,6 +10,8 @@ use super::stage::{Interval, Row, RowBlock, StageQp, StageSolution, StateCost, T
 use crate::State;
 use crate::dynamics::Curvature;
 
+/// Tolerance of an ordinary step problem.
+pub(super) const TOLERANCE: f64 = 1e-9;
 /// Beyond this squared elliptical distance an ellipse is left out of the step: the merit still counts it.
 const FAR_SQUARED: f64 = 25.0;
 
@@ -17,6 +19,7 @@ const FAR_SQUARED: f64 = 25.0;
 pub fn linearise(problem: &Problem, iterate: &Iterate, qp: &mut StageQp) {
     qp.horizon = problem.horizon;
     qp.damping = 0.0;
+    qp.tolerance = TOLERANCE;
     qp.vehicles.resize_with(problem.participants.len(), VehicleStages::default);
     for (i, participant) in problem.participants.iter().enumerate() {
         linearise_vehicle(participant, problem.horizon, i, iterate, &mut qp.vehicles[i]);

@@ -12,6 +12,7 @@ mod model;
 mod problem;
 mod robust;
 mod scp;
+mod search;
 mod sparse;
 mod stage;
 mod structured;

@@ -18,6 +18,29 @@ impl StageQp {
         vehicles + rows + trajectories.sum::<f64>()
     }
 
+    /// `Σ linear·s` after the step, as the rows' linear model has it, and the largest `λ/linear` of its multipliers.
+    pub(super) fn steep(&self, solution: &StageSolution) -> (f64, f64) {
+        let (mut steep, mut share) = (0.0, 0.0_f64);
+        let mut add = |penalty: Penalty, value: f64, multiplier: f64| {
+            if penalty.linear > 0.0 {
+                steep += penalty.linear * (-value).max(0.0);
+                share = share.max(multiplier / penalty.linear);
+            }
+        };
+        for (block, multipliers) in self.blocks.iter().zip(&solution.row_multipliers) {
+            let Some(penalty) = block.penalty else { continue };
+            for (k, (row, multiplier)) in
+                block.rows.iter().zip(multipliers).enumerate().filter(|(_, (row, _))| row.active)
+            {
+                add(penalty, row_value(block, row, solution, k), *multiplier);
+            }
+        }
+        for (row, multiplier) in self.trajectory_rows.iter().zip(&solution.trajectory_multipliers) {
+            add(row.penalty, -row.value_at(solution.states[row.vehicle].iter()), *multiplier);
+        }
+        (steep, share)
+    }
+
     fn vehicle_change(&self, solution: &StageSolution, vehicle: usize) -> f64 {
         let stages = &self.vehicles[vehicle];
         let (inputs, states) = (&solution.inputs[vehicle], &solution.states[vehicle]);
@@ -34,7 +57,9 @@ impl StageQp {
                     change += stages.change_weights[axis] * (new * new - old * old);
                 }
             }
-            change += 0.5 * self.damping * (inputs[k][0] * inputs[k][0] + inputs[k][1] * inputs[k][1]);
+            for axis in 0..2 {
+                change += 0.5 * stages.damping(self.damping, axis) * inputs[k][axis] * inputs[k][axis];
+            }
             let before = solution.state_before(vehicle, k);
             let ([heading, speed], steering) = curvature_gradient(&stages.curvatures[k], &before, &inputs[k]);
             change += 0.5 * (heading * before[2] + speed * before[3] + steering * inputs[k][1]);

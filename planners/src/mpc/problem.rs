@@ -121,6 +121,16 @@ pub struct Participant {
     pub mean_speed: Option<MeanSpeed>,
 }
 
+impl KeepOut {
+    /// How near a motion comes: the largest `1 − d²` over `t = 1…N`, negative outside. `states` begin at `t = 0`.
+    pub fn intrusion(&self, states: &[State]) -> f64 {
+        let centres = states.iter().skip(1).zip(&self.centres);
+        let distances =
+            centres.map(|(state, centre)| self.ellipse.distance(state.position(), *centre, self.heading_rad).squared);
+        1.0 - distances.fold(f64::INFINITY, f64::min)
+    }
+}
+
 /// Two deciding vehicles keep apart: the first stays outside an ellipse around the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Separation {
@@ -186,6 +196,8 @@ pub struct Problem {
 pub struct Cost {
     /// Everything, penalties included.
     pub total: f64,
+    /// The part of it that is linear in violations, `Σ linear·s`.
+    pub steep: f64,
     /// Largest violation of a safety row (`1 − d²` of an ellipse with a linear penalty) \[-\].
     pub safety_slack: f64,
     /// Largest distance of a corner beyond a road edge \[m\].
@@ -261,7 +273,7 @@ impl Participant {
             }
             if t >= self.first() {
                 for corner in self.corridor.clearances(&self.body, &states[t + 1]) {
-                    cost.total += Penalty::EXACT.cost(corner.value);
+                    cost.add_row(&Penalty::EXACT, corner.value);
                     cost.edge_slack_m = cost.edge_slack_m.max(-corner.value);
                 }
             }
@@ -276,7 +288,7 @@ impl Participant {
         }
         if let Some(bound) = &self.mean_speed {
             for (value, _) in bound.values(states) {
-                cost.total += bound.penalty.cost(-value);
+                cost.add_row(&bound.penalty, -value);
                 cost.mean_speed_slack_mps = cost.mean_speed_slack_mps.max(value);
             }
         }
@@ -284,8 +296,13 @@ impl Participant {
 }
 
 impl Cost {
-    fn add_safety(&mut self, penalty: &Penalty, value: f64) {
+    fn add_row(&mut self, penalty: &Penalty, value: f64) {
         self.total += penalty.cost(value);
+        self.steep += penalty.linear * (-value).max(0.0);
+    }
+
+    fn add_safety(&mut self, penalty: &Penalty, value: f64) {
+        self.add_row(penalty, value);
         if penalty.linear > 0.0 {
             self.safety_slack = self.safety_slack.max(-value);
         }
@@ -299,6 +316,21 @@ impl Problem {
         for (i, participant) in self.participants.iter().enumerate() {
             participant.model.roll_out(&participant.start, &iterate.inputs[i], &mut iterate.states[i]);
         }
+    }
+
+    /// The admissible iterate nearest to a guess (per participant, inputs).
+    pub fn start(&self, guess: &[Vec<Input>]) -> Iterate {
+        let inputs = self.participants.iter().enumerate().map(|(i, participant)| {
+            participant.admissible(guess.get(i).map(Vec::as_slice).unwrap_or_default(), self.horizon)
+        });
+        let mut iterate = Iterate { inputs: inputs.collect(), states: Vec::new() };
+        self.roll_out(&mut iterate);
+        iterate
+    }
+
+    /// What a guess costs, made admissible.
+    pub fn cost_of(&self, guess: &[Vec<Input>]) -> f64 {
+        self.cost(&self.start(guess)).total
     }
 
     /// The cost of an iterate whose states were rolled out.
@@ -316,7 +348,7 @@ impl Problem {
         }
         if let Some(leaning) = &self.leaning {
             let value = leaning.value(&iterate.states[0]);
-            cost.total += leaning.penalty.cost(-value);
+            cost.add_row(&leaning.penalty, -value);
             cost.leaning_slack = value.max(0.0);
         }
         cost

@@ -1,23 +1,28 @@
-//! Sequential quadratic programming with the cost as its own merit function.
+//! Sequential quadratic programming with the problem's own cost as merit function.
 //!
 //! From an iterate that obeys the dynamics, a [`StageQp`] gives a direction `w` and the decrease that its model predicts;
 //! a backtracking search takes the largest `α ∈ {1, ½, ¼, …}` with
 //!
 //! ```text
-//! J(u + α w) ≤ J(u) − 10⁻⁴ α · predicted          (Armijo)
+//! φ(u + α w) ≤ φ(u) − 10⁻⁴ α · predicted,      φ = J − (1 − κ) Σ linear·s       (Armijo)
 //! ```
 //!
-//! where `J` is evaluated on rolled-out states. Every iterate is admissible and the cost never rises, so the method
-//! cannot cycle. A full step that is refused is corrected to second order before it is shortened. The first step is
-//! Gauss-Newton; later steps use the exact Hessian of the Lagrangian, which makes the end quadratic; where it is not positive
-//! definite on the dynamics, `½ μ Σ‖w_k‖²` is added to it (Levenberg and Marquardt), and if that does not help the step is
-//! Gauss-Newton again.
+//! where `J` is evaluated on rolled-out states, so that every iterate is admissible. `J` charges a violation `s` of a soft
+//! row with `linear = 1e3`, far more than the multipliers of most plans, and a merit so steep would allow only tiny steps
+//! along a curved boundary. An exact penalty need only exceed the multipliers (Nocedal and Wright, section 18.5), so the
+//! search counts the share `κ = 2 max λ/linear` of it, at most all.
+//!
+//! A full step that is refused is corrected to second order before it is shortened. The first step is Gauss-Newton; later
+//! steps use the exact Hessian of the Lagrangian, which makes the end quadratic; where it is not positive definite on the
+//! dynamics the step is Gauss-Newton again. Steps that had to be cut very short are followed by damped ones (Levenberg and
+//! Marquardt).
 
 use thiserror::Error;
 
 use super::kkt;
-use super::linearise::{add_curvature, drop_curvature, linearise, move_rows};
+use super::linearise::{TOLERANCE, add_curvature, drop_curvature, linearise};
 use super::problem::{Cost, Iterate, Problem};
+use super::search::Search;
 use super::stage::{StageError, StageQp, StageSolution, StageSolver};
 use crate::Input;
 
@@ -26,17 +31,18 @@ use crate::Input;
 pub struct Tolerances {
     /// Largest KKT residual of a converged solution.
     pub residual: f64,
-    /// A step whose predicted decrease is below this share of `1 + |J|` ends the search too.
+    /// An undamped step whose predicted decrease is below this share of `1 + |J|` is the last: beyond it the stage
+    /// problems' own tolerance shows.
     pub decrease: f64,
     /// Most steps in one descent.
     pub iteration_limit: usize,
-    /// A safety row violated by more than this makes a solution suspect (1 − d²).
+    /// A safety row (1 − d²) or a road edge \[m\] violated by more than this makes a solution suspect.
     pub slack: f64,
 }
 
 impl Default for Tolerances {
     fn default() -> Self {
-        Tolerances { residual: 1e-6, decrease: 1e-10, iteration_limit: 50, slack: 1e-3 }
+        Tolerances { residual: 1e-8, decrease: 1e-11, iteration_limit: 50, slack: 1e-3 }
     }
 }
 
@@ -85,6 +91,17 @@ pub enum DescentError {
     NotFinite,
 }
 
+/// Damping begins with this, in units of the comfort weights.
+const GENTLEST: f64 = 1.0;
+/// Where even this damping gains nothing, nothing does.
+const FIRMEST: f64 = 1e6;
+/// Tolerance of the very last step problem where rows on the verge of being active need it.
+const FINEST: f64 = 1e-13;
+/// The residual with which the last step is content.
+const GOOD: f64 = 1e-6;
+/// A smaller share of a step calls for damping.
+const SHORT: f64 = 0.1;
+
 /// A trajectory optimiser: a stage solver and the memory that a descent needs.
 #[derive(Clone, Debug, Default)]
 pub struct Optimiser<S> {
@@ -92,36 +109,10 @@ pub struct Optimiser<S> {
     pub solver: S,
     /// When to stop.
     pub tolerances: Tolerances,
-    qp: StageQp,
-    step: StageSolution,
-    trial: Iterate,
-    held: StageSolution,
-}
-
-/// Damping that is tried in turn where the exact Hessian is not positive definite. Comfort weights are of the order of
-/// the first.
-const DAMPING: [f64; 3] = [0.1, 1.0, 10.0];
-
-/// How the next step problem is made.
-#[derive(Clone, Copy, Debug)]
-struct Model {
-    /// Whether the curvature of dynamics and rows is in it.
-    curved: bool,
-    damping: f64,
-}
-
-impl Model {
-    const GAUSS_NEWTON: Model = Model { curved: false, damping: 0.0 };
-    const EXACT: Model = Model { curved: true, damping: 0.0 };
-
-    /// What to try after a step that no search could use; nothing once steps would be too short to matter.
-    fn firmer(self) -> Option<Model> {
-        match self {
-            Model { curved: true, .. } => Some(Model::GAUSS_NEWTON),
-            Model { damping, .. } if damping < 1e4 => Some(Model { curved: false, damping: (10.0 * damping).max(1.0) }),
-            _ => None,
-        }
-    }
+    pub(super) qp: StageQp,
+    pub(super) step: StageSolution,
+    pub(super) search: Search,
+    before: StageSolution,
 }
 
 impl<S: StageSolver> Optimiser<S> {
@@ -132,8 +123,8 @@ impl<S: StageSolver> Optimiser<S> {
             tolerances: Tolerances::default(),
             qp: StageQp::default(),
             step: StageSolution::default(),
-            trial: Iterate::default(),
-            held: StageSolution::default(),
+            search: Search::default(),
+            before: StageSolution::default(),
         }
     }
 
@@ -142,122 +133,85 @@ impl<S: StageSolver> Optimiser<S> {
     /// # Errors
     /// [`DescentError`] if a step problem cannot be solved or the iteration limit is reached.
     pub fn descend(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
-        let mut now = Optimum { iterate: start(problem, guess), ..Optimum::default() };
+        let mut now = Optimum { iterate: problem.start(guess), ..Optimum::default() };
         now.statistics.starts = 1;
         now.cost = problem.cost(&now.iterate);
         if !now.cost.total.is_finite() {
             return Err(DescentError::NotFinite);
         }
+        self.search.restart();
         linearise(problem, &now.iterate, &mut self.qp);
-        let mut model = Model::GAUSS_NEWTON;
-        for _ in 0..self.tolerances.iteration_limit {
-            let predicted = self.direction(problem, &mut now, model)?;
+        let (mut damping, mut tolerance) = (0.0, TOLERANCE);
+        for step in 0..self.tolerances.iteration_limit {
+            self.before.clone_from(&self.step);
+            self.qp.tolerance = tolerance;
+            self.direction(problem, &mut now, step > 0, damping)?;
+            let predicted = self.predict(&now.cost);
+            let little = predicted <= self.tolerances.decrease * (1.0 + now.cost.total.abs());
             // A damped step promises little because it is short, not because there is little to gain.
-            let ended = self.qp.damping == 0.0 && predicted <= self.tolerances.decrease * (1.0 + now.cost.total.abs());
-            let moved = self.take(problem, &mut now, 1.0, predicted)
-                || self.correct(problem, &mut now, predicted)
-                || self.search(problem, &mut now, predicted);
-            if !moved && !ended {
-                now.statistics.fallbacks += 1;
-                let Some(next) = model.firmer() else { break };
-                model = next;
-            } else {
-                model = if self.solver.accepts_curvature() { Model::EXACT } else { Model::GAUSS_NEWTON };
+            let last = self.qp.damping == 0.0 && little;
+            let share = self.advance(problem, &mut now, predicted, last);
+            if step > 0 {
+                self.step.retreat(&self.before, share);
             }
+            damping = match share {
+                0.0 if last => 0.0,
+                0.0 if self.qp.damping > FIRMEST => break,
+                0.0 => (16.0 * self.qp.damping).max(GENTLEST),
+                short if short < SHORT => (4.0 * self.qp.damping).max(GENTLEST),
+                1.0 if self.qp.damping > GENTLEST => 0.25 * self.qp.damping,
+                1.0 => 0.0,
+                _ => self.qp.damping,
+            };
             linearise(problem, &now.iterate, &mut self.qp);
             self.step.rest();
             now.statistics.residual = kkt::residual(&self.qp, &self.step).largest();
-            if ended || now.statistics.residual <= self.tolerances.residual {
+            let wanted = match last {
+                false => self.tolerances.residual,
+                true if tolerance == TOLERANCE => GOOD,
+                true => f64::INFINITY,
+            };
+            if last {
+                tolerance = FINEST;
+            }
+            if now.statistics.residual <= wanted {
                 return Ok(now);
             }
         }
         Err(DescentError::NotConverged(now.statistics))
     }
 
-    /// Solves the step problem at `now`, returning the decrease that it predicts (at least 0 for Gauss-Newton).
-    fn direction(&mut self, problem: &Problem, now: &mut Optimum, model: Model) -> Result<f64, DescentError> {
-        let exact = model.curved;
-        if exact {
+    /// Solves the step problem at `now`: with the exact Hessian if there are multipliers to make it from and it is convex.
+    fn direction(
+        &mut self,
+        problem: &Problem,
+        now: &mut Optimum,
+        warm: bool,
+        damping: f64,
+    ) -> Result<(), DescentError> {
+        self.qp.damping = damping;
+        let mut outcome = Err(StageError::NotConvex { stage: 0 });
+        if warm && self.solver.accepts_curvature() {
             add_curvature(problem, &now.iterate, &mut self.step, &mut self.qp);
-        } else {
-            drop_curvature(&mut self.qp);
+            outcome = self.solve_step(now, damping == 0.0);
+            now.statistics.fallbacks += usize::from(outcome.is_err());
         }
-        self.qp.damping = model.damping;
-        let warm = now.statistics.programmes > 0;
-        let mut outcome = self.solve_step(now, warm);
-        for damping in DAMPING {
-            if exact && matches!(outcome, Err(StageError::NotConvex { .. })) {
-                now.statistics.fallbacks += 1;
-                self.qp.damping = damping;
-                outcome = self.solve_step(now, false);
-            }
-        }
-        if exact && outcome.is_err() {
-            now.statistics.fallbacks += 1;
-            self.qp.damping = 0.0;
+        if outcome.is_err() {
             drop_curvature(&mut self.qp);
             outcome = self.solve_step(now, false);
         }
-        outcome.map_err(|source| DescentError::Step { step: now.statistics.programmes, source })?;
-        Ok(-self.qp.change(&self.step))
+        outcome.map_err(|source| DescentError::Step { step: now.statistics.programmes, source })
     }
 
-    fn solve_step(&mut self, now: &mut Optimum, warm: bool) -> Result<(), StageError> {
+    pub(super) fn solve_step(&mut self, now: &mut Optimum, warm: bool) -> Result<(), StageError> {
         now.statistics.programmes += 1;
         let outcome = self.solver.solve(&self.qp, &mut self.step, warm);
         now.statistics.inner_iterations += self.step.iterations;
         outcome
     }
 
-    /// Takes a share of the step if the cost falls by a sufficient part of what was predicted.
-    fn take(&mut self, problem: &Problem, now: &mut Optimum, share: f64, predicted: f64) -> bool {
-        const SUFFICIENT: f64 = 1e-4;
-        self.try_step(problem, &now.iterate, share);
-        let cost = problem.cost(&self.trial);
-        let enough = now.cost.total - SUFFICIENT * share * predicted.max(0.0);
-        let accepted = cost.total <= enough && cost.total < now.cost.total;
-        if accepted {
-            std::mem::swap(&mut now.iterate, &mut self.trial);
-            now.cost = cost;
-        }
-        accepted
-    }
-
-    /// Second-order correction: the rows are taken where the full step really led, and the step problem is solved again.
-    /// Without it, steps along a curved boundary are cut short for the little by which they miss it (Maratos).
-    fn correct(&mut self, problem: &Problem, now: &mut Optimum, predicted: f64) -> bool {
-        self.held.clone_from(&self.step);
-        move_rows(problem, &self.trial, &self.step, &mut self.qp);
-        let solved = self.solve_step(now, true).is_ok();
-        let taken = solved && self.take(problem, now, 1.0, predicted);
-        if !taken {
-            self.step.clone_from(&self.held);
-        }
-        taken
-    }
-
-    /// The backtracking search along the step; says whether the iterate moved.
-    fn search(&mut self, problem: &Problem, now: &mut Optimum, predicted: f64) -> bool {
-        const SHORTEST: f64 = 1.0 / 1024.0;
-        let shares = std::iter::successors(Some(0.5), |share| Some(0.5 * share)).take_while(|share| *share >= SHORTEST);
-        shares.into_iter().any(|share| self.take(problem, now, share, predicted))
-    }
-
-    fn try_step(&mut self, problem: &Problem, from: &Iterate, share: f64) {
-        self.trial.inputs.resize_with(from.inputs.len(), Vec::new);
-        for (i, inputs) in from.inputs.iter().enumerate() {
-            let steps = inputs.iter().zip(&self.step.inputs[i]);
-            self.trial.inputs[i].clear();
-            self.trial.inputs[i].extend(steps.map(|(input, [acceleration, steering])| Input {
-                acceleration_mps2: input.acceleration_mps2 + share * acceleration,
-                steering_rad: input.steering_rad + share * steering,
-            }));
-        }
-        problem.roll_out(&mut self.trial);
-    }
-
-    /// Descends from the first guess; if that fails or ends on a violated safety row (a stationary point inside an
-    /// ellipse: it happens), or if `look_around` asks for it, from the others too. The cheapest optimum wins.
+    /// Descends from the first guess; if that fails or ends on a violated safety row or road edge (a stationary point
+    /// inside an ellipse: it happens), or if `look_around` asks for it, from the others too. The cheapest optimum wins.
     ///
     /// # Errors
     /// That of the first guess, if every guess fails.
@@ -269,7 +223,9 @@ impl<S: StageSolver> Optimiser<S> {
     ) -> Result<Optimum, DescentError> {
         let Some((first, others)) = guesses.split_first() else { return Err(DescentError::NotFinite) };
         let mut best = self.descend(problem, first);
-        let trusted = best.as_ref().is_ok_and(|optimum| optimum.cost.safety_slack <= self.tolerances.slack);
+        let trusted = best.as_ref().is_ok_and(|optimum| {
+            optimum.cost.safety_slack <= self.tolerances.slack && optimum.cost.edge_slack_m <= self.tolerances.slack
+        });
         if trusted && !look_around {
             return best;
         }
@@ -290,15 +246,4 @@ impl<S: StageSolver> Optimiser<S> {
             Optimum { statistics: Statistics { residual, ..total }, ..optimum }
         })
     }
-}
-
-/// The admissible iterate nearest to a guess.
-fn start(problem: &Problem, guess: &[Vec<Input>]) -> Iterate {
-    let inputs = problem.participants.iter().enumerate().map(|(i, participant)| {
-        let guess = guess.get(i).map(Vec::as_slice).unwrap_or_default();
-        participant.admissible(guess, problem.horizon)
-    });
-    let mut iterate = Iterate { inputs: inputs.collect(), states: Vec::new() };
-    problem.roll_out(&mut iterate);
-    iterate
 }

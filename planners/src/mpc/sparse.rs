@@ -187,7 +187,7 @@ impl Layout {
         }
         for axis in 0..2 {
             let (weight, now) = (2.0 * stages.change_weights[axis], self.input(vehicle, k, axis));
-            program.quadratic(now, now, weight + qp.damping);
+            program.quadratic(now, now, weight + stages.damping(qp.damping, axis));
             program.linear(now, weight * stages.changes[k][axis]);
             if k > stages.first {
                 let before = self.input(vehicle, k - 1, axis);

@@ -8,7 +8,7 @@
 //! minimise  Σ_k  g_k·d_{k+1} + ½ d_{k+1}ᵀ H_k d_{k+1}                tracking, x_{k+1}
 //!              + ½ (d_k, w_k)ᵀ C_k (d_k, w_k)                        curvature of the dynamics
 //!              + Σ_i r_i (Δū_{k,i} + w_{k,i} − w_{k−1,i})²           comfort, w_{first−1} = 0
-//!              + ½ μ Σ_k ‖w_k‖²                                      damping
+//!              + ½ μ Σ_i r_i w_{k,i}²                                damping, in the comfort's own scale
 //!              + Σ_rows  linear·s + quadratic·s² + ½ pᵀ K p          soft rows, p the position they speak of
 //! such that  c + ∇c·p + s ≥ 0,  s ≥ 0                                rows
 //!            lower ≤ w_k ≤ upper,  lower ≤ δv_{k+1} ≤ upper          boxes
@@ -118,7 +118,9 @@ pub struct StageQp {
     pub blocks: Vec<RowBlock>,
     /// The rows over whole trajectories.
     pub trajectory_rows: Vec<TrajectoryRow>,
-    /// `μ ≥ 0`: keeps the step short.
+    /// Mean complementarity and largest primal residual of a solution that will do.
+    pub tolerance: f64,
+    /// `μ ≥ 0`: keeps the step short, in units of the comfort weights.
     pub damping: f64,
 }
 
@@ -190,7 +192,27 @@ pub trait StageSolver {
     fn solve(&mut self, problem: &StageQp, solution: &mut StageSolution, warm: bool) -> Result<(), StageError>;
 }
 
+impl StageSolution {
+    /// Leaves the multipliers a share of the way from `before` to where they are: a step cut short has not reached the rows
+    /// that its end would touch.
+    pub(super) fn retreat(&mut self, before: &StageSolution, share: f64) {
+        let mix = |now: &mut f64, was: &f64| *now = was + share * (*now - was);
+        let bounds = self.bound_multipliers.iter_mut().flatten().flatten().flatten();
+        bounds.zip(before.bound_multipliers.iter().flatten().flatten().flatten()).for_each(|(now, was)| mix(now, was));
+        let rows = self.row_multipliers.iter_mut().flatten();
+        rows.zip(before.row_multipliers.iter().flatten()).for_each(|(now, was)| mix(now, was));
+        let trajectories = self.trajectory_multipliers.iter_mut();
+        trajectories.zip(&before.trajectory_multipliers).for_each(|(now, was)| mix(now, was));
+    }
+}
+
 impl VehicleStages {
+    /// `μ r` of one input; not zero without a comfort weight.
+    #[inline(always)]
+    pub(super) fn damping(&self, damping: f64, axis: usize) -> f64 {
+        damping * self.change_weights[axis].max(1e-6)
+    }
+
     /// `Δū_k + w_k − w_{k−1}` of one input.
     pub(super) fn change(&self, inputs: &[[f64; 2]], k: usize, axis: usize) -> f64 {
         let before = if k > self.first { inputs[k - 1][axis] } else { 0.0 };

@@ -3,13 +3,13 @@
 //! At every step the planner
 //!
 //! 1. makes a conservative plan (eq. 6.13), its retreat;
-//! 2. chooses whom to ask ([`interlocutor`]);
+//! 2. chooses whom to ask (`interlocutor`);
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`acceptance`], eq. 6.19);
-//! 4. concedes: lowers the weight of its own cost the less it was accepted ([`concession`], eq. 6.18);
-//! 5. leans towards its last proposal and away from its retreat, the more the better it was received ([`persuasion`],
+//! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
+//! 5. leans towards its last proposal and away from its retreat, the more the better it was received (`persuasion`,
 //!    eq. 6.20-6.23);
-//! 6. solves for its own plan and a proposal to the other at once ([`proposal`], eq. 6.24);
-//! 7. applies the first input only if a conservative plan still exists after it ([`filter`]).
+//! 6. solves for its own plan and a proposal to the other at once (`proposal`, eq. 6.24);
+//! 7. applies the first input only if a conservative plan still exists after it (`filter`).
 
 mod acceptance;
 mod concession;
@@ -25,8 +25,8 @@ pub use proposal::problem;
 pub use settings::Settings;
 
 use crate::conservative::{self, Conservative, extremes};
-use crate::mpc::{Leaning, Optimiser, Optimum, Robust};
-use crate::{Agent, Plan, PlanError, Proposal, Scene, Trajectory};
+use crate::mpc::{Leaning, Optimiser, Optimum, Problem, Robust};
+use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use filter::Filter;
 use interlocutor::Interlocutor;
 
@@ -132,14 +132,22 @@ impl Negotiation {
 
     fn propose(&mut self, scene: &Scene, partner: &Agent, leaning: Option<Leaning>) -> Result<Optimum, PlanError> {
         let problem = problem(scene, partner, self.talk.concession.weight(), leaning, &self.settings);
-        let keep = self.talk.last.as_ref().map_or_else(
-            || vec![Vec::new(), partner.prediction.inputs.clone()],
-            |round| vec![round.cooperative.shifted().inputs, round.proposal.shifted().inputs],
-        );
+        let keep = self.guess(&problem, partner);
         let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
         let every = self.settings.look_around_every;
         let look_around = every > 0 && scene.tick.is_multiple_of(every);
         Ok(self.optimiser.best_of(&problem, &[keep, brake, accelerate], look_around)?)
+    }
+
+    /// The last round one step later. The other may have changed its mind since: what was proposed before can be worse than
+    /// what it now does by itself, so the cheaper of the two begins.
+    fn guess(&self, problem: &Problem, partner: &Agent) -> Vec<Vec<Input>> {
+        let own_way = partner.prediction.inputs.clone();
+        let Some(round) = &self.talk.last else { return vec![Vec::new(), own_way] };
+        let cooperative = round.cooperative.later_inputs();
+        let proposed = vec![cooperative.clone(), round.proposal.later_inputs()];
+        let unasked = vec![cooperative, own_way];
+        if problem.cost_of(&proposed) <= problem.cost_of(&unasked) { proposed } else { unasked }
     }
 
     fn remember(&mut self, optimum: &Optimum, retreat: &Result<Optimum, PlanError>, partner: &Agent) {

@@ -7,8 +7,10 @@ use super::rows::{BOXES, Inequalities, Point};
 use crate::mpc::adjoint::curvature_gradient;
 use crate::mpc::stage::{StageError, StageQp, StageSolution, StageSolver};
 
-/// Tolerance on complementarity, primal and dual residuals.
-const TOLERANCE: f64 = 1e-8;
+/// Tolerance on the dual residual as a share of its start, per tolerance on everything else.
+const DUAL_TOLERANCE: f64 = 1e-3;
+/// What is accepted where rounding stops the iteration before that.
+const ACCEPTED: f64 = 1e-7;
 /// Below this complementarity the factorisation has lost digits that matter.
 const REFINED_BELOW: f64 = 1e-4;
 /// Most iterations.
@@ -110,14 +112,14 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         let mut dual_share = 1.0;
         for _ in 0..ITERATION_LIMIT {
             let (complementarity, primal) = self.columns.measure();
-            if complementarity < TOLERANCE && primal < TOLERANCE && dual_share < TOLERANCE {
+            if complementarity < qp.tolerance && primal < qp.tolerance && dual_share < DUAL_TOLERANCE * qp.tolerance {
                 return Ok(());
             }
             if !complementarity.is_finite() {
                 break;
             }
             let largest = self.columns.multiplier.iter().copied().fold(0.0, larger);
-            if largest > INFEASIBLE_MULTIPLIER && primal > TOLERANCE.sqrt() {
+            if largest > INFEASIBLE_MULTIPLIER && primal > qp.tolerance.sqrt() {
                 return Err(StageError::Infeasible { iterations: *iterations });
             }
             *iterations += 1;
@@ -140,7 +142,10 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             dual_share *= 1.0 - share;
             self.refresh_values(qp);
         }
-        let (_, worst) = self.columns.measure();
+        let (complementarity, worst) = self.columns.measure();
+        if complementarity < ACCEPTED && worst < ACCEPTED && dual_share < ACCEPTED {
+            return Ok(());
+        }
         let status = format!("residual {worst:.1e}, dual residual at {dual_share:.1e} of its start");
         Err(StageError::Unsolved { status, iterations: *iterations })
     }
@@ -227,7 +232,8 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 let cost = &stages.state_costs[k];
                 let ([xx, xy, yy], [.., heading, speed]) = (cost.position_hessian(), cost.hessian);
                 let pose = [xx, xy, 0.0, yy, 0.0, heading];
-                self.hessians.push(VehicleHessian { pose, speed, input: [qp.damping; 2] });
+                let input = [0, 1].map(|axis| stages.damping(qp.damping, axis));
+                self.hessians.push(VehicleHessian { pose, speed, input });
             }
         }
         for block in &qp.blocks {
@@ -266,7 +272,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                     let before = if k > stages.first { inputs[at - vehicles][axis] } else { 0.0 };
                     let change = stages.changes[k][axis] + inputs[at][axis] - before;
                     let pull = 2.0 * stages.change_weights[axis] * change;
-                    self.cost_gradient.inputs[at][axis] += pull + qp.damping * inputs[at][axis];
+                    self.cost_gradient.inputs[at][axis] += pull + stages.damping(qp.damping, axis) * inputs[at][axis];
                     if k > stages.first {
                         self.cost_gradient.inputs[at - vehicles][axis] -= pull;
                     }

@@ -117,6 +117,13 @@ fn times_b(row: &[f64; 4], j: &Jacobian) -> [f64; 2] {
     [j.speed_acceleration * row[3], j.x_steering * row[0] + j.y_steering * row[1] + j.heading_steering * row[2]]
 }
 
+/// `½ wᵀF_ww w + wᵀF_wz z + ½ zᵀF_zz z`: what a stage and all later ones cost, over its inputs and the states before it.
+struct Quadratic<const W: usize, const Z: usize> {
+    ww: [[f64; W]; W],
+    wz: [[f64; Z]; W],
+    zz: [[f64; Z]; Z],
+}
+
 impl<const W: usize, const Z: usize> Riccati<W, Z> {
     const VEHICLES: usize = W / 2;
 
@@ -137,7 +144,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
         let mut p = [[0.0; Z]; Z];
         for k in (0..horizon).rev() {
             add_stage::<Z>(&mut p, &hessians[k * Self::VEHICLES..(k + 1) * Self::VEHICLES], &pairs[k]);
-            let (f_ww, f_wz, f_zz) = Self::quadratic(qp, k, &p, hessians);
+            let Quadratic { ww: f_ww, wz: f_wz, zz: f_zz } = Self::quadratic(qp, k, &p, hessians);
             let factor = Cholesky::new(&f_ww).ok_or(StageError::NotConvex { stage: k })?;
             self.factors[k] = factor;
             if k == 0 {
@@ -167,16 +174,11 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
 
     /// `F_ww`, `F_wz`, `F_zz` at stage `k` from the cost-to-go `p` of the next one.
     #[inline(always)]
-    fn quadratic(
-        qp: &StageQp,
-        k: usize,
-        p: &[[f64; Z]; Z],
-        hessians: &[VehicleHessian],
-    ) -> ([[f64; W]; W], [[f64; Z]; W], [[f64; Z]; Z]) {
-        let (mut f_ww, mut f_wz, mut f_zz) = ([[0.0; W]; W], [[0.0; Z]; W], [[0.0; Z]; Z]);
+    fn quadratic(qp: &StageQp, k: usize, p: &[[f64; Z]; Z], hessians: &[VehicleHessian]) -> Quadratic<W, Z> {
+        let mut f = Quadratic { ww: [[0.0; W]; W], wz: [[0.0; Z]; W], zz: [[0.0; Z]; Z] };
         for i in 0..Self::VEHICLES {
             for j in 0..=i {
-                block_pair::<W, Z>(qp, k, [i, j], p, (&mut f_ww, &mut f_wz, &mut f_zz));
+                block_pair(qp, k, [i, j], p, &mut f);
             }
         }
         for i in 0..Self::VEHICLES {
@@ -184,32 +186,32 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             let (w, z) = (2 * i, BLOCK * i);
             if k < stages.first {
                 for a in w..w + 2 {
-                    f_ww[a] = [0.0; W];
-                    f_wz[a] = [0.0; Z];
-                    for row in &mut f_ww {
+                    f.ww[a] = [0.0; W];
+                    f.wz[a] = [0.0; Z];
+                    for row in &mut f.ww {
                         row[a] = 0.0;
                     }
-                    f_ww[a][a] = 1.0;
+                    f.ww[a][a] = 1.0;
                 }
                 continue;
             }
             let c = &stages.curvatures[k];
             for axis in 0..2 {
                 let comfort = 2.0 * stages.change_weights[axis];
-                f_ww[w + axis][w + axis] += comfort + own.input[axis];
+                f.ww[w + axis][w + axis] += comfort + own.input[axis];
                 if k > stages.first {
-                    f_wz[w + axis][z + 4 + axis] -= comfort;
-                    f_zz[z + 4 + axis][z + 4 + axis] += comfort;
+                    f.wz[w + axis][z + 4 + axis] -= comfort;
+                    f.zz[z + 4 + axis][z + 4 + axis] += comfort;
                 }
             }
-            f_ww[w + 1][w + 1] += c.steering_steering;
-            f_wz[w + 1][z + 2] += c.heading_steering;
-            f_wz[w + 1][z + 3] += c.speed_steering;
-            f_zz[z + 2][z + 2] += c.heading_heading;
-            f_zz[z + 3][z + 2] += c.heading_speed;
-            f_zz[z + 2][z + 3] += c.heading_speed;
+            f.ww[w + 1][w + 1] += c.steering_steering;
+            f.wz[w + 1][z + 2] += c.heading_steering;
+            f.wz[w + 1][z + 3] += c.speed_steering;
+            f.zz[z + 2][z + 2] += c.heading_heading;
+            f.zz[z + 3][z + 2] += c.heading_speed;
+            f.zz[z + 2][z + 3] += c.heading_speed;
         }
-        (f_ww, f_wz, f_zz)
+        f
     }
 
     /// Solves for the step that minimises the factored quadratic with the given gradients over `d_{k+1}` and `w_k`.
@@ -309,7 +311,7 @@ fn block_pair<const W: usize, const Z: usize>(
     k: usize,
     [i, j]: [usize; 2],
     p: &[[f64; Z]; Z],
-    (f_ww, f_wz, f_zz): (&mut [[f64; W]; W], &mut [[f64; Z]; W], &mut [[f64; Z]; Z]),
+    f: &mut Quadratic<W, Z>,
 ) {
     let (a_i, a_j) = (&qp.vehicles[i].jacobians[k], &qp.vehicles[j].jacobians[k]);
     let (zi, zj, wi, wj) = (BLOCK * i, BLOCK * j, 2 * i, 2 * j);
@@ -327,12 +329,12 @@ fn block_pair<const W: usize, const Z: usize>(
         let column = [right[0][c], right[1][c], right[2][c], right[3][c]];
         let from_state = times_a(&column, a_i);
         for r in 0..4 {
-            f_zz[zi + r][zj + c] = from_state[r];
-            f_zz[zj + c][zi + r] = from_state[r];
+            f.zz[zi + r][zj + c] = from_state[r];
+            f.zz[zj + c][zi + r] = from_state[r];
         }
         let from_input = times_b(&column, a_i);
         for r in 0..2 {
-            f_wz[wi + r][zj + c] = from_input[r] + right[4 + r][c];
+            f.wz[wi + r][zj + c] = from_input[r] + right[4 + r][c];
         }
     }
     for c in 0..2 {
@@ -340,14 +342,12 @@ fn block_pair<const W: usize, const Z: usize>(
         let from_input = times_b(&column, a_i);
         for r in 0..2 {
             let value = from_input[r] + into_w[4 + r][c];
-            f_ww[wi + r][wj + c] = value;
-            f_ww[wj + c][wi + r] = value;
+            f.ww[wi + r][wj + c] = value;
+            f.ww[wj + c][wi + r] = value;
         }
         if i != j {
             let from_state = times_a(&column, a_i);
-            for r in 0..4 {
-                f_wz[wj + c][zi + r] = from_state[r];
-            }
+            f.wz[wj + c][zi..zi + 4].copy_from_slice(&from_state);
         }
     }
 }

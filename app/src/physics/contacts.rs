@@ -1,0 +1,79 @@
+//! From what Rapier says about contacts to collisions.
+
+use std::sync::Mutex;
+
+use interplay_planners::{Body, State};
+use rapier2d::prelude::{
+    ColliderSet, CollisionEvent, ContactPair, EventHandler, RigidBodySet, SoftBodySet, SoftBodyTearEvent,
+};
+
+use super::footprint::length_m;
+
+/// Mass of a vehicle per area of its footprint, that of a passenger car \[kg/m²\].
+const AREAL_DENSITY: f64 = 185.0;
+
+/// Two vehicles that begin to touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Touch {
+    /// Their indices, ascending.
+    pub pair: [usize; 2],
+    /// The direction of the contact, from the first to the second.
+    pub normal: [f64; 2],
+}
+
+/// Collects who begins to touch. Rapier asks for a handler that threads may share.
+#[derive(Default)]
+pub(super) struct Contacts(Mutex<Vec<Touch>>);
+
+impl Contacts {
+    /// Everything collected, in the order of the indices.
+    pub fn into_touches(self) -> Vec<Touch> {
+        let mut touches = self.0.into_inner().unwrap_or_default();
+        touches.sort_unstable_by_key(|touch| touch.pair);
+        touches
+    }
+}
+
+impl EventHandler for Contacts {
+    fn handle_collision_event(
+        &self,
+        _bodies: &RigidBodySet,
+        colliders: &ColliderSet,
+        event: CollisionEvent,
+        pair: Option<&ContactPair>,
+    ) {
+        let Some(pair) = pair.filter(|_| event.started()) else { return };
+        let Some((manifold, _)) = pair.find_deepest_contact() else { return };
+        let index = |handle| colliders.get(handle).map(|collider| collider.user_data as usize);
+        if let (Some(a), Some(b), Ok(mut touches)) = (index(pair.collider1), index(pair.collider2), self.0.lock()) {
+            let sign = if a < b { 1.0 } else { -1.0 };
+            let normal = [sign * f64::from(manifold.data.normal.x), sign * f64::from(manifold.data.normal.y)];
+            touches.push(Touch { pair: [a.min(b), a.max(b)], normal });
+        }
+    }
+
+    fn handle_contact_force_event(
+        &self,
+        _step: f32,
+        _bodies: &RigidBodySet,
+        _colliders: &ColliderSet,
+        _pair: &ContactPair,
+        _force: f32,
+    ) {
+    }
+
+    fn handle_soft_body_tear_event(&self, _bodies: &SoftBodySet, _event: &SoftBodyTearEvent) {}
+}
+
+/// How hard two vehicles meet \[N s\]. Rapier gives kinematic bodies no mass and so no impulse: it is the one that would
+/// stop their approach without rebound, `m_a m_b/(m_a + m_b)` times the closing speed along the contact's normal, with the
+/// mass of passenger cars.
+pub(super) fn impulse_ns(a: (&Body, &State), b: (&Body, &State), normal: [f64; 2]) -> f64 {
+    let mass = |body: &Body| AREAL_DENSITY * length_m(body) * body.width_m;
+    let reduced = mass(a.0) * mass(b.0) / (mass(a.0) + mass(b.0));
+    let towards = |state: &State| {
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        state.speed_mps * (cos * normal[0] + sin * normal[1])
+    };
+    reduced * (towards(a.1) - towards(b.1)).max(0.0)
+}

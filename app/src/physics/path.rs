@@ -1,0 +1,58 @@
+//! How vehicles move within a tick, and how far one may look ahead without missing that two of them touch.
+//!
+//! Every component of a state moves evenly from its value at the beginning of the tick to that at its end. Over the whole
+//! tick, no two points of two vehicles come nearer than by `‖Δp_a − Δp_b‖ + |Δθ_a| r_a + |Δθ_b| r_b`, with the
+//! displacements `Δp` of the mass centres, the rotations `Δθ` and the distances `r` of the farthest corners. So two
+//! vehicles that are `gap` apart cannot touch before the share `gap / approach` of a tick has passed. Looking again just
+//! then (conservative advancement) finds, whatever the speed, every contact that is longer than the shortest step.
+
+use interplay_planners::{Body, State};
+
+use super::footprint::{gap_m, radius_m};
+
+/// The shortest step between two looks, in ticks: how finely a contact is timed.
+pub(super) const SHORTEST: f64 = 1e-3;
+/// The longest: gaps are looked at so often, however far away everybody is.
+const LONGEST: f64 = 0.25;
+
+/// The motion of one vehicle during a tick.
+pub(super) struct Path {
+    /// What moves.
+    pub body: Body,
+    /// Its state at the beginning.
+    pub from: State,
+    /// Its state at the end.
+    pub to: State,
+}
+
+impl Path {
+    /// The state when a share of the tick has passed.
+    pub fn at(&self, share: f64) -> State {
+        let (from, to) = (self.from.to_array(), self.to.to_array());
+        State::from_array(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
+    }
+
+    /// By how much the gap to another vehicle may shrink at most during the tick \[m\].
+    fn approach_m(&self, other: &Path) -> f64 {
+        let moved = |path: &Path| [path.to.x_m - path.from.x_m, path.to.y_m - path.from.y_m];
+        let swept = |path: &Path| (path.to.heading_rad - path.from.heading_rad).abs() * radius_m(&path.body);
+        let ([ax, ay], [bx, by]) = (moved(self), moved(other));
+        ((ax - bx) * (ax - bx) + (ay - by) * (ay - by)).sqrt() + swept(self) + swept(other)
+    }
+}
+
+/// The share of the tick at which to look next, if the last look was at `share`.
+pub(super) fn next_look(paths: &[Path], share: f64) -> f64 {
+    let states: Vec<State> = paths.iter().map(|path| path.at(share)).collect();
+    let mut step = LONGEST;
+    for (index, (a, a_state)) in paths.iter().zip(&states).enumerate() {
+        for (b, b_state) in paths.iter().zip(&states).skip(index + 1) {
+            let (approach, gap) = (a.approach_m(b), gap_m((&a.body, a_state), (&b.body, b_state)));
+            // Who touches already cannot begin to.
+            if approach > 0.0 && gap > 0.0 {
+                step = step.min(gap / approach);
+            }
+        }
+    }
+    (share + step.max(SHORTEST)).min(1.0)
+}
