@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bayesian::{self, Bayesian};
 use crate::conservative::{self, Conservative};
+use crate::game::{self, Game};
 use crate::human::{self, Human};
 use crate::negotiation::{self, Negotiation};
 use crate::{Plan, PlanError, Scene};
@@ -21,6 +22,8 @@ pub enum Driver {
     Negotiation(negotiation::Settings),
     /// Bayesian persuasion (chapter 7).
     Bayesian(bayesian::Settings),
+    /// The persuasion game (chapter 8).
+    Game(game::Settings),
 }
 
 /// A driver at work: its settings and all that it remembers.
@@ -34,6 +37,8 @@ pub enum Planner {
     Negotiation(Box<Negotiation>),
     /// See [`Bayesian`].
     Bayesian(Box<Bayesian>),
+    /// See [`Game`].
+    Game(Box<Game>),
 }
 
 impl Driver {
@@ -44,6 +49,7 @@ impl Driver {
             Driver::Conservative(settings) => Planner::Conservative(Conservative::new(*settings)),
             Driver::Negotiation(settings) => Planner::Negotiation(Box::new(Negotiation::new(*settings))),
             Driver::Bayesian(settings) => Planner::Bayesian(Box::new(Bayesian::new(*settings))),
+            Driver::Game(settings) => Planner::Game(Box::new(Game::new(*settings))),
         }
     }
 
@@ -54,6 +60,7 @@ impl Driver {
             Driver::Conservative(_) => "conservative",
             Driver::Negotiation(_) => "negotiation",
             Driver::Bayesian(_) => "bayesian",
+            Driver::Game(_) => "game",
         }
     }
 
@@ -74,6 +81,7 @@ impl Planner {
             Planner::Conservative(planner) => planner.plan(scene),
             Planner::Negotiation(planner) => planner.plan(scene),
             Planner::Bayesian(planner) => planner.plan(scene),
+            Planner::Game(planner) => planner.plan(scene),
         }
     }
 }

@@ -17,7 +17,7 @@ pub(crate) fn optimise(
     last: Option<&Trajectory>,
     look_around_every: usize,
 ) -> Result<Optimum, DescentError> {
-    let keep = last.map_or_else(Vec::new, |last| last.shifted().inputs);
+    let keep = last.map_or_else(Vec::new, Trajectory::later_inputs);
     let [brake, accelerate] = extremes(scene);
     let look_around = look_around_every > 0 && scene.tick.is_multiple_of(look_around_every);
     optimiser.best_of(problem, &[vec![keep], vec![brake], vec![accelerate]], look_around)
