@@ -80,12 +80,10 @@ impl Partner {
 }
 
 impl Choice<'_> {
-    /// What to say about a change, `verb` telling what is done with the vehicle.
-    pub(crate) fn event(&self, verb: &str) -> Option<String> {
-        let text = self
-            .partner
-            .map_or_else(|| format!("nobody left to {verb}"), |partner| format!("{verb}s {}", partner.name));
-        self.is_new.then_some(text)
+    /// What to say about a change: "`does` NAME", or that nobody is left `to_do` it with.
+    pub(crate) fn event(&self, does: &str, to_do: &str) -> Option<String> {
+        let found = |partner: &Agent| format!("{does} {}", partner.name);
+        self.is_new.then(|| self.partner.map_or_else(|| format!("nobody left {to_do}"), found))
     }
 }
 

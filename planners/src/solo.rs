@@ -1,24 +1,42 @@
 //! How a vehicle that decides alone finds its plan: from the last one, and where that leads nowhere, from full braking and
 //! full acceleration.
 
-use crate::conservative::extremes;
+use crate::conservative::{self, extremes};
 use crate::mpc::{DescentError, Optimiser, Optimum, Problem, Robust};
-use crate::{Scene, Trajectory};
+use crate::{Agent, Scene, Trajectory};
+
+/// A plan with the problem that it solves.
+#[derive(Clone, Debug)]
+pub(crate) struct Solved {
+    pub problem: Problem,
+    pub optimum: Optimum,
+    /// Why it is not the problem that was posed.
+    pub event: Option<String>,
+}
 
 /// The cheapest optimum from the last plan, one step later, and in trouble or every `look_around_every` steps (0: never)
-/// from the extremes too.
+/// from the extremes too. If there is none, that of the conservative problem.
 ///
 /// # Errors
-/// That of the first guess, if every guess fails.
-pub(crate) fn optimise(
+/// That of the conservative problem.
+pub(crate) fn solve(
     optimiser: &mut Optimiser<Robust>,
     scene: &Scene,
-    problem: &Problem,
+    problem: Problem,
     last: Option<&Trajectory>,
     look_around_every: usize,
-) -> Result<Optimum, DescentError> {
+) -> Result<Solved, DescentError> {
     let keep = last.map_or_else(Vec::new, Trajectory::later_inputs);
     let [brake, accelerate] = extremes(scene);
+    let guesses = [vec![keep], vec![brake], vec![accelerate]];
     let look_around = look_around_every > 0 && scene.tick.is_multiple_of(look_around_every);
-    optimiser.best_of(problem, &[vec![keep], vec![brake], vec![accelerate]], look_around)
+    match optimiser.best_of(&problem, &guesses, look_around) {
+        Ok(optimum) => Ok(Solved { problem, optimum, event: None }),
+        Err(error) => {
+            let others: Vec<&Agent> = scene.others.iter().collect();
+            let problem = conservative::problem(scene, &others);
+            let optimum = optimiser.best_of(&problem, &guesses, look_around)?;
+            Ok(Solved { problem, optimum, event: Some(format!("conservative plan: {error}")) })
+        }
+    }
 }

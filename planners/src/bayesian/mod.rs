@@ -24,7 +24,7 @@ pub use value::attraction;
 use crate::activity::Activity;
 use crate::encounter::{Choice, Partner};
 use crate::mpc::{Optimiser, Optimum, Problem, Robust};
-use crate::solo::optimise;
+use crate::solo::{Solved, solve};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A Bayesian planner with what it remembers.
@@ -55,21 +55,21 @@ impl Bayesian {
     /// Plans the next move.
     ///
     /// # Errors
-    /// [`PlanError`] if none of the guesses leads to an optimum.
+    /// [`PlanError`] if not even the conservative problem can be solved.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let scene = &scene.expecting(self.settings.prediction);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
         self.watch(&choice);
         let problem = problem(scene, choice.partner, &self.belief, &self.settings);
         let every = self.settings.look_around_every;
-        let optimum = optimise(&mut self.optimiser, scene, &problem, self.last.as_ref(), every)?;
+        let Solved { problem, optimum, event } = solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
         let diagnostics = self.diagnostics(&problem, &optimum);
         let trajectory = optimum.trajectory(0);
         if let Some(before) = &self.last {
             self.belief.reflect(&trajectory, before, &self.settings);
         }
         self.last = Some(trajectory.clone());
-        let events = choice.event("persuade").into_iter().collect();
+        let events = choice.event("persuades", "to persuade").into_iter().chain(event).collect();
         Ok(Plan { trajectory, proposal: None, diagnostics, events, statistics: optimum.statistics })
     }
 

@@ -24,7 +24,7 @@ pub use settings::{Method, Settings};
 use crate::activity::Activity;
 use crate::encounter::{Choice, Partner};
 use crate::mpc::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
-use crate::solo::optimise;
+use crate::solo::{Solved, solve};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use equilibrium::{Solution, leader_follower, nash};
 use intention::forget;
@@ -83,7 +83,7 @@ impl Game {
     /// Plans the next move.
     ///
     /// # Errors
-    /// [`PlanError`] if none of the guesses leads to an optimum.
+    /// [`PlanError`] if not even the conservative problem can be solved.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let scene = &scene.expecting(self.settings.prediction);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
@@ -101,11 +101,11 @@ impl Game {
         }
         let problem = problem(scene, expressed);
         let every = self.settings.look_around_every;
-        let optimum = optimise(&mut self.optimiser, scene, &problem, self.last.as_ref(), every)?;
+        let Solved { problem, optimum, event } = solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
         let diagnostics = self.diagnostics(scene, round.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
-        let events = choice.event("play with").into_iter().collect();
+        let events = choice.event("plays with", "to play with").into_iter().chain(event).collect();
         Ok(Plan { trajectory, proposal: None, diagnostics, events, statistics: optimum.statistics })
     }
 
