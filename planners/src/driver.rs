@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::bayesian::{self, Bayesian};
 use crate::conservative::{self, Conservative};
+use crate::cooperative::{self, Cooperative};
 use crate::game::{self, Game};
 use crate::human::{self, Human};
 use crate::negotiation::{self, Negotiation};
-use crate::{Plan, PlanError, Scene};
+use crate::{Goal, Plan, PlanError, Scene};
 
 /// The driver of a vehicle with its settings; `kind` in a scenario file chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -24,6 +25,8 @@ pub enum Driver {
     Bayesian(bayesian::Settings),
     /// The persuasion game (chapter 8).
     Game(game::Settings),
+    /// Cooperation: one problem for all vehicles that have this driver (eq. 6.12).
+    Cooperative(cooperative::Settings),
 }
 
 /// A driver at work: its settings and all that it remembers.
@@ -39,6 +42,8 @@ pub enum Planner {
     Bayesian(Box<Bayesian>),
     /// See [`Game`].
     Game(Box<Game>),
+    /// See [`Cooperative`].
+    Cooperative(Box<Cooperative>),
 }
 
 impl Driver {
@@ -50,6 +55,7 @@ impl Driver {
             Driver::Negotiation(settings) => Planner::Negotiation(Box::new(Negotiation::new(*settings))),
             Driver::Bayesian(settings) => Planner::Bayesian(Box::new(Bayesian::new(*settings))),
             Driver::Game(settings) => Planner::Game(Box::new(Game::new(*settings))),
+            Driver::Cooperative(settings) => Planner::Cooperative(Box::new(Cooperative::new(*settings))),
         }
     }
 
@@ -61,6 +67,15 @@ impl Driver {
             Driver::Negotiation(_) => "negotiation",
             Driver::Bayesian(_) => "bayesian",
             Driver::Game(_) => "game",
+            Driver::Cooperative(_) => "cooperative",
+        }
+    }
+
+    /// What a vehicle with this driver and goal tells the others that it wants, if anything.
+    pub fn shared_goal(&self, goal: &Goal) -> Option<Goal> {
+        match self {
+            Driver::Cooperative(settings) => Some(settings.shared_goal(goal)),
+            _ => None,
         }
     }
 
@@ -82,6 +97,7 @@ impl Planner {
             Planner::Negotiation(planner) => planner.plan(scene),
             Planner::Bayesian(planner) => planner.plan(scene),
             Planner::Game(planner) => planner.plan(scene),
+            Planner::Cooperative(planner) => planner.plan(scene),
         }
     }
 }

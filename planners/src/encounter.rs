@@ -102,6 +102,7 @@ mod tests {
             limits: Limits::default(),
             corridor: Corridor { heading_rad, right_m: -1.0, left_m: 1.0, end: None },
             prediction: Trajectory::default(),
+            shared_goal: None,
         }
     }
 

@@ -17,6 +17,7 @@
 mod activity;
 pub mod bayesian;
 pub mod conservative;
+pub mod cooperative;
 mod driver;
 pub mod dynamics;
 mod encounter;

@@ -24,6 +24,8 @@ pub struct Agent {
     pub corridor: Corridor,
     /// What it is expected to do: its current plan where that is known, else constant velocity. Starts at `state`.
     pub prediction: Trajectory,
+    /// What it wants, if it tells: vehicles that cooperate share their goals.
+    pub shared_goal: Option<Goal>,
 }
 
 /// What a vehicle wants and how it weighs it.

@@ -81,6 +81,7 @@ mod tests {
             limits: Limits::default(),
             corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 1.0, end: None },
             prediction,
+            shared_goal: None,
         }
     }
 

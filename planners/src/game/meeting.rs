@@ -108,6 +108,7 @@ pub(super) mod tests {
             limits: Limits::default(),
             corridor: Corridor { heading_rad: 0.0, right_m: -1.0, left_m: 1.0, end: None },
             prediction: constant_velocity(&state, 30, 0.1),
+            shared_goal: None,
         };
         let goal = Goal { target: state, tracking: [0.0; 4], comfort: [0.1; 2], safety: SafetyEllipse::default() };
         Scene { tick: 0, step_s: 0.1, horizon: 30, ego, goal, others: Vec::new() }

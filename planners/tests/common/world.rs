@@ -61,6 +61,7 @@ pub fn vehicle(
         limits: Limits::default(),
         corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
         prediction: constant_velocity(&state, HORIZON, STEP_S),
+        shared_goal: None,
     };
     let target = State { x_m: 0.0, y_m: wants[0], heading_rad: 0.0, speed_mps: wants[1] };
     let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };
@@ -125,6 +126,9 @@ pub fn run(mut vehicles: Vec<Vehicle>, ticks: usize) -> Run {
     let mut order: Vec<usize> = (0..vehicles.len()).collect();
     order.sort_by_key(|index| (!vehicles[*index].driver.goes_first(), *index));
     for tick in 0..ticks {
+        for vehicle in &mut vehicles {
+            vehicle.agent.shared_goal = vehicle.driver.shared_goal(&vehicle.goal);
+        }
         for index in &order {
             decide(&mut vehicles, *index, tick, &mut run);
         }
