@@ -7,6 +7,8 @@ use crate::bayesian::{self, Bayesian};
 use crate::conservative::{self, Conservative};
 use crate::cooperative::{self, Cooperative};
 use crate::game::{self, Game};
+use crate::human::idm::{self, Idm};
+use crate::human::scripted::{self, Scripted};
 use crate::human::{self, Human};
 use crate::negotiation::{self, Negotiation};
 use crate::{Goal, Plan, PlanError, Scene};
@@ -17,6 +19,10 @@ use crate::{Goal, Plan, PlanError, Scene};
 pub enum Driver {
     /// A human: model-predictive control with a safety weight, nice or tough.
     Human(human::Settings),
+    /// The intelligent driver model with MOBIL: the field's baseline of a human.
+    Idm(idm::Settings),
+    /// Does what the scenario says.
+    Scripted(scripted::Settings),
     /// Baseline: the others' plans are hard constraints (eq. 6.13).
     Conservative(conservative::Settings),
     /// Negotiation with concession and persuasion (chapter 6).
@@ -34,6 +40,10 @@ pub enum Driver {
 pub enum Planner {
     /// See [`Human`].
     Human(Human),
+    /// See [`Idm`].
+    Idm(Idm),
+    /// See [`Scripted`].
+    Scripted(Scripted),
     /// See [`Conservative`].
     Conservative(Conservative),
     /// See [`Negotiation`].
@@ -51,6 +61,8 @@ impl Driver {
     pub fn planner(&self) -> Planner {
         match self {
             Driver::Human(settings) => Planner::Human(Human::new(*settings)),
+            Driver::Idm(settings) => Planner::Idm(Idm::new(*settings)),
+            Driver::Scripted(settings) => Planner::Scripted(Scripted::new(settings.clone())),
             Driver::Conservative(settings) => Planner::Conservative(Conservative::new(*settings)),
             Driver::Negotiation(settings) => Planner::Negotiation(Box::new(Negotiation::new(*settings))),
             Driver::Bayesian(settings) => Planner::Bayesian(Box::new(Bayesian::new(*settings))),
@@ -63,6 +75,8 @@ impl Driver {
     pub fn kind(&self) -> &'static str {
         match self {
             Driver::Human(_) => "human",
+            Driver::Idm(_) => "idm",
+            Driver::Scripted(_) => "scripted",
             Driver::Conservative(_) => "conservative",
             Driver::Negotiation(_) => "negotiation",
             Driver::Bayesian(_) => "bayesian",
@@ -81,7 +95,7 @@ impl Driver {
 
     /// Whether the driver plans before those who rely on knowing its plan.
     pub fn goes_first(&self) -> bool {
-        matches!(self, Driver::Human(_))
+        matches!(self, Driver::Human(_) | Driver::Idm(_) | Driver::Scripted(_))
     }
 }
 
@@ -93,6 +107,8 @@ impl Planner {
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         match self {
             Planner::Human(planner) => planner.plan(scene),
+            Planner::Idm(planner) => planner.plan(scene),
+            Planner::Scripted(planner) => planner.plan(scene),
             Planner::Conservative(planner) => planner.plan(scene),
             Planner::Negotiation(planner) => planner.plan(scene),
             Planner::Bayesian(planner) => planner.plan(scene),

@@ -90,41 +90,51 @@ impl Choice<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpc::Limits;
-    use crate::{Body, Corridor, Input, State, Trajectory};
-
-    fn agent(x_m: f64, y_m: f64, heading_rad: f64) -> Agent {
-        Agent {
-            name: format!("{x_m} {y_m}"),
-            state: State { x_m, y_m, heading_rad, speed_mps: 1.0 },
-            previous_input: Input::default(),
-            body: Body::default(),
-            limits: Limits::default(),
-            corridor: Corridor { heading_rad, right_m: -1.0, left_m: 1.0, end: None },
-            prediction: Trajectory::default(),
-            shared_goal: None,
-        }
-    }
+    use crate::fixture::{agent, crossing, scene};
 
     #[test]
     fn the_distance_to_a_path_is_that_along_the_own_road() {
-        let (east, north) = (agent(-2.0, 0.185, 0.0), agent(0.0, -1.6, std::f64::consts::FRAC_PI_2));
+        let (east, north) = (agent(-2.0, 0.185, 0.0, 1.0), crossing(0.0, -1.6, 1.0));
         let distances = [distance_to_path(&east, &north), distance_to_path(&north, &east)];
         for (found, expected) in distances.into_iter().zip([2.0, 1.785]) {
             assert!((found.expect("they cross") - expected).abs() < 1e-12);
         }
-        assert!((distance_to_path(&agent(1.0, 0.0, 0.0), &north).expect("crosses") + 1.0).abs() < 1e-12);
+        assert!((distance_to_path(&agent(1.0, 0.0, 0.0, 1.0), &north).expect("crosses") + 1.0).abs() < 1e-12);
         // At 45°, the way is longer by √2.
-        let slanted = agent(0.0, -1.0, std::f64::consts::FRAC_PI_4);
-        assert!((distance_to_path(&slanted, &agent(5.0, 0.0, 0.0)).expect("crosses") - 2.0_f64.sqrt()).abs() < 1e-12);
-        assert_eq!(distance_to_path(&east, &agent(1.0, 0.5, 0.0)), None);
+        let slanted = agent(0.0, -1.0, std::f64::consts::FRAC_PI_4, 1.0);
+        let distance = distance_to_path(&slanted, &agent(5.0, 0.0, 0.0, 1.0)).expect("crosses");
+        assert!((distance - 2.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(distance_to_path(&east, &agent(1.0, 0.5, 0.0, 1.0)), None);
     }
 
     #[test]
     fn a_vehicle_has_crossed_when_its_rear_is_beyond_the_other_s_side() {
-        let north = agent(0.0, -1.6, std::f64::consts::FRAC_PI_2);
+        let north = crossing(0.0, -1.6, 1.0);
         for (x, crossed) in [(-0.5, false), (0.2, false), (0.28, false), (0.29, true)] {
-            assert_eq!(has_crossed(&agent(x, 0.185, 0.0), &north), crossed, "{x}");
+            assert_eq!(has_crossed(&agent(x, 0.185, 0.0, 1.0), &north), crossed, "{x}");
         }
+    }
+
+    /// The front vehicle, the rear one once the front one is clear ahead in the wanted lane, and then nobody.
+    #[test]
+    fn partners_are_met_from_front_to_rear() {
+        let mut partner = Partner::default();
+        let mut meet = |front: f64, rear: f64| {
+            let others = vec![named("rear", rear), named("front", front)];
+            let mut scene = scene(agent(0.0, 0.0, 0.0, 1.0), others);
+            scene.goal.target.y_m = 0.4;
+            let choice = partner.choose(&scene, 0.2);
+            let name = choice.partner.map(|partner| partner.name.clone());
+            (name, choice.is_first, choice.steps, choice.event("asks", "to ask"))
+        };
+        let named_front = Some("front".to_owned());
+        assert_eq!(meet(-0.4, -1.7), (named_front.clone(), true, 0, Some("asks front".to_owned())));
+        assert_eq!(meet(0.1, -1.2), (named_front, true, 1, None));
+        assert_eq!(meet(0.3, -1.0), (Some("rear".to_owned()), false, 0, Some("asks rear".to_owned())));
+        assert_eq!(meet(1.6, 0.3), (None, false, 0, Some("nobody left to ask".to_owned())));
+    }
+
+    fn named(name: &str, x_m: f64) -> Agent {
+        Agent { name: name.to_owned(), ..agent(x_m, 0.4, 0.0, 1.4) }
     }
 }

@@ -21,6 +21,8 @@ pub mod cooperative;
 mod driver;
 pub mod dynamics;
 mod encounter;
+#[cfg(test)]
+mod fixture;
 mod footprint;
 pub mod game;
 pub mod human;

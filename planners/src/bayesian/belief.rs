@@ -63,26 +63,15 @@ fn squared<const M: usize>(a: [f64; M], b: [f64; M]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpc::Limits;
+    use crate::fixture;
     use crate::predict::constant_velocity;
-    use crate::{Body, Corridor, Input};
 
     fn at(x_m: f64, speed_mps: f64) -> Trajectory {
         constant_velocity(&State { x_m, speed_mps, ..State::default() }, 30, 0.1)
     }
 
     fn agent(x_m: f64, speed_mps: f64) -> Agent {
-        let prediction = at(x_m, speed_mps);
-        Agent {
-            name: "other".to_owned(),
-            state: prediction.states[0],
-            previous_input: Input::default(),
-            body: Body::default(),
-            limits: Limits::default(),
-            corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 1.0, end: None },
-            prediction,
-            shared_goal: None,
-        }
+        fixture::agent(x_m, 0.0, 0.0, speed_mps)
     }
 
     fn watched(other: &Agent) -> Belief {

@@ -46,8 +46,12 @@ fn speed_mps(shown: f64, meeting: &Meeting) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::game::meeting::tests::scene;
+    use crate::fixture::{agent, scene};
     use proptest::prelude::*;
+
+    fn alone() -> Scene {
+        scene(agent(0.0, 0.0, 0.0, 1.0), Vec::new())
+    }
 
     const MEETINGS: [Meeting; 2] = [Meeting::Alongside { lead_m: 0.3 }, Meeting::Crossing { ego_m: 1.4, other_m: 1.9 }];
 
@@ -60,12 +64,12 @@ mod tests {
             let settings = Settings::default();
             let meeting = MEETINGS[which];
             let [sight, _] = meeting.sights([1.0, other_mps], &settings);
-            let bound = mean_speed(intention, prior, &meeting, &sight, &scene(), &settings);
+            let bound = mean_speed(intention, prior, &meeting, &sight, &alone(), &settings);
             if let (Some(lower), Some(upper)) = (bound.lower_mps, bound.upper_mps) {
                 prop_assert!(lower <= upper);
                 let speed = lower + share * (upper - lower);
                 // A bound that cannot be driven was moved.
-                let limits = scene().ego.limits;
+                let limits = alone().ego.limits;
                 prop_assume!(lower > settings.standstill_mps && upper < limits.speed_max_mps);
                 // What the other expects depends on its own speed only.
                 let [shown, _] = meeting.sights([speed, other_mps], &settings);
@@ -80,15 +84,15 @@ mod tests {
         let settings = Settings { sigma_2_s: 0.5, ..Settings::default() };
         let meeting = Meeting::Crossing { ego_m: 1.4, other_m: 0.2 };
         let [sight, _] = meeting.sights([1.0, 1.0], &settings);
-        let bound = mean_speed(0.9, 0.1, &meeting, &sight, &scene(), &settings);
-        assert_eq!(bound.lower_mps, Some(scene().ego.limits.speed_max_mps));
+        let bound = mean_speed(0.9, 0.1, &meeting, &sight, &alone(), &settings);
+        assert_eq!(bound.lower_mps, Some(alone().ego.limits.speed_max_mps));
     }
 
     #[test]
     fn extreme_intentions_are_bounded_on_one_side() {
         let (settings, meeting) = (Settings::default(), MEETINGS[0]);
         let [sight, _] = meeting.sights([1.0, 1.0], &settings);
-        let bound = |intention| mean_speed(intention, 0.5, &meeting, &sight, &scene(), &settings);
+        let bound = |intention| mean_speed(intention, 0.5, &meeting, &sight, &alone(), &settings);
         assert!(bound(HIGHEST).upper_mps.is_none() && bound(HIGHEST).lower_mps.is_some());
         assert!(bound(LOWEST).lower_mps.is_none() && bound(LOWEST).upper_mps.is_some());
     }

@@ -91,45 +91,22 @@ fn arrival_s(distance_m: f64, speed_mps: f64, settings: &Settings) -> f64 {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
-    use crate::mpc::Limits;
-    use crate::predict::constant_velocity;
-    use crate::{Body, Corridor, Goal, Input, SafetyEllipse, State};
-
-    /// The ego alone on a road along x.
-    pub(crate) fn scene() -> Scene {
-        let state = State { speed_mps: 1.0, ..State::default() };
-        let ego = Agent {
-            name: "ego".to_owned(),
-            state,
-            previous_input: Input::default(),
-            body: Body::default(),
-            limits: Limits::default(),
-            corridor: Corridor { heading_rad: 0.0, right_m: -1.0, left_m: 1.0, end: None },
-            prediction: constant_velocity(&state, 30, 0.1),
-            shared_goal: None,
-        };
-        let goal = Goal { target: state, tracking: [0.0; 4], comfort: [0.1; 2], safety: SafetyEllipse::default() };
-        Scene { tick: 0, step_s: 0.1, horizon: 30, ego, goal, others: Vec::new() }
-    }
+    use crate::fixture::{agent, crossing, scene};
 
     /// Both geometries: another beside the ego, and one that comes from the right.
     #[test]
     fn a_meeting_is_known_by_its_roads() {
-        let (scene, settings) = (scene(), Settings::default());
-        let mut other = scene.ego.clone();
-        other.state = State { x_m: -0.4, y_m: 0.4, ..scene.ego.state };
-        assert_eq!(Meeting::of(&scene, &other, &settings), Some(Meeting::Alongside { lead_m: 0.4 }));
-        let heading_rad = std::f64::consts::FRAC_PI_2;
-        other.state = State { x_m: 2.0, y_m: -1.5, heading_rad, speed_mps: 1.0 };
-        other.corridor.heading_rad = heading_rad;
-        let Some(Meeting::Crossing { ego_m, other_m }) = Meeting::of(&scene, &other, &settings) else {
+        let (scene, settings) = (scene(agent(0.0, 0.0, 0.0, 1.0), Vec::new()), Settings::default());
+        let beside = Meeting::of(&scene, &agent(-0.4, 0.4, 0.0, 1.0), &settings);
+        assert_eq!(beside, Some(Meeting::Alongside { lead_m: 0.4 }));
+        let Some(Meeting::Crossing { ego_m, other_m }) = Meeting::of(&scene, &crossing(2.0, -1.5, 1.0), &settings)
+        else {
             panic!("the roads cross");
         };
         assert!((ego_m - 1.7).abs() < 1e-12 && (other_m - 1.2).abs() < 1e-12);
-        other.corridor.heading_rad = std::f64::consts::PI;
-        assert_eq!(Meeting::of(&scene, &other, &settings), None);
+        assert_eq!(Meeting::of(&scene, &agent(3.0, 0.0, std::f64::consts::PI, 1.0), &settings), None);
     }
 
     #[test]
