@@ -46,6 +46,14 @@ impl Default for Tolerances {
     }
 }
 
+impl Tolerances {
+    /// Whether a descent ended somewhere, and not on a violated safety row or road edge.
+    pub(crate) fn trust(&self, outcome: &Result<Optimum, DescentError>) -> bool {
+        let keeps = |cost: &Cost| cost.safety_slack.max(cost.edge_slack_m) <= self.slack;
+        outcome.as_ref().is_ok_and(|optimum| keeps(&optimum.cost))
+    }
+}
+
 /// What a descent did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
@@ -223,10 +231,7 @@ impl<S: StageSolver> Optimiser<S> {
     ) -> Result<Optimum, DescentError> {
         let Some((first, others)) = guesses.split_first() else { return Err(DescentError::NotFinite) };
         let mut best = self.descend(problem, first);
-        let trusted = best.as_ref().is_ok_and(|optimum| {
-            optimum.cost.safety_slack <= self.tolerances.slack && optimum.cost.edge_slack_m <= self.tolerances.slack
-        });
-        if trusted && !look_around {
+        if self.tolerances.trust(&best) && !look_around {
             return best;
         }
         let mut total = best.as_ref().map_or_else(|_| Statistics::default(), |optimum| optimum.statistics);
