@@ -1,0 +1,1 @@
+//! Thermal parameters from telemetry.
