@@ -9,4 +9,5 @@ pub mod identify;
 pub mod lifted;
 pub mod network;
 pub mod occupancy;
+mod random;
 pub mod weather;

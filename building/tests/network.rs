@@ -46,7 +46,8 @@ fn a_wall_with_capacity_resists_like_one_without_in_the_steady_state() {
         let network = Network::new(&zones(&["a"]), &[wall]).expect("valid");
         let mut heat_kw = vec![0.0; network.node_count()];
         heat_kw[0] = 0.4;
-        let risen_k = network.laplacian().lu().solve(&nalgebra::DVector::from_vec(heat_kw)).expect("heat has a way out");
+        let risen_k =
+            network.laplacian().lu().solve(&nalgebra::DVector::from_vec(heat_kw)).expect("heat has a way out");
         assert!((risen_k[0] - 12.5).abs() < 1e-12);
     }
 }
