@@ -1,0 +1,212 @@
+//! The log-likelihood of the parameters is quadratic (eq. 2.8), and one Newton step finds its maximum (eq. 2.9).
+//!
+//! ```text
+//! l(θ) = −½ Σ_t (y_t − x_tᵀθ)²,    ∇l = Xᵀy − XᵀXθ,    H = −XᵀX
+//! θ ← θ − H⁻¹ ∇l(θ)
+//! ```
+//!
+//! From any θ the step ends at least squares. The printed Hessian (2.10) lacks the minus sign of B_c and the square in C_c;
+//! with it the iteration diverges. Heat flows from warm to cold, so all coefficients are at least zero, and the maximum under
+//! that condition is non-negative least squares (Lawson and Hanson's active set).
+//!
+//! Columns are scaled to length one: coefficients differ by orders of magnitude, and so the condition number speaks of the
+//! data rather than of the units.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
+
+use super::regression::Regression;
+
+/// Eigenvalues of a Gram matrix with unit diagonal below this part of the largest are rounding.
+const SINGULAR: f64 = 1e-13;
+
+/// The log-likelihood of a linear regression with unit variance, up to a constant.
+pub(super) struct LogLikelihood {
+    /// XᵀX of the scaled columns.
+    gram: DMatrix<f64>,
+    /// Xᵀy of the scaled columns.
+    moment: DVector<f64>,
+    /// The length of each column.
+    length: DVector<f64>,
+}
+
+impl LogLikelihood {
+    /// The likelihood of `regression`.
+    pub fn new(regression: &Regression) -> Self {
+        let count = regression.columns.len();
+        let length = DVector::from_iterator(count, regression.columns.iter().map(|column| dot(column, column).sqrt()));
+        let scale = |index: usize| if length[index] > 0.0 { 1.0 / length[index] } else { 0.0 };
+        let gram = DMatrix::from_fn(count, count, |i, j| {
+            dot(&regression.columns[i], &regression.columns[j]) * scale(i) * scale(j)
+        });
+        let moment = DVector::from_fn(count, |i, _| dot(&regression.columns[i], &regression.target) * scale(i));
+        Self { gram, moment, length }
+    }
+
+    /// One Newton step from `coefficients`, to the maximum over those of them that are `free`; the others become zero.
+    ///
+    /// Where the Hessian is singular, the step is the shortest of those that lead to the maximum.
+    pub fn newton_step(&self, coefficients: &[f64], free: &[usize]) -> Vec<f64> {
+        let curvature = select(&self.gram, free);
+        let start = DVector::from_fn(free.len(), |i, _| coefficients[free[i]] * self.length[free[i]]);
+        let gradient = DVector::from_fn(free.len(), |i, _| self.moment[free[i]]) - &curvature * &start;
+        let maximum = start + PseudoInverse::new(&curvature).matrix * &gradient;
+        let mut all = vec![0.0; coefficients.len()];
+        for (&index, value) in free.iter().zip(&maximum).filter(|(index, _)| self.length[**index] > 0.0) {
+            all[index] = value / self.length[index];
+        }
+        all
+    }
+
+    /// The maximum.
+    pub fn maximum(&self) -> Vec<f64> {
+        let all: Vec<usize> = (0..self.length.len()).collect();
+        self.newton_step(&vec![0.0; all.len()], &all)
+    }
+
+    /// The maximum under the condition that no coefficient is negative.
+    pub fn non_negative_maximum(&self) -> Vec<f64> {
+        let count = self.length.len();
+        let mut free: Vec<usize> = Vec::new();
+        let mut current = vec![0.0; count];
+        // Each round frees the coefficient that gains most. The method ends by itself; the limit guards against rounding.
+        for _ in 0..3 * count {
+            let gradient = self.gradient(&current);
+            let held = (0..count).filter(|index| !free.contains(index));
+            let Some(best) = held.max_by(|&a, &b| gradient[a].total_cmp(&gradient[b])) else { break };
+            if gradient[best] <= 1e-10 * self.moment.amax() {
+                break;
+            }
+            free.push(best);
+            current = self.towards_maximum(current, &mut free);
+        }
+        current
+    }
+
+    /// Goes to the maximum over `free`, holding at zero, and no longer free, what would become negative on the way.
+    fn towards_maximum(&self, mut current: Vec<f64>, free: &mut Vec<usize>) -> Vec<f64> {
+        loop {
+            let target = self.newton_step(&current, free);
+            // How far towards the target a coefficient stays at least zero, and which meets zero first.
+            let fraction = |i: usize| current[i] / (current[i] - target[i]);
+            let negative = free.iter().copied().filter(|&i| target[i] < 0.0);
+            let Some(first) = negative.min_by(|&a, &b| fraction(a).total_cmp(&fraction(b))) else {
+                return target;
+            };
+            let fraction = fraction(first);
+            for &i in free.iter() {
+                current[i] = (current[i] + fraction * (target[i] - current[i])).max(0.0);
+            }
+            current[first] = 0.0;
+            free.retain(|&i| i != first);
+        }
+    }
+
+    /// ∇l with respect to the scaled coefficients.
+    fn gradient(&self, coefficients: &[f64]) -> DVector<f64> {
+        let scaled = DVector::from_fn(coefficients.len(), |i, _| coefficients[i] * self.length[i]);
+        // A matrix times a vector, unlike a product of matrices, rounds alike everywhere.
+        &self.moment - &self.gram * scaled
+    }
+}
+
+/// The condition number of scaled columns, √(λ_max / λ_min) of their Gram matrix; infinite when they are dependent.
+pub(super) fn condition_number(regression: &Regression) -> f64 {
+    let eigenvalues = SymmetricEigen::new(LogLikelihood::new(regression).gram).eigenvalues;
+    let (low, high) = (eigenvalues.min(), eigenvalues.max());
+    // Below rounding the smallest eigenvalue may even be negative.
+    if low <= SINGULAR * high { f64::INFINITY } else { (high / low).sqrt() }
+}
+
+/// Covariance of the least-squares coefficients when residuals are correlated over time (Newey and West):
+///
+/// ```text
+/// (XᵀX)⁻¹ S (XᵀX)⁻¹,    S = Σ_|l|≤L (1 − |l|/(L+1)) Σ_t e_t x_t x_{t−l}ᵀ e_{t−l}
+/// ```
+///
+/// The variance of a coefficient that the data do not determine is infinite.
+pub(super) fn robust_covariance(regression: &Regression, residuals: &[f64], lags: usize) -> DMatrix<f64> {
+    let likelihood = LogLikelihood::new(regression);
+    let inverse = PseudoInverse::new(&likelihood.gram);
+    let count = regression.columns.len();
+    let scale = likelihood.length.map(|length| if length > 0.0 { 1.0 / length } else { 0.0 });
+    let scores: Vec<Vec<f64>> = (regression.columns.iter().zip(&scale))
+        .map(|(column, scale)| column.iter().zip(residuals).map(|(value, rest)| value * rest * scale).collect())
+        .collect();
+    let mut middle = DMatrix::zeros(count, count);
+    for lag in 0..=lags {
+        let weight = 1.0 - lag as f64 / (lags as f64 + 1.0);
+        let lagged = DMatrix::from_fn(count, count, |i, j| lagged_product(regression, &scores[i], &scores[j], lag));
+        middle += if lag == 0 { lagged } else { (&lagged + lagged.transpose()) * weight };
+    }
+    let covariance = product(&product(&inverse.matrix, &middle), &inverse.matrix);
+    inverse.marked(&DMatrix::from_fn(count, count, |i, j| covariance[(i, j)] * scale[i] * scale[j]))
+}
+
+/// Σ_t a_t b_{t−lag} within segments.
+fn lagged_product(regression: &Regression, a: &[f64], b: &[f64], lag: usize) -> f64 {
+    let long_enough = regression.segments.iter().filter(|segment| segment.len() > lag);
+    long_enough.map(|segment| dot(&a[segment.start + lag..segment.end], &b[segment.start..segment.end - lag])).sum()
+}
+
+/// The inverse of a Gram matrix; the variance of every coefficient that the data do not determine is infinite.
+pub(super) fn covariance(gram: &DMatrix<f64>) -> DMatrix<f64> {
+    let scale = gram.diagonal().map(|entry| if entry > 0.0 { 1.0 / entry.sqrt() } else { 0.0 });
+    let scaled = |matrix: &DMatrix<f64>| {
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * scale[i] * scale[j])
+    };
+    let inverse = PseudoInverse::new(&scaled(gram));
+    inverse.marked(&scaled(&inverse.matrix))
+}
+
+/// The inverse of a symmetric matrix with unit diagonal where it has one.
+struct PseudoInverse {
+    /// The inverse over the directions with an eigenvalue above rounding level.
+    matrix: DMatrix<f64>,
+    /// Whether a coefficient has a part in one of the other directions.
+    undetermined: Vec<bool>,
+}
+
+impl PseudoInverse {
+    fn new(symmetric: &DMatrix<f64>) -> Self {
+        let count = symmetric.nrows();
+        let eigen = SymmetricEigen::new(symmetric.clone());
+        let threshold = SINGULAR * eigen.eigenvalues.max();
+        let (mut matrix, mut undetermined) = (DMatrix::zeros(count, count), vec![false; count]);
+        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+            if *value > threshold {
+                matrix += DMatrix::from_fn(count, count, |i, j| vector[i] * vector[j] / value);
+            } else {
+                undetermined.iter_mut().zip(&vector).for_each(|(mark, part)| *mark |= part.abs() > 1e-3);
+            }
+        }
+        Self { matrix, undetermined }
+    }
+
+    /// A covariance with infinite variance for what is not determined.
+    fn marked(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+        let entry = |i, j| if i == j && self.undetermined[i] { f64::INFINITY } else { covariance[(i, j)] };
+        DMatrix::from_fn(covariance.nrows(), covariance.ncols(), entry)
+    }
+}
+
+/// The Cholesky factor of a symmetric matrix with unit diagonal; `None` when it is singular to working precision.
+pub(super) fn positive_definite(matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
+    let factor = Cholesky::new(matrix)?;
+    let pivots = factor.l_dirty().diagonal();
+    (pivots.iter().all(|pivot| *pivot * *pivot > SINGULAR)).then_some(factor)
+}
+
+/// The rows and columns `indices` of a symmetric matrix.
+fn select(matrix: &DMatrix<f64>, indices: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(indices.len(), indices.len(), |i, j| matrix[(indices[i], indices[j])])
+}
+
+/// A matrix product. The library's own takes other instructions, with other rounding, where the processor has them.
+fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(a.nrows(), b.ncols(), |i, j| (0..a.ncols()).map(|k| a[(i, k)] * b[(k, j)]).sum())
+}
+
+/// Σ a_t b_t, in the order of time.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
