@@ -178,10 +178,7 @@ impl People {
         let from_h = from_h + random.normal(0.0, deviation.shift_h);
         let to_h = to_h + random.normal(0.0, deviation.shift_h);
         let takes_place = random.chance(deviation.meeting_probability);
-        let meeting = Meeting {
-            from_h: random.uniform(9.0, 16.0),
-            factor: if random.chance(0.5) { 0.4 } else { 1.5 },
-        };
+        let meeting = Meeting { from_h: random.uniform(9.0, 16.0), factor: if random.chance(0.5) { 0.4 } else { 1.5 } };
         Day {
             peak_kw,
             from_h,

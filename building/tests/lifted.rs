@@ -85,7 +85,7 @@ fn disturbances_are_found_from_measured_temperatures() {
     let ambient_c: Vec<f64> = (0..STEPS).map(|t| 26.0 + t as f64).collect();
     let measured_c = lifted.response(&initial_c, &u, &ambient_c, &w);
     let none = vec![0.0; lifted.size()];
-    let at_rest_c = lifted.free_response(&initial_c, &vec![0.0; STEPS], &none);
+    let at_rest_c = lifted.free_response(&initial_c, &[0.0; STEPS], &none);
     let risen_k: Vec<f64> = measured_c.iter().zip(&at_rest_c).map(|(t, t_in)| t - t_in).collect();
     for (i, (explained, u)) in lifted.solve(&risen_k).iter().zip(&u).enumerate() {
         let disturbance_kw = w[i] + ambient_c[i / 4] / 31.25;

@@ -84,6 +84,8 @@ fn what_is_no_network_is_refused_with_its_place() {
     for limit_kw in [-1.0, f64::NAN, f64::INFINITY] {
         let zone = Zone { limit_kw, ..Zone::named("a") };
         assert!(matches!(refused(&[zone], &[]), NetworkError::OutOfRange { quantity: "limit_kw", .. }));
+        let zone = Zone { solar_aperture_m2: limit_kw, ..Zone::named("a") };
+        assert!(matches!(refused(&[zone], &[]), NetworkError::OutOfRange { quantity: "solar_aperture_m2", .. }));
     }
 }
 
@@ -127,7 +129,7 @@ fn zones_and_walls_are_read_with_units_in_the_names() {
     }
     let file: File = toml::from_str(
         r#"
-        zone = [{ name = "a" }, { name = "b", capacity_kj_per_k = 800.0, limit_kw = 3.0 }]
+        zone = [{ name = "a" }, { name = "b", capacity_kj_per_k = 800.0, limit_kw = 3.0, solar_aperture_m2 = 2.0 }]
         wall = [
             { between = ["a", "b"], resistance_k_per_kw = 62.5 },
             { between = ["b", "ambient"], resistance_k_per_kw = 31.25, capacity_kj_per_k = 400.0 },
@@ -138,5 +140,6 @@ fn zones_and_walls_are_read_with_units_in_the_names() {
     let network = Network::new(&file.zone, &file.wall).expect("valid");
     assert_eq!(network.capacities_kj_per_k(), [1000.0, 800.0, 400.0]);
     assert_eq!(network.limits_kw(), [2.0, 3.0]);
+    assert_eq!(network.solar_gains_kw(500.0), [0.0, 1.0]);
     assert!(toml::from_str::<Zone>("name = 'a'\nlimit = 2.0").is_err(), "a key without its unit is unknown");
 }

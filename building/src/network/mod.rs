@@ -44,6 +44,7 @@ pub struct Network {
     zone_count: usize,
     capacities_kj_per_k: Vec<f64>,
     limits_kw: Vec<f64>,
+    solar_apertures_m2: Vec<f64>,
     links: Vec<Link>,
     ambient_kw_per_k: Vec<f64>,
     /// Pairs of zones with a wall between them, the smaller number first, sorted, without repetition.
@@ -65,6 +66,7 @@ impl Network {
             zone_count: zones.len(),
             capacities_kj_per_k: zones.iter().map(|zone| zone.capacity_kj_per_k).collect(),
             limits_kw: zones.iter().map(|zone| zone.limit_kw).collect(),
+            solar_apertures_m2: zones.iter().map(|zone| zone.solar_aperture_m2).collect(),
             links: Vec::new(),
             ambient_kw_per_k: vec![0.0; zones.len()],
             adjacent: Vec::new(),
@@ -132,6 +134,11 @@ impl Network {
     /// Largest heating or cooling power of each zone \[kW\].
     pub fn limits_kw(&self) -> &[f64] {
         &self.limits_kw
+    }
+
+    /// Heat that the sun brings into each zone \[kW\], for a global radiation on a horizontal plane \[W/m²\].
+    pub fn solar_gains_kw(&self, sun_w_per_m2: f64) -> Vec<f64> {
+        self.solar_apertures_m2.iter().map(|aperture_m2| aperture_m2 * sun_w_per_m2 / 1000.0).collect()
     }
 
     /// Conductances between nodes, in the order of the walls.

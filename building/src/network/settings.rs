@@ -18,6 +18,9 @@ pub struct Zone {
     /// Largest heating power, and largest cooling power \[kW\].
     #[serde(default = "default_limit_kw")]
     pub limit_kw: f64,
+    /// Area of the horizontal opening that would let in as much sun as the zone's windows do \[m²\].
+    #[serde(default)]
+    pub solar_aperture_m2: f64,
 }
 
 fn default_capacity_kj_per_k() -> f64 {
@@ -29,9 +32,14 @@ fn default_limit_kw() -> f64 {
 }
 
 impl Zone {
-    /// A zone of the source's testbed: 1000 kJ/K, at most 2 kW of heating or cooling (Table 2.1).
+    /// A zone of the source's testbed: 1000 kJ/K, at most 2 kW of heating or cooling (Table 2.1), no windows.
     pub fn named(name: impl Into<String>) -> Self {
-        Self { name: name.into(), capacity_kj_per_k: default_capacity_kj_per_k(), limit_kw: default_limit_kw() }
+        Self {
+            name: name.into(),
+            capacity_kj_per_k: default_capacity_kj_per_k(),
+            limit_kw: default_limit_kw(),
+            solar_aperture_m2: 0.0,
+        }
     }
 }
 

@@ -19,10 +19,8 @@ pub(super) fn check_zones(zones: &[Zone]) -> Result<(), NetworkError> {
         }
         let place = format!("zone `{name}`");
         positive(&place, "capacity_kj_per_k", zone.capacity_kj_per_k)?;
-        if !(zone.limit_kw >= 0.0 && zone.limit_kw.is_finite()) {
-            let wanted = "a number of kilowatts, at least 0";
-            return Err(NetworkError::OutOfRange { place, quantity: "limit_kw", value: zone.limit_kw, wanted });
-        }
+        not_negative(&place, "limit_kw", zone.limit_kw)?;
+        not_negative(&place, "solar_aperture_m2", zone.solar_aperture_m2)?;
         names.push(&zone.name);
     }
     names.sort_unstable();
@@ -81,6 +79,13 @@ fn positive(place: &str, quantity: &'static str, value: f64) -> Result<(), Netwo
     }
     let wanted = "between 1e-9 and 1e12 (leave a wall out that lets no heat through)";
     Err(NetworkError::OutOfRange { place: place.to_owned(), quantity, value, wanted })
+}
+
+fn not_negative(place: &str, quantity: &'static str, value: f64) -> Result<(), NetworkError> {
+    if value >= 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(NetworkError::OutOfRange { place: place.to_owned(), quantity, value, wanted: "a number, at least 0" })
 }
 
 impl Network {

@@ -24,7 +24,7 @@ pub fn network(largest: usize) -> impl Strategy<Value = Network> {
             (capacities, proptest::collection::vec(wall(zones), 0..3 * zones))
         })
         .prop_map(|(capacities, walls)| {
-            let zone = |(i, capacity_kj_per_k)| Zone { name: format!("z{i}"), capacity_kj_per_k, limit_kw: 2.0 };
+            let zone = |(i, capacity_kj_per_k)| Zone { capacity_kj_per_k, ..Zone::named(format!("z{i}")) };
             let zones: Vec<Zone> = capacities.into_iter().enumerate().map(zone).collect();
             Network::new(&zones, &walls).expect("names and quantities are valid by construction")
         })

@@ -38,7 +38,9 @@ pub enum EpwProblem {
         wanted: &'static str,
     },
     /// A row has too few columns.
-    #[error("the row has {found} columns, and the wind and clouds stand in the first {wanted}: it is cut off or no EPW row")]
+    #[error(
+        "the row has {found} columns, and the wind and clouds stand in the first {wanted}: it is cut off or no EPW row"
+    )]
     ShortRow {
         /// How many columns there are.
         found: usize,

@@ -132,7 +132,9 @@ impl Epw {
         };
         let ambient_c = self.column(Field::DryBulb).unwrap_or_default().to_vec();
         let per_hour = HOUR_S / self.interval_s;
-        let sun = self.column(Field::GlobalHorizontal).map_or(vec![0.0], |sums| sums.iter().map(|sum| sum * per_hour).collect());
+        let sun = self
+            .column(Field::GlobalHorizontal)
+            .map_or(vec![0.0], |sums| sums.iter().map(|sum| sum * per_hour).collect());
         Weather { ambient_c: series(self.interval_s, ambient_c), sun_w_per_m2: series(0.5 * self.interval_s, sun) }
     }
 }
