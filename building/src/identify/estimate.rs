@@ -62,7 +62,7 @@ fn semiparametric(
     let unconstrained = likelihood.maximum();
     // What the smoother leaves of a disturbance is correlated over about two bandwidths.
     let lags = libm::ceil(2.0 * bandwidth) as usize;
-    let covariance = robust_covariance(&regression, &regression.residuals(&unconstrained), lags);
+    let covariance = robust_covariance(&regression.columns, &regression.residuals(&unconstrained), &regression.segments, lags);
     let coefficients = likelihood.non_negative_maximum();
     Ok(Estimate { coefficients, unconstrained, covariance, condition_number: condition_number(&regression) })
 }

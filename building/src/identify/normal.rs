@@ -12,6 +12,8 @@
 //! Columns are scaled to length one: coefficients differ by orders of magnitude, and so the condition number speaks of the
 //! data rather than of the units.
 
+use std::ops::Range;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 use super::regression::Regression;
@@ -25,21 +27,17 @@ pub(super) struct LogLikelihood {
     gram: DMatrix<f64>,
     /// Xᵀy of the scaled columns.
     moment: DVector<f64>,
-    /// The length of each column.
-    length: DVector<f64>,
+    /// The inverse of each column's length.
+    scale: Vec<f64>,
 }
 
 impl LogLikelihood {
     /// The likelihood of `regression`.
     pub fn new(regression: &Regression) -> Self {
-        let count = regression.columns.len();
-        let length = DVector::from_iterator(count, regression.columns.iter().map(|column| dot(column, column).sqrt()));
-        let scale = |index: usize| if length[index] > 0.0 { 1.0 / length[index] } else { 0.0 };
-        let gram = DMatrix::from_fn(count, count, |i, j| {
-            dot(&regression.columns[i], &regression.columns[j]) * scale(i) * scale(j)
-        });
-        let moment = DVector::from_fn(count, |i, _| dot(&regression.columns[i], &regression.target) * scale(i));
-        Self { gram, moment, length }
+        let columns = &regression.columns;
+        let scale: Vec<f64> = columns.iter().map(|column| inverse_length(column)).collect();
+        let moment = DVector::from_fn(columns.len(), |i, _| dot(&columns[i], &regression.target) * scale[i]);
+        Self { gram: scaled_gram(columns, &scale), moment, scale }
     }
 
     /// One Newton step from `coefficients`, to the maximum over those of them that are `free`; the others become zero.
@@ -47,25 +45,25 @@ impl LogLikelihood {
     /// Where the Hessian is singular, the step is the shortest of those that lead to the maximum.
     pub fn newton_step(&self, coefficients: &[f64], free: &[usize]) -> Vec<f64> {
         let curvature = select(&self.gram, free);
-        let start = DVector::from_fn(free.len(), |i, _| coefficients[free[i]] * self.length[free[i]]);
+        let start = DVector::from_fn(free.len(), |i, _| scaled(coefficients[free[i]], self.scale[free[i]]));
         let gradient = DVector::from_fn(free.len(), |i, _| self.moment[free[i]]) - &curvature * &start;
         let maximum = start + PseudoInverse::new(&curvature).matrix * &gradient;
         let mut all = vec![0.0; coefficients.len()];
-        for (&index, value) in free.iter().zip(&maximum).filter(|(index, _)| self.length[**index] > 0.0) {
-            all[index] = value / self.length[index];
+        for (&index, value) in free.iter().zip(&maximum) {
+            all[index] = value * self.scale[index];
         }
         all
     }
 
     /// The maximum.
     pub fn maximum(&self) -> Vec<f64> {
-        let all: Vec<usize> = (0..self.length.len()).collect();
+        let all: Vec<usize> = (0..self.scale.len()).collect();
         self.newton_step(&vec![0.0; all.len()], &all)
     }
 
     /// The maximum under the condition that no coefficient is negative.
     pub fn non_negative_maximum(&self) -> Vec<f64> {
-        let count = self.length.len();
+        let count = self.scale.len();
         let mut free: Vec<usize> = Vec::new();
         let mut current = vec![0.0; count];
         // Each round frees the coefficient that gains most. The method ends by itself; the limit guards against rounding.
@@ -103,7 +101,7 @@ impl LogLikelihood {
 
     /// ∇l with respect to the scaled coefficients.
     fn gradient(&self, coefficients: &[f64]) -> DVector<f64> {
-        let scaled = DVector::from_fn(coefficients.len(), |i, _| coefficients[i] * self.length[i]);
+        let scaled = DVector::from_fn(coefficients.len(), |i, _| scaled(coefficients[i], self.scale[i]));
         // A matrix times a vector, unlike a product of matrices, rounds alike everywhere.
         &self.moment - &self.gram * scaled
     }
@@ -117,45 +115,40 @@ pub(super) fn condition_number(regression: &Regression) -> f64 {
     if low <= SINGULAR * high { f64::INFINITY } else { (high / low).sqrt() }
 }
 
-/// Covariance of the least-squares coefficients when residuals are correlated over time (Newey and West):
+/// Covariance of least-squares coefficients when residuals are correlated over time and differ in size (Newey and West):
 ///
 /// ```text
 /// (XᵀX)⁻¹ S (XᵀX)⁻¹,    S = Σ_|l|≤L (1 − |l|/(L+1)) Σ_t e_t x_t x_{t−l}ᵀ e_{t−l}
 /// ```
 ///
 /// The variance of a coefficient that the data do not determine is infinite.
-pub(super) fn robust_covariance(regression: &Regression, residuals: &[f64], lags: usize) -> DMatrix<f64> {
-    let likelihood = LogLikelihood::new(regression);
-    let inverse = PseudoInverse::new(&likelihood.gram);
-    let count = regression.columns.len();
-    let scale = likelihood.length.map(|length| if length > 0.0 { 1.0 / length } else { 0.0 });
-    let scores: Vec<Vec<f64>> = (regression.columns.iter().zip(&scale))
+pub(super) fn robust_covariance(
+    columns: &[Vec<f64>],
+    residuals: &[f64],
+    segments: &[Range<usize>],
+    lags: usize,
+) -> DMatrix<f64> {
+    let count = columns.len();
+    let scale: Vec<f64> = columns.iter().map(|column| inverse_length(column)).collect();
+    let inverse = PseudoInverse::new(&scaled_gram(columns, &scale));
+    let scores: Vec<Vec<f64>> = (columns.iter().zip(&scale))
         .map(|(column, scale)| column.iter().zip(residuals).map(|(value, rest)| value * rest * scale).collect())
         .collect();
     let mut middle = DMatrix::zeros(count, count);
     for lag in 0..=lags {
         let weight = 1.0 - lag as f64 / (lags as f64 + 1.0);
-        let lagged = DMatrix::from_fn(count, count, |i, j| lagged_product(regression, &scores[i], &scores[j], lag));
+        let lagged = DMatrix::from_fn(count, count, |i, j| lagged_product(segments, &scores[i], &scores[j], lag));
         middle += if lag == 0 { lagged } else { (&lagged + lagged.transpose()) * weight };
     }
     let covariance = product(&product(&inverse.matrix, &middle), &inverse.matrix);
-    inverse.marked(&DMatrix::from_fn(count, count, |i, j| covariance[(i, j)] * scale[i] * scale[j]))
+    let entry = |i, j| if i == j && inverse.undetermined[i] { f64::INFINITY } else { covariance[(i, j)] * scale[i] * scale[j] };
+    DMatrix::from_fn(count, count, entry)
 }
 
 /// Σ_t a_t b_{t−lag} within segments.
-fn lagged_product(regression: &Regression, a: &[f64], b: &[f64], lag: usize) -> f64 {
-    let long_enough = regression.segments.iter().filter(|segment| segment.len() > lag);
+fn lagged_product(segments: &[Range<usize>], a: &[f64], b: &[f64], lag: usize) -> f64 {
+    let long_enough = segments.iter().filter(|segment| segment.len() > lag);
     long_enough.map(|segment| dot(&a[segment.start + lag..segment.end], &b[segment.start..segment.end - lag])).sum()
-}
-
-/// The inverse of a Gram matrix; the variance of every coefficient that the data do not determine is infinite.
-pub(super) fn covariance(gram: &DMatrix<f64>) -> DMatrix<f64> {
-    let scale = gram.diagonal().map(|entry| if entry > 0.0 { 1.0 / entry.sqrt() } else { 0.0 });
-    let scaled = |matrix: &DMatrix<f64>| {
-        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * scale[i] * scale[j])
-    };
-    let inverse = PseudoInverse::new(&scaled(gram));
-    inverse.marked(&scaled(&inverse.matrix))
 }
 
 /// The inverse of a symmetric matrix with unit diagonal where it has one.
@@ -181,12 +174,6 @@ impl PseudoInverse {
         }
         Self { matrix, undetermined }
     }
-
-    /// A covariance with infinite variance for what is not determined.
-    fn marked(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
-        let entry = |i, j| if i == j && self.undetermined[i] { f64::INFINITY } else { covariance[(i, j)] };
-        DMatrix::from_fn(covariance.nrows(), covariance.ncols(), entry)
-    }
 }
 
 /// The Cholesky factor of a symmetric matrix with unit diagonal; `None` when it is singular to working precision.
@@ -199,6 +186,29 @@ pub(super) fn positive_definite(matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dy
 /// The rows and columns `indices` of a symmetric matrix.
 fn select(matrix: &DMatrix<f64>, indices: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(indices.len(), indices.len(), |i, j| matrix[(indices[i], indices[j])])
+}
+
+/// One over the length of a column; zero for a column of zeros.
+fn inverse_length(column: &[f64]) -> f64 {
+    let length = dot(column, column).sqrt();
+    if length > 0.0 { 1.0 / length } else { 0.0 }
+}
+
+/// A coefficient of the scaled column.
+fn scaled(coefficient: f64, scale: f64) -> f64 {
+    if scale > 0.0 { coefficient / scale } else { 0.0 }
+}
+
+/// XᵀX of scaled columns.
+fn scaled_gram(columns: &[Vec<f64>], scale: &[f64]) -> DMatrix<f64> {
+    let mut gram = DMatrix::zeros(columns.len(), columns.len());
+    for i in 0..columns.len() {
+        for j in 0..=i {
+            gram[(i, j)] = dot(&columns[i], &columns[j]) * scale[i] * scale[j];
+            gram[(j, i)] = gram[(i, j)];
+        }
+    }
+    gram
 }
 
 /// A matrix product. The library's own takes other instructions, with other rounding, where the processor has them.

@@ -100,9 +100,11 @@ pub(super) struct Regression {
 impl Regression {
     /// The regression of `model` over the steps within `segments` of the telemetry.
     ///
-    /// With a bandwidth \[samples\], everything is taken minus its kernel smooth (eq. 2.6 to 2.8), which takes out whatever
-    /// varies slowly, the non-parametric term with it. The known disturbance w stays beside u: a smoother does not reproduce
-    /// its steps, and without it b comes out wrong by as much as its own size.
+    /// With a bandwidth \[samples\], target and columns are taken minus their kernel smooths (eq. 2.6 to 2.8), which takes out
+    /// whatever varies slowly, the non-parametric term with it. Two deviations from the source: the known disturbance w stays
+    /// beside u, because a smoother does not reproduce its steps, and without it b comes out wrong by as much as its own size;
+    /// and the change T(t+1) − T(t) is smoothed as one series, because near the ends of a recording the smoothers of T(t+1)
+    /// and T(t) are not each other's shift, and eq. 2.6 would not hold there.
     pub fn new(telemetry: &Telemetry, model: &ZoneModel, segments: &[Range<usize>], bandwidth: Option<f64>) -> Self {
         let mut regression = Self {
             columns: vec![Vec::new(); model.terms.len()],
@@ -117,10 +119,11 @@ impl Regression {
         for segment in segments.iter().filter(|segment| segment.len() >= 2) {
             let steps = segment.len() - 1;
             let start = regression.rows.len();
-            let temperature = smoothed(telemetry.zones[model.zone].temperature_c[segment.clone()].to_vec());
-            regression.target.extend(temperature.windows(2).map(|pair| pair[1] - pair[0]));
-            for (column, series) in regression.columns.iter_mut().zip(term_series(telemetry, model, segment)) {
-                column.extend(&smoothed(series)[..steps]);
+            let temperature = &telemetry.zones[model.zone].temperature_c[segment.clone()];
+            regression.target.extend(smoothed(temperature.windows(2).map(|pair| pair[1] - pair[0]).collect()));
+            let starts = segment.start..segment.start + steps;
+            for (column, series) in regression.columns.iter_mut().zip(term_series(telemetry, model, &starts)) {
+                column.extend(smoothed(series));
             }
             regression.rows.extend(segment.start..segment.start + steps);
             regression.segments.push(start..start + steps);
@@ -138,11 +141,11 @@ impl Regression {
     }
 }
 
-/// The regressors of each term over a segment, from measured temperatures.
-fn term_series(telemetry: &Telemetry, model: &ZoneModel, segment: &Range<usize>) -> Vec<Vec<f64>> {
-    let mut series = vec![Vec::with_capacity(segment.len()); model.terms.len()];
+/// The regressors of each term over some rows, from measured temperatures.
+fn term_series(telemetry: &Telemetry, model: &ZoneModel, rows: &Range<usize>) -> Vec<Vec<f64>> {
+    let mut series = vec![Vec::with_capacity(rows.len()); model.terms.len()];
     let mut zones_c = vec![0.0; telemetry.zones.len()];
-    for row in segment.clone() {
+    for row in rows.clone() {
         for (temperature, zone) in zones_c.iter_mut().zip(&telemetry.zones) {
             *temperature = zone.temperature_c[row];
         }

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! with the backshift B. The sum has several minima when α and μ nearly cancel, so descents start from several α and μ, each
-//! with the β that is best for them; the lowest wins. At the minimum σ²(JᵀJ)⁻¹ estimates the covariance.
+//! with the β that is best for them; the lowest wins. The covariance at the minimum allows for innovations that are not quite
+//! white.
 
 use std::ops::Range;
 
@@ -15,7 +16,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Arma, is_stable, moving_average_inverted, whitened};
 use crate::identify::IdentifyError;
-use crate::identify::normal::{covariance, dot, positive_definite};
+use crate::identify::normal::{dot, positive_definite, robust_covariance};
 
 /// How large a moving average may be: beyond, the filter that inverts it does not forget its start.
 const MOVING_AVERAGE_LIMIT: f64 = 0.98;
@@ -34,10 +35,6 @@ pub(in crate::identify) struct ArmaFit {
     pub arma: Arma,
     /// Covariance of (β, α, μ); the variance of what the data do not determine is infinite.
     pub covariance: DMatrix<f64>,
-    /// e_t, zero for the first r rows of a segment.
-    pub innovations: Vec<f64>,
-    /// Number of rows whose e_t counts.
-    pub count: usize,
 }
 
 /// Fits `target` = `columns`·β + v with v an ARMA(`order`, 1), `order` at least 1, over segments.
@@ -181,15 +178,16 @@ impl<'a> Problem<'a> {
     }
 
     fn finish(&self, point: Point, count: usize) -> ArmaFit {
-        let degrees = count - point.parameters.len();
-        let variance = point.cost / degrees as f64;
+        let variance = point.cost / (count - point.parameters.len()) as f64;
         let unscaled = |i: usize| match self.length.get(i) {
             Some(&length) if length > 0.0 => 1.0 / length,
             _ => 1.0,
         };
-        let scaled = covariance(&gram(&self.jacobian(&point)));
+        // Innovations of a model that is not quite true are not quite white; their correlation fades within n^⅓ steps.
+        let lags = libm::cbrt(count as f64) as usize;
+        let scaled = robust_covariance(&self.jacobian(&point), &point.innovations, &self.segments, lags);
         let covariance =
-            DMatrix::from_fn(scaled.nrows(), scaled.ncols(), |i, j| variance * scaled[(i, j)] * unscaled(i) * unscaled(j));
+            DMatrix::from_fn(scaled.nrows(), scaled.ncols(), |i, j| scaled[(i, j)] * unscaled(i) * unscaled(j));
         ArmaFit {
             regression: (0..self.columns.len()).map(|i| point.parameters[i] * unscaled(i)).collect(),
             arma: Arma {
@@ -198,8 +196,6 @@ impl<'a> Problem<'a> {
                 innovation_sd: variance.sqrt(),
             },
             covariance,
-            innovations: point.innovations,
-            count,
         }
     }
 }
