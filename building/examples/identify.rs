@@ -16,7 +16,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [mapping_file, table_file, options @ ..] = arguments.as_slice() else {
         return Err("usage: identify MAPPING.toml TABLE.csv [--json]".into());
     };
-    let mapping = Mapping::parse(mapping_file, &fs::read_to_string(mapping_file)?).map_err(|error| error.to_string())?;
+    let mapping =
+        Mapping::parse(mapping_file, &fs::read_to_string(mapping_file)?).map_err(|error| error.to_string())?;
     let telemetry =
         Telemetry::read(table_file, &fs::read_to_string(table_file)?, &mapping).map_err(|error| error.to_string())?;
     let report = identify(&telemetry, &mapping.identify)?.report;
@@ -35,9 +36,15 @@ fn print_report(report: &Report) {
     );
     report.zones.iter().for_each(print_zone);
     for wall in &report.walls {
-        let side = |side: Option<(f64, f64)>| side.map_or("?".into(), |(value, error)| format!("{value:.3} ± {error:.3}"));
+        let side =
+            |side: Option<(f64, f64)>| side.map_or("?".into(), |(value, error)| format!("{value:.3} ± {error:.3}"));
         let (one, other) = &wall.between;
-        println!("\nwall {one} - {other} [kW/K]: {} and {}: {}", side(wall.from_first), side(wall.from_second), wall.words);
+        println!(
+            "\nwall {one} - {other} [kW/K]: {} and {}: {}",
+            side(wall.from_first),
+            side(wall.from_second),
+            wall.words
+        );
     }
     println!("\nwarnings");
     report.warnings.iter().for_each(|warning| println!("  - {warning}"));
@@ -56,7 +63,11 @@ fn print_zone(zone: &ZoneReport) {
     let white = &zone.whiteness;
     println!(
         "  residuals: {}; Ljung-Box {:.1} on {}, p = {:.3}; nCPBES {:?}",
-        white.words, white.ljung_box.statistic, white.ljung_box.degrees, white.ljung_box.p_value, white.periodogram_excess
+        white.words,
+        white.ljung_box.statistic,
+        white.ljung_box.degrees,
+        white.ljung_box.p_value,
+        white.periodogram_excess
     );
     print_errors("train", &zone.train);
     zone.test.iter().for_each(|test| print_errors("test", test));
@@ -78,7 +89,12 @@ fn print_quantity(quantity: &Quantity) {
 }
 
 fn print_errors(part: &str, errors: &ErrorReport) {
-    let free: Vec<_> = errors.free_run.errors_k.iter().map(|(how, error)| format!("{how:?} {:.3}", error.unwrap_or(f64::NAN))).collect();
+    let free: Vec<_> = errors
+        .free_run
+        .errors_k
+        .iter()
+        .map(|(how, error)| format!("{how:?} {:.3}", error.unwrap_or(f64::NAN)))
+        .collect();
     println!(
         "  {part}: one step {:.4} K, with residual model {:.4} K; free run of {} h ({} runs) [K]: {}",
         errors.one_step_k,

@@ -128,8 +128,14 @@ fn simulate_rooms(random: &mut Random, outdoor_c: &[f64], schedule_kw: &[f64], d
         };
         now = [
             now[0] + gain * (flow(0, [now[1], now[2]]) + people) + disturbance_k[row] + random.normal(0.0, 0.01),
-            now[1] + gain * (flow(1, [now[0], BEYOND_C]) + 0.9 * people) + 0.5 * disturbance_k[row] + random.normal(0.0, 0.02),
-            now[2] + gain * (flow(2, [now[0], BEYOND_C]) + 0.9 * people) + 0.5 * disturbance_k[row] + random.normal(0.0, 0.02),
+            now[1]
+                + gain * (flow(1, [now[0], BEYOND_C]) + 0.9 * people)
+                + 0.5 * disturbance_k[row]
+                + random.normal(0.0, 0.02),
+            now[2]
+                + gain * (flow(2, [now[0], BEYOND_C]) + 0.9 * people)
+                + 0.5 * disturbance_k[row]
+                + random.normal(0.0, 0.02),
         ];
     }
     rooms

@@ -62,7 +62,8 @@ fn semiparametric(
     let unconstrained = likelihood.maximum();
     // What the smoother leaves of a disturbance is correlated over about two bandwidths.
     let lags = libm::ceil(2.0 * bandwidth) as usize;
-    let covariance = robust_covariance(&regression.columns, &regression.residuals(&unconstrained), &regression.segments, lags);
+    let covariance =
+        robust_covariance(&regression.columns, &regression.residuals(&unconstrained), &regression.segments, lags);
     let coefficients = likelihood.non_negative_maximum();
     Ok(Estimate { coefficients, unconstrained, covariance, condition_number: condition_number(&regression) })
 }
@@ -77,7 +78,8 @@ fn prediction_error(
     let count = regression.columns.len();
     let known = known_ahead(telemetry, &regression.rows, settings.harmonics);
     let fit = |kept: &[usize]| {
-        let columns: Vec<_> = kept.iter().map(|&index| regression.columns[index].clone()).chain(known.clone()).collect();
+        let columns: Vec<_> =
+            kept.iter().map(|&index| regression.columns[index].clone()).chain(known.clone()).collect();
         arma::fit(&columns, &regression.target, &regression.segments, settings.autoregressive_order)
     };
     let mut kept: Vec<usize> = (0..count).collect();
@@ -108,9 +110,8 @@ fn column_length(column: &[f64]) -> f64 {
 
 /// What is known of a disturbance beforehand: a constant, and `harmonics` of the day, at the start of each step.
 pub(super) fn known_ahead(telemetry: &Telemetry, rows: &[usize], harmonics: usize) -> Vec<Vec<f64>> {
-    let angle = |row: usize, harmonic: usize| {
-        harmonic as f64 * 2.0 * std::f64::consts::PI * telemetry.time_s[row] / 86_400.0
-    };
+    let angle =
+        |row: usize, harmonic: usize| harmonic as f64 * 2.0 * std::f64::consts::PI * telemetry.time_s[row] / 86_400.0;
     let mut columns = vec![vec![1.0; rows.len()]];
     for harmonic in 1..=harmonics {
         columns.push(rows.iter().map(|&row| libm::sin(angle(row, harmonic))).collect());

@@ -18,6 +18,8 @@ use super::telemetry::Telemetry;
 pub enum Forecast {
     /// As zero: the network alone.
     None,
+    /// As constant.
+    Constant,
     /// By a constant and ARMA(r,1), the source's residual model.
     Arma,
     /// By the daily profile.
@@ -28,7 +30,7 @@ pub enum Forecast {
 
 impl Forecast {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::None, Self::Arma, Self::Profile, Self::ProfileArma];
+    pub const ALL: [Self; 5] = [Self::None, Self::Constant, Self::Arma, Self::Profile, Self::ProfileArma];
 }
 
 /// Everything known of a zone that a free run needs.
@@ -56,6 +58,7 @@ impl RunZone {
         };
         match forecast {
             Forecast::None => vec![0.0; steps],
+            Forecast::Constant => profile(&self.constant),
             Forecast::Arma => with_arma(&self.constant),
             Forecast::Profile => profile(&self.daily),
             Forecast::ProfileArma => with_arma(&self.daily),
@@ -100,7 +103,9 @@ pub(super) fn errors(
     let mut runs = 0;
     for segment in segments {
         let first = segment.start + (horizon / 8).max(4);
-        for start in (first..segment.end).step_by((horizon / 2).max(1)).take_while(|start| start + horizon < segment.end) {
+        for start in
+            (first..segment.end).step_by((horizon / 2).max(1)).take_while(|start| start + horizon < segment.end)
+        {
             runs += 1;
             for (step, state) in run(telemetry, zones, forecast, segment, (start, horizon)).iter().enumerate() {
                 for (zone, sum) in squares.iter_mut().enumerate() {

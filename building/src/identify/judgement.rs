@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use super::checks::CheckedEstimate;
+use super::continuous::{continuous, decay};
 use super::diagnostics::{Confidence, INTERVAL, whiteness};
 use super::estimate::Estimate;
 use super::free_run::{self, Forecast, RunZone};
@@ -17,19 +19,30 @@ use crate::discretise;
 pub(super) fn report(
     telemetry: &Telemetry,
     settings: &Settings,
-    estimates: &[Estimate],
+    estimates: &[CheckedEstimate],
     zones: &[RunZone],
     parts: &Parts,
 ) -> Report {
+    let physical = match settings.discretisation {
+        discretise::Method::Exact => continuous(telemetry, zones, estimates),
+        discretise::Method::Euler => estimates.iter().map(|checked| checked.estimate.clone()).collect(),
+    };
     let train = errors(telemetry, settings, zones, &parts.train);
     let test = (!parts.test.is_empty()).then(|| errors(telemetry, settings, zones, &parts.test));
     let reports: Vec<ZoneReport> = (0..zones.len())
         .map(|zone| {
             let test = test.as_ref().map(|test| test[zone].clone());
-            zone_report(telemetry, settings, (zone, &estimates[zone], &zones[zone]), parts, (train[zone].clone(), test))
+            zone_report(
+                telemetry,
+                settings,
+                (zone, &zones[zone]),
+                (&estimates[zone], &physical[zone]),
+                parts,
+                (train[zone].clone(), test),
+            )
         })
         .collect();
-    let walls = walls(telemetry, settings, estimates, zones);
+    let walls = walls(telemetry, estimates, &physical, zones);
     let warnings = warnings(telemetry, settings, &reports, zones);
     Report {
         method: settings.method,
@@ -47,12 +60,13 @@ pub(super) fn report(
 fn zone_report(
     telemetry: &Telemetry,
     settings: &Settings,
-    (zone, estimate, run): (usize, &Estimate, &RunZone),
+    (zone, run): (usize, &RunZone),
+    (checked, continuous): (&CheckedEstimate, &Estimate),
     parts: &Parts,
     (train, test): (ErrorReport, Option<ErrorReport>),
 ) -> ZoneReport {
     let coefficients = run.model.coefficients(telemetry);
-    let physical = physical(telemetry, settings, (zone, estimate, run), &coefficients);
+    let estimate = &checked.estimate;
     let count = coefficients.len();
     let order = settings.autoregressive_order;
     // The first r innovations of a segment are zeros, on which the others are conditioned.
@@ -60,8 +74,8 @@ fn zone_report(
     let tested: Vec<_> = steps(&parts.train).into_iter().filter(|rows| rows.len() > order).map(conditioned).collect();
     ZoneReport {
         name: telemetry.zones[zone].name.clone(),
-        coefficients: physical.coefficients(),
-        physical: physical.quantities(),
+        coefficients: physical(telemetry, (zone, estimate, checked), &coefficients).coefficients(),
+        physical: physical(telemetry, (zone, continuous, checked), &coefficients).quantities(),
         correlations: (0..count)
             .map(|i| (0..count).map(|j| correlation(&estimate.covariance, i, j)).collect())
             .collect(),
@@ -79,34 +93,20 @@ fn zone_report(
 
 fn physical<'a>(
     telemetry: &Telemetry,
-    settings: &Settings,
-    (zone, estimate, run): (usize, &'a Estimate, &RunZone),
+    (zone, estimate, checks): (usize, &'a Estimate, &'a CheckedEstimate),
     coefficients: &'a [Coefficient],
 ) -> Physical<'a> {
-    let decay = decay(telemetry, zone, run, coefficients);
-    let rate_factor = match settings.discretisation {
-        discretise::Method::Exact if 0.0 < decay && decay < 1.0 => -libm::log1p(-decay) / decay,
-        discretise::Method::Exact | discretise::Method::Euler => 1.0,
-    };
     let heat_has_unit = telemetry.zones[zone].power_has_unit;
-    Physical { coefficients, estimate, heat_has_unit, rate_factor }
-}
-
-/// The part of a temperature difference that decays within a step: T_s (Σ_k b_ik + a_i · mean of ṁ c_p).
-fn decay(telemetry: &Telemetry, zone: usize, run: &RunZone, coefficients: &[Coefficient]) -> f64 {
-    let supply_kw_per_k: f64 = (telemetry.zones[zone].supply_air.iter())
-        .map(|air| air.conductance_kw_per_k.iter().sum::<f64>() / air.conductance_kw_per_k.len().max(1) as f64)
-        .sum();
-    let rate = |(kind, value): (&Coefficient, &f64)| match kind {
-        Coefficient::Wall { .. } => *value,
-        Coefficient::Heat => value * supply_kw_per_k,
-        Coefficient::Solar => 0.0,
-    };
-    telemetry.step_s * coefficients.iter().zip(&run.coefficients).map(rate).sum::<f64>()
+    Physical { coefficients, estimate, checks: &checks.checks, heat_has_unit }
 }
 
 /// Errors of every zone on some segments.
-fn errors(telemetry: &Telemetry, settings: &Settings, zones: &[RunZone], segments: &[Range<usize>]) -> Vec<ErrorReport> {
+fn errors(
+    telemetry: &Telemetry,
+    settings: &Settings,
+    zones: &[RunZone],
+    segments: &[Range<usize>],
+) -> Vec<ErrorReport> {
     let order = settings.autoregressive_order;
     let rows: Vec<usize> = steps(segments).into_iter().flat_map(|rows| rows.skip(order)).collect();
     let root_mean_square = |series: &[f64]| {
@@ -114,26 +114,35 @@ fn errors(telemetry: &Telemetry, settings: &Settings, zones: &[RunZone], segment
         (sum / rows.len().max(1) as f64).sqrt()
     };
     let horizon = horizon(telemetry, settings);
-    let runs = Forecast::ALL.map(|forecast| (forecast, free_run::errors(telemetry, zones, forecast, segments, horizon)));
+    let runs =
+        Forecast::ALL.map(|forecast| (forecast, free_run::errors(telemetry, zones, forecast, segments, horizon)));
     let zone_errors = |(index, zone): (usize, &RunZone)| ErrorReport {
         one_step_k: root_mean_square(&zone.daily.1.q),
         one_step_with_residual_model_k: root_mean_square(&zone.daily.1.innovations),
         free_run: FreeRunReport {
             horizon_h: horizon as f64 * telemetry.step_s / 3600.0,
             runs: runs[0].1.1,
-            errors_k: runs.iter().map(|(forecast, (errors, runs))| (*forecast, (*runs > 0).then(|| errors[index]))).collect(),
+            errors_k: runs
+                .iter()
+                .map(|(forecast, (errors, runs))| (*forecast, (*runs > 0).then(|| errors[index])))
+                .collect(),
         },
     };
     zones.iter().enumerate().map(zone_errors).collect()
 }
 
 /// Walls between zones: R_ij is one number, and each side has its own opinion of it.
-fn walls(telemetry: &Telemetry, settings: &Settings, estimates: &[Estimate], zones: &[RunZone]) -> Vec<WallReport> {
+fn walls(
+    telemetry: &Telemetry,
+    estimates: &[CheckedEstimate],
+    physical_estimates: &[Estimate],
+    zones: &[RunZone],
+) -> Vec<WallReport> {
     let opinion = |zone: usize, other: usize| {
         let coefficients = zones[zone].model.coefficients(telemetry);
         let to = &telemetry.zones[other].name;
         let index = coefficients.iter().position(|kind| *kind == Coefficient::Wall { to: to.clone() })?;
-        let physical = physical(telemetry, settings, (zone, &estimates[zone], &zones[zone]), &coefficients);
+        let physical = physical(telemetry, (zone, &physical_estimates[zone], &estimates[zone]), &coefficients);
         let conductance = physical.conductance(index, to);
         conductance.value.zip(conductance.standard_error)
     };
@@ -157,12 +166,15 @@ fn compare(between: (String, String), from_first: Option<(f64, f64)>, from_secon
             let total = precision.0 + precision.1;
             let mean = (first.0 * precision.0 + second.0 * precision.1) / total;
             match distance {
-                distance if distance <= INTERVAL => {
-                    (Some((mean, 1.0 / total.sqrt())), format!("both sides agree ({distance:.1} standard errors apart)"))
-                }
+                distance if distance <= INTERVAL => (
+                    Some((mean, 1.0 / total.sqrt())),
+                    format!("both sides agree ({distance:.1} standard errors apart)"),
+                ),
                 _ => (
                     None,
-                    format!("the sides disagree by {distance:.0} standard errors: not one resistance; doors, air flows or hidden masses are at work"),
+                    format!(
+                        "the sides disagree by {distance:.0} standard errors: not one resistance; doors, air flows or hidden masses are at work"
+                    ),
                 ),
             }
         }
@@ -192,13 +204,15 @@ fn warnings(telemetry: &Telemetry, settings: &Settings, reports: &[ZoneReport], 
         if report.whiteness.ljung_box.p_value < 0.05 {
             warn(&format!("residuals are {}", report.whiteness.words));
         }
-        if decay(telemetry, zone, &zones[zone], &zones[zone].model.coefficients(telemetry)) >= 1.0 {
+        if decay(telemetry, zone, &zones[zone]) >= 1.0 {
             warn("the model settles within one sampling time: sample faster, or expect capacities that mean little");
         }
     }
     if reports.iter().any(|report| report.train.free_run.runs == 0) {
         let horizon_h = settings.horizon_h;
-        warnings.push(format!("no stretch without a gap is long enough for a free run of {horizon_h} h: lower `horizon_h`"));
+        warnings.push(format!(
+            "no stretch without a gap is long enough for a free run of {horizon_h} h: lower `horizon_h`"
+        ));
     }
     warnings
 }

@@ -11,7 +11,9 @@
 //! where the data cannot tell. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`classroom`].
 
 mod arma;
+mod checks;
 pub mod classroom;
+mod continuous;
 mod diagnostics;
 mod estimate;
 mod free_run;
@@ -29,7 +31,8 @@ pub use arma::Arma;
 pub use diagnostics::{Confidence, LjungBox, Verdict, Whiteness};
 pub use free_run::Forecast;
 pub use report::{
-    ErrorReport, FreeRunReport, Identification, Quantity, Report, ResidualReport, WallReport, ZoneReport, ZoneSeries,
+    Check, ErrorReport, FreeRunReport, Identification, Quantity, Report, ResidualReport, WallReport, ZoneReport,
+    ZoneSeries,
 };
 pub use settings::{Method, SettingError, Settings};
 pub use smoothing::local_linear;
@@ -41,7 +44,7 @@ pub use telemetry::{
 
 use std::ops::Range;
 
-use estimate::Estimate;
+use checks::CheckedEstimate;
 use free_run::RunZone;
 use regression::ZoneModel;
 use residual::{ResidualModel, ResidualSeries, steps};
@@ -87,7 +90,7 @@ pub fn identify(telemetry: &Telemetry, settings: &Settings) -> Result<Identifica
     let fits = (0..telemetry.zones.len())
         .map(|zone| fit_zone(telemetry, zone, &train, settings))
         .collect::<Result<Vec<_>, _>>()?;
-    let (estimates, zones): (Vec<Estimate>, Vec<RunZone>) = fits.into_iter().unzip();
+    let (estimates, zones): (Vec<CheckedEstimate>, Vec<RunZone>) = fits.into_iter().unzip();
     let parts = Parts { train, test, test_start };
     let report = judgement::report(telemetry, settings, &estimates, &zones, &parts);
     Ok(Identification { report, series: series(telemetry, settings, &zones, &parts) })
@@ -113,13 +116,13 @@ fn fit_zone(
     zone: usize,
     train: &[Range<usize>],
     settings: &Settings,
-) -> Result<(Estimate, RunZone), IdentifyError> {
+) -> Result<(CheckedEstimate, RunZone), IdentifyError> {
     let model = ZoneModel::new(telemetry, zone);
     if model.coefficients(telemetry).is_empty() {
         return Err(IdentifyError::NothingToIdentify { zone: telemetry.zones[zone].name.clone() });
     }
-    let estimate = estimate::estimate(telemetry, &model, train, settings)?;
-    let coefficients = estimate.coefficients.clone();
+    let estimate = CheckedEstimate::new(telemetry, &model, train, settings)?;
+    let coefficients = estimate.estimate.coefficients.clone();
     let residual = |harmonics: usize| -> Result<(ResidualModel, ResidualSeries), IdentifyError> {
         let order = (settings.autoregressive_order, harmonics);
         let fitted = ResidualModel::fit(telemetry, &model, &coefficients, train, order)?;

@@ -141,7 +141,8 @@ pub(super) fn robust_covariance(
         middle += if lag == 0 { lagged } else { (&lagged + lagged.transpose()) * weight };
     }
     let covariance = product(&product(&inverse.matrix, &middle), &inverse.matrix);
-    let entry = |i, j| if i == j && inverse.undetermined[i] { f64::INFINITY } else { covariance[(i, j)] * scale[i] * scale[j] };
+    let entry =
+        |i, j| if i == j && inverse.undetermined[i] { f64::INFINITY } else { covariance[(i, j)] * scale[i] * scale[j] };
     DMatrix::from_fn(count, count, entry)
 }
 
@@ -212,7 +213,7 @@ fn scaled_gram(columns: &[Vec<f64>], scale: &[f64]) -> DMatrix<f64> {
 }
 
 /// A matrix product. The library's own takes other instructions, with other rounding, where the processor has them.
-fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+pub(super) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(a.nrows(), b.ncols(), |i, j| (0..a.ncols()).map(|k| a[(i, k)] * b[(k, j)]).sum())
 }
 

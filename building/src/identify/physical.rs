@@ -11,6 +11,7 @@
 
 use nalgebra::DMatrix;
 
+use super::checks::OtherEstimate;
 use super::diagnostics::{Confidence, INTERVAL, Verdict, judge};
 use super::estimate::Estimate;
 use super::regression::Coefficient;
@@ -20,11 +21,10 @@ use super::report::Quantity;
 pub(super) struct Physical<'a> {
     pub coefficients: &'a [Coefficient],
     pub estimate: &'a Estimate,
+    /// Other estimates of the same.
+    pub checks: &'a [OtherEstimate],
     /// Whether heat is in kW.
     pub heat_has_unit: bool,
-    /// Rates of the continuous model over those of forward Euler, κ = −ln(1 − y)/y with y the part of a difference that
-    /// decays within a step; 1 for a model that is forward Euler itself.
-    pub rate_factor: f64,
 }
 
 /// constant + weightsᵀθ.
@@ -47,7 +47,7 @@ impl Physical<'_> {
         let entangled: Vec<_> = others
             .filter_map(|other| Some((self.labels(other).0, correlation(&self.estimate.covariance, index, other)?)))
             .collect();
-        let verdict = judge(&name, unconstrained, error, &entangled);
+        let verdict = judge(&name, unconstrained, error, &entangled).disputed(self.dispute(index).as_deref());
         let known = verdict.confidence != Confidence::NotIdentifiable;
         let end = |sign: f64| (unconstrained + sign * INTERVAL * error).max(0.0);
         Quantity {
@@ -58,7 +58,14 @@ impl Physical<'_> {
             interval: if known { (Some(end(-1.0)), Some(end(1.0))) } else { (None, None) },
             name,
             verdict,
+            checks: self.checks.iter().map(|other| other.check(index)).collect(),
         }
+    }
+
+    /// What contradicts a coefficient most, in words.
+    fn dispute(&self, index: usize) -> Option<String> {
+        let (value, error) = (self.estimate.unconstrained[index], self.error(index));
+        self.checks.iter().find_map(|other| other.dispute(index, (value, error)))
     }
 
     /// Name, symbol and unit of a coefficient.
@@ -92,8 +99,7 @@ impl Physical<'_> {
     }
 
     fn capacity(&self) -> Quantity {
-        // The continuous model is faster than forward Euler by κ, and its capacity less.
-        self.over_heat("heat capacity".into(), "c", "kJ/K", |zeros| Linear { constant: 1.0 / self.rate_factor, weights: zeros })
+        self.over_heat("heat capacity".into(), "c", "kJ/K", |zeros| Linear { constant: 1.0, weights: zeros })
     }
 
     /// Conductance of the wall with coefficient number `index` \[kW/K\].
@@ -113,12 +119,16 @@ impl Physical<'_> {
     fn steady_state(&self) -> Vec<Quantity> {
         let walls = Linear {
             constant: 0.0,
-            weights: self.coefficients.iter().map(|c| f64::from(u8::from(matches!(c, Coefficient::Wall { .. })))).collect(),
+            weights: self
+                .coefficients
+                .iter()
+                .map(|c| f64::from(u8::from(matches!(c, Coefficient::Wall { .. }))))
+                .collect(),
         };
         if walls.weights.iter().all(|weight| *weight == 0.0) {
             return Vec::new();
         }
-        let hours = Linear { constant: 1.0 / (3600.0 * self.rate_factor), weights: vec![0.0; walls.weights.len()] };
+        let hours = Linear { constant: 1.0 / 3600.0, weights: vec![0.0; walls.weights.len()] };
         let mut quantities = vec![self.ratio(("time constant through the walls".into(), "τ", "h"), &hours, &walls)];
         if let Some(heat) = self.position(&Coefficient::Heat) {
             let (name, unit) = match self.heat_has_unit {
@@ -185,16 +195,20 @@ impl Physical<'_> {
         let between = product(covariance, numerator, denominator);
         let interval = fieller((n, d), (var_n, var_d, between));
         if d <= INTERVAL * var_d.sqrt() {
-            let bound = interval.0.map_or("nothing is known of it".into(), |low| format!("it is at least {low:.3} {}", labels.2));
+            let bound = interval
+                .0
+                .map_or("nothing is known of it".into(), |low| format!("it is at least {low:.3} {}", labels.2));
             let words = format!("{} has no upper bound: {bound}", labels.0);
             return unknown(labels, interval, Confidence::NotDistinguishableFromZero, words);
         }
         let f = n / d;
         let error = (var_n - 2.0 * f * between + f * f * var_d).max(0.0).sqrt() / d;
         let value = numerator.at(&self.estimate.coefficients) / denominator.at(&self.estimate.coefficients);
-        let verdict = judge(&labels.0, f, error, &[]);
+        let dispute = (0..theta.len()).filter(|&index| involved(index)).find_map(|index| self.dispute(index));
+        let verdict = judge(&labels.0, f, error, &[]).disputed(dispute.as_deref());
         let (name, symbol, unit) = (labels.0, labels.1.into(), labels.2.into());
-        Quantity { name, symbol, unit, value: Some(value), standard_error: Some(error), interval, verdict }
+        let standard_error = Some(error);
+        Quantity { name, symbol, unit, value: Some(value), standard_error, interval, verdict, checks: Vec::new() }
     }
 }
 
@@ -246,8 +260,16 @@ fn unknown(
     confidence: Confidence,
     words: String,
 ) -> Quantity {
-    let verdict = Verdict { confidence, words };
-    Quantity { name, symbol: symbol.into(), unit: unit.into(), value: None, standard_error: None, interval, verdict }
+    Quantity {
+        name,
+        symbol: symbol.into(),
+        unit: unit.into(),
+        value: None,
+        standard_error: None,
+        interval,
+        verdict: Verdict { confidence, words },
+        checks: Vec::new(),
+    }
 }
 
 #[cfg(test)]

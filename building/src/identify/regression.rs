@@ -64,7 +64,12 @@ impl ZoneModel {
     }
 
     /// The regressors of one row, T_s included, if the zones had the temperatures `zones_c`.
-    pub fn regressors<'a>(&'a self, telemetry: &'a Telemetry, row: usize, zones_c: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+    pub fn regressors<'a>(
+        &'a self,
+        telemetry: &'a Telemetry,
+        row: usize,
+        zones_c: &'a [f64],
+    ) -> impl Iterator<Item = f64> + 'a {
         let own = zones_c[self.zone];
         let measured = &telemetry.zones[self.zone];
         self.terms.iter().map(move |term| {
@@ -80,7 +85,10 @@ impl ZoneModel {
 
     /// The change of temperature in one step without the non-parametric term \[K\].
     pub fn change_k(&self, telemetry: &Telemetry, row: usize, zones_c: &[f64], coefficients: &[f64]) -> f64 {
-        self.regressors(telemetry, row, zones_c).zip(coefficients).map(|(regressor, coefficient)| regressor * coefficient).sum()
+        self.regressors(telemetry, row, zones_c)
+            .zip(coefficients)
+            .map(|(regressor, coefficient)| regressor * coefficient)
+            .sum()
     }
 }
 

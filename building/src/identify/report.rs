@@ -79,6 +79,19 @@ pub struct Quantity {
     pub interval: (Option<f64>, Option<f64>),
     /// Whether the data determine it.
     pub verdict: Verdict,
+    /// What other ways of estimating it give; for coefficients only.
+    pub checks: Vec<Check>,
+}
+
+/// Another estimate of a coefficient.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Check {
+    /// How it was obtained, as `by semiparametric`.
+    pub how: String,
+    /// The estimate, unconstrained.
+    pub value: f64,
+    /// Its standard error.
+    pub standard_error: f64,
 }
 
 /// The model of the non-parametric term q \[K per step\].

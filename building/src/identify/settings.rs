@@ -31,7 +31,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             method: Method::PredictionError,
-            bandwidth_h: 1.5,
+            bandwidth_h: 1.25,
             discretisation: discretise::Method::Exact,
             autoregressive_order: 2,
             harmonics: 3,
@@ -68,7 +68,11 @@ impl Settings {
         }
         // The highest harmonic must turn slower than the sampling.
         if self.harmonics > 12 || self.harmonics as f64 * step_s > 21_600.0 {
-            return error("harmonics", self.harmonics as f64, "from 0 to 12, and at most a quarter of the samples a day");
+            return error(
+                "harmonics",
+                self.harmonics as f64,
+                "from 0 to 12, and at most a quarter of the samples a day",
+            );
         }
         if !within(self.horizon_h * 3600.0, step_s, 30.0 * 86_400.0) {
             return error("horizon_h", self.horizon_h, "from one sampling time to 30 days");

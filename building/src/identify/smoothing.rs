@@ -75,7 +75,8 @@ mod tests {
             let both: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + c * b).collect();
             let (sa, sb) = (local_linear(&a, 4.0), local_linear(&b, 4.0));
             for (t, smooth) in local_linear(&both, 4.0).iter().enumerate() {
-                prop_assert!((smooth - sa[t] - c * sb[t]).abs() < 1e-9);
+                let error: f64 = smooth - sa[t] - c * sb[t];
+                prop_assert!(error.abs() < 1e-9);
             }
         }
     }

@@ -72,7 +72,8 @@ mod tests {
 
     #[test]
     fn a_sine_has_all_its_power_at_its_frequency() {
-        let series: Vec<f64> = (0..200).map(|t| (2.0 * std::f64::consts::PI * 7.0 * f64::from(t) / 200.0).sin()).collect();
+        let series: Vec<f64> =
+            (0..200).map(|t| (2.0 * std::f64::consts::PI * 7.0 * f64::from(t) / 200.0).sin()).collect();
         for (frequency, power) in periodogram(&series).iter().enumerate() {
             let expected = if frequency == 7 { 100.0_f64.powi(2) } else { 0.0 };
             assert!((power - expected).abs() < 1e-8, "{frequency}: {power}");

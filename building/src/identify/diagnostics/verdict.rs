@@ -20,6 +20,9 @@ pub enum Confidence {
     Weak,
     /// Cannot be told apart from zero: only an upper bound is known.
     NotDistinguishableFromZero,
+    /// Two ways of estimating it, or two halves of the data, contradict each other by more than their errors: the model's form
+    /// does not fit the building.
+    Disputed,
     /// Negative by more than its error, which physics forbids: the model lacks something.
     WrongSign,
     /// The data say nothing of it: its regressor does not vary, or only together with others.
@@ -35,6 +38,19 @@ pub struct Verdict {
     pub words: String,
 }
 
+impl Verdict {
+    /// The same with a dispute: a number that would otherwise count as known no longer does.
+    pub(in crate::identify) fn disputed(self, dispute: Option<&str>) -> Self {
+        match (self.confidence, dispute) {
+            (Confidence::Identified | Confidence::Weak, Some(dispute)) => Self {
+                confidence: Confidence::Disputed,
+                words: format!("{} if the model is right, but {dispute}", self.words),
+            },
+            _ => self,
+        }
+    }
+}
+
 /// Judges a coefficient by its unconstrained value and standard error; `name` is what the words call it, and `entangled` are
 /// names of others and their correlations with it.
 pub(in crate::identify) fn judge(name: &str, value: f64, standard_error: f64, entangled: &[(String, f64)]) -> Verdict {
@@ -42,7 +58,9 @@ pub(in crate::identify) fn judge(name: &str, value: f64, standard_error: f64, en
     let (confidence, words) = match () {
         () if !standard_error.is_finite() || !value.is_finite() => (
             Confidence::NotIdentifiable,
-            format!("{name} cannot be identified: in these data its cause does not vary, or only together with another"),
+            format!(
+                "{name} cannot be identified: in these data its cause does not vary, or only together with another"
+            ),
         ),
         () if value < -INTERVAL * standard_error => (
             Confidence::WrongSign,
@@ -51,10 +69,9 @@ pub(in crate::identify) fn judge(name: &str, value: f64, standard_error: f64, en
         () if value < INTERVAL * standard_error => {
             (Confidence::NotDistinguishableFromZero, format!("{name} cannot be told apart from zero"))
         }
-        () if relative > WEAK => (
-            Confidence::Weak,
-            format!("{name} is there, but known only to ±{:.0} %", 100.0 * INTERVAL * relative),
-        ),
+        () if relative > WEAK => {
+            (Confidence::Weak, format!("{name} is there, but known only to ±{:.0} %", 100.0 * INTERVAL * relative))
+        }
         () => (Confidence::Identified, format!("{name} is known to ±{:.1} %", 100.0 * INTERVAL * relative)),
     };
     let strongest = entangled

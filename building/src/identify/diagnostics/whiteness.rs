@@ -42,11 +42,15 @@ pub struct LjungBox {
 pub(in crate::identify) fn whiteness(residuals: &[f64], segments: &[Range<usize>], fitted: usize) -> Whiteness {
     let count: usize = segments.iter().map(Range::len).sum();
     let lags = MOST_LAGS.min(count / 4).max(fitted + 1);
-    let variance: f64 = segments.iter().map(|segment| dot(&residuals[segment.clone()], &residuals[segment.clone()])).sum();
+    let variance: f64 =
+        segments.iter().map(|segment| dot(&residuals[segment.clone()], &residuals[segment.clone()])).sum();
     let correlation = |lag: usize| -> f64 {
         let long = segments.iter().filter(|segment| segment.len() > lag);
-        let sum: f64 =
-            long.map(|segment| dot(&residuals[segment.start + lag..segment.end], &residuals[segment.start..segment.end - lag])).sum();
+        let sum: f64 = long
+            .map(|segment| {
+                dot(&residuals[segment.start + lag..segment.end], &residuals[segment.start..segment.end - lag])
+            })
+            .sum();
         if variance > 0.0 { sum / variance } else { 0.0 }
     };
     let autocorrelation: Vec<f64> = (1..=lags).map(correlation).collect();
@@ -97,7 +101,8 @@ mod tests {
     fn ljung_box_is_its_formula_and_tells_a_wave_from_a_scramble() {
         let wave: Vec<f64> = (0..400).map(|t| (f64::from(t) * 0.3).sin()).collect();
         let found = whiteness(&wave, std::slice::from_ref(&(0..400)), 3);
-        let q: f64 = found.autocorrelation.iter().enumerate().map(|(k, rho)| rho * rho / (399.0 - k as f64)).sum::<f64>();
+        let q: f64 =
+            found.autocorrelation.iter().enumerate().map(|(k, rho)| rho * rho / (399.0 - k as f64)).sum::<f64>();
         assert!((found.ljung_box.statistic - q * 400.0 * 402.0).abs() < 1e-9 * found.ljung_box.statistic);
         assert_eq!(found.ljung_box.degrees, 45);
         assert!(found.ljung_box.p_value < 1e-6 && found.words.starts_with("not white"), "{}", found.words);

@@ -215,11 +215,20 @@ impl Mapping {
         if self.zones.is_empty() {
             return field("zone", "empty".into(), "at least one table [[zone]]");
         }
-        for heat in self.zones.iter().flat_map(|zone| &zone.heat) {
-            if let HeatColumns::Power { factor, .. } = heat
-                && (!factor.is_finite() || *factor == 0.0)
-            {
-                return field("heat.factor", factor.to_string(), "a finite number other than 0");
+        for zone in &self.zones {
+            for heat in &zone.heat {
+                let HeatColumns::Power { factor, unit, .. } = heat else { continue };
+                if !factor.is_finite() || *factor == 0.0 {
+                    return field("heat.factor", factor.to_string(), "a finite number other than 0");
+                }
+                if *unit == PowerUnit::Unknown && zone.heat.len() > 1 {
+                    let value = format!("`unknown` beside other heat of zone `{}`", zone.name);
+                    return field(
+                        "heat.unit",
+                        value,
+                        "a known unit, or the zone's only heat: their sum would mean nothing",
+                    );
+                }
             }
         }
         self.check_names()

@@ -21,7 +21,10 @@ pub(super) fn read(file: &str, text: &str, mapping: &Mapping) -> Result<Telemetr
         .iter()
         .map(|boundary| {
             let role = format!("temperature of boundary {}", boundary.name);
-            Ok(Boundary { name: boundary.name.clone(), temperature_c: reader.temperature(&boundary.temperature, &role)? })
+            Ok(Boundary {
+                name: boundary.name.clone(),
+                temperature_c: reader.temperature(&boundary.temperature, &role)?,
+            })
         })
         .collect::<Result<_, TelemetryError>>()?;
     let zones = mapping.zones.iter().map(|zone| reader.zone(zone)).collect::<Result<_, TelemetryError>>()?;
@@ -77,8 +80,7 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
     let axis = &mapping.time;
     let time = axis.column.as_ref().map(|name| table.column(name, "time")).transpose()?;
     let batch = axis.batch.as_ref().map(|name| table.column(name, "batch")).transpose()?;
-    let columns =
-        wanted(mapping).iter().map(|(name, role)| table.column(name, role)).collect::<Result<Vec<_>, _>>()?;
+    let columns = wanted(mapping).iter().map(|(name, role)| table.column(name, role)).collect::<Result<Vec<_>, _>>()?;
     let mut segments: Vec<Range<usize>> = Vec::new();
     let (mut kept, mut time_s) = (Vec::new(), Vec::new());
     // The row before, if it was complete: its time and batch.
@@ -131,7 +133,8 @@ fn is_complete(table: &Table<'_>, row: &Row, columns: &[Column], gaps: Gaps) -> 
     for &column in columns {
         if table.number(row, column)?.is_none() {
             if gaps == Gaps::Refuse {
-                let problem = TelemetryProblem::Missing { text: table.text(row, column).into(), column: table.title(column) };
+                let problem =
+                    TelemetryProblem::Missing { text: table.text(row, column).into(), column: table.title(column) };
                 return Err(table.at(row, column, problem));
             }
             complete = false;
@@ -217,8 +220,11 @@ impl Reader<'_> {
                 zone.supply_air.push(SupplyAir { conductance_kw_per_k, temperature_c });
             }
             HeatColumns::Water { flow, flow_unit, inlet, outlet } => {
-                let (flow, inlet, outlet) =
-                    (self.column(flow, "water flow")?, self.temperature(inlet, "inlet")?, self.temperature(outlet, "outlet")?);
+                let (flow, inlet, outlet) = (
+                    self.column(flow, "water flow")?,
+                    self.temperature(inlet, "inlet")?,
+                    self.temperature(outlet, "outlet")?,
+                );
                 for (row, power) in zone.power_kw.iter_mut().enumerate() {
                     *power += flow[row] * flow_unit.kw_per_k() * (inlet[row] - outlet[row]);
                 }

@@ -43,7 +43,9 @@ impl<'a> Table<'a> {
         let empty = || TelemetryError { file: file.into(), place: None, problem: TelemetryProblem::Empty };
         let header = records.next().ok_or_else(empty)??.iter().map(str::to_owned).collect();
         let rows = records
-            .map(|record| record.map(|fields| Row { line: to_line(fields.position().map_or(1, csv::Position::line)), fields }))
+            .map(|record| {
+                record.map(|fields| Row { line: to_line(fields.position().map_or(1, csv::Position::line)), fields })
+            })
             .collect::<Result<Vec<_>, _>>()?;
         if rows.is_empty() {
             return Err(empty());
