@@ -53,14 +53,14 @@ fn assert_recovered(method: Method, sensor_noise_k: f64, limits: (f64, f64, f64)
 #[test]
 fn the_semiparametric_estimator_recovers_the_truth_with_good_sensors() {
     assert_recovered(Method::Semiparametric, 0.0, (0.05, 0.09, 0.002), 0.75);
-    assert_recovered(Method::Semiparametric, 0.02, (0.065, 0.09, 0.002), 0.85);
+    assert_recovered(Method::Semiparametric, 0.02, (0.05, 0.09, 0.002), 0.85);
 }
 
 #[test]
 fn the_prediction_error_estimator_recovers_the_truth_even_with_bad_sensors() {
-    assert_recovered(Method::PredictionError, 0.0, (0.06, 0.12, 0.002), 0.85);
-    assert_recovered(Method::PredictionError, 0.02, (0.06, 0.12, 0.002), 0.85);
-    assert_recovered(Method::PredictionError, 0.1, (0.04, 0.24, 0.01), 0.85);
+    assert_recovered(Method::PredictionError, 0.0, (0.03, 0.06, 0.002), 0.85);
+    assert_recovered(Method::PredictionError, 0.02, (0.03, 0.06, 0.002), 0.85);
+    assert_recovered(Method::PredictionError, 0.1, (0.03, 0.12, 0.01), 0.8);
 }
 
 /// Bad sensors are where the source's estimator fails, which is why it is not the default.

@@ -103,8 +103,13 @@ mod tests {
 
     #[test]
     fn halves_share_the_rows_in_order() {
-        assert_eq!(halves(&[0..10]), (vec![0..5], vec![5..10]));
-        assert_eq!(halves(&[0..4, 10..16]), (vec![0..4, 10..11], vec![11..16]));
-        assert_eq!(halves(&[0..8, 10..12]), (vec![0..5], vec![5..8, 10..12]));
+        let rows = |pieces: &[(usize, usize)]| pieces.iter().map(|&(start, end)| start..end).collect::<Vec<_>>();
+        for (all, first, second) in [
+            (rows(&[(0, 10)]), rows(&[(0, 5)]), rows(&[(5, 10)])),
+            (rows(&[(0, 4), (10, 16)]), rows(&[(0, 4), (10, 11)]), rows(&[(11, 16)])),
+            (rows(&[(0, 8), (10, 12)]), rows(&[(0, 5)]), rows(&[(5, 8), (10, 12)])),
+        ] {
+            assert_eq!(halves(&all), (first, second));
+        }
     }
 }

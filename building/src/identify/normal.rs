@@ -221,3 +221,109 @@ pub(super) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    use super::{LogLikelihood, condition_number, robust_covariance};
+    use crate::identify::regression::Regression;
+
+    fn regression(columns: Vec<Vec<f64>>, target: Vec<f64>) -> Regression {
+        let rows = target.len();
+        Regression { columns, target, segments: std::iter::once(0..rows).collect(), rows: (0..rows).collect() }
+    }
+
+    /// ∇l of the unscaled problem.
+    fn gradient(problem: &Regression, coefficients: &[f64]) -> Vec<f64> {
+        let rest = problem.residuals(coefficients);
+        problem.columns.iter().map(|column| super::dot(column, &rest)).collect()
+    }
+
+    fn data(rows: usize, columns: usize) -> impl Strategy<Value = Regression> {
+        let column = prop::collection::vec(-1.0..1.0, rows);
+        (prop::collection::vec(column.clone(), columns), column).prop_map(|(mut columns, target)| {
+            // Units apart.
+            columns[0].iter_mut().for_each(|value: &mut f64| *value *= 1e4);
+            regression(columns, target)
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn one_newton_step_from_anywhere_ends_where_the_gradient_vanishes(problem in data(30, 3), start in prop::collection::vec(-9.0..9.0, 3)) {
+            let likelihood = LogLikelihood::new(&problem);
+            let end = likelihood.newton_step(&start, &[0, 1, 2]);
+            for (column, slope) in problem.columns.iter().zip(gradient(&problem, &end)) {
+                // Relative to the numbers that the start brings in.
+                prop_assert!(slope.abs() <= 1e-6 * column.iter().fold(1.0, |most: f64, value| most.max(value.abs())));
+            }
+        }
+
+        /// Karush, Kuhn and Tucker: no coefficient is negative, no slope is upwards, and one of the two is zero.
+        #[test]
+        fn non_negative_least_squares_is_optimal(problem in data(25, 5)) {
+            let best = LogLikelihood::new(&problem).non_negative_maximum();
+            for (index, slope) in gradient(&problem, &best).into_iter().enumerate() {
+                let size = problem.columns[index].iter().fold(1.0, |most: f64, value| most.max(value.abs()));
+                prop_assert!(best[index] >= 0.0 && slope <= 1e-8 * size);
+                prop_assert!(best[index] == 0.0 || slope.abs() <= 1e-8 * size);
+            }
+        }
+    }
+
+    /// The printed Hessian: with B_c lacking its minus sign one step no longer suffices; with C_c lacking the square, the mean
+    /// of what a smoother has left of u (about zero) stands for its variance, and the iteration diverges.
+    #[test]
+    fn the_printed_hessian_diverges() {
+        let columns: Vec<Vec<f64>> = [(3, 7), (5, 11), (2, 13)]
+            .map(|(a, b)| (0..200).map(|t| f64::from((t * a) % b) / f64::from(b) - 0.46).collect())
+            .into();
+        let target: Vec<f64> = (0..200)
+            .map(|t| 0.3 * columns[0][t] + 0.2 * columns[1][t] + 0.9 * columns[2][t] + 0.05 * ((t % 3) as f64 - 1.0))
+            .collect();
+        let problem = regression(columns, target);
+        let exact = LogLikelihood::new(&problem).maximum();
+        let gram = DMatrix::from_fn(3, 3, |i, j| super::dot(&problem.columns[i], &problem.columns[j]));
+        let distance_after = |hessian: &DMatrix<f64>, steps: usize| {
+            let inverse = hessian.clone().try_inverse().expect("regular");
+            let mut theta = DVector::zeros(3);
+            for _ in 0..steps {
+                theta -= &inverse * DVector::from_vec(gradient(&problem, theta.as_slice()));
+            }
+            (theta - DVector::from_column_slice(&exact)).norm()
+        };
+        let corrected = -&gram;
+        assert!(distance_after(&corrected, 1) < 1e-12);
+        let mut printed = corrected.clone();
+        printed[(2, 2)] = -problem.columns[2].iter().sum::<f64>();
+        assert!(distance_after(&printed, 40) > 1e6 * distance_after(&printed, 1));
+        let mut no_sign = corrected;
+        for i in 0..2 {
+            no_sign[(i, 2)] = gram[(i, 2)];
+            no_sign[(2, i)] = gram[(i, 2)];
+        }
+        assert!(distance_after(&no_sign, 1) > 1e-3);
+    }
+
+    #[test]
+    fn robust_errors_are_the_usual_ones_for_white_residuals_and_infinite_for_what_does_not_vary() {
+        let column: Vec<f64> = (0..400).map(|t| f64::from((t * 37) % 41) / 41.0 - 0.5).collect();
+        let residuals: Vec<f64> = (0..400).map(|t| if (t / 2) % 2 == 0 { 0.1 } else { -0.1 }).collect();
+        let columns = vec![column.clone(), vec![0.0; 400]];
+        let found = robust_covariance(&columns, &residuals, &[0..200, 200..400], 0);
+        let usual = 0.01 / super::dot(&column, &column);
+        assert!((found[(0, 0)] / usual - 1.0).abs() < 1e-9);
+        assert_eq!(found[(1, 1)], f64::INFINITY);
+    }
+
+    #[test]
+    fn the_condition_number_forgets_units_and_sees_dependence() {
+        let (a, b): (Vec<f64>, Vec<f64>) = (0..100).map(|t| (f64::from(t % 7) - 3.0, f64::from(t % 5) - 2.0)).unzip();
+        let scaled = a.iter().map(|value| 1e6 * value).collect();
+        let condition = |columns| condition_number(&regression(columns, vec![0.0; 100]));
+        assert!((condition(vec![a.clone(), b.clone()]) / condition(vec![scaled, b]) - 1.0).abs() < 1e-9);
+        assert_eq!(condition(vec![a.clone(), a.iter().map(|value| -2.0 * value).collect()]), f64::INFINITY);
+    }
+}

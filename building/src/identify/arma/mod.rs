@@ -13,6 +13,8 @@
 
 mod fit;
 mod stability;
+#[cfg(test)]
+mod tests;
 
 use std::ops::Range;
 

@@ -7,8 +7,7 @@ const LIMIT: f64 = 0.9999;
 pub(in crate::identify) fn is_stable(autoregressive: &[f64]) -> bool {
     let mut coefficients = autoregressive.to_vec();
     while let Some(reflection) = coefficients.pop() {
-        // Written so that a coefficient that is not a number is refused too.
-        if !(reflection.abs() <= LIMIT) {
+        if reflection.is_nan() || reflection.abs() > LIMIT {
             return false;
         }
         let scale = 1.0 / (1.0 - reflection * reflection);

@@ -14,7 +14,13 @@ pub struct TelemetryError {
     /// Line and column, from 1.
     pub place: Option<(usize, usize)>,
     /// What is wrong.
-    pub problem: TelemetryProblem,
+    pub problem: Box<TelemetryProblem>,
+}
+
+impl TelemetryError {
+    pub(super) fn new(file: &str, place: Option<(usize, usize)>, problem: TelemetryProblem) -> Self {
+        Self { file: file.into(), place, problem: Box::new(problem) }
+    }
 }
 
 /// What is wrong with a mapping or a table.

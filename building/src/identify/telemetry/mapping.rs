@@ -190,12 +190,12 @@ impl Mapping {
     /// # Errors
     /// [`TelemetryError`] when the text is not TOML of this form, or a field makes no sense.
     pub fn parse(file: &str, text: &str) -> Result<Self, TelemetryError> {
-        let mapping: Self = toml::from_str(text).map_err(|error| TelemetryError {
-            file: file.into(),
-            place: error.span().map(|span| line_and_column(text, span.start)),
-            problem: TelemetryProblem::Mapping { reason: error.message().trim().replace('\n', ", ") },
+        let mapping: Self = toml::from_str(text).map_err(|error| {
+            let place = error.span().map(|span| line_and_column(text, span.start));
+            let reason = error.message().trim().replace('\n', ", ");
+            TelemetryError::new(file, place, TelemetryProblem::Mapping { reason })
         })?;
-        mapping.check().map_err(|problem| TelemetryError { file: file.into(), place: None, problem })?;
+        mapping.check().map_err(|problem| TelemetryError::new(file, None, problem))?;
         Ok(mapping)
     }
 

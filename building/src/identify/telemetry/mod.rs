@@ -9,6 +9,7 @@ mod mapping;
 mod read;
 mod table;
 mod units;
+mod write;
 
 use std::ops::Range;
 
@@ -96,6 +97,16 @@ impl Telemetry {
     /// wanted, an impossible temperature, and, unless [`Gaps::Split`] allows them, a gap or a missing value.
     pub fn read(file: &str, text: &str, mapping: &Mapping) -> Result<Self, TelemetryError> {
         read::read(file, text, mapping)
+    }
+
+    /// The telemetry as a table, which [`Telemetry::mapping`] reads back to the last bit. Names must hold no comma or quote.
+    pub fn to_csv(&self) -> String {
+        write::to_csv(self)
+    }
+
+    /// The mapping of the table that [`Telemetry::to_csv`] writes.
+    pub fn mapping(&self) -> Mapping {
+        write::mapping(self)
     }
 
     /// How many rows there are.

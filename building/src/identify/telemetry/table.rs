@@ -37,10 +37,10 @@ impl<'a> Table<'a> {
             record.map_err(|error| {
                 let line = error.position().map_or(1, csv::Position::line);
                 let problem = TelemetryProblem::Row { reason: reason(&error) };
-                TelemetryError { file: file.into(), place: Some((to_line(line), 1)), problem }
+                TelemetryError::new(file, Some((to_line(line), 1)), problem)
             })
         });
-        let empty = || TelemetryError { file: file.into(), place: None, problem: TelemetryProblem::Empty };
+        let empty = || TelemetryError::new(file, None, TelemetryProblem::Empty);
         let header = records.next().ok_or_else(empty)??.iter().map(str::to_owned).collect();
         let rows = records
             .map(|record| {
@@ -63,7 +63,7 @@ impl<'a> Table<'a> {
         };
         let problem =
             TelemetryProblem::Column { name: name.into(), role: role.into(), fault, header: self.header.clone() };
-        Err(TelemetryError { file: self.file.into(), place: Some((1, 1)), problem })
+        Err(TelemetryError::new(self.file, Some((1, 1)), problem))
     }
 
     /// The text of a field.
@@ -108,7 +108,7 @@ impl<'a> Table<'a> {
     pub fn at(&self, row: &Row, column: Column, problem: TelemetryProblem) -> TelemetryError {
         let line = self.lines.get(row.line - 1).copied().unwrap_or_default();
         let place = Some((row.line, field_start(line, self.form.separator, column.0)));
-        TelemetryError { file: self.file.into(), place, problem }
+        TelemetryError::new(self.file, place, problem)
     }
 
     /// The name of a column.

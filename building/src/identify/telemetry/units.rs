@@ -87,6 +87,8 @@ pub enum AirFlowUnit {
     M3PerH,
     /// kg/s
     KgPerS,
+    /// kW/K, the heat that the flow carries
+    KwPerK,
 }
 
 impl AirFlowUnit {
@@ -97,6 +99,7 @@ impl AirFlowUnit {
             Self::M3PerMin => AIR_KJ_PER_M3_K / 60.0,
             Self::M3PerH => AIR_KJ_PER_M3_K / 3600.0,
             Self::KgPerS => AIR_KJ_PER_KG_K,
+            Self::KwPerK => 1.0,
         }
     }
 }
