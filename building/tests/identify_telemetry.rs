@@ -50,7 +50,7 @@ fn message(from: &str, to: &str) -> String {
 fn columns_become_quantities_in_the_units_of_the_crate() {
     let telemetry = read(TABLE).expect("the table is sound");
     assert_eq!(telemetry.step_s, 900.0);
-    assert_eq!(telemetry.segments, [0..4]);
+    assert_eq!((telemetry.segments.len(), telemetry.segments[0].clone()), (1, 0..4));
     // From the midnight before the first row.
     assert_eq!(telemetry.time_s, [84_600.0, 85_500.0, 86_400.0, 87_300.0]);
     assert_eq!(telemetry.boundaries[0].temperature_c, [-1.5, -1.6, -1.7, -1.7]);
@@ -115,6 +115,10 @@ fn a_text_in_a_number_column_is_located() {
         "home.csv:4:26: `warm` in column `Ti` is not a number; write a number like 21.5 (`table.decimal` sets the decimal \
          sign), or list the text in `table.missing`"
     );
+    // Whatever ends the lines, and after empty ones.
+    let carriage_returns = TABLE.replace("20.2", "warm").replace('\n', "\r\n").replacen("2026", "\r\n2026", 1);
+    let place = read(&carriage_returns).expect_err("the table is broken").place;
+    assert_eq!(place, Some((5, 26)));
     // A number to Rust, but to nobody's building.
     assert!(message("20.2", "NaN").starts_with("home.csv:4:26: `NaN` in column `Ti` is not a number"));
     assert!(message("20.2", "20,2").starts_with("home.csv:4:26: `20,2` in column `Ti` is not a number"));

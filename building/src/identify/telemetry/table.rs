@@ -10,7 +10,7 @@ use super::mapping::{Mapping, TableForm};
 pub(super) struct Table<'a> {
     file: &'a str,
     form: &'a TableForm,
-    lines: Vec<&'a str>,
+    lines: Lines<'a>,
     header: Vec<String>,
     pub rows: Vec<Row>,
 }
@@ -29,28 +29,27 @@ impl<'a> Table<'a> {
     /// Splits `text` into rows and fields.
     pub fn split(file: &'a str, text: &'a str, mapping: &'a Mapping) -> Result<Self, TelemetryError> {
         let form = &mapping.table;
+        // Some programs write a byte-order mark first.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let lines = Lines::new(text);
         // An ASCII separator was checked with the mapping.
         let separator = u8::try_from(form.separator).unwrap_or(b',');
         let mut reader =
             ReaderBuilder::new().delimiter(separator).trim(Trim::All).has_headers(false).from_reader(text.as_bytes());
-        let mut records = reader.records().map(|record| {
-            record.map_err(|error| {
-                let line = error.position().map_or(1, csv::Position::line);
+        let mut rows = reader.records().map(|record| match record {
+            Ok(fields) => Ok(Row { line: lines.number(fields.position()), fields }),
+            Err(error) => {
                 let problem = TelemetryProblem::Row { reason: reason(&error) };
-                TelemetryError::new(file, Some((to_line(line), 1)), problem)
-            })
+                Err(TelemetryError::new(file, Some((lines.number(error.position()), 1)), problem))
+            }
         });
         let empty = || TelemetryError::new(file, None, TelemetryProblem::Empty);
-        let header = records.next().ok_or_else(empty)??.iter().map(str::to_owned).collect();
-        let rows = records
-            .map(|record| {
-                record.map(|fields| Row { line: to_line(fields.position().map_or(1, csv::Position::line)), fields })
-            })
-            .collect::<Result<Vec<_>, _>>()?;
+        let header = rows.next().ok_or_else(empty)??.fields.iter().map(str::to_owned).collect();
+        let rows = rows.collect::<Result<Vec<_>, _>>()?;
         if rows.is_empty() {
             return Err(empty());
         }
-        Ok(Self { file, form, lines: text.split('\n').collect(), header, rows })
+        Ok(Self { file, form, lines, header, rows })
     }
 
     /// Finds a column; `role` says in messages what it is wanted for.
@@ -106,7 +105,7 @@ impl<'a> Table<'a> {
 
     /// The error that `problem` is with the field at `row` and `column`.
     pub fn at(&self, row: &Row, column: Column, problem: TelemetryProblem) -> TelemetryError {
-        let line = self.lines.get(row.line - 1).copied().unwrap_or_default();
+        let line = self.lines.text(row.line);
         let place = Some((row.line, field_start(line, self.form.separator, column.0)));
         TelemetryError::new(self.file, place, problem)
     }
@@ -121,9 +120,31 @@ fn seconds_since_1970(time: DateTime) -> f64 {
     time.duration_since(DateTime::constant(1970, 1, 1, 0, 0, 0, 0)).as_secs_f64()
 }
 
-/// A line number as this crate counts; no text in memory has more lines than fit.
-fn to_line(line: u64) -> usize {
-    usize::try_from(line).unwrap_or(usize::MAX)
+/// A text and where its lines begin. (The reader counts lines too, but one short after a carriage return.)
+struct Lines<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
+}
+
+impl<'a> Lines<'a> {
+    fn new(text: &'a str) -> Self {
+        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline + 1)).collect();
+        Self { text, starts }
+    }
+
+    /// The line, from 1, on which a row starts; the reader's positions may lie before the end of the line above.
+    fn number(&self, position: Option<&csv::Position>) -> usize {
+        let byte = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
+        let rest = self.text.get(byte..).unwrap_or_default();
+        let start = byte + (rest.len() - rest.trim_start_matches(['\r', '\n']).len());
+        self.starts.partition_point(|&line| line <= start)
+    }
+
+    /// The text of a line.
+    fn text(&self, number: usize) -> &'a str {
+        let start = number.checked_sub(1).and_then(|index| self.starts.get(index)).copied().unwrap_or(0);
+        self.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or_default()
+    }
 }
 
 /// The character, from 1, at which field number `index` of a line starts; separators within quotes separate nothing.
