@@ -18,6 +18,9 @@ use crate::comfort::Targets;
 use crate::discretise::{DENSE_NODES, Method, Model};
 use crate::lifted::Lifted;
 
+/// Tighter than the solver's usual one: inputs near a limit are known to about its square root only.
+const TOLERANCE: f64 = 1e-10;
+
 /// Cost of a kelvin beyond the comfort band while occupied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandPenalty {
@@ -62,7 +65,8 @@ pub fn optimum(
     disturbance.check(targets)?;
     let free_c = lifted.free_response(initial_c, &disturbance.ambient_c, &disturbance.gains_kw);
     let posed = Posed::new(model, targets, &free_c, penalty);
-    let solution = Solver::new(&posed.program, &Settings::default())?.solve()?;
+    let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
+    let solution = Solver::new(&posed.program, &settings)?.solve()?;
 
     let mut heat_kw = solution.value(posed.input).to_vec();
     let limits_kw = model.network().limits_kw();
