@@ -20,7 +20,7 @@ const DISPUTE: f64 = 3.0;
 #[derive(Debug, Clone)]
 pub(super) struct CheckedEstimate {
     pub estimate: Estimate,
-    pub checks: Vec<OtherEstimate>,
+    pub others: Vec<OtherEstimate>,
 }
 
 /// An estimate made in another way.
@@ -58,29 +58,34 @@ impl CheckedEstimate {
             let estimate = estimate(telemetry, model, segments, settings).ok()?;
             Some(OtherEstimate { how: how.into(), estimate })
         };
-        Ok(Self { estimate: main, checks: ways.into_iter().filter_map(check).collect() })
+        Ok(Self { estimate: main, others: ways.into_iter().filter_map(check).collect() })
+    }
+
+    /// In words, the first other estimate that contradicts this one of a coefficient.
+    pub fn dispute(&self, index: usize) -> Option<String> {
+        let (value, error) = of_coefficient(&self.estimate, index);
+        self.others.iter().find_map(|other| {
+            let (contrary, contrary_error) = of_coefficient(&other.estimate, index);
+            let distance = (value - contrary).abs() / (error * error + contrary_error * contrary_error).sqrt();
+            let (how, ratio) = (&other.how, contrary / value);
+            (distance > DISPUTE)
+                .then(|| format!("{how} it is {ratio:.2} times as large, {distance:.0} standard errors away"))
+        })
     }
 }
 
 impl OtherEstimate {
     /// What this way gives for a coefficient.
     pub fn check(&self, index: usize) -> Check {
-        let (value, standard_error) = self.value(index);
-        Check { how: self.how.clone(), value, standard_error }
+        let (value, error) = of_coefficient(&self.estimate, index);
+        let known = error.is_finite();
+        Check { how: self.how.clone(), value: known.then_some(value), standard_error: known.then_some(error) }
     }
+}
 
-    /// In words how this contradicts an estimate with standard error, if it does.
-    pub fn dispute(&self, index: usize, (value, error): (f64, f64)) -> Option<String> {
-        let (other, other_error) = self.value(index);
-        let distance = (value - other).abs() / (error * error + other_error * other_error).sqrt();
-        (distance > DISPUTE).then(|| {
-            format!("{} it is {:.2} times as large, {distance:.0} standard errors away", self.how, other / value)
-        })
-    }
-
-    fn value(&self, index: usize) -> (f64, f64) {
-        (self.estimate.unconstrained[index], self.estimate.covariance[(index, index)].sqrt())
-    }
+/// An unconstrained coefficient and its standard error.
+fn of_coefficient(estimate: &Estimate, index: usize) -> (f64, f64) {
+    (estimate.unconstrained[index], estimate.covariance[(index, index)].sqrt())
 }
 
 /// The first and the second half of the rows.

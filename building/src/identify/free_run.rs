@@ -88,17 +88,32 @@ pub(super) fn run(
         .collect()
 }
 
-/// Root mean square errors of free runs, one a zone \[K\], and how many runs.
+/// Errors of free runs.
+pub(super) struct RunErrors {
+    /// How many runs.
+    pub runs: usize,
+    /// Root mean square error of each zone \[K\].
+    errors_k: Vec<f64>,
+}
+
+impl RunErrors {
+    /// The error of a zone \[K\]; `None` without a run.
+    pub fn of_zone(&self, zone: usize) -> Option<f64> {
+        (self.runs > 0).then(|| self.errors_k[zone])
+    }
+}
+
+/// Root mean square errors of free runs.
 ///
 /// Runs of `horizon` steps start every half horizon, the first when an eighth of a horizon has been measured. Segments that
-/// are too short for one are left out; with no run at all there are no errors.
+/// are too short for one are left out.
 pub(super) fn errors(
     telemetry: &Telemetry,
     zones: &[RunZone],
     forecast: Forecast,
     segments: &[Range<usize>],
     horizon: usize,
-) -> (Vec<f64>, usize) {
+) -> RunErrors {
     let mut squares = vec![0.0; zones.len()];
     let mut runs = 0;
     for segment in segments {
@@ -115,8 +130,8 @@ pub(super) fn errors(
             }
         }
     }
-    let errors = squares.iter().map(|sum| (sum / (runs * horizon).max(1) as f64).sqrt()).collect();
-    (errors, runs)
+    let errors_k = squares.iter().map(|sum| (sum / (runs * horizon).max(1) as f64).sqrt()).collect();
+    RunErrors { runs, errors_k }
 }
 
 /// Temperatures of one zone \[row\] when the model runs freely, from the measured state anew every `horizon` steps.

@@ -26,6 +26,7 @@ mod residual;
 mod settings;
 mod smoothing;
 mod telemetry;
+mod walls;
 
 pub use arma::Arma;
 pub use diagnostics::{Confidence, LjungBox, Verdict, Whiteness};
@@ -46,6 +47,7 @@ use std::ops::Range;
 
 use checks::CheckedEstimate;
 use free_run::RunZone;
+use judgement::Findings;
 use regression::ZoneModel;
 use residual::{ResidualModel, ResidualSeries, steps};
 
@@ -92,7 +94,8 @@ pub fn identify(telemetry: &Telemetry, settings: &Settings) -> Result<Identifica
         .collect::<Result<Vec<_>, _>>()?;
     let (estimates, zones): (Vec<CheckedEstimate>, Vec<RunZone>) = fits.into_iter().unzip();
     let parts = Parts { train, test, test_start };
-    let report = judgement::report(telemetry, settings, &estimates, &zones, &parts);
+    let findings = Findings { telemetry, settings, parts: &parts, estimates: &estimates, zones: &zones };
+    let report = findings.report();
     Ok(Identification { report, series: series(telemetry, settings, &zones, &parts) })
 }
 

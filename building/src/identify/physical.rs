@@ -11,7 +11,7 @@
 
 use nalgebra::DMatrix;
 
-use super::checks::OtherEstimate;
+use super::checks::CheckedEstimate;
 use super::diagnostics::{Confidence, INTERVAL, Verdict, judge};
 use super::estimate::Estimate;
 use super::regression::Coefficient;
@@ -20,9 +20,10 @@ use super::report::Quantity;
 /// A zone's coefficients with what turns them into physical quantities.
 pub(super) struct Physical<'a> {
     pub coefficients: &'a [Coefficient],
+    /// As estimated, or as rates of the continuous network.
     pub estimate: &'a Estimate,
-    /// Other estimates of the same.
-    pub checks: &'a [OtherEstimate],
+    /// As estimated, with other estimates of the same.
+    pub checked: &'a CheckedEstimate,
     /// Whether heat is in kW.
     pub heat_has_unit: bool,
 }
@@ -47,7 +48,7 @@ impl Physical<'_> {
         let entangled: Vec<_> = others
             .filter_map(|other| Some((self.labels(other).0, correlation(&self.estimate.covariance, index, other)?)))
             .collect();
-        let verdict = judge(&name, unconstrained, error, &entangled).disputed(self.dispute(index).as_deref());
+        let verdict = judge(&name, unconstrained, error, &entangled).disputed(self.checked.dispute(index).as_deref());
         let known = verdict.confidence != Confidence::NotIdentifiable;
         let end = |sign: f64| (unconstrained + sign * INTERVAL * error).max(0.0);
         Quantity {
@@ -58,14 +59,8 @@ impl Physical<'_> {
             interval: if known { (Some(end(-1.0)), Some(end(1.0))) } else { (None, None) },
             name,
             verdict,
-            checks: self.checks.iter().map(|other| other.check(index)).collect(),
+            checks: self.checked.others.iter().map(|other| other.check(index)).collect(),
         }
-    }
-
-    /// What contradicts a coefficient most, in words.
-    fn dispute(&self, index: usize) -> Option<String> {
-        let (value, error) = (self.estimate.unconstrained[index], self.error(index));
-        self.checks.iter().find_map(|other| other.dispute(index, (value, error)))
     }
 
     /// Name, symbol and unit of a coefficient.
@@ -204,7 +199,7 @@ impl Physical<'_> {
         let f = n / d;
         let error = (var_n - 2.0 * f * between + f * f * var_d).max(0.0).sqrt() / d;
         let value = numerator.at(&self.estimate.coefficients) / denominator.at(&self.estimate.coefficients);
-        let dispute = (0..theta.len()).filter(|&index| involved(index)).find_map(|index| self.dispute(index));
+        let dispute = (0..theta.len()).filter(|&index| involved(index)).find_map(|index| self.checked.dispute(index));
         let verdict = judge(&labels.0, f, error, &[]).disputed(dispute.as_deref());
         let (name, symbol, unit) = (labels.0, labels.1.into(), labels.2.into());
         let standard_error = Some(error);

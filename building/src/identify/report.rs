@@ -88,10 +88,10 @@ pub struct Quantity {
 pub struct Check {
     /// How it was obtained, as `by semiparametric`.
     pub how: String,
-    /// The estimate, unconstrained.
-    pub value: f64,
-    /// Its standard error.
-    pub standard_error: f64,
+    /// The estimate before the condition that it is not negative; `None` where it is not determined.
+    pub value: Option<f64>,
+    /// Its standard error; `None` where it is not determined.
+    pub standard_error: Option<f64>,
 }
 
 /// The model of the non-parametric term q \[K per step\].

@@ -9,7 +9,7 @@
 //! constant ψ instead of zᵀβ, is this one with ψ = β (1 − Σα).
 //!
 //! The printed M-step (2.14) divides by Σq where Σq² belongs, and even then estimates an autoregression, which is biased
-//! when there is a moving average. [`fit`] minimises the conditional sum of squares Σ e_t² instead.
+//! when there is a moving average. [`fit()`] minimises the conditional sum of squares Σ e_t² instead.
 
 mod fit;
 mod stability;

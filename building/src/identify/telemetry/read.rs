@@ -15,7 +15,7 @@ const PLAUSIBLE_C: (f64, f64) = (-60.0, 90.0);
 pub(super) fn read(file: &str, text: &str, mapping: &Mapping) -> Result<Telemetry, TelemetryError> {
     let table = Table::split(file, text, mapping)?;
     let rows = complete_rows(&table, mapping)?;
-    let mut reader = Reader { table: &table, mapping, rows: &rows.kept };
+    let reader = Reader { table: &table, mapping, rows: &rows.kept };
     let boundaries = mapping
         .boundaries
         .iter()
@@ -166,13 +166,13 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn column(&mut self, name: &str, role: &str) -> Result<Vec<f64>, TelemetryError> {
+    fn column(&self, name: &str, role: &str) -> Result<Vec<f64>, TelemetryError> {
         let column = self.table.column(name, role)?;
         let number = |&index: &usize| Ok(self.table.number(&self.table.rows[index], column)?.unwrap_or(f64::NAN));
         self.rows.iter().map(number).collect()
     }
 
-    fn temperature(&mut self, name: &str, role: &str) -> Result<Vec<f64>, TelemetryError> {
+    fn temperature(&self, name: &str, role: &str) -> Result<Vec<f64>, TelemetryError> {
         let column = self.table.column(name, role)?;
         let mut values = self.column(name, role)?;
         let (low, high) = PLAUSIBLE_C;
@@ -186,7 +186,7 @@ impl Reader<'_> {
         Ok(values)
     }
 
-    fn zone(&mut self, columns: &ZoneColumns) -> Result<Zone, TelemetryError> {
+    fn zone(&self, columns: &ZoneColumns) -> Result<Zone, TelemetryError> {
         let mut zone = Zone {
             name: columns.name.clone(),
             temperature_c: self.temperature(&columns.temperature, "temperature")?,
@@ -205,7 +205,7 @@ impl Reader<'_> {
         Ok(zone)
     }
 
-    fn add_heat(&mut self, zone: &mut Zone, heat: &HeatColumns) -> Result<(), TelemetryError> {
+    fn add_heat(&self, zone: &mut Zone, heat: &HeatColumns) -> Result<(), TelemetryError> {
         match heat {
             HeatColumns::Power { column, unit, factor } => {
                 zone.power_has_unit &= *unit != PowerUnit::Unknown;
