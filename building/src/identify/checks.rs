@@ -61,15 +61,15 @@ impl CheckedEstimate {
         Ok(Self { estimate: main, others: ways.into_iter().filter_map(check).collect() })
     }
 
-    /// In words, the first other estimate that contradicts this one of a coefficient.
-    pub fn dispute(&self, index: usize) -> Option<String> {
+    /// In words, the first other estimate that contradicts this one of a coefficient, which the words call `name`.
+    pub fn dispute(&self, index: usize, name: &str) -> Option<String> {
         let (value, error) = of_coefficient(&self.estimate, index);
         self.others.iter().find_map(|other| {
             let (contrary, contrary_error) = of_coefficient(&other.estimate, index);
             let distance = (value - contrary).abs() / (error * error + contrary_error * contrary_error).sqrt();
             let (how, ratio) = (&other.how, contrary / value);
             (distance > DISPUTE)
-                .then(|| format!("{how} it is {ratio:.2} times as large, {distance:.0} standard errors away"))
+                .then(|| format!("{how} {name} is {ratio:.2} times as large, {distance:.0} standard errors away"))
         })
     }
 }

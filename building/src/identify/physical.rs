@@ -48,7 +48,8 @@ impl Physical<'_> {
         let entangled: Vec<_> = others
             .filter_map(|other| Some((self.labels(other).0, correlation(&self.estimate.covariance, index, other)?)))
             .collect();
-        let verdict = judge(&name, unconstrained, error, &entangled).disputed(self.checked.dispute(index).as_deref());
+        let verdict =
+            judge(&name, unconstrained, error, &entangled).disputed(self.checked.dispute(index, "it").as_deref());
         let known = verdict.confidence != Confidence::NotIdentifiable;
         let end = |sign: f64| (unconstrained + sign * INTERVAL * error).max(0.0);
         Quantity {
@@ -199,7 +200,9 @@ impl Physical<'_> {
         let f = n / d;
         let error = (var_n - 2.0 * f * between + f * f * var_d).max(0.0).sqrt() / d;
         let value = numerator.at(&self.estimate.coefficients) / denominator.at(&self.estimate.coefficients);
-        let dispute = (0..theta.len()).filter(|&index| involved(index)).find_map(|index| self.checked.dispute(index));
+        let dispute = (0..theta.len())
+            .filter(|&index| involved(index))
+            .find_map(|index| self.checked.dispute(index, &format!("the {}", self.labels(index).0)));
         let verdict = judge(&labels.0, f, error, &[]).disputed(dispute.as_deref());
         let (name, symbol, unit) = (labels.0, labels.1.into(), labels.2.into());
         let standard_error = Some(error);
