@@ -9,6 +9,7 @@ use toml::Table;
 const ARROWS: &[(&str, &[&str])] = &[
     ("convex", &[]),
     ("planners", &["convex"]),
+    ("building", &["convex"]),
     ("scenarios", &["planners"]),
     ("app", &["planners", "scenarios"]),
     ("tests", &["app", "planners", "scenarios"]),
