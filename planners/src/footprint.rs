@@ -75,11 +75,6 @@ pub struct EllipticalDistance {
 }
 
 impl SafetyEllipse {
-    /// The same ellipse in another size.
-    pub fn scaled(&self, factor: f64) -> SafetyEllipse {
-        SafetyEllipse { along_m: factor * self.along_m, across_m: factor * self.across_m }
-    }
-
     /// Squared elliptical distance of `position` from `centre`, the long axis along `heading_rad` (eq. 6.8 as we take
     /// it: `S` is the outside of this ellipse, `d² ≥ 1`).
     pub fn distance(&self, position: [f64; 2], centre: [f64; 2], heading_rad: f64) -> EllipticalDistance {

@@ -111,3 +111,47 @@ fn a_tough_driver_is_let_pass() {
 fn negotiator() -> Driver {
     Driver::Negotiation(negotiation::Settings::default())
 }
+
+/// Drives towards a standing car in the same lane; returns how near the two come, bumper to bumper, and how far a corner of
+/// the moving one leaves the road \[m\].
+fn towards_a_standing_car(driver: Driver, ahead_m: f64) -> (f64, f64) {
+    let tracking = [0.0, 1.0, 0.5, 1.0];
+    let mut vehicles = vec![
+        vehicle("ego", 0.0, 0.185, 1.0, 1.0, tracking, driver),
+        standing(ahead_m, 0.185),
+        standing(ahead_m, 0.555),
+    ];
+    for lane in &mut vehicles[..1] {
+        lane.goal.target.y_m = 0.185;
+    }
+    let (mut gap_m, mut beyond_m) = (f64::INFINITY, 0.0_f64);
+    run(&mut vehicles, 80, |_, vehicles| {
+        let ego = &vehicles[0].agent;
+        gap_m = gap_m.min(ahead_m - ego.state.x_m - ego.body.front_m - ego.body.rear_m);
+        let clearances = ego.corridor.clearances(&ego.body, &ego.state);
+        beyond_m = clearances.iter().map(|corner| -corner.value).fold(beyond_m, f64::max);
+    });
+    (gap_m, beyond_m)
+}
+
+/// Stands still and wants to.
+fn standing(x_m: f64, y_m: f64) -> Vehicle {
+    let tough = human::Settings { style: Some(human::Style::Tough), ..human::Settings::default() };
+    let mut car = vehicle("car", x_m, y_m, 0.0, 0.0, [0.0, 0.0, 1.0, 1.0], Driver::Human(tough));
+    car.agent.name = format!("car at {y_m}");
+    car.goal.target.y_m = y_m;
+    car
+}
+
+#[test]
+fn everybody_stops_in_front_of_a_blocked_road() {
+    let tough = human::Settings { style: Some(human::Style::Tough), ..human::Settings::default() };
+    for ahead_m in [1.5, 2.0, 2.5, 3.0, 3.5] {
+        for driver in [Driver::Human(tough), Driver::Conservative(conservative::Settings::default())] {
+            let kind = driver.kind();
+            let (gap_m, beyond_m) = towards_a_standing_car(driver, ahead_m);
+            assert!(gap_m > 0.02, "{kind}: {gap_m} m before a car {ahead_m} m ahead");
+            assert!(beyond_m < 1e-3, "{kind}: {beyond_m} m off the road");
+        }
+    }
+}

@@ -107,7 +107,9 @@ fn overrides_change_what_they_name_in_their_order() {
 
 #[test]
 fn another_planner_keeps_the_settings_that_it_knows() {
-    let scenario = load("lane-change/front-nice", &[Override::Planner("conservative".to_owned())]).expect("a planner");
+    let every_third = Override::Set("vehicle.ego.driver.look_around_every=3".to_owned());
+    let conservative = Override::Planner("conservative".to_owned());
+    let scenario = load("lane-change/front-nice", &[every_third, conservative]).expect("a planner");
     let Some(Driver::Conservative(settings)) = scenario.ego().map(|ego| &ego.driver) else {
         panic!("not conservative")
     };

@@ -1,7 +1,10 @@
-//! The rules of the house: who may depend on whom, who names which library, and how long a file may be.
+//! The rules of the house: who may depend on whom, who names which library, how long a file may be, and that nothing is
+//! built twice.
 
-use std::fs;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
 
 use toml::Table;
 
@@ -9,6 +12,7 @@ use toml::Table;
 const ARROWS: &[(&str, &[&str])] = &[
     ("convex", &[]),
     ("planners", &["convex"]),
+    ("building", &["convex"]),
     ("scenarios", &["planners"]),
     ("app", &["planners", "scenarios"]),
     ("tests", &["app", "planners", "scenarios"]),
@@ -179,6 +183,26 @@ fn functions_are_short() {
             assert!(length <= FUNCTION_LINES, "{}: {length} lines in `{name}`", file.display());
         }
     }
+}
+
+/// `cargo test` after `cargo run` builds no dependency again: with the tests' own dependencies in the tree, every crate of
+/// the application keeps its features.
+#[test]
+fn tests_do_not_change_how_dependencies_are_built() {
+    let [built, tested] =
+        [&["--package", "interplay", "--edges", "no-dev"][..], &["--workspace"]].map(packages_with_features);
+    let again: Vec<&String> = built.difference(&tested).collect();
+    assert!(again.is_empty(), "ask for the same features in app/Cargo.toml, or these are built twice: {again:#?}");
+}
+
+/// Every package of a dependency tree with its features.
+fn packages_with_features(tree: &[&str]) -> BTreeSet<String> {
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["tree", "--offline", "--locked", "--prefix", "none", "--format", "{p} [{f}]"]);
+    let output = cargo.args(tree).current_dir(root()).output().expect("cargo can be started");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8_lossy(&output.stdout);
+    text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
 }
 
 /// Lints are set once; a room that leaves them out would be silently lax.

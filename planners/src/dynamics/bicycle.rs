@@ -64,6 +64,19 @@ pub struct Curvature {
     pub steering_steering: f64,
 }
 
+impl Curvature {
+    /// A share of it.
+    pub fn scaled(&self, share: f64) -> Curvature {
+        Curvature {
+            heading_heading: share * self.heading_heading,
+            heading_speed: share * self.heading_speed,
+            heading_steering: share * self.heading_steering,
+            speed_steering: share * self.speed_steering,
+            steering_steering: share * self.steering_steering,
+        }
+    }
+}
+
 /// Sine and cosine of the direction of motion `φ` and of the slip angle `β`, with the derivatives of `β`.
 struct Slip {
     sin_course: f64,

@@ -26,7 +26,7 @@ pub use settings::{Settings, Style};
 
 use crate::mpc::{DescentError, KeepOut, Optimiser, Optimum, Penalty, Problem, Robust};
 use crate::predict::{constant_velocity, steady};
-use crate::{Agent, Input, Plan, PlanError, Scene, Trajectory};
+use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
 const RESOLVE: f64 = 1.0;
@@ -34,9 +34,11 @@ const RESOLVE: f64 = 1.0;
 const OUT_OF_THE_WAY: f64 = 0.1;
 /// The very first guess leans towards yielding.
 const FIRST_GUESS: f64 = 0.3;
-/// The safety ellipse around the car ahead in this size is not entered while brakes can help: a hinge alone lets a driver
-/// be talked into a collision by its wish to go on.
+/// The safety ellipse around the car ahead, shorter by this factor, is not entered while brakes can help: a hinge alone
+/// lets a driver be talked into a collision by its wish to go on …
 const TAILGATING: f64 = 0.7;
+/// … and is this much wider, so that the driver stops behind rather than swerve into a lane where it minds nobody.
+const WHOLE_LANE: f64 = 4.0;
 /// Another plan must be cheaper by this share to be preferred to improving the last one.
 const HYSTERESIS: f64 = 1e-3;
 
@@ -85,9 +87,10 @@ impl Human {
         let contested = best.as_ref().is_ok_and(|optimum| {
             minded.iter().any(|keep_out| keep_out.intrusion(&optimum.iterate.states[0]) > -OUT_OF_THE_WAY)
         });
-        if best.is_err() || (self.settings.reconsiders && contested) {
+        let trusted = self.optimiser.tolerances.trust(&best);
+        if !trusted || (self.settings.reconsiders && contested) {
             let mut guesses: Vec<Vec<Input>> = vec![steady(-RESOLVE), steady(RESOLVE)];
-            if best.is_err() {
+            if !trusted {
                 guesses.insert(0, steady(0.0));
             }
             for guess in guesses {
@@ -131,7 +134,8 @@ fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     let Some(leader) = leader(scene) else { return Vec::new() };
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
     let comfortable = scene.keep_out(&leader.prediction, scene.ego.corridor.heading_rad, penalty);
-    let ellipse = comfortable.ellipse.scaled(TAILGATING);
+    let SafetyEllipse { along_m, across_m } = comfortable.ellipse;
+    let ellipse = SafetyEllipse { along_m: TAILGATING * along_m, across_m: WHOLE_LANE * across_m };
     let firm = KeepOut { ellipse, penalty: Penalty::EXACT, ..comfortable.clone() };
     vec![comfortable, firm]
 }

@@ -208,3 +208,13 @@ fn leaning_row(leaning: &Leaning, states: &[State], old: Option<TrajectoryRow>) 
     }
     TrajectoryRow { vehicle: 0, value: leaning.value(states), gradients, bends, penalty: leaning.penalty }
 }
+
+/// Leaves a share of every curvature.
+pub fn soften_curvature(qp: &mut StageQp, share: f64) {
+    for curvature in qp.vehicles.iter_mut().flat_map(|stages| &mut stages.curvatures) {
+        *curvature = curvature.scaled(share);
+    }
+    for row in qp.blocks.iter_mut().flat_map(|block| &mut block.rows) {
+        row.curvature = row.curvature.map(|bend| share * bend);
+    }
+}

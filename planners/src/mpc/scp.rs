@@ -14,13 +14,13 @@
 //!
 //! A full step that is refused is corrected to second order before it is shortened. The first step is Gauss-Newton; later
 //! steps use the exact Hessian of the Lagrangian, which makes the end quadratic; where it is not positive definite on the
-//! dynamics the step is Gauss-Newton again. Steps that had to be cut very short are followed by damped ones (Levenberg and
+//! dynamics a third of the curvature is tried, then none: Gauss-Newton again. Steps that had to be cut very short are followed by damped ones (Levenberg and
 //! Marquardt).
 
 use thiserror::Error;
 
 use super::kkt;
-use super::linearise::{TOLERANCE, add_curvature, drop_curvature, linearise};
+use super::linearise::{TOLERANCE, add_curvature, drop_curvature, linearise, soften_curvature};
 use super::problem::{Cost, Iterate, Problem};
 use super::search::Search;
 use super::stage::{StageError, StageQp, StageSolution, StageSolver};
@@ -42,7 +42,15 @@ pub struct Tolerances {
 
 impl Default for Tolerances {
     fn default() -> Self {
-        Tolerances { residual: 1e-8, decrease: 1e-11, iteration_limit: 50, slack: 1e-3 }
+        Tolerances { residual: 1e-8, decrease: 1e-11, iteration_limit: 100, slack: 1e-3 }
+    }
+}
+
+impl Tolerances {
+    /// Whether a descent ended somewhere, and not on a violated safety row or road edge.
+    pub(crate) fn trust(&self, outcome: &Result<Optimum, DescentError>) -> bool {
+        let keeps = |cost: &Cost| cost.safety_slack.max(cost.edge_slack_m) <= self.slack;
+        outcome.as_ref().is_ok_and(|optimum| keeps(&optimum.cost))
     }
 }
 
@@ -99,6 +107,8 @@ const FIRMEST: f64 = 1e6;
 const FINEST: f64 = 1e-13;
 /// The residual with which the last step is content.
 const GOOD: f64 = 1e-6;
+/// Of a curvature that is not convex this share is tried before none.
+const SOFTENED: f64 = 0.3;
 /// A smaller share of a step calls for damping.
 const SHORT: f64 = 0.1;
 
@@ -195,6 +205,10 @@ impl<S: StageSolver> Optimiser<S> {
             add_curvature(problem, &now.iterate, &mut self.step, &mut self.qp);
             outcome = self.solve_step(now, damping == 0.0);
             now.statistics.fallbacks += usize::from(outcome.is_err());
+            if matches!(outcome, Err(StageError::NotConvex { .. })) {
+                soften_curvature(&mut self.qp, SOFTENED);
+                outcome = self.solve_step(now, false);
+            }
         }
         if outcome.is_err() {
             drop_curvature(&mut self.qp);
@@ -223,10 +237,7 @@ impl<S: StageSolver> Optimiser<S> {
     ) -> Result<Optimum, DescentError> {
         let Some((first, others)) = guesses.split_first() else { return Err(DescentError::NotFinite) };
         let mut best = self.descend(problem, first);
-        let trusted = best.as_ref().is_ok_and(|optimum| {
-            optimum.cost.safety_slack <= self.tolerances.slack && optimum.cost.edge_slack_m <= self.tolerances.slack
-        });
-        if trusted && !look_around {
+        if self.tolerances.trust(&best) && !look_around {
             return best;
         }
         let mut total = best.as_ref().map_or_else(|_| Statistics::default(), |optimum| optimum.statistics);

@@ -1,0 +1,187 @@
+//! What zones should be like over a day.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Wanted temperatures and what it costs to miss them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Setpoints {
+    /// Wanted temperature of each zone while it is occupied \[°C\], in the order of the zones; one for all if there is only
+    /// one.
+    pub occupied_c: Vec<f64>,
+    /// When occupation begins \[h\].
+    pub from_h: f64,
+    /// When occupation ends \[h\].
+    pub to_h: f64,
+    /// Wanted temperature at other times \[°C\]. Without it, or with `other_weight` 0, the temperature is then free.
+    pub other_c: Option<f64>,
+    /// W_e while occupied: cost of a squared kelvin for a step.
+    pub occupied_weight: f64,
+    /// W_e at other times.
+    pub other_weight: f64,
+    /// W_u: cost of a squared kilowatt for a step.
+    pub input_weight: f64,
+    /// Deviations up to this are comfortable \[K\].
+    pub band_k: f64,
+}
+
+impl Default for Setpoints {
+    /// Those of chapter 3 (Table 3.1), free at night.
+    fn default() -> Self {
+        Self {
+            occupied_c: vec![24.0, 25.0, 26.0, 27.0],
+            from_h: 8.0,
+            to_h: 19.0,
+            other_c: None,
+            occupied_weight: 1.0,
+            other_weight: 1.0,
+            input_weight: 1.0,
+            band_k: 0.5,
+        }
+    }
+}
+
+/// Setpoints that make no sense for a building.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SetpointsError {
+    /// Neither one temperature for all zones nor one for each.
+    #[error("occupied_c has {found} temperatures for {zones} zones: give one for each, or one for all")]
+    Count {
+        /// How many temperatures there are.
+        found: usize,
+        /// How many zones there are.
+        zones: usize,
+    },
+    /// A number is out of range.
+    #[error("{quantity} is {value}; it must be {wanted}")]
+    OutOfRange {
+        /// The field.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would work.
+        wanted: &'static str,
+    },
+}
+
+/// [`Setpoints`] for the steps of a day. Stacked quantities belong to the temperatures T(1) … T(N) at the ends of the
+/// steps, time-major: entry (t − 1)·n + i is zone i at the end of step t.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Targets {
+    /// n, how many zones there are.
+    pub zones: usize,
+    /// Wanted temperatures \[°C\], stacked; also where the weight is zero.
+    pub reference_c: Vec<f64>,
+    /// W_e, stacked: cost of a squared kelvin; zero where the temperature is free.
+    pub error_weight: Vec<f64>,
+    /// Whether zones are occupied, one for each of the N temperatures.
+    pub occupied: Vec<bool>,
+    /// W_u: cost of a squared kilowatt.
+    pub input_weight: f64,
+    /// Deviations up to this are comfortable while occupied \[K\].
+    pub band_k: f64,
+}
+
+impl Setpoints {
+    /// The targets of a day of `steps` steps. Both ends of the occupation count as occupied.
+    ///
+    /// # Errors
+    /// [`SetpointsError`].
+    pub fn targets(&self, zones: usize, step_s: f64, steps: usize) -> Result<Targets, SetpointsError> {
+        self.check(zones)?;
+        const ROUNDING_H: f64 = 1e-9;
+        let occupied: Vec<bool> = (1..=steps)
+            .map(|t| {
+                let hour = t as f64 * step_s / 3600.0;
+                self.from_h - ROUNDING_H <= hour && hour <= self.to_h + ROUNDING_H
+            })
+            .collect();
+        let mut reference_c = Vec::with_capacity(zones * steps);
+        let mut error_weight = Vec::with_capacity(zones * steps);
+        for &occupied in &occupied {
+            for zone in 0..zones {
+                let wanted_c = self.occupied_c[zone.min(self.occupied_c.len() - 1)];
+                let (reference_c_now, weight) = match (occupied, self.other_c) {
+                    (true, _) => (wanted_c, self.occupied_weight),
+                    (false, Some(other_c)) => (other_c, self.other_weight),
+                    (false, None) => (wanted_c, 0.0),
+                };
+                reference_c.push(reference_c_now);
+                error_weight.push(weight);
+            }
+        }
+        let (input_weight, band_k) = (self.input_weight, self.band_k);
+        Ok(Targets { zones, reference_c, error_weight, occupied, input_weight, band_k })
+    }
+
+    fn check(&self, zones: usize) -> Result<(), SetpointsError> {
+        let found = self.occupied_c.len();
+        if found == 0 || (found != 1 && found != zones) {
+            return Err(SetpointsError::Count { found, zones });
+        }
+        let in_range = |quantity, value: f64, low: f64, high: f64, wanted| {
+            let fine = (low..=high).contains(&value);
+            if fine { Ok(()) } else { Err(SetpointsError::OutOfRange { quantity, value, wanted }) }
+        };
+        for &value in self.occupied_c.iter().chain(&self.other_c) {
+            in_range("a wanted temperature", value, -50.0, 100.0, "between -50 and 100 °C")?;
+        }
+        in_range("from_h", self.from_h, 0.0, 24.0, "an hour of the day, 0 to 24")?;
+        in_range("to_h", self.to_h, self.from_h, 24.0, "an hour of the day, after from_h")?;
+        for (quantity, value) in [
+            ("occupied_weight", self.occupied_weight),
+            ("other_weight", self.other_weight),
+            ("input_weight", self.input_weight),
+            ("band_k", self.band_k),
+        ] {
+            in_range(quantity, value, 0.0, 1e9, "at least 0")?;
+        }
+        Ok(())
+    }
+}
+
+impl Targets {
+    /// N, how many steps the day has.
+    pub fn steps(&self) -> usize {
+        self.occupied.len()
+    }
+
+    /// Wanted temperatures at the start of step t \[°C\], one per zone. Midnight belongs to both days, so at t = 0 they are
+    /// those of the day's end.
+    ///
+    /// # Panics
+    /// When t is not below N.
+    pub fn reference_at(&self, t: usize) -> &[f64] {
+        &self.reference_c[self.row(t)]
+    }
+
+    /// W_e at the start of step t, one per zone.
+    ///
+    /// # Panics
+    /// When t is not below N.
+    pub fn weight_at(&self, t: usize) -> &[f64] {
+        &self.error_weight[self.row(t)]
+    }
+
+    fn row(&self, t: usize) -> std::ops::Range<usize> {
+        assert!(t < self.steps(), "step {t} of a day of {}", self.steps());
+        let row = if t == 0 { self.steps() - 1 } else { t - 1 };
+        row * self.zones..(row + 1) * self.zones
+    }
+
+    /// J = Σ W_e e² + W_u u² (eq. 3.2), for stacked temperatures and inputs.
+    ///
+    /// # Panics
+    /// When a slice has not n·N numbers.
+    pub fn cost(&self, temperatures_c: &[f64], heat_kw: &[f64]) -> f64 {
+        assert_eq!(temperatures_c.len(), self.reference_c.len(), "one temperature per step and zone");
+        assert_eq!(heat_kw.len(), self.reference_c.len(), "one input per step and zone");
+        let mut cost = 0.0;
+        for (i, (temperature_c, heat_kw)) in temperatures_c.iter().zip(heat_kw).enumerate() {
+            let error_k = self.reference_c[i] - temperature_c;
+            cost += self.error_weight[i] * error_k * error_k + self.input_weight * heat_kw * heat_kw;
+        }
+        cost
+    }
+}

@@ -1,0 +1,36 @@
+//! The controller that knows the day before it comes: what the others are measured against.
+
+use super::{Control, ControlError, DayRecord, Morning, Observation, optimum};
+use crate::lifted::Lifted;
+
+/// Plays the day's optimum under its actual disturbances.
+#[derive(Clone, Debug)]
+pub struct Clairvoyant {
+    lifted: Lifted,
+    planned_kw: Vec<f64>,
+}
+
+impl Clairvoyant {
+    /// A clairvoyant whose model of a day is `lifted`.
+    pub fn new(lifted: Lifted) -> Self {
+        let planned_kw = vec![0.0; lifted.size()];
+        Self { lifted, planned_kw }
+    }
+}
+
+impl Control for Clairvoyant {
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
+        let actual = morning.actual.ok_or(ControlError::NotClairvoyant)?;
+        self.planned_kw = optimum(&self.lifted, morning.initial_c, morning.targets, actual, None)?.heat_kw;
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let n = self.lifted.zones();
+        self.planned_kw[observation.step * n..(observation.step + 1) * n].to_vec()
+    }
+
+    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
+        Ok(())
+    }
+}

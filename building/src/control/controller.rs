@@ -1,0 +1,93 @@
+//! Every controller a building may have, by the word that a scenario file uses.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::clairvoyant::Clairvoyant;
+use super::learning::{Learning, LearningSettings};
+use super::pid::{Pid, PidSettings};
+use super::thermostat::{Thermostat, ThermostatSettings};
+use super::{Control, ControlError, DayRecord, Morning, Observation};
+use crate::discretise::Model;
+use crate::lifted::Lifted;
+
+/// The controller of a building with its settings; `kind` in a scenario file chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Controller {
+    /// Full power or none, with a dead band.
+    Thermostat(ThermostatSettings),
+    /// A PID controller per zone.
+    Pid(PidSettings),
+    /// Plain iterative learning of P- or PD-type on top of a PID controller, with or without a forecast.
+    IterativeLearning(LearningSettings),
+    /// The day's optimum, known beforehand: for comparison.
+    Clairvoyant,
+}
+
+/// A controller at work: its settings and all that it remembers.
+#[derive(Clone, Debug)]
+pub enum Regulator {
+    /// See [`Thermostat`].
+    Thermostat(Thermostat),
+    /// See [`Pid`].
+    Pid(Pid),
+    /// See [`Learning`].
+    IterativeLearning(Box<Learning>),
+    /// See [`Clairvoyant`].
+    Clairvoyant(Box<Clairvoyant>),
+}
+
+impl Controller {
+    /// A controller of this kind without experience. `model` is what it believes of the building, and a day has so many
+    /// steps.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`] if a setting is out of range.
+    pub fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        let limits_kw = model.network().limits_kw();
+        Ok(match *self {
+            Self::Thermostat(settings) => Regulator::Thermostat(Thermostat::new(settings, limits_kw)?),
+            Self::Pid(settings) => Regulator::Pid(Pid::new(settings, limits_kw, model.step_s())?),
+            Self::IterativeLearning(settings) => {
+                Regulator::IterativeLearning(Box::new(Learning::new(settings, Lifted::new(model, steps))?))
+            }
+            Self::Clairvoyant => Regulator::Clairvoyant(Box::new(Clairvoyant::new(Lifted::new(model, steps)))),
+        })
+    }
+
+    /// The word for this kind of controller in a scenario file.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Thermostat(_) => "thermostat",
+            Self::Pid(_) => "pid",
+            Self::IterativeLearning(_) => "iterative-learning",
+            Self::Clairvoyant => "clairvoyant",
+        }
+    }
+}
+
+impl Regulator {
+    fn control(&mut self) -> &mut dyn Control {
+        match self {
+            Self::Thermostat(thermostat) => thermostat,
+            Self::Pid(pid) => pid,
+            Self::IterativeLearning(learning) => learning.as_mut(),
+            Self::Clairvoyant(clairvoyant) => clairvoyant.as_mut(),
+        }
+    }
+}
+
+impl Control for Regulator {
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
+        self.control().start_of_day(morning)
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        self.control().act(observation)
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        self.control().end_of_day(record)
+    }
+}

@@ -1,0 +1,175 @@
+//! Plain iterative learning control: repeat yesterday's inputs, corrected by yesterday's errors.
+//!
+//! With the day as iteration k and stacked signals,
+//!
+//! ```text
+//! U_ff,k+1 = U_k + L E_k [− (D̂_k+1 − D̂_k)],        (L E)(t) = l_p e(t+1) + l_d (e(t+1) − e(t))
+//! U_k      = U_ff,k + C E_k                         C a PID controller per zone
+//! ```
+//!
+//! P-type is l_d = 0. The error e(t+1) is the first that u(t) acts upon. With a forecast, what is expected to change from
+//! yesterday to today is compensated; D̂ is the zone heat that has the effect of the forecast, G⁻¹ T_free. Where the
+//! temperature is free nothing is learned.
+//!
+//! If every day were the same, the errors would follow E_k+1 = (I + GC)⁻¹(I − GL) E_k. [`LearningSettings::convergence`]
+//! says what I − GL does: its spectral radius decides the end, its largest singular value whether errors may grow on the
+//! way there, and they differ by orders of magnitude for P-type learning.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::pid::{Pid, PidSettings};
+use super::{Control, ControlError, DayRecord, Morning, Observation};
+use crate::lifted::Lifted;
+
+/// Iterative learning of P- or PD-type on top of a PID controller.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct LearningSettings {
+    /// l_p \[kW/K\].
+    pub proportional_kw_per_k: f64,
+    /// l_d \[kW/K\] per change of the error over a step; 0 for P-type. It suits one step and capacity.
+    pub derivative_kw_per_k: f64,
+    /// Whether inputs are corrected by what the forecast expects to change.
+    pub forecast: bool,
+    /// The feedback C.
+    pub feedback: PidSettings,
+}
+
+impl Default for LearningSettings {
+    /// PD-type l(I − aZ) with l = 0.15 kW/K and a = 0.88, which suits the testbed at half an hour; feedback 0.1 kW/K.
+    fn default() -> Self {
+        let feedback = PidSettings { proportional_kw_per_k: 0.1, integral_kw_per_k_h: 0.0, derivative_kw_h_per_k: 0.0 };
+        Self { proportional_kw_per_k: 0.018, derivative_kw_per_k: 0.132, forecast: true, feedback }
+    }
+}
+
+/// How errors would go from day to day if all days were the same and all errors counted, without feedback.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Convergence {
+    /// Spectral radius of I − GL: below 1 the errors vanish in the end.
+    pub spectral_radius: f64,
+    /// Largest singular value of I − GL: at most 1, the errors never grow.
+    pub largest_singular_value: f64,
+}
+
+impl LearningSettings {
+    /// L v, for a stacked v.
+    fn learn(&self, zones: usize, errors_k: &[f64]) -> Vec<f64> {
+        let Self { proportional_kw_per_k, derivative_kw_per_k, .. } = *self;
+        (0..errors_k.len())
+            .map(|i| {
+                let before_k = if i < zones { 0.0 } else { errors_k[i - zones] };
+                proportional_kw_per_k * errors_k[i] + derivative_kw_per_k * (errors_k[i] - before_k)
+            })
+            .collect()
+    }
+
+    /// What I − GL does. It takes time in the cube of n·N.
+    pub fn convergence(&self, lifted: &Lifted) -> Convergence {
+        let (n, size) = (lifted.zones(), lifted.size());
+        let mut unit = vec![0.0; size];
+        let mut map = nalgebra::DMatrix::identity(size, size);
+        for column in 0..size {
+            unit[column] = 1.0;
+            let effect = nalgebra::DVector::from_vec(lifted.product(&self.learn(n, &unit)));
+            map.column_mut(column).axpy(-1.0, &effect, 1.0);
+            unit[column] = 0.0;
+        }
+        // I − GL is block lower triangular and Toeplitz: all its eigenvalues are those of the first block, which is
+        // similar to a symmetric matrix because L is a multiple of the identity there and h₁ is symmetric.
+        let first = map.view((0, 0), (n.min(size), n.min(size))).into_owned();
+        let gram = map.tr_mul(&map);
+        Convergence {
+            spectral_radius: first.symmetric_eigenvalues().iter().fold(0.0, |radius, e| f64::max(radius, e.abs())),
+            largest_singular_value: gram.symmetric_eigenvalues().iter().fold(0.0, |s, e| f64::max(s, *e)).sqrt(),
+        }
+    }
+}
+
+/// Iterative learning at work.
+#[derive(Clone, Debug)]
+pub struct Learning {
+    settings: LearningSettings,
+    lifted: Lifted,
+    feedback: Pid,
+    /// U_ff of the day, stacked \[kW\].
+    planned_kw: Vec<f64>,
+    /// U_k + L E_k, once there was a day.
+    learned_kw: Option<Vec<f64>>,
+    /// D̂ of the day before, stacked \[kW\].
+    expected_kw: Option<Vec<f64>>,
+    /// What is wanted today: reference and whether it counts.
+    wanted: Vec<Option<f64>>,
+}
+
+impl Learning {
+    /// A learner that has no experience. `lifted` is its model of a day.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`].
+    pub fn new(settings: LearningSettings, lifted: Lifted) -> Result<Self, ControlError> {
+        ControlError::check_not_negative(&[
+            ("proportional_kw_per_k of learning", settings.proportional_kw_per_k),
+            ("derivative_kw_per_k of learning", settings.derivative_kw_per_k),
+        ])?;
+        let model = lifted.model();
+        let feedback = Pid::new(settings.feedback, model.network().limits_kw(), model.step_s())?;
+        let planned_kw = vec![0.0; lifted.size()];
+        let wanted = vec![None; lifted.size()];
+        Ok(Self { settings, lifted, feedback, planned_kw, learned_kw: None, expected_kw: None, wanted })
+    }
+
+    /// D̂ = G⁻¹ T_free from rest at 0 °C: zone heat with the effect of the expected weather and occupancy.
+    fn expected_kw(&self, morning: &Morning<'_>) -> Vec<f64> {
+        let at_rest_c = vec![0.0; self.lifted.model().network().node_count()];
+        let forecast = morning.forecast;
+        self.lifted.solve(&self.lifted.free_response(&at_rest_c, &forecast.ambient_c, &forecast.gains_kw))
+    }
+}
+
+impl Control for Learning {
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
+        let targets = morning.targets;
+        ControlError::check_length("the day", targets.reference_c.len(), self.lifted.size())?;
+        morning.forecast.check(targets)?;
+        self.wanted = (targets.reference_c.iter().zip(&targets.error_weight))
+            .map(|(&reference_c, &weight)| (weight > 0.0).then_some(reference_c))
+            .collect();
+        if let Some(learned_kw) = &self.learned_kw {
+            self.planned_kw.clone_from(learned_kw);
+        }
+        if self.settings.forecast {
+            let today_kw = self.expected_kw(morning);
+            if let Some(yesterday_kw) = self.expected_kw.replace(today_kw.clone()) {
+                for (i, planned_kw) in self.planned_kw.iter_mut().enumerate() {
+                    *planned_kw -= today_kw[i] - yesterday_kw[i];
+                }
+            }
+        }
+        let limits_kw = self.lifted.model().network().limits_kw();
+        for (i, planned_kw) in self.planned_kw.iter_mut().enumerate() {
+            let limit_kw = limits_kw[i % limits_kw.len()];
+            *planned_kw = planned_kw.clamp(-limit_kw, limit_kw);
+        }
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let n = self.lifted.zones();
+        let planned_kw = self.planned_kw[observation.step * n..(observation.step + 1) * n].to_vec();
+        self.feedback.act_on_top(&planned_kw, observation)
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        ControlError::check_length("the day's temperatures", record.temperatures_c.len(), self.lifted.size())?;
+        ControlError::check_length("the day's inputs", record.heat_kw.len(), self.lifted.size())?;
+        let errors_k: Vec<f64> = (self.wanted.iter().zip(&record.temperatures_c))
+            .map(|(wanted_c, temperature_c)| wanted_c.map_or(0.0, |wanted_c| wanted_c - temperature_c))
+            .collect();
+        let correction_kw = self.settings.learn(self.lifted.zones(), &errors_k);
+        self.learned_kw =
+            Some(record.heat_kw.iter().zip(&correction_kw).map(|(u, correction)| u + correction).collect());
+        Ok(())
+    }
+}

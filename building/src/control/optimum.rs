@@ -1,0 +1,183 @@
+//! The cheapest inputs of a day whose disturbances are known.
+//!
+//! ```text
+//! minimise    Σ W_e (r − T)² + W_u u² + c₁ s + c₂ s²                                      (eq. 3.2)
+//! subject to  T = T_free + E y,   y(t+1) = A y(t) + B u(t),   y(0) = 0
+//!             |u| ≤ limit,   |r − T| ≤ band + s while occupied,   s ≥ 0
+//! ```
+//!
+//! With the actual disturbances this is the clairvoyant plan: no controller can be cheaper over the same day, and how much
+//! dearer it was is its regret. With forecast ones it is the day-ahead plan, which is what the designs of chapters 3 to 5
+//! amount to as printed. The states are variables (those of y, so that the rows have no constants), which keeps the
+//! problem sparse: eliminated, it would be a dense one in G.
+
+use interplay_convex::{Program, Settings, Solver, Variable, Variables};
+
+use super::{ControlError, Disturbance};
+use crate::comfort::Targets;
+use crate::discretise::{DENSE_NODES, Method, Model};
+use crate::lifted::Lifted;
+
+/// Tighter than the solver's usual one: inputs near a limit are known to about its square root only.
+const TOLERANCE: f64 = 1e-10;
+
+/// Cost of a kelvin beyond the comfort band while occupied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandPenalty {
+    /// c₁, per kelvin and step.
+    pub linear: f64,
+    /// c₂, per squared kelvin and step.
+    pub quadratic: f64,
+}
+
+/// The cheapest day.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Optimum {
+    /// Inputs u(0) … u(N−1) \[kW\], stacked.
+    pub heat_kw: Vec<f64>,
+    /// Temperatures of the zones T(1) … T(N) under them \[°C\], stacked.
+    pub temperatures_c: Vec<f64>,
+    /// J (eq. 3.2) without the penalty of the comfort band.
+    pub cost: f64,
+    /// What is minimised: J with the penalty.
+    pub objective: f64,
+}
+
+/// The cheapest inputs for a day from the nodes' temperatures at midnight.
+///
+/// # Errors
+/// [`ControlError`] if a series has the wrong length, the model is too large to have matrices, or the solver fails. The
+/// problem itself always has a solution.
+pub fn optimum(
+    lifted: &Lifted,
+    initial_c: &[f64],
+    targets: &Targets,
+    disturbance: &Disturbance,
+    penalty: Option<BandPenalty>,
+) -> Result<Optimum, ControlError> {
+    let model = lifted.model();
+    let nodes = model.network().node_count();
+    if model.method() == Method::Exact && nodes > DENSE_NODES {
+        return Err(ControlError::TooLarge { nodes, most: DENSE_NODES });
+    }
+    ControlError::check_length("the targets", targets.reference_c.len(), lifted.size())?;
+    ControlError::check_length("the temperatures at midnight", initial_c.len(), nodes)?;
+    disturbance.check(targets)?;
+    let free_c = lifted.free_response(initial_c, &disturbance.ambient_c, &disturbance.gains_kw);
+    let posed = Posed::new(model, targets, &free_c, penalty);
+    let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
+    let solution = Solver::new(&posed.program, &settings)?.solve()?;
+
+    let mut heat_kw = solution.value(posed.input).to_vec();
+    let limits_kw = model.network().limits_kw();
+    for (i, heat_kw) in heat_kw.iter_mut().enumerate() {
+        let limit_kw = limits_kw[i % limits_kw.len()];
+        *heat_kw = heat_kw.clamp(-limit_kw, limit_kw);
+    }
+    let temperatures_c: Vec<f64> =
+        free_c.iter().zip(lifted.product(&heat_kw)).map(|(free_c, risen_k)| free_c + risen_k).collect();
+    let cost = targets.cost(&temperatures_c, &heat_kw);
+    let objective = cost + penalty.map_or(0.0, |penalty| penalty.of(targets, &temperatures_c));
+    Ok(Optimum { heat_kw, temperatures_c, cost, objective })
+}
+
+impl BandPenalty {
+    /// What temperatures cost beyond the band while occupied.
+    pub fn of(self, targets: &Targets, temperatures_c: &[f64]) -> f64 {
+        let beyond_k = |(i, temperature_c): (usize, &f64)| {
+            let occupied = targets.occupied[i / targets.zones];
+            let error_k = targets.reference_c[i] - temperature_c;
+            if occupied { (error_k.abs() - targets.band_k).max(0.0) } else { 0.0 }
+        };
+        temperatures_c.iter().enumerate().map(beyond_k).map(|s| self.linear * s + self.quadratic * s * s).sum()
+    }
+}
+
+/// The problem with the handles of its variables.
+struct Posed {
+    program: Program,
+    /// u, stacked.
+    input: Variables,
+    /// y(1) … y(N), nodes of a time together.
+    state: Variables,
+}
+
+impl Posed {
+    fn new(model: &Model, targets: &Targets, free_c: &[f64], penalty: Option<BandPenalty>) -> Self {
+        let mut program = Program::new();
+        let input = program.variables("heat", free_c.len());
+        let state = program.variables("state", model.network().node_count() * targets.steps());
+        let mut posed = Self { program, input, state };
+        posed.costs(model, targets, free_c);
+        posed.dynamics(model, targets.steps());
+        posed.limits(model.network().limits_kw());
+        if let Some(penalty) = penalty {
+            posed.band(model, targets, free_c, penalty);
+        }
+        posed
+    }
+
+    /// The variable part of T(t + 1) of a zone: its node's y.
+    fn risen(&self, model: &Model, zones: usize, i: usize) -> Variable {
+        self.state.at(i / zones * model.network().node_count() + i % zones)
+    }
+
+    /// W_e (r − T_free − y)² + W_u u², up to a constant.
+    fn costs(&mut self, model: &Model, targets: &Targets, free_c: &[f64]) {
+        for (i, free_c) in free_c.iter().enumerate() {
+            let (u, y) = (self.input.at(i), self.risen(model, targets.zones, i));
+            self.program.quadratic(u, u, 2.0 * targets.input_weight);
+            self.program.quadratic(y, y, 2.0 * targets.error_weight[i]);
+            self.program.linear(y, -2.0 * targets.error_weight[i] * (targets.reference_c[i] - free_c));
+        }
+    }
+
+    /// y(t+1) = A y(t) + B u(t), without the entries of A and B that are zero.
+    fn dynamics(&mut self, model: &Model, steps: usize) {
+        let (a, b) = (model.state_matrix(), model.gain_matrix());
+        let (nodes, zones) = b.shape();
+        let rows = self.program.equal("dynamics");
+        let nonzero = |row: nalgebra::DVector<f64>| -> Vec<(usize, f64)> {
+            row.iter().copied().enumerate().filter(|(_, value)| *value != 0.0).collect()
+        };
+        let a: Vec<Vec<(usize, f64)>> = (0..nodes).map(|node| nonzero(a.row(node).transpose())).collect();
+        let b: Vec<Vec<(usize, f64)>> = (0..nodes).map(|node| nonzero(b.row(node).transpose())).collect();
+        for t in 0..steps {
+            for node in 0..nodes {
+                let after = [(self.state.at(t * nodes + node), 1.0)];
+                let (state, input) = (self.state, self.input);
+                let before = a[node].iter().filter(|_| t > 0).map(|&(j, a)| (state.at((t - 1) * nodes + j), -a));
+                let driven = b[node].iter().map(|&(j, b)| (input.at(t * zones + j), -b));
+                self.program.row(rows, after.into_iter().chain(before).chain(driven), 0.0);
+            }
+        }
+    }
+
+    /// −limit ≤ u ≤ limit.
+    fn limits(&mut self, limits_kw: &[f64]) {
+        let (most, least) = (self.program.at_most("heating limit"), self.program.at_most("cooling limit"));
+        for (i, u) in self.input.iter().enumerate() {
+            let limit_kw = limits_kw[i % limits_kw.len()];
+            self.program.row(most, [(u, 1.0)], limit_kw);
+            self.program.row(least, [(u, -1.0)], limit_kw);
+        }
+    }
+
+    /// |r − T_free − y| ≤ band + s, s ≥ 0 for the occupied times, at c₁ s + c₂ s².
+    fn band(&mut self, model: &Model, targets: &Targets, free_c: &[f64], penalty: BandPenalty) {
+        let n = targets.zones;
+        let occupied: Vec<usize> = (0..free_c.len()).filter(|i| targets.occupied[i / n]).collect();
+        let slack = self.program.variables("discomfort", occupied.len());
+        let (warm, cold) = (self.program.at_most("too warm"), self.program.at_most("too cold"));
+        let sign = self.program.at_most("discomfort is not negative");
+        for (s, i) in slack.iter().zip(occupied) {
+            let y = self.risen(model, n, i);
+            let wanted_k = targets.reference_c[i] - free_c[i];
+            self.program.row(warm, [(y, 1.0), (s, -1.0)], targets.band_k + wanted_k);
+            self.program.row(cold, [(y, -1.0), (s, -1.0)], targets.band_k - wanted_k);
+            self.program.row(sign, [(s, -1.0)], 0.0);
+            self.program.linear(s, penalty.linear);
+            self.program.quadratic(s, s, 2.0 * penalty.quadratic);
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! A PID controller per zone.
+//!
+//! ```text
+//! u(t) = k_p e(t) + k_i ∫e − k_d dT/dt,        e = r − T,   |u| ≤ limit
+//! ```
+//!
+//! The derivative is that of the temperature, so that a step of the reference gives no kick. Anti-windup by conditional
+//! integration: while the output is at a limit, an error that would push it further is not integrated. Where the
+//! temperature is free the controller rests and forgets.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Control, ControlError, DayRecord, Morning, Observation};
+
+/// Gains of a PID controller. They are per hour, not per step, so that they mean the same at every step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PidSettings {
+    /// k_p \[kW/K\].
+    pub proportional_kw_per_k: f64,
+    /// k_i \[kW/(K·h)\].
+    pub integral_kw_per_k_h: f64,
+    /// k_d \[kW·h/K\].
+    pub derivative_kw_h_per_k: f64,
+}
+
+impl Default for PidSettings {
+    /// 0.2, 0.02 and 0.05 per step of half an hour.
+    fn default() -> Self {
+        Self { proportional_kw_per_k: 0.2, integral_kw_per_k_h: 0.04, derivative_kw_h_per_k: 0.025 }
+    }
+}
+
+/// PID controllers at work, one per zone.
+#[derive(Clone, Debug)]
+pub struct Pid {
+    settings: PidSettings,
+    limits_kw: Vec<f64>,
+    step_h: f64,
+    /// k_i ∫e \[kW\].
+    integral_kw: Vec<f64>,
+    before_c: Option<Vec<f64>>,
+}
+
+impl Pid {
+    /// A controller in each zone.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`].
+    pub fn new(settings: PidSettings, limits_kw: &[f64], step_s: f64) -> Result<Self, ControlError> {
+        ControlError::check_not_negative(&[
+            ("proportional_kw_per_k", settings.proportional_kw_per_k),
+            ("integral_kw_per_k_h", settings.integral_kw_per_k_h),
+            ("derivative_kw_h_per_k", settings.derivative_kw_h_per_k),
+        ])?;
+        let integral_kw = vec![0.0; limits_kw.len()];
+        Ok(Self { settings, limits_kw: limits_kw.to_vec(), step_h: step_s / 3600.0, integral_kw, before_c: None })
+    }
+
+    /// The output on top of a feedforward `planned_kw`; both together are kept within the limits.
+    pub(super) fn act_on_top(&mut self, planned_kw: &[f64], observation: &Observation<'_>) -> Vec<f64> {
+        let Observation { step, temperatures_c, targets } = *observation;
+        let (reference_c, weight) = (targets.reference_at(step), targets.weight_at(step));
+        let before_c = self.before_c.replace(temperatures_c.to_vec());
+        let mut output_kw = Vec::with_capacity(self.limits_kw.len());
+        for (zone, &limit_kw) in self.limits_kw.iter().enumerate() {
+            if weight[zone] == 0.0 {
+                self.integral_kw[zone] = 0.0;
+                output_kw.push(planned_kw[zone].clamp(-limit_kw, limit_kw));
+                continue;
+            }
+            let error_k = reference_c[zone] - temperatures_c[zone];
+            let rise_k = before_c.as_ref().map_or(0.0, |before_c| temperatures_c[zone] - before_c[zone]);
+            let direct_kw = planned_kw[zone] + self.settings.proportional_kw_per_k * error_k
+                - self.settings.derivative_kw_h_per_k * rise_k / self.step_h;
+            let grown_kw = self.integral_kw[zone] + self.settings.integral_kw_per_k_h * self.step_h * error_k;
+            let pushes_further = (direct_kw + grown_kw).abs() > limit_kw && (direct_kw + grown_kw) * error_k > 0.0;
+            if !pushes_further {
+                self.integral_kw[zone] = grown_kw;
+            }
+            output_kw.push((direct_kw + self.integral_kw[zone]).clamp(-limit_kw, limit_kw));
+        }
+        output_kw
+    }
+}
+
+impl Control for Pid {
+    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        self.act_on_top(&vec![0.0; self.limits_kw.len()], observation)
+    }
+
+    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,72 @@
+//! The oldest controller: full power when it is too cold or too warm, nothing otherwise.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Control, ControlError, DayRecord, Morning, Observation};
+
+/// A two-sided thermostat with a dead band.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ThermostatSettings {
+    /// Equipment starts when the temperature is this far off \[K\], and stops when it has come back to what is wanted.
+    pub dead_band_k: f64,
+    /// Power while it runs, as a share of the limit.
+    pub power: f64,
+}
+
+impl Default for ThermostatSettings {
+    fn default() -> Self {
+        Self { dead_band_k: 0.5, power: 1.0 }
+    }
+}
+
+/// A thermostat at work: for each zone whether it heats (1), cools (−1) or rests (0).
+#[derive(Clone, Debug)]
+pub struct Thermostat {
+    settings: ThermostatSettings,
+    limits_kw: Vec<f64>,
+    running: Vec<f64>,
+}
+
+impl Thermostat {
+    /// A thermostat in each zone.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`].
+    pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
+        ControlError::check_not_negative(&[("dead_band_k", settings.dead_band_k), ("power", settings.power)])?;
+        if settings.power > 1.0 {
+            let wanted = "a share of the limit, at most 1";
+            return Err(ControlError::Setting { setting: "power", value: settings.power, wanted });
+        }
+        Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
+    }
+}
+
+impl Control for Thermostat {
+    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let Observation { step, temperatures_c, targets } = *observation;
+        let wanted = targets.reference_at(step).iter().zip(targets.weight_at(step));
+        for ((running, temperature_c), (reference_c, &weight)) in
+            self.running.iter_mut().zip(temperatures_c).zip(wanted)
+        {
+            let missing_k = reference_c - temperature_c;
+            if weight == 0.0 || *running * missing_k <= 0.0 {
+                *running = 0.0;
+            }
+            if weight > 0.0 && missing_k.abs() > self.settings.dead_band_k {
+                *running = missing_k.signum();
+            }
+        }
+        self.running.iter().zip(&self.limits_kw).map(|(running, limit)| running * self.settings.power * limit).collect()
+    }
+
+    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,301 @@
+//! From the network to steps of time (eq. 2.16).
+//!
+//! Heat and outdoor temperature are held constant for a step h, so the temperatures move by a linear function of the net
+//! heat into each node at the start of the step,
+//!
+//! ```text
+//! T(t+1) = T(t) + B (k T₀ + u + w − L T(t))          so   A = I − B L                    (eq. 2.16)
+//! ```
+//!
+//! and the two discretisations differ in B \[K/kW\] alone, which is symmetric in both:
+//!
+//! ```text
+//! exact   B = h φ₁(h C⁻¹L) C⁻¹        φ₁(z) = (1 − e⁻ᶻ)/z,   A = exp(−h C⁻¹L)
+//! Euler   B = h C⁻¹                                          A = I − h C⁻¹L
+//! ```
+//!
+//! Euler is the source's. It is stable only below h = 2/λ_max, with λ_max the fastest rate of the network, and is refused
+//! beyond. The exact one is stable and keeps temperatures in order for every step.
+//!
+//! # Small and large networks
+//!
+//! Up to [`DENSE_NODES`] nodes the exact B is a matrix, from the modes of the network (its Laplacian is symmetric, so no
+//! matrix exponential is needed). Beyond, a matrix would be slow to apply, and B is a Chebyshev series in the sparse
+//! Laplacian, summed to the last digit. Both are exact; tests compare them. There is nothing in between to tune.
+
+mod gain;
+mod phi;
+mod spectrum;
+
+use nalgebra::DMatrix;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::network::Network;
+pub(crate) use gain::Gain;
+use spectrum::Spectrum;
+
+/// Up to so many nodes the exact discretisation is kept as matrices; beyond as a series.
+pub const DENSE_NODES: usize = 256;
+
+/// How time is cut into steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Without error for inputs that are constant over a step (zero-order hold).
+    #[default]
+    Exact,
+    /// Forward Euler, as printed in the source.
+    Euler,
+}
+
+/// How the exact discretisation is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// As matrices.
+    Dense,
+    /// As Chebyshev series in the sparse Laplacian.
+    Series,
+}
+
+/// A step for which there is no discretisation.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// The step is no positive duration.
+    #[error("the step is {step_s} s; it must be a positive number of seconds, at most a year")]
+    BadStep {
+        /// The step.
+        step_s: f64,
+    },
+    /// Forward Euler would grow without end.
+    #[error(
+        "forward Euler is unstable at a step of {step_s} s: the largest stable step is {largest_step_s:.1} s. Use the \
+         exact discretisation, or check the units (resistances in K/kW, where 1 K·min/kJ is 60 K/kW, and capacities in \
+         kJ/K)"
+    )]
+    Unstable {
+        /// The step.
+        step_s: f64,
+        /// Twice the inverse of the network's fastest rate.
+        largest_step_s: f64,
+    },
+}
+
+/// A network with its step: everything needed to simulate it.
+#[derive(Clone, Debug)]
+pub struct Model {
+    network: Network,
+    step_s: f64,
+    method: Method,
+    /// B: change of the temperatures at the end of the step.
+    end: Gain,
+    /// Change of the mean temperatures over the step; Euler takes the temperatures at its start for their mean.
+    mean: Option<Gain>,
+}
+
+/// Where the heat of one step went \[kWh\]; `heat_in = lost + stored`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance {
+    /// From equipment, people, sun and machines.
+    pub heat_in_kwh: f64,
+    /// To the air outside.
+    pub lost_kwh: f64,
+    /// In zones and walls.
+    pub stored_kwh: f64,
+}
+
+impl Model {
+    /// Discretises by the given method.
+    ///
+    /// # Errors
+    /// [`ModelError`] as of [`Model::exact`] and [`Model::euler`].
+    pub fn new(network: &Network, method: Method, step_s: f64) -> Result<Self, ModelError> {
+        match method {
+            Method::Exact => Self::exact(network, step_s),
+            Method::Euler => Self::euler(network, step_s),
+        }
+    }
+
+    /// Discretises exactly for inputs that are constant over a step.
+    ///
+    /// # Errors
+    /// [`ModelError::BadStep`].
+    pub fn exact(network: &Network, step_s: f64) -> Result<Self, ModelError> {
+        let form = if network.node_count() <= DENSE_NODES { Form::Dense } else { Form::Series };
+        Self::exact_in(form, network, step_s)
+    }
+
+    /// Discretises exactly, in a form of the caller's choice.
+    ///
+    /// # Errors
+    /// [`ModelError::BadStep`].
+    pub fn exact_in(form: Form, network: &Network, step_s: f64) -> Result<Self, ModelError> {
+        check(step_s)?;
+        let end = |rate_per_s: f64| step_s * phi::reached(rate_per_s * step_s);
+        let mean = |rate_per_s: f64| step_s * phi::mean(rate_per_s * step_s);
+        let (end, mean) = match form {
+            Form::Dense => {
+                let spectrum = Spectrum::of(network);
+                (Gain::dense(&spectrum, end), Gain::dense(&spectrum, mean))
+            }
+            Form::Series => (Gain::series(network, end), Gain::series(network, mean)),
+        };
+        Ok(Self { network: network.clone(), step_s, method: Method::Exact, end, mean: Some(mean) })
+    }
+
+    /// Discretises by forward Euler.
+    ///
+    /// # Errors
+    /// [`ModelError::Unstable`] with the largest stable step if temperatures would grow without end;
+    /// [`ModelError::BadStep`].
+    pub fn euler(network: &Network, step_s: f64) -> Result<Self, ModelError> {
+        check(step_s)?;
+        // Gershgorin's bound settles most cases without the eigenvalues.
+        if step_s * spectrum::rate_bound_per_s(network) > 2.0 {
+            let fastest_per_s = spectrum::rates_per_s(network).last().copied().unwrap_or(0.0);
+            if step_s * fastest_per_s > 2.0 {
+                return Err(ModelError::Unstable { step_s, largest_step_s: 2.0 / fastest_per_s });
+            }
+        }
+        let end = Gain::Diagonal(network.capacities_kj_per_k().iter().map(|capacity| step_s / capacity).collect());
+        Ok(Self { network: network.clone(), step_s, method: Method::Euler, end, mean: None })
+    }
+
+    /// The network.
+    pub fn network(&self) -> &Network {
+        &self.network
+    }
+
+    /// Duration of a step \[s\].
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// How time is cut into steps.
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// Moves the temperatures by one step.
+    ///
+    /// `temperatures_c` has one number per node (zones first); `heat_kw` from equipment (negative when cooling) and
+    /// `gains_kw` from people, sun and machines have one per zone. Inputs are held for the step.
+    ///
+    /// # Panics
+    /// When a slice has another length.
+    pub fn step(&self, temperatures_c: &mut [f64], heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) {
+        let net_kw = self.network.net_heat_kw(temperatures_c, heat_kw, ambient_c, gains_kw);
+        self.advance(temperatures_c, &net_kw);
+    }
+
+    /// Like [`Model::step`], and says where the heat went.
+    ///
+    /// # Panics
+    /// When a slice has another length.
+    pub fn step_balanced(
+        &self,
+        temperatures_c: &mut [f64],
+        heat_kw: &[f64],
+        ambient_c: f64,
+        gains_kw: &[f64],
+    ) -> Balance {
+        let start_c = temperatures_c.to_vec();
+        let net_kw = self.network.net_heat_kw(&start_c, heat_kw, ambient_c, gains_kw);
+        self.advance(temperatures_c, &net_kw);
+        let risen_k = self.mean.as_ref().map_or(vec![0.0; start_c.len()], |mean| mean.product(&self.network, &net_kw));
+        let hours = self.step_s / 3600.0;
+        let lost_kw: f64 = (self.network.ambient_kw_per_k().iter().zip(start_c.iter().zip(&risen_k)))
+            .map(|(k, (start_c, risen_k))| k * (start_c + risen_k - ambient_c))
+            .sum();
+        let stored_kj: f64 = (self.network.capacities_kj_per_k().iter().zip(temperatures_c.iter().zip(&start_c)))
+            .map(|(capacity, (end_c, start_c))| capacity * (end_c - start_c))
+            .sum();
+        Balance {
+            heat_in_kwh: hours * heat_kw.iter().chain(gains_kw).sum::<f64>(),
+            lost_kwh: hours * lost_kw,
+            stored_kwh: stored_kj / 3600.0,
+        }
+    }
+
+    fn advance(&self, temperatures_c: &mut [f64], net_kw: &[f64]) {
+        for (temperature_c, risen_k) in temperatures_c.iter_mut().zip(self.end.product(&self.network, net_kw)) {
+            *temperature_c += risen_k;
+        }
+    }
+
+    /// B x for any x over the nodes.
+    ///
+    /// # Panics
+    /// When `x` has not one number per node.
+    pub fn gain_product(&self, x: &[f64]) -> Vec<f64> {
+        assert_eq!(x.len(), self.network.node_count(), "one number per node");
+        self.end.product(&self.network, x)
+    }
+
+    /// A x = x − B L x for any x over the nodes.
+    ///
+    /// # Panics
+    /// When `x` has not one number per node.
+    pub fn state_product(&self, x: &[f64]) -> Vec<f64> {
+        let fallen = self.gain_product(&self.network.conduct(x));
+        x.iter().zip(fallen).map(|(x, fallen)| x - fallen).collect()
+    }
+
+    /// Aᵀ x = x − L B x for any x over the nodes.
+    ///
+    /// # Panics
+    /// When `x` has not one number per node.
+    pub fn state_transpose_product(&self, x: &[f64]) -> Vec<f64> {
+        let fallen = self.network.conduct(&self.gain_product(x));
+        x.iter().zip(fallen).map(|(x, fallen)| x - fallen).collect()
+    }
+
+    /// A, nodes by nodes (eq. 2.16).
+    pub fn state_matrix(&self) -> DMatrix<f64> {
+        self.columns(self.network.node_count(), |unit| self.state_product(unit))
+    }
+
+    /// B, nodes by zones \[K/kW\] (eq. 2.16). The columns of wall nodes are left out: nothing heats a wall directly.
+    pub fn gain_matrix(&self) -> DMatrix<f64> {
+        self.columns(self.network.zone_count(), |unit| self.gain_product(unit))
+    }
+
+    fn columns(&self, count: usize, product: impl Fn(&[f64]) -> Vec<f64>) -> DMatrix<f64> {
+        let n = self.network.node_count();
+        let mut matrix = DMatrix::zeros(n, count);
+        let mut unit = vec![0.0; n];
+        for column in 0..count {
+            unit[column] = 1.0;
+            matrix.column_mut(column).copy_from_slice(&product(&unit));
+            unit[column] = 0.0;
+        }
+        matrix
+    }
+
+    /// Eigenvalues of A, ascending. It takes time in the cube of the number of nodes.
+    pub fn eigenvalues(&self) -> Vec<f64> {
+        let rates_per_s = spectrum::rates_per_s(&self.network);
+        let eigenvalue = |rate_per_s: f64| match self.method {
+            Method::Exact => libm::exp(-rate_per_s * self.step_s),
+            Method::Euler => 1.0 - rate_per_s * self.step_s,
+        };
+        rates_per_s.into_iter().rev().map(eigenvalue).collect()
+    }
+
+    pub(crate) fn gain(&self) -> &Gain {
+        &self.end
+    }
+}
+
+impl Network {
+    /// Time constants of all modes, descending \[s\]; infinite for heat that cannot leave. It takes time in the cube of
+    /// the number of nodes.
+    pub fn time_constants_s(&self) -> Vec<f64> {
+        spectrum::rates_per_s(self).into_iter().map(|rate_per_s| 1.0 / rate_per_s).collect()
+    }
+}
+
+fn check(step_s: f64) -> Result<(), ModelError> {
+    const YEAR_S: f64 = 366.0 * 86_400.0;
+    if step_s > 0.0 && step_s <= YEAR_S { Ok(()) } else { Err(ModelError::BadStep { step_s }) }
+}

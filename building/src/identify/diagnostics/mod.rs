@@ -1,0 +1,12 @@
+//! What to think of an estimate: whether the data determine it, and whether the residuals still hold structure.
+
+mod chi_squared;
+mod periodogram;
+mod verdict;
+mod whiteness;
+
+pub use verdict::{Confidence, Verdict};
+pub use whiteness::{LjungBox, Whiteness};
+
+pub(super) use verdict::{INTERVAL, judge};
+pub(super) use whiteness::whiteness;

@@ -1,0 +1,117 @@
+//! Whether the data determine a coefficient.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// How many standard errors make the interval of 95 %.
+pub(in crate::identify) const INTERVAL: f64 = 1.96;
+/// Standard errors above this part of the value make a coefficient weak.
+const WEAK: f64 = 0.25;
+/// Correlations above this make two coefficients hard to tell apart.
+const ENTANGLED: f64 = 0.95;
+
+/// Whether the data determine a coefficient.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Confidence {
+    /// Known to better than a quarter of its value.
+    Identified,
+    /// Different from zero, and known no better than to a quarter of its value.
+    Weak,
+    /// Cannot be told apart from zero: only an upper bound is known.
+    NotDistinguishableFromZero,
+    /// Two ways of estimating it, or two halves of the data, contradict each other by more than their errors: the model's form
+    /// does not fit the building.
+    Disputed,
+    /// Negative by more than its error, which physics forbids: the model lacks something.
+    WrongSign,
+    /// The data say nothing of it: its regressor does not vary, or only together with others.
+    NotIdentifiable,
+}
+
+/// Whether the data determine a coefficient, and in words.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Verdict {
+    /// The class.
+    pub confidence: Confidence,
+    /// In words.
+    pub words: String,
+}
+
+impl Verdict {
+    /// The same with a dispute: a number that would otherwise count as known no longer does.
+    pub(in crate::identify) fn disputed(self, dispute: Option<&str>) -> Self {
+        match (self.confidence, dispute) {
+            (Confidence::Identified | Confidence::Weak, Some(dispute)) => Self {
+                confidence: Confidence::Disputed,
+                words: format!("{} if the model is right, but {dispute}", self.words),
+            },
+            _ => self,
+        }
+    }
+}
+
+/// Judges a coefficient by its unconstrained value and standard error; `name` is what the words call it, and `entangled` are
+/// names of others and their correlations with it.
+pub(in crate::identify) fn judge(name: &str, value: f64, standard_error: f64, entangled: &[(String, f64)]) -> Verdict {
+    let relative = standard_error / value.abs();
+    let (confidence, words) = match () {
+        () if !standard_error.is_finite() || !value.is_finite() => (
+            Confidence::NotIdentifiable,
+            format!(
+                "{name} cannot be identified: in these data its cause does not vary, or only together with another"
+            ),
+        ),
+        () if value < -INTERVAL * standard_error => (
+            Confidence::WrongSign,
+            format!("{name} comes out negative, which cannot be: the model lacks something that moves with it"),
+        ),
+        () if value < INTERVAL * standard_error => {
+            (Confidence::NotDistinguishableFromZero, format!("{name} cannot be told apart from zero"))
+        }
+        () if relative > WEAK => {
+            (Confidence::Weak, format!("{name} is there, but known only to ±{:.0} %", 100.0 * INTERVAL * relative))
+        }
+        () => (Confidence::Identified, format!("{name} is known to ±{:.1} %", 100.0 * INTERVAL * relative)),
+    };
+    let strongest = entangled
+        .iter()
+        .filter(|(_, correlation)| correlation.abs() > ENTANGLED)
+        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    match strongest {
+        Some((other, correlation)) if confidence != Confidence::NotIdentifiable => {
+            let words = format!("{words}; hard to tell apart from {other} (correlation {correlation:.2})");
+            Verdict { confidence, words }
+        }
+        _ => Verdict { confidence, words },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Confidence, judge};
+
+    #[test]
+    fn each_class_is_reached() {
+        for (value, error, confidence) in [
+            (1.0, 0.05, Confidence::Identified),
+            (1.0, 0.4, Confidence::Weak),
+            (1.0, 0.6, Confidence::NotDistinguishableFromZero),
+            (-1.0, 0.6, Confidence::NotDistinguishableFromZero),
+            (-1.0, 0.4, Confidence::WrongSign),
+            (1.0, f64::INFINITY, Confidence::NotIdentifiable),
+            (f64::NAN, 0.1, Confidence::NotIdentifiable),
+        ] {
+            let verdict = judge("x", value, error, &[]);
+            assert_eq!(verdict.confidence, confidence, "{value} ± {error}");
+            assert!(verdict.words.starts_with("x "));
+        }
+    }
+
+    #[test]
+    fn entanglement_is_said() {
+        let others = [("y".to_owned(), -0.97), ("z".to_owned(), 0.2)];
+        assert!(judge("x", 1.0, 0.1, &others).words.contains("from y (correlation -0.97)"));
+        assert!(!judge("x", 1.0, 0.1, &others[1..]).words.contains("tell apart"));
+    }
+}

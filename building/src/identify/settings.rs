@@ -1,0 +1,97 @@
+//! How to identify.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::discretise;
+
+/// How to identify. Every field has a default.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// The estimator.
+    pub method: Method,
+    /// Bandwidth of the kernel smoother \[h\]; only `semiparametric` uses it. Wider ones let slow disturbances bias the
+    /// conductances, narrower ones leave only sensor noise.
+    pub bandwidth_h: f64,
+    /// How a step is understood when rates become capacities and time constants: `exact` for measured buildings, which do
+    /// not live in steps; `euler` for data simulated by eq. 2.3 itself.
+    pub discretisation: discretise::Method,
+    /// r, the autoregressive order of the residual model.
+    pub autoregressive_order: usize,
+    /// How many daily harmonics the residual model and `prediction-error` hold.
+    pub harmonics: usize,
+    /// How long the model runs freely from a measured state, to see how it errs \[h\].
+    pub horizon_h: f64,
+    /// The first this many days are trained on and the others tested; all are trained on if it is left out.
+    pub train_days: Option<f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            method: Method::PredictionError,
+            bandwidth_h: 1.25,
+            discretisation: discretise::Method::Exact,
+            autoregressive_order: 2,
+            harmonics: 3,
+            horizon_h: 24.0,
+            train_days: None,
+        }
+    }
+}
+
+/// An estimator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// The source's: kernel smoothing takes out the non-parametric term, least squares finds the parameters, and an ARMA
+    /// model is fitted to what is left.
+    Semiparametric,
+    /// Parameters, daily harmonics and ARMA errors at once, so that the one-step prediction error is smallest. Copes better
+    /// with disturbances and sensor noise, and states its uncertainty more truly.
+    #[default]
+    PredictionError,
+}
+
+impl Settings {
+    /// # Errors
+    /// [`SettingError`] for the first field that makes no sense with this sampling time.
+    pub(super) fn check(&self, step_s: f64) -> Result<(), SettingError> {
+        let error = |field, value: f64, wanted| Err(SettingError { field, value, wanted });
+        let within = |value: f64, low: f64, high: f64| value.is_finite() && low <= value && value <= high;
+        if !within(self.bandwidth_h * 3600.0, step_s, 7.0 * 86_400.0) {
+            return error("bandwidth_h", self.bandwidth_h, "from one sampling time to a week");
+        }
+        if !(1..=10).contains(&self.autoregressive_order) {
+            return error("autoregressive_order", self.autoregressive_order as f64, "from 1 to 10");
+        }
+        // The highest harmonic must turn slower than the sampling.
+        if self.harmonics > 12 || self.harmonics as f64 * step_s > 21_600.0 {
+            return error(
+                "harmonics",
+                self.harmonics as f64,
+                "from 0 to 12, and at most a quarter of the samples a day",
+            );
+        }
+        if !within(self.horizon_h * 3600.0, step_s, 30.0 * 86_400.0) {
+            return error("horizon_h", self.horizon_h, "from one sampling time to 30 days");
+        }
+        match self.train_days {
+            Some(days) if !within(days, 1e-3, 1e5) => error("train_days", days, "a positive number of days"),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A setting that makes no sense.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("setting `{field}` is {value}; it must be {wanted}")]
+pub struct SettingError {
+    /// The field of [`Settings`].
+    pub field: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What would work.
+    pub wanted: &'static str,
+}

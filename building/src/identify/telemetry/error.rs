@@ -1,0 +1,188 @@
+//! What can be wrong with a mapping or a table: where it stands, and what would work.
+
+use std::fmt;
+
+/// A mapping or a table that cannot be read.
+///
+/// Shown as `file:line:column: what is wrong; what would work`. Line and column count from 1, the column in characters; both
+/// are `None` when no text is to blame (an empty file).
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{file}{}: {problem}; {}", Located(.place), .problem.remedy())]
+pub struct TelemetryError {
+    /// The name of the file, as the caller gave it.
+    pub file: String,
+    /// Line and column, from 1.
+    pub place: Option<(usize, usize)>,
+    /// What is wrong.
+    pub problem: Box<TelemetryProblem>,
+}
+
+impl TelemetryError {
+    pub(super) fn new(file: &str, place: Option<(usize, usize)>, problem: TelemetryProblem) -> Self {
+        Self { file: file.into(), place, problem: Box::new(problem) }
+    }
+}
+
+/// What is wrong with a mapping or a table.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TelemetryProblem {
+    /// The mapping is not TOML of the expected form.
+    #[error("the mapping cannot be read: {reason}")]
+    Mapping {
+        /// The TOML reader's words.
+        reason: String,
+    },
+    /// A field of the mapping makes no sense.
+    #[error("{field} is {value}")]
+    Field {
+        /// The field, as `time.step_s`.
+        field: &'static str,
+        /// Its value.
+        value: String,
+        /// What would work.
+        wanted: &'static str,
+    },
+    /// The mapping names a zone or boundary that it does not declare, or declares one twice.
+    #[error("the name `{name}` in {field} is {fault}")]
+    Name {
+        /// The field, as `walls`.
+        field: &'static str,
+        /// The name.
+        name: String,
+        /// `unknown`, or `used twice`.
+        fault: &'static str,
+        /// The names that are known.
+        known: Vec<String>,
+    },
+    /// The table has no rows.
+    #[error("the table is empty")]
+    Empty,
+    /// The mapping names a column that the table has not, or has twice.
+    #[error("column `{name}`, wanted as {role}, is {fault}")]
+    Column {
+        /// The column.
+        name: String,
+        /// What it is to be, as `temperature of zone living`.
+        role: String,
+        /// `not in the header`, or `in the header twice`.
+        fault: &'static str,
+        /// The header.
+        header: Vec<String>,
+    },
+    /// A row is broken: wrong number of fields, or bytes that are no text.
+    #[error("the row cannot be read: {reason}")]
+    Row {
+        /// Why.
+        reason: String,
+    },
+    /// A field is not a number.
+    #[error("`{text}` in column `{column}` is not a number")]
+    Number {
+        /// The field's text.
+        text: String,
+        /// The column.
+        column: String,
+    },
+    /// A field is not a time of the expected form.
+    #[error("`{text}` in column `{column}` is not a time of the form `{format}`")]
+    Time {
+        /// The field's text.
+        text: String,
+        /// The column.
+        column: String,
+        /// The form that the mapping states.
+        format: String,
+    },
+    /// The time between two rows is not the sampling time.
+    #[error("`{text}` is {elapsed_s} s after the row before, and the sampling time is {step_s} s: {}", kind_of_gap(*.elapsed_s))]
+    Gap {
+        /// The later row's time, as written.
+        text: String,
+        /// Time since the row before \[s\].
+        elapsed_s: f64,
+        /// The sampling time \[s\].
+        step_s: f64,
+    },
+    /// A value is missing where the mapping wants every row complete.
+    #[error("column `{column}` has no value here (`{text}`)")]
+    Missing {
+        /// The field's text.
+        text: String,
+        /// The column.
+        column: String,
+    },
+    /// A physical quantity is out of the range of any building.
+    #[error("{value} {unit} in column `{column}` is outside {low} to {high} {unit}")]
+    Range {
+        /// The value after conversion.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// The column.
+        column: String,
+        /// The lowest value accepted.
+        low: f64,
+        /// The highest value accepted.
+        high: f64,
+    },
+}
+
+impl TelemetryProblem {
+    /// What would work instead.
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::Mapping { .. } => "see the example mappings".into(),
+            Self::Field { wanted, .. } => format!("it must be {wanted}"),
+            Self::Name { known, .. } => format!("known names: {}", listed(known)),
+            Self::Empty => "it needs a header and at least two rows".into(),
+            Self::Column { header, .. } => {
+                format!("the header has {}; check `table.separator` if this is one column", listed(header))
+            }
+            Self::Row { .. } => "every row needs as many fields as the header".into(),
+            Self::Number { .. } => {
+                "write a number like 21.5 (`table.decimal` sets the decimal sign), or list the text in `table.missing`".into()
+            }
+            Self::Time { .. } => "set `time.format` to the form of the column, for example `%Y-%m-%d %H:%M:%S`".into(),
+            Self::Gap { .. } => {
+                "add the missing rows, correct `time.step_s`, or set `time.gaps = \"split\"` to start anew after each gap".into()
+            }
+            Self::Missing { .. } => {
+                "fill the value in, or set `time.gaps = \"split\"` to leave such rows out and start anew".into()
+            }
+            Self::Range { .. } => {
+                "check the unit in the mapping, or list the text in `table.missing` if it stands for no value".into()
+            }
+        }
+    }
+}
+
+/// Names for a message, a long list cut.
+fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 12;
+    let shown: Vec<_> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    match names.len().checked_sub(SHOWN) {
+        Some(more) if more > 0 => format!("{} and {more} more", shown.join(", ")),
+        _ if shown.is_empty() => "none".into(),
+        _ => shown.join(", "),
+    }
+}
+
+fn kind_of_gap(elapsed_s: f64) -> &'static str {
+    match elapsed_s {
+        elapsed if elapsed < 0.0 => "time goes backwards",
+        0.0 => "one time stands twice",
+        _ => "there is a gap, or the sampling time is another",
+    }
+}
+
+/// Writes a place as `:line:column`.
+struct Located<'a>(&'a Option<(usize, usize)>);
+
+impl fmt::Display for Located<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some((line, column)) => write!(f, ":{line}:{column}"),
+            None => Ok(()),
+        }
+    }
+}

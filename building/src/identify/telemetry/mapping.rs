@@ -1,0 +1,275 @@
+//! How to read a table: which column is which quantity, in which unit, sampled how.
+//!
+//! A mapping is a small TOML file beside the CSV:
+//!
+//! ```toml
+//! walls = [["living", "outdoor"]]
+//!
+//! [table]
+//! separator = ";"
+//!
+//! [time]
+//! column = "t"
+//! format = "%Y-%m-%d %H:%M:%S"
+//! step_s = 900.0
+//!
+//! [[boundary]]
+//! name = "outdoor"
+//! temperature = "Ta"
+//!
+//! [[zone]]
+//! name = "living"
+//! temperature = "yTi"
+//! heat = [{ kind = "power", column = "P", unit = "kw" }]
+//! solar = { column = "Ps", unit = "kw-per-m2" }
+//! ```
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::error::{TelemetryError, TelemetryProblem};
+use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
+use crate::identify::Settings;
+
+/// Which column is which quantity. Unknown keys are refused.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mapping {
+    /// The form of the table.
+    #[serde(default)]
+    pub table: TableForm,
+    /// The time axis.
+    pub time: TimeAxis,
+    /// Measured temperatures that act on zones and are not modelled: outdoors, corridors.
+    #[serde(default, rename = "boundary")]
+    pub boundaries: Vec<BoundaryColumns>,
+    /// The zones whose parameters are wanted.
+    #[serde(rename = "zone")]
+    pub zones: Vec<ZoneColumns>,
+    /// Pairs of names, zone and zone or zone and boundary, between which heat flows.
+    pub walls: Vec<[String; 2]>,
+    /// How to identify; defaults for what is left out.
+    #[serde(default)]
+    pub identify: Settings,
+}
+
+/// The form of the table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct TableForm {
+    /// What stands between fields.
+    pub separator: char,
+    /// The decimal sign, `.` or `,`.
+    pub decimal: char,
+    /// Texts that stand for "no value", such as `NA`; an empty field always does.
+    pub missing: Vec<String>,
+    /// The unit of all temperatures.
+    pub temperature_unit: TemperatureUnit,
+}
+
+impl Default for TableForm {
+    fn default() -> Self {
+        Self { separator: ',', decimal: '.', missing: Vec::new(), temperature_unit: TemperatureUnit::Celsius }
+    }
+}
+
+/// The time axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TimeAxis {
+    /// The column of times; without it, rows follow each other at `step_s`, the first at midnight.
+    #[serde(default)]
+    pub column: Option<String>,
+    /// The form of the times: `seconds`, `hours`, or a pattern of `strptime` such as `%Y-%m-%d %H:%M:%S`.
+    #[serde(default = "default_format")]
+    pub format: String,
+    /// Sampling time \[s\].
+    pub step_s: f64,
+    /// What to do about a gap in time or a missing value.
+    #[serde(default)]
+    pub gaps: Gaps,
+    /// A column whose value changes where one recording ends and another begins.
+    #[serde(default)]
+    pub batch: Option<String>,
+}
+
+fn default_format() -> String {
+    "%Y-%m-%d %H:%M:%S".into()
+}
+
+/// What to do about a gap in time or a missing value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Gaps {
+    /// An error says where it is.
+    #[default]
+    Refuse,
+    /// Incomplete rows are left out, and what follows is a recording of its own. Time may also go backwards there.
+    Split,
+}
+
+/// A measured temperature that is not modelled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoundaryColumns {
+    /// Its name.
+    pub name: String,
+    /// The column of its temperature.
+    pub temperature: String,
+}
+
+/// The columns of a zone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ZoneColumns {
+    /// Its name.
+    pub name: String,
+    /// The column of its temperature.
+    pub temperature: String,
+    /// Everything known that heats or cools it: control input u and predicted disturbance w of eq. 2.4, summed.
+    #[serde(default)]
+    pub heat: Vec<HeatColumns>,
+    /// Irradiance, whose effect gets a coefficient of its own (an aperture).
+    #[serde(default)]
+    pub solar: Option<SolarColumn>,
+}
+
+/// A known heat flow into a zone, from one or several columns. Heating is positive.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, tag = "kind", rename_all = "kebab-case")]
+pub enum HeatColumns {
+    /// A power meter, a schedule, or a signal in proportion to power.
+    Power {
+        /// The column.
+        column: String,
+        /// Its unit; `unknown` for a signal without one.
+        unit: PowerUnit,
+        /// What the column is multiplied by, −1 for a cooling power.
+        #[serde(default = "one")]
+        factor: f64,
+    },
+    /// Air blown in: ṁ c_p (T_supply − T_zone), the control input of eq. 2.2.
+    SupplyAir {
+        /// The column of the flow.
+        flow: String,
+        /// Its unit.
+        flow_unit: AirFlowUnit,
+        /// The column of the supply temperature.
+        temperature: String,
+    },
+    /// A coil or radiator in the zone: flow · heat capacity of water · (T_inlet − T_outlet).
+    Water {
+        /// The column of the flow.
+        flow: String,
+        /// Its unit.
+        flow_unit: WaterFlowUnit,
+        /// The column of the inlet temperature.
+        inlet: String,
+        /// The column of the outlet temperature.
+        outlet: String,
+    },
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// A column of irradiance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SolarColumn {
+    /// The column.
+    pub column: String,
+    /// Its unit.
+    pub unit: IrradianceUnit,
+}
+
+impl Mapping {
+    /// Reads a mapping; `file` is its name for messages.
+    ///
+    /// # Errors
+    /// [`TelemetryError`] when the text is not TOML of this form, or a field makes no sense.
+    pub fn parse(file: &str, text: &str) -> Result<Self, TelemetryError> {
+        let mapping: Self = toml::from_str(text).map_err(|error| {
+            let place = error.span().map(|span| line_and_column(text, span.start));
+            let reason = error.message().trim().replace('\n', ", ");
+            TelemetryError::new(file, place, TelemetryProblem::Mapping { reason })
+        })?;
+        mapping.check().map_err(|problem| TelemetryError::new(file, None, problem))?;
+        Ok(mapping)
+    }
+
+    /// Checks what the form alone cannot.
+    fn check(&self) -> Result<(), TelemetryProblem> {
+        let field = |field, value: String, wanted| Err(TelemetryProblem::Field { field, value, wanted });
+        if !(self.time.step_s.is_finite() && self.time.step_s > 0.0) {
+            return field("time.step_s", self.time.step_s.to_string(), "a positive number of seconds");
+        }
+        if !matches!(self.table.decimal, '.' | ',') {
+            return field("table.decimal", format!("`{}`", self.table.decimal), "`.` or `,`");
+        }
+        if !self.table.separator.is_ascii() || self.table.separator == self.table.decimal {
+            let wanted = "one ASCII character other than the decimal sign";
+            return field("table.separator", format!("`{}`", self.table.separator), wanted);
+        }
+        if self.zones.is_empty() {
+            return field("zone", "empty".into(), "at least one table [[zone]]");
+        }
+        for zone in &self.zones {
+            for heat in &zone.heat {
+                let HeatColumns::Power { factor, unit, .. } = heat else { continue };
+                if !factor.is_finite() || *factor == 0.0 {
+                    return field("heat.factor", factor.to_string(), "a finite number other than 0");
+                }
+                if *unit == PowerUnit::Unknown && zone.heat.len() > 1 {
+                    let value = format!("`unknown` beside other heat of zone `{}`", zone.name);
+                    return field(
+                        "heat.unit",
+                        value,
+                        "a known unit, or the zone's only heat: their sum would mean nothing",
+                    );
+                }
+            }
+        }
+        self.check_names()
+    }
+
+    fn check_names(&self) -> Result<(), TelemetryProblem> {
+        let names: Vec<&String> =
+            self.zones.iter().map(|zone| &zone.name).chain(self.boundaries.iter().map(|other| &other.name)).collect();
+        let wrong = |field, name: &str, fault| {
+            let known = names.iter().map(|&name| name.clone()).collect();
+            Err(TelemetryProblem::Name { field, name: name.into(), fault, known })
+        };
+        for (i, name) in names.iter().enumerate() {
+            if names[..i].contains(name) {
+                return wrong("zone and boundary", name, "used twice");
+            }
+        }
+        for (i, [one, other]) in self.walls.iter().enumerate() {
+            for name in [one, other] {
+                if !names.contains(&name) {
+                    return wrong("walls", name, "unknown");
+                }
+            }
+            if one == other {
+                return wrong("walls", one, "on both sides of one wall");
+            }
+            let is_zone = |name: &String| self.zones.iter().any(|zone| zone.name == *name);
+            if !is_zone(one) && !is_zone(other) {
+                return wrong("walls", one, "a boundary, and so is the other side: one must be a zone");
+            }
+            if self.walls[..i].iter().any(|[a, b]| (a, b) == (one, other) || (b, a) == (one, other)) {
+                return wrong("walls", one, "paired twice with the same other side");
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Line and column of a byte offset, both from 1, the column in characters.
+fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = &text[..text.floor_char_boundary(offset)];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}

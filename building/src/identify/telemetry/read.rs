@@ -1,0 +1,235 @@
+//! From a table and its mapping to [`Telemetry`].
+
+use std::ops::Range;
+
+use super::error::{TelemetryError, TelemetryProblem};
+use super::mapping::{Gaps, HeatColumns, Mapping, ZoneColumns};
+use super::table::{Column, Row, Table};
+use super::units::PowerUnit;
+use super::{Boundary, Neighbour, SupplyAir, Telemetry, Wall, Zone};
+
+/// The lowest and highest temperature that a building or its weather can have \[°C\].
+const PLAUSIBLE_C: (f64, f64) = (-60.0, 90.0);
+
+/// Reads `text`; see [`Telemetry::read`].
+pub(super) fn read(file: &str, text: &str, mapping: &Mapping) -> Result<Telemetry, TelemetryError> {
+    let table = Table::split(file, text, mapping)?;
+    let rows = complete_rows(&table, mapping)?;
+    let reader = Reader { table: &table, mapping, rows: &rows.kept };
+    let boundaries = mapping
+        .boundaries
+        .iter()
+        .map(|boundary| {
+            let role = format!("temperature of boundary {}", boundary.name);
+            Ok(Boundary {
+                name: boundary.name.clone(),
+                temperature_c: reader.temperature(&boundary.temperature, &role)?,
+            })
+        })
+        .collect::<Result<_, TelemetryError>>()?;
+    let zones = mapping.zones.iter().map(|zone| reader.zone(zone)).collect::<Result<_, TelemetryError>>()?;
+    Ok(Telemetry {
+        step_s: mapping.time.step_s,
+        time_s: rows.time_s,
+        segments: rows.segments,
+        left_out_rows: table.rows.len() - rows.kept.len(),
+        zones,
+        boundaries,
+        walls: walls(mapping),
+    })
+}
+
+/// The rows without a missing value, by their place in the table, and where they follow each other without a gap.
+struct CompleteRows {
+    kept: Vec<usize>,
+    time_s: Vec<f64>,
+    segments: Vec<Range<usize>>,
+}
+
+/// Every column that the mapping names, with its role.
+fn wanted(mapping: &Mapping) -> Vec<(&str, String)> {
+    let mut wanted = Vec::new();
+    for boundary in &mapping.boundaries {
+        wanted.push((boundary.temperature.as_str(), format!("temperature of boundary {}", boundary.name)));
+    }
+    for zone in &mapping.zones {
+        let role = |what: &str| format!("{what} of zone {}", zone.name);
+        wanted.push((&zone.temperature, role("temperature")));
+        for heat in &zone.heat {
+            match heat {
+                HeatColumns::Power { column, .. } => wanted.push((column, role("power"))),
+                HeatColumns::SupplyAir { flow, temperature, .. } => {
+                    wanted.push((flow, role("supply air flow")));
+                    wanted.push((temperature, role("supply air temperature")));
+                }
+                HeatColumns::Water { flow, inlet, outlet, .. } => {
+                    wanted.push((flow, role("water flow")));
+                    wanted.push((inlet, role("inlet temperature")));
+                    wanted.push((outlet, role("outlet temperature")));
+                }
+            }
+        }
+        if let Some(solar) = &zone.solar {
+            wanted.push((&solar.column, role("irradiance")));
+        }
+    }
+    wanted
+}
+
+fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, TelemetryError> {
+    let axis = &mapping.time;
+    let time = axis.column.as_ref().map(|name| table.column(name, "time")).transpose()?;
+    let batch = axis.batch.as_ref().map(|name| table.column(name, "batch")).transpose()?;
+    let columns = wanted(mapping).iter().map(|(name, role)| table.column(name, role)).collect::<Result<Vec<_>, _>>()?;
+    let mut segments: Vec<Range<usize>> = Vec::new();
+    let (mut kept, mut time_s) = (Vec::new(), Vec::new());
+    // The row before, if it was complete: its time and batch.
+    let mut before: Option<(f64, &str)> = None;
+    for (index, row) in table.rows.iter().enumerate() {
+        let now_s = match time {
+            Some(column) => table.time_s(row, column, &axis.format)?,
+            None => index as f64 * axis.step_s,
+        };
+        if !is_complete(table, row, &columns, axis.gaps)? {
+            before = None;
+            continue;
+        }
+        let recording = batch.map_or("", |column| table.text(row, column));
+        let continues = match before {
+            Some((then_s, last)) if last == recording => {
+                let on_time = is_step(now_s - then_s, axis.step_s);
+                if let (false, Gaps::Refuse, Some(column)) = (on_time, axis.gaps, time) {
+                    return Err(table.at(row, column, gap(table.text(row, column), now_s - then_s, axis.step_s)));
+                }
+                on_time
+            }
+            _ => false,
+        };
+        match segments.last_mut() {
+            Some(segment) if continues => segment.end += 1,
+            _ => segments.push(kept.len()..kept.len() + 1),
+        }
+        kept.push(index);
+        time_s.push(now_s);
+        before = Some((now_s, recording));
+    }
+    let midnight = time_s.first().map_or(0.0, |first| libm::floor(first / 86_400.0) * 86_400.0);
+    time_s.iter_mut().for_each(|time| *time -= midnight);
+    Ok(CompleteRows { kept, time_s, segments })
+}
+
+/// Whether two rows are one sampling time apart, up to a tenth of it.
+fn is_step(elapsed_s: f64, step_s: f64) -> bool {
+    (elapsed_s - step_s).abs() <= 0.1 * step_s
+}
+
+fn gap(text: &str, elapsed_s: f64, step_s: f64) -> TelemetryProblem {
+    TelemetryProblem::Gap { text: text.into(), elapsed_s, step_s }
+}
+
+/// Whether every wanted field has a value; an error where one has none and may not.
+fn is_complete(table: &Table<'_>, row: &Row, columns: &[Column], gaps: Gaps) -> Result<bool, TelemetryError> {
+    let mut complete = true;
+    for &column in columns {
+        if table.number(row, column)?.is_none() {
+            if gaps == Gaps::Refuse {
+                let problem =
+                    TelemetryProblem::Missing { text: table.text(row, column).into(), column: table.title(column) };
+                return Err(table.at(row, column, problem));
+            }
+            complete = false;
+        }
+    }
+    Ok(complete)
+}
+
+fn walls(mapping: &Mapping) -> Vec<Wall> {
+    let zone = |name: &String| mapping.zones.iter().position(|zone| zone.name == *name);
+    let boundary = |name: &String| mapping.boundaries.iter().position(|boundary| boundary.name == *name);
+    mapping
+        .walls
+        .iter()
+        .filter_map(|[one, other]| match (zone(one), zone(other)) {
+            (Some(zone), Some(other)) => Some(Wall { zone, other: Neighbour::Zone(other) }),
+            (Some(zone), None) => boundary(other).map(|other| Wall { zone, other: Neighbour::Boundary(other) }),
+            (None, Some(zone)) => boundary(one).map(|other| Wall { zone, other: Neighbour::Boundary(other) }),
+            (None, None) => None,
+        })
+        .collect()
+}
+
+/// Reads columns over the complete rows.
+struct Reader<'a> {
+    table: &'a Table<'a>,
+    mapping: &'a Mapping,
+    rows: &'a [usize],
+}
+
+impl Reader<'_> {
+    fn column(&self, name: &str, role: &str) -> Result<Vec<f64>, TelemetryError> {
+        let column = self.table.column(name, role)?;
+        let number = |&index: &usize| Ok(self.table.number(&self.table.rows[index], column)?.unwrap_or(f64::NAN));
+        self.rows.iter().map(number).collect()
+    }
+
+    fn temperature(&self, name: &str, role: &str) -> Result<Vec<f64>, TelemetryError> {
+        let column = self.table.column(name, role)?;
+        let mut values = self.column(name, role)?;
+        let (low, high) = PLAUSIBLE_C;
+        for (value, &index) in values.iter_mut().zip(self.rows) {
+            *value = self.mapping.table.temperature_unit.to_celsius(*value);
+            if !(low..=high).contains(value) {
+                let problem = TelemetryProblem::Range { value: *value, unit: "°C", column: name.into(), low, high };
+                return Err(self.table.at(&self.table.rows[index], column, problem));
+            }
+        }
+        Ok(values)
+    }
+
+    fn zone(&self, columns: &ZoneColumns) -> Result<Zone, TelemetryError> {
+        let mut zone = Zone {
+            name: columns.name.clone(),
+            temperature_c: self.temperature(&columns.temperature, "temperature")?,
+            power_kw: vec![0.0; self.rows.len()],
+            power_has_unit: true,
+            supply_air: Vec::new(),
+            irradiance_kw_per_m2: None,
+        };
+        for heat in &columns.heat {
+            self.add_heat(&mut zone, heat)?;
+        }
+        if let Some(solar) = &columns.solar {
+            let values = self.column(&solar.column, "irradiance")?;
+            zone.irradiance_kw_per_m2 = Some(values.iter().map(|value| value * solar.unit.kw_per_m2()).collect());
+        }
+        Ok(zone)
+    }
+
+    fn add_heat(&self, zone: &mut Zone, heat: &HeatColumns) -> Result<(), TelemetryError> {
+        match heat {
+            HeatColumns::Power { column, unit, factor } => {
+                zone.power_has_unit &= *unit != PowerUnit::Unknown;
+                let scale = unit.kw() * factor;
+                let values = self.column(column, "power")?;
+                zone.power_kw.iter_mut().zip(values).for_each(|(power, value)| *power += scale * value);
+            }
+            HeatColumns::SupplyAir { flow, flow_unit, temperature } => {
+                let conductance_kw_per_k =
+                    self.column(flow, "supply air flow")?.iter().map(|flow| flow * flow_unit.kw_per_k()).collect();
+                let temperature_c = self.temperature(temperature, "supply air temperature")?;
+                zone.supply_air.push(SupplyAir { conductance_kw_per_k, temperature_c });
+            }
+            HeatColumns::Water { flow, flow_unit, inlet, outlet } => {
+                let (flow, inlet, outlet) = (
+                    self.column(flow, "water flow")?,
+                    self.temperature(inlet, "inlet")?,
+                    self.temperature(outlet, "outlet")?,
+                );
+                for (row, power) in zone.power_kw.iter_mut().enumerate() {
+                    *power += flow[row] * flow_unit.kw_per_k() * (inlet[row] - outlet[row]);
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,187 @@
+//! A table of text with a header: finds columns, turns fields into numbers and times, and says where one will not.
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+use jiff::civil::DateTime;
+
+use super::error::{TelemetryError, TelemetryProblem};
+use super::mapping::{Mapping, TableForm};
+
+/// A table of text; every row has as many fields as the header.
+pub(super) struct Table<'a> {
+    file: &'a str,
+    form: &'a TableForm,
+    lines: Lines<'a>,
+    header: Vec<String>,
+    pub rows: Vec<Row>,
+}
+
+/// A row and the line on which it starts, from 1.
+pub(super) struct Row {
+    line: usize,
+    fields: StringRecord,
+}
+
+/// A column that the mapping names.
+#[derive(Clone, Copy)]
+pub(super) struct Column(usize);
+
+impl<'a> Table<'a> {
+    /// Splits `text` into rows and fields.
+    pub fn split(file: &'a str, text: &'a str, mapping: &'a Mapping) -> Result<Self, TelemetryError> {
+        let form = &mapping.table;
+        // Some programs write a byte-order mark first.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let lines = Lines::new(text);
+        // An ASCII separator was checked with the mapping.
+        let separator = u8::try_from(form.separator).unwrap_or(b',');
+        let mut reader =
+            ReaderBuilder::new().delimiter(separator).trim(Trim::All).has_headers(false).from_reader(text.as_bytes());
+        let mut rows = reader.records().map(|record| match record {
+            Ok(fields) => Ok(Row { line: lines.number(fields.position()), fields }),
+            Err(error) => {
+                let problem = TelemetryProblem::Row { reason: reason(&error) };
+                Err(TelemetryError::new(file, Some((lines.number(error.position()), 1)), problem))
+            }
+        });
+        let empty = || TelemetryError::new(file, None, TelemetryProblem::Empty);
+        let header = rows.next().ok_or_else(empty)??.fields.iter().map(str::to_owned).collect();
+        let rows = rows.collect::<Result<Vec<_>, _>>()?;
+        if rows.is_empty() {
+            return Err(empty());
+        }
+        Ok(Self { file, form, lines, header, rows })
+    }
+
+    /// Finds a column; `role` says in messages what it is wanted for.
+    pub fn column(&self, name: &str, role: &str) -> Result<Column, TelemetryError> {
+        let mut found = self.header.iter().enumerate().filter(|(_, title)| *title == name).map(|(index, _)| index);
+        let fault = match (found.next(), found.next()) {
+            (Some(index), None) => return Ok(Column(index)),
+            (None, _) => "not in the header",
+            (Some(_), Some(_)) => "in the header twice",
+        };
+        let problem =
+            TelemetryProblem::Column { name: name.into(), role: role.into(), fault, header: self.header.clone() };
+        Err(TelemetryError::new(self.file, Some((1, 1)), problem))
+    }
+
+    /// The text of a field.
+    pub fn text<'r>(&self, row: &'r Row, column: Column) -> &'r str {
+        row.fields.get(column.0).unwrap_or_default()
+    }
+
+    /// A field as a number; `None` where it stands for no value.
+    pub fn number(&self, row: &Row, column: Column) -> Result<Option<f64>, TelemetryError> {
+        let text = self.text(row, column);
+        if text.is_empty() || self.form.missing.iter().any(|missing| missing == text) {
+            return Ok(None);
+        }
+        let parsed = match self.form.decimal {
+            '.' => text.parse::<f64>(),
+            sign => text.replace(sign, ".").parse(),
+        };
+        match parsed {
+            Ok(value) if value.is_finite() => Ok(Some(value)),
+            _ => {
+                let problem = TelemetryProblem::Number { text: text.into(), column: self.title(column) };
+                Err(self.at(row, column, problem))
+            }
+        }
+    }
+
+    /// A field as a time \[s\] since some midnight.
+    pub fn time_s(&self, row: &Row, column: Column, format: &str) -> Result<f64, TelemetryError> {
+        let text = self.text(row, column);
+        let time_s = match format {
+            "seconds" => text.parse().ok().filter(|time: &f64| time.is_finite()),
+            "hours" => text.parse().ok().filter(|time: &f64| time.is_finite()).map(|hours| hours * 3600.0),
+            _ => DateTime::strptime(format, text).ok().map(seconds_since_1970),
+        };
+        time_s.ok_or_else(|| {
+            let (text, column_name, format) = (text.into(), self.title(column), format.into());
+            self.at(row, column, TelemetryProblem::Time { text, column: column_name, format })
+        })
+    }
+
+    /// The error that `problem` is with the field at `row` and `column`.
+    pub fn at(&self, row: &Row, column: Column, problem: TelemetryProblem) -> TelemetryError {
+        let line = self.lines.text(row.line);
+        let place = Some((row.line, field_start(line, self.form.separator, column.0)));
+        TelemetryError::new(self.file, place, problem)
+    }
+
+    /// The name of a column.
+    pub fn title(&self, column: Column) -> String {
+        self.header.get(column.0).cloned().unwrap_or_default()
+    }
+}
+
+fn seconds_since_1970(time: DateTime) -> f64 {
+    time.duration_since(DateTime::constant(1970, 1, 1, 0, 0, 0, 0)).as_secs_f64()
+}
+
+/// A text and where its lines begin. (The reader counts lines too, but one short after a carriage return.)
+struct Lines<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
+}
+
+impl<'a> Lines<'a> {
+    fn new(text: &'a str) -> Self {
+        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline + 1)).collect();
+        Self { text, starts }
+    }
+
+    /// The line, from 1, on which a row starts; the reader's positions may lie before the end of the line above.
+    fn number(&self, position: Option<&csv::Position>) -> usize {
+        let byte = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
+        let rest = self.text.get(byte..).unwrap_or_default();
+        let start = byte + (rest.len() - rest.trim_start_matches(['\r', '\n']).len());
+        self.starts.partition_point(|&line| line <= start)
+    }
+
+    /// The text of a line.
+    fn text(&self, number: usize) -> &'a str {
+        let start = number.checked_sub(1).and_then(|index| self.starts.get(index)).copied().unwrap_or(0);
+        self.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or_default()
+    }
+}
+
+/// The character, from 1, at which field number `index` of a line starts; separators within quotes separate nothing.
+fn field_start(line: &str, separator: char, index: usize) -> usize {
+    let (mut quoted, mut fields) = (false, 0);
+    for (at, character) in line.chars().enumerate() {
+        if fields == index {
+            return at + 1;
+        }
+        match character {
+            '"' => quoted = !quoted,
+            _ if character == separator && !quoted => fields += 1,
+            _ => {}
+        }
+    }
+    line.chars().count() + 1
+}
+
+/// The CSV reader's complaint without its position, which the error states in its own form.
+fn reason(error: &csv::Error) -> String {
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            format!("it has {len} fields, the header has {expected_len}")
+        }
+        _ => error.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::field_start;
+
+    #[test]
+    fn a_field_starts_after_as_many_separators_as_its_number_outside_quotes() {
+        assert_eq!(field_start("a;bc;d", ';', 0), 1);
+        assert_eq!(field_start("a;bc;d", ';', 1), 3);
+        assert_eq!(field_start("ä;\"b;c\";d", ';', 2), 9);
+        assert_eq!(field_start("a;b", ';', 5), 4);
+    }
+}

@@ -1,0 +1,112 @@
+//! Telemetry as a table and the mapping that reads it back, to the last bit.
+
+use std::fmt::Write as _;
+
+use super::mapping::{BoundaryColumns, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns};
+use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit};
+use super::{Gaps, Telemetry, Zone};
+use crate::identify::Settings;
+
+/// Heat that air carries is written as a flow of this unit.
+const FLOW: AirFlowUnit = AirFlowUnit::KwPerK;
+
+/// A column: its title and its values.
+type Column<'a> = (String, &'a [f64]);
+
+/// See [`Telemetry::to_csv`].
+pub(super) fn to_csv(telemetry: &Telemetry) -> String {
+    let columns = columns(telemetry);
+    let mut csv = String::from("time_s,recording");
+    columns.iter().for_each(|(title, _)| csv.extend([",", title]));
+    for (recording, segment) in telemetry.segments.iter().enumerate() {
+        for row in segment.clone() {
+            // Writing to a string cannot fail.
+            let _ = write!(csv, "\n{},{recording}", telemetry.time_s[row]);
+            for (_, values) in &columns {
+                let _ = write!(csv, ",{}", values[row]);
+            }
+        }
+    }
+    csv.push('\n');
+    csv
+}
+
+fn columns(telemetry: &Telemetry) -> Vec<Column<'_>> {
+    let mut columns: Vec<Column<'_>> = Vec::new();
+    for boundary in &telemetry.boundaries {
+        columns.push((format!("{} [°C]", boundary.name), &boundary.temperature_c));
+    }
+    for zone in &telemetry.zones {
+        columns.push((temperature(zone), &zone.temperature_c));
+        columns.push((power(zone), &zone.power_kw));
+        for (index, air) in zone.supply_air.iter().enumerate() {
+            columns.push((flow(zone, index), &air.conductance_kw_per_k));
+            columns.push((supply(zone, index), &air.temperature_c));
+        }
+        columns.extend(zone.irradiance_kw_per_m2.as_ref().map(|values| (sun(zone), values.as_slice())));
+    }
+    columns
+}
+
+/// See [`Telemetry::mapping`].
+pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
+    let zone = |zone: &Zone| {
+        let unit = if zone.power_has_unit { PowerUnit::Kw } else { PowerUnit::Unknown };
+        let mut heat = Vec::new();
+        if !(zone.power_kw.iter().all(|&power| power == 0.0)) {
+            heat.push(HeatColumns::Power { column: power(zone), unit, factor: 1.0 });
+        }
+        heat.extend((0..zone.supply_air.len()).map(|index| HeatColumns::SupplyAir {
+            flow: flow(zone, index),
+            flow_unit: FLOW,
+            temperature: supply(zone, index),
+        }));
+        let solar = SolarColumn { column: sun(zone), unit: IrradianceUnit::KwPerM2 };
+        ZoneColumns {
+            name: zone.name.clone(),
+            temperature: temperature(zone),
+            heat,
+            solar: zone.irradiance_kw_per_m2.is_some().then_some(solar),
+        }
+    };
+    let boundary = |boundary: &super::Boundary| BoundaryColumns {
+        name: boundary.name.clone(),
+        temperature: format!("{} [°C]", boundary.name),
+    };
+    Mapping {
+        table: TableForm::default(),
+        time: TimeAxis {
+            column: Some("time_s".into()),
+            format: "seconds".into(),
+            step_s: telemetry.step_s,
+            gaps: Gaps::Refuse,
+            batch: Some("recording".into()),
+        },
+        boundaries: telemetry.boundaries.iter().map(boundary).collect(),
+        zones: telemetry.zones.iter().map(zone).collect(),
+        walls: (telemetry.walls.iter())
+            .map(|wall| [telemetry.zones[wall.zone].name.clone(), telemetry.name(wall.other).to_owned()])
+            .collect(),
+        identify: Settings::default(),
+    }
+}
+
+fn temperature(zone: &Zone) -> String {
+    format!("{} [°C]", zone.name)
+}
+
+fn power(zone: &Zone) -> String {
+    format!("{} heat [{}]", zone.name, if zone.power_has_unit { "kW" } else { "?" })
+}
+
+fn flow(zone: &Zone, index: usize) -> String {
+    format!("{} air {index} [kW/K]", zone.name)
+}
+
+fn supply(zone: &Zone, index: usize) -> String {
+    format!("{} air {index} [°C]", zone.name)
+}
+
+fn sun(zone: &Zone) -> String {
+    format!("{} sun [kW/m²]", zone.name)
+}

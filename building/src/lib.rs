@@ -1,0 +1,64 @@
+//! Interplay: zones that interact.
+//!
+//! Pure functions of plain values, like the planners: nothing here knows of time, files, entities or pictures.
+//!
+//! - the building: [`network`] (zones and walls), [`discretise`] (steps of time), [`lifted`] (a day as one linear map)
+//! - what acts on it: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, as scheduled and as it
+//!   turns out)
+//! - [`control`]: controllers that are compared day by day, and the day's optimum
+//! - [`comfort`]: what is wanted, and key figures of how it turned out
+//! - [`identify`]: thermal parameters from telemetry
+//!
+//! Temperatures are in °C, differences in K, heat in kW (positive into a zone), energy in kWh, capacities in kJ/K,
+//! resistances in K/kW, time in seconds or hours, as the names say. A day's signals are stacked time-major: entry t·n + i
+//! is zone i of n in step t.
+//!
+//! Exponentials and the like come from `libm`, random numbers from ChaCha, and products of large matrices are written out
+//! (nalgebra's round as the processor likes), so that runs are the same bit for bit on every machine.
+//!
+//! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
+//! 2019); "corrected" marks where the printed equation is in error.
+//!
+//! # A day
+//!
+//! ```
+//! use interplay_building::comfort::{KeyFigures, Setpoints};
+//! use interplay_building::control::{Controller, Disturbance, run_day};
+//! use interplay_building::discretise::Model;
+//! use interplay_building::network::Network;
+//! use interplay_building::occupancy::Occupancy;
+//! use interplay_building::weather::{Climate, Forecast};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let (step_s, steps) = (1800.0, 48);
+//! let model = Model::exact(&Network::testbed(), step_s)?;
+//! let targets = Setpoints::default().targets(4, step_s, steps)?;
+//! let weather = Climate::default().weather(1, 5);
+//! let people = Occupancy::default().people(4, 1);
+//! let mut regulator = Controller::IterativeLearning(Default::default()).regulator(&model, steps)?;
+//!
+//! let mut temperatures_c = vec![28.0; 4];
+//! let mut costs = Vec::new();
+//! for day in 0..5 {
+//!     let forecast = Disturbance {
+//!         ambient_c: Forecast::Exact.ambient_steps_c(&weather, 1, day, step_s, steps),
+//!         gains_kw: people.scheduled_kw(step_s, steps),
+//!     };
+//!     let actual = Disturbance { gains_kw: people.actual_kw(day, step_s, steps), ..forecast.clone() };
+//!     let record = run_day(&model, &mut temperatures_c, &mut regulator, &targets, &forecast, &actual)?;
+//!     costs.push(KeyFigures::of(&record, &targets, model.network().limits_kw(), step_s).cost);
+//! }
+//! assert!(costs[4] < 0.5 * costs[0], "it has learned: {costs:?}");
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod comfort;
+pub mod control;
+pub mod discretise;
+pub mod identify;
+pub mod lifted;
+pub mod network;
+pub mod occupancy;
+mod random;
+pub mod weather;

@@ -1,0 +1,195 @@
+//! A horizon of N steps as one linear map (section 2.5).
+//!
+//! Stack the zones' temperatures T(1) … T(N) and inputs u(0) … u(N−1), time-major: entry t·n + i is zone i of the t-th.
+//! Then
+//!
+//! ```text
+//! T = T_free + G U            G block lower-triangular Toeplitz with blocks h₁, h₂, …          (eqs. 2.19, 2.20)
+//! h_k = E Aᵏ⁻¹ B              E picks the zones among the nodes
+//! ```
+//!
+//! The source writes T = G(U + D) + T_in. Here T_free = T_in + G D is the temperature without equipment: heat that enters
+//! through a wall with a capacity of its own is not equal to any heat input of the moment, so D is not asked for. Going
+//! back, G⁻¹(T − T_free) is the equipment heat that explains measured temperatures, and the difference to the known one
+//! is the disturbance as if it were all zone heat.
+//!
+//! [`Lifted::dense`] writes G down, for networks of a few zones. Everything else works by simulation, forwards for G and
+//! backwards for Gᵀ (A = I − B L with symmetric B and L, so Aᵀ = I − L B), and costs as much as a simulation of the
+//! horizon, at every size.
+
+mod zone_gain;
+
+use nalgebra::DMatrix;
+
+use crate::discretise::Model;
+use zone_gain::ZoneGain;
+
+/// A model over a horizon.
+#[derive(Clone, Debug)]
+pub struct Lifted {
+    model: Model,
+    steps: usize,
+    zone_gain: ZoneGain,
+}
+
+impl Lifted {
+    /// The horizon of so many steps.
+    pub fn new(model: &Model, steps: usize) -> Self {
+        Self { model: model.clone(), steps, zone_gain: ZoneGain::of(model) }
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// N, the number of steps.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// n, the number of zones.
+    pub fn zones(&self) -> usize {
+        self.model.network().zone_count()
+    }
+
+    /// n·N, the length of stacked inputs and of stacked temperatures.
+    pub fn size(&self) -> usize {
+        self.steps * self.zones()
+    }
+
+    /// T_free: temperatures without equipment \[°C\], stacked.
+    ///
+    /// `initial_c` has one number per node, `ambient_c` one per step, and `gains_kw` is stacked.
+    ///
+    /// # Panics
+    /// When a slice has another length.
+    pub fn free_response(&self, initial_c: &[f64], ambient_c: &[f64], gains_kw: &[f64]) -> Vec<f64> {
+        self.response(initial_c, &vec![0.0; self.size()], ambient_c, gains_kw)
+    }
+
+    /// T = T_free + G U by simulation \[°C\], stacked. Shapes as for [`Lifted::free_response`]; `heat_kw` is stacked.
+    ///
+    /// # Panics
+    /// When a slice has another length.
+    pub fn response(&self, initial_c: &[f64], heat_kw: &[f64], ambient_c: &[f64], gains_kw: &[f64]) -> Vec<f64> {
+        assert_eq!(ambient_c.len(), self.steps, "one outdoor temperature per step");
+        self.check(heat_kw);
+        self.check(gains_kw);
+        let n = self.zones();
+        let mut temperatures_c = initial_c.to_vec();
+        let mut stacked = Vec::with_capacity(self.size());
+        for (t, &ambient_c) in ambient_c.iter().enumerate() {
+            let zones = t * n..(t + 1) * n;
+            self.model.step(&mut temperatures_c, &heat_kw[zones.clone()], ambient_c, &gains_kw[zones]);
+            stacked.extend_from_slice(&temperatures_c[..n]);
+        }
+        stacked
+    }
+
+    /// G u, for a stacked u.
+    ///
+    /// # Panics
+    /// When `u` has not n·N numbers.
+    pub fn product(&self, u: &[f64]) -> Vec<f64> {
+        self.check(u);
+        let n = self.zones();
+        let mut state = vec![0.0; self.model.network().node_count()];
+        let mut stacked = Vec::with_capacity(self.size());
+        for input in u.chunks_exact(n) {
+            state = self.advance(&state, input);
+            stacked.extend_from_slice(&state[..n]);
+        }
+        stacked
+    }
+
+    /// Gᵀ y, for a stacked y.
+    ///
+    /// # Panics
+    /// When `y` has not n·N numbers.
+    pub fn transpose_product(&self, y: &[f64]) -> Vec<f64> {
+        self.check(y);
+        let n = self.zones();
+        let mut costate = vec![0.0; self.model.network().node_count()];
+        let mut stacked = vec![0.0; self.size()];
+        for t in (0..self.steps).rev() {
+            if t + 1 < self.steps {
+                costate = self.model.state_transpose_product(&costate);
+            }
+            for (costate, y) in costate.iter_mut().zip(&y[t * n..(t + 1) * n]) {
+                *costate += y;
+            }
+            stacked[t * n..(t + 1) * n].copy_from_slice(&self.model.gain_product(&costate)[..n]);
+        }
+        stacked
+    }
+
+    /// G⁻¹ y, for a stacked y: the inputs that lead from rest to these temperatures. G is always invertible, because a
+    /// zone answers to its own input within a step.
+    ///
+    /// # Panics
+    /// When `y` has not n·N numbers.
+    pub fn solve(&self, y: &[f64]) -> Vec<f64> {
+        self.check(y);
+        let n = self.zones();
+        let mut state = vec![0.0; self.model.network().node_count()];
+        let mut stacked = Vec::with_capacity(self.size());
+        for wanted in y.chunks_exact(n) {
+            let drifted = self.model.state_product(&state);
+            let missing: Vec<f64> = wanted.iter().zip(&drifted).map(|(wanted, drifted)| wanted - drifted).collect();
+            let input = self.zone_gain.solve(&self.model, &missing);
+            state = self.advance(&state, &input);
+            stacked.extend(input);
+        }
+        stacked
+    }
+
+    /// h₁ … h_N, zones by zones each \[K/kW\].
+    pub fn markov(&self) -> Vec<DMatrix<f64>> {
+        let n = self.zones();
+        let mut blocks = vec![DMatrix::zeros(n, n); self.steps];
+        for zone in 0..n {
+            let mut impulse = vec![0.0; self.size()];
+            if let Some(first) = impulse.get_mut(zone) {
+                *first = 1.0;
+            }
+            for (block, response) in blocks.iter_mut().zip(self.product(&impulse).chunks_exact(n)) {
+                block.column_mut(zone).copy_from_slice(response);
+            }
+        }
+        blocks
+    }
+
+    /// G, n·N by n·N \[K/kW\].
+    pub fn dense(&self) -> DMatrix<f64> {
+        let n = self.zones();
+        let mut matrix = DMatrix::zeros(self.size(), self.size());
+        let blocks = self.markov();
+        for column in 0..self.steps {
+            for (delay, block) in blocks[..self.steps - column].iter().enumerate() {
+                matrix.view_mut(((column + delay) * n, column * n), (n, n)).copy_from(block);
+            }
+        }
+        matrix
+    }
+
+    /// A x + B u.
+    fn advance(&self, state: &[f64], input: &[f64]) -> Vec<f64> {
+        let mut net = self.model.network().conduct(state);
+        for net in &mut net {
+            *net = -*net;
+        }
+        for (net, input) in net.iter_mut().zip(input) {
+            *net += input;
+        }
+        let mut next = self.model.gain_product(&net);
+        for (next, state) in next.iter_mut().zip(state) {
+            *next += state;
+        }
+        next
+    }
+
+    fn check(&self, stacked: &[f64]) {
+        assert_eq!(stacked.len(), self.size(), "stacked: one number per step and zone");
+    }
+}

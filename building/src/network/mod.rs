@@ -1,0 +1,204 @@
+//! The thermal network: who exchanges heat with whom (section 2.2).
+//!
+//! # The model
+//!
+//! Every node i (the zones, and after them the walls that store heat) has one temperature Tᵢ and obeys
+//!
+//! ```text
+//! cᵢ dTᵢ/dt = Σₖ (Tₖ − Tᵢ)/Rₖᵢ + (T₀ − Tᵢ)/R₀ᵢ + uᵢ + wᵢ                          (eqs. 2.1, 2.2)
+//! C dT/dt   = −L T + k T₀ + u + w                                             (eq. 2.15)
+//! ```
+//!
+//! with heat from equipment u and from people, sun and machines w \[kW\], outdoor temperature T₀, kᵢ = 1/R₀ᵢ, and L the
+//! conductance Laplacian of the graph plus diag(k). The source prints −L as R_T and calls it a resistance matrix; it is a
+//! matrix of conductances \[kW/K\] whose rows sum to −kᵢ. L is symmetric and positive semidefinite, so every network is
+//! stable, and all its modes are real.
+//!
+//! Table 2.1 gives resistances in kW/K; the numbers only make sense in K·min/kJ. [`Network::testbed`] has them in K/kW.
+
+mod error;
+mod presets;
+mod settings;
+mod structure;
+
+use nalgebra::DMatrix;
+
+pub use error::{NetworkError, Remark};
+pub use settings::{AMBIENT, Wall, Zone};
+
+/// A conductance between two nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// One node.
+    pub from: usize,
+    /// The other node.
+    pub to: usize,
+    /// Heat per kelvin of difference \[kW/K\].
+    pub conductance_kw_per_k: f64,
+}
+
+/// A validated network. Nodes are numbered: first the zones in the order given, then the walls that store heat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Network {
+    names: Vec<String>,
+    zone_count: usize,
+    capacities_kj_per_k: Vec<f64>,
+    limits_kw: Vec<f64>,
+    solar_apertures_m2: Vec<f64>,
+    links: Vec<Link>,
+    ambient_kw_per_k: Vec<f64>,
+    /// Pairs of zones with a wall between them, the smaller number first, sorted, without repetition.
+    adjacent: Vec<(usize, usize)>,
+}
+
+impl Network {
+    /// The network of `zones` and `walls`.
+    ///
+    /// Zones without walls, and groups of zones without a wall between them, are allowed; [`Network::remarks`] says so.
+    ///
+    /// # Errors
+    /// [`NetworkError`] if a name is missing, repeated or unknown, if a wall has one place on both sides, or if a
+    /// quantity is out of range.
+    pub fn new(zones: &[Zone], walls: &[Wall]) -> Result<Self, NetworkError> {
+        structure::check_zones(zones)?;
+        let mut network = Self {
+            names: zones.iter().map(|zone| zone.name.clone()).collect(),
+            zone_count: zones.len(),
+            capacities_kj_per_k: zones.iter().map(|zone| zone.capacity_kj_per_k).collect(),
+            limits_kw: zones.iter().map(|zone| zone.limit_kw).collect(),
+            solar_apertures_m2: zones.iter().map(|zone| zone.solar_aperture_m2).collect(),
+            links: Vec::new(),
+            ambient_kw_per_k: vec![0.0; zones.len()],
+            adjacent: Vec::new(),
+        };
+        for (number, (wall, ends)) in walls.iter().zip(structure::check_walls(zones, walls)?).enumerate() {
+            network.add(number, wall, ends);
+        }
+        network.adjacent.sort_unstable();
+        network.adjacent.dedup();
+        Ok(network)
+    }
+
+    /// Adds a checked wall; `None` is the air outside.
+    fn add(&mut self, number: usize, wall: &Wall, ends: [Option<usize>; 2]) {
+        if let [Some(one), Some(other)] = ends {
+            self.adjacent.push((one.min(other), one.max(other)));
+        }
+        let conductance_kw_per_k = 1.0 / wall.resistance_k_per_kw;
+        let Some(capacity_kj_per_k) = wall.capacity_kj_per_k else {
+            self.connect(ends[0], ends[1], conductance_kw_per_k);
+            return;
+        };
+        let node = self.capacities_kj_per_k.len();
+        self.names.push(structure::wall_name(number, wall));
+        self.capacities_kj_per_k.push(capacity_kj_per_k);
+        self.ambient_kw_per_k.push(0.0);
+        for end in ends {
+            self.connect(Some(node), end, 2.0 * conductance_kw_per_k);
+        }
+    }
+
+    fn connect(&mut self, one: Option<usize>, other: Option<usize>, conductance_kw_per_k: f64) {
+        match (one, other) {
+            (Some(from), Some(to)) => self.links.push(Link { from, to, conductance_kw_per_k }),
+            (Some(node), None) | (None, Some(node)) => self.ambient_kw_per_k[node] += conductance_kw_per_k,
+            (None, None) => {}
+        }
+    }
+
+    /// How many zones there are.
+    pub fn zone_count(&self) -> usize {
+        self.zone_count
+    }
+
+    /// How many temperatures there are: zones and walls that store heat.
+    pub fn node_count(&self) -> usize {
+        self.capacities_kj_per_k.len()
+    }
+
+    /// Names of the nodes.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The zone of a name.
+    pub fn zone(&self, name: &str) -> Option<usize> {
+        self.names[..self.zone_count].iter().position(|zone| zone == name)
+    }
+
+    /// Heat capacity of each node \[kJ/K\].
+    pub fn capacities_kj_per_k(&self) -> &[f64] {
+        &self.capacities_kj_per_k
+    }
+
+    /// Largest heating or cooling power of each zone \[kW\].
+    pub fn limits_kw(&self) -> &[f64] {
+        &self.limits_kw
+    }
+
+    /// Heat that the sun brings into each zone \[kW\], for a global radiation on a horizontal plane \[W/m²\].
+    pub fn solar_gains_kw(&self, sun_w_per_m2: f64) -> Vec<f64> {
+        self.solar_apertures_m2.iter().map(|aperture_m2| aperture_m2 * sun_w_per_m2 / 1000.0).collect()
+    }
+
+    /// Conductances between nodes, in the order of the walls.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// Conductance of each node to the air outside \[kW/K\].
+    pub fn ambient_kw_per_k(&self) -> &[f64] {
+        &self.ambient_kw_per_k
+    }
+
+    /// Pairs of zones with a wall between them, the smaller number first, sorted.
+    pub fn adjacent_zones(&self) -> &[(usize, usize)] {
+        &self.adjacent
+    }
+
+    /// L x for any x over the nodes: heat that leaves each node when outdoors is at zero \[kW\].
+    ///
+    /// # Panics
+    /// When `x` has not one number per node.
+    pub fn conduct(&self, x: &[f64]) -> Vec<f64> {
+        assert_eq!(x.len(), self.node_count(), "one temperature per node");
+        let mut out: Vec<f64> = self.ambient_kw_per_k.iter().zip(x).map(|(k, x)| k * x).collect();
+        for link in &self.links {
+            let heat_kw = link.conductance_kw_per_k * (x[link.from] - x[link.to]);
+            out[link.from] += heat_kw;
+            out[link.to] -= heat_kw;
+        }
+        out
+    }
+
+    /// L as a matrix \[kW/K\].
+    pub fn laplacian(&self) -> DMatrix<f64> {
+        let mut laplacian = DMatrix::from_diagonal(&self.ambient_kw_per_k.clone().into());
+        for &Link { from, to, conductance_kw_per_k } in &self.links {
+            laplacian[(from, from)] += conductance_kw_per_k;
+            laplacian[(to, to)] += conductance_kw_per_k;
+            laplacian[(from, to)] -= conductance_kw_per_k;
+            laplacian[(to, from)] -= conductance_kw_per_k;
+        }
+        laplacian
+    }
+
+    /// Heat flowing into each node, k (T₀ − T) + … + u + w \[kW\]: the right-hand side of eq. 2.15.
+    ///
+    /// `temperatures_c` has one number per node; `heat_kw` (equipment) and `gains_kw` (people, sun, machines) one per zone.
+    ///
+    /// # Panics
+    /// When a slice has another length.
+    pub fn net_heat_kw(&self, temperatures_c: &[f64], heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) -> Vec<f64> {
+        assert_eq!(heat_kw.len(), self.zone_count, "one heat input per zone");
+        assert_eq!(gains_kw.len(), self.zone_count, "one gain per zone");
+        let mut net_kw = self.conduct(temperatures_c);
+        for (net_kw, k) in net_kw.iter_mut().zip(&self.ambient_kw_per_k) {
+            *net_kw = k * ambient_c - *net_kw;
+        }
+        for (zone, (heat_kw, gains_kw)) in heat_kw.iter().zip(gains_kw).enumerate() {
+            net_kw[zone] += heat_kw + gains_kw;
+        }
+        net_kw
+    }
+}

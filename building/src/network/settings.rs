@@ -1,0 +1,73 @@
+//! What a scenario file says about a building: zones and walls, with units in the names.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The name that a wall uses for the air outside.
+pub const AMBIENT: &str = "ambient";
+
+/// A room or a group of rooms whose air is well mixed, so that it has one temperature.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Zone {
+    /// What walls, controllers and plots call it; not `ambient`.
+    pub name: String,
+    /// Heat that warms the zone by one kelvin \[kJ/K\].
+    #[serde(default = "default_capacity_kj_per_k")]
+    pub capacity_kj_per_k: f64,
+    /// Largest heating power, and largest cooling power \[kW\].
+    #[serde(default = "default_limit_kw")]
+    pub limit_kw: f64,
+    /// Area of the horizontal opening that would let in as much sun as the zone's windows do \[m²\].
+    #[serde(default)]
+    pub solar_aperture_m2: f64,
+}
+
+fn default_capacity_kj_per_k() -> f64 {
+    1000.0
+}
+
+fn default_limit_kw() -> f64 {
+    2.0
+}
+
+impl Zone {
+    /// A zone of the source's testbed: 1000 kJ/K, at most 2 kW of heating or cooling (Table 2.1), no windows.
+    pub fn named(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            capacity_kj_per_k: default_capacity_kj_per_k(),
+            limit_kw: default_limit_kw(),
+            solar_aperture_m2: 0.0,
+        }
+    }
+}
+
+/// A way for heat between two zones, or between a zone and the air outside.
+///
+/// Several walls between the same two places conduct side by side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// The two places that it separates: names of zones, or `ambient`.
+    pub between: [String; 2],
+    /// Temperature difference that drives one kilowatt through \[K/kW\]. (1 K·min/kJ is 60 K/kW.)
+    pub resistance_k_per_kw: f64,
+    /// Heat that the wall itself stores \[kJ/K\]. With it the wall is a temperature of its own, with half of the
+    /// resistance to either side (2R1C).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub capacity_kj_per_k: Option<f64>,
+}
+
+impl Wall {
+    /// A wall that stores no heat.
+    pub fn new(one: impl Into<String>, other: impl Into<String>, resistance_k_per_kw: f64) -> Self {
+        Self { between: [one.into(), other.into()], resistance_k_per_kw, capacity_kj_per_k: None }
+    }
+
+    /// The same wall with a heat capacity.
+    #[must_use]
+    pub fn with_capacity_kj_per_k(self, capacity_kj_per_k: f64) -> Self {
+        Self { capacity_kj_per_k: Some(capacity_kj_per_k), ..self }
+    }
+}

@@ -1,0 +1,69 @@
+//! Random numbers that are the same on every machine: ChaCha's stream, and the normal distribution through `libm`.
+
+use std::f64::consts::TAU;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+
+/// A stream of random numbers. Streams of one seed with other labels are independent.
+#[derive(Clone, Debug)]
+pub(crate) struct Random(ChaCha8Rng);
+
+impl Random {
+    /// The stream of a seed and a label; what is drawn for one purpose must not depend on what is drawn for another.
+    pub(crate) fn new(seed: u64, label: u64) -> Self {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        generator.set_stream(label);
+        Self(generator)
+    }
+
+    /// Uniform in \[low, high).
+    pub(crate) fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// True with this probability.
+    pub(crate) fn chance(&mut self, probability: f64) -> bool {
+        self.unit() < probability
+    }
+
+    /// Normal with mean and standard deviation (Box and Muller; the second number is not kept, so that every draw takes
+    /// the same amount of the stream).
+    pub(crate) fn normal(&mut self, mean: f64, deviation: f64) -> f64 {
+        let radius = libm::sqrt(-2.0 * libm::log(1.0 - self.unit()));
+        mean + deviation * radius * libm::cos(TAU * self.unit())
+    }
+
+    /// Uniform in [0, 1), from the upper 53 bits.
+    fn unit(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_are_those_of_the_distributions() {
+        let mut random = Random::new(1, 2);
+        const COUNT: usize = 100_000;
+        let normal: Vec<f64> = (0..COUNT).map(|_| random.normal(3.0, 2.0)).collect();
+        let uniform: Vec<f64> = (0..COUNT).map(|_| random.uniform(-1.0, 5.0)).collect();
+        let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
+        let variance = |x: &[f64], mean: f64| x.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / x.len() as f64;
+        // Four standard errors.
+        let tolerance = 4.0 / (COUNT as f64).sqrt();
+        assert!((mean(&normal) - 3.0).abs() < 2.0 * tolerance);
+        assert!((variance(&normal, 3.0) / 4.0 - 1.0).abs() < 2.0_f64.sqrt() * tolerance);
+        assert!((mean(&uniform) - 2.0).abs() < 3.0_f64.sqrt() * tolerance);
+        assert!(uniform.iter().all(|u| (-1.0..5.0).contains(u)));
+    }
+
+    #[test]
+    fn streams_differ_and_repeat() {
+        let draw = |seed, label| Random::new(seed, label).uniform(0.0, 1.0);
+        assert_eq!(draw(1, 1), draw(1, 1));
+        assert!(draw(1, 1) != draw(1, 2) && draw(1, 1) != draw(2, 1));
+    }
+}

@@ -1,0 +1,101 @@
+//! What can be wrong with an EPW file, and where.
+
+use super::calendar::Stamp;
+
+/// A file that is no EPW file, or not a whole one.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("line {line}: {problem}")]
+pub struct EpwError {
+    /// The line, from one.
+    pub line: usize,
+    /// What is wrong with it.
+    pub problem: EpwProblem,
+}
+
+/// What is wrong with a line of an EPW file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EpwProblem {
+    /// The file does not begin like an EPW file.
+    #[error("an EPW file begins with `LOCATION,`; this begins with `{found}`")]
+    NotEpw {
+        /// The beginning of the line.
+        found: String,
+    },
+    /// The header ends early.
+    #[error("the file ends before its `{wanted}` line")]
+    HeaderCut {
+        /// The header line that is missing.
+        wanted: &'static str,
+    },
+    /// A field of the header cannot be read.
+    #[error("{field} is `{found}`; it should be {wanted}")]
+    Header {
+        /// The field.
+        field: &'static str,
+        /// Its text.
+        found: String,
+        /// What would work.
+        wanted: &'static str,
+    },
+    /// A row has too few columns.
+    #[error(
+        "the row has {found} columns, and the wind and clouds stand in the first {wanted}: it is cut off or no EPW row"
+    )]
+    ShortRow {
+        /// How many columns there are.
+        found: usize,
+        /// How many are needed.
+        wanted: usize,
+    },
+    /// A column holds no number.
+    #[error("column {column}, {field}, is `{found}`, not a number")]
+    NotANumber {
+        /// Position of the column, from one.
+        column: usize,
+        /// Its name.
+        field: &'static str,
+        /// Its text.
+        found: String,
+    },
+    /// A column holds an impossible value.
+    #[error("column {column}, {field}, is {found}; possible are {least} to {greatest}, and missing is {missing}")]
+    Impossible {
+        /// Position of the column, from one.
+        column: usize,
+        /// Its name.
+        field: &'static str,
+        /// Its value.
+        found: f64,
+        /// Least possible value.
+        least: f64,
+        /// Greatest possible value.
+        greatest: f64,
+        /// What marks a missing value.
+        missing: f64,
+    },
+    /// A row is not the one that follows.
+    #[error("this is {found}, but {wanted} comes next: rows are missing, repeated or out of order")]
+    OutOfOrder {
+        /// The time that the row states.
+        found: Stamp,
+        /// The time that comes next.
+        wanted: Stamp,
+    },
+    /// Rows are missing at the end.
+    #[error("the file ends here, with {found} rows; its header promises data up to {wanted}")]
+    CutOff {
+        /// How many rows there are.
+        found: usize,
+        /// The last row that should be there.
+        wanted: Stamp,
+    },
+    /// Rows go on after the promised end.
+    #[error("a row after {end}, where the data end according to the header")]
+    TooLong {
+        /// The last row that should be there.
+        end: Stamp,
+    },
+    /// The file states no outdoor temperature at all.
+    #[error("every dry-bulb temperature is marked as missing")]
+    NoTemperature,
+}

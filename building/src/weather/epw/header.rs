@@ -1,0 +1,112 @@
+//! The eight lines before the rows, of which two matter.
+
+use super::calendar::Date;
+use super::{EpwError, EpwProblem, Location};
+
+/// What the header says.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Header {
+    pub(super) location: Location,
+    pub(super) first: Date,
+    pub(super) last: Date,
+    pub(super) intervals_per_hour: u32,
+    /// How many lines it has.
+    pub(super) lines: usize,
+}
+
+/// A line of the header, split at its commas.
+struct Fields<'a> {
+    line: usize,
+    fields: Vec<&'a str>,
+}
+
+impl Header {
+    pub(super) fn parse(text: &str) -> Result<Self, EpwError> {
+        const WANTED: &str = "DATA PERIODS";
+        let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
+        let (_, first_line) = lines.next().unwrap_or((1, ""));
+        if !begins(first_line, "LOCATION") {
+            let found = first_line.chars().take(40).collect();
+            return Err(EpwError { line: 1, problem: EpwProblem::NotEpw { found } });
+        }
+        let location = location(&Fields::of(1, first_line))?;
+        // Only header lines begin with a letter: the periods cannot be looked for among the rows.
+        let header = lines.take_while(|(_, line)| !line.starts_with(|c: char| c.is_ascii_digit()));
+        let mut seen = 1;
+        for (line, text) in header {
+            if begins(text, WANTED) {
+                return Self::with_period(location, &Fields::of(line, text));
+            }
+            seen = line;
+        }
+        Err(EpwError { line: seen + 1, problem: EpwProblem::HeaderCut { wanted: WANTED } })
+    }
+
+    /// `DATA PERIODS, periods, intervals per hour, name, weekday, first day, last day`.
+    fn with_period(location: Location, fields: &Fields<'_>) -> Result<Self, EpwError> {
+        let periods = fields.number(1, "the number of data periods", "1")?;
+        if periods != 1.0 {
+            return Err(fields.wrong(1, "the number of data periods", "1: split the file into one for each period"));
+        }
+        let wanted = "a divisor of 60, 1 for hourly data";
+        let intervals = fields.number(2, "the number of intervals an hour", wanted)?;
+        if !(1.0..=60.0).contains(&intervals) || 60.0 % intervals != 0.0 {
+            return Err(fields.wrong(2, "the number of intervals an hour", wanted));
+        }
+        Ok(Self {
+            location,
+            first: fields.date(5, "the first day of the data period")?,
+            last: fields.date(6, "the last day of the data period")?,
+            intervals_per_hour: intervals as u32,
+            lines: fields.line,
+        })
+    }
+}
+
+/// `LOCATION, city, region, country, source, station, latitude, longitude, time zone, elevation`.
+fn location(fields: &Fields<'_>) -> Result<Location, EpwError> {
+    Ok(Location {
+        city: fields.text(1).to_owned(),
+        country: fields.text(3).to_owned(),
+        source: fields.text(4).to_owned(),
+        latitude_deg: fields.number(6, "the latitude", "degrees north")?,
+        longitude_deg: fields.number(7, "the longitude", "degrees east")?,
+        time_zone_h: fields.number(8, "the time zone", "hours ahead of Greenwich")?,
+        elevation_m: fields.number(9, "the elevation", "metres above the sea")?,
+    })
+}
+
+fn begins(line: &str, keyword: &str) -> bool {
+    let line = line.trim_start_matches('\u{feff}');
+    line.split(',').next().is_some_and(|first| first.trim().eq_ignore_ascii_case(keyword))
+}
+
+impl<'a> Fields<'a> {
+    fn of(line: usize, text: &'a str) -> Self {
+        Self { line, fields: text.split(',').map(str::trim).collect() }
+    }
+
+    fn text(&self, index: usize) -> &'a str {
+        self.fields.get(index).copied().unwrap_or("")
+    }
+
+    fn wrong(&self, index: usize, field: &'static str, wanted: &'static str) -> EpwError {
+        let problem = EpwProblem::Header { field, found: self.text(index).to_owned(), wanted };
+        EpwError { line: self.line, problem }
+    }
+
+    fn number(&self, index: usize, field: &'static str, wanted: &'static str) -> Result<f64, EpwError> {
+        let number: Option<f64> = self.text(index).parse().ok();
+        number.filter(|number| number.is_finite()).ok_or_else(|| self.wrong(index, field, wanted))
+    }
+
+    /// `month/day`, or `month/day/year` with a year that is not needed.
+    fn date(&self, index: usize, field: &'static str) -> Result<Date, EpwError> {
+        let parts: Option<Vec<u32>> = self.text(index).split('/').map(|part| part.trim().parse().ok()).collect();
+        let date = match parts.as_deref() {
+            Some([month, day] | [month, day, _]) => Date::new(*month, *day),
+            _ => None,
+        };
+        date.ok_or_else(|| self.wrong(index, field, "month/day, as in 12/31"))
+    }
+}

@@ -1,0 +1,37 @@
+//! Weather: what it is ([`Weather`]), where it comes from ([`epw`] files, or the synthetic [`Climate`]), and how well it is
+//! known beforehand ([`Forecast`]).
+//!
+//! Time is in seconds from midnight at the start of the first day. A file states values at the end of each interval; here
+//! everything is a function of time, so that nobody needs to know.
+
+mod climate;
+pub mod epw;
+mod forecast;
+mod series;
+
+pub use climate::Climate;
+pub use epw::{Epw, EpwError};
+pub use forecast::{ErrorLevel, ErrorModel, Forecast};
+pub use series::Series;
+
+/// Outdoor temperature and sunshine as functions of time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weather {
+    /// Dry-bulb temperature outdoors \[°C\].
+    pub ambient_c: Series,
+    /// Global radiation on a horizontal plane \[W/m²\].
+    pub sun_w_per_m2: Series,
+}
+
+impl Weather {
+    /// Outdoor temperatures for consecutive steps \[°C\]: each is that of the middle of its step, which is also its mean
+    /// over the step unless the slope changes within it.
+    pub fn ambient_steps_c(&self, start_s: f64, step_s: f64, steps: usize) -> Vec<f64> {
+        (0..steps).map(|step| self.ambient_c.at(start_s + (step as f64 + 0.5) * step_s)).collect()
+    }
+
+    /// Global horizontal radiation for consecutive steps \[W/m²\], in the middle of each.
+    pub fn sun_steps_w_per_m2(&self, start_s: f64, step_s: f64, steps: usize) -> Vec<f64> {
+        (0..steps).map(|step| self.sun_w_per_m2.at(start_s + (step as f64 + 0.5) * step_s)).collect()
+    }
+}

@@ -1,0 +1,113 @@
+//! Real buildings. The data are not ours to ship: these tests look for them in the folder that the environment variable
+//! `INTERPLAY_THERMAL_DATA` names (`dutch3/blg_1.csv` to `blg_3.csv`, `riskbr/riskbr_data.csv`), and say so and pass where it
+//! is not set.
+
+#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
+
+use std::path::PathBuf;
+
+use interplay_building::identify::{
+    Confidence, Forecast, Gaps, Mapping, Method, Quantity, Report, Telemetry, identify,
+};
+
+const DUTCH: &str = include_str!("../examples/dutch3.toml");
+const RISKBR: &str = include_str!("../examples/riskbr.toml");
+
+/// Reads a file of the data, if there are any.
+fn table(path: &str) -> Option<String> {
+    let Some(folder) = std::env::var_os("INTERPLAY_THERMAL_DATA") else {
+        eprintln!("skipped: INTERPLAY_THERMAL_DATA does not name the folder of the measured buildings");
+        return None;
+    };
+    let path = PathBuf::from(folder).join(path);
+    Some(std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())))
+}
+
+fn report(mapping: &Mapping, file: &str, table: &str) -> Report {
+    let telemetry = Telemetry::read(file, table, mapping).expect("the mapping fits the table");
+    identify(&telemetry, &mapping.identify).expect("thousands of rows").report
+}
+
+fn quantity<'a>(report: &'a Report, zone: usize, name: &str) -> &'a Quantity {
+    let zone = &report.zones[zone];
+    zone.coefficients.iter().chain(&zone.physical).find(|quantity| quantity.name == name).expect("listed")
+}
+
+/// The published fits (CTSM-R; Leprince et al., Energy and Buildings 253, 2021) have two to four states and a sensor model. One
+/// state with ARMA(2,1) predicts one step about as well and leaves whiter residuals.
+#[test]
+fn dutch_homes_are_predicted_as_well_as_by_the_published_models() {
+    // Standard deviation of the residuals [K], and nCPBES, of the published final models.
+    for (home, published_k, published_excess) in
+        [(1, 0.3366, 0.009_875), (2, 0.0966, 0.021_979), (3, 0.1099, 0.021_037)]
+    {
+        let file = format!("dutch3/blg_{home}.csv");
+        let Some(table) = table(&file) else { return };
+        let mapping = Mapping::parse("dutch3.toml", DUTCH).expect("sound");
+        let zone = &report(&mapping, &file, &table).zones[0];
+        let ours_k = zone.train.one_step_with_residual_model_k;
+        assert!(ours_k < 1.1 * published_k, "home {home}: {ours_k} K against {published_k} K");
+        let excess = zone.whiteness.periodogram_excess.expect("a long series");
+        assert!(excess < 0.5 * published_excess, "home {home}: {excess} against {published_excess}");
+    }
+}
+
+/// Multiplying capacities, conductances, aperture and the heater's gain by one number changes nothing that is measured here, so
+/// no fit can know them, published or not.
+#[test]
+fn dutch_homes_have_no_absolute_scale() {
+    let file = "dutch3/blg_2.csv";
+    let Some(table) = table(file) else { return };
+    let mapping = Mapping::parse("dutch3.toml", DUTCH).expect("sound");
+    let report = report(&mapping, file, &table);
+    for name in ["heat capacity", "conductance to outdoor", "resistance to outdoor", "aperture to the sun"] {
+        let quantity = quantity(&report, 0, name);
+        assert_eq!((quantity.value, quantity.verdict.confidence), (None, Confidence::NotIdentifiable), "{name}");
+    }
+    // What has no scale agrees with the published model (1/25.746 kW/K; 6.057 + 19.936 kWh/K; heater 0.039618 kW).
+    for (name, published) in [
+        ("time constant through the walls", (6.057 + 19.936) * 25.746),
+        ("warming by a steady heat signal", 0.039_618 * 25.746),
+    ] {
+        let (low, high) = quantity(&report, 0, name).interval;
+        assert!(low.expect("bounded") < published && published < high.expect("bounded"), "{name}");
+    }
+}
+
+#[test]
+fn the_hospital_is_read_in_its_batches_and_its_disputes_are_told() {
+    let Some(table) = table("riskbr/riskbr_data.csv") else { return };
+    let mapping = Mapping::parse("riskbr.toml", RISKBR).expect("sound");
+    let mut strict = mapping.clone();
+    strict.time.gaps = Gaps::Refuse;
+    let error =
+        Telemetry::read("riskbr_data.csv", &table, &strict).expect_err("batch 22 holds two recordings").to_string();
+    assert!(error.starts_with("riskbr_data.csv:6032:1: `28.10.21 06:52` is -506160 s after the row before"), "{error}");
+
+    let report = report(&mapping, "riskbr_data.csv", &table);
+    assert_eq!((report.rows, report.segments, report.zones.len(), report.walls.len()), (7026, 27, 3, 2));
+    for zone in &report.zones {
+        assert!(zone.train.one_step_with_residual_model_k < 0.14);
+        let error = |wanted| zone.train.free_run.errors_k.iter().find(|(how, _)| *how == wanted).expect("listed").1;
+        assert!(error(Forecast::ProfileArma).expect("runs") < 0.85 * error(Forecast::None).expect("runs"));
+    }
+    // The heat of room 2 does not show against that of its neighbours; doors stand open.
+    let capacity = quantity(&report, 1, "heat capacity");
+    assert_eq!((capacity.value, capacity.interval.1), (None, None), "{capacity:?}");
+    assert!(report.warnings.iter().any(|warning| warning.contains("standard errors away")), "{:?}", report.warnings);
+}
+
+#[test]
+fn both_methods_run_on_every_measured_building() {
+    for (text, file) in [(DUTCH, "dutch3/blg_1.csv"), (DUTCH, "dutch3/blg_3.csv"), (RISKBR, "riskbr/riskbr_data.csv")] {
+        let Some(table) = table(file) else { return };
+        let mut mapping = Mapping::parse("mapping.toml", text).expect("sound");
+        mapping.identify.method = Method::Semiparametric;
+        mapping.identify.train_days = Some(30.0);
+        let report = report(&mapping, file, &table);
+        for zone in &report.zones {
+            assert!(zone.test.as_ref().expect("more than 30 days").one_step_with_residual_model_k < 0.5);
+            assert!(zone.coefficients.iter().all(|quantity| quantity.value.is_none_or(|value| value >= 0.0)));
+        }
+    }
+}

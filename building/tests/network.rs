@@ -1,0 +1,145 @@
+//! Zones and walls: what they become, what is refused, what is remarked upon.
+
+use interplay_building::network::{AMBIENT, Network, NetworkError, Remark, Wall, Zone};
+
+fn zones(names: &[&str]) -> Vec<Zone> {
+    names.iter().map(|name| Zone::named(*name)).collect()
+}
+
+#[test]
+fn the_testbed_is_that_of_the_source() {
+    let network = Network::testbed();
+    let laplacian = network.laplacian();
+    assert_eq!((network.zone_count(), network.node_count()), (4, 4));
+    // Rows of R_T = −L sum to minus the conductance to the air outside.
+    for row in laplacian.row_iter() {
+        assert!((row.sum() - 1.0 / 31.25).abs() < 1e-15);
+    }
+    assert_eq!(laplacian, laplacian.transpose());
+    assert_eq!(network.adjacent_zones(), [(0, 1), (0, 2), (1, 3), (2, 3)]);
+    assert_eq!((laplacian[(0, 3)], laplacian[(1, 2)]), (0.0, 0.0));
+    assert!(network.remarks().is_empty());
+}
+
+#[test]
+fn products_are_those_of_the_matrix() {
+    let walls = [
+        Wall::new("a", "b", 20.0).with_capacity_kj_per_k(300.0),
+        Wall::new("a", "b", 40.0),
+        Wall::new("b", AMBIENT, 30.0).with_capacity_kj_per_k(900.0),
+        Wall::new(AMBIENT, "a", 25.0),
+    ];
+    let network = Network::new(&zones(&["a", "b"]), &walls).expect("valid");
+    assert_eq!(network.node_count(), 4);
+    let x = nalgebra::DVector::from_vec(vec![21.0, 25.0, -3.0, 7.0]);
+    let product = network.laplacian() * &x;
+    for (one, other) in network.conduct(x.as_slice()).iter().zip(product.iter()) {
+        assert!((one - other).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_wall_with_capacity_resists_like_one_without_in_the_steady_state() {
+    // Steady heat through a single zone: T − T₀ = R u, however the wall stores heat.
+    for capacity_kj_per_k in [None, Some(500.0)] {
+        let wall = Wall { capacity_kj_per_k, ..Wall::new("a", AMBIENT, 31.25) };
+        let network = Network::new(&zones(&["a"]), &[wall]).expect("valid");
+        let mut heat_kw = vec![0.0; network.node_count()];
+        heat_kw[0] = 0.4;
+        let risen_k =
+            network.laplacian().lu().solve(&nalgebra::DVector::from_vec(heat_kw)).expect("heat has a way out");
+        assert!((risen_k[0] - 12.5).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn what_is_no_network_is_refused_with_its_place() {
+    let two = zones(&["kitchen", "bath"]);
+    let refused = |zones: &[Zone], walls: &[Wall]| Network::new(zones, walls).expect_err("must be refused");
+
+    assert_eq!(refused(&[], &[]), NetworkError::NoZones);
+    assert!(matches!(refused(&zones(&["a", ""]), &[]), NetworkError::BadName { number: 2, .. }));
+    assert!(matches!(refused(&zones(&[AMBIENT]), &[]), NetworkError::BadName { number: 1, .. }));
+    assert!(matches!(refused(&zones(&["a", "b", "a"]), &[]), NetworkError::DuplicateZone { name } if name == "a"));
+
+    let unknown = refused(&two, &[Wall::new("bath", AMBIENT, 30.0), Wall::new("kitchn", "bath", 30.0)]);
+    assert!(matches!(&unknown, NetworkError::UnknownZone { nearest, .. } if nearest == "kitchen"));
+    assert!(unknown.to_string().starts_with("wall 2 (`kitchn` - `bath`)"), "{unknown}");
+
+    assert!(matches!(refused(&two, &[Wall::new("bath", "bath", 30.0)]), NetworkError::SamePlace { .. }));
+    assert!(matches!(refused(&two, &[Wall::new(AMBIENT, AMBIENT, 30.0)]), NetworkError::SamePlace { .. }));
+
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300] {
+        let wall = Wall::new("kitchen", "bath", value);
+        let quantity_of = |error| match error {
+            NetworkError::OutOfRange { quantity, .. } => quantity,
+            other => panic!("{other}"),
+        };
+        assert_eq!(quantity_of(refused(&two, std::slice::from_ref(&wall))), "resistance_k_per_kw");
+        let storing = Wall { resistance_k_per_kw: 30.0, ..wall.with_capacity_kj_per_k(value) };
+        assert_eq!(quantity_of(refused(&two, &[storing])), "capacity_kj_per_k");
+        let zone = Zone { capacity_kj_per_k: value, ..Zone::named("a") };
+        assert_eq!(quantity_of(refused(&[zone], &[])), "capacity_kj_per_k");
+    }
+    for limit_kw in [-1.0, f64::NAN, f64::INFINITY] {
+        let zone = Zone { limit_kw, ..Zone::named("a") };
+        assert!(matches!(refused(&[zone], &[]), NetworkError::OutOfRange { quantity: "limit_kw", .. }));
+        let zone = Zone { solar_aperture_m2: limit_kw, ..Zone::named("a") };
+        assert!(matches!(refused(&[zone], &[]), NetworkError::OutOfRange { quantity: "solar_aperture_m2", .. }));
+    }
+}
+
+#[test]
+fn separate_zones_are_allowed_and_said() {
+    let walls = [Wall::new("a", "c", 30.0), Wall::new("b", AMBIENT, 30.0)];
+    let network = Network::new(&zones(&["a", "b", "c"]), &walls).expect("allowed");
+    let remarks = network.remarks();
+    assert_eq!(
+        remarks,
+        [
+            Remark::Apart { groups: vec![vec!["a".into(), "c".into()], vec!["b".into()]] },
+            Remark::NoWayOut { zones: vec!["a".into(), "c".into()] },
+        ]
+    );
+    assert_eq!(remarks[0].to_string(), "no heat passes between (`a`, `c`) and (`b`)");
+
+    let alone = Network::new(&zones(&["a"]), &[]).expect("allowed");
+    assert_eq!(alone.remarks(), [Remark::NoWayOut { zones: vec!["a".into()] }]);
+}
+
+#[test]
+fn resistances_in_a_wrong_unit_are_remarked_upon() {
+    // Table 2.1 read as K/kW: a room would settle in four minutes.
+    let walls = [Wall::new("a", "b", 1.0417), Wall::new("a", AMBIENT, 0.5208), Wall::new("b", AMBIENT, 31.25)];
+    let network = Network::new(&zones(&["a", "b"]), &walls).expect("valid numbers");
+    let remarks = network.remarks();
+    assert!(matches!(&remarks[..], [Remark::Fast { zone, .. }] if zone == "a"), "{remarks:?}");
+    // Joules where kilojoules belong.
+    let heavy = Zone { capacity_kj_per_k: 1e6, ..Zone::named("a") };
+    let network = Network::new(&[heavy], &[Wall::new("a", AMBIENT, 31.25)]).expect("valid numbers");
+    assert!(matches!(&network.remarks()[..], [Remark::Slow { .. }]));
+}
+
+#[test]
+fn zones_and_walls_are_read_with_units_in_the_names() {
+    #[derive(serde::Deserialize)]
+    struct File {
+        zone: Vec<Zone>,
+        wall: Vec<Wall>,
+    }
+    let file: File = toml::from_str(
+        r#"
+        zone = [{ name = "a" }, { name = "b", capacity_kj_per_k = 800.0, limit_kw = 3.0, solar_aperture_m2 = 2.0 }]
+        wall = [
+            { between = ["a", "b"], resistance_k_per_kw = 62.5 },
+            { between = ["b", "ambient"], resistance_k_per_kw = 31.25, capacity_kj_per_k = 400.0 },
+        ]
+        "#,
+    )
+    .expect("the documented format");
+    let network = Network::new(&file.zone, &file.wall).expect("valid");
+    assert_eq!(network.capacities_kj_per_k(), [1000.0, 800.0, 400.0]);
+    assert_eq!(network.limits_kw(), [2.0, 3.0]);
+    assert_eq!(network.solar_gains_kw(500.0), [0.0, 1.0]);
+    assert!(toml::from_str::<Zone>("name = 'a'\nlimit = 2.0").is_err(), "a key without its unit is unknown");
+}
