@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::world::{CALM, HURRIED, LANES, lane_change, run, vehicle};
+use common::world::{LANES, lane_change, run, vehicle};
 use interplay_planners::human::Style::Nice;
 use interplay_planners::human::idm;
 use interplay_planners::human::scripted::{self, Order};
@@ -26,7 +26,7 @@ fn idm() -> Driver {
 fn every_planner_merges_among_drivers_after_the_model() {
     for planner in planners() {
         let name = planner.kind();
-        let mut vehicles = lane_change(planner, [Nice, Nice], HURRIED);
+        let mut vehicles = lane_change(planner, [Nice, Nice]);
         vehicles[1].drive(idm());
         vehicles[2].drive(idm());
         let run = run(vehicles, 100);
@@ -39,7 +39,7 @@ fn every_planner_merges_among_drivers_after_the_model() {
 /// Three drivers after the model: one changes lanes, nobody brakes harder than it may, nobody collides.
 #[test]
 fn drivers_after_the_model_change_lanes_among_themselves() {
-    let mut vehicles = lane_change(idm(), [Nice, Nice], CALM);
+    let mut vehicles = lane_change(idm(), [Nice, Nice]);
     vehicles[1].drive(idm());
     vehicles[2].drive(idm());
     let run = run(vehicles, 250);

@@ -72,27 +72,20 @@ pub fn human(style: Style) -> Driver {
     Driver::Human(human::Settings { style: Some(style), ..human::Settings::default() })
 }
 
-/// Where the front human of a lane change starts \[m\], and the speed of both \[m/s\]; the rear one is 1.3 m behind.
-pub type Traffic = [f64; 2];
-/// Humans who are a little faster than the ego.
-pub const CALM: Traffic = [-0.35, 1.25];
-/// Humans who are so much faster that a tough one leaves no gap.
-pub const HURRIED: Traffic = [-0.4, 1.4];
-
-/// The ego changes into a lane in which two faster humans come up.
-pub fn lane_change(ego: Driver, [front, rear]: [Style; 2], [x_m, speed_mps]: Traffic) -> Vec<Vehicle> {
-    let steady = [0.0, 4.0, 1.0, 1.0];
-    let wants = [LANES[1], speed_mps];
+/// The ego changes into a lane in which two faster humans come up. The gap between them is too small for it unless somebody
+/// yields; a larger one it can open by moving half into the lane, as then even tough drivers have a car ahead to follow.
+pub fn lane_change(ego: Driver, [front, rear]: [Style; 2]) -> Vec<Vehicle> {
+    let (steady, wants) = ([0.0, 4.0, 1.0, 1.0], [LANES[1], 1.4]);
     vec![
         vehicle("ego", [0.0, LANES[0], 1.0], [LANES[1], 1.0], [0.0, 1.0, 0.5, 1.0], ego),
-        vehicle("front", [x_m, LANES[1], speed_mps], wants, steady, human(front)),
-        vehicle("rear", [x_m - 1.3, LANES[1], speed_mps], wants, steady, human(rear)),
+        vehicle("front", [-0.4, LANES[1], 1.4], wants, steady, human(front)),
+        vehicle("rear", [-1.6, LANES[1], 1.4], wants, steady, human(rear)),
     ]
 }
 
 /// The same from a lane that ends.
-pub fn ramp_merge(ego: Driver, styles: [Style; 2], traffic: Traffic) -> Vec<Vehicle> {
-    let mut vehicles = lane_change(ego, styles, traffic);
+pub fn ramp_merge(ego: Driver, styles: [Style; 2]) -> Vec<Vehicle> {
+    let mut vehicles = lane_change(ego, styles);
     vehicles[0].agent.corridor.end = Some(LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
     vehicles
 }
@@ -105,12 +98,12 @@ pub fn lane_keeping(ego: Driver, merger: Style) -> Vec<Vehicle> {
     ]
 }
 
-/// A human crosses the ego's path from the right.
-pub fn intersection(ego: Driver, crossing: Style) -> Vec<Vehicle> {
+/// A human crosses the ego's path from the right, where it starts `away_m` before the ego's road.
+pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
     let mut ego = vehicle("ego", [-2.0, LANES[0], 0.6], [LANES[0], 1.2], [0.0, 4.0, 1.0, 1.0], ego);
     ego.agent.corridor.left_m = 0.37;
     ego.goal.safety.across_m = 0.5;
-    let mut human = vehicle("crossing", [0.0, -1.8, 0.8], [0.0, 0.8], [4.0, 0.0, 1.0, 1.0], human(crossing));
+    let mut human = vehicle("crossing", [0.0, -away_m, 0.8], [0.0, 0.8], [4.0, 0.0, 1.0, 1.0], human(crossing));
     human.agent.corridor = Corridor { heading_rad: FRAC_PI_2, right_m: -0.185, left_m: 0.185, end: None };
     human.agent.state.heading_rad = FRAC_PI_2;
     human.agent.prediction = constant_velocity(&human.agent.state, HORIZON, STEP_S);
