@@ -36,7 +36,12 @@ pub struct Physique {
 
 /// What a vehicle wants.
 #[derive(Component, Clone, Copy, Debug)]
-pub struct Wish(pub Goal);
+pub struct Wish {
+    /// The goal.
+    pub goal: Goal,
+    /// What the others are told of it.
+    pub shared: Option<Goal>,
+}
 
 /// Who drives a vehicle, with all that the planner remembers.
 #[derive(Component, Clone, Debug)]
