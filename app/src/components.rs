@@ -37,9 +37,9 @@ pub struct Physique {
 /// What a vehicle wants.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Wish {
-    /// The goal.
+    /// Its goal.
     pub goal: Goal,
-    /// What the others are told of it.
+    /// What it tells the others of it, if anything.
     pub shared: Option<Goal>,
 }
 

@@ -7,7 +7,7 @@
 use interplay::frame::{Frame, Origin, VehicleFrame};
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
-use interplay_scenarios::{Scenario, Vehicle};
+use interplay_scenarios::Scenario;
 
 use crate::film::{FILMS, Film, authored, film};
 
@@ -24,7 +24,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         limits: vehicle.limits,
         corridor: scenario.road.corridor(),
         prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now),
-        shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
+        shared_goal: None,
     })
     .collect()
 }
@@ -51,17 +51,13 @@ fn scene(film: &Film, tick: usize, index: usize, agents: &[Agent]) -> Scene {
     let (scenario, vehicle) = (&film.scenario, &film.scenario.vehicles[index]);
     let mut others = agents.to_vec();
     let ego = others.remove(index);
-    let goal = goal(scenario, vehicle);
-    Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others }
-}
-
-fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {
-    Goal {
+    let goal = Goal {
         target: vehicle.target(&scenario.road),
         tracking: vehicle.weights.tracking(),
         comfort: vehicle.weights.comfort(),
         safety: vehicle.safety,
-    }
+    };
+    Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others }
 }
 
 #[test]

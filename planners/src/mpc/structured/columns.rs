@@ -74,6 +74,19 @@ pub(super) struct Prospect {
     pub quadratic: f64,
 }
 
+/// Independent running sums, so that the processor need not wait for one addition to begin the next.
+const LANES: usize = 4;
+
+impl Prospect {
+    fn and(self, other: Prospect) -> Prospect {
+        Prospect {
+            ratio: larger(self.ratio, other.ratio),
+            linear: self.linear + other.linear,
+            quadratic: self.quadratic + other.quadratic,
+        }
+    }
+}
+
 impl Columns {
     /// How many inequalities there are.
     pub(super) fn len(&self) -> usize {
@@ -180,13 +193,17 @@ impl Columns {
             *d1 = multiplier * *inverse;
         }
         self.weight.copy_from_slice(&self.d1);
+        let m = self.soft.violation.len();
+        let (weight, d1) = (&mut self.weight[first..][..m], &self.d1[first..][..m]);
         let soft = &mut self.soft;
-        for (j, (weight, d1)) in self.weight[first..].iter_mut().zip(&self.d1[first..]).enumerate() {
-            let inverse = if soft.linear[j] > 0.0 { 1.0 / soft.violation[j] } else { 0.0 };
-            let d2 = soft.multiplier[j] * inverse;
-            let total = 1.0 / (soft.curvature[j] + d1 + d2);
-            *weight = d1 * (soft.curvature[j] + d2) * total;
-            (soft.inverse_violation[j], soft.d2[j], soft.inverse_total[j]) = (inverse, d2, total);
+        let (linear, curvature, violation) = (&soft.linear[..m], &soft.curvature[..m], &soft.violation[..m]);
+        let (multiplier, d2) = (&soft.multiplier[..m], &mut soft.d2[..m]);
+        let (inverse, total) = (&mut soft.inverse_violation[..m], &mut soft.inverse_total[..m]);
+        for j in 0..m {
+            inverse[j] = if linear[j] > 0.0 { 1.0 / violation[j] } else { 0.0 };
+            d2[j] = multiplier[j] * inverse[j];
+            total[j] = 1.0 / (curvature[j] + d1[j] + d2[j]);
+            weight[j] = d1[j] * (curvature[j] + d2[j]) * total[j];
         }
     }
 
@@ -199,57 +216,83 @@ impl Columns {
             *eta1 = (mu - error * slack * multiplier) * inverse - d1 * residual;
         }
         self.pull.copy_from_slice(&self.eta1);
-        let first = self.first_soft();
+        let (first, m) = (self.first_soft(), self.soft.violation.len());
+        let (pull, d1) = (&mut self.pull[first..][..m], &self.d1[first..][..m]);
         let soft = &mut self.soft;
-        for (j, (pull, d1)) in self.pull[first..].iter_mut().zip(&self.d1[first..]).enumerate() {
-            let target = mu - error * soft.violation_step[j] * soft.multiplier_step[j];
-            soft.eta2[j] = target * soft.inverse_violation[j];
-            *pull -= d1 * soft.pressure(j, *pull) * soft.inverse_total[j];
+        let (linear, curvature, violation) = (&soft.linear[..m], &soft.curvature[..m], &soft.violation[..m]);
+        let (violation_step, multiplier_step) = (&soft.violation_step[..m], &soft.multiplier_step[..m]);
+        let (inverse, total, eta2) = (&soft.inverse_violation[..m], &soft.inverse_total[..m], &mut soft.eta2[..m]);
+        for j in 0..m {
+            eta2[j] = (mu - error * violation_step[j] * multiplier_step[j]) * inverse[j];
+            let pressure = pull[j] + eta2[j] - linear[j] - curvature[j] * violation[j];
+            pull[j] -= d1[j] * pressure * total[j];
         }
     }
 
     /// The Newton step for the `slope`s.
     pub(super) fn step(&mut self) -> Prospect {
-        let mut prospect = self.soft_step();
+        let soft = self.soft_step();
         let n = self.len();
         // Slices of one length let the compiler drop the bounds checks.
         let (slope, residual, eta1, d1) = (&self.slope[..n], &self.residual[..n], &self.eta1[..n], &self.d1[..n]);
-        let (slack, multiplier, inverse) = (&self.slack[..n], &self.multiplier[..n], &self.inverse_slack[..n]);
+        let multiplier = &self.multiplier[..n];
         let (slack_step, multiplier_step) = (&mut self.slack_step[..n], &mut self.multiplier_step[..n]);
-        let (mut linear, mut quadratic) = (0.0, 0.0);
         for i in 0..n {
-            let (ds, dm) = (slope[i] + residual[i], eta1[i] - d1[i] * slope[i] - multiplier[i]);
-            (slack_step[i], multiplier_step[i]) = (ds, dm);
-            linear += slack[i] * dm + multiplier[i] * ds;
-            quadratic += ds * dm;
+            slack_step[i] = slope[i] + residual[i];
+            multiplier_step[i] = eta1[i] - d1[i] * slope[i] - multiplier[i];
         }
-        for i in 0..n {
-            let shrink = larger(-slack_step[i] * inverse[i], -multiplier_step[i] / multiplier[i]);
-            prospect.ratio = larger(shrink, prospect.ratio);
+        soft.and(self.prospect())
+    }
+
+    /// What the step would do to slacks and multipliers.
+    fn prospect(&self) -> Prospect {
+        let (slack, slack_rest) = self.slack.as_chunks::<LANES>();
+        let (slack_step, slack_step_rest) = self.slack_step.as_chunks::<LANES>();
+        let (inverse, inverse_rest) = self.inverse_slack.as_chunks::<LANES>();
+        let (multiplier, multiplier_rest) = self.multiplier.as_chunks::<LANES>();
+        let (multiplier_step, multiplier_step_rest) = self.multiplier_step.as_chunks::<LANES>();
+        let (mut linear, mut quadratic, mut ratio) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let whole = slack.iter().zip(slack_step).zip(inverse).zip(multiplier.iter().zip(multiplier_step));
+        for (((s, ds), inverse), (m, dm)) in whole {
+            for i in 0..LANES {
+                linear[i] += s[i] * dm[i] + m[i] * ds[i];
+                quadratic[i] += ds[i] * dm[i];
+                ratio[i] = larger(larger(-ds[i] * inverse[i], -dm[i] / m[i]), ratio[i]);
+            }
         }
-        prospect.linear += linear;
-        prospect.quadratic += quadratic;
-        prospect
+        let rest = slack_rest.iter().zip(slack_step_rest).zip(inverse_rest);
+        for (((s, ds), inverse), (m, dm)) in rest.zip(multiplier_rest.iter().zip(multiplier_step_rest)) {
+            linear[0] += s * dm + m * ds;
+            quadratic[0] += ds * dm;
+            ratio[0] = larger(larger(-ds * inverse, -dm / m), ratio[0]);
+        }
+        let sum = |lanes: [f64; LANES]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+        Prospect { ratio: ratio.into_iter().fold(0.0, larger), linear: sum(linear), quadratic: sum(quadratic) }
     }
 
     /// The part of the violations; turns `slope` from `g·Δz` into `g·Δz + Δσ`.
     fn soft_step(&mut self) -> Prospect {
-        let (first, soft) = (self.first_soft(), &mut self.soft);
+        let (first, m) = (self.first_soft(), self.soft.violation.len());
+        let (slope, d1, eta1) = (&mut self.slope[first..][..m], &self.d1[first..][..m], &self.eta1[first..][..m]);
+        let soft = &mut self.soft;
+        let (linear, curvature, violation) = (&soft.linear[..m], &soft.curvature[..m], &soft.violation[..m]);
+        let (multiplier, d2, eta2) = (&soft.multiplier[..m], &soft.d2[..m], &soft.eta2[..m]);
+        let (inverse, total) = (&soft.inverse_violation[..m], &soft.inverse_total[..m]);
+        let (violation_step, multiplier_step) = (&mut soft.violation_step[..m], &mut soft.multiplier_step[..m]);
         let mut prospect = Prospect::default();
-        for (j, slope) in self.slope[first..].iter_mut().enumerate() {
-            let (d1, eta1) = (self.d1[first + j], self.eta1[first + j]);
-            let violation_step = (soft.pressure(j, eta1) - d1 * *slope) * soft.inverse_total[j];
-            *slope += violation_step;
-            soft.violation_step[j] = violation_step;
-            if soft.linear[j] > 0.0 {
-                let multiplier_step = soft.eta2[j] - soft.d2[j] * violation_step - soft.multiplier[j];
-                soft.multiplier_step[j] = multiplier_step;
-                let violation = -violation_step * soft.inverse_violation[j];
-                prospect.ratio = larger(larger(violation, -multiplier_step / soft.multiplier[j]), prospect.ratio);
-                prospect.linear += soft.violation[j] * multiplier_step + soft.multiplier[j] * violation_step;
-                prospect.quadratic += violation_step * multiplier_step;
+        for j in 0..m {
+            let pressure = eta1[j] + eta2[j] - linear[j] - curvature[j] * violation[j];
+            let step = (pressure - d1[j] * slope[j]) * total[j];
+            slope[j] += step;
+            violation_step[j] = step;
+            if linear[j] > 0.0 {
+                let change = eta2[j] - d2[j] * step - multiplier[j];
+                multiplier_step[j] = change;
+                prospect.ratio = larger(larger(-step * inverse[j], -change / multiplier[j]), prospect.ratio);
+                prospect.linear += violation[j] * change + multiplier[j] * step;
+                prospect.quadratic += step * change;
             } else {
-                soft.multiplier_step[j] = 0.0;
+                multiplier_step[j] = 0.0;
             }
         }
         prospect
@@ -266,13 +309,5 @@ impl Columns {
         go(&mut self.multiplier, &self.multiplier_step);
         go(&mut self.soft.violation, &self.soft.violation_step);
         go(&mut self.soft.multiplier, &self.soft.multiplier_step);
-    }
-}
-
-impl Soft {
-    /// `e = η₁ + η₂ − ℓ − q σ`.
-    #[inline(always)]
-    fn pressure(&self, j: usize, eta1: f64) -> f64 {
-        eta1 + self.eta2[j] - self.linear[j] - self.curvature[j] * self.violation[j]
     }
 }

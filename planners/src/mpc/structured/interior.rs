@@ -89,7 +89,13 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         }
         solution.shape_like(qp);
         solution.iterations = iterations;
-        outcome?;
+        outcome.map_err(|error| match error {
+            // Without curvature every problem is convex: it was rounding.
+            StageError::NotConvex { stage } if !qp.is_curved() => {
+                StageError::Unsolved { status: format!("the factorisation broke down at stage {stage}"), iterations }
+            }
+            other => other,
+        })?;
         self.write(qp, solution);
         Ok(())
     }
