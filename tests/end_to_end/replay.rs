@@ -24,6 +24,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         limits: vehicle.limits,
         corridor: scenario.road.corridor(),
         prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now),
+        shared_goal: None,
     })
     .collect()
 }
