@@ -36,7 +36,12 @@ pub struct Physique {
 
 /// What a vehicle wants.
 #[derive(Component, Clone, Copy, Debug)]
-pub struct Wish(pub Goal);
+pub struct Wish {
+    /// Its goal.
+    pub goal: Goal,
+    /// What it tells the others of it, if anything.
+    pub shared: Option<Goal>,
+}
 
 /// Who drives a vehicle, with all that the planner remembers.
 #[derive(Component, Clone, Debug)]

@@ -63,7 +63,7 @@ fn scene(index: usize, wish: &Wish, clock: &Clock, agents: &[Agent]) -> Scene {
         step_s: clock.step_s,
         horizon: clock.horizon,
         ego: agents[index].clone(),
-        goal: wish.0,
+        goal: wish.goal,
         others: others.map(|(_, agent)| agent.clone()).collect(),
     }
 }

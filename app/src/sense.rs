@@ -3,12 +3,12 @@
 use bevy::ecs::prelude::*;
 use interplay_planners::{Agent, Trajectory};
 
-use crate::components::{Agents, Clock, Identity, Motion, Physique, Present};
+use crate::components::{Agents, Clock, Identity, Motion, Physique, Present, Wish};
 use crate::frame::{Frame, VehicleFrame};
 
 /// Fills [`Agents`] and opens the tick's [`Frame`].
 pub fn sense(
-    vehicles: Query<(&Identity, &Motion, &Physique)>,
+    vehicles: Query<(&Identity, &Motion, &Physique, &Wish)>,
     clock: Res<Clock>,
     mut agents: ResMut<Agents>,
     mut present: ResMut<Present>,
@@ -17,7 +17,7 @@ pub fn sense(
     sorted.sort_by_key(|(identity, ..)| identity.index);
     agents.0 = sorted
         .iter()
-        .map(|(identity, motion, physique)| Agent {
+        .map(|(identity, motion, physique, wish)| Agent {
             name: identity.name.clone(),
             state: motion.state,
             previous_input: motion.input,
@@ -25,9 +25,10 @@ pub fn sense(
             limits: physique.limits,
             corridor: physique.corridor,
             prediction: Trajectory::default(),
+            shared_goal: wish.shared,
         })
         .collect();
-    let frames = sorted.iter().map(|(identity, motion, _)| VehicleFrame {
+    let frames = sorted.iter().map(|(identity, motion, ..)| VehicleFrame {
         name: identity.name.clone(),
         state: motion.state,
         ..VehicleFrame::default()

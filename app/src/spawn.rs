@@ -15,16 +15,17 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> World {
     let mut physics = Physics::new(scenario);
     for (index, (vehicle, state)) in scenario.vehicles.iter().zip(scenario.starts()).enumerate() {
         let handle = physics.add(index, &vehicle.body, &state);
+        let goal = Goal {
+            target: vehicle.target(&scenario.road),
+            tracking: vehicle.weights.tracking(),
+            comfort: vehicle.weights.comfort(),
+            safety: vehicle.safety,
+        };
         world.spawn((
             Identity { index, name: vehicle.name.clone() },
             Motion { state, input: Input::default() },
             Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor() },
-            Wish(Goal {
-                target: vehicle.target(&scenario.road),
-                tracking: vehicle.weights.tracking(),
-                comfort: vehicle.weights.comfort(),
-                safety: vehicle.safety,
-            }),
+            Wish { goal, shared: vehicle.driver.shared_goal(&goal) },
             Mind { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },
             Intention::default(),
             VehicleBody(handle),

@@ -3,10 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bayesian::{self, Bayesian};
 use crate::conservative::{self, Conservative};
+use crate::cooperative::{self, Cooperative};
+use crate::game::{self, Game};
+use crate::human::idm::{self, Idm};
+use crate::human::scripted::{self, Scripted};
 use crate::human::{self, Human};
 use crate::negotiation::{self, Negotiation};
-use crate::{Plan, PlanError, Scene};
+use crate::{Goal, Plan, PlanError, Scene};
 
 /// The driver of a vehicle with its settings; `kind` in a scenario file chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,10 +19,20 @@ use crate::{Plan, PlanError, Scene};
 pub enum Driver {
     /// A human: model-predictive control with a safety weight, nice or tough.
     Human(human::Settings),
+    /// The intelligent driver model with MOBIL: the field's baseline of a human.
+    Idm(idm::Settings),
+    /// Does what the scenario says.
+    Scripted(scripted::Settings),
     /// Baseline: the others' plans are hard constraints (eq. 6.13).
     Conservative(conservative::Settings),
     /// Negotiation with concession and persuasion (chapter 6).
     Negotiation(negotiation::Settings),
+    /// Bayesian persuasion (chapter 7).
+    Bayesian(bayesian::Settings),
+    /// The persuasion game (chapter 8).
+    Game(game::Settings),
+    /// Cooperation: one problem for all vehicles that have this driver (eq. 6.12).
+    Cooperative(cooperative::Settings),
 }
 
 /// A driver at work: its settings and all that it remembers.
@@ -25,10 +40,20 @@ pub enum Driver {
 pub enum Planner {
     /// See [`Human`].
     Human(Human),
+    /// See [`Idm`].
+    Idm(Idm),
+    /// See [`Scripted`].
+    Scripted(Scripted),
     /// See [`Conservative`].
     Conservative(Conservative),
     /// See [`Negotiation`].
     Negotiation(Box<Negotiation>),
+    /// See [`Bayesian`].
+    Bayesian(Box<Bayesian>),
+    /// See [`Game`].
+    Game(Box<Game>),
+    /// See [`Cooperative`].
+    Cooperative(Box<Cooperative>),
 }
 
 impl Driver {
@@ -36,8 +61,13 @@ impl Driver {
     pub fn planner(&self) -> Planner {
         match self {
             Driver::Human(settings) => Planner::Human(Human::new(*settings)),
+            Driver::Idm(settings) => Planner::Idm(Idm::new(*settings)),
+            Driver::Scripted(settings) => Planner::Scripted(Scripted::new(settings.clone())),
             Driver::Conservative(settings) => Planner::Conservative(Conservative::new(*settings)),
             Driver::Negotiation(settings) => Planner::Negotiation(Box::new(Negotiation::new(*settings))),
+            Driver::Bayesian(settings) => Planner::Bayesian(Box::new(Bayesian::new(*settings))),
+            Driver::Game(settings) => Planner::Game(Box::new(Game::new(*settings))),
+            Driver::Cooperative(settings) => Planner::Cooperative(Box::new(Cooperative::new(*settings))),
         }
     }
 
@@ -45,14 +75,27 @@ impl Driver {
     pub fn kind(&self) -> &'static str {
         match self {
             Driver::Human(_) => "human",
+            Driver::Idm(_) => "idm",
+            Driver::Scripted(_) => "scripted",
             Driver::Conservative(_) => "conservative",
             Driver::Negotiation(_) => "negotiation",
+            Driver::Bayesian(_) => "bayesian",
+            Driver::Game(_) => "game",
+            Driver::Cooperative(_) => "cooperative",
+        }
+    }
+
+    /// What a vehicle with this driver and goal tells the others that it wants, if anything.
+    pub fn shared_goal(&self, goal: &Goal) -> Option<Goal> {
+        match self {
+            Driver::Cooperative(settings) => Some(settings.shared_goal(goal)),
+            _ => None,
         }
     }
 
     /// Whether the driver plans before those who rely on knowing its plan.
     pub fn goes_first(&self) -> bool {
-        matches!(self, Driver::Human(_))
+        matches!(self, Driver::Human(_) | Driver::Idm(_) | Driver::Scripted(_))
     }
 }
 
@@ -64,8 +107,13 @@ impl Planner {
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         match self {
             Planner::Human(planner) => planner.plan(scene),
+            Planner::Idm(planner) => planner.plan(scene),
+            Planner::Scripted(planner) => planner.plan(scene),
             Planner::Conservative(planner) => planner.plan(scene),
             Planner::Negotiation(planner) => planner.plan(scene),
+            Planner::Bayesian(planner) => planner.plan(scene),
+            Planner::Game(planner) => planner.plan(scene),
+            Planner::Cooperative(planner) => planner.plan(scene),
         }
     }
 }

@@ -14,9 +14,15 @@
 //! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
 //! 2019); "corrected" marks where the printed equation is in error.
 
+mod activity;
+pub mod bayesian;
 pub mod conservative;
+pub mod cooperative;
 mod driver;
 pub mod dynamics;
+mod encounter;
+#[cfg(test)]
+mod fixture;
 mod footprint;
 pub mod game;
 pub mod human;
@@ -26,6 +32,7 @@ mod plan;
 pub mod predict;
 mod road;
 mod scene;
+mod solo;
 mod state;
 
 pub use driver::{Driver, Planner};

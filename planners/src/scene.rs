@@ -1,7 +1,10 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
+use std::borrow::Cow;
+
 use crate::dynamics::Bicycle;
 use crate::mpc::{KeepOut, Limits, Participant, Penalty, Tracking};
+use crate::predict::{Prediction, constant_velocity};
 use crate::{Body, Corridor, Input, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as anyone sees it.
@@ -21,6 +24,8 @@ pub struct Agent {
     pub corridor: Corridor,
     /// What it is expected to do: its current plan where that is known, else constant velocity. Starts at `state`.
     pub prediction: Trajectory,
+    /// What it wants, if it tells: vehicles that cooperate share their goals.
+    pub shared_goal: Option<Goal>,
 }
 
 /// What a vehicle wants and how it weighs it.
@@ -101,8 +106,27 @@ impl Scene {
 
     /// An ellipse of the planning vehicle's safety distance around a predicted motion.
     pub fn keep_out(&self, prediction: &Trajectory, heading_rad: f64, penalty: Penalty) -> KeepOut {
+        KeepOut { centres: self.centres(prediction), heading_rad, ellipse: self.goal.safety, penalty }
+    }
+
+    /// The positions of a predicted motion at `t = 1…N` \[m\]; where it ends early it stays at its end.
+    pub fn centres(&self, prediction: &Trajectory) -> Vec<[f64; 2]> {
         let last = prediction.states.last().copied().unwrap_or_default();
         let centre = |t: usize| prediction.states.get(t).unwrap_or(&last).position();
-        KeepOut { centres: (1..=self.horizon).map(centre).collect(), heading_rad, ellipse: self.goal.safety, penalty }
+        (1..=self.horizon).map(centre).collect()
+    }
+
+    /// The same moment with the others expected to do what `prediction` says.
+    pub fn expecting(&self, prediction: Prediction) -> Cow<'_, Scene> {
+        match prediction {
+            Prediction::Plan => Cow::Borrowed(self),
+            Prediction::ConstantVelocity => {
+                let mut scene = self.clone();
+                for other in &mut scene.others {
+                    other.prediction = constant_velocity(&other.state, self.horizon, self.step_s);
+                }
+                Cow::Owned(scene)
+            }
+        }
     }
 }

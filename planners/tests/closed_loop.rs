@@ -26,6 +26,7 @@ fn vehicle(name: &str, x_m: f64, y_m: f64, speed_mps: f64, wanted: f64, tracking
         limits: Limits::default(),
         corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
         prediction: constant_velocity(&state, HORIZON, STEP_S),
+        shared_goal: None,
     };
     let target = State { x_m: 0.0, y_m: 0.555, heading_rad: 0.0, speed_mps: wanted };
     let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };

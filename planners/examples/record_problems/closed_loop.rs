@@ -64,6 +64,7 @@ fn vehicle(name: &str, [x_m, y_m, speed_mps]: [f64; 3], tracking: [f64; 4], driv
         limits: Limits::default(),
         corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
         prediction: constant_velocity(&state, HORIZON, STEP_S),
+        shared_goal: None,
     };
     let target = State { x_m: 0.0, y_m: 0.555, heading_rad: 0.0, speed_mps };
     let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };

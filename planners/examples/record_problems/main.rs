@@ -54,6 +54,7 @@ fn main() -> Result<()> {
                     Driver::Human(settings) => Some(posed_by_human(decision, settings)?),
                     Driver::Conservative(_) => Some(posed_by_conservative(decision)?),
                     Driver::Negotiation(_) => view.rebuild(decision.scene, decision.plan)?,
+                    _ => None,
                 };
                 let kind = KINDS.iter().position(|kind| *kind == decision.driver.kind()).ok_or("a new kind")?;
                 let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);

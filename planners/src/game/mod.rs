@@ -1,5 +1,200 @@
-//! Persuasion game (chapter 8).
+//! The persuasion game (chapter 8): who passes and who yields is decided by a game, and the outcome is shown by speed.
+//!
+//! At every step the planner
+//!
+//! 1. chooses whom to play with, one vehicle after the other ([`meeting`] says how they meet);
+//! 2. reads both intentions from behaviour by Bayes' rule: the other's, `p̃_s|e`, and what the other must think of the
+//!    ego's, `p̃_e|s` ([`intention`], eq. 8.1-8.4);
+//! 3. plays the game whose stakes are ratios of these intentions ([`payoff`], Table 8.2), valued as people value risks
+//!    ([`prospect`], eq. 8.5-8.7), and takes the ego's intention `p_e` from its solution ([`equilibrium`], eq. 8.8, 8.9);
+//! 4. drives such that the other reads this intention: bounds on the mean speed ([`expression`], eq. 8.11-8.15) in the
+//!    conservative problem (eq. 8.10). They give way at a price, never safety.
+
 pub mod equilibrium;
+pub mod expression;
+pub mod intention;
+pub mod meeting;
 pub mod payoff;
 pub mod prospect;
 pub mod reply;
+mod settings;
+
+pub use settings::{Method, Settings};
+
+use crate::activity::Activity;
+use crate::encounter::{Choice, Partner};
+use crate::mpc::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
+use crate::solo::{Solved, solve};
+use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
+use equilibrium::{Solution, leader_follower, nash};
+use intention::forget;
+use meeting::{Meeting, Sight};
+use payoff::{Mind, Stakes};
+
+/// A planner that plays, with what it remembers.
+#[derive(Clone, Debug)]
+pub struct Game {
+    settings: Settings,
+    mind: Mind,
+    optimiser: Optimiser<Robust>,
+    partner: Partner,
+    intentions: Intentions,
+    last: Option<Trajectory>,
+}
+
+/// What is believed and intended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Intentions {
+    /// The other's intention as the ego reads it, `p̃_s|e`.
+    other: f64,
+    /// The ego's intention as the other must read it, `p̃_e|s`.
+    seen: f64,
+    /// The ego's intention, `p_e`: the last game's solution.
+    own: f64,
+}
+
+impl Default for Intentions {
+    fn default() -> Self {
+        Intentions { other: 0.5, seen: 0.5, own: 0.5 }
+    }
+}
+
+/// One game.
+#[derive(Clone, Copy, Debug)]
+struct Round {
+    /// Stakes of the ego and of the other.
+    stakes: [Stakes; 2],
+    solution: Solution,
+}
+
+impl Game {
+    /// A planner that has not met anyone yet.
+    pub fn new(settings: Settings) -> Self {
+        Game {
+            settings,
+            mind: Mind::new(settings.prospect),
+            optimiser: Optimiser::new(Robust::default()),
+            partner: Partner::default(),
+            intentions: Intentions::default(),
+            last: None,
+        }
+    }
+
+    /// Plans the next move.
+    ///
+    /// # Errors
+    /// [`PlanError`] if not even the conservative problem can be solved.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let scene = &scene.expecting(self.settings.prediction);
+        let choice = self.partner.choose(scene, self.settings.clear_lead_m);
+        if choice.is_new {
+            self.intentions = Intentions::default();
+        }
+        let meeting = choice.partner.and_then(|other| Some((other, Meeting::of(scene, other, &self.settings)?)));
+        let (mut round, mut expressed) = (None, None);
+        if let Some((other, meeting)) = meeting {
+            let sight = self.watch(scene, other, &meeting);
+            let played = self.play();
+            self.intentions.own = played.solution.ego;
+            expressed = self.is_expressing(scene, &choice, &meeting).then(|| self.express(scene, &meeting, &sight));
+            round = Some(played);
+        }
+        let problem = problem(scene, expressed);
+        let every = self.settings.look_around_every;
+        let Solved { problem, optimum, event } = solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+        let diagnostics = self.diagnostics(scene, round.as_ref(), &problem, &optimum);
+        let trajectory = optimum.trajectory(0);
+        self.last = Some(trajectory.clone());
+        let events = choice.event("plays with", "to play with").into_iter().chain(event).collect();
+        Ok(Plan { trajectory, proposal: None, diagnostics, events, statistics: optimum.statistics })
+    }
+
+    /// Renews both beliefs; returns what the ego shows.
+    fn watch(&mut self, scene: &Scene, other: &Agent, meeting: &Meeting) -> Sight {
+        let plan = self.last.as_ref().map(Trajectory::shifted);
+        let ego_mps = plan.map_or(scene.ego.state.speed_mps, |plan| MeanSpeed::of(&plan.states));
+        let other_mps = MeanSpeed::of(&other.prediction.states);
+        let [shown, seen] = meeting.sights([ego_mps, other_mps], &self.settings);
+        let believed = |before: f64, sight: &Sight| {
+            sight.behaviour.posterior(forget(before, self.settings.forgetting), sight.observed)
+        };
+        let Intentions { other, seen: own, .. } = self.intentions;
+        (self.intentions.other, self.intentions.seen) = (believed(other, &seen), believed(own, &shown));
+        shown
+    }
+
+    fn play(&self) -> Round {
+        let (Intentions { other, seen, own }, accident) = (self.intentions, self.settings.accident);
+        let stakes = [Stakes { turn: own / other, accident }, Stakes { turn: other / seen, accident }];
+        let [ego, other] = stakes.map(|stakes| self.mind.player(stakes));
+        let solve = match self.settings.solution {
+            Method::LeaderFollower => leader_follower,
+            Method::Nash => nash,
+        };
+        Round { stakes, solution: solve(&ego, &other) }
+    }
+
+    /// Whether there is still something to show to the partner.
+    fn is_expressing(&self, scene: &Scene, choice: &Choice, meeting: &Meeting) -> bool {
+        let spoken_s = scene.step_s * choice.steps as f64;
+        meeting.is_open() && (choice.is_first || spoken_s <= self.settings.later_expression_s)
+    }
+
+    fn express(&self, scene: &Scene, meeting: &Meeting, sight: &Sight) -> MeanSpeed {
+        let Intentions { own, seen, .. } = self.intentions;
+        expression::mean_speed(own, seen, meeting, sight, scene, &self.settings)
+    }
+
+    fn diagnostics(
+        &self,
+        scene: &Scene,
+        round: Option<&Round>,
+        problem: &Problem,
+        optimum: &Optimum,
+    ) -> Vec<Diagnostic> {
+        let mut diagnostics = Vec::new();
+        if let Some(Round { stakes: [ego, other], solution }) = round {
+            let Intentions { other: posterior, seen, .. } = self.intentions;
+            diagnostics.extend([
+                ("posterior of the other", posterior),
+                ("posterior of the ego", seen),
+                ("intention p_e", solution.ego),
+                ("other's intention p_s", solution.other),
+                ("temptation of the ego", solution.temptation[0]),
+                ("temptation of the other", solution.temptation[1]),
+                ("payoff ego: both yield", ego.payoffs()[0][0]),
+                ("payoff ego: yields alone", ego.payoffs()[0][1]),
+                ("payoff ego: passes alone", ego.payoffs()[1][0]),
+                ("payoff other: both yield", other.payoffs()[0][0]),
+                ("payoff other: yields alone", other.payoffs()[0][1]),
+                ("payoff other: passes alone", other.payoffs()[1][0]),
+                ("payoff: accident", ego.payoffs()[1][1]),
+            ]);
+        }
+        if let Some(bound) = &problem.participants[0].mean_speed {
+            let limits = &scene.ego.limits;
+            diagnostics.extend([
+                ("expressed speed from", bound.lower_mps.unwrap_or(limits.speed_min_mps)),
+                ("expressed speed to", bound.upper_mps.unwrap_or(limits.speed_max_mps)),
+                ("expression slack", optimum.cost.mean_speed_slack_mps),
+            ]);
+        }
+        diagnostics.extend([
+            ("mean speed", MeanSpeed::of(&optimum.iterate.states[0])),
+            ("cost", optimum.cost.total),
+            ("safety slack", optimum.cost.safety_slack),
+        ]);
+        diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
+        diagnostics
+    }
+}
+
+/// The conservative problem (eq. 8.10) with the bounds that express an intention.
+pub fn problem(scene: &Scene, expressed: Option<MeanSpeed>) -> Problem {
+    let others: Vec<&Agent> = scene.others.iter().collect();
+    let mut problem = conservative::problem(scene, &others);
+    for ego in &mut problem.participants {
+        ego.mean_speed = expressed;
+    }
+    problem
+}

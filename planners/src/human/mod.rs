@@ -16,7 +16,11 @@
 //! are decided by the initial guess, so a driver who reconsiders tries all three: the last plan, braking and accelerating.
 //! Where the last plan, improved, keeps clear of everybody there is no tie: it would be the same without them.
 
+pub mod idm;
+pub mod mobil;
+pub mod scripted;
 mod settings;
+mod steering;
 
 pub use settings::{Settings, Style};
 

@@ -89,6 +89,11 @@ impl DistanceCost {
         (omega, [mx / omega, my / omega])
     }
 
+    /// `ω` at stage `k` (`t = k + 1`).
+    pub fn omega(&self, k: usize, position: [f64; 2]) -> f64 {
+        self.distance(k, position).0
+    }
+
     /// `φ` at stage `k` (`t = k + 1`).
     pub fn value(&self, k: usize, position: [f64; 2]) -> f64 {
         self.price.at(self.distance(k, position).0).value

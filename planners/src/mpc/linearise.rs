@@ -214,6 +214,9 @@ pub fn soften_curvature(qp: &mut StageQp, share: f64) {
     for curvature in qp.vehicles.iter_mut().flat_map(|stages| &mut stages.curvatures) {
         *curvature = curvature.scaled(share);
     }
+    for cost in qp.vehicles.iter_mut().flat_map(|stages| &mut stages.state_costs) {
+        cost.curvature = cost.curvature.map(|bend| share * bend);
+    }
     for row in qp.blocks.iter_mut().flat_map(|block| &mut block.rows) {
         row.curvature = row.curvature.map(|bend| share * bend);
     }

@@ -35,9 +35,6 @@ impl StageQp {
                 add(penalty, row_value(block, row, solution, k), *multiplier);
             }
         }
-        for (row, multiplier) in self.trajectory_rows.iter().zip(&solution.trajectory_multipliers) {
-            add(row.penalty, -row.value_at(solution.states[row.vehicle].iter()), *multiplier);
-        }
         (steep, share)
     }
 

@@ -288,7 +288,7 @@ impl Participant {
         }
         if let Some(bound) = &self.mean_speed {
             for (value, _) in bound.values(states) {
-                cost.add_row(&bound.penalty, -value);
+                cost.total += bound.penalty.cost(-value);
                 cost.mean_speed_slack_mps = cost.mean_speed_slack_mps.max(value);
             }
         }
@@ -348,7 +348,7 @@ impl Problem {
         }
         if let Some(leaning) = &self.leaning {
             let value = leaning.value(&iterate.states[0]);
-            cost.add_row(&leaning.penalty, -value);
+            cost.total += leaning.penalty.cost(-value);
             cost.leaning_slack = value.max(0.0);
         }
         cost

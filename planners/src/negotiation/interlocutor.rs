@@ -6,6 +6,7 @@
 //! crossed, or that the ego has crossed before.
 
 use super::Settings;
+use crate::encounter::is_settled;
 use crate::{Agent, Scene};
 
 /// An acceptance below this counts as a refusal.
@@ -62,23 +63,4 @@ impl Interlocutor {
             self.refused.extend(self.current.clone().filter(|name| !self.refused.contains(name)));
         }
     }
-}
-
-/// Whether the order of two vehicles is settled.
-fn is_settled(scene: &Scene, other: &Agent, clear_lead_m: f64) -> bool {
-    let ego = &scene.ego;
-    if ego.crosses(other) {
-        return has_crossed(other, ego) || has_crossed(ego, other);
-    }
-    let off_lane = ego.corridor.across(other.state.position()) - ego.corridor.across(scene.goal.target.position());
-    let in_target_lane = off_lane.abs() < 0.5 * (ego.body.width_m + other.body.width_m);
-    in_target_lane && ego.lead_of(other) > clear_lead_m
-}
-
-/// Whether the whole body of `agent` is beyond the path of `other`, whose road it crosses.
-fn has_crossed(agent: &Agent, other: &Agent) -> bool {
-    let (from, to) = (&other.corridor, &agent.corridor);
-    let side = from.across(agent.state.position()) - from.across(other.state.position());
-    let direction = libm::sin(to.heading_rad - from.heading_rad);
-    side * direction.signum() > agent.body.rear_m + 0.5 * other.body.width_m
 }

@@ -1,7 +1,22 @@
 //! What the others will do, and simple motions to start a search from.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::mpc::Limits;
 use crate::{Input, State, Trajectory};
+
+/// How a driver predicts the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Prediction {
+    /// By their current plans (the source's assumption of perfect prediction); one that has not planned yet at constant
+    /// velocity.
+    #[default]
+    Plan,
+    /// At constant velocity with their present headings.
+    ConstantVelocity,
+}
 
 /// The straight line that a vehicle would drive with its present heading and speed.
 pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajectory {

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 pub mod derivatives;
+pub mod world;
 
 use interplay_planners::dynamics::Bicycle;
 use interplay_planners::mpc::{Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};

@@ -1,0 +1,109 @@
+//! What the ego believes about the other, and the other about the ego.
+//!
+//! - The variance `Σ` of the signal: the less consistent the ego's plans, the less the other can read from them (eq. 7.27).
+//! - The weight `w_1` that the other puts on its own plan: the more its plan changes, the readier it is to change it
+//!   (eq. 7.28).
+//!
+//! Weights over time are uniform. The source gives neither scale: `Σ = min(c α, Σ_max)`, and
+//! `w_1 = w_min + (w_max − w_min) exp(−β/β_0)`.
+
+use super::Settings;
+use crate::{Agent, State, Trajectory};
+
+/// Beliefs, renewed at every step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Belief {
+    /// Mean change of the ego's plan from one step to the next, `α` (eq. 7.27).
+    pub alpha: f64,
+    /// Mean change of the other's plan from one step to the next, `β` (eq. 7.28) \[m\].
+    pub beta_m: f64,
+    /// Variance of the signal, `Σ`, the same for every component.
+    pub variance: f64,
+    /// Weight that the other puts on its own plan, `w_1`.
+    pub w_1: f64,
+    /// By how much the other has strayed from its prediction in the last step, `γ` (squared, weighted with `w_1`).
+    pub deviation: f64,
+}
+
+impl Belief {
+    /// Before anything was seen: the geometric middle of what `w_1` may be, and a signal without doubt.
+    pub fn initial(settings: &Settings) -> Self {
+        let w_1 = (settings.w_1_min * settings.w_1_max).sqrt();
+        Belief { alpha: 0.0, beta_m: 0.0, variance: 0.0, w_1, deviation: 0.0 }
+    }
+
+    /// Takes in what the other plans now, `before` being what it planned a step ago.
+    pub(super) fn watch(&mut self, other: &Agent, before: &Trajectory, settings: &Settings) {
+        let expected = before.shifted();
+        self.beta_m = mean_change(&other.prediction, &expected, |a, b| squared(a.position(), b.position()));
+        let range = settings.w_1_max - settings.w_1_min;
+        self.w_1 = settings.w_1_min + range * libm::exp(-self.beta_m / settings.beta_0_m);
+        let strayed = expected.states.first().map_or(0.0, |state| squared(state.position(), other.state.position()));
+        self.deviation = self.w_1 * strayed;
+    }
+
+    /// Takes in what the ego itself plans now.
+    pub(super) fn reflect(&mut self, plan: &Trajectory, before: &Trajectory, settings: &Settings) {
+        self.alpha = mean_change(plan, &before.shifted(), |a, b| squared(a.to_array(), b.to_array()));
+        self.variance = (settings.variance_per_change * self.alpha).min(settings.variance_max);
+    }
+}
+
+/// The mean over `t = 0…N−1` of a distance between the states of two trajectories.
+fn mean_change(a: &Trajectory, b: &Trajectory, squared: impl Fn(&State, &State) -> f64) -> f64 {
+    let steps = a.horizon().min(b.horizon()).max(1);
+    let pairs = a.states.iter().zip(&b.states).take(steps);
+    pairs.map(|(a, b)| squared(a, b).sqrt()).sum::<f64>() / steps as f64
+}
+
+fn squared<const M: usize>(a: [f64; M], b: [f64; M]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture;
+    use crate::predict::constant_velocity;
+
+    fn at(x_m: f64, speed_mps: f64) -> Trajectory {
+        constant_velocity(&State { x_m, speed_mps, ..State::default() }, 30, 0.1)
+    }
+
+    fn agent(x_m: f64, speed_mps: f64) -> Agent {
+        fixture::agent(x_m, 0.0, 0.0, speed_mps)
+    }
+
+    fn watched(other: &Agent) -> Belief {
+        let settings = Settings::default();
+        let mut belief = Belief::initial(&settings);
+        belief.watch(other, &at(0.0, 1.0), &settings);
+        belief
+    }
+
+    #[test]
+    fn whoever_keeps_its_plan_is_loyal_to_it_and_whoever_changes_it_is_not() {
+        let settings = Settings::default();
+        let steady = watched(&agent(0.1, 1.0));
+        assert!(steady.beta_m < 1e-12 && (steady.w_1 - settings.w_1_max).abs() < 1e-9 && steady.deviation < 1e-20);
+        let wavering = [0.99, 0.95, 0.8, 0.5].map(|speed| watched(&agent(0.1, speed)).w_1);
+        assert!(wavering.windows(2).all(|pair| pair[0] > pair[1]), "{wavering:?}");
+        assert!((wavering[3] - settings.w_1_min).abs() < 1e-6);
+        // A change of 0.01 m on average: 1/e of the range.
+        let one = watched(&agent(0.11, 1.0));
+        assert!((one.beta_m - 0.01).abs() < 1e-12);
+        assert!((one.w_1 - (0.1 + 4.9 / std::f64::consts::E)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_consistent_plan_is_a_clear_signal() {
+        let settings = Settings::default();
+        let mut belief = Belief::initial(&settings);
+        belief.reflect(&at(0.1, 1.0), &at(0.0, 1.0), &settings);
+        assert!(belief.variance < 1e-12);
+        belief.reflect(&at(0.12, 1.0), &at(0.0, 1.0), &settings);
+        assert!((belief.variance - 0.01).abs() < 1e-12);
+        belief.reflect(&at(1.1, 1.0), &at(0.0, 1.0), &settings);
+        assert_eq!(belief.variance, settings.variance_max);
+    }
+}

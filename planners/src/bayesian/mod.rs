@@ -1,0 +1,107 @@
+//! Bayesian persuasion (chapter 7): the ego's motion is a signal about how conservative it is.
+//!
+//! The other's impression of the ego is the elliptical distance `ω = ‖I′(x_sᴾ − x_e)‖` (eq. 7.2, 7.7): who comes close seems
+//! bold. At every step the planner
+//!
+//! 1. chooses whom to persuade, one vehicle after the other;
+//! 2. reads from the change of the other's plan how loyal it is to it ([`belief`], eq. 7.28), and from the change of its own
+//!    how clear its signal is (eq. 7.27);
+//! 3. prices impressions by what the other's best reply to them is worth ([`value`], eq. 7.18, 7.19);
+//! 4. solves for its own trajectory only ([`signal`], eq. 7.23-7.26).
+//!
+//! The other's plan is a hard obstacle, as for the conservative planner: persuasion is in the cost.
+
+mod belief;
+mod settings;
+mod signal;
+mod value;
+
+pub use belief::Belief;
+pub use settings::{Settings, Value};
+pub use signal::problem;
+pub use value::attraction;
+
+use crate::activity::Activity;
+use crate::encounter::{Choice, Partner};
+use crate::mpc::{Optimiser, Optimum, Problem, Robust};
+use crate::solo::{Solved, solve};
+use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
+
+/// A Bayesian planner with what it remembers.
+#[derive(Clone, Debug)]
+pub struct Bayesian {
+    settings: Settings,
+    optimiser: Optimiser<Robust>,
+    partner: Partner,
+    belief: Belief,
+    /// What the partner planned a step ago.
+    watched: Option<Trajectory>,
+    last: Option<Trajectory>,
+}
+
+impl Bayesian {
+    /// A planner that has not met anyone yet.
+    pub fn new(settings: Settings) -> Self {
+        Bayesian {
+            settings,
+            optimiser: Optimiser::new(Robust::default()),
+            partner: Partner::default(),
+            belief: Belief::initial(&settings),
+            watched: None,
+            last: None,
+        }
+    }
+
+    /// Plans the next move.
+    ///
+    /// # Errors
+    /// [`PlanError`] if not even the conservative problem can be solved.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let scene = &scene.expecting(self.settings.prediction);
+        let choice = self.partner.choose(scene, self.settings.clear_lead_m);
+        self.watch(&choice);
+        let problem = problem(scene, choice.partner, &self.belief, &self.settings);
+        let every = self.settings.look_around_every;
+        let Solved { problem, optimum, event } = solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+        let diagnostics = self.diagnostics(&problem, &optimum);
+        let trajectory = optimum.trajectory(0);
+        if let Some(before) = &self.last {
+            self.belief.reflect(&trajectory, before, &self.settings);
+        }
+        self.last = Some(trajectory.clone());
+        let events = choice.event("persuades", "to persuade").into_iter().chain(event).collect();
+        Ok(Plan { trajectory, proposal: None, diagnostics, events, statistics: optimum.statistics })
+    }
+
+    /// Renews the belief about the vehicle to persuade.
+    fn watch(&mut self, choice: &Choice) {
+        if choice.is_new {
+            self.belief = Belief::initial(&self.settings);
+            self.watched = None;
+        }
+        if let (Some(partner), Some(before)) = (choice.partner, &self.watched) {
+            self.belief.watch(partner, before, &self.settings);
+        }
+        self.watched = choice.partner.map(|partner| partner.prediction.clone());
+    }
+
+    fn diagnostics(&self, problem: &Problem, optimum: &Optimum) -> Vec<Diagnostic> {
+        let Belief { alpha, beta_m, variance, w_1, .. } = self.belief;
+        let mut diagnostics = Vec::new();
+        for impression in &problem.participants[0].distance_costs {
+            let states = optimum.iterate.states[0].iter().skip(1).enumerate();
+            let nearest = states.map(|(k, state)| impression.omega(k, state.position())).fold(f64::INFINITY, f64::min);
+            diagnostics.extend([
+                ("conservativeness", nearest),
+                ("belief variance", variance),
+                ("other's loyalty w_1", w_1),
+                ("attraction k_1", attraction(w_1, self.settings.w_4)),
+                ("own change alpha", alpha),
+                ("other's change beta", beta_m),
+            ]);
+        }
+        diagnostics.extend([("cost", optimum.cost.total), ("safety slack", optimum.cost.safety_slack)]);
+        diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
+        diagnostics
+    }
+}

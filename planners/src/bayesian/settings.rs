@@ -1,0 +1,74 @@
+//! What a scenario file may say about the Bayesian planner.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::predict::Prediction;
+
+/// Which value of the other's best reply enters the ego's cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Value {
+    /// `k_1 ω`, as the source: attracts, the more the readier the other is to change its plan.
+    #[default]
+    Linear,
+    /// `−A w_4/(A − w_4) ω²`, which follows from eq. 7.8 and 7.18: repels. Such an ego stops or never merges; it is here to
+    /// show the difference. `w_1` is then at least `w_4`, as the source requires.
+    Exact,
+}
+
+/// Bayesian persuasion (chapter 7).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Smallest weight that the other is believed to put on its own plan, `w_1` of eq. 7.8.
+    #[schemars(range(min = 0.001))]
+    pub w_1_min: f64,
+    /// Largest weight that the other is believed to put on its own plan.
+    #[schemars(range(min = 0.001))]
+    pub w_1_max: f64,
+    /// Weight of the other's wish to keep away from the ego, `w_4` of eq. 7.8. At 0.1 the ego hardly persuades; a large one
+    /// makes it chase the other.
+    #[schemars(range(min = 0.0))]
+    pub w_4: f64,
+    /// Mean change of the other's plan at which its believed `w_1` has fallen to 1/e of its range, `β_0` \[m\].
+    #[schemars(range(min = 0.000001))]
+    pub beta_0_m: f64,
+    /// Variance of the signal per mean change `α` of the ego's own plan (eq. 7.27).
+    #[schemars(range(min = 0.0))]
+    pub variance_per_change: f64,
+    /// Largest variance of the signal.
+    #[schemars(range(min = 0.0))]
+    pub variance_max: f64,
+    /// Variance of the other's belief about `ω`, `Σ_ω`; below 0.2 for eq. 7.17. Only the exact value depends on it.
+    #[schemars(range(min = 0.0, max = 0.2))]
+    pub impression_variance: f64,
+    /// Which value of the other's best reply enters the ego's cost.
+    pub value: Value,
+    /// A vehicle that is this far ahead in the target lane is not persuaded any more \[m\].
+    #[schemars(range(min = 0.0))]
+    pub clear_lead_m: f64,
+    /// What the others are expected to do.
+    pub prediction: Prediction,
+    /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
+    /// improved without trouble; 0 tries them only in trouble.
+    pub look_around_every: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            w_1_min: 0.1,
+            w_1_max: 5.0,
+            w_4: 0.3,
+            beta_0_m: 0.01,
+            variance_per_change: 0.5,
+            variance_max: 0.05,
+            impression_variance: 0.1,
+            value: Value::Linear,
+            clear_lead_m: 0.2,
+            prediction: Prediction::Plan,
+            look_around_every: 0,
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The trajectory problem whose solution is the signal (eq. 7.23-7.26).
+//!
+//! The ego's cost is the expectation, over what the other makes of its state `x ~ 𝒩(x̂, Σ)`, of `exp C(x)`,
+//! `C(x) = ‖x − x_g‖²_{W_2} + k_1 ω(x)`. Laplace's method needs the *maximum* of `C(x) − ½‖x − x̂‖²_{Σ⁻¹}` (argmin in print),
+//! and `ω` is a norm, so that `C` is not the quadratic that the source takes it for. Without `ω` the maximum is in closed form,
+//! component by component,
+//!
+//! ```text
+//! x* = (x̂ − 2ΣW_2 x_g)/(1 − 2ΣW_2),   exponent there:  W_2/(1 − 2ΣW_2) (x̂ − x_g)²,     valid for Σ⁻¹ > 2 W_2
+//! ```
+//!
+//! and `ω` is evaluated at it: doubt exaggerates deviations from the goal. `2ΣW_2` is kept below 0.9. As `x*` is affine in
+//! `x̂`, so is the place from which `ω` is measured: the distance from `x_sᴾ` at `x*` is the one from a moved centre at `x̂`, in
+//! a stretched metric.
+
+use super::belief::Belief;
+use super::{Settings, value};
+use crate::mpc::{DistanceCost, Problem};
+use crate::{Agent, Scene, conservative};
+
+/// Largest `2ΣW_2`.
+const MOST_DOUBT: f64 = 0.9;
+
+/// The conservative problem (eq. 6.13), which is also that of somebody whom nobody is left to persuade, with the price of a
+/// signal to `partner`.
+pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &Belief, settings: &Settings) -> Problem {
+    let others: Vec<&Agent> = scene.others.iter().collect();
+    let mut problem = conservative::problem(scene, &others);
+    if let (Some(partner), [ego]) = (partner, problem.participants.as_mut_slice()) {
+        let doubts = doubts(scene, belief);
+        for (weight, doubt) in ego.tracking.weights.iter_mut().zip(doubts) {
+            *weight /= 1.0 - doubt;
+        }
+        ego.distance_costs.push(impression(scene, partner, belief, doubts, settings));
+    }
+    problem
+}
+
+/// `2ΣW_2` of every component.
+fn doubts(scene: &Scene, belief: &Belief) -> [f64; 4] {
+    scene.goal.tracking.map(|weight| (2.0 * belief.variance * weight).min(MOST_DOUBT))
+}
+
+/// The price of `ω` at `x*`: with `D = 2ΣW_2`, `x* − x_sᴾ = (x̂ − D x_g − (1 − D) x_sᴾ)/(1 − D)`.
+fn impression(
+    scene: &Scene,
+    partner: &Agent,
+    belief: &Belief,
+    [doubt_x, doubt_y, ..]: [f64; 4],
+    settings: &Settings,
+) -> DistanceCost {
+    let goal = scene.goal.target.position();
+    let moved = |[x, y]: [f64; 2]| [doubt_x * goal[0] + (1.0 - doubt_x) * x, doubt_y * goal[1] + (1.0 - doubt_y) * y];
+    // The curvature of a squared distance is twice its metric.
+    let [xx, xy, yy] = scene.goal.safety.curvature(partner.corridor.heading_rad).map(|bend| 0.5 * bend);
+    let (stretch_x, stretch_y) = (1.0 / (1.0 - doubt_x), 1.0 / (1.0 - doubt_y));
+    DistanceCost {
+        centres: scene.centres(&partner.prediction).into_iter().map(moved).collect(),
+        metric: [stretch_x * stretch_x * xx, stretch_x * stretch_y * xy, stretch_y * stretch_y * yy],
+        price: value::price(settings, belief.w_1, belief.deviation),
+    }
+}

@@ -1,0 +1,67 @@
+//! The joint trajectory problem of the vehicles that share it (eq. 6.6-6.12).
+
+use crate::mpc::{Penalty, Problem, Separation};
+use crate::{Agent, Goal, Scene};
+
+/// A vehicle that shares the problem, with what it wants; `Q` and `R` are divided by its `Z_i`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cooperator {
+    /// The vehicle.
+    pub agent: Agent,
+    /// What it wants.
+    pub goal: Goal,
+}
+
+/// Everybody who shares the problem, by name: the same list, in every bit, whoever makes it.
+pub fn cooperators(scene: &Scene, own: Goal) -> Vec<Cooperator> {
+    let others = scene.others.iter().filter_map(|agent| Some((agent, agent.shared_goal?)));
+    let everybody = others.chain([(&scene.ego, own)]);
+    let mut found: Vec<Cooperator> = everybody.map(|(agent, goal)| Cooperator { agent: agent.clone(), goal }).collect();
+    found.sort_by(|a, b| a.agent.name.cmp(&b.agent.name));
+    found
+}
+
+/// The joint problem: all inputs of all cooperators are decided, and everybody else's prediction is a hard obstacle, as for
+/// the conservative planner. (The source has two vehicles and nobody else.)
+///
+/// Each pair keeps apart once for every ellipse that says something new: with equal ellipses on one road, "the first keeps
+/// out of the second's" is "the second keeps out of the first's".
+pub fn problem(scene: &Scene, cooperators: &[Cooperator]) -> Problem {
+    let mut strangers: Vec<&Agent> = scene.others.iter().filter(|agent| agent.shared_goal.is_none()).collect();
+    strangers.sort_by(|a, b| a.name.cmp(&b.name));
+    let participants = cooperators.iter().map(|Cooperator { agent, goal }| {
+        let view = Scene { ego: agent.clone(), goal: *goal, others: Vec::new(), ..*scene };
+        let keep_outs = strangers
+            .iter()
+            .map(|other| view.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT))
+            .collect();
+        view.participant(keep_outs)
+    });
+    let participants = participants.collect();
+    let mut separations = Vec::new();
+    for i in 0..cooperators.len() {
+        for j in 0..i {
+            let ([first, second], mutual) = ([j, i], is_mutual(&cooperators[i], &cooperators[j]));
+            separations.push(separation(cooperators, first, second));
+            if !mutual {
+                separations.push(separation(cooperators, second, first));
+            }
+        }
+    }
+    Problem { horizon: scene.horizon, participants, separations, leaning: None }
+}
+
+/// Whether two vehicles' ellipses are the same seen from either.
+fn is_mutual(a: &Cooperator, b: &Cooperator) -> bool {
+    a.goal.safety == b.goal.safety && a.agent.corridor.heading_rad == b.agent.corridor.heading_rad
+}
+
+fn separation(cooperators: &[Cooperator], of: usize, from: usize) -> Separation {
+    Separation {
+        of,
+        from,
+        heading_rad: cooperators[from].agent.corridor.heading_rad,
+        ellipse: cooperators[of].goal.safety,
+        penalty: Penalty::EXACT,
+    }
+}

@@ -1,0 +1,26 @@
+//! What a scenario file may say about cooperating vehicles.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::predict::Prediction;
+
+/// The joint problem of all vehicles that have this driver (eq. 6.12).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Divides this vehicle's cost in the joint one, `Z_i` of eq. 6.6: the larger, the more it gives way.
+    #[schemars(range(min = 0.000001))]
+    pub normaliser: f64,
+    /// What vehicles that do not cooperate are expected to do.
+    pub prediction: Prediction,
+    /// Every how many steps all orders of going first are tried as starting guesses even though the last plan improved
+    /// without trouble; 0 tries them at the first step and in trouble.
+    pub look_around_every: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { normaliser: 1.0, prediction: Prediction::Plan, look_around_every: 0 }
+    }
+}

@@ -1,0 +1,99 @@
+//! Intention expression: the mean speeds at which the other reads the ego's intention (eq. 8.11-8.15).
+
+use super::Settings;
+use super::meeting::{Meeting, Sight};
+use super::reply::{HIGHEST, LOWEST};
+use crate::Scene;
+use crate::mpc::{MeanSpeed, Penalty};
+
+/// An intention this close to a bound means "or more": with both at 0.95, eq. 8.14 would force the neutral speed.
+const EXTREME: f64 = 0.005;
+/// The lower bound of eq. 8.11 stays above this.
+const LEAST: f64 = 0.01;
+
+/// The interval of mean speeds at which the posterior about the ego is in `[p* − ε_p, p*]` (eq. 8.11), within what the ego
+/// can drive.
+///
+/// Bounds of arrivals turn into bounds of speeds, `v = d/T`. An earliest arrival before now (an upper denominator of eq.
+/// 8.15 that is not positive) bounds nothing; to arrive by a time that is past no speed is enough, so the highest is asked
+/// for.
+pub fn mean_speed(
+    intention: f64,
+    prior: f64,
+    meeting: &Meeting,
+    sight: &Sight,
+    scene: &Scene,
+    settings: &Settings,
+) -> MeanSpeed {
+    let lower = (intention - settings.epsilon_p).max(LEAST);
+    let least = (lower > LOWEST + EXTREME).then(|| sight.behaviour.expressing(lower, prior));
+    let most = (intention < HIGHEST - EXTREME).then(|| sight.behaviour.expressing(intention, prior));
+    let [least, most] = [least, most].map(|bound| bound.map(|bound| speed_mps(bound, meeting)));
+    let drivable = |speed: f64| speed.clamp(scene.ego.limits.speed_min_mps, scene.ego.limits.speed_max_mps);
+    let penalty = Penalty { linear: settings.slack_weight * scene.horizon as f64, quadratic: 0.0 };
+    MeanSpeed { lower_mps: least.map(drivable), upper_mps: most.map(drivable), penalty }
+}
+
+/// The speed that a behaviour of the ego stands for: itself, or that of an arrival.
+fn speed_mps(shown: f64, meeting: &Meeting) -> f64 {
+    match *meeting {
+        Meeting::Alongside { .. } => shown,
+        Meeting::Crossing { .. } if shown <= 0.0 => f64::INFINITY,
+        Meeting::Crossing { ego_m, .. } => ego_m / shown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{agent, scene};
+    use proptest::prelude::*;
+
+    fn alone() -> Scene {
+        scene(agent(0.0, 0.0, 0.0, 1.0), Vec::new())
+    }
+
+    const MEETINGS: [Meeting; 2] = [Meeting::Alongside { lead_m: 0.3 }, Meeting::Crossing { ego_m: 1.4, other_m: 1.9 }];
+
+    proptest! {
+        /// The law that the constraint stands for: inside the interval the other believes what the ego wants it to.
+        #[test]
+        fn speeds_in_the_interval_are_read_as_intended(
+            intention in 0.12..0.94, prior in 0.1..0.9, other_mps in 0.4..1.4, share in 0.0..1.0, which in 0_usize..2,
+        ) {
+            let settings = Settings::default();
+            let meeting = MEETINGS[which];
+            let [sight, _] = meeting.sights([1.0, other_mps], &settings);
+            let bound = mean_speed(intention, prior, &meeting, &sight, &alone(), &settings);
+            if let (Some(lower), Some(upper)) = (bound.lower_mps, bound.upper_mps) {
+                prop_assert!(lower <= upper);
+                let speed = lower + share * (upper - lower);
+                // A bound that cannot be driven was moved.
+                let limits = alone().ego.limits;
+                prop_assume!(lower > settings.standstill_mps && upper < limits.speed_max_mps);
+                // What the other expects depends on its own speed only.
+                let [shown, _] = meeting.sights([speed, other_mps], &settings);
+                let read = shown.behaviour.posterior(prior, shown.observed);
+                prop_assert!(read <= intention + 1e-9 && read >= intention - settings.epsilon_p - 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn who_is_late_is_asked_for_the_highest_speed() {
+        let settings = Settings { sigma_2_s: 0.5, ..Settings::default() };
+        let meeting = Meeting::Crossing { ego_m: 1.4, other_m: 0.2 };
+        let [sight, _] = meeting.sights([1.0, 1.0], &settings);
+        let bound = mean_speed(0.9, 0.1, &meeting, &sight, &alone(), &settings);
+        assert_eq!(bound.lower_mps, Some(alone().ego.limits.speed_max_mps));
+    }
+
+    #[test]
+    fn extreme_intentions_are_bounded_on_one_side() {
+        let (settings, meeting) = (Settings::default(), MEETINGS[0]);
+        let [sight, _] = meeting.sights([1.0, 1.0], &settings);
+        let bound = |intention| mean_speed(intention, 0.5, &meeting, &sight, &alone(), &settings);
+        assert!(bound(HIGHEST).upper_mps.is_none() && bound(HIGHEST).lower_mps.is_some());
+        assert!(bound(LOWEST).lower_mps.is_none() && bound(LOWEST).upper_mps.is_some());
+    }
+}

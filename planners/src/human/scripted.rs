@@ -1,0 +1,129 @@
+//! A driver who does what the scenario says, whatever happens around it.
+//!
+//! A script is a list of orders, each from a time on: a speed to drive at, a lateral position to drive to. Of the orders
+//! that have begun, the latest with a speed rules the speed, and the latest with a position the position; before the first,
+//! the vehicle keeps what it has. The plan covers what the script says about the horizon, so others who know plans see
+//! it coming.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::steering::{admissible, roll_out, steer};
+use crate::{Input, Plan, PlanError, Scene};
+
+/// What to do, and when.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// The orders.
+    pub script: Vec<Order>,
+}
+
+/// One order.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Order {
+    /// When it begins, since the start of the run \[s\].
+    #[schemars(range(min = 0.0))]
+    pub from_s: f64,
+    /// The speed to drive at \[m/s\].
+    #[serde(default)]
+    pub speed_mps: Option<f64>,
+    /// How fast the speed changes; by default as fast as the vehicle can \[m/s²\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub acceleration_mps2: Option<f64>,
+    /// The lateral position on its road to drive to: on a road along x, a `y` \[m\].
+    #[serde(default)]
+    pub lateral_m: Option<f64>,
+}
+
+/// A driver at its script.
+#[derive(Clone, Debug)]
+pub struct Scripted {
+    settings: Settings,
+    /// Speed and lateral position at the first step, kept until an order says otherwise.
+    kept: Option<[f64; 2]>,
+}
+
+/// Orders begin this much early, for times that are sums of steps \[s\].
+const PUNCTUAL_S: f64 = 1e-9;
+
+impl Scripted {
+    /// A driver at the beginning of its script.
+    pub fn new(settings: Settings) -> Self {
+        Scripted { settings, kept: None }
+    }
+
+    /// The next moves of the script.
+    ///
+    /// # Errors
+    /// Never; the signature is that of all planners.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let own = &scene.ego;
+        let [speed, lateral] =
+            *self.kept.get_or_insert([own.state.speed_mps, own.corridor.across(own.state.position())]);
+        let trajectory = roll_out(scene, |t, state| {
+            let time_s = scene.step_s * (scene.tick + t) as f64;
+            let order = self.latest(time_s, |order| order.speed_mps.is_some());
+            let wanted = order.and_then(|order| order.speed_mps).unwrap_or(speed);
+            let most = order.and_then(|order| order.acceleration_mps2).unwrap_or(f64::INFINITY);
+            let acceleration = ((wanted - state.speed_mps) / scene.step_s).clamp(-most, most);
+            let place = self.latest(time_s, |order| order.lateral_m.is_some());
+            Input {
+                acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
+                steering_rad: steer(own, state, place.and_then(|order| order.lateral_m).unwrap_or(lateral)),
+            }
+        });
+        Ok(Plan { trajectory, ..Plan::default() })
+    }
+
+    /// The order that rules at a time, of those that `speaks` picks; of orders at one time, the last.
+    fn latest(&self, time_s: f64, speaks: impl Fn(&Order) -> bool) -> Option<&Order> {
+        let begun = self.settings.script.iter().filter(|order| speaks(order) && order.from_s <= time_s + PUNCTUAL_S);
+        begun.max_by(|a, b| a.from_s.total_cmp(&b.from_s))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{agent, scene};
+
+    fn order(from_s: f64, speed_mps: Option<f64>, lateral_m: Option<f64>) -> Order {
+        Order { from_s, speed_mps, acceleration_mps2: None, lateral_m }
+    }
+
+    fn driven(script: Vec<Order>, tick: usize) -> Plan {
+        let mut scene = scene(agent(0.0, 0.185, 0.0, 1.0), Vec::new());
+        scene.tick = tick;
+        Scripted::new(Settings { script }).plan(&scene).expect("a plan")
+    }
+
+    #[test]
+    fn without_orders_everything_stays_as_it_is() {
+        let end = *driven(Vec::new(), 0).trajectory.states.last().expect("states");
+        assert!((end.x_m - 3.0).abs() < 1e-9 && (end.y_m - 0.185).abs() < 1e-9 && end.speed_mps == 1.0);
+    }
+
+    #[test]
+    fn orders_are_carried_out_from_their_time_on_and_each_rules_what_it_speaks_of() {
+        let plan =
+            driven(vec![order(1.0, Some(0.4), None), order(0.5, Some(1.2), None), order(0.8, None, Some(0.555))], 0);
+        let at = |t: usize| plan.trajectory.states[t];
+        assert!((at(5).speed_mps - 1.0).abs() < 1e-12 && at(8).y_m == 0.185);
+        assert!((at(10).speed_mps - 1.2).abs() < 1e-12);
+        assert!((at(20).speed_mps - 0.4).abs() < 1e-9, "at the vehicle's own limits");
+        assert!(at(30).y_m > 0.45);
+        // The same script later in the run.
+        assert!((driven(vec![order(1.0, Some(0.4), None)], 10).trajectory.states[6].speed_mps - 0.4).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_stated_acceleration_is_kept() {
+        let gently = Order { acceleration_mps2: Some(0.2), ..order(0.0, Some(0.5), None) };
+        let plan = driven(vec![gently], 0);
+        assert!(plan.trajectory.inputs.iter().take(25).all(|input| (input.acceleration_mps2 + 0.2).abs() < 1e-9));
+        assert!((plan.trajectory.states[30].speed_mps - 0.5).abs() < 1e-9);
+    }
+}

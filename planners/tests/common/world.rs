@@ -1,0 +1,225 @@
+//! Vehicles together on a road, with the bicycle as the plant: the recommended settings of every family of scenarios.
+#![allow(dead_code, reason = "each binary uses its own part")]
+
+use std::f64::consts::FRAC_PI_2;
+use std::time::Instant;
+
+use interplay_planners::dynamics::Bicycle;
+use interplay_planners::human::{self, Style};
+use interplay_planners::mpc::Limits;
+use interplay_planners::predict::constant_velocity;
+use interplay_planners::{
+    Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Plan, PlanError, Planner, SafetyEllipse, Scene, State,
+};
+
+pub const STEP_S: f64 = 0.1;
+pub const HORIZON: usize = 30;
+/// Centres of the two lanes \[m\].
+pub const LANES: [f64; 2] = [0.185, 0.555];
+
+/// One vehicle with its driver.
+pub struct Vehicle {
+    pub agent: Agent,
+    pub goal: Goal,
+    pub driver: Driver,
+    planner: Planner,
+}
+
+/// What happened.
+#[derive(Default)]
+pub struct Run {
+    /// Names, in the order of the vehicles.
+    pub names: Vec<String>,
+    /// Per tick, the states of all vehicles; the first are the starts.
+    pub states: Vec<Vec<State>>,
+    /// Vehicle 0's plans.
+    pub plans: Vec<Plan>,
+    /// How long they took \[ms\].
+    pub plan_ms: Vec<f64>,
+    /// Plans that were not found, of any vehicle.
+    pub failures: Vec<(usize, String, PlanError)>,
+    /// Smallest distance between vehicle 0's safety ellipse centre and another, in half axes.
+    pub nearest: f64,
+    /// When footprints first overlapped, and whose.
+    pub collision: Option<(usize, String, String)>,
+}
+
+/// A vehicle on a two-lane road along x.
+pub fn vehicle(
+    name: &str,
+    [x_m, y_m, speed_mps]: [f64; 3],
+    wants: [f64; 2],
+    tracking: [f64; 4],
+    driver: Driver,
+) -> Vehicle {
+    let state = State { x_m, y_m, heading_rad: 0.0, speed_mps };
+    let agent = Agent {
+        name: name.to_owned(),
+        state,
+        previous_input: Input::default(),
+        body: Body::default(),
+        limits: Limits::default(),
+        corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
+        prediction: constant_velocity(&state, HORIZON, STEP_S),
+        shared_goal: None,
+    };
+    let target = State { x_m: 0.0, y_m: wants[0], heading_rad: 0.0, speed_mps: wants[1] };
+    let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };
+    Vehicle { agent, goal, planner: driver.planner(), driver }
+}
+
+pub fn human(style: Style) -> Driver {
+    Driver::Human(human::Settings { style: Some(style), ..human::Settings::default() })
+}
+
+/// The ego changes into a lane in which two faster humans come up. The gap between them is too small for it unless somebody
+/// yields; a larger one it can open by moving half into the lane, as then even tough drivers have a car ahead to follow.
+pub fn lane_change(ego: Driver, [front, rear]: [Style; 2]) -> Vec<Vehicle> {
+    let (steady, wants) = ([0.0, 4.0, 1.0, 1.0], [LANES[1], 1.4]);
+    vec![
+        vehicle("ego", [0.0, LANES[0], 1.0], [LANES[1], 1.0], [0.0, 1.0, 0.5, 1.0], ego),
+        vehicle("front", [-0.4, LANES[1], 1.4], wants, steady, human(front)),
+        vehicle("rear", [-1.6, LANES[1], 1.4], wants, steady, human(rear)),
+    ]
+}
+
+/// The same from a lane that ends.
+pub fn ramp_merge(ego: Driver, styles: [Style; 2]) -> Vec<Vehicle> {
+    let mut vehicles = lane_change(ego, styles);
+    vehicles[0].agent.corridor.end = Some(LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
+    vehicles
+}
+
+/// A human merges into the ego's lane ahead of it.
+pub fn lane_keeping(ego: Driver, merger: Style) -> Vec<Vehicle> {
+    vec![
+        vehicle("ego", [0.0, LANES[1], 1.0], [LANES[1], 1.3], [0.0, 4.0, 1.0, 1.0], ego),
+        vehicle("merger", [0.65, LANES[0], 1.0], [LANES[1], 1.0], [0.0, 0.3, 0.5, 1.0], human(merger)),
+    ]
+}
+
+/// A human crosses the ego's path from the right, where it starts `away_m` before the ego's road.
+pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
+    let mut ego = vehicle("ego", [-2.0, LANES[0], 0.6], [LANES[0], 1.2], [0.0, 4.0, 1.0, 1.0], ego);
+    ego.agent.corridor.left_m = 0.37;
+    ego.goal.safety.across_m = 0.5;
+    let mut human = vehicle("crossing", [0.0, -away_m, 0.8], [0.0, 0.8], [4.0, 0.0, 1.0, 1.0], human(crossing));
+    human.agent.corridor = Corridor { heading_rad: FRAC_PI_2, right_m: -0.185, left_m: 0.185, end: None };
+    human.agent.state.heading_rad = FRAC_PI_2;
+    human.agent.prediction = constant_velocity(&human.agent.state, HORIZON, STEP_S);
+    human.goal.target.heading_rad = FRAC_PI_2;
+    vec![ego, human]
+}
+
+/// Humans plan first, in the order given, then the others; everybody goes on with its old plan where none is found.
+pub fn run(mut vehicles: Vec<Vehicle>, ticks: usize) -> Run {
+    let states = |vehicles: &[Vehicle]| vehicles.iter().map(|vehicle| vehicle.agent.state).collect();
+    let names = vehicles.iter().map(|vehicle| vehicle.agent.name.clone()).collect();
+    let mut run = Run { names, states: vec![states(&vehicles)], nearest: f64::INFINITY, ..Run::default() };
+    let mut order: Vec<usize> = (0..vehicles.len()).collect();
+    order.sort_by_key(|index| (!vehicles[*index].driver.goes_first(), *index));
+    for tick in 0..ticks {
+        for vehicle in &mut vehicles {
+            vehicle.agent.shared_goal = vehicle.driver.shared_goal(&vehicle.goal);
+        }
+        for index in &order {
+            decide(&mut vehicles, *index, tick, &mut run);
+        }
+        for vehicle in &mut vehicles {
+            let agent = &mut vehicle.agent;
+            let input = agent.prediction.inputs[0];
+            agent.state = Bicycle::new(&agent.body, STEP_S).step(&agent.state, &input);
+            agent.previous_input = input;
+            agent.prediction = agent.prediction.shifted();
+            agent.prediction.states[0] = agent.state;
+        }
+        run.states.push(states(&vehicles));
+        run.note(&vehicles, tick);
+    }
+    run
+}
+
+fn decide(vehicles: &mut [Vehicle], index: usize, tick: usize, run: &mut Run) {
+    let others = vehicles.iter().enumerate().filter(|(other, _)| *other != index);
+    let others = others.map(|(_, other)| other.agent.clone()).collect();
+    let Vehicle { agent, goal, planner, .. } = &mut vehicles[index];
+    let scene = Scene { tick, step_s: STEP_S, horizon: HORIZON, ego: agent.clone(), goal: *goal, others };
+    let began = Instant::now();
+    let outcome = planner.plan(&scene);
+    if index == 0 {
+        run.plan_ms.push(1e3 * began.elapsed().as_secs_f64());
+    }
+    match outcome {
+        Ok(plan) => {
+            agent.prediction = plan.trajectory.clone();
+            if index == 0 {
+                run.plans.push(plan);
+            }
+        }
+        Err(error) => run.failures.push((tick, agent.name.clone(), error)),
+    }
+}
+
+impl Vehicle {
+    /// Gives the vehicle another driver.
+    pub fn drive(&mut self, driver: Driver) {
+        self.planner = driver.planner();
+        self.driver = driver;
+    }
+}
+
+impl Run {
+    fn note(&mut self, vehicles: &[Vehicle], tick: usize) {
+        let ego = &vehicles[0];
+        for (i, other) in vehicles.iter().enumerate().skip(1) {
+            let (at, heading) = (other.agent.state.position(), other.agent.corridor.heading_rad);
+            let distance = ego.goal.safety.distance(ego.agent.state.position(), at, heading);
+            self.nearest = self.nearest.min(distance.squared.sqrt());
+            for earlier in &vehicles[..i] {
+                if self.collision.is_none() && overlap(&earlier.agent, &other.agent) {
+                    self.collision = Some((tick + 1, earlier.agent.name.clone(), other.agent.name.clone()));
+                }
+            }
+        }
+    }
+
+    /// Names from the front of the road to its rear at a tick.
+    pub fn order_at(&self, tick: usize) -> Vec<&str> {
+        let mut order: Vec<usize> = (0..self.names.len()).collect();
+        order.sort_by(|a, b| self.states[tick][*b].x_m.total_cmp(&self.states[tick][*a].x_m));
+        order.into_iter().map(|index| self.names[index].as_str()).collect()
+    }
+
+    /// The first tick at which a vehicle's state satisfies a condition.
+    pub fn first(&self, vehicle: usize, when: impl Fn(&State) -> bool) -> Option<usize> {
+        self.states.iter().position(|states| when(&states[vehicle]))
+    }
+
+    /// Where vehicle 0 is once it has merged (`y > 0.5`): its place from the front, and when \[s\].
+    pub fn merged(&self) -> Option<(usize, f64)> {
+        let tick = self.first(0, |state| state.y_m > 0.5)?;
+        let place = self.order_at(tick).iter().position(|name| *name == self.names[0])?;
+        Some((place, STEP_S * tick as f64))
+    }
+
+    /// Median time of vehicle 0's plans \[ms\].
+    pub fn median_ms(&self) -> f64 {
+        let mut times = self.plan_ms.clone();
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    }
+}
+
+/// Whether two footprints overlap: no edge of either separates them.
+fn overlap(a: &Agent, b: &Agent) -> bool {
+    let (corners, other_corners) = (a.body.corners(&a.state), b.body.corners(&b.state));
+    let axes = [a, b].map(|agent| agent.state.heading_rad.sin_cos());
+    axes.iter().flat_map(|(sin, cos)| [[*cos, *sin], [-sin, *cos]]).all(|[x, y]| {
+        let shadow = |corners: &[[f64; 2]; 4]| {
+            let along = corners.map(|corner| corner[0] * x + corner[1] * y);
+            along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(*at), high.max(*at)))
+        };
+        let ((low, high), (other_low, other_high)) = (shadow(&corners), shadow(&other_corners));
+        low < other_high && other_low < high
+    })
+}

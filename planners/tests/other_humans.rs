@@ -1,0 +1,71 @@
+//! Other humans than the optimising one: the intelligent driver model and scripts, with every planner among them.
+
+mod common;
+
+use common::world::{LANES, lane_change, run, vehicle};
+use interplay_planners::human::Style::Nice;
+use interplay_planners::human::idm;
+use interplay_planners::human::scripted::{self, Order};
+use interplay_planners::{Driver, bayesian, conservative, cooperative, game, negotiation};
+
+fn planners() -> [Driver; 5] {
+    [
+        Driver::Conservative(conservative::Settings::default()),
+        Driver::Negotiation(negotiation::Settings::default()),
+        Driver::Bayesian(bayesian::Settings::default()),
+        Driver::Game(game::Settings::default()),
+        Driver::Cooperative(cooperative::Settings::default()),
+    ]
+}
+
+fn idm() -> Driver {
+    Driver::Idm(idm::Settings::default())
+}
+
+#[test]
+fn every_planner_merges_among_drivers_after_the_model() {
+    for planner in planners() {
+        let name = planner.kind();
+        let mut vehicles = lane_change(planner, [Nice, Nice]);
+        vehicles[1].drive(idm());
+        vehicles[2].drive(idm());
+        let run = run(vehicles, 100);
+        assert!(run.collision.is_none(), "{name}: {:?}", run.collision);
+        assert!(run.failures.is_empty(), "{name}: {:?}", run.failures);
+        assert!(run.merged().is_some(), "{name} never merged");
+    }
+}
+
+/// Three drivers after the model: one changes lanes, nobody brakes harder than it may, nobody collides.
+#[test]
+fn drivers_after_the_model_change_lanes_among_themselves() {
+    let mut vehicles = lane_change(idm(), [Nice, Nice]);
+    vehicles[1].drive(idm());
+    vehicles[2].drive(idm());
+    let run = run(vehicles, 250);
+    assert!(run.collision.is_none() && run.failures.is_empty());
+    assert!(run.merged().is_some(), "{:?}", run.states.last());
+    let lanes_kept = run.states.iter().all(|states| states.iter().all(|state| (0.09..=0.65).contains(&state.y_m)));
+    assert!(lanes_kept, "somebody left its lane's middle to the outside");
+}
+
+/// A script that brakes hard ahead of a follower: planners stay behind it.
+#[test]
+fn everybody_copes_with_a_script() {
+    let brakes = Order { from_s: 1.0, speed_mps: Some(0.2), acceleration_mps2: None, lateral_m: None };
+    let goes_on = Order { from_s: 4.0, speed_mps: Some(1.0), acceleration_mps2: Some(0.5), lateral_m: None };
+    for planner in planners().into_iter().chain([idm()]) {
+        let name = planner.kind();
+        let script = Driver::Scripted(scripted::Settings { script: vec![goes_on, brakes] });
+        let steady = [0.0, 4.0, 1.0, 1.0];
+        let vehicles = vec![
+            vehicle("ego", [0.0, LANES[1], 1.0], [LANES[1], 1.2], steady, planner),
+            vehicle("ahead", [1.5, LANES[1], 1.0], [LANES[1], 1.0], steady, script),
+        ];
+        let run = run(vehicles, 80);
+        assert!(run.collision.is_none(), "{name}: {:?}", run.collision);
+        assert!(run.failures.is_empty(), "{name}: {:?}", run.failures);
+        let slowest = run.states.iter().map(|states| states[1].speed_mps).fold(f64::INFINITY, f64::min);
+        assert!((slowest - 0.2).abs() < 1e-9, "the script was not followed");
+    }
+}
