@@ -1,5 +1,7 @@
 //! Whether a run did what its scenario expects.
 
+use std::fmt;
+
 use interplay_scenarios::{Completes, Expect, SpeedRange};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -17,6 +19,12 @@ pub struct Expectation {
     pub got: Value,
     /// Whether it held.
     pub passed: bool,
+}
+
+impl fmt::Display for Expectation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: want {}, got {}", self.what, self.want, self.got)
+    }
 }
 
 /// Judges every expectation that the scenario states.

@@ -1,6 +1,8 @@
 //! What a run amounts to: figures, and whether the scenario's expectations held.
 
 mod expectations;
+mod junit;
+mod suite;
 mod summary;
 
 use interplay_planners::State;
@@ -8,6 +10,8 @@ use interplay_scenarios::Scenario;
 use serde::Serialize;
 
 pub use expectations::Expectation;
+pub use junit::junit;
+pub use suite::{Case, table};
 pub use summary::summary;
 
 use crate::components::to_nanosecond;

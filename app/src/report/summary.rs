@@ -36,7 +36,7 @@ fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::R
     }
     for expectation in &report.expectations {
         let mark = if expectation.passed { "ok  " } else { "FAIL" };
-        writeln!(text, "  {mark} {}: want {}, got {}", expectation.what, expectation.want, expectation.got)?;
+        writeln!(text, "  {mark} {expectation}")?;
     }
     let failed = report.expectations.iter().filter(|expectation| !expectation.passed).count();
     match failed {
