@@ -16,7 +16,15 @@ macro_rules! files {
 }
 
 /// Sorted by name.
-static FILES: &[Embedded] = files!["lane-change/both-tough", "lane-change/front-nice", "lane-change/front-tough"];
+static FILES: &[Embedded] = files![
+    "building/epw-weather",
+    "building/four-room-ilc",
+    "building/four-room-pid",
+    "building/hundred-zones",
+    "lane-change/both-tough",
+    "lane-change/front-nice",
+    "lane-change/front-tough",
+];
 
 /// Every authored scenario, sorted by name.
 pub fn embedded() -> &'static [Embedded] {

@@ -1,6 +1,6 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`documents`]
+//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`documents`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
@@ -20,3 +20,4 @@ mod output;
 mod recordings;
 mod rectangles;
 mod replay;
+mod suite;

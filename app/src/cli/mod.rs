@@ -4,14 +4,18 @@
 //! could not be finished.
 
 mod check;
+mod files;
 mod list;
+mod progress;
 mod run;
 mod shell;
+mod suite;
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use serde::Serialize;
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
 #[derive(Debug, Parser)]
@@ -28,6 +32,7 @@ enum Command {
     Run(run::Run),
     List(list::List),
     Check(check::Check),
+    Suite(suite::Suite),
 }
 
 /// How a command ended.
@@ -62,6 +67,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(command)) => command.execute(),
         Some(Command::List(command)) => command.execute(),
         Some(Command::Check(command)) => command.execute(),
+        Some(Command::Suite(command)) => command.execute(),
     };
     ending.into()
 }
@@ -80,4 +86,25 @@ pub(crate) fn complain(text: &str) {
 /// Says what is wrong with a file, with the place underlined.
 pub(crate) fn complain_about(error: interplay_scenarios::LoadError) {
     complain(format!("{:?}", miette::Report::new(error)).trim_end());
+}
+
+/// One JSON document.
+pub(crate) fn json(value: &impl Serialize) -> Result<String, String> {
+    let text = serde_json::to_string_pretty(value);
+    text.map(|text| text + "\n").map_err(|error| format!("the report cannot be written as JSON: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_written_as_json_is_an_error() {
+        let pairs = BTreeMap::from([([1, 2], 3)]);
+        let error = json(&pairs).expect_err("a key of JSON is a text");
+        assert!(error.starts_with("the report cannot be written as JSON: "), "{error}");
+        assert_eq!(json(&[0.1 + 0.2]).expect("numbers"), "[\n  0.30000000000000004\n]\n");
+    }
 }

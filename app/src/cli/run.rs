@@ -1,12 +1,12 @@
 //! `interplay run`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use interplay_scenarios::{Override, Scenario, embedded, load};
-use serde::Serialize;
+use interplay_scenarios::{Override, Scenario, load};
 
-use super::{Ending, complain, complain_about, print, shell};
+use super::files::short_name;
+use super::{Ending, complain, complain_about, json, print, shell};
 use crate::record::{RecordError, Recorder, Sink};
 use crate::report::{Report, summary};
 use crate::run::run;
@@ -135,25 +135,8 @@ fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
 }
 
-/// One JSON document.
-fn json(value: &impl Serialize) -> Result<String, String> {
-    let text = serde_json::to_string_pretty(value);
-    text.map(|text| text + "\n").map_err(|error| format!("the report cannot be written as JSON: {error}"))
-}
-
-/// What a run is called: an authored scenario by its name, a file by its own name, without folders and extension.
-fn short_name(scenario: &str) -> String {
-    if embedded().iter().any(|file| file.name == scenario) {
-        return scenario.to_owned();
-    }
-    let stem = Path::new(scenario).file_stem();
-    stem.map_or_else(|| "scenario".to_owned(), |stem| stem.to_string_lossy().into_owned())
-}
-
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
     use clap::Parser;
 
     use super::*;
@@ -169,22 +152,6 @@ mod tests {
     }
 
     #[test]
-    fn a_recording_is_named_after_the_scenario_and_never_leaves_its_folder() {
-        for (scenario, name) in [
-            ("lane-change/front-nice", "lane-change/front-nice"),
-            ("my.toml", "my"),
-            ("my", "my"),
-            ("../my", "my"),
-            ("../../lane-change/front-nice", "front-nice"),
-            ("/somewhere/my.v2.toml", "my.v2"),
-            ("./.hidden", ".hidden"),
-            ("..", "scenario"),
-        ] {
-            assert_eq!(short_name(scenario), name, "{scenario}");
-        }
-    }
-
-    #[test]
     fn the_command_that_repeats_a_run_has_its_words_and_no_others() {
         assert_eq!(Run::default().command(), "interplay run lane-change/front-nice");
         let words = ["my file.toml", "--json", "--set", "title=\"It's\"", "--no-record", "--seed", "7"];
@@ -194,13 +161,5 @@ mod tests {
         let again =
             parsed(&["my file.toml", "--planner", "human", "--seed", "7", "--set", words[3], "--set", "seed=3"]);
         assert_eq!((again.scenario(), again.overrides()), (run.scenario(), run.overrides()));
-    }
-
-    #[test]
-    fn what_cannot_be_written_as_json_is_an_error() {
-        let pairs = BTreeMap::from([([1, 2], 3)]);
-        let error = json(&pairs).expect_err("a key of JSON is a text");
-        assert!(error.starts_with("the report cannot be written as JSON: "), "{error}");
-        assert_eq!(json(&[0.1 + 0.2]).expect("numbers"), "[\n  0.30000000000000004\n]\n");
     }
 }

@@ -1,10 +1,12 @@
 //! Whether a run did what its scenario expects.
 
+use std::fmt;
+
 use interplay_scenarios::{Completes, Expect, SpeedRange};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Report;
+use super::{Report, building};
 
 /// One expectation and what became of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -17,6 +19,12 @@ pub struct Expectation {
     pub got: Value,
     /// Whether it held.
     pub passed: bool,
+}
+
+impl fmt::Display for Expectation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: want {}, got {}", self.what, self.want, self.got)
+    }
 }
 
 /// Judges every expectation that the scenario states.
@@ -47,6 +55,9 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
     }
     for range in &expect.speed {
         judged.extend(speed(range, report));
+    }
+    if let (Some(expect), Some(building)) = (&expect.building, &report.building) {
+        judged.extend(building::judge(expect, building));
     }
     judged
 }

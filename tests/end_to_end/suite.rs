@@ -1,0 +1,102 @@
+//! Many scenarios in one go: the same runs as one by one, judged together.
+
+use std::fs;
+use std::path::Path;
+
+use interplay_scenarios::embedded;
+use serde_json::Value;
+
+use crate::command::{contents, interplay, scratch};
+use crate::film::FILMS;
+
+/// A scenario of half a second.
+fn short(folder: &Path, name: &str, expect: &str) {
+    let text = format!(
+        "extends = 'lane-change/front-nice'\ntitle = '{name}'\nduration_s = 0.5\n\
+         [expect]\ncompletes = []\norder = ['ego', 'front', 'rear']\n{expect}\n"
+    );
+    let path = folder.join(name);
+    fs::create_dir_all(path.parent().expect("below the folder")).expect("a folder can be made");
+    fs::write(path, text).expect("a file can be written");
+}
+
+fn names(reports: &Value) -> Vec<&str> {
+    let reports = reports.as_array().expect("an array");
+    reports.iter().map(|report| report["scenario"].as_str().expect("a name")).collect()
+}
+
+#[test]
+fn without_arguments_every_embedded_scenario_runs_as_it_runs_alone() {
+    let folder = scratch("suite-all");
+    let outcome = interplay(&folder, &["suite", "--json"]);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""), "{outcome:?}");
+    let reports = outcome.json();
+    assert_eq!(names(&reports), embedded().iter().map(|file| file.name).collect::<Vec<_>>());
+    for report in reports.as_array().expect("an array") {
+        let film = FILMS.iter().find(|film| film.name() == report["scenario"]).expect("filmed");
+        assert_eq!(report["digest"], film.report.digest, "{}", film.name());
+        assert_eq!(report["passed"], true, "{}", film.name());
+    }
+    assert_eq!(contents(&folder), Vec::<String>::new(), "a suite records nothing");
+}
+
+#[test]
+fn the_number_of_jobs_changes_nothing() {
+    let folder = scratch("suite-jobs");
+    for name in ["c.toml", "a.toml", "b.toml"] {
+        short(&folder, name, "");
+    }
+    let digests = |jobs: &str| -> Vec<Value> {
+        let reports = interplay(&folder, &["suite", ".", "--json", "--jobs", jobs]).json();
+        assert_eq!(names(&reports), ["a", "b", "c"]);
+        reports.as_array().expect("an array").iter().map(|report| report["phase_digests"].clone()).collect()
+    };
+    assert_eq!(digests("1"), digests("3"));
+}
+
+#[test]
+fn one_failed_expectation_fails_the_suite_and_is_named() {
+    let folder = scratch("suite-failed");
+    short(&folder, "sub/good.toml", "");
+    short(&folder, "sub/bad.toml", "min_gap_m = 9");
+    let outcome = interplay(&folder, &["suite", "sub/good.toml", "sub", "--junit", "out.xml"]);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(1), ""), "{outcome:?}");
+    let lines: Vec<&str> = outcome.stdout.lines().collect();
+    let starts = ["scenario ", "good ", "bad ", "  FAIL min_gap_m: want 9.0, got 0.", "good ", "FAILED: 2 of 3 did "];
+    assert_eq!(lines.len(), starts.len(), "{}", outcome.stdout);
+    for (line, start) in lines.iter().zip(starts) {
+        assert!(line.starts_with(start), "`{line}` does not start with `{start}`");
+    }
+    assert!(lines[1].contains(" passed ") && lines[2].contains(" FAILED "), "{}", outcome.stdout);
+    let xml = fs::read_to_string(folder.join("out.xml")).expect("the results were written");
+    assert_eq!(xml.matches("<testcase ").count(), 3, "{xml}");
+    assert_eq!(xml.matches("<failure message=\"min_gap_m: want 9.0, got 0.").count(), 1, "{xml}");
+    assert!(xml.contains("tests=\"3\" failures=\"1\" errors=\"0\""), "{xml}");
+}
+
+/// Nothing runs unless everything can.
+#[test]
+fn all_bad_files_are_reported_and_nothing_runs() {
+    let folder = scratch("suite-bad");
+    short(&folder, "good.toml", "");
+    fs::write(folder.join("one.toml"), "title = 3\n").expect("a file can be written");
+    fs::write(folder.join("two.toml"), "[nonsense]\n").expect("a file can be written");
+    fs::create_dir(folder.join("empty")).expect("a folder can be made");
+    let outcome = interplay(&folder, &["suite", ".", "missing.toml", "empty", "--json", "--junit", "out.xml"]);
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(2), ""), "{outcome:?}");
+    for piece in ["one.toml", "two.toml", "missing.toml", "no .toml file in folder `empty`"] {
+        assert!(outcome.stderr.contains(piece), "{piece}: {}", outcome.stderr);
+    }
+    assert!(!folder.join("out.xml").exists());
+    assert_eq!(interplay(&folder, &["suite", "--jobs", "0"]).code, Some(2));
+}
+
+#[test]
+fn results_that_cannot_be_written_are_exit_code_3() {
+    let folder = scratch("suite-unwritable");
+    short(&folder, "good.toml", "");
+    let outcome = interplay(&folder, &["suite", "good.toml", "--junit", "no/such/folder.xml"]);
+    assert_eq!(outcome.code, Some(3), "{outcome:?}");
+    assert!(outcome.stderr.starts_with("cannot write `no/such/folder.xml`: "), "{outcome:?}");
+    assert!(outcome.stdout.contains("PASSED: 1 of 1 "), "{outcome:?}");
+}
