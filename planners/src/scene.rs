@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::dynamics::Bicycle;
 use crate::mpc::{KeepOut, Limits, Participant, Penalty, Tracking};
-use crate::predict::{Prediction, constant_velocity};
+use crate::predict::Prediction;
 use crate::{Body, Corridor, Input, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as anyone sees it.
@@ -123,7 +123,7 @@ impl Scene {
             Prediction::ConstantVelocity => {
                 let mut scene = self.clone();
                 for other in &mut scene.others {
-                    other.prediction = constant_velocity(&other.state, self.horizon, self.step_s);
+                    other.prediction = prediction.of(other, self.horizon, self.step_s);
                 }
                 Cow::Owned(scene)
             }

@@ -43,7 +43,7 @@ impl NegotiationView {
         let look_around_every = settings.look_around_every;
         NegotiationView {
             settings,
-            retreat: Conservative::new(conservative::Settings { look_around_every }),
+            retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
             optimiser: Optimiser::new(Robust::default()),
             talk: None,
         }

@@ -60,6 +60,7 @@ impl Conservative {
 
     /// The same as [`Conservative::plan`], with the optimum's cost.
     pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Optimum, DescentError> {
+        let scene = &scene.expecting(self.settings.prediction);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let keep = self.last.as_ref().map_or_else(Vec::new, Trajectory::later_inputs);
         let [brake, accelerate] = extremes(scene);

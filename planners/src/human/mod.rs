@@ -25,7 +25,7 @@ mod steering;
 pub use settings::{Settings, Style};
 
 use crate::mpc::{DescentError, KeepOut, Optimiser, Optimum, Penalty, Problem, Robust};
-use crate::predict::{constant_velocity, steady};
+use crate::predict::steady;
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
@@ -150,7 +150,7 @@ fn minded(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
     let mut keep_outs = Vec::new();
     for other in scene.others.iter().filter(|other| Some(&other.name) != leader && !behind(other)) {
-        let predicted = constant_velocity(&other.state, scene.horizon, scene.step_s);
+        let predicted = settings.prediction.of(other, scene.horizon, scene.step_s);
         keep_outs.push(scene.keep_out(&predicted, other.corridor.heading_rad, Penalty::hinge(weight)));
         if ego.crosses(other) {
             keep_outs.push(scene.keep_out(&predicted, ego.corridor.heading_rad, Penalty::hinge(weight)));

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::predict::Prediction;
+
 /// How much a human driver minds being crowded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -35,11 +37,20 @@ pub struct Settings {
     pub following_weight: f64,
     /// Whether keeping on, yielding and passing are all weighed at every step, or only the last plan improved.
     pub reconsiders: bool,
+    /// What others are expected to do that might cut in or cross: by default what their present heading and speed say, so
+    /// that a nudge is seen, and not what they plan. The car ahead is always expected to follow its plan.
+    pub prediction: Prediction,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { style: None, safety_weight: None, following_weight: 20.0, reconsiders: true }
+        Settings {
+            style: None,
+            safety_weight: None,
+            following_weight: 20.0,
+            reconsiders: true,
+            prediction: Prediction::ConstantVelocity,
+        }
     }
 }
 

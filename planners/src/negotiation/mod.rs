@@ -67,7 +67,7 @@ impl Negotiation {
         let look_around_every = settings.look_around_every;
         Negotiation {
             settings,
-            retreat: Conservative::new(conservative::Settings { look_around_every }),
+            retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
             filter: Filter::default(),
             optimiser: Optimiser::new(Robust::default()),
             interlocutor: Interlocutor::default(),
@@ -80,6 +80,7 @@ impl Negotiation {
     /// # Errors
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let scene = &scene.expecting(self.settings.prediction);
         let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
         let Some(partner) = self.choose(scene, &mut events) else {

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::predict::Prediction;
+
 /// Negotiation with concession and persuasion (chapter 6).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -33,6 +35,8 @@ pub struct Settings {
     /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
     /// improved without trouble; 0 tries them only in trouble.
     pub look_around_every: usize,
+    /// What the others are expected to do. At constant velocity nobody ever seems to accept a proposal.
+    pub prediction: Prediction,
 }
 
 impl Default for Settings {
@@ -50,6 +54,7 @@ impl Default for Settings {
             persuasion: true,
             safety_filter: true,
             look_around_every: 0,
+            prediction: Prediction::Plan,
         }
     }
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::mpc::Limits;
-use crate::{Input, State, Trajectory};
+use crate::{Agent, Input, State, Trajectory};
 
 /// How a driver predicts the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -16,6 +16,16 @@ pub enum Prediction {
     Plan,
     /// At constant velocity with their present headings.
     ConstantVelocity,
+}
+
+impl Prediction {
+    /// The predicted motion of a vehicle.
+    pub fn of(self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
+        match self {
+            Prediction::Plan => agent.prediction.clone(),
+            Prediction::ConstantVelocity => constant_velocity(&agent.state, horizon, step_s),
+        }
+    }
 }
 
 /// The straight line that a vehicle would drive with its present heading and speed.
