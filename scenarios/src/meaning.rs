@@ -134,6 +134,11 @@ impl Checker<'_> {
                     "a plan must reach beyond the steps during which the other is assumed to follow the prediction";
                 self.refuse(&format!("{path}.settled_steps"), "too long", message, help);
             }
+            Driver::Bayesian(bayesian) if bayesian.w_1_min > bayesian.w_1_max => {
+                let (least, most) = (bayesian.w_1_min, bayesian.w_1_max);
+                let message = format!("`vehicle.{name}.driver.w_1_min` ({least}) is above `w_1_max` ({most})");
+                self.refuse(&format!("{path}.w_1_min"), "above the largest", message, "");
+            }
             _ => {}
         }
     }

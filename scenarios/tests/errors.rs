@@ -223,6 +223,11 @@ fn drivers_and_limits() {
         &["both `style`"],
     );
     errors.refusal("settled_too_long", &[("beta = 0.8", "settled_steps = 30")], &["settled_steps", "(30)"]);
+    errors.refusal(
+        "weights_inverted",
+        &[("kind = \"negotiation\", beta = 0.8", "kind = \"bayesian\", w_1_min = 9.0")],
+        &["`w_1_max` (5)"],
+    );
     errors.compare("drivers_and_limits");
 }
 
