@@ -11,6 +11,8 @@ use interplay_planners::game::equilibrium::{Solution, leader_follower, nash};
 use interplay_planners::game::payoff::{Mind, Player, Stakes};
 use interplay_planners::game::prospect::ProspectTheory;
 
+type Solve = fn(&Player, &Player) -> Solution;
+
 /// Stakes of ego and other for intentions on a grid: own, seen, the other's.
 fn games() -> Vec<[Stakes; 2]> {
     let levels = [0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95];
@@ -23,7 +25,7 @@ fn games() -> Vec<[Stakes; 2]> {
 
 fn solutions(criterion: &mut Criterion) {
     let (mind, games) = (Mind::new(ProspectTheory::default()), games());
-    let solvers: [(&str, fn(&Player, &Player) -> Solution); 2] = [("leader-follower", leader_follower), ("nash", nash)];
+    let solvers: [(&str, Solve); 2] = [("leader-follower", leader_follower), ("nash", nash)];
     for (name, solve) in solvers {
         let mut next = games.iter().cycle();
         criterion.bench_function(&format!("game/{name}"), |bencher| {

@@ -6,7 +6,8 @@
 //!
 //! prints a row for each run whose name (`family/styles/planner`) holds one of the words, all without any: where the ego ends
 //! up and when, its speeds, how near it comes to another in half axes of its safety ellipse, plans that were not found,
-//! and the median and 90th percentile of the ego's planning times in milliseconds.
+//! and the median and 90th percentile of the ego's planning times in milliseconds. A cooperative ego cooperates with the
+//! first of the others, whatever its style.
 
 #[path = "../tests/common/world.rs"]
 mod world;
@@ -95,7 +96,12 @@ fn main() -> std::io::Result<()> {
             if !words.is_empty() && !words.iter().any(|word| full.contains(word)) {
                 continue;
             }
-            let run = run(pose(driver), ticks);
+            let mut vehicles = pose(driver.clone());
+            if let Driver::Cooperative(_) = driver {
+                // It takes two.
+                vehicles[1].drive(driver);
+            }
+            let run = run(vehicles, ticks);
             let speeds = || run.states.iter().map(|states| states[0].speed_mps);
             let (slowest, fastest) = (speeds().fold(f64::INFINITY, f64::min), speeds().fold(0.0, f64::max));
             let collision = if run.collision.is_some() { "collision, " } else { "" };

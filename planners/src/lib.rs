@@ -7,7 +7,8 @@
 //! - [`dynamics`]: vehicle models with derivatives
 //! - [`predict`]: what the others will do
 //! - [`mpc`]: one trajectory optimiser
-//! - drivers, one folder each: [`human`], [`conservative`], [`negotiation`]; [`Driver`] lists them
+//! - drivers, one folder each: [`human`], [`conservative`], [`cooperative`], [`negotiation`], [`bayesian`], [`game`];
+//!   [`Driver`] lists them
 //!
 //! Sines, exponentials and the like come from `libm`, so that results are the same bit for bit on every machine.
 //!

@@ -4,10 +4,10 @@
 //! bold. At every step the planner
 //!
 //! 1. chooses whom to persuade, one vehicle after the other;
-//! 2. reads from the change of the other's plan how loyal it is to it ([`belief`], eq. 7.28), and from the change of its own
+//! 2. reads from the change of the other's plan how loyal it is to it (`belief`, eq. 7.28), and from the change of its own
 //!    how clear its signal is (eq. 7.27);
-//! 3. prices impressions by what the other's best reply to them is worth ([`value`], eq. 7.18, 7.19);
-//! 4. solves for its own trajectory only ([`signal`], eq. 7.23-7.26).
+//! 3. prices impressions by what the other's best reply to them is worth (`value`, eq. 7.18, 7.19);
+//! 4. solves for its own trajectory only (`signal`, eq. 7.23-7.26).
 //!
 //! The other's plan is a hard obstacle, as for the conservative planner: persuasion is in the cost.
 
