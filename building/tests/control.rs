@@ -264,6 +264,7 @@ fn key_figures_are_what_they_say() {
         temperatures_c: vec![10.0, 10.0, 10.0, 10.0, 21.0, 20.0, 20.0, 18.0],
         heat_kw: vec![1.0, -2.0, 0.0, 0.0, 0.5, 0.0, -1.0, -1.0],
         requested_kw: vec![1.0, -2.5, 0.0, 0.0, 0.5, 0.0, -1.0, -1.0],
+        design: Default::default(),
     };
     let figures = KeyFigures::of(&record, &targets, &[2.0, 2.0], STEP_S);
     assert_eq!(figures.cost, 2.0 * (1.0 + 4.0) + 3.0 * (1.0 + 4.0 + 0.25 + 1.0 + 1.0));

@@ -4,10 +4,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::clairvoyant::Clairvoyant;
+use super::iterative::{Iterative, IterativeSettings};
 use super::learning::{Learning, LearningSettings};
 use super::pid::{Pid, PidSettings};
 use super::thermostat::{Thermostat, ThermostatSettings};
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayRecord, Design, Morning, Observation};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 
@@ -23,6 +24,8 @@ pub enum Controller {
     IterativeLearning(LearningSettings),
     /// The day's optimum, known beforehand: for comparison.
     Clairvoyant,
+    /// Feedforward and feedback designed in turn, with an expected cost (chapter 3).
+    Iterative(IterativeSettings),
 }
 
 /// A controller at work: its settings and all that it remembers.
@@ -36,6 +39,8 @@ pub enum Regulator {
     IterativeLearning(Box<Learning>),
     /// See [`Clairvoyant`].
     Clairvoyant(Box<Clairvoyant>),
+    /// See [`Iterative`].
+    Iterative(Box<Iterative>),
 }
 
 impl Controller {
@@ -53,6 +58,9 @@ impl Controller {
                 Regulator::IterativeLearning(Box::new(Learning::new(settings, Lifted::new(model, steps))?))
             }
             Self::Clairvoyant => Regulator::Clairvoyant(Box::new(Clairvoyant::new(Lifted::new(model, steps)))),
+            Self::Iterative(settings) => {
+                Regulator::Iterative(Box::new(Iterative::new(settings, Lifted::new(model, steps))?))
+            }
         })
     }
 
@@ -63,6 +71,7 @@ impl Controller {
             Self::Pid(_) => "pid",
             Self::IterativeLearning(_) => "iterative-learning",
             Self::Clairvoyant => "clairvoyant",
+            Self::Iterative(_) => "iterative",
         }
     }
 }
@@ -70,6 +79,7 @@ impl Controller {
 impl Regulator {
     fn control(&mut self) -> &mut dyn Control {
         match self {
+            Self::Iterative(iterative) => iterative.as_mut(),
             Self::Thermostat(thermostat) => thermostat,
             Self::Pid(pid) => pid,
             Self::IterativeLearning(learning) => learning.as_mut(),
@@ -89,5 +99,12 @@ impl Control for Regulator {
 
     fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
         self.control().end_of_day(record)
+    }
+
+    fn design(&self) -> Design {
+        match self {
+            Self::Thermostat(_) | Self::Pid(_) | Self::IterativeLearning(_) | Self::Clairvoyant(_) => Design::default(),
+            Self::Iterative(iterative) => iterative.design(),
+        }
     }
 }

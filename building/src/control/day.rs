@@ -1,6 +1,6 @@
 //! A day: what is known of it, how it is run, what is left of it.
 
-use super::{Control, ControlError};
+use super::{Control, ControlError, Design};
 use crate::comfort::Targets;
 use crate::discretise::Model;
 
@@ -46,6 +46,8 @@ pub struct DayRecord {
     pub heat_kw: Vec<f64>,
     /// What the controller asked for \[kW\].
     pub requested_kw: Vec<f64>,
+    /// How the controller came to it.
+    pub design: Design,
 }
 
 impl Disturbance {
@@ -53,6 +55,12 @@ impl Disturbance {
     pub(super) fn check(&self, targets: &Targets) -> Result<(), ControlError> {
         ControlError::check_length("the outdoor temperature", self.ambient_c.len(), targets.steps())?;
         ControlError::check_length("the heat gains", self.gains_kw.len(), targets.reference_c.len())
+    }
+
+    /// Refuses one that has a number that is none.
+    pub(super) fn check_finite(&self) -> Result<(), ControlError> {
+        ControlError::check_finite("the outdoor temperature", &self.ambient_c)?;
+        ControlError::check_finite("the heat gains", &self.gains_kw)
     }
 }
 
@@ -82,6 +90,7 @@ pub fn run_day(
         temperatures_c: Vec::with_capacity(size),
         heat_kw: Vec::with_capacity(size),
         requested_kw: Vec::with_capacity(size),
+        design: controller.design(),
     };
     for step in 0..steps {
         let requested_kw = controller.act(&Observation { step, temperatures_c: &temperatures_c[..n], targets });

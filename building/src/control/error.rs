@@ -2,6 +2,8 @@
 
 use interplay_convex::{ProblemError, SolveError};
 
+use crate::discretise::ModelError;
+
 /// Why a controller cannot be started, or cannot plan a day.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ControlError {
@@ -25,6 +27,53 @@ pub enum ControlError {
         /// The right length.
         wanted: usize,
     },
+    /// A series has a number that is none.
+    #[error("{what} is {value} at place {index}; a day can only be planned with numbers")]
+    NotFinite {
+        /// The series.
+        what: &'static str,
+        /// Where, from zero.
+        index: usize,
+        /// What is there.
+        value: f64,
+    },
+    /// A covariance is not positive definite.
+    #[error(
+        "the covariance of the disturbance, {order} by {order}, is not positive definite: its correlations contradict"
+    )]
+    Covariance {
+        /// Its rows.
+        order: usize,
+    },
+    /// No feedback satisfies a robust bound.
+    #[error("{bound} is {value}, but no feedback gets below {floor:.4}; choose a larger bound")]
+    BelowFloor {
+        /// The setting.
+        bound: &'static str,
+        /// Its value.
+        value: f64,
+        /// The least that is possible.
+        floor: f64,
+    },
+    /// A design with dense matrices was asked for a building that is too large for them.
+    #[error("the {design} design has {found} unknowns for this building, at most {most}: use the distributed one")]
+    TooManyUnknowns {
+        /// The design.
+        design: &'static str,
+        /// How many it would need.
+        found: usize,
+        /// Up to how many are reasonable.
+        most: usize,
+    },
+    /// The feedback that was found is not stable.
+    #[error("the feedback is not stable: its closed loop has the spectral radius {spectral_radius:.4}")]
+    Unstable {
+        /// Of A − BK.
+        spectral_radius: f64,
+    },
+    /// The distributed design needs forward Euler, which would be unstable.
+    #[error("zones that only speak with their neighbours plan with forward Euler: {0}")]
+    Model(#[from] ModelError),
     /// The clairvoyant was not told what will happen.
     #[error("the clairvoyant controller needs to be told the day's actual weather and occupancy")]
     NotClairvoyant,
@@ -51,6 +100,24 @@ impl ControlError {
     /// Refuses a series of the wrong length.
     pub(super) fn check_length(what: &'static str, found: usize, wanted: usize) -> Result<(), Self> {
         if found == wanted { Ok(()) } else { Err(Self::Shape { what, found, wanted }) }
+    }
+
+    /// Refuses a series with a number that is none.
+    pub(super) fn check_finite(what: &'static str, series: &[f64]) -> Result<(), Self> {
+        match series.iter().position(|value| !value.is_finite()) {
+            Some(index) => Err(Self::NotFinite { what, index, value: series[index] }),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses a setting outside of an interval.
+    pub(super) fn check_within(
+        setting: &'static str,
+        value: f64,
+        interval: std::ops::RangeInclusive<f64>,
+        wanted: &'static str,
+    ) -> Result<(), Self> {
+        if interval.contains(&value) { Ok(()) } else { Err(Self::Setting { setting, value, wanted }) }
     }
 
     /// Refuses a setting that is negative or no number.

@@ -55,16 +55,48 @@ pub fn optimum(
     disturbance: &Disturbance,
     penalty: Option<BandPenalty>,
 ) -> Result<Optimum, ControlError> {
+    let nodes = lifted.model().network().node_count();
+    ControlError::check_length("the targets", targets.reference_c.len(), lifted.size())?;
+    ControlError::check_length("the temperatures at midnight", initial_c.len(), nodes)?;
+    disturbance.check(targets)?;
+    let free_c = lifted.free_response(initial_c, &disturbance.ambient_c, &disturbance.gains_kw);
+    plan(lifted, &free_c, targets, penalty, &Caution::default())
+}
+
+/// What a plan keeps away from, beyond the limits of the day.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Caution {
+    /// How far inputs stay within their limits \[kW\], stacked; none if empty.
+    pub input_margin_kw: Vec<f64>,
+    /// How far temperatures stay within the comfort band \[K\], stacked; none if empty.
+    pub band_margin_k: Vec<f64>,
+    /// A bound for the length of the errors that count (eq. 3.8).
+    pub error_bound: Option<ErrorBound>,
+}
+
+/// ‖e‖₂ ≤ bound over the errors with a weight, per step and zone (eq. 3.8).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ErrorBound {
+    /// The bound \[K\].
+    pub norm_k: f64,
+    /// Cost of a kelvin beyond it; without, the bound is hard and there may be no plan.
+    pub slack_cost: Option<f64>,
+}
+
+/// The cheapest inputs on top of known temperatures without equipment `free_c`.
+pub(super) fn plan(
+    lifted: &Lifted,
+    free_c: &[f64],
+    targets: &Targets,
+    penalty: Option<BandPenalty>,
+    caution: &Caution,
+) -> Result<Optimum, ControlError> {
     let model = lifted.model();
     let nodes = model.network().node_count();
     if model.method() == Method::Exact && nodes > DENSE_NODES {
         return Err(ControlError::TooLarge { nodes, most: DENSE_NODES });
     }
-    ControlError::check_length("the targets", targets.reference_c.len(), lifted.size())?;
-    ControlError::check_length("the temperatures at midnight", initial_c.len(), nodes)?;
-    disturbance.check(targets)?;
-    let free_c = lifted.free_response(initial_c, &disturbance.ambient_c, &disturbance.gains_kw);
-    let posed = Posed::new(model, targets, &free_c, penalty);
+    let posed = Posed::new(model, targets, free_c, penalty, caution);
     let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
     let solution = Solver::new(&posed.program, &settings)?.solve()?;
 
@@ -103,16 +135,19 @@ struct Posed {
 }
 
 impl Posed {
-    fn new(model: &Model, targets: &Targets, free_c: &[f64], penalty: Option<BandPenalty>) -> Self {
+    fn new(model: &Model, targets: &Targets, free_c: &[f64], penalty: Option<BandPenalty>, caution: &Caution) -> Self {
         let mut program = Program::new();
         let input = program.variables("heat", free_c.len());
         let state = program.variables("state", model.network().node_count() * targets.steps());
         let mut posed = Self { program, input, state };
         posed.costs(model, targets, free_c);
         posed.dynamics(model, targets.steps());
-        posed.limits(model.network().limits_kw());
+        posed.limits(model.network().limits_kw(), &caution.input_margin_kw);
         if let Some(penalty) = penalty {
-            posed.band(model, targets, free_c, penalty);
+            posed.band(model, targets, free_c, penalty, &caution.band_margin_k);
+        }
+        if let Some(bound) = caution.error_bound {
+            posed.error_bound(model, targets, free_c, bound);
         }
         posed
     }
@@ -153,18 +188,18 @@ impl Posed {
         }
     }
 
-    /// −limit ≤ u ≤ limit.
-    fn limits(&mut self, limits_kw: &[f64]) {
+    /// −limit ≤ u ≤ limit, less the margins.
+    fn limits(&mut self, limits_kw: &[f64], margin_kw: &[f64]) {
         let (most, least) = (self.program.at_most("heating limit"), self.program.at_most("cooling limit"));
         for (i, u) in self.input.iter().enumerate() {
-            let limit_kw = limits_kw[i % limits_kw.len()];
+            let limit_kw = limits_kw[i % limits_kw.len()] - margin_kw.get(i).copied().unwrap_or(0.0);
             self.program.row(most, [(u, 1.0)], limit_kw);
             self.program.row(least, [(u, -1.0)], limit_kw);
         }
     }
 
-    /// |r − T_free − y| ≤ band + s, s ≥ 0 for the occupied times, at c₁ s + c₂ s².
-    fn band(&mut self, model: &Model, targets: &Targets, free_c: &[f64], penalty: BandPenalty) {
+    /// |r − T_free − y| ≤ band − margin + s, s ≥ 0 for the occupied times, at c₁ s + c₂ s².
+    fn band(&mut self, model: &Model, targets: &Targets, free_c: &[f64], penalty: BandPenalty, margin_k: &[f64]) {
         let n = targets.zones;
         let occupied: Vec<usize> = (0..free_c.len()).filter(|i| targets.occupied[i / n]).collect();
         let slack = self.program.variables("discomfort", occupied.len());
@@ -173,11 +208,29 @@ impl Posed {
         for (s, i) in slack.iter().zip(occupied) {
             let y = self.risen(model, n, i);
             let wanted_k = targets.reference_c[i] - free_c[i];
-            self.program.row(warm, [(y, 1.0), (s, -1.0)], targets.band_k + wanted_k);
-            self.program.row(cold, [(y, -1.0), (s, -1.0)], targets.band_k - wanted_k);
+            let band_k = targets.band_k - margin_k.get(i).copied().unwrap_or(0.0);
+            self.program.row(warm, [(y, 1.0), (s, -1.0)], band_k + wanted_k);
+            self.program.row(cold, [(y, -1.0), (s, -1.0)], band_k - wanted_k);
             self.program.row(sign, [(s, -1.0)], 0.0);
             self.program.linear(s, penalty.linear);
             self.program.quadratic(s, s, 2.0 * penalty.quadratic);
+        }
+    }
+
+    /// ‖r − T_free − y‖ ≤ bound + s over the errors with a weight.
+    fn error_bound(&mut self, model: &Model, targets: &Targets, free_c: &[f64], bound: ErrorBound) {
+        let counted: Vec<usize> = (0..free_c.len()).filter(|&i| targets.error_weight[i] > 0.0).collect();
+        let excess = bound.slack_cost.map(|cost| {
+            let excess = self.program.variables("growth of the error", 1).at(0);
+            self.program.linear(excess, cost);
+            let sign = self.program.at_most("growth is not negative");
+            self.program.row(sign, [(excess, -1.0)], 0.0);
+            (excess, -1.0)
+        });
+        let cone = self.program.second_order("errors do not grow", counted.len() + 1);
+        self.program.row(cone, excess, bound.norm_k);
+        for i in counted {
+            self.program.row(cone, [(self.risen(model, targets.zones, i), 1.0)], targets.reference_c[i] - free_c[i]);
         }
     }
 }

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test binary uses a part")]
 
+pub mod reference;
+
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
 use proptest::prelude::*;
 

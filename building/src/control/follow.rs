@@ -1,0 +1,94 @@
+//! A plan, and what becomes of it when the day's design fails.
+
+use super::{ControlError, DayRecord, Design, Morning, Optimum};
+
+/// Inputs and the temperatures they are meant to lead to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Plan {
+    /// Stacked \[kW\].
+    pub heat_kw: Vec<f64>,
+    /// Stacked \[°C\].
+    pub temperatures_c: Vec<f64>,
+}
+
+impl From<&Optimum> for Plan {
+    fn from(optimum: &Optimum) -> Self {
+        Self { heat_kw: optimum.heat_kw.clone(), temperatures_c: optimum.temperatures_c.clone() }
+    }
+}
+
+impl Plan {
+    /// û(t).
+    pub fn heat_at(&self, step: usize, zones: usize) -> &[f64] {
+        &self.heat_kw[step * zones..(step + 1) * zones]
+    }
+
+    /// T̂(t) − T(t), which is e(t) − ê(t); nothing is known of it at t = 0.
+    pub fn deviation_k(&self, step: usize, temperatures_c: &[f64]) -> Option<Vec<f64>> {
+        let n = temperatures_c.len();
+        let before = step.checked_sub(1)?;
+        let planned_c = &self.temperatures_c[before * n..(before + 1) * n];
+        Some(planned_c.iter().zip(temperatures_c).map(|(planned, actual)| planned - actual).collect())
+    }
+}
+
+/// Today's plan, the day before, and how often there was none.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Diary {
+    plan: Option<Plan>,
+    yesterday: Option<Plan>,
+    design: Design,
+}
+
+impl Diary {
+    /// What is followed today; nothing before there was a day.
+    pub fn plan(&self) -> Option<&Plan> {
+        self.plan.as_ref()
+    }
+
+    /// The day before, as it was.
+    pub fn yesterday(&self) -> Option<&Plan> {
+        self.yesterday.as_ref()
+    }
+
+    /// What there is to say.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// Takes the outcome of a design: its plan, or the day before in its place (Remark 1 of chapter 3).
+    pub fn open(&mut self, outcome: Result<(Option<Plan>, Design), ControlError>) {
+        let fallbacks = self.design.fallbacks;
+        match outcome {
+            Ok((plan, design)) => {
+                self.plan = plan;
+                self.design = Design { fallbacks, ..design };
+            }
+            Err(error) => {
+                self.plan.clone_from(&self.yesterday);
+                self.design.exchange = None;
+                self.design.objective = None;
+                self.design.fallback = Some(error);
+                self.design.fallbacks = fallbacks + 1;
+            }
+        }
+        let plan = self.plan.as_ref();
+        self.design.planned_kw = plan.map_or(Vec::new(), |plan| plan.heat_kw.clone());
+        self.design.planned_c = plan.map_or(Vec::new(), |plan| plan.temperatures_c.clone());
+    }
+
+    /// Keeps the day, unless it has a number that is none.
+    pub fn close(&mut self, record: &DayRecord) {
+        if record.temperatures_c.iter().chain(&record.heat_kw).all(|value| value.is_finite()) {
+            let (heat_kw, temperatures_c) = (record.heat_kw.clone(), record.temperatures_c.clone());
+            self.yesterday = Some(Plan { heat_kw, temperatures_c });
+        }
+    }
+}
+
+/// Refuses a morning of another building or day.
+pub(super) fn check_shapes(morning: &Morning<'_>, nodes: usize, size: usize) -> Result<(), ControlError> {
+    ControlError::check_length("the day", morning.targets.reference_c.len(), size)?;
+    ControlError::check_length("the temperatures at midnight", morning.initial_c.len(), nodes)?;
+    morning.forecast.check(morning.targets)
+}

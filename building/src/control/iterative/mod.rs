@@ -1,0 +1,261 @@
+//! Feedforward and feedback designed in turn (chapter 3).
+//!
+//! ```text
+//! U = U_ff + C E        minimise  E[ Eᵀ W_e E + Uᵀ W_u U ],   D ~ N(D̂ + bias, Σ)
+//! 1. the causal feedback of least expected cost                     [`feedback`]
+//! 2. the stabilising gain K that does most like it                  [`projection`]
+//! 3. the nominal inputs Û, |Û| ≤ limit − Φ⁻¹(η) σ_u                 (eqs. 3.21, 3.29)
+//! u(t) = û(t) + K (T̂(t) − T(t))
+//! ```
+//!
+//! The source's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
+//! the nominal inputs. Those are found with temperatures as variables, sparsely. The last line is U_ff = Û − K Ê.
+//!
+//! The feedback is designed again when Σ or the targets have changed; with a constant Σ it would be a constant gain.
+
+pub mod feedback;
+pub mod projection;
+mod settings;
+
+use nalgebra::DMatrix;
+
+pub use settings::{Chance, Convergence, IterativeSettings, Objective, Stability};
+
+use super::experience::Experience;
+use super::follow::{Diary, Plan, check_shapes};
+use super::optimum::{Caution, ErrorBound, plan};
+use super::stability::{closed_loop, spectral_radius};
+use super::uncertainty::{Uncertainty, factor, normal_quantile};
+use super::{Control, ControlError, DayRecord, Design, Morning, Observation};
+use crate::comfort::Targets;
+use crate::lifted::Lifted;
+use projection::Projection;
+
+/// Up to so many numbers in a day's inputs the feedback is designed; its matrices have the square of that.
+pub const MOST_UNKNOWNS: usize = 1200;
+/// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft.
+const GROWTH_COST: f64 = 1e3;
+/// The margin of an input is at most this share of its limit: something must be left to plan with.
+const LARGEST_MARGIN: f64 = 0.95;
+
+/// The iterative design at work.
+#[derive(Clone, Debug)]
+pub struct Iterative {
+    settings: IterativeSettings,
+    experience: Experience,
+    uncertainty: Uncertainty,
+    diary: Diary,
+    gain: DMatrix<f64>,
+    /// The feedback for these targets, as long as Σ stays the same.
+    feedback: Option<(Targets, Feedback)>,
+    /// Targets of the day.
+    targets: Option<Targets>,
+}
+
+/// A designed feedback.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Feedback {
+    /// K, zones by zones \[kW/K\].
+    pub gain_kw_per_k: DMatrix<f64>,
+    /// Of A − BK.
+    pub spectral_radius: f64,
+    /// The expected cost beyond the nominal one, under the best causal feedback.
+    pub causal_cost: f64,
+    /// The same under K.
+    pub cost: f64,
+    /// Standard deviations of the inputs under K \[kW\], stacked.
+    pub input_deviation_kw: Vec<f64>,
+}
+
+impl Feedback {
+    /// Steps 1 and 2 for a covariance of the disturbance.
+    ///
+    /// # Errors
+    /// [`ControlError`] if the covariance is not one, no gain has the decay rate, or the solver fails.
+    pub fn design(
+        settings: &IterativeSettings,
+        lifted: &Lifted,
+        targets: &Targets,
+        covariance: DMatrix<f64>,
+    ) -> Result<Self, ControlError> {
+        if lifted.size() > MOST_UNKNOWNS {
+            let (found, most) = (lifted.size(), MOST_UNKNOWNS);
+            return Err(ControlError::TooManyUnknowns { design: "iterative", found, most });
+        }
+        let factor = factor(covariance)?;
+        let causal = feedback::optimal_causal(lifted, targets, &factor)?;
+        let n = lifted.zones();
+        let (a, b) = (lifted.model().state_matrix(), lifted.model().gain_matrix());
+        let radius = |gain: &DMatrix<f64>| spectral_radius(&closed_loop(&a, &b, gain));
+        let projection = Projection::new(lifted, &causal, &targets.busy());
+        let gain = match settings.stability {
+            Stability::Lmi => projection.lmi(settings.decay)?,
+            Stability::Linear => projection.linear(settings.decay)?,
+            Stability::LeastSquares => {
+                let gain = projection.least_squares()?;
+                if radius(&gain) < 1.0 { gain } else { projection.lmi(settings.decay)? }
+            }
+            Stability::Fixed => DMatrix::from_diagonal_element(n, n, settings.initial_gain_kw_per_k),
+        };
+        let spectral_radius = radius(&gain);
+        // Not `>= 1`: a NaN is not stable either.
+        if !matches!(spectral_radius.partial_cmp(&1.0), Some(std::cmp::Ordering::Less)) {
+            return Err(ControlError::Unstable { spectral_radius });
+        }
+        let response = feedback::static_feedback(lifted, &gain, &factor);
+        Ok(Self {
+            gain_kw_per_k: gain,
+            spectral_radius,
+            causal_cost: causal.cost(targets),
+            cost: response.cost(targets),
+            input_deviation_kw: response.input_deviation_kw(),
+        })
+    }
+}
+
+impl Iterative {
+    /// A design without experience. `lifted` is its model of a day.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`].
+    pub fn new(settings: IterativeSettings, lifted: Lifted) -> Result<Self, ControlError> {
+        settings.check()?;
+        let n = lifted.zones();
+        Ok(Self {
+            settings,
+            uncertainty: Uncertainty::new(settings.uncertainty)?,
+            experience: Experience::new(lifted, settings.prediction, settings.learning_rate)?,
+            diary: Diary::default(),
+            gain: DMatrix::from_diagonal_element(n, n, settings.initial_gain_kw_per_k),
+            feedback: None,
+            targets: None,
+        })
+    }
+
+    /// The day's plan, and what there is to say of it; no plan before there was a day.
+    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
+        let free_c = self.experience.expect(morning)?;
+        if self.experience.is_empty() {
+            return Ok((None, self.describe(None, None)));
+        }
+        let targets = morning.targets;
+        let feedback = match self.settings.objective {
+            Objective::Expected => Some(self.feedback(targets)?),
+            Objective::Nominal => None,
+        };
+        let caution = Caution {
+            input_margin_kw: feedback.as_ref().map_or(Vec::new(), |feedback| self.margins_kw(feedback)),
+            band_margin_k: Vec::new(),
+            error_bound: self.error_bound(targets),
+        };
+        let optimum = plan(self.experience.lifted(), &free_c, targets, None, &caution)?;
+        let n = targets.zones;
+        self.gain = feedback.as_ref().map_or(DMatrix::zeros(n, n), |feedback| feedback.gain_kw_per_k.clone());
+        Ok((Some(Plan::from(&optimum)), self.describe(feedback.as_ref(), Some(optimum.objective))))
+    }
+
+    /// The feedback for the targets, designed anew when something has changed.
+    fn feedback(&mut self, targets: &Targets) -> Result<Feedback, ControlError> {
+        if let Some((known, feedback)) = &self.feedback
+            && known == targets
+        {
+            return Ok(feedback.clone());
+        }
+        let covariance = self.uncertainty.covariance(targets);
+        let feedback = Feedback::design(&self.settings, self.experience.lifted(), targets, covariance)?;
+        self.feedback = Some((targets.clone(), feedback.clone()));
+        Ok(feedback)
+    }
+
+    /// Φ⁻¹(η) σ_u (eq. 3.21).
+    fn margins_kw(&self, feedback: &Feedback) -> Vec<f64> {
+        let count = feedback.input_deviation_kw.len() as f64;
+        let miss = 1.0 - self.settings.confidence;
+        let confidence = match self.settings.chance {
+            Chance::EachInput => self.settings.confidence,
+            Chance::WholeDay => 1.0 - miss / count,
+        };
+        let quantile = normal_quantile(confidence);
+        let limits_kw = self.experience.lifted().model().network().limits_kw();
+        (feedback.input_deviation_kw.iter().enumerate())
+            .map(|(i, deviation_kw)| (quantile * deviation_kw).min(LARGEST_MARGIN * limits_kw[i % limits_kw.len()]))
+            .collect()
+    }
+
+    /// ‖E_k+1‖ ≤ ‖E_k‖ over the errors that count (eq. 3.8).
+    fn error_bound(&self, targets: &Targets) -> Option<ErrorBound> {
+        let slack_cost = match self.settings.convergence {
+            Convergence::Off => return None,
+            Convergence::Soft => Some(GROWTH_COST),
+            Convergence::Hard => None,
+        };
+        let yesterday_c = &self.diary.yesterday()?.temperatures_c;
+        let squares = (0..yesterday_c.len()).filter(|&i| targets.error_weight[i] > 0.0).map(|i| {
+            let error_k = targets.reference_c[i] - yesterday_c[i];
+            error_k * error_k
+        });
+        Some(ErrorBound { norm_k: squares.sum::<f64>().sqrt(), slack_cost })
+    }
+
+    fn describe(&self, feedback: Option<&Feedback>, objective: Option<f64>) -> Design {
+        Design {
+            objective,
+            bias_kw: self.experience.bias_kw().to_vec(),
+            gain_kw_per_k: rows(&self.gain),
+            spectral_radius: feedback.map(|feedback| feedback.spectral_radius),
+            ..Design::default()
+        }
+    }
+}
+
+/// A matrix by rows.
+pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+impl Control for Iterative {
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
+        let lifted = self.experience.lifted();
+        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
+        self.targets = Some(morning.targets.clone());
+        let outcome = self.plan(morning);
+        self.diary.open(outcome);
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let Observation { step, temperatures_c, targets } = *observation;
+        let n = temperatures_c.len();
+        let (mut heat_kw, error_k) = match self.diary.plan() {
+            Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
+            // The first day: nothing but the initial feedback on the error itself.
+            None => {
+                let wanted_c = targets.reference_at(step);
+                let error_k = wanted_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect();
+                (vec![0.0; n], (step > 0).then_some(error_k))
+            }
+        };
+        for (j, error_k) in error_k.iter().flatten().enumerate() {
+            for (heat_kw, gain) in heat_kw.iter_mut().zip(&self.gain.column(j)) {
+                *heat_kw += gain * error_k;
+            }
+        }
+        let limits_kw = self.experience.lifted().model().network().limits_kw();
+        heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        let lesson = self.experience.learn(record)?;
+        self.diary.close(record);
+        if let (Some(lesson), Some(targets)) = (lesson, &self.targets)
+            && self.uncertainty.learn(&lesson.surprise_kw, targets)
+        {
+            self.feedback = None;
+        }
+        Ok(())
+    }
+
+    fn design(&self) -> Design {
+        self.diary.design().clone()
+    }
+}

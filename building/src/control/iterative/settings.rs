@@ -1,0 +1,111 @@
+//! Choices of the iterative design.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::control::ControlError;
+use crate::control::experience::Prediction;
+use crate::control::uncertainty::UncertaintySettings;
+
+/// What is minimised.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Objective {
+    /// The expectation of J, which gives feedback a value.
+    #[default]
+    Expected,
+    /// J of the expected disturbance, as printed. Feedback does not matter then; Y = I, none, is as good as any.
+    Nominal,
+}
+
+/// How the optimal causal feedback becomes a stabilising gain K (step 2).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stability {
+    /// By the corrected matrix inequality, with a decay rate.
+    #[default]
+    Lmi,
+    /// By a linear programme for positive systems, which scales to many zones; each zone uses its own error and those of
+    /// its neighbours.
+    Linear,
+    /// By least squares; the matrix inequality is used only if that is not stable.
+    LeastSquares,
+    /// The initial gain is kept.
+    Fixed,
+}
+
+/// What (3.8), that errors do not grow from day to day, means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Convergence {
+    /// Growth costs much.
+    #[default]
+    Soft,
+    /// Growth is forbidden: on a harder day there is no plan, and the day before is repeated (Remark 1).
+    Hard,
+    /// Nothing.
+    Off,
+}
+
+/// What the confidence is meant of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Chance {
+    /// Each input on its own (eq. 3.21). That all of a day hold is less likely.
+    #[default]
+    EachInput,
+    /// All inputs of a day together, by Bonferroni's inequality.
+    WholeDay,
+}
+
+/// Feedforward and feedback designed in turn (chapter 3).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct IterativeSettings {
+    /// What is minimised.
+    pub objective: Objective,
+    /// How the feedback is made stabilising.
+    pub stability: Stability,
+    /// Decay rate r of the closed loop that is certified.
+    pub decay: f64,
+    /// K of the first day, and of all days with `stability = "fixed"`, as a multiple of the identity \[kW/K\].
+    pub initial_gain_kw_per_k: f64,
+    /// η: how likely inputs stay within their limits.
+    pub confidence: f64,
+    /// What the confidence is meant of.
+    pub chance: Chance,
+    /// What (3.8) means.
+    pub convergence: Convergence,
+    /// λ of the learned bias.
+    pub learning_rate: f64,
+    /// What the disturbance is predicted from.
+    pub prediction: Prediction,
+    /// How uncertain the prediction is.
+    pub uncertainty: UncertaintySettings,
+}
+
+impl Default for IterativeSettings {
+    fn default() -> Self {
+        Self {
+            objective: Objective::default(),
+            stability: Stability::default(),
+            decay: 0.7,
+            initial_gain_kw_per_k: 0.1,
+            confidence: 0.95,
+            chance: Chance::default(),
+            convergence: Convergence::default(),
+            learning_rate: 0.5,
+            prediction: Prediction::default(),
+            uncertainty: UncertaintySettings::default(),
+        }
+    }
+}
+
+impl IterativeSettings {
+    /// Refuses settings that are out of range.
+    pub(super) fn check(&self) -> Result<(), ControlError> {
+        ControlError::check_within("decay", self.decay, 1e-3..=1.0, "a rate, above 0 and at most 1")?;
+        ControlError::check_within("confidence", self.confidence, 0.5..=0.999_999, "a probability, 0.5 to 0.999999")?;
+        ControlError::check_not_negative(&[("initial_gain_kw_per_k", self.initial_gain_kw_per_k)])
+    }
+}

@@ -1,0 +1,218 @@
+//! When a feedback u = K e is stable, and how to be sure (section 3.3).
+//!
+//! A − BK is stable exactly when its spectral radius is below one (the printed (3.7) allows one). A matrix F with M = KF
+//! and S = Sᵀ ≻ 0 proves it, with decay rate r, when (de Oliveira, Bernussou, Geromel)
+//!
+//! ```text
+//! ⎡ F + Fᵀ − S   (AF − BM)ᵀ ⎤
+//! ⎣ AF − BM      r² S       ⎦ ≻ 0                                              (eq. 3.23, corrected)
+//! ```
+//!
+//! The source prints I in place of r² S. Then F = S = εI satisfies it for *every* K, since the off-diagonal vanishes faster
+//! than the diagonal: the printed inequality certifies nothing ([`lmi_margin`] shows it).
+//!
+//! Heat flows from warm to cold, so A is nonnegative, and for such systems a vector is proof enough: with f > 0,
+//!
+//! ```text
+//! Σⱼ |(A − BK)ᵢⱼ| fⱼ ≤ r fᵢ
+//! ```
+//!
+//! is linear in f and M = K diag f, and so scales to hundreds of zones ([`positive_decay`]).
+
+use interplay_convex::{Block, Program, Settings, Solver, Variable, Variables, triangle};
+use nalgebra::DMatrix;
+
+use super::ControlError;
+
+/// Which matrix inequality.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lmi {
+    /// (3.23) as printed.
+    Printed,
+    /// With the decay rate r.
+    Corrected {
+        /// r, at most 1.
+        decay: f64,
+    },
+}
+
+/// Largest magnitude of the eigenvalues of a square matrix; NaN if it has a number that is none.
+///
+/// By Gelfand's formula lim ‖Mᵏ‖^(1/k), with k doubled by squaring: it ends for every matrix, which iterations for the
+/// eigenvalues themselves do not promise.
+pub fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
+    const DOUBLINGS: i32 = 50;
+    let mut power = matrix.clone();
+    let mut logarithm = 0.0;
+    let mut share = 1.0;
+    for _ in 0..=DOUBLINGS {
+        let norm = power.norm();
+        if norm == 0.0 || !norm.is_finite() {
+            return if norm == 0.0 { 0.0 } else { f64::NAN };
+        }
+        logarithm += share * libm::log(norm);
+        share *= 0.5;
+        power.unscale_mut(norm);
+        power = product(&power, &power);
+    }
+    libm::exp(logarithm)
+}
+
+/// A B with its sums in a fixed order.
+fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut product = DMatrix::zeros(a.nrows(), b.ncols());
+    for j in 0..b.ncols() {
+        for k in 0..a.ncols() {
+            product.column_mut(j).axpy(b[(k, j)], &a.column(k), 1.0);
+        }
+    }
+    product
+}
+
+/// A − BK, nodes by nodes; `b` is nodes by zones and `gain` zones by zones: walls are not measured.
+pub fn closed_loop(a: &DMatrix<f64>, b: &DMatrix<f64>, gain: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut closed = a.clone();
+    for j in 0..gain.ncols() {
+        for k in 0..gain.nrows() {
+            let column = b.column(k);
+            closed.column_mut(j).axpy(-gain[(k, j)], &column, 1.0);
+        }
+    }
+    closed
+}
+
+/// Largest r for which some F, M = KF and S of unit size satisfy the inequality with r I ≻ 0 to spare: positive if it
+/// accepts the closed loop matrix `closed`.
+///
+/// # Errors
+/// [`ControlError`] if the solver fails.
+pub fn lmi_margin(lmi: Lmi, closed: &DMatrix<f64>) -> Result<f64, ControlError> {
+    let order = closed.nrows();
+    let mut program = Program::new();
+    let certificate = Certificate::new(&mut program, order, |_, _| true);
+    let margin = program.variables("margin", 1).at(0);
+    program.linear(margin, -1.0);
+    let moved = |i: usize, j: usize| -> Vec<(Variable, f64)> {
+        (0..order).filter_map(|k| Some((certificate.f(k, j)?, closed[(i, k)]))).collect()
+    };
+    certificate.inequality(&mut program, lmi, moved, Spare::Maximised(margin));
+    certificate.unit_trace(&mut program);
+    let solution = Solver::new(&program, &Settings::default())?.solve()?;
+    Ok(solution.at(margin))
+}
+
+/// The best decay rate that a vector f proves: min over f > 0 of maxᵢ Σⱼ |Mᵢⱼ| fⱼ / fᵢ, the spectral radius of |M|, by
+/// the power method. An upper bound for the spectral radius of M, and equal to it where M is nonnegative.
+pub fn positive_decay(closed: &DMatrix<f64>) -> f64 {
+    const ROUNDS: usize = 500;
+    let n = closed.nrows();
+    let mut f = vec![1.0; n];
+    let mut bound = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let moved: Vec<f64> = (0..n).map(|i| (0..n).map(|j| closed[(i, j)].abs() * f[j]).sum()).collect();
+        bound = moved.iter().zip(&f).map(|(moved, f)| moved / f).fold(0.0, f64::max).min(bound);
+        let largest = moved.iter().copied().fold(0.0, f64::max);
+        if largest == 0.0 || !largest.is_finite() {
+            break;
+        }
+        // A little of the old keeps every entry positive and stops oscillation; any positive f gives a valid bound.
+        for (f, moved) in f.iter_mut().zip(moved) {
+            *f = 0.5 * *f + 0.5 * moved / largest;
+        }
+    }
+    bound
+}
+
+/// The unknowns F (without the entries that are fixed at zero) and S of the matrix inequality.
+pub(super) struct Certificate {
+    order: usize,
+    /// F by columns.
+    f: Vec<Option<Variable>>,
+    s: Variables,
+}
+
+/// How far inside of the cone.
+#[derive(Clone, Copy)]
+pub(super) enum Spare {
+    /// By a variable that is maximised.
+    Maximised(Variable),
+    /// By this much.
+    Fixed(f64),
+}
+
+impl Certificate {
+    /// Declares F and S, of an order; `free` says which entries of F are.
+    pub fn new(program: &mut Program, order: usize, free: impl Fn(usize, usize) -> bool) -> Self {
+        let places = || (0..order).flat_map(|j| (0..order).map(move |i| (i, j)));
+        let unknown = program.variables("F", places().filter(|&(i, j)| free(i, j)).count());
+        let mut unknown = unknown.iter();
+        let f = places().map(|(i, j)| if free(i, j) { unknown.next() } else { None }).collect();
+        let s = program.variables("S", order * (order + 1) / 2);
+        Self { order, f, s }
+    }
+
+    /// F(i, j), unless it is fixed at zero.
+    pub fn f(&self, i: usize, j: usize) -> Option<Variable> {
+        self.f[i + j * self.order]
+    }
+
+    fn s(&self, i: usize, j: usize) -> Variable {
+        let (low, high) = (i.min(j), i.max(j));
+        self.s.at(high * (high + 1) / 2 + low)
+    }
+
+    /// The inequality, with AF − BM given entry by entry.
+    pub fn inequality(
+        &self,
+        program: &mut Program,
+        lmi: Lmi,
+        moved: impl Fn(usize, usize) -> Vec<(Variable, f64)>,
+        spare: Spare,
+    ) {
+        let n = self.order;
+        let block = program.semidefinite("stability", 2 * n);
+        for (i, j, weight) in triangle(2 * n) {
+            let (mut entry, mut constant) = (Vec::new(), 0.0);
+            match (i < n, j < n) {
+                (true, true) => {
+                    entry.extend(self.f(i, j).map(|f| (f, 1.0)));
+                    entry.extend(self.f(j, i).map(|f| (f, 1.0)));
+                    entry.push((self.s(i, j), -1.0));
+                }
+                // The upper right block is (AF − BM)ᵀ.
+                (true, false) => entry = moved(j - n, i),
+                (false, _) => match lmi {
+                    Lmi::Printed => constant = if i == j { 1.0 } else { 0.0 },
+                    Lmi::Corrected { decay } => entry.push((self.s(i - n, j - n), decay * decay)),
+                },
+            }
+            if i == j {
+                match spare {
+                    Spare::Maximised(margin) => entry.push((margin, -1.0)),
+                    Spare::Fixed(margin) => constant -= margin,
+                }
+            }
+            inside(program, block, entry, constant, weight);
+        }
+    }
+
+    /// S ⪰ least I.
+    pub fn positive(&self, program: &mut Program, least: f64) {
+        let block = program.semidefinite("S", self.order);
+        for (i, j, weight) in triangle(self.order) {
+            let constant = if i == j { -least } else { 0.0 };
+            inside(program, block, vec![(self.s(i, j), 1.0)], constant, weight);
+        }
+    }
+
+    /// tr S = order: the inequality is homogeneous, and its size has to be chosen.
+    pub fn unit_trace(&self, program: &mut Program) {
+        let block = program.equal("size of S");
+        program.row(block, (0..self.order).map(|i| (self.s(i, i), 1.0)), self.order as f64);
+    }
+}
+
+/// The row b − aᵀx = weight (entry + constant).
+fn inside(program: &mut Program, block: Block, entry: Vec<(Variable, f64)>, constant: f64, weight: f64) {
+    program.row(block, entry.into_iter().map(|(variable, value)| (variable, -weight * value)), weight * constant);
+}

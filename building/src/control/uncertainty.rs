@@ -1,0 +1,182 @@
+//! How uncertain the disturbance is: D ~ N(D̂, Σ) (eq. 3.19).
+//!
+//! A part that all zones share (weather) and one of each zone's own (people), both correlated over time:
+//!
+//! ```text
+//! Σ = Σ_w ⊗ 11ᵀ + Σ_o ⊗ I + 10⁻⁸ I,    Σ_w(s,t) = σ_w² ρ_w^|s−t|,    Σ_o(s,t) = σ_o(s) σ_o(t) ρ_o^|s−t|
+//! ```
+//!
+//! σ_o is larger while people are there. The σ are estimated again each evening from what the prediction missed, with the
+//! settings as a prior that counts as so many days; otherwise "iterative tuning" would only be a better constant gain.
+
+use nalgebra::{Cholesky, DMatrix};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::ControlError;
+use crate::comfort::Targets;
+
+/// Variance that every entry has besides \[kW²\].
+const NUGGET_KW2: f64 = 1e-8;
+
+/// A priori uncertainty of the disturbance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct UncertaintySettings {
+    /// σ_w \[kW\].
+    pub common_kw: f64,
+    /// ρ_w, from one step to the next.
+    pub common_correlation: f64,
+    /// σ_o while a zone is occupied, and a step before and after \[kW\].
+    pub zone_kw: f64,
+    /// σ_o at other times \[kW\].
+    pub zone_other_kw: f64,
+    /// ρ_o, from one step to the next.
+    pub zone_correlation: f64,
+    /// Whether the σ are estimated again each evening.
+    pub reestimate: bool,
+    /// How many days the settings count as, against those that were seen.
+    pub prior_days: f64,
+}
+
+impl Default for UncertaintySettings {
+    fn default() -> Self {
+        Self {
+            common_kw: 0.026,
+            common_correlation: 0.95,
+            zone_kw: 0.07,
+            zone_other_kw: 0.015,
+            zone_correlation: 0.85,
+            reestimate: true,
+            prior_days: 5.0,
+        }
+    }
+}
+
+/// Uncertainty as it is believed now.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uncertainty {
+    settings: UncertaintySettings,
+    /// Sums of the observed variances of the common part, the occupied and the other zone parts, and of days.
+    seen: [(f64, f64); 3],
+}
+
+impl Uncertainty {
+    /// As the settings say.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`].
+    pub fn new(settings: UncertaintySettings) -> Result<Self, ControlError> {
+        ControlError::check_not_negative(&[
+            ("common_kw", settings.common_kw),
+            ("zone_kw", settings.zone_kw),
+            ("zone_other_kw", settings.zone_other_kw),
+            ("prior_days", settings.prior_days),
+        ])?;
+        let wanted = "a correlation, between -1 and 1";
+        ControlError::check_within("common_correlation", settings.common_correlation, -1.0..=1.0, wanted)?;
+        ControlError::check_within("zone_correlation", settings.zone_correlation, -1.0..=1.0, wanted)?;
+        Ok(Self { settings, seen: [(0.0, 0.0); 3] })
+    }
+
+    /// σ_w, σ_o while occupied, σ_o otherwise \[kW\].
+    pub fn deviations_kw(&self) -> [f64; 3] {
+        let UncertaintySettings { common_kw, zone_kw, zone_other_kw, prior_days, .. } = self.settings;
+        let mut deviations_kw = [common_kw, zone_kw, zone_other_kw];
+        for (deviation_kw, (sum, days)) in deviations_kw.iter_mut().zip(self.seen) {
+            if days > 0.0 {
+                *deviation_kw = ((prior_days * *deviation_kw * *deviation_kw + sum) / (prior_days + days)).sqrt();
+            }
+        }
+        deviations_kw
+    }
+
+    /// Σ, n·N by n·N \[kW²\].
+    pub fn covariance(&self, targets: &Targets) -> DMatrix<f64> {
+        let (n, steps) = (targets.zones, targets.steps());
+        let [common_kw, zone_kw, other_kw] = self.deviations_kw();
+        let deviation_kw: Vec<f64> = busy(targets).iter().map(|&busy| if busy { zone_kw } else { other_kw }).collect();
+        let powers = |base: f64| -> Vec<f64> {
+            std::iter::successors(Some(1.0), |power| Some(power * base)).take(steps).collect()
+        };
+        let common = powers(self.settings.common_correlation);
+        let own = powers(self.settings.zone_correlation);
+        DMatrix::from_fn(n * steps, n * steps, |i, j| {
+            let (s, t) = (i / n, j / n);
+            let shared = common_kw * common_kw * common[s.abs_diff(t)];
+            let zone = if i % n == j % n { deviation_kw[s] * deviation_kw[t] * own[s.abs_diff(t)] } else { 0.0 };
+            shared + zone + if i == j { NUGGET_KW2 } else { 0.0 }
+        })
+    }
+
+    /// Learns from what a day's prediction missed \[kW\], stacked. Says whether anything changed.
+    pub fn learn(&mut self, surprise_kw: &[f64], targets: &Targets) -> bool {
+        if !self.settings.reestimate {
+            return false;
+        }
+        let n = targets.zones as f64;
+        let mut sums = [(0.0, 0.0_f64); 3];
+        for (step_kw, busy) in surprise_kw.chunks_exact(targets.zones).zip(busy(targets)) {
+            let mean = step_kw.iter().sum::<f64>() / n;
+            let place = if busy { 1 } else { 2 };
+            // A single zone cannot tell its own part from the common one.
+            let own = if n > 1.0 {
+                step_kw.iter().map(|kw| (kw - mean) * (kw - mean)).sum::<f64>() / (n - 1.0)
+            } else {
+                mean * mean
+            };
+            sums[place] = (sums[place].0 + own, sums[place].1 + 1.0);
+            if n > 1.0 {
+                sums[0] = (sums[0].0 + mean * mean - own / n, sums[0].1 + 1.0);
+            }
+        }
+        for (seen, (sum, count)) in self.seen.iter_mut().zip(sums) {
+            if count > 0.0 {
+                *seen = (seen.0 + (sum / count).max(0.0), seen.1 + 1.0);
+            }
+        }
+        true
+    }
+}
+
+/// Whether people may be about in each step: it is occupied, or one of its neighbours in time is.
+fn busy(targets: &Targets) -> Vec<bool> {
+    let at = |t: usize| t.checked_sub(1).and_then(|row| targets.occupied.get(row)).copied().unwrap_or(false);
+    // Step t runs from T(t) to T(t + 1); rows of targets are T(1) … T(N).
+    (0..targets.steps()).map(|t| t.checked_sub(1).is_some_and(at) || at(t) || at(t + 1)).collect()
+}
+
+impl Targets {
+    /// Steps in which people may be about: occupied, or one before or after.
+    pub(crate) fn busy(&self) -> Vec<bool> {
+        busy(self)
+    }
+}
+
+/// L with Σ = LLᵀ, lower triangular.
+///
+/// # Errors
+/// [`ControlError::Covariance`] if Σ is not positive definite, or has a number that is none.
+pub fn factor(covariance: DMatrix<f64>) -> Result<DMatrix<f64>, ControlError> {
+    let order = covariance.nrows();
+    let finite = covariance.iter().all(|value| value.is_finite());
+    match Cholesky::new(covariance).filter(|_| finite) {
+        Some(factor) => Ok(factor.unpack()),
+        None => Err(ControlError::Covariance { order }),
+    }
+}
+
+/// Φ⁻¹(p): the quantile of the standard normal distribution, for 0 < p < 1.
+pub fn normal_quantile(p: f64) -> f64 {
+    // Φ(x) = erfc(−x/√2)/2, by bisection to the last digit.
+    let (mut low, mut high) = (-40.0, 40.0);
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        if 0.5 * libm::erfc(-middle * std::f64::consts::FRAC_1_SQRT_2) < p {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
