@@ -4,6 +4,7 @@
 //! could not be finished.
 
 mod check;
+mod identify;
 mod list;
 mod run;
 mod shell;
@@ -28,6 +29,7 @@ enum Command {
     Run(run::Run),
     List(list::List),
     Check(check::Check),
+    Identify(identify::Identify),
 }
 
 /// How a command ended.
@@ -62,6 +64,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(command)) => command.execute(),
         Some(Command::List(command)) => command.execute(),
         Some(Command::Check(command)) => command.execute(),
+        Some(Command::Identify(command)) => command.execute(),
     };
     ending.into()
 }

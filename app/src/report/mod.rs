@@ -2,6 +2,7 @@
 
 mod building;
 mod expectations;
+mod identification;
 mod summary;
 
 use interplay_planners::State;
@@ -11,6 +12,7 @@ use xxhash_rust::xxh3::xxh3_128;
 
 pub use building::BuildingReport;
 pub use expectations::Expectation;
+pub use identification::identification;
 pub use summary::summary;
 
 use crate::components::to_nanosecond;
