@@ -78,7 +78,8 @@ fn pieces<'a>(series: &'a ZoneSeries, values: &'a [f64]) -> impl Iterator<Item =
     })
 }
 
-/// A series with its name in the legend, broken at gaps.
+/// A series with its name in the legend, broken at gaps. Its line is thin: Plotters puts spikes on the corners of thick
+/// ones.
 fn line<B: DrawingBackend>(
     chart: &mut Chart<'_, B>,
     series: &ZoneSeries,
@@ -87,7 +88,7 @@ fn line<B: DrawingBackend>(
     colour: RGBColor,
 ) -> Drawn<B> {
     for (index, piece) in pieces(series, values).enumerate() {
-        let drawn = chart.draw_series(LineSeries::new(piece, colour.stroke_width(2)))?;
+        let drawn = chart.draw_series(LineSeries::new(piece, colour))?;
         if index == 0 {
             drawn.label(name).legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(3)));
         }
@@ -105,6 +106,11 @@ fn test_start<B: DrawingBackend>(chart: &mut Chart<'_, B>, series: &ZoneSeries, 
     Ok(())
 }
 
+/// With space for a legend above.
+fn with_legend(y: Range<f64>) -> Range<f64> {
+    y.start..y.end + 0.3 * (y.end - y.start)
+}
+
 fn days(series: &ZoneSeries) -> Range<f64> {
     range(series.time_s.iter().map(|time_s| time_s / DAY_S))
 }
@@ -116,7 +122,7 @@ impl Figure for Fit<'_> {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         let series = self.0;
         let free = [&series.free_run_c, &series.free_run_with_residual_model_c];
-        let y = range(free.into_iter().chain([&series.measured_c]).flatten().copied());
+        let y = with_legend(range(free.into_iter().chain([&series.measured_c]).flatten().copied()));
         let title = format!("{}: measured, and the model running freely", series.name);
         let mut chart = chart(area, &title, ["time [days]", "temperature [°C]"], (days(series), y.clone()))?;
         line(&mut chart, series, &series.free_run_c, "free run, network alone", ORANGE)?;
@@ -134,7 +140,7 @@ struct Residuals<'a>(&'a ZoneSeries);
 impl Figure for Residuals<'_> {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         let series = self.0;
-        let y = range(series.innovations_k.iter().copied());
+        let y = with_legend(range(series.innovations_k.iter().copied()));
         let title = format!("{}: errors of the prediction one step ahead", series.name);
         let mut chart = chart(area, &title, ["time [days]", "error [K]"], (days(series), y.clone()))?;
         line(&mut chart, series, &series.innovations_k, "residuals (innovations)", GREEN)?;
@@ -153,9 +159,10 @@ impl Figure for Autocorrelation<'_> {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         let Whiteness { autocorrelation, bound, ljung_box, words, .. } = self.white;
         let lags = autocorrelation.len() as f64 + 0.5;
-        let y = range(autocorrelation.iter().copied().chain([1.6 * bound, -1.6 * bound, 0.0]));
+        let y = with_legend(range(autocorrelation.iter().copied().chain([1.6 * bound, -1.6 * bound])));
         let test = format!("Ljung-Box Q = {:.1}, p = {:.3}", ljung_box.statistic, ljung_box.p_value);
-        let title = format!("{}: autocorrelation of the residuals: {words}", self.name);
+        let verdict = words.split(['(', ':', ';']).next().unwrap_or_default().trim();
+        let title = format!("{}: autocorrelation of the residuals ({verdict})", self.name);
         let mut chart = chart(area, &title, ["lag [steps]", "autocorrelation"], (0.0..lags, y))?;
         let bars = autocorrelation.iter().enumerate().map(|(index, &value)| {
             let lag = index as f64 + 1.0;
