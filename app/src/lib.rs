@@ -16,6 +16,7 @@ pub mod moments;
 pub mod phases;
 pub mod physics;
 pub mod plan;
+pub mod plot;
 pub mod predict;
 pub mod record;
 pub mod report;

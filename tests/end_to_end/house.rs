@@ -26,11 +26,17 @@ const OWNERS: &[(&str, &str)] = &[
     ("parry", "app"),
     ("rerun", "app"),
     ("re_sdk", "app"),
+    ("plotters", "app"),
 ];
 
 /// Libraries that only one part of the application may name.
-const PARTS: &[(&str, &str)] =
-    &[("rapier2d", "physics"), ("parry2d", "physics"), ("rerun", "record"), ("re_sdk_types", "record")];
+const PARTS: &[(&str, &str)] = &[
+    ("rapier2d", "physics"),
+    ("parry2d", "physics"),
+    ("rerun", "record"),
+    ("re_sdk_types", "record"),
+    ("plotters", "plot"),
+];
 
 /// The most lines of a file, and of a function.
 const FILE_LINES: usize = 400;

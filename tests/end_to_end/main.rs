@@ -2,11 +2,13 @@
 //!
 //! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`documents`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
+//! - buildings, in all of these respects: [`building`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
 
 mod authored;
 mod bad_input;
+mod building;
 mod collisions;
 mod command;
 mod determinism;

@@ -5,6 +5,7 @@
 
 mod check;
 mod files;
+mod identify;
 mod list;
 mod progress;
 mod run;
@@ -33,6 +34,7 @@ enum Command {
     List(list::List),
     Check(check::Check),
     Suite(suite::Suite),
+    Identify(identify::Identify),
 }
 
 /// How a command ended.
@@ -68,6 +70,7 @@ pub fn main() -> ExitCode {
         Some(Command::List(command)) => command.execute(),
         Some(Command::Check(command)) => command.execute(),
         Some(Command::Suite(command)) => command.execute(),
+        Some(Command::Identify(command)) => command.execute(),
     };
     ending.into()
 }

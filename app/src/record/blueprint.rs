@@ -71,7 +71,8 @@ impl View {
     }
 }
 
-/// Sends the layout to the viewer or the file behind `stream`, to be shown at once with its clock in the state `play`.
+/// Sends the layout to the viewer or the file behind `stream`, to be shown at once with its clock in the state `play`, so much
+/// faster than real time.
 ///
 /// # Errors
 /// If Rerun refuses a component.
@@ -79,7 +80,7 @@ pub fn send(
     stream: &RecordingStream,
     application: &'static str,
     root: &Panel,
-    play: PlayState,
+    (play, speed): (PlayState, f64),
 ) -> RecordingStreamResult<()> {
     let (blueprint, messages) =
         RecordingStreamBuilder::new(application).recording_id("layout").blueprint().enabled(true).memory()?;
@@ -103,6 +104,7 @@ pub fn send(
             .with_state(PanelState::Collapsed)
             .with_timeline(super::SIM_TIME)
             .with_play_state(play)
+            .with_playback_speed(speed)
             .with_loop_mode(LoopMode::All),
     )?;
     let messages = messages.take();

@@ -12,9 +12,11 @@
 //! plots/<kind of planner>/<diagnostic>[/<name>]       the name if several vehicles have that planner
 //! plots/gap                                           the ego's distance to the nearest footprint
 //! log, about                                          events; what the recording shows
+//! building/…                                          see [`building`]
 //! ```
 
 mod blueprint;
+mod building;
 mod error;
 mod file;
 mod layout;
@@ -35,6 +37,8 @@ use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{DEFAULT_SERVER_PORT, RecordingStream, RecordingStreamBuilder};
 
+use blueprint::Panel;
+use building::House;
 pub use error::RecordError;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
@@ -50,6 +54,8 @@ pub const TICK: &str = "tick";
 
 /// What the viewer calls the sort of recording; it keeps one layout for each.
 const APPLICATION: &str = "interplay";
+/// How much faster than real time a building without vehicles is played: three hours a second.
+const DAYS: f64 = 3.0 * 3600.0;
 /// How long to wait for a viewer.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// A recording into a file is cut into pieces by size only, not by the wall's clock.
@@ -71,6 +77,7 @@ pub struct Recorder {
     scenario: Scenario,
     cast: Cast,
     plots: Plots,
+    house: Option<House>,
     /// Longitudinal coordinates between which somebody was \[m\].
     driven_m: Option<[f64; 2]>,
 }
@@ -108,11 +115,14 @@ impl Recorder {
         let paints = palette::paints(scenario);
         let [from_m, to_m] = expected_road(scenario);
         let beyond_m = layout::close_up_span_m(scenario);
-        stage::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
+        if !scenario.vehicles.is_empty() {
+            stage::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
+        }
         stage::about(&stream, scenario, &paints, None)?;
         let cast = Cast::enter(&stream, scenario, &paints)?;
         let plots = Plots::begin(&stream, scenario, &paints)?;
-        Ok(Recorder { stream, output, scenario: scenario.clone(), cast, plots, driven_m: None })
+        let house = House::begin(&stream, scenario)?;
+        Ok(Recorder { stream, output, scenario: scenario.clone(), cast, plots, house, driven_m: None })
     }
 
     /// Adds to the text of the recording what a reader types to get the run again.
@@ -133,6 +143,9 @@ impl Recorder {
         self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
         self.cast.tick(&self.stream, frame)?;
         self.plots.tick(&self.stream, frame)?;
+        if let (Some(house), Some(frame)) = (&mut self.house, &frame.building) {
+            house.step(&self.stream, frame)?;
+        }
         let corridor = self.scenario.road.corridor();
         for vehicle in &frame.vehicles {
             let along = corridor.along(vehicle.state.position());
@@ -167,12 +180,18 @@ impl Recorder {
 
     /// Sends the layout.
     fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
-        let panel = layout::layout(&self.scenario, &self.plots, road_m);
+        let driving = || layout::layout(&self.scenario, &self.plots, road_m);
+        let panel = match self.house.as_ref().map(building::layout) {
+            None => driving(),
+            Some(house) if self.scenario.vehicles.is_empty() => house,
+            Some(house) => Panel::Row(vec![(1.0, driving()), (1.0, house)]),
+        };
+        let speed = if self.scenario.vehicles.is_empty() { DAYS } else { 1.0 };
         let play = match self.output {
             Output::File { .. } => PlayState::Playing,
             Output::Live { .. } => PlayState::Following,
         };
-        Ok(blueprint::send(&self.stream, APPLICATION, &panel, play)?)
+        Ok(blueprint::send(&self.stream, APPLICATION, &panel, (play, speed))?)
     }
 }
 
@@ -188,7 +207,9 @@ impl Watcher for Recorder {
 
 /// A name for the recording that tells runs of one scenario by different drivers apart.
 fn identity(scenario: &Scenario, name: &str) -> String {
-    let drivers: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect();
+    let mut drivers: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect();
+    let controller = scenario.controller();
+    drivers.extend(scenario.building.is_some().then(|| controller.kind()));
     format!("{name} ({}; seed {})", drivers.join(", "), scenario.seed)
 }
 

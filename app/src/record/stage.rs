@@ -5,6 +5,7 @@ use super::re_sdk_types::components::{MediaType, Radius};
 use interplay_scenarios::{Scenario, Vehicle};
 use rerun::{RecordingStream, RecordingStreamResult};
 
+use super::building;
 use super::palette::{ASPHALT, MARKING, Paint};
 
 /// Length of a lane marking and of the space behind it, in lane widths.
@@ -68,7 +69,10 @@ pub fn about(
     paints: &[Paint],
     command: Option<&str>,
 ) -> RecordingStreamResult<()> {
-    let text = description(scenario, paints, command);
+    let driving = (!scenario.vehicles.is_empty()).then(|| description(scenario, paints, command));
+    let command = command.filter(|_| driving.is_none());
+    let building = scenario.building.is_some().then(|| building::about(scenario, command));
+    let text = driving.into_iter().chain(building).collect::<Vec<_>>().join("\n\n");
     stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
 }
 
@@ -90,7 +94,7 @@ fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> 
 }
 
 /// A text to be shown as it is: between more backticks than it has in a row.
-fn code(text: &str) -> String {
+pub fn code(text: &str) -> String {
     let most = text.split(|character| character != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat(most + 1);
     if most == 0 { format!("{fence}{text}{fence}") } else { format!("{fence} {text} {fence}") }

@@ -2,6 +2,7 @@
 
 mod building;
 mod expectations;
+mod identification;
 mod junit;
 mod suite;
 mod summary;
@@ -13,6 +14,7 @@ use xxhash_rust::xxh3::xxh3_128;
 
 pub use building::BuildingReport;
 pub use expectations::Expectation;
+pub use identification::identification;
 pub use junit::junit;
 pub use suite::{Case, table};
 pub use summary::summary;
