@@ -16,7 +16,17 @@ macro_rules! files {
 }
 
 /// Sorted by name.
-static FILES: &[Embedded] = files!["lane-change/both-tough", "lane-change/front-nice", "lane-change/front-tough"];
+static FILES: &[Embedded] = files![
+    "intersection/nice",
+    "intersection/tough",
+    "lane-change/both-tough",
+    "lane-change/front-nice",
+    "lane-change/front-tough",
+    "lane-keeping/nice",
+    "lane-keeping/tough",
+    "ramp-merge/nice",
+    "ramp-merge/tough",
+];
 
 /// Every authored scenario, sorted by name.
 pub fn embedded() -> &'static [Embedded] {

@@ -25,7 +25,7 @@ fn run_with_failures() -> (Vec<Frame>, usize) {
         let mut wishes = world.query::<(&Identity, &mut Wish)>();
         for (identity, mut wish) in wishes.iter_mut(&mut world) {
             if identity.name == "front" {
-                wish.0.target.speed_mps = if SPOILT.contains(&tick) { f64::NAN } else { 1.4 };
+                wish.goal.target.speed_mps = if SPOILT.contains(&tick) { f64::NAN } else { 1.4 };
             }
         }
         schedule.run(&mut world);
