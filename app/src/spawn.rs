@@ -17,14 +17,14 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> World {
         let handle = physics.add(index, &vehicle.body, &state);
         let goal = Goal {
             target: vehicle.target(&scenario.road),
-            tracking: vehicle.weights.tracking(),
+            tracking: vehicle.tracking(&scenario.road),
             comfort: vehicle.weights.comfort(),
             safety: vehicle.safety,
         };
         world.spawn((
             Identity { index, name: vehicle.name.clone() },
             Motion { state, input: Input::default() },
-            Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor() },
+            Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor(vehicle.road) },
             Wish { goal, shared: vehicle.driver.shared_goal(&goal) },
             Mind { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },
             Intention::default(),

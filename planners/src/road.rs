@@ -58,6 +58,11 @@ impl Corridor {
         -sin * x + cos * y
     }
 
+    /// Lateral coordinate of the right edge at a longitudinal coordinate \[m\].
+    pub fn right_edge_m(&self, along_m: f64) -> f64 {
+        self.right_edge(along_m)[0]
+    }
+
     /// The right edge where the front bumper is at `front_m`, with its first and second derivative.
     fn right_edge(&self, front_m: f64) -> [f64; 3] {
         let Some(end) = self.end else { return [self.right_m, 0.0, 0.0] };

@@ -21,9 +21,15 @@ static FILES: &[Embedded] = files![
     "building/four-room-ilc",
     "building/four-room-pid",
     "building/hundred-zones",
+    "intersection/nice",
+    "intersection/tough",
     "lane-change/both-tough",
     "lane-change/front-nice",
     "lane-change/front-tough",
+    "lane-keeping/nice",
+    "lane-keeping/tough",
+    "ramp-merge/nice",
+    "ramp-merge/tough",
 ];
 
 /// Every authored scenario, sorted by name.

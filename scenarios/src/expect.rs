@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct Expect {
     /// Whether nobody may touch anybody (`true`), or a collision must happen (`false`).
     pub no_collision: Option<bool>,
-    /// The vehicles from first to last along the road at the end of the run; those left out are not judged.
+    /// The vehicles from first to last: along the road at the end of the run, or through the conflict zone of an
+    /// intersection. Those left out are not judged.
     pub order: Option<Vec<String>>,
     /// The footprint of the ego never comes nearer to another than this \[m\].
     #[schemars(extend("minimum" = 0.0))]
@@ -49,7 +50,7 @@ pub struct BuildingExpect {
     pub input_violation_kw_at_most: Option<f64>,
 }
 
-/// A vehicle reaches its goal (lane), within a window of time if one is stated.
+/// A vehicle reaches its goal (its lane, or the far side of an intersection), within a window of time if one is stated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Completes {

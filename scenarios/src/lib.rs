@@ -40,7 +40,7 @@ pub use error::{LoadError, Problem};
 pub use expect::{BuildingExpect, Completes, Expect, SpeedRange};
 pub use load::{from_text, load};
 pub use overrides::Override;
-pub use road::{Lanes, Road};
+pub use road::{Branch, Intersection, Lanes, RampMerge, Road};
 pub use scenario::{Goal, Plant, Scenario, StartJitter, Vehicle, Weights};
 pub use schema::schema;
 pub use source::Source;

@@ -7,7 +7,7 @@ use interplay_planners::{Driver, State};
 use crate::error::{Place, Problem, quoted};
 use crate::nearest::suggestion;
 use crate::tree::Node;
-use crate::{Road, Scenario, Vehicle, building};
+use crate::{Branch, Road, Scenario, Vehicle, building};
 
 /// The most ticks a run may take.
 const MOST_TICKS: f64 = 100_000.0;
@@ -19,8 +19,10 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
     let mut checker = Checker { scenario, tree, problems: Vec::new() };
     checker.times();
     checker.names();
+    checker.road();
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         checker.limits(index, vehicle);
+        checker.branch(index, vehicle);
         checker.goal(index, vehicle);
         checker.driver(index, vehicle);
     }
@@ -91,6 +93,35 @@ impl Checker<'_> {
         }
     }
 
+    /// What a vehicle wants is weighed along the axes of the world, so that roads run along those.
+    fn road(&mut self) {
+        if let Road::Intersection(crossing) = &self.scenario.road
+            && crossing.angle_deg.abs() != 90.0
+        {
+            let message = format!("`road.angle_deg` is {}, but roads cross at right angles only", crossing.angle_deg);
+            let help = "90 comes from the right of the main road, -90 from its left";
+            self.refuse("road.angle_deg", "not a right angle", message, help);
+        }
+    }
+
+    fn branch(&mut self, index: usize, vehicle: &Vehicle) {
+        let (name, road, path) = (&vehicle.name, &self.scenario.road, format!("vehicle.{index}"));
+        if vehicle.road == Branch::Cross && !matches!(road, Road::Intersection(_)) {
+            let message = format!("`vehicle.{name}.road` is \"cross\", but there is no crossing road");
+            let help = "`[road]` with `kind = \"intersection\"` has one";
+            self.refuse(&format!("{path}.road"), "no such road", message, help);
+            return;
+        }
+        let heading = road.heading_rad(vehicle.road);
+        let turned = libm::cos(vehicle.start.heading_rad - heading) < 0.5;
+        if turned && matches!(road, Road::Intersection(_)) {
+            let start = vehicle.start.heading_rad;
+            let message = format!("`vehicle.{name}.start.heading_rad` ({start}) is not along the vehicle's road");
+            let help = format!("its road runs at heading_rad = {heading}, and `road` chooses between both");
+            self.refuse(&format!("{path}.start"), "heads elsewhere", message, &help);
+        }
+    }
+
     fn goal(&mut self, index: usize, vehicle: &Vehicle) {
         let (name, goal, road) = (&vehicle.name, vehicle.goal, &self.scenario.road);
         let (path, lanes) = (format!("vehicle.{index}.goal"), road.lane_count());
@@ -106,13 +137,22 @@ impl Checker<'_> {
             let help = format!("lanes are counted from the right: 0 to {}", lanes.saturating_sub(1));
             self.refuse(&format!("{path}.lane"), "no such lane", message, &help);
         }
+        if goal.lane == Some(0) && road.lane_end().is_some() {
+            let message = format!("`vehicle.{name}.goal.lane` is 0, the ramp, which ends");
+            self.refuse(&format!("{path}.lane"), "this lane ends", message, "lane 1 is the one beside the ramp");
+        }
+        if goal.y_m.is_some() && vehicle.road == Branch::Cross {
+            let message = format!("`vehicle.{name}.goal.y_m` is no lateral position on the crossing road");
+            self.refuse(&format!("{path}.y_m"), "along this road", message, "state its `lane`");
+            return;
+        }
         if let Some(y_m) = goal.y_m.filter(|y_m| !(0.0..=road.width_m()).contains(y_m)) {
             let message = format!("`vehicle.{name}.goal.y_m` ({y_m}) is beside the road");
-            self.refuse(&format!("{path}.y_m"), "beside the road", message, &extent(road));
+            self.refuse(&format!("{path}.y_m"), "beside the road", message, &extent(road, vehicle.road));
         }
         if vehicle.weights.x > 0.0 {
             let message =
-                format!("`vehicle.{name}.weights.x` is not 0, but nothing along x can be a goal on this road");
+                format!("`vehicle.{name}.weights.x` is not 0, but nothing along its road can be a vehicle's goal");
             self.refuse(&format!("vehicle.{index}.weights.x"), "must be 0", message, "");
         }
     }
@@ -145,15 +185,14 @@ impl Checker<'_> {
 
     fn starts(&mut self) {
         let (scenario, starts) = (self.scenario, self.scenario.starts());
-        let corridor = scenario.road.corridor();
         let jitter = scenario.start_jitter;
         let moved = if jitter.position_m > 0.0 { " (moved by `start_jitter`)" } else { "" };
         let pairs = || scenario.vehicles.iter().zip(&starts).enumerate();
         for (index, (vehicle, start)) in pairs() {
             let path = format!("vehicle.{index}.start");
-            if !corridor.contains(&vehicle.body, start, TOLERANCE_M) {
+            if !scenario.road.corridor(vehicle.road).contains(&vehicle.body, start, TOLERANCE_M) {
                 let message = format!("vehicle {} starts outside the road{moved}", quoted(&vehicle.name));
-                let help = format!("{}, and the whole body must lie on it", extent(&scenario.road));
+                let help = format!("{}, and the whole body must lie on it", extent(&scenario.road, vehicle.road));
                 self.refuse(&path, "a corner is beside the road", message, &help);
             }
             for (other_index, (other, other_start)) in pairs().take(index) {
@@ -227,8 +266,16 @@ impl Checker<'_> {
     }
 }
 
-fn extent(road: &Road) -> String {
-    format!("the road reaches from y = 0 to y = {}", road.width_m())
+fn extent(road: &Road, branch: Branch) -> String {
+    let width = road.width_m();
+    match (road, branch) {
+        (Road::RampMerge(ramp), _) => {
+            let end = ramp.ramp_end_m;
+            format!("the road reaches from y = 0 to y = {width}, and its lane 0 narrows until it ends at x = {end}")
+        }
+        (_, Branch::Main) => format!("the road reaches from y = 0 to y = {width}"),
+        (_, Branch::Cross) => format!("the crossing road reaches from x = -{0} to x = {0}", 0.5 * width),
+    }
 }
 
 fn plural(count: usize, noun: &str) -> String {

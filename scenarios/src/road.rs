@@ -1,8 +1,9 @@
 //! Where vehicles may drive.
 //!
-//! Lanes are counted from the right: the centre of lane `i` lies at `(i + ½) w` to the left of the right edge.
+//! Every road is straight. The main one runs along x and its right edge is y = 0; another one may cross it. Lanes are
+//! counted from the right of who drives: the centre of lane `i` lies `(i + ½) w` to the left of the right edge.
 
-use interplay_planners::Corridor;
+use interplay_planners::{Corridor, LaneEnd};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +13,10 @@ use serde::{Deserialize, Serialize};
 pub enum Road {
     /// A straight road along x with parallel lanes; its right edge is y = 0.
     Lanes(Lanes),
+    /// The same, but lane 0 is a ramp that ends: who drives on it must merge into lane 1 before, or stop.
+    RampMerge(RampMerge),
+    /// Two roads that cross, each with lanes in one direction; a vehicle says by its `road` on which it drives.
+    Intersection(Intersection),
 }
 
 /// A straight road along x with parallel lanes. The default is that of a 1/10 scale car.
@@ -32,6 +37,63 @@ impl Default for Lanes {
     }
 }
 
+/// A straight road along x of which lane 0 ends. The default is that of a 1/10 scale car.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RampMerge {
+    /// How many lanes there are before the end, the ramp included.
+    #[schemars(range(min = 2, max = 16))]
+    pub lane_count: usize,
+    /// Width of each lane \[m\].
+    #[schemars(range(min = 0.001))]
+    pub lane_width_m: f64,
+    /// Where lane 0 has ended, along x \[m\].
+    pub ramp_end_m: f64,
+    /// Length scale `w` of the taper: the edge moves by the lane's width between about `4w` before the end and the end,
+    /// as `½ (1 + tanh((x − (ramp_end_m − 2w))/w))` \[m\].
+    #[schemars(range(min = 0.001))]
+    pub taper_m: f64,
+}
+
+impl Default for RampMerge {
+    fn default() -> Self {
+        RampMerge { lane_count: 2, lane_width_m: 0.37, ramp_end_m: 3.5, taper_m: 0.3 }
+    }
+}
+
+/// Two roads that cross. The main one runs along x with its right edge at y = 0; the middles of both meet at x = 0. The
+/// default is that of a 1/10 scale car.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Intersection {
+    /// How many lanes each road has.
+    #[schemars(range(min = 1, max = 16))]
+    pub lane_count: usize,
+    /// Width of each lane \[m\].
+    #[schemars(range(min = 0.001))]
+    pub lane_width_m: f64,
+    /// Direction of the crossing road, counter-clockwise from x: 90 comes from the right of the main one, −90 from its
+    /// left \[deg\].
+    pub angle_deg: f64,
+}
+
+impl Default for Intersection {
+    fn default() -> Self {
+        Intersection { lane_count: 1, lane_width_m: 0.37, angle_deg: 90.0 }
+    }
+}
+
+/// The road that a vehicle drives on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Branch {
+    /// The road along x.
+    #[default]
+    Main,
+    /// The road that crosses it; only at an intersection.
+    Cross,
+}
+
 impl Default for Road {
     fn default() -> Self {
         Road::Lanes(Lanes::default())
@@ -39,22 +101,48 @@ impl Default for Road {
 }
 
 impl Road {
-    /// The strip that a vehicle may use.
-    pub fn corridor(&self) -> Corridor {
-        Corridor { heading_rad: self.heading_rad(), right_m: 0.0, left_m: self.width_m(), end: None }
+    /// The strip that a vehicle on `branch` may use.
+    pub fn corridor(&self, branch: Branch) -> Corridor {
+        let heading_rad = self.heading_rad(branch);
+        let (width, middle) = (self.width_m(), self.middle_m(branch));
+        let (right_m, left_m) = match branch {
+            Branch::Main => (0.0, width),
+            Branch::Cross => (middle - 0.5 * width, middle + 0.5 * width),
+        };
+        Corridor { heading_rad, right_m, left_m, end: self.lane_end() }
     }
 
-    /// Direction of the lanes \[rad\].
-    pub fn heading_rad(&self) -> f64 {
-        match self {
-            Road::Lanes(_) => 0.0,
+    /// Direction of the lanes of `branch` \[rad\].
+    pub fn heading_rad(&self, branch: Branch) -> f64 {
+        match (self, branch) {
+            (Road::Intersection(crossing), Branch::Cross) => crossing.angle_deg.to_radians(),
+            _ => 0.0,
         }
+    }
+
+    /// The end of lane 0, if it ends.
+    pub fn lane_end(&self) -> Option<LaneEnd> {
+        match self {
+            Road::RampMerge(ramp) => {
+                Some(LaneEnd { end_m: ramp.ramp_end_m, height_m: ramp.lane_width_m, taper_m: ramp.taper_m })
+            }
+            Road::Lanes(_) | Road::Intersection(_) => None,
+        }
+    }
+
+    /// Between which longitudinal coordinates of `branch` the other road lies; none where no roads cross \[m\].
+    pub fn conflict_zone_m(&self, branch: Branch) -> Option<[f64; 2]> {
+        let Road::Intersection(_) = self else { return None };
+        let centre = self.corridor(branch).along([0.0, 0.5 * self.width_m()]);
+        Some([centre - 0.5 * self.width_m(), centre + 0.5 * self.width_m()])
     }
 
     /// How many lanes there are.
     pub fn lane_count(&self) -> usize {
         match self {
             Road::Lanes(lanes) => lanes.lane_count,
+            Road::RampMerge(ramp) => ramp.lane_count,
+            Road::Intersection(crossing) => crossing.lane_count,
         }
     }
 
@@ -62,23 +150,26 @@ impl Road {
     pub fn lane_width_m(&self) -> f64 {
         match self {
             Road::Lanes(lanes) => lanes.lane_width_m,
+            Road::RampMerge(ramp) => ramp.lane_width_m,
+            Road::Intersection(crossing) => crossing.lane_width_m,
         }
     }
 
-    /// Width of all lanes together \[m\].
+    /// Width of all lanes together, of each road \[m\].
     pub fn width_m(&self) -> f64 {
         self.lane_count() as f64 * self.lane_width_m()
     }
 
-    /// Lateral coordinate of the centre of a lane, 0 being the rightmost \[m\].
-    pub fn lane_centre_m(&self, lane: usize) -> f64 {
-        (lane as f64 + 0.5) * self.lane_width_m()
+    /// Lateral coordinate of the centre of a lane of `branch`, 0 being the rightmost \[m\].
+    pub fn lane_centre_m(&self, branch: Branch, lane: usize) -> f64 {
+        self.corridor(branch).right_m + (lane as f64 + 0.5) * self.lane_width_m()
     }
 
-    /// The lane in which a lateral coordinate lies; beside the road, the nearest lane.
-    pub fn lane_at(&self, lateral_m: f64) -> usize {
-        let lane = (lateral_m / self.lane_width_m()).floor().max(0.0) as usize;
-        lane.min(self.lane_count().saturating_sub(1))
+    /// Lateral coordinate of the middle of `branch` \[m\].
+    fn middle_m(&self, branch: Branch) -> f64 {
+        let (sin, cos) = libm::sincos(self.heading_rad(branch));
+        let [x, y] = [0.0, 0.5 * self.width_m()];
+        -sin * x + cos * y
     }
 }
 
@@ -87,12 +178,36 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_lane_centre_lies_in_its_lane() {
+    fn lanes_fill_the_road_from_its_right_edge() {
         let road = Road::Lanes(Lanes { lane_count: 5, lane_width_m: 3.5 });
-        for lane in 0..5 {
-            assert_eq!(road.lane_at(road.lane_centre_m(lane)), lane);
+        let corridor = road.corridor(Branch::Main);
+        assert_eq!((corridor.right_m, corridor.left_m), (0.0, 17.5));
+        assert_eq!(road.lane_centre_m(Branch::Main, 0), 1.75);
+        assert_eq!(road.lane_centre_m(Branch::Main, 4), 15.75);
+    }
+
+    /// Whatever the direction, the point in the middle of one road is in the middle of the other.
+    #[test]
+    fn the_middles_of_crossing_roads_meet() {
+        for angle_deg in [90.0, -90.0] {
+            let road = Road::Intersection(Intersection { lane_count: 3, angle_deg, ..Intersection::default() });
+            let meeting = [0.0, 0.5 * road.width_m()];
+            for branch in [Branch::Main, Branch::Cross] {
+                let corridor = road.corridor(branch);
+                assert!((corridor.across(meeting) - 0.5 * (corridor.right_m + corridor.left_m)).abs() < 1e-12);
+                assert!((corridor.across(meeting) - road.lane_centre_m(branch, 1)).abs() < 1e-12);
+                let [from, to] = road.conflict_zone_m(branch).expect("they cross");
+                assert!((corridor.along(meeting) - 0.5 * (from + to)).abs() < 1e-12);
+                assert!((to - from - road.width_m()).abs() < 1e-12);
+            }
         }
-        assert_eq!((road.lane_at(-1.0), road.lane_at(100.0)), (0, 4));
-        assert_eq!(road.corridor().left_m, 17.5);
+        assert_eq!(Road::default().conflict_zone_m(Branch::Main), None);
+    }
+
+    #[test]
+    fn past_its_end_nothing_of_the_ramp_is_left() {
+        let road = Road::RampMerge(RampMerge::default());
+        let edge = |along_m| road.corridor(Branch::Main).right_edge_m(along_m);
+        assert!(edge(1.0) < 1e-4 && edge(3.5) > 0.36 && edge(9.0) <= 0.37);
     }
 }

@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::building::{Building, Weather};
-use crate::{Expect, Road, jitter};
+use crate::{Branch, Expect, Road, jitter};
 
 /// One scenario: agents, their world, and what is expected of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -155,6 +155,9 @@ pub struct Vehicle {
     /// Its name, unique in the file; it becomes part of paths in the recording.
     #[schemars(extend("pattern" = crate::schema::NAME_PATTERN))]
     pub name: String,
+    /// The road it drives on; by default the one along x, and there is another at intersections only.
+    #[serde(default)]
+    pub road: Branch,
     /// Where it starts: mass centre, heading and speed.
     pub start: State,
     /// What it wants; by default to carry on as it starts.
@@ -185,13 +188,25 @@ impl Vehicle {
     /// The state that the vehicle wants: the lateral position of its goal (that of its start without one), along the
     /// road, at the wanted speed. The coordinate along the road is that of the start and nobody tracks it.
     pub fn target(&self, road: &Road) -> State {
-        let lateral = self.goal.lane.map(|lane| road.lane_centre_m(lane)).or(self.goal.y_m);
+        let corridor = road.corridor(self.road);
+        let (along, start) = (corridor.along(self.start.position()), corridor.across(self.start.position()));
+        let lateral = self.goal.lane.map(|lane| road.lane_centre_m(self.road, lane)).or(self.goal.y_m).unwrap_or(start);
+        let (sin, cos) = libm::sincos(corridor.heading_rad);
         State {
-            x_m: self.start.x_m,
-            y_m: lateral.unwrap_or(self.start.y_m),
-            heading_rad: road.heading_rad(),
+            x_m: cos * along - sin * lateral,
+            y_m: sin * along + cos * lateral,
+            heading_rad: corridor.heading_rad,
             speed_mps: self.goal.speed_mps.unwrap_or(self.start.speed_mps),
         }
+    }
+
+    /// Diagonal of `Q` on (x, y, θ, v): what the weights along and across the road are to the axes of the world. Roads
+    /// run along x or y.
+    pub fn tracking(&self, road: &Road) -> [f64; 4] {
+        let Weights { x, y, heading, speed, .. } = self.weights;
+        let runs_along_x = libm::cos(road.heading_rad(self.road)).abs() > 0.5;
+        let [in_x, in_y] = if runs_along_x { [x, y] } else { [y, x] };
+        [in_x, in_y, heading, speed]
     }
 }
 
@@ -201,7 +216,7 @@ impl Vehicle {
 pub struct Goal {
     /// The lane whose centre it wants, counted from the right; 0 is the rightmost. Not together with `y_m`.
     pub lane: Option<usize>,
-    /// The lateral position that it wants. Not together with `lane` \[m\].
+    /// The lateral position that it wants, on the road along x. Not together with `lane` \[m\].
     pub y_m: Option<f64>,
     /// The speed that it wants \[m/s\].
     pub speed_mps: Option<f64>,
@@ -211,10 +226,10 @@ pub struct Goal {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Weights {
-    /// Of the position along x; 0 where the road runs along x, since nobody there wants to stay at one place.
+    /// Of the position along the vehicle's road: 0, since nobody wants to stay at one place.
     #[schemars(range(min = 0.0))]
     pub x: f64,
-    /// Of the position along y \[1/m²\].
+    /// Of the position across the vehicle's road, which is y where the road runs along x \[1/m²\].
     #[schemars(range(min = 0.0))]
     pub y: f64,
     /// Of the heading \[1/rad²\].
@@ -238,11 +253,6 @@ impl Default for Weights {
 }
 
 impl Weights {
-    /// Diagonal of `Q` on (x, y, θ, v).
-    pub fn tracking(&self) -> [f64; 4] {
-        [self.x, self.y, self.heading, self.speed]
-    }
-
     /// Diagonal of `R` on (Δa, Δδ).
     pub fn comfort(&self) -> [f64; 2] {
         [self.acceleration_change, self.steering_change]

@@ -180,6 +180,27 @@ fn places() {
 }
 
 #[test]
+fn roads() {
+    let mut errors = Catalogue::default();
+    let ramp = ("kind = \"lanes\"", "kind = \"ramp-merge\"\nramp_end_m = 3.0");
+    let crossing = ("kind = \"lanes\"", "kind = \"intersection\"");
+    let cross = ("name = \"front\"", "name = \"front\"\nroad = \"cross\"");
+    errors.refusal("no_crossing_road", &[cross], &["bad.toml:17:8", "no crossing road", "kind = \"intersection\""]);
+    errors.refusal("start_past_the_ramp", &[ramp, ("x_m = 1.0", "x_m = 3.0")], &["`front` starts outside", "x = 3"]);
+    errors.refusal("goal_on_the_ramp", &[ramp, ("lane = 1", "lane = 0")], &["the ramp, which ends", "lane 1"]);
+    errors.refusal("a_ramp_needs_a_lane_beside_it", &[ramp, ("lane_count = 2", "lane_count = 1")], &["at least 2"]);
+    errors.refusal("heads_elsewhere", &[crossing, cross], &["not along the vehicle's road", "heading_rad = 1.57"]);
+    let north = ("x_m = 1.0, y_m = 0.185", "x_m = 1.0, y_m = -1.0, heading_rad = 1.5708");
+    errors.refusal("beside_the_crossing_road", &[crossing, cross, north], &["from x = -0.37 to x = 0.37"]);
+    let y_m = ("body = { width_m = 0.19 }", "goal = { y_m = 0.3 }");
+    let there = ("x_m = 1.0, y_m = 0.185", "x_m = 0.2, y_m = -1.0, heading_rad = 1.5708");
+    errors.refusal("no_lateral_position", &[crossing, cross, there, y_m], &["no lateral position", "its `lane`"]);
+    let slanted = ("kind = \"lanes\"", "kind = \"intersection\"\nangle_deg = 60");
+    errors.refusal("not_a_right_angle", &[slanted], &["right angles only", "-90"]);
+    errors.compare("roads");
+}
+
+#[test]
 fn names_and_times() {
     let mut errors = Catalogue::default();
     errors.refusal(

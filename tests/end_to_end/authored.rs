@@ -41,6 +41,22 @@ fn the_conservative_planner_merges_between_and_fails_the_expectation() {
     assert_eq!(what, ["order", "completes.ego"], "another place, and later");
 }
 
+/// In every family the order of the nice scenario is owed to the negotiation: the conservative planner gets another.
+#[test]
+fn nobody_yields_to_who_does_not_ask() {
+    let folder = scratch("does-not-ask");
+    for name in ["intersection/nice", "lane-keeping/nice", "ramp-merge/nice"] {
+        let order = |planner: &str| {
+            let report = interplay(&folder, &["run", name, "--planner", planner, "--no-record", "--json"]).json();
+            assert_eq!(report["collisions"], json!([]), "{name}: {planner}");
+            report["order"].clone()
+        };
+        let (asking, not_asking) = (order("negotiation"), order("conservative"));
+        assert_eq!(asking[0], "ego", "{name}");
+        assert_ne!(not_asking[0], "ego", "{name}");
+    }
+}
+
 #[test]
 fn without_a_command_the_first_scenario_runs() {
     let folder = scratch("default");

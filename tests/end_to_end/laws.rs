@@ -106,9 +106,9 @@ fn plans_are_motions_of_the_vehicle() {
 #[test]
 fn nobody_leaves_the_road() {
     for film in FILMS.iter() {
-        let corridor = film.scenario.road.corridor();
         for frame in &film.frames {
             for (seen, vehicle) in frame.vehicles.iter().zip(&film.scenario.vehicles) {
+                let corridor = film.scenario.road.corridor(vehicle.road);
                 assert!(corridor.contains(&vehicle.body, &seen.state, 1e-3), "{}: {seen:?}", film.name());
             }
         }

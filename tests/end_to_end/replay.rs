@@ -7,7 +7,7 @@
 use interplay::frame::{Frame, Origin, VehicleFrame};
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{Scenario, Vehicle};
 
 use crate::film::{FILMS, Film, authored, film};
 
@@ -22,9 +22,9 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         previous_input: before.map(|frame| frame.vehicles[index].input).unwrap_or_default(),
         body: vehicle.body,
         limits: vehicle.limits,
-        corridor: scenario.road.corridor(),
+        corridor: scenario.road.corridor(vehicle.road),
         prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now),
-        shared_goal: None,
+        shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
     })
     .collect()
 }
@@ -39,8 +39,10 @@ fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFra
 
 /// Who plans when.
 fn order(scenario: &Scenario, frame: &Frame) -> Vec<usize> {
-    let corridor = scenario.road.corridor();
-    let along = |index: usize| corridor.along(frame.vehicles[index].state.position());
+    let along = |index: usize| {
+        let corridor = scenario.road.corridor(scenario.vehicles[index].road);
+        corridor.along(frame.vehicles[index].state.position())
+    };
     let (mut first, then): (Vec<usize>, Vec<usize>) =
         (0..scenario.vehicles.len()).partition(|index| scenario.vehicles[*index].driver.goes_first());
     first.sort_by(|a, b| along(*b).total_cmp(&along(*a)));
@@ -51,13 +53,17 @@ fn scene(film: &Film, tick: usize, index: usize, agents: &[Agent]) -> Scene {
     let (scenario, vehicle) = (&film.scenario, &film.scenario.vehicles[index]);
     let mut others = agents.to_vec();
     let ego = others.remove(index);
-    let goal = Goal {
+    let goal = goal(scenario, vehicle);
+    Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others }
+}
+
+fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {
+    Goal {
         target: vehicle.target(&scenario.road),
-        tracking: vehicle.weights.tracking(),
+        tracking: vehicle.tracking(&scenario.road),
         comfort: vehicle.weights.comfort(),
         safety: vehicle.safety,
-    };
-    Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others }
+    }
 }
 
 #[test]

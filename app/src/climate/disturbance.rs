@@ -1,7 +1,7 @@
 //! Disturb: what the weather and the people do, and what was expected of them.
 
 use bevy::ecs::prelude::*;
-use interplay_building::control::{DayRecord, Disturbance};
+use interplay_building::control::{DayRecord, Design, Disturbance};
 use interplay_building::weather::Forecast;
 
 use super::{Building, Gains, Node, Temperature, Today};
@@ -51,7 +51,12 @@ fn today(building: &Building, day: usize, initial_c: Vec<f64>) -> Today {
             ambient_c: weather.ambient_steps_c(start_s, step_s, steps),
             gains_kw: sunlit(people.actual_kw(day, step_s, steps), start_s),
         },
-        record: DayRecord { temperatures_c: empty(), heat_kw: empty(), requested_kw: empty() },
+        record: DayRecord {
+            temperatures_c: empty(),
+            heat_kw: empty(),
+            requested_kw: empty(),
+            design: Design::default(),
+        },
         design_s: 0.0,
     }
 }

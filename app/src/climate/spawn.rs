@@ -2,7 +2,7 @@
 
 use bevy::ecs::prelude::*;
 use interplay_building::comfort::SetpointsError;
-use interplay_building::control::{ControlError, DayRecord, Disturbance};
+use interplay_building::control::{ControlError, DayRecord, Design, Disturbance};
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::NetworkError;
 use interplay_scenarios::Scenario;
@@ -53,7 +53,12 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
         }
     }
     let nothing = Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
-    let record = DayRecord { temperatures_c: Vec::new(), heat_kw: Vec::new(), requested_kw: Vec::new() };
+    let record = DayRecord {
+        temperatures_c: Vec::new(),
+        heat_kw: Vec::new(),
+        requested_kw: Vec::new(),
+        design: Design::default(),
+    };
     let building = Building {
         targets: scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?,
         weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,

@@ -1,44 +1,56 @@
 //! When a vehicle reaches its goal.
 
-use interplay_planners::State;
+use interplay_planners::{Body, Corridor, State};
 use interplay_scenarios::{Road, Vehicle};
 
 /// The share of the lane's width by which the centre of the goal may be missed.
 const TOLERANCE: f64 = 0.15;
 
-/// A vehicle has completed its task once its centre is within 15 % of a lane's width of the goal's lateral position.
+/// On a road of parallel lanes a vehicle has completed its task once its centre is within 15 % of a lane's width of the
+/// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone.
 ///
 /// A vehicle that starts there has nothing to complete.
 #[derive(Clone, Copy, Debug)]
 pub struct Completion {
-    lateral_m: f64,
-    tolerance_m: f64,
-    heading: [f64; 2],
+    corridor: Corridor,
+    task: Task,
     /// Whether it started elsewhere.
     has_task: bool,
     /// When it was reached first \[s\].
     pub completed_s: Option<f64>,
 }
 
+/// What is to be reached.
+#[derive(Clone, Copy, Debug)]
+enum Task {
+    /// A lateral position.
+    Lane { lateral_m: f64, tolerance_m: f64 },
+    /// The far side of the other road, with the whole body.
+    Cross { end_m: f64, body: Body },
+}
+
 impl Completion {
     /// The goal of a vehicle.
     pub fn new(vehicle: &Vehicle, road: &Road) -> Self {
-        let (target, corridor) = (vehicle.target(road), road.corridor());
-        let (sin, cos) = libm::sincos(corridor.heading_rad);
-        let mut completion = Completion {
-            lateral_m: corridor.across(target.position()),
-            tolerance_m: TOLERANCE * road.lane_width_m(),
-            heading: [-sin, cos],
-            has_task: false,
-            completed_s: None,
+        let corridor = road.corridor(vehicle.road);
+        let task = match road.conflict_zone_m(vehicle.road) {
+            Some([_, end_m]) => Task::Cross { end_m, body: vehicle.body },
+            None => Task::Lane {
+                lateral_m: corridor.across(vehicle.target(road).position()),
+                tolerance_m: TOLERANCE * road.lane_width_m(),
+            },
         };
+        let mut completion = Completion { corridor, task, has_task: false, completed_s: None };
         completion.has_task = !completion.is_there(&vehicle.start);
         completion
     }
 
     fn is_there(&self, state: &State) -> bool {
-        let lateral = self.heading[0] * state.x_m + self.heading[1] * state.y_m;
-        (lateral - self.lateral_m).abs() <= self.tolerance_m
+        let position = state.position();
+        match self.task {
+            Task::Lane { lateral_m, tolerance_m } => (self.corridor.across(position) - lateral_m).abs() <= tolerance_m,
+            Task::Cross { end_m, body } => self.corridor.along(position) - body.rear_m > end_m,
+        }
     }
 
     /// Looks at one moment.

@@ -11,7 +11,7 @@ use super::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind
 use super::re_sdk_types::components::Range1D;
 use super::re_sdk_types::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
 use super::re_sdk_types::{blueprint, datatypes};
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{Branch, Scenario, Vehicle};
 
 use super::blueprint::{Panel, View};
 use super::plots::{self, Plots};
@@ -26,6 +26,11 @@ const SHARE_BEHIND: f64 = 0.42;
 
 /// The layout for a scenario of which `plots` were recorded between the longitudinal coordinates `road_m`.
 pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> Panel {
+    if let Some([from_m, to_m]) = scenario.road.conflict_zone_m(Branch::Main) {
+        let beside = Panel::Column(numbers(scenario, plots));
+        let above = Panel::Row(vec![(1.1, crossing(scenario, 0.5 * (from_m + to_m))), (0.9, beside)]);
+        return Panel::Column(vec![(2.4, above), (1.0, Panel::Row(words(scenario, plots)))]);
+    }
     Panel::Column(vec![
         (1.9, close_up(scenario)),
         (0.75, whole_road(scenario, road_m)),
@@ -114,6 +119,17 @@ fn close_up(scenario: &Scenario) -> Panel {
     let span = close_up_span_m(scenario);
     let along = [-SHARE_BEHIND * span, (1.0 - SHARE_BEHIND) * span];
     Panel::View(traced(scenario, top_view("Around the ego", along, across).from(FOLLOW)))
+}
+
+/// Where the roads meet, as far around as the vehicles come from.
+fn crossing(scenario: &Scenario, centre_m: f64) -> Panel {
+    let middle = [centre_m, 0.5 * scenario.road.width_m()];
+    let off = |vehicle: &Vehicle| (vehicle.start.x_m - middle[0]).abs().max((vehicle.start.y_m - middle[1]).abs());
+    let reach =
+        scenario.vehicles.iter().map(off).fold(scenario.road.width_m(), f64::max) + scenario.road.lane_width_m();
+    let across = [-middle[1] - reach, -middle[1] + reach];
+    let view = top_view("The intersection", [middle[0] - reach, middle[0] + reach], across);
+    Panel::View(traced(scenario, view))
 }
 
 fn whole_road(scenario: &Scenario, road_m: [f64; 2]) -> Panel {

@@ -4,7 +4,7 @@
 //! that two recordings of one run can be compared. Entities have names, never numbers:
 //!
 //! ```text
-//! world/road/{surface,edges,markings}                 static
+//! world/road[/cross]/{surface,edges,markings}         static
 //! world/vehicle/<name>/{body,label,trace}             where it is and was
 //! world/vehicle/<name>/{plan,prediction,proposal}     what it will do, is expected to do, asks another to do
 //! world/vehicle/<name>/safety                         where the ego keeps out
@@ -32,7 +32,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use ::re_sdk_types;
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{Branch, Scenario};
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{DEFAULT_SERVER_PORT, RecordingStream, RecordingStreamBuilder};
@@ -146,7 +146,7 @@ impl Recorder {
         if let (Some(house), Some(frame)) = (&mut self.house, &frame.building) {
             house.step(&self.stream, frame)?;
         }
-        let corridor = self.scenario.road.corridor();
+        let corridor = self.scenario.road.corridor(Branch::Main);
         for vehicle in &frame.vehicles {
             let along = corridor.along(vehicle.state.position());
             let [from, to] = self.driven_m.unwrap_or([along, along]);
@@ -220,7 +220,7 @@ fn margin(scenario: &Scenario) -> f64 {
 
 /// The longitudinal coordinates between which the vehicles will stay if they drive as they wish \[m\].
 fn expected_road(scenario: &Scenario) -> [f64; 2] {
-    let corridor = scenario.road.corridor();
+    let corridor = scenario.road.corridor(Branch::Main);
     let mut road = [f64::INFINITY, f64::NEG_INFINITY];
     for vehicle in &scenario.vehicles {
         let start = corridor.along(vehicle.start.position());

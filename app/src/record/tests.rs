@@ -124,6 +124,18 @@ fn a_recording_has_the_promised_entities_at_every_tick() {
 }
 
 #[test]
+fn a_crossing_road_is_drawn_only_where_there_is_one() {
+    let folder = Folder::new("crossing");
+    let crossing = load("intersection/nice", &[]).expect("embedded");
+    let drawn = |scenario: &Scenario| {
+        let entities = entities(&recorded(scenario, &folder.0.join("run.rrd")));
+        entities.keys().filter(|path| path.starts_with("/world/road/cross/")).count()
+    };
+    assert_eq!(drawn(&crossing), 3, "surface, edges, markings");
+    assert_eq!(drawn(&scenario(None)), 0);
+}
+
+#[test]
 fn there_is_no_clock_of_the_wall() {
     let folder = Folder::new("clock");
     let recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));

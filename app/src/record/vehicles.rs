@@ -20,7 +20,6 @@ const FILL_LINES: u8 = 7;
 pub struct Cast {
     performers: Vec<Performer>,
     ego: usize,
-    road_heading_rad: f64,
 }
 
 /// One vehicle as it is drawn.
@@ -29,6 +28,7 @@ struct Performer {
     path: String,
     paint: Paint,
     body: Body,
+    road_heading_rad: f64,
     last: Option<State>,
     asks: bool,
 }
@@ -43,7 +43,9 @@ impl Cast {
         let mut performers = Vec::new();
         for (vehicle, paint) in scenario.vehicles.iter().zip(paints) {
             let path = format!("world/vehicle/{}", vehicle.name);
-            let performer = Performer { path, paint: *paint, body: vehicle.body, last: None, asks: false };
+            let road_heading_rad = scenario.road.heading_rad(vehicle.road);
+            let (paint, body) = (*paint, vehicle.body);
+            let performer = Performer { path, paint, body, road_heading_rad, last: None, asks: false };
             performer.dress(stream)?;
             performers.push(performer);
         }
@@ -57,7 +59,7 @@ impl Cast {
                 stream.log_static(format!("{}/safety", other.path), &ellipse)?;
             }
         }
-        Ok(Cast { performers, ego, road_heading_rad: scenario.road.heading_rad() })
+        Ok(Cast { performers, ego })
     }
 
     /// Logs one tick.
@@ -65,15 +67,15 @@ impl Cast {
     /// # Errors
     /// If Rerun refuses a component.
     pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
-        let (sin, cos) = self.road_heading_rad.sin_cos();
         for (index, (performer, vehicle)) in self.performers.iter_mut().zip(&frame.vehicles).enumerate() {
             performer.act(stream, vehicle)?;
             if index == self.ego {
+                let (sin, cos) = performer.road_heading_rad.sin_cos();
                 let along = vehicle.state.x_m * cos + vehicle.state.y_m * sin;
                 let here = [(along * cos) as f32, (-along * sin) as f32, 0.0];
                 stream.log(FOLLOW, &Transform3D::update_fields().with_translation(here))?;
             } else {
-                let place = pose(&State { heading_rad: self.road_heading_rad, ..vehicle.state });
+                let place = pose(&State { heading_rad: performer.road_heading_rad, ..vehicle.state });
                 stream.log(format!("{}/safety", performer.path), &place)?;
             }
         }

@@ -8,7 +8,7 @@ mod suite;
 mod summary;
 
 use interplay_planners::State;
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{Scenario, Vehicle};
 use serde::{Serialize, Serializer};
 use xxhash_rust::xxh3::xxh3_128;
 
@@ -45,7 +45,7 @@ pub struct Report {
     pub collisions: Vec<Collision>,
     /// Smallest distance of the ego's footprint to another \[m\].
     pub min_gap_m: Option<f64>,
-    /// Names from the front of the road to its rear, at the end.
+    /// Names from the front of the road to its rear, at the end; at an intersection, in the order of crossing.
     pub order: Vec<String>,
     /// Every vehicle, in the scenario's order.
     pub vehicles: Vec<VehicleReport>,
@@ -166,16 +166,24 @@ fn digest(scenario: &Scenario, phases: &PhaseDigests, building: Option<&Building
     }
 }
 
-/// Names from the front of the road to its rear.
+/// Names from the front of the road to its rear; at an intersection, in the order in which they left the conflict zone,
+/// and then by how far they still have to go.
 fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
-    let corridor = scenario.road.corridor();
-    let mut places: Vec<(f64, &str)> = scenario
-        .vehicles
-        .iter()
-        .zip(&measures.vehicles)
-        .map(|(vehicle, measured)| (corridor.along(measured.last.position()), vehicle.name.as_str()))
-        .collect();
-    places.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let road = &scenario.road;
+    let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
+    let place = |(vehicle, measured): (&Vehicle, &VehicleMeasures)| {
+        let along = road.corridor(vehicle.road).along(measured.last.position());
+        match road.conflict_zone_m(vehicle.road) {
+            Some([_, end]) => {
+                let never = if along > end { 0.0 } else { f64::INFINITY };
+                [measured.completion.completed_s.unwrap_or(never), end - along]
+            }
+            None => [0.0, -along],
+        }
+    };
+    let mut places: Vec<([f64; 2], &str)> =
+        vehicles.map(|(one, seen)| (place((one, seen)), one.name.as_str())).collect();
+    places.sort_by(|([a, behind_a], _), ([b, behind_b], _)| a.total_cmp(b).then(behind_a.total_cmp(behind_b)));
     places.into_iter().map(|(_, name)| name.to_owned()).collect()
 }
 
