@@ -6,6 +6,7 @@ use interplay_scenarios::Scenario;
 
 use crate::components::{Agents, Clock, Identity, Intention, Mind, Motion, Physique, Present, Wish};
 use crate::measure::Measures;
+use crate::moments::Moment;
 use crate::physics::{Physics, VehicleBody};
 use crate::watch::{Watcher, Watchers};
 
@@ -32,6 +33,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> World {
         ));
     }
     world.insert_resource(Clock { tick: 0, step_s: scenario.step_s, horizon: scenario.horizon_steps });
+    world.insert_resource(Moment { time_s: 0.0, vehicles: true, building: false });
     world.insert_resource(Agents::default());
     world.insert_resource(Present::default());
     world.insert_resource(Measures::new(scenario));
