@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::clairvoyant::Clairvoyant;
+use super::concurrent::{Concurrent, ConcurrentSettings};
 use super::iterative::{Iterative, IterativeSettings};
 use super::learning::{Learning, LearningSettings};
 use super::pid::{Pid, PidSettings};
@@ -26,6 +27,8 @@ pub enum Controller {
     Clairvoyant,
     /// Feedforward and feedback designed in turn, with an expected cost (chapter 3).
     Iterative(IterativeSettings),
+    /// Feedforward and a Youla-parametrised feedback (chapter 4).
+    Concurrent(ConcurrentSettings),
 }
 
 /// A controller at work: its settings and all that it remembers.
@@ -41,6 +44,8 @@ pub enum Regulator {
     Clairvoyant(Box<Clairvoyant>),
     /// See [`Iterative`].
     Iterative(Box<Iterative>),
+    /// See [`Concurrent`].
+    Concurrent(Box<Concurrent>),
 }
 
 impl Controller {
@@ -61,6 +66,9 @@ impl Controller {
             Self::Iterative(settings) => {
                 Regulator::Iterative(Box::new(Iterative::new(settings, Lifted::new(model, steps))?))
             }
+            Self::Concurrent(settings) => {
+                Regulator::Concurrent(Box::new(Concurrent::new(settings, Lifted::new(model, steps))?))
+            }
         })
     }
 
@@ -72,6 +80,7 @@ impl Controller {
             Self::IterativeLearning(_) => "iterative-learning",
             Self::Clairvoyant => "clairvoyant",
             Self::Iterative(_) => "iterative",
+            Self::Concurrent(_) => "concurrent",
         }
     }
 }
@@ -80,6 +89,7 @@ impl Regulator {
     fn control(&mut self) -> &mut dyn Control {
         match self {
             Self::Iterative(iterative) => iterative.as_mut(),
+            Self::Concurrent(concurrent) => concurrent.as_mut(),
             Self::Thermostat(thermostat) => thermostat,
             Self::Pid(pid) => pid,
             Self::IterativeLearning(learning) => learning.as_mut(),
@@ -105,6 +115,7 @@ impl Control for Regulator {
         match self {
             Self::Thermostat(_) | Self::Pid(_) | Self::IterativeLearning(_) | Self::Clairvoyant(_) => Design::default(),
             Self::Iterative(iterative) => iterative.design(),
+            Self::Concurrent(concurrent) => concurrent.design(),
         }
     }
 }

@@ -18,6 +18,7 @@
 //! of the disturbance is learned from day to day.
 
 mod clairvoyant;
+pub mod concurrent;
 mod controller;
 mod day;
 mod design;
