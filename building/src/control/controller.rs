@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::clairvoyant::Clairvoyant;
 use super::concurrent::{Concurrent, ConcurrentSettings};
+use super::distributed::{Centralised, CentralisedSettings, Distributed, DistributedSettings};
 use super::iterative::{Iterative, IterativeSettings};
 use super::learning::{Learning, LearningSettings};
 use super::pid::{Pid, PidSettings};
@@ -29,6 +30,10 @@ pub enum Controller {
     Iterative(IterativeSettings),
     /// Feedforward and a Youla-parametrised feedback (chapter 4).
     Concurrent(ConcurrentSettings),
+    /// Zones that plan together by exchanging messages with their neighbours (chapter 5).
+    Distributed(DistributedSettings),
+    /// What the distributed design approaches, in one problem (eq. 5.12).
+    Centralised(CentralisedSettings),
 }
 
 /// A controller at work: its settings and all that it remembers.
@@ -46,6 +51,10 @@ pub enum Regulator {
     Iterative(Box<Iterative>),
     /// See [`Concurrent`].
     Concurrent(Box<Concurrent>),
+    /// See [`Distributed`].
+    Distributed(Box<Distributed>),
+    /// See [`Centralised`].
+    Centralised(Box<Centralised>),
 }
 
 impl Controller {
@@ -69,6 +78,10 @@ impl Controller {
             Self::Concurrent(settings) => {
                 Regulator::Concurrent(Box::new(Concurrent::new(settings, Lifted::new(model, steps))?))
             }
+            Self::Distributed(settings) => Regulator::Distributed(Box::new(Distributed::new(settings, model, steps)?)),
+            Self::Centralised(settings) => {
+                Regulator::Centralised(Box::new(Centralised::new(settings, Lifted::new(model, steps))?))
+            }
         })
     }
 
@@ -81,6 +94,8 @@ impl Controller {
             Self::Clairvoyant => "clairvoyant",
             Self::Iterative(_) => "iterative",
             Self::Concurrent(_) => "concurrent",
+            Self::Distributed(_) => "distributed",
+            Self::Centralised(_) => "centralised",
         }
     }
 }
@@ -90,6 +105,8 @@ impl Regulator {
         match self {
             Self::Iterative(iterative) => iterative.as_mut(),
             Self::Concurrent(concurrent) => concurrent.as_mut(),
+            Self::Distributed(distributed) => distributed.as_mut(),
+            Self::Centralised(centralised) => centralised.as_mut(),
             Self::Thermostat(thermostat) => thermostat,
             Self::Pid(pid) => pid,
             Self::IterativeLearning(learning) => learning.as_mut(),
@@ -116,6 +133,8 @@ impl Control for Regulator {
             Self::Thermostat(_) | Self::Pid(_) | Self::IterativeLearning(_) | Self::Clairvoyant(_) => Design::default(),
             Self::Iterative(iterative) => iterative.design(),
             Self::Concurrent(concurrent) => concurrent.design(),
+            Self::Distributed(distributed) => distributed.design(),
+            Self::Centralised(centralised) => centralised.design(),
         }
     }
 }

@@ -22,6 +22,7 @@ pub mod concurrent;
 mod controller;
 mod day;
 mod design;
+pub mod distributed;
 mod error;
 pub mod experience;
 mod follow;
