@@ -105,10 +105,15 @@ fn iterative_design_is_cheaper_than_a_fixed_feedback_on_every_seed() {
 
 #[test]
 fn costs_fall_from_day_to_day_when_the_model_is_wrong() {
-    // The building has 15 % more capacity, and other walls, than the design believes.
-    let costs = seeds(&testbed_scaled(1.15, 1.0 / 0.85, 1.0 / 1.15), IterativeSettings::default(), 1.0);
-    let mean = |day: usize| costs.iter().map(|costs| costs[day]).sum::<f64>() / costs.len() as f64;
-    assert!(mean(1) > 1.1 * mean(2) && mean(2) > 1.02 * mean(3), "{} {} {} {}", mean(1), mean(2), mean(3), mean(4));
+    // The building has 15 % more capacity, and other walls, than the design believes; every day is the same.
+    let plant = testbed_scaled(1.15, 1.0 / 0.85, 1.0 / 1.15);
+    let targets = chapter_3(1.0);
+    let (_, actual) = day(1);
+    let mut iterative = Iterative::new(IterativeSettings::default(), lifted()).expect("valid");
+    let records = run(&plant, 29.0, &mut iterative, &targets, &vec![(actual.clone(), actual); 6]);
+    let costs: Vec<f64> = records.iter().map(|record| targets.cost(&record.temperatures_c, &record.heat_kw)).collect();
+    assert!(costs.is_sorted_by(|before, after| after < before), "{costs:?}");
+    assert!(costs[1] > 1.02 * costs[5], "{costs:?}");
 }
 
 #[test]
@@ -128,7 +133,8 @@ fn the_printed_matrix_inequality_accepts_anything() {
     let radius = spectral_radius(&stable);
     assert!((positive_decay(&stable) - radius).abs() < 1e-6, "nonnegative: the vector is as good as the eigenvalue");
     assert!(lmi_margin(Lmi::Corrected { decay: 1.02 * radius }, &stable).expect("solved") > 1e-4);
-    assert!(lmi_margin(Lmi::Corrected { decay: 0.98 * radius }, &stable).expect("solved") < -1e-4);
+    let refused = lmi_margin(Lmi::Corrected { decay: 0.9 * radius }, &stable).expect("solved");
+    assert!(refused < 1e-7, "{refused:e}: S vanishes where the decay is too slow");
 }
 
 #[test]

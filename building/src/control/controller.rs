@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::clairvoyant::Clairvoyant;
+use super::concurrent::{Concurrent, ConcurrentSettings};
+use super::distributed::{Centralised, CentralisedSettings, Distributed, DistributedSettings};
 use super::iterative::{Iterative, IterativeSettings};
 use super::learning::{Learning, LearningSettings};
 use super::pid::{Pid, PidSettings};
@@ -26,6 +28,12 @@ pub enum Controller {
     Clairvoyant,
     /// Feedforward and feedback designed in turn, with an expected cost (chapter 3).
     Iterative(IterativeSettings),
+    /// Feedforward and a Youla-parametrised feedback (chapter 4).
+    Concurrent(ConcurrentSettings),
+    /// Zones that plan together by exchanging messages with their neighbours (chapter 5).
+    Distributed(DistributedSettings),
+    /// What the distributed design approaches, in one problem (eq. 5.12).
+    Centralised(CentralisedSettings),
 }
 
 /// A controller at work: its settings and all that it remembers.
@@ -41,6 +49,12 @@ pub enum Regulator {
     Clairvoyant(Box<Clairvoyant>),
     /// See [`Iterative`].
     Iterative(Box<Iterative>),
+    /// See [`Concurrent`].
+    Concurrent(Box<Concurrent>),
+    /// See [`Distributed`].
+    Distributed(Box<Distributed>),
+    /// See [`Centralised`].
+    Centralised(Box<Centralised>),
 }
 
 impl Controller {
@@ -61,6 +75,13 @@ impl Controller {
             Self::Iterative(settings) => {
                 Regulator::Iterative(Box::new(Iterative::new(settings, Lifted::new(model, steps))?))
             }
+            Self::Concurrent(settings) => {
+                Regulator::Concurrent(Box::new(Concurrent::new(settings, Lifted::new(model, steps))?))
+            }
+            Self::Distributed(settings) => Regulator::Distributed(Box::new(Distributed::new(settings, model, steps)?)),
+            Self::Centralised(settings) => {
+                Regulator::Centralised(Box::new(Centralised::new(settings, Lifted::new(model, steps))?))
+            }
         })
     }
 
@@ -72,6 +93,9 @@ impl Controller {
             Self::IterativeLearning(_) => "iterative-learning",
             Self::Clairvoyant => "clairvoyant",
             Self::Iterative(_) => "iterative",
+            Self::Concurrent(_) => "concurrent",
+            Self::Distributed(_) => "distributed",
+            Self::Centralised(_) => "centralised",
         }
     }
 }
@@ -80,6 +104,9 @@ impl Regulator {
     fn control(&mut self) -> &mut dyn Control {
         match self {
             Self::Iterative(iterative) => iterative.as_mut(),
+            Self::Concurrent(concurrent) => concurrent.as_mut(),
+            Self::Distributed(distributed) => distributed.as_mut(),
+            Self::Centralised(centralised) => centralised.as_mut(),
             Self::Thermostat(thermostat) => thermostat,
             Self::Pid(pid) => pid,
             Self::IterativeLearning(learning) => learning.as_mut(),
@@ -105,6 +132,9 @@ impl Control for Regulator {
         match self {
             Self::Thermostat(_) | Self::Pid(_) | Self::IterativeLearning(_) | Self::Clairvoyant(_) => Design::default(),
             Self::Iterative(iterative) => iterative.design(),
+            Self::Concurrent(concurrent) => concurrent.design(),
+            Self::Distributed(distributed) => distributed.design(),
+            Self::Centralised(centralised) => centralised.design(),
         }
     }
 }

@@ -18,9 +18,11 @@
 //! of the disturbance is learned from day to day.
 
 mod clairvoyant;
+pub mod concurrent;
 mod controller;
 mod day;
 mod design;
+pub mod distributed;
 mod error;
 pub mod experience;
 mod follow;

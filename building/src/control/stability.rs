@@ -81,8 +81,8 @@ pub fn closed_loop(a: &DMatrix<f64>, b: &DMatrix<f64>, gain: &DMatrix<f64>) -> D
     closed
 }
 
-/// Largest r for which some F, M = KF and S of unit size satisfy the inequality with r I ≻ 0 to spare: positive if it
-/// accepts the closed loop matrix `closed`.
+/// Largest μ for which some F, M = KF and S satisfy the inequality with μ I to spare: positive if it accepts the closed
+/// loop matrix `closed`. The corrected one is homogeneous, and tr S is then the order.
 ///
 /// # Errors
 /// [`ControlError`] if the solver fails.
@@ -96,7 +96,10 @@ pub fn lmi_margin(lmi: Lmi, closed: &DMatrix<f64>) -> Result<f64, ControlError> 
         (0..order).filter_map(|k| Some((certificate.f(k, j)?, closed[(i, k)]))).collect()
     };
     certificate.inequality(&mut program, lmi, moved, Spare::Maximised(margin));
-    certificate.unit_trace(&mut program);
+    match lmi {
+        Lmi::Printed => certificate.positive(&mut program, 0.0),
+        Lmi::Corrected { .. } => certificate.unit_trace(&mut program),
+    }
     let solution = Solver::new(&program, &Settings::default())?.solve()?;
     Ok(solution.at(margin))
 }

@@ -109,6 +109,26 @@ impl Uncertainty {
         })
     }
 
+    /// First-order noises that make up the disturbance, as their impulse responses over a day \[kW\], n·N by n + 1: one in
+    /// each zone with the deviation while occupied, and the common one last.
+    pub fn impulse_responses(&self, zones: usize, steps: usize) -> DMatrix<f64> {
+        let [common_kw, zone_kw, _] = self.deviations_kw();
+        let UncertaintySettings { common_correlation, zone_correlation, .. } = self.settings;
+        let mut responses = DMatrix::zeros(zones * steps, zones + 1);
+        let innovation = |deviation_kw: f64, rho: f64| deviation_kw * (1.0 - rho * rho).sqrt();
+        let mut own = innovation(zone_kw, zone_correlation);
+        let mut common = innovation(common_kw, common_correlation);
+        for t in 0..steps {
+            for zone in 0..zones {
+                responses[(t * zones + zone, zone)] = own;
+                responses[(t * zones + zone, zones)] = common;
+            }
+            own *= zone_correlation;
+            common *= common_correlation;
+        }
+        responses
+    }
+
     /// Learns from what a day's prediction missed \[kW\], stacked. Says whether anything changed.
     pub fn learn(&mut self, surprise_kw: &[f64], targets: &Targets) -> bool {
         if !self.settings.reestimate {

@@ -1,0 +1,174 @@
+//! Feedforward and feedback of any causal form, found without a projection (chapter 4).
+//!
+//! ```text
+//! C = (I − QG)⁻¹ Q                                                  [`youla`]
+//! Q: taps of least expected cost within robust bounds               [`taps`]
+//! Û: least nominal cost, |Û| ≤ limit − Φ⁻¹(η) σ_u, temperatures within the band less Φ⁻¹(η) σ_T, at a cost beyond it
+//! u(t) = û(t) + C (T̂ − T)(t)                                        by the state-space form (4.18), (4.19)
+//! ```
+//!
+//! As printed, the one problem (4.27) falls apart into the two lines: Q enters the bounds only, X E_k is a free vector.
+//! With the expected cost they are coupled through the margins alone; where comfort is not at its bound, solving them in
+//! turn is optimal.
+
+mod settings;
+pub mod taps;
+pub mod youla;
+
+pub use settings::ConcurrentSettings;
+
+use super::experience::Experience;
+use super::follow::{Diary, Plan, check_shapes};
+use super::iterative::rows;
+use super::optimum::{Caution, plan};
+use super::uncertainty::{Uncertainty, factor, normal_quantile};
+use super::{Control, ControlError, DayRecord, Design, Morning, Observation};
+use crate::comfort::Targets;
+use crate::lifted::Lifted;
+use youla::StateSpace;
+
+/// The margin of an input is at most this share of its limit.
+const LARGEST_MARGIN: f64 = 0.95;
+
+/// The concurrent design at work.
+#[derive(Clone, Debug)]
+pub struct Concurrent {
+    settings: ConcurrentSettings,
+    experience: Experience,
+    uncertainty: Uncertainty,
+    diary: Diary,
+    /// The feedback for these targets, as long as Σ stays the same.
+    feedback: Option<(Targets, Feedback)>,
+    /// The feedback at work today.
+    state: Option<StateSpace>,
+    targets: Option<Targets>,
+}
+
+/// A designed feedback with what it leaves uncertain.
+#[derive(Clone, Debug)]
+pub struct Feedback {
+    /// Q and its cost.
+    pub design: taps::Design,
+    /// Standard deviations of the inputs \[kW\], stacked.
+    pub input_deviation_kw: Vec<f64>,
+    /// Standard deviations of the temperatures \[K\], stacked.
+    pub temperature_deviation_k: Vec<f64>,
+}
+
+impl Concurrent {
+    /// A design without experience. `lifted` is its model of a day.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`].
+    pub fn new(settings: ConcurrentSettings, lifted: Lifted) -> Result<Self, ControlError> {
+        settings.check()?;
+        Ok(Self {
+            settings,
+            uncertainty: Uncertainty::new(settings.uncertainty)?,
+            experience: Experience::new(lifted, settings.prediction, settings.learning_rate)?,
+            diary: Diary::default(),
+            feedback: None,
+            state: None,
+            targets: None,
+        })
+    }
+
+    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
+        let free_c = self.experience.expect(morning)?;
+        if self.experience.is_empty() {
+            return Ok((None, Design::default()));
+        }
+        let targets = morning.targets;
+        let feedback = self.feedback(targets)?;
+        let quantile = normal_quantile(self.settings.confidence);
+        let lifted = self.experience.lifted();
+        let limits_kw = lifted.model().network().limits_kw();
+        let margin = |(i, deviation_kw): (usize, &f64)| {
+            (quantile * deviation_kw).min(LARGEST_MARGIN * limits_kw[i % limits_kw.len()])
+        };
+        let caution = Caution {
+            input_margin_kw: feedback.input_deviation_kw.iter().enumerate().map(margin).collect(),
+            band_margin_k: feedback.temperature_deviation_k.iter().map(|deviation_k| quantile * deviation_k).collect(),
+            error_bound: None,
+        };
+        let optimum = plan(lifted, &free_c, targets, Some(self.settings.penalty()), &caution)?;
+        let design = Design {
+            objective: Some(optimum.objective),
+            bias_kw: self.experience.bias_kw().to_vec(),
+            taps_kw_per_k: feedback.design.taps.0.iter().map(rows).collect(),
+            ..Design::default()
+        };
+        self.state = Some(StateSpace::new(feedback.design.taps, lifted.model()));
+        Ok((Some(Plan::from(&optimum)), design))
+    }
+
+    /// The feedback for the targets, designed anew when something has changed.
+    fn feedback(&mut self, targets: &Targets) -> Result<Feedback, ControlError> {
+        if let Some((known, feedback)) = &self.feedback
+            && known == targets
+        {
+            return Ok(feedback.clone());
+        }
+        let lifted = self.experience.lifted();
+        let design = taps::design(&self.settings, lifted, targets, &self.uncertainty)?;
+        let response = design.taps.response(lifted, &factor(self.uncertainty.covariance(targets))?);
+        let feedback = Feedback {
+            design,
+            input_deviation_kw: response.input_deviation_kw(),
+            temperature_deviation_k: response.temperature_deviation_k(),
+        };
+        self.feedback = Some((targets.clone(), feedback.clone()));
+        Ok(feedback)
+    }
+}
+
+impl Control for Concurrent {
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
+        let lifted = self.experience.lifted();
+        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
+        self.targets = Some(morning.targets.clone());
+        // After a failed design yesterday's plan is followed with the last feedback, from rest.
+        let last = self.feedback.as_ref().map(|(_, feedback)| feedback.design.taps.clone());
+        self.state = last.map(|taps| StateSpace::new(taps, lifted.model()));
+        let outcome = self.plan(morning);
+        self.diary.open(outcome);
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let Observation { step, temperatures_c, targets } = *observation;
+        let n = temperatures_c.len();
+        let limits_kw = self.experience.lifted().model().network().limits_kw();
+        let limited = |heat_kw: Vec<f64>| -> Vec<f64> {
+            heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
+        };
+        let Some(plan) = self.diary.plan() else {
+            // The first day: nothing but the initial feedback.
+            let wanted_c = targets.reference_at(step).iter().zip(temperatures_c);
+            let gain = if step > 0 { self.settings.initial_gain_kw_per_k } else { 0.0 };
+            return limited(wanted_c.map(|(wanted, actual)| gain * (wanted - actual)).collect());
+        };
+        let planned_kw = plan.heat_at(step, n);
+        let Some(state) = &mut self.state else { return limited(planned_kw.to_vec()) };
+        let correction_kw = state.answer(&plan.deviation_k(step, temperatures_c).unwrap_or_else(|| vec![0.0; n]));
+        let heat_kw = limited(planned_kw.iter().zip(&correction_kw).map(|(plan, more)| plan + more).collect());
+        let applied_kw: Vec<f64> = heat_kw.iter().zip(planned_kw).map(|(all, plan)| all - plan).collect();
+        state.advance(&applied_kw);
+        heat_kw
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        let lesson = self.experience.learn(record)?;
+        self.diary.close(record);
+        if let (Some(lesson), Some(targets)) = (lesson, &self.targets)
+            && self.uncertainty.learn(&lesson.surprise_kw, targets)
+        {
+            self.feedback = None;
+        }
+        Ok(())
+    }
+
+    fn design(&self) -> Design {
+        self.diary.design().clone()
+    }
+}

@@ -1,0 +1,71 @@
+//! Choices of the concurrent design.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::control::experience::Prediction;
+use crate::control::uncertainty::UncertaintySettings;
+use crate::control::{BandPenalty, ControlError};
+
+/// Feedforward and a Youla-parametrised feedback (chapter 4).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ConcurrentSettings {
+    /// How many taps Q has.
+    pub taps: usize,
+    /// γ_q: the largest sum of magnitudes in a row of the taps \[kW/K\] (eq. 4.27).
+    pub gamma_q: f64,
+    /// γ₂: the largest Frobenius norm of the response to an impulse of heat in each zone \[K/kW\] (eq. 4.12).
+    pub gamma_2: f64,
+    /// η: how likely inputs and temperatures stay within their bounds, each on its own.
+    pub confidence: f64,
+    /// Cost of a kelvin beyond the comfort band, per step.
+    pub discomfort_linear: f64,
+    /// Cost of a squared kelvin beyond the comfort band, per step.
+    pub discomfort_quadratic: f64,
+    /// K of the first day, as a multiple of the identity \[kW/K\].
+    pub initial_gain_kw_per_k: f64,
+    /// λ of the learned bias.
+    pub learning_rate: f64,
+    /// What the disturbance is predicted from.
+    pub prediction: Prediction,
+    /// How uncertain the prediction is.
+    pub uncertainty: UncertaintySettings,
+}
+
+impl Default for ConcurrentSettings {
+    fn default() -> Self {
+        Self {
+            taps: 4,
+            gamma_q: 2.5,
+            gamma_2: 4.6,
+            confidence: 0.95,
+            discomfort_linear: 50.0,
+            discomfort_quadratic: 50.0,
+            initial_gain_kw_per_k: 0.1,
+            learning_rate: 0.5,
+            prediction: Prediction::default(),
+            uncertainty: UncertaintySettings::default(),
+        }
+    }
+}
+
+impl ConcurrentSettings {
+    /// Refuses settings that are out of range. Bounds below their floor are found when the building is known.
+    pub(super) fn check(&self) -> Result<(), ControlError> {
+        ControlError::check_within("taps", self.taps as f64, 1.0..=48.0, "a number of steps, 1 to 48")?;
+        ControlError::check_within("confidence", self.confidence, 0.5..=0.999_999, "a probability, 0.5 to 0.999999")?;
+        ControlError::check_not_negative(&[
+            ("gamma_q", self.gamma_q),
+            ("gamma_2", self.gamma_2),
+            ("discomfort_linear", self.discomfort_linear),
+            ("discomfort_quadratic", self.discomfort_quadratic),
+            ("initial_gain_kw_per_k", self.initial_gain_kw_per_k),
+        ])
+    }
+
+    /// Cost of leaving the comfort band.
+    pub(super) fn penalty(&self) -> BandPenalty {
+        BandPenalty { linear: self.discomfort_linear, quadratic: self.discomfort_quadratic }
+    }
+}

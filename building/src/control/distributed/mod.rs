@@ -1,0 +1,261 @@
+//! Zones that plan together (chapter 5), and the same day in one problem.
+//!
+//! Both plan the inputs of least cost with a soft comfort band, and follow them with a feedback of each zone on its own
+//! error. The distributed design does it by messages between neighbours: [`mail`] has the messages, [`zone`] the problem of
+//! one zone, [`agreement`] the rounds, [`cooperative`] what is learned from neighbours and when that converges.
+//!
+//! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the source's
+//! "exponential" growth belongs to the dense form. What speaks for the exchange is that no zone needs to tell anything to
+//! others than its neighbours, and that the others go on when one fails.
+
+mod agreement;
+pub mod cooperative;
+mod mail;
+mod settings;
+mod zone;
+
+pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
+
+use super::experience::Experience;
+use super::follow::{Diary, Plan, check_shapes};
+use super::optimum::{Caution, plan};
+use super::{Control, ControlError, DayRecord, Design, Exchange, Morning, Observation};
+use crate::comfort::Targets;
+use crate::discretise::Model;
+use crate::lifted::Lifted;
+use agreement::{Commissioned, Day, Rules};
+use cooperative::{Conditions, LearningLaw, cooperative_error};
+use mail::Mail;
+use settings::penalty;
+
+/// Up to so many numbers in a day's inputs the convergence conditions are worked out each day.
+const MOST_FOR_CONDITIONS: usize = 200;
+
+/// The distributed design at work.
+#[derive(Clone, Debug)]
+pub struct Distributed {
+    settings: DistributedSettings,
+    experience: Experience,
+    diary: Diary,
+    mail: Mail,
+    /// For the targets that the zones know.
+    commissioned: Option<(Targets, Commissioned)>,
+}
+
+/// The centralised design at work.
+#[derive(Clone, Debug)]
+pub struct Centralised {
+    settings: CentralisedSettings,
+    experience: Experience,
+    diary: Diary,
+}
+
+impl Distributed {
+    /// Zones without experience, for a building that is believed to be `model`'s and a day of so many steps. They plan with
+    /// forward Euler, which alone keeps each zone's step to its neighbours.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`]; [`ControlError::Model`] if forward Euler would be unstable.
+    pub fn new(settings: DistributedSettings, model: &Model, steps: usize) -> Result<Self, ControlError> {
+        settings.check(model.network().zone_count())?;
+        let lifted = Lifted::new(&Model::euler(model.network(), model.step_s())?, steps);
+        let mail = Mail::new(&lifted, settings.loss, settings.delay_rounds, settings.silent_zone);
+        let experience = Experience::new(lifted, settings.prediction, settings.learning_rate)?;
+        Ok(Self { settings, experience, diary: Diary::default(), mail, commissioned: None })
+    }
+
+    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
+        let free_c = self.experience.expect(morning)?;
+        if self.experience.is_empty() {
+            return Ok((None, Design::default()));
+        }
+        let targets = morning.targets;
+        let lifted = self.experience.lifted().clone();
+        if self.commissioned.as_ref().is_none_or(|(known, _)| known != targets) {
+            self.commissioned = Some((targets.clone(), Commissioned::new(&lifted, targets, &self.mail)));
+        }
+        let Some((_, commissioned)) = &self.commissioned else { return Ok((None, Design::default())) };
+        let driving_kw = driving_kw(&lifted, morning, &free_c);
+        let day = Day {
+            lifted: &lifted,
+            targets,
+            penalty: penalty(self.settings.discomfort_quadratic),
+            commissioned,
+            initial_c: morning.initial_c,
+            driving_kw: &driving_kw,
+            free_c: &free_c,
+            silent: self.settings.silent_zone,
+        };
+        let rules = Rules {
+            scheme: self.settings.scheme,
+            tolerance_kw: self.settings.tolerance_kw,
+            rounds: self.settings.rounds,
+        };
+        self.mail.start(morning.initial_c);
+        let first_kw = self.diary.yesterday().map_or(vec![0.0; lifted.size()], |yesterday| yesterday.heat_kw.clone());
+        let agreement = day.agree(&mut self.mail, rules, first_kw);
+        let temperatures_c = free_c.iter().zip(lifted.product(&agreement.heat_kw)).map(|(free, rise)| free + rise);
+        let plan = Plan { temperatures_c: temperatures_c.collect(), heat_kw: agreement.heat_kw };
+        let centralised = match self.settings.compare {
+            true => Some(central(&lifted, &free_c, targets, self.settings.discomfort_quadratic)?.objective),
+            false => None,
+        };
+        let conditions = self.conditions(&lifted, targets, &plan);
+        let design = Design {
+            objective: agreement.costs.last().copied(),
+            bias_kw: self.experience.bias_kw().to_vec(),
+            spectral_radius: conditions.map(|conditions| conditions.spectral_radius),
+            largest_singular_value: conditions.map(|conditions| conditions.largest_singular_value),
+            exchange: Some(Exchange {
+                costs: agreement.costs,
+                centralised,
+                messages: self.mail.sent.clone(),
+                undelivered: self.mail.undelivered,
+                sums: agreement.sums,
+            }),
+            ..Design::default()
+        };
+        Ok((Some(plan), design))
+    }
+
+    /// The convergence conditions of the learning law that leads from yesterday to the plan.
+    fn conditions(&self, lifted: &Lifted, targets: &Targets, plan: &Plan) -> Option<Conditions> {
+        let yesterday = self.diary.yesterday().filter(|_| lifted.size() <= MOST_FOR_CONDITIONS)?;
+        let (n, gain) = (lifted.zones(), self.settings.gain_kw_per_k);
+        let errors_k = |temperatures_c: &[f64]| -> Vec<f64> {
+            targets.reference_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect()
+        };
+        let planned_k = errors_k(&plan.temperatures_c);
+        let change_kw: Vec<f64> = (0..lifted.size())
+            .map(|k| {
+                let fed_back_kw = if k < n { 0.0 } else { gain * planned_k[k - n] };
+                plan.heat_kw[k] - fed_back_kw - yesterday.heat_kw[k]
+            })
+            .collect();
+        let cooperative_k = cooperative_error(lifted, &errors_k(&yesterday.temperatures_c));
+        Some(LearningLaw::recovered(n, &change_kw, &cooperative_k).conditions(lifted, gain))
+    }
+}
+
+/// All heat into the nodes but that of the equipment \[kW\], nodes of a step together: what leads to `free_c`. The learned
+/// bias is in it.
+fn driving_kw(lifted: &Lifted, morning: &Morning<'_>, free_c: &[f64]) -> Vec<f64> {
+    let network = lifted.model().network();
+    let (n, nodes) = (lifted.zones(), network.node_count());
+    let forecast = morning.forecast;
+    let forecast_c = lifted.free_response(morning.initial_c, &forecast.ambient_c, &forecast.gains_kw);
+    let more_c: Vec<f64> = free_c.iter().zip(&forecast_c).map(|(all, forecast)| all - forecast).collect();
+    let more_kw = lifted.solve(&more_c);
+    let mut driving_kw = Vec::with_capacity(nodes * lifted.steps());
+    for (t, ambient_c) in forecast.ambient_c.iter().enumerate() {
+        driving_kw.extend(network.ambient_kw_per_k().iter().enumerate().map(|(node, k)| {
+            let gains_kw = if node < n { forecast.gains_kw[t * n + node] + more_kw[t * n + node] } else { 0.0 };
+            k * ambient_c + gains_kw
+        }));
+    }
+    driving_kw
+}
+
+/// The centralised optimum.
+fn central(
+    lifted: &Lifted,
+    free_c: &[f64],
+    targets: &Targets,
+    discomfort_quadratic: f64,
+) -> Result<super::Optimum, ControlError> {
+    plan(lifted, free_c, targets, Some(penalty(discomfort_quadratic)), &Caution::default())
+}
+
+/// Each zone follows its plan with its own error; on the first day, what is wanted.
+fn follow(diary: &Diary, gain_kw_per_k: f64, limits_kw: &[f64], observation: &Observation<'_>) -> Vec<f64> {
+    let Observation { step, temperatures_c, targets } = *observation;
+    let n = temperatures_c.len();
+    let (planned_kw, deviation_k) = match diary.plan() {
+        Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
+        None => {
+            let wanted_c = targets.reference_at(step);
+            let error_k = wanted_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect();
+            (vec![0.0; n], (step > 0).then_some(error_k))
+        }
+    };
+    (0..n)
+        .map(|i| {
+            let correction_kw = deviation_k.as_ref().map_or(0.0, |deviation_k| gain_kw_per_k * deviation_k[i]);
+            (planned_kw[i] + correction_kw).clamp(-limits_kw[i], limits_kw[i])
+        })
+        .collect()
+}
+
+impl Control for Distributed {
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
+        let lifted = self.experience.lifted();
+        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
+        let outcome = self.plan(morning);
+        self.diary.open(outcome);
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let limits_kw = self.experience.lifted().model().network().limits_kw();
+        follow(&self.diary, self.settings.gain_kw_per_k, limits_kw, observation)
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        self.experience.learn(record)?;
+        self.diary.close(record);
+        Ok(())
+    }
+
+    fn design(&self) -> Design {
+        self.diary.design().clone()
+    }
+}
+
+impl Centralised {
+    /// A design without experience. `lifted` is its model of a day.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`].
+    pub fn new(settings: CentralisedSettings, lifted: Lifted) -> Result<Self, ControlError> {
+        settings.check()?;
+        let experience = Experience::new(lifted, settings.prediction, settings.learning_rate)?;
+        Ok(Self { settings, experience, diary: Diary::default() })
+    }
+
+    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
+        let free_c = self.experience.expect(morning)?;
+        if self.experience.is_empty() {
+            return Ok((None, Design::default()));
+        }
+        let lifted = self.experience.lifted();
+        let optimum = central(lifted, &free_c, morning.targets, self.settings.discomfort_quadratic)?;
+        let bias_kw = self.experience.bias_kw().to_vec();
+        let design = Design { objective: Some(optimum.objective), bias_kw, ..Design::default() };
+        Ok((Some(Plan::from(&optimum)), design))
+    }
+}
+
+impl Control for Centralised {
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
+        let lifted = self.experience.lifted();
+        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
+        let outcome = self.plan(morning);
+        self.diary.open(outcome);
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let limits_kw = self.experience.lifted().model().network().limits_kw();
+        follow(&self.diary, self.settings.gain_kw_per_k, limits_kw, observation)
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        self.experience.learn(record)?;
+        self.diary.close(record);
+        Ok(())
+    }
+
+    fn design(&self) -> Design {
+        self.diary.design().clone()
+    }
+}

@@ -1,0 +1,120 @@
+//! Choices of the distributed design and its centralised counterpart.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::control::experience::Prediction;
+use crate::control::{BandPenalty, ControlError};
+
+/// How the zones' proposals of a round become a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    /// A share 1/n of each (Algorithm 1).
+    Jacobi,
+    /// A common share, the best between 1/n and 1.
+    LineSearch,
+    /// The best combination of the proposals and the step before.
+    #[default]
+    Momentum,
+}
+
+/// Zones that plan together by exchanging messages with their neighbours (chapter 5).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DistributedSettings {
+    /// How proposals become a step.
+    pub scheme: Scheme,
+    /// ε: the zones agree when no input of a day moves by more than this \[kW, Euclidean\].
+    pub tolerance_kw: f64,
+    /// k^c_max: rounds after which they stop.
+    pub rounds: usize,
+    /// Cost of a squared kelvin beyond the comfort band, per step.
+    pub discomfort_quadratic: f64,
+    /// Feedback of each zone on its own error \[kW/K\].
+    pub gain_kw_per_k: f64,
+    /// λ of the learned bias.
+    pub learning_rate: f64,
+    /// What the disturbance is predicted from.
+    pub prediction: Prediction,
+    /// Share of the messages that are lost, drawn from a generator with a seed of its own.
+    pub loss: f64,
+    /// Rounds by which messages are late.
+    pub delay_rounds: usize,
+    /// A zone that has stopped answering: it goes on with its last inputs, and its neighbours with the last they heard.
+    /// Zones are numbered from 0.
+    pub silent_zone: Option<usize>,
+    /// Whether the centralised optimum is found too, to compare with.
+    pub compare: bool,
+}
+
+impl Default for DistributedSettings {
+    fn default() -> Self {
+        Self {
+            scheme: Scheme::default(),
+            tolerance_kw: 1e-3,
+            rounds: 40,
+            discomfort_quadratic: 50.0,
+            gain_kw_per_k: 0.2,
+            learning_rate: 0.5,
+            prediction: Prediction::default(),
+            loss: 0.0,
+            delay_rounds: 0,
+            silent_zone: None,
+            compare: false,
+        }
+    }
+}
+
+impl DistributedSettings {
+    /// Refuses settings that are out of range.
+    pub(super) fn check(&self, zones: usize) -> Result<(), ControlError> {
+        ControlError::check_within("loss", self.loss, 0.0..=1.0, "a share, between 0 and 1")?;
+        if let Some(zone) = self.silent_zone {
+            let wanted = "the number of a zone, from 0";
+            ControlError::check_within("silent_zone", zone as f64, 0.0..=zones.max(1) as f64 - 1.0, wanted)?;
+        }
+        ControlError::check_not_negative(&[
+            ("tolerance_kw", self.tolerance_kw),
+            ("discomfort_quadratic", self.discomfort_quadratic),
+            ("gain_kw_per_k", self.gain_kw_per_k),
+        ])
+    }
+}
+
+/// The same day in one problem (eq. 5.12).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CentralisedSettings {
+    /// Cost of a squared kelvin beyond the comfort band, per step.
+    pub discomfort_quadratic: f64,
+    /// Feedback of each zone on its own error \[kW/K\].
+    pub gain_kw_per_k: f64,
+    /// λ of the learned bias.
+    pub learning_rate: f64,
+    /// What the disturbance is predicted from.
+    pub prediction: Prediction,
+}
+
+impl Default for CentralisedSettings {
+    fn default() -> Self {
+        let DistributedSettings { discomfort_quadratic, gain_kw_per_k, learning_rate, prediction, .. } =
+            DistributedSettings::default();
+        Self { discomfort_quadratic, gain_kw_per_k, learning_rate, prediction }
+    }
+}
+
+impl CentralisedSettings {
+    /// Refuses settings that are out of range.
+    pub(super) fn check(&self) -> Result<(), ControlError> {
+        ControlError::check_not_negative(&[
+            ("discomfort_quadratic", self.discomfort_quadratic),
+            ("gain_kw_per_k", self.gain_kw_per_k),
+        ])
+    }
+}
+
+/// Cost of leaving the comfort band.
+pub(super) fn penalty(quadratic: f64) -> BandPenalty {
+    BandPenalty { linear: 0.0, quadratic }
+}

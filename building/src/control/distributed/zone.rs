@@ -1,0 +1,189 @@
+//! The problem of one zone: its inputs of a day, those of all others as they are (eq. 5.13).
+//!
+//! ```text
+//! min over d, lo ≤ d ≤ hi:   gᵀd + ½ dᵀP d + c Σ_r [ φ(v_r + a_rᵀd) − φ(v_r) − φ'(v_r) a_rᵀd ],     φ(v) = max(v, 0)²
+//! ```
+//!
+//! g is the gradient of the whole J, which came with the neighbours' messages and includes everybody's comfort; P is the
+//! curvature of J in this zone's inputs, known beforehand; rows r are the comfort bounds of the zone and its neighbours.
+//! Rows that are not violated now take part, since they may be after the step: leaving them out breaks the descent.
+//!
+//! The minimum is found by projected Newton steps: it is piecewise quadratic, so they end exactly, after a few.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+/// Newton steps after which the best point so far has to do.
+const STEPS: usize = 60;
+
+/// A comfort bound: v and the row a, as a kernel that was hit `time` steps after the first input, times a sign.
+pub(super) struct Bound<'a> {
+    pub value: f64,
+    pub sign: f64,
+    /// Response of the bound's zone to a kilowatt, k(0) right after it.
+    pub kernel: &'a [f64],
+    /// The row of the bound: inputs 0 … time act on it.
+    pub time: usize,
+}
+
+impl Bound<'_> {
+    /// aᵀd.
+    fn moved(&self, d: &[f64]) -> f64 {
+        self.sign * d[..=self.time].iter().zip(self.kernel[..=self.time].iter().rev()).map(|(d, k)| d * k).sum::<f64>()
+    }
+
+    /// Adds `weight` a to a vector.
+    fn add(&self, weight: f64, vector: &mut [f64]) {
+        for (entry, k) in vector[..=self.time].iter_mut().zip(self.kernel[..=self.time].iter().rev()) {
+            *entry += weight * self.sign * k;
+        }
+    }
+}
+
+/// The problem.
+pub(super) struct ZoneProblem<'a> {
+    pub gradient: Vec<f64>,
+    pub curvature: &'a DMatrix<f64>,
+    /// c.
+    pub penalty: f64,
+    pub bounds: Vec<Bound<'a>>,
+    pub low: Vec<f64>,
+    pub high: Vec<f64>,
+}
+
+impl ZoneProblem<'_> {
+    /// The minimising d, and whether it was reached to rounding error.
+    pub fn solve(&self) -> Vec<f64> {
+        let n = self.gradient.len();
+        let mut d = vec![0.0; n];
+        for _ in 0..STEPS {
+            let gradient = self.gradient_at(&d);
+            let free: Vec<usize> = (0..n)
+                .filter(|&i| !(d[i] <= self.low[i] && gradient[i] > 0.0 || d[i] >= self.high[i] && gradient[i] < 0.0))
+                .collect();
+            let largest = free.iter().map(|&i| gradient[i].abs()).fold(0.0, f64::max);
+            if largest <= 1e-10 * (1.0 + self.gradient.iter().fold(0.0, |m, g| f64::max(m, g.abs()))) {
+                break;
+            }
+            let Some(step) = self.newton(&d, &gradient, &free) else { break };
+            if !self.advance(&mut d, &gradient, &free, &step) {
+                break;
+            }
+        }
+        d
+    }
+
+    fn gradient_at(&self, d: &[f64]) -> Vec<f64> {
+        let mut gradient = DVector::from_column_slice(&self.gradient);
+        for (column, &d) in self.curvature.column_iter().zip(d) {
+            if d != 0.0 {
+                gradient.axpy(d, &column, 1.0);
+            }
+        }
+        for bound in &self.bounds {
+            let change = (bound.value + bound.moved(d)).max(0.0) - bound.value.max(0.0);
+            if change != 0.0 {
+                bound.add(2.0 * self.penalty * change, gradient.as_mut_slice());
+            }
+        }
+        gradient.data.into()
+    }
+
+    fn value(&self, d: &[f64]) -> f64 {
+        let mut curved = DVector::zeros(d.len());
+        for (column, &d) in self.curvature.column_iter().zip(d) {
+            curved.axpy(d, &column, 1.0);
+        }
+        let quadratic: f64 = d.iter().zip(&curved).zip(&self.gradient).map(|((d, c), g)| d * (0.5 * c + g)).sum();
+        let beyond = |bound: &Bound<'_>| {
+            let (moved, now) = (bound.moved(d), bound.value.max(0.0));
+            let after = (bound.value + moved).max(0.0);
+            after * after - now * now - 2.0 * now * moved
+        };
+        quadratic + self.penalty * self.bounds.iter().map(beyond).sum::<f64>()
+    }
+
+    /// −H⁻¹ gradient over the free inputs.
+    fn newton(&self, d: &[f64], gradient: &[f64], free: &[usize]) -> Option<Vec<f64>> {
+        let mut hessian = self.curvature.clone();
+        let mut row = vec![0.0; d.len()];
+        for bound in self.bounds.iter().filter(|bound| bound.value + bound.moved(d) > 0.0) {
+            row.fill(0.0);
+            bound.add(1.0, &mut row);
+            for j in 0..=bound.time {
+                let weight = 2.0 * self.penalty * row[j];
+                for (entry, a) in hessian.column_mut(j).iter_mut().zip(&row[..=bound.time]) {
+                    *entry += weight * a;
+                }
+            }
+        }
+        let selected = DMatrix::from_fn(free.len(), free.len(), |i, j| hessian[(free[i], free[j])]);
+        let right = DVector::from_fn(free.len(), |i, _| -gradient[free[i]]);
+        Some(Cholesky::new(selected)?.solve(&right).data.into())
+    }
+
+    /// Goes along a step as far as the value falls enough, staying within the box. False if it cannot fall.
+    fn advance(&self, d: &mut Vec<f64>, gradient: &[f64], free: &[usize], step: &[f64]) -> bool {
+        let before = self.value(d);
+        let mut length = 1.0;
+        for _ in 0..30 {
+            let mut trial = d.clone();
+            for (&i, step) in free.iter().zip(step) {
+                trial[i] = (d[i] + length * step).clamp(self.low[i], self.high[i]);
+            }
+            let expected: f64 = trial.iter().zip(d.iter()).zip(gradient).map(|((t, d), g)| (t - d) * g).sum();
+            if expected < 0.0 && self.value(&trial) <= before + 1e-4 * expected {
+                *d = trial;
+                return true;
+            }
+            length *= 0.5;
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The conditions of the minimum: the projected gradient vanishes.
+    #[test]
+    fn the_projected_gradient_vanishes() {
+        let n = 12;
+        let wave = |i: usize, f: f64| libm::sin(f * (i + 1) as f64);
+        let root = DMatrix::from_fn(n, n, |i, j| wave(i * n + j, 1.7));
+        let curvature = root.tr_mul(&root) + DMatrix::identity(n, n);
+        let kernel: Vec<f64> = (0..n).map(|t| libm::exp(-0.3 * t as f64)).collect();
+        let bounds = |limit: f64| -> Vec<Bound<'_>> {
+            (0..n)
+                .flat_map(|time| {
+                    [1.0, -1.0].map(|sign| Bound { value: sign * wave(time, 2.3) - limit, sign, kernel: &kernel, time })
+                })
+                .collect()
+        };
+        for (penalty, limit) in [(0.0, 0.0), (5.0, 0.2), (500.0, 0.6)] {
+            let problem = ZoneProblem {
+                gradient: (0..n).map(|i| 6.0 * wave(i, 0.9)).collect(),
+                curvature: &curvature,
+                penalty,
+                bounds: bounds(limit),
+                low: vec![-0.4; n],
+                high: vec![0.3; n],
+            };
+            let d = problem.solve();
+            let gradient = problem.gradient_at(&d);
+            for i in 0..n {
+                let projected = d[i] - (d[i] - gradient[i]).clamp(-0.4, 0.3);
+                assert!(projected.abs() < 1e-8, "{penalty} {limit} {i}: {projected}");
+            }
+            assert!(d.iter().any(|&d| d <= -0.4 || d >= 0.3), "the box binds");
+            // The gradient is that of the value.
+            for i in 0..n {
+                let mut moved = [d.clone(), d.clone()];
+                moved[0][i] += 1e-6;
+                moved[1][i] -= 1e-6;
+                let slope = (problem.value(&moved[0]) - problem.value(&moved[1])) / 2e-6;
+                assert!((slope - gradient[i]).abs() < 1e-4, "{slope} {}", gradient[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! The concurrent design (chapter 4): against independent code, the Youla algebra, its bounds, and its days.
+
+mod common;
+
+use common::reference::*;
+use interplay_building::comfort::KeyFigures;
+use interplay_building::control::concurrent::youla::{StateSpace, Taps};
+use interplay_building::control::concurrent::{Concurrent, ConcurrentSettings, taps};
+use interplay_building::control::iterative::feedback;
+use interplay_building::control::learning::LearningSettings;
+use interplay_building::control::pid::PidSettings;
+use interplay_building::control::uncertainty::{Uncertainty, UncertaintySettings};
+use interplay_building::control::{BandPenalty, ControlError, Controller, optimum};
+use nalgebra::DMatrix;
+
+fn uncertainty() -> Uncertainty {
+    Uncertainty::new(UncertaintySettings::default()).expect("valid")
+}
+
+fn designed(settings: &ConcurrentSettings) -> Result<taps::Design, ControlError> {
+    taps::design(settings, &lifted(), &chapter_4(), &uncertainty())
+}
+
+#[test]
+fn taps_and_costs_are_those_of_independent_code() {
+    let wanted = &optima()["ch4"];
+    let found = designed(&ConcurrentSettings::default()).expect("designed");
+    assert_close(found.cost, number(&wanted["H2_cost"]), 1e-4);
+    assert_close(found.open_cost, number(&wanted["H2_open"]), 1e-6);
+    let entries: Vec<f64> =
+        found.taps.0.iter().flat_map(|tap| tap.transpose().iter().copied().collect::<Vec<_>>()).collect();
+    assert!(common::distance(&entries, &floats(&wanted["Q_taps"])) < 1e-4);
+    let penalty = Some(BandPenalty { linear: 50.0, quadratic: 50.0 });
+    let nominal = optimum(&lifted(), &[28.5; 4], &chapter_4(), &day(1).0, penalty).expect("solvable");
+    assert_close(nominal.objective, number(&wanted["J_nominal_with_slack"]), 1e-4);
+}
+
+#[test]
+fn youla_s_identities_hold() {
+    let lifted = lifted();
+    let taps = designed(&ConcurrentSettings::default()).expect("designed").taps;
+    let size = lifted.size();
+    let (g, c) = (lifted.dense(), taps.feedback_matrix(&lifted));
+    let mut q = DMatrix::zeros(size, size);
+    let mut unit = vec![0.0; size];
+    for column in 0..size {
+        unit[column] = 1.0;
+        q.column_mut(column).copy_from_slice(&taps.product(&unit));
+        unit[column] = 0.0;
+    }
+    let identity = DMatrix::<f64>::identity(size, size);
+    // (4.17), (4.20), (4.21)
+    assert!(((&identity - &q * &g) * &c - &q).amax() < 1e-10);
+    assert!(((&identity + &g * &c) * (&identity - &g * &q) - &identity).amax() < 1e-9);
+    assert!(((&identity + &c * &g) * (&identity - &q * &g) - &identity).amax() < 1e-9);
+    for t in 0..48 {
+        assert!(c.view((t * 4, t * 4), (4, size - t * 4)).amax() == 0.0, "strictly causal");
+    }
+    // The responses are those of the closed loop.
+    let response = taps.response(&lifted, &identity);
+    assert!((&response.temperatures_k - (&g - &g * &q * &g)).amax() < 1e-10);
+    assert!((&response.inputs_kw + &q * &g).amax() < 1e-10);
+}
+
+#[test]
+fn the_state_space_form_is_the_matrix() {
+    let lifted = lifted();
+    let taps = designed(&ConcurrentSettings::default()).expect("designed").taps;
+    let errors = common::numbers(lifted.size(), 1.0);
+    let wanted = taps.feedback_matrix(&lifted) * nalgebra::DVector::from_column_slice(&errors);
+    let mut state = StateSpace::new(taps, lifted.model());
+    for t in 0..48 {
+        let error = if t == 0 { vec![0.0; 4] } else { errors[(t - 1) * 4..t * 4].to_vec() };
+        let heat = state.answer(&error);
+        assert!(common::distance(&heat, &wanted.as_slice()[t * 4..(t + 1) * 4]) < 1e-10);
+        state.advance(&heat);
+    }
+}
+
+#[test]
+fn a_vector_is_blind_to_what_a_matrix_sees() {
+    // Q₀ = 50 (I − 11ᵀ/4).
+    let lifted = lifted();
+    let blind = Taps(vec![DMatrix::from_fn(4, 4, |i, j| 50.0 * (if i == j { 1.0 } else { 0.0 } - 0.25))]);
+    let printed: Vec<f64> = (0..lifted.size()).map(|i| if i < 4 { 1.0 } else { 0.0 }).collect();
+    assert!(blind.product(&printed).iter().all(|v| v.abs() < 1e-12), "‖Qα‖₁ = 0 with the printed α");
+    assert!(blind.row_norm() > 70.0 && blind.impulse_norm(&lifted) > 100.0, "{}", blind.impulse_norm(&lifted));
+}
+
+#[test]
+fn bounds_hold_cost_something_and_have_floors() {
+    let lifted = lifted();
+    let free = designed(&ConcurrentSettings::default()).expect("designed");
+    assert!((free.taps.row_norm() - 2.47).abs() < 0.01 && (free.taps.impulse_norm(&lifted) - 4.45).abs() < 0.01);
+    for (gamma_q, gamma_2, dearer) in [(1.5, 4.0, 1.08), (1.0, 5.0, 1.46)] {
+        let settings = ConcurrentSettings { taps: 24, gamma_q, gamma_2, ..ConcurrentSettings::default() };
+        let found = designed(&settings).expect("designed");
+        assert!(found.taps.row_norm() <= gamma_q + 1e-6 && found.taps.impulse_norm(&lifted) <= gamma_2 + 1e-6);
+        assert!((found.cost / free.cost - dearer).abs() < 0.03, "{gamma_q} {gamma_2}: {}", found.cost / free.cost);
+    }
+    let error = designed(&ConcurrentSettings { gamma_q: 2.0, gamma_2: 3.0, ..ConcurrentSettings::default() });
+    assert!(matches!(error, Err(ControlError::BelowFloor { floor, .. }) if (floor - 3.6).abs() < 1e-9), "{error:?}");
+    // Above one step's effect, but not with so little gain.
+    let error = designed(&ConcurrentSettings { gamma_q: 0.1, gamma_2: 4.0, ..ConcurrentSettings::default() });
+    let Err(ControlError::BelowFloor { floor, .. }) = error else { panic!("{error:?}") };
+    assert!(floor > 4.0 && floor < 8.4);
+    let within = ConcurrentSettings { gamma_q: 0.1, gamma_2: floor * 1.001, ..ConcurrentSettings::default() };
+    designed(&within).expect("the floor is the floor");
+}
+
+#[test]
+fn four_taps_are_nearly_as_good_as_any_causal_feedback() {
+    let (lifted, targets) = (lifted(), chapter_4());
+    let factor = interplay_building::control::uncertainty::factor(uncertainty().covariance(&targets)).expect("one");
+    let taps = designed(&ConcurrentSettings::default()).expect("designed").taps;
+    let best = feedback::optimal_causal(&lifted, &targets, &factor).expect("designed").cost(&targets);
+    let ours = taps.response(&lifted, &factor).cost(&targets);
+    let none = feedback::static_feedback(&lifted, &DMatrix::zeros(4, 4), &factor).cost(&targets);
+    assert!(best <= ours && ours < best + 0.05 * (none - best), "{best} {ours} {none}");
+}
+
+#[test]
+fn it_tracks_better_than_pid_without_a_forecast_on_every_seed() {
+    let (model, targets) = (testbed(), chapter_4());
+    let pid = LearningSettings { forecast: false, feedback: PidSettings::default(), ..LearningSettings::default() };
+    for seed in 1..=8 {
+        let days = synthetic(seed, 5, 4);
+        let figures = |controller: Controller| -> (f64, f64) {
+            let mut regulator = controller.regulator(&model, STEPS).expect("valid");
+            let records = run(&model, 28.5, &mut regulator, &targets, &days);
+            assert!(records.iter().all(|record| record.heat_kw.iter().all(|kw| kw.abs() <= 2.0)));
+            let later = records[1..].iter().map(|r| KeyFigures::of(r, &targets, &[2.0; 4], STEP_S));
+            later.fold((0.0, 0.0), |(rmse, beyond), f| (rmse + f.tracking_rmse_c / 4.0, beyond + f.discomfort_k_h))
+        };
+        let youla = figures(Controller::Concurrent(ConcurrentSettings::default()));
+        let pid = figures(Controller::IterativeLearning(pid));
+        assert!(youla.0 < pid.0 && youla.1 < pid.1, "{seed}: {youla:?} {pid:?}");
+        assert!(youla.0 < 0.25, "{youla:?}");
+    }
+}
+
+#[test]
+fn a_bound_below_its_floor_repeats_the_day_before() {
+    let settings = ConcurrentSettings { gamma_2: 3.0, ..ConcurrentSettings::default() };
+    let mut concurrent = Concurrent::new(settings, lifted()).expect("valid");
+    let days: Vec<_> = (0..3).map(day).collect();
+    let records = run(&testbed(), 28.5, &mut concurrent, &chapter_4(), &days);
+    assert!(records[0].design.fallback.is_none());
+    assert!(matches!(records[1].design.fallback, Some(ControlError::BelowFloor { .. })));
+    assert_eq!(records[1].heat_kw, records[0].heat_kw);
+    assert_eq!(records[2].design.fallbacks, 2);
+    let message = records[2].design.fallback.as_ref().expect("failed").to_string();
+    assert!(message.contains("gamma_2") && message.contains("3.6"), "{message}");
+}
+
+#[test]
+fn a_day_that_comes_as_predicted_goes_as_planned() {
+    let days: Vec<_> = (0..3).map(|k| (day(k).1, day(k).1)).collect();
+    let mut concurrent = Concurrent::new(ConcurrentSettings::default(), lifted()).expect("valid");
+    let records = run(&testbed(), 28.5, &mut concurrent, &chapter_4(), &days);
+    for record in &records[1..] {
+        assert!(common::distance(&record.temperatures_c, &record.design.planned_c) < 1e-8);
+        assert!(common::distance(&record.heat_kw, &record.design.planned_kw) < 1e-8);
+        // Precooling: something is done before the references start at 7:30.
+        assert!(record.heat_kw[..14 * 4].iter().any(|kw| *kw < -0.05));
+    }
+}

@@ -1,0 +1,232 @@
+//! The distributed design (chapter 5): against the centralised optimum, its laws, and failures of zones and messages.
+
+mod common;
+
+use common::reference::*;
+use interplay_building::comfort::Targets;
+use interplay_building::control::distributed::cooperative::{LearningLaw, cooperative_error, omega};
+use interplay_building::control::distributed::{
+    Centralised, CentralisedSettings, Distributed, DistributedSettings, Scheme,
+};
+use interplay_building::control::{Control, ControlError, DayRecord, Design, Disturbance, Exchange, Morning};
+use interplay_building::discretise::Model;
+use interplay_building::lifted::Lifted;
+use interplay_building::network::{AMBIENT, Network, Wall, Zone};
+
+/// The reference problems: model, targets, disturbance and optimal cost.
+fn grids() -> Vec<(Model, Targets, Disturbance, f64)> {
+    let optima = optima();
+    let euler = |network: Network| Model::euler(&network, STEP_S).expect("stable");
+    [("ch5_n4", testbed()), ("ch5_n9", euler(Network::grid(3, 3))), ("ch5_n16", euler(Network::grid(4, 4)))]
+        .into_iter()
+        .map(|(name, model)| {
+            let wanted = &optima[name];
+            let n = model.network().zone_count();
+            let disturbance = match wanted["D"].is_null() {
+                true => day(1).0,
+                false => Disturbance { ambient_c: vec![0.0; STEPS], gains_kw: floats(&wanted["D"]) },
+            };
+            (model, chapter_5(floats(&wanted["ref"]), n), disturbance, number(&wanted["J"]))
+        })
+        .collect()
+}
+
+/// Gives a controller a day of experience that teaches nothing: as forecast, from rest, without equipment.
+fn experienced(controller: &mut impl Control, model: &Model, targets: &Targets, day: &Disturbance) {
+    let initial_c = vec![27.5; model.network().node_count()];
+    let lifted = Lifted::new(model, STEPS);
+    let morning = Morning { initial_c: &initial_c, targets, forecast: day, actual: None };
+    controller.start_of_day(&morning).expect("a morning");
+    let temperatures_c = lifted.free_response(&initial_c, &day.ambient_c, &day.gains_kw);
+    let still = vec![0.0; lifted.size()];
+    let record =
+        DayRecord { temperatures_c, heat_kw: still.clone(), requested_kw: still, design: Design::default() };
+    controller.end_of_day(&record).expect("an evening");
+}
+
+/// The design of a day that starts at 27 °C, after one that taught nothing.
+fn designed(controller: &mut impl Control, model: &Model, targets: &Targets, day: &Disturbance) -> Design {
+    experienced(controller, model, targets, day);
+    let initial_c = vec![27.0; model.network().node_count()];
+    controller.start_of_day(&Morning { initial_c: &initial_c, targets, forecast: day, actual: None }).expect("planned");
+    controller.design()
+}
+
+fn exchange(settings: DistributedSettings, model: &Model, targets: &Targets, day: &Disturbance) -> (Design, Exchange) {
+    let mut distributed = Distributed::new(settings, model, STEPS).expect("valid");
+    let design = designed(&mut distributed, model, targets, day);
+    assert_eq!(design.fallback, None);
+    let exchange = design.exchange.clone().expect("zones have spoken");
+    (design, exchange)
+}
+
+fn falls(costs: &[f64]) -> bool {
+    costs.windows(2).all(|pair| pair[1] <= pair[0] * (1.0 + 1e-9))
+}
+
+#[test]
+fn the_centralised_design_is_the_optimum_of_independent_code() {
+    for (model, targets, day, wanted) in grids() {
+        let mut central = Centralised::new(CentralisedSettings::default(), Lifted::new(&model, STEPS)).expect("valid");
+        let design = designed(&mut central, &model, &targets, &day);
+        assert_close(design.objective.expect("planned"), wanted, 1e-4);
+    }
+}
+
+#[test]
+fn zones_agree_on_the_centralised_optimum_and_costs_never_rise() {
+    for (model, targets, day, wanted) in grids() {
+        let n = model.network().zone_count();
+        for (scheme, rounds) in [(Scheme::Momentum, 40), (Scheme::LineSearch, 100), (Scheme::Jacobi, 400)] {
+            let settings = DistributedSettings { scheme, rounds, compare: true, ..DistributedSettings::default() };
+            let (design, exchange) = exchange(settings, &model, &targets, &day);
+            let (first, last) = (exchange.costs[0], exchange.costs[exchange.costs.len() - 1]);
+            assert_close(exchange.centralised.expect("asked for"), wanted, 1e-4);
+            assert!(falls(&exchange.costs), "{n} {scheme:?}: {:?}", exchange.costs);
+            let near = exchange.costs.iter().position(|cost| *cost <= 1.001 * wanted);
+            eprintln!("{n} {scheme:?}: {} rounds, 0.1 % after {near:?}, {first} -> {last} / {wanted}", exchange.costs.len() - 1);
+            assert!(near.is_some(), "{n} {scheme:?}: {last} instead of {wanted}");
+            assert!(last >= wanted * (1.0 - 1e-6), "nobody is better than the optimum");
+            assert!(design.planned_kw.iter().all(|kw| kw.abs() <= 2.0));
+        }
+    }
+}
+
+#[test]
+fn messages_go_to_neighbours_only_and_are_counted() {
+    let (model, targets, day, _) = grids().remove(1);
+    let settings = DistributedSettings { scheme: Scheme::Jacobi, rounds: 7, tolerance_kw: 0.0, ..Default::default() };
+    let (_, exchange) = exchange(settings, &model, &targets, &day);
+    // A corner of the 3 by 3 grid has 2 neighbours, a side 3, the middle 4; temperatures and sensitivities each round.
+    let wanted: Vec<usize> = [2, 3, 2, 3, 4, 3, 2, 3, 2].iter().map(|degree| degree * 2 * 7).collect();
+    assert_eq!(exchange.messages, wanted);
+    assert_eq!((exchange.sums, exchange.undelivered), (0, 0));
+}
+
+#[test]
+fn a_silent_zone_does_not_stop_the_others() {
+    let (model, targets, day, wanted) = grids().remove(1);
+    let settings = DistributedSettings { silent_zone: Some(4), ..DistributedSettings::default() };
+    let (design, exchange) = exchange(settings, &model, &targets, &day);
+    assert!(design.planned_kw.iter().skip(4).step_by(9).all(|kw| *kw == 0.0), "it goes on as the day before");
+    assert_eq!(exchange.messages[4], 0);
+    let (first, last) = (exchange.costs[0], exchange.costs[exchange.costs.len() - 1]);
+    // Eight of nine rooms are looked after.
+    assert!(last < wanted + 0.25 * (first - wanted), "{first} {last} {wanted}");
+}
+
+#[test]
+fn lost_and_late_messages_delay_but_do_not_mislead() {
+    let (model, targets, day, wanted) = grids().remove(1);
+    for (loss, delay_rounds) in [(0.3, 0), (0.0, 1), (0.0, 3), (0.1, 1)] {
+        let settings =
+            DistributedSettings { scheme: Scheme::Jacobi, rounds: 400, loss, delay_rounds, ..Default::default() };
+        let (_, exchange) = exchange(settings, &model, &targets, &day);
+        let last = exchange.costs[exchange.costs.len() - 1];
+        eprintln!("loss {loss} delay {delay_rounds}: {last} / {wanted} in {}", exchange.costs.len() - 1);
+        assert!(exchange.undelivered > 0);
+        assert!(last < 1.02 * wanted, "loss {loss} delay {delay_rounds}: {last} instead of {wanted}");
+    }
+}
+
+#[test]
+fn walls_that_store_heat_belong_to_a_zone() {
+    let zones: Vec<Zone> = ["a", "b", "c"].map(Zone::named).to_vec();
+    let walls = [
+        Wall::new("a", "b", 40.0).with_capacity_kj_per_k(900.0),
+        Wall::new("b", "c", 60.0),
+        Wall::new("a", AMBIENT, 30.0).with_capacity_kj_per_k(1500.0),
+        Wall::new("c", AMBIENT, 35.0),
+    ];
+    let model = Model::euler(&Network::new(&zones, &walls).expect("valid"), 900.0).expect("stable");
+    let day = Disturbance { ambient_c: vec![31.0; STEPS], gains_kw: vec![0.3; 3 * STEPS] };
+    let targets = chapter_5(vec![23.0], 3);
+    let settings = DistributedSettings { compare: true, ..DistributedSettings::default() };
+    let (_, exchange) = exchange(settings, &model, &targets, &day);
+    assert!(falls(&exchange.costs));
+    assert!(exchange.costs[exchange.costs.len() - 1] < 1.001 * exchange.centralised.expect("asked for"));
+}
+
+#[test]
+fn days_precool_track_and_learn_on_every_seed() {
+    let (model, targets) = (testbed(), chapter_5(vec![22.5, 22.0, 23.0, 23.5], 4));
+    for seed in 1..=8 {
+        let mut distributed = Distributed::new(DistributedSettings::default(), &model, STEPS).expect("valid");
+        let records = run(&model, 28.5, &mut distributed, &targets, &synthetic(seed, 3, 4));
+        let cost = |record: &DayRecord| targets.cost(&record.temperatures_c, &record.heat_kw);
+        for record in &records[1..] {
+            assert!(cost(record) < 0.5 * cost(&records[0]), "{seed}");
+            assert!(record.heat_kw.iter().all(|kw| kw.abs() <= 2.0));
+            assert!(record.heat_kw[..15 * 4].iter().any(|kw| *kw < -0.05), "precooling before 8:00");
+            assert!(falls(&record.design.exchange.as_ref().expect("spoken").costs));
+            assert!(record.design.spectral_radius.expect("small enough").is_finite());
+        }
+    }
+}
+
+#[test]
+fn omega_is_a_laplacian_and_no_adjacency() {
+    let lifted = lifted();
+    // The testbed of the reference has all six walls; the grid has four.
+    let grid = Lifted::new(&Model::euler(&Network::grid(2, 2), STEP_S).expect("stable"), STEPS);
+    let mut eigenvalues: Vec<f64> = omega(&grid).symmetric_eigenvalues().iter().copied().collect();
+    eigenvalues.sort_by(f64::total_cmp);
+    assert!(common::distance(&eigenvalues, &[1.0, 3.0, 3.0, 5.0]) < 1e-12, "{eigenvalues:?}");
+    let errors = common::numbers(lifted.size(), 1.0);
+    let omega = omega(&lifted);
+    let wanted: Vec<f64> = errors.chunks_exact(4).flat_map(|e| (0..4).map(|i| (0..4).map(|j| omega[(i, j)] * e[j]).sum::<f64>()).collect::<Vec<_>>()).collect();
+    assert!(common::distance(&cooperative_error(&lifted, &errors), &wanted) < 1e-12);
+}
+
+#[test]
+fn a_spectral_radius_below_one_does_not_keep_errors_from_growing() {
+    let grid = Lifted::new(&Model::euler(&Network::grid(2, 2), STEP_S).expect("stable"), STEPS);
+    let norm = |e: &[f64]| e.iter().map(|e| e * e).sum::<f64>().sqrt();
+    let grown = |law: &LearningLaw, gain: f64| {
+        let mut errors = common::numbers(grid.size(), 1.0);
+        let first = norm(&errors);
+        let mut largest: f64 = 0.0;
+        for _ in 0..60 {
+            errors = law.next_errors_k(&grid, gain, &errors);
+            largest = largest.max(norm(&errors) / first);
+        }
+        (largest, norm(&errors) / first)
+    };
+    let proportional = LearningLaw::uniform(4, STEPS, 0.2, 0.0);
+    let conditions = proportional.conditions(&grid, 0.2);
+    assert!((conditions.spectral_radius - 0.80).abs() < 0.01, "{conditions:?}");
+    assert!((conditions.largest_singular_value - 3.04).abs() < 0.05, "{conditions:?}");
+    let (largest, _) = grown(&proportional, 0.2);
+    assert!(largest > 1e22, "{largest:e}");
+    // PD-type learning never grows.
+    let derivative = LearningLaw::uniform(4, STEPS, 0.15, 0.88);
+    let conditions = derivative.conditions(&grid, 0.2);
+    assert!((conditions.largest_singular_value - 0.74).abs() < 0.02, "{conditions:?}");
+    let (largest, last) = grown(&derivative, 0.2);
+    assert!(largest < 1.0 && last < 1e-6, "{largest} {last}");
+}
+
+#[test]
+fn a_recovered_law_does_what_it_was_recovered_from() {
+    let (change, errors) = (common::numbers(4 * STEPS, 0.5), common::numbers(8 * STEPS, 1.0)[4 * STEPS..].to_vec());
+    let law = LearningLaw::recovered(4, &change, &errors);
+    assert!(common::distance(&law.product(&errors), &change) < 1e-12);
+}
+
+#[test]
+fn unstable_steps_and_missing_weather_are_said() {
+    let network = Network::new(&[Zone { capacity_kj_per_k: 5.0, ..Zone::named("a") }], &[Wall::new("a", AMBIENT, 31.25)])
+        .expect("valid");
+    let model = Model::exact(&network, STEP_S).expect("valid");
+    let error = Distributed::new(DistributedSettings::default(), &model, STEPS).expect_err("unstable");
+    assert!(matches!(error, ControlError::Model(_)) && error.to_string().contains("largest stable step"), "{error}");
+
+    let (model, targets) = (testbed(), chapter_5(vec![22.5], 4));
+    let mut days: Vec<_> = (0..3).map(day).collect();
+    days[1].0.gains_kw[9] = f64::NAN;
+    let mut distributed = Distributed::new(DistributedSettings::default(), &model, STEPS).expect("valid");
+    let records = run(&model, 28.5, &mut distributed, &targets, &days);
+    assert!(matches!(records[1].design.fallback, Some(ControlError::NotFinite { index: 9, .. })));
+    assert_eq!(records[1].design.planned_kw, records[0].heat_kw);
+    assert!(records[2].design.fallback.is_none() && records[2].design.fallbacks == 1);
+}
