@@ -21,6 +21,9 @@ use crate::control::ControlError;
 use crate::control::stability::{Certificate, Lmi, Spare};
 use crate::lifted::Lifted;
 
+/// A linear combination of variables.
+type Terms = Vec<(Variable, f64)>;
+
 /// How far inside of the matrix inequality a solution has to be.
 const INSIDE: f64 = 1e-4;
 /// S is at least this times the identity.
@@ -134,23 +137,22 @@ impl<'a> Projection<'a> {
         let model = self.lifted.model();
         let (a, b) = (model.state_matrix(), model.gain_matrix());
         let nodes = a.nrows();
-        let mut entries: Vec<(usize, usize, Vec<(Variable, f64)>)> = Vec::new();
+        let mut entries: Vec<(usize, Terms)> = Vec::new();
         for j in 0..nodes {
             for i in 0..nodes {
                 let own = (a[(i, j)] != 0.0).then(|| (f.at(j), a[(i, j)]));
                 let driven = (m.iter().zip(gain)).filter(|(_, (k, c))| *c == j && b[(i, *k)] != 0.0);
-                let entry: Vec<(Variable, f64)> =
-                    own.into_iter().chain(driven.map(|(m, (k, _))| (m, -b[(i, *k)]))).collect();
+                let entry: Terms = own.into_iter().chain(driven.map(|(m, (k, _))| (m, -b[(i, *k)]))).collect();
                 if !entry.is_empty() {
-                    entries.push((i, j, entry));
+                    entries.push((i, entry));
                 }
             }
         }
         let size = program.variables("|AF − BM|", entries.len());
         let (above, below) = (program.at_most("upper side"), program.at_most("lower side"));
-        let mut sums: Vec<Vec<(Variable, f64)>> = f.iter().map(|f| vec![(f, -decay)]).collect();
-        for (size, (i, _, entry)) in size.iter().zip(entries) {
-            let negative: Vec<(Variable, f64)> = entry.iter().map(|&(variable, value)| (variable, -value)).collect();
+        let mut sums: Vec<Terms> = f.iter().map(|f| vec![(f, -decay)]).collect();
+        for (size, (i, entry)) in size.iter().zip(entries) {
+            let negative: Terms = entry.iter().map(|&(variable, value)| (variable, -value)).collect();
             program.row(above, entry.into_iter().chain([(size, -1.0)]), 0.0);
             program.row(below, negative.into_iter().chain([(size, -1.0)]), 0.0);
             sums[i].push((size, 1.0));
