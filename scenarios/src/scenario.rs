@@ -117,6 +117,16 @@ impl Scenario {
         (self.duration_s / self.step_s).round() as usize
     }
 
+    /// The keys of the vehicles' clock that are not as they are by default.
+    pub(crate) fn stated_clock(&self) -> impl Iterator<Item = &'static str> {
+        let stated = [
+            ("duration_s", self.duration_s != defaults::duration_s()),
+            ("step_s", self.step_s != defaults::step_s()),
+            ("horizon_steps", self.horizon_steps != defaults::horizon_steps()),
+        ];
+        stated.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key)
+    }
+
     /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
     /// same seed gives the same starts.
     pub fn starts(&self) -> Vec<State> {

@@ -12,7 +12,7 @@
 //! plots/<kind of planner>/<diagnostic>[/<name>]       the name if several vehicles have that planner
 //! plots/gap                                           the ego's distance to the nearest footprint
 //! log, about                                          events; what the recording shows
-//! building/…                                          see [`building`]
+//! building/…                                          see `building/mod.rs`
 //! ```
 
 mod blueprint;

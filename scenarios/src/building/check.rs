@@ -17,25 +17,14 @@ const MOST_STEPS: usize = 100_000;
 const MOST_ZONES: usize = 1000;
 /// What makes sense only with a building.
 const PARTS: [&str; 6] = ["weather", "occupancy", "setpoints", "controller", "iterations", "expect.building"];
-/// What makes sense only with vehicles.
-const DRIVING: [&str; 10] = [
-    "duration_s",
-    "step_s",
-    "horizon_steps",
-    "plant",
-    "road",
-    "start_jitter",
-    "expect.no_collision",
-    "expect.min_gap_m",
-    "expect.order",
-    "expect.plan_failures_at_most",
-];
+/// What can only be expected of vehicles.
+const DRIVING: [&str; 4] = ["expect.no_collision", "expect.min_gap_m", "expect.order", "expect.plan_failures_at_most"];
 
 /// Everything that does not fit together.
 pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
     let mut problems = Vec::new();
     if scenario.vehicles.is_empty() {
-        let stated = DRIVING.iter().filter(|key| tree.has(key));
+        let stated = scenario.stated_clock().chain(DRIVING.into_iter().filter(|key| tree.has(key)));
         problems.extend(stated.map(|key| {
             let message = format!("{} is stated, but there are no vehicles", quoted(key));
             let help = "a building takes its step from `building.step_s` and its days from `iterations`";
