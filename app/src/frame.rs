@@ -1,11 +1,12 @@
 //! What one tick looked like: plain values, handed from the world to whoever watches it.
 
+use crate::measure::DayFigures;
 use interplay_planners::{Input, Plan, State, Trajectory};
 
 /// One tick of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// Ticks before this one.
+    /// Ticks before this one; of a building alone, its steps.
     pub tick: usize,
     /// Simulated time at which the plans were made and the states hold \[s\].
     pub time_s: f64,
@@ -15,6 +16,42 @@ pub struct Frame {
     pub events: Vec<Event>,
     /// Smallest distance of the ego's footprint to another one \[m\]; none without others.
     pub gap_m: Option<f64>,
+    /// The building, if this is one of its steps.
+    pub building: Option<BuildingFrame>,
+}
+
+/// A building at one of its steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuildingFrame {
+    /// The day, from 0: the iteration.
+    pub day: usize,
+    /// The step within the day, from 0.
+    pub step: usize,
+    /// Every zone, in the scenario's order.
+    pub zones: Vec<ZoneFrame>,
+    /// Outdoor temperature during the step \[°C\].
+    pub ambient_c: f64,
+    /// What it was forecast to be at midnight \[°C\].
+    pub forecast_c: f64,
+    /// How the day turned out, at its last step.
+    pub figures: Option<DayFigures>,
+}
+
+/// One zone at one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ZoneFrame {
+    /// Temperature at the start of the step \[°C\].
+    pub temperature_c: f64,
+    /// Temperature at its end \[°C\].
+    pub next_c: f64,
+    /// The wanted temperature at its start \[°C\]; none where it is free.
+    pub reference_c: Option<f64>,
+    /// What the controller asked for \[kW\].
+    pub requested_kw: f64,
+    /// Heat from the equipment, negative for cooling \[kW\].
+    pub heat_kw: f64,
+    /// Heat from people, sun and machines \[kW\].
+    pub gains_kw: f64,
 }
 
 /// One vehicle at one tick.

@@ -1,16 +1,18 @@
 //! Interplay: a simulator for agents that must interact.
 //!
 //! ```text
-//! scenario file -> Scenario -> entities -> sense -> predict -> plan -> act -> physics -> measure -> record -> report
+//! scenario file -> Scenario -> entities -> sense -> predict -> plan -> act -> physics | climate -> measure -> record -> report
 //! ```
 //!
 //! [`run`](run::run) does all of it. The loop is one visible list in [`phases`]; each phase is one file.
 
 pub mod act;
 pub mod cli;
+pub mod climate;
 pub mod components;
 pub mod frame;
 pub mod measure;
+pub mod moments;
 pub mod phases;
 pub mod physics;
 pub mod plan;

@@ -3,7 +3,7 @@
 use bevy::ecs::prelude::*;
 use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 
-use crate::{act, measure, physics, plan, predict, sense, watch};
+use crate::{act, climate, measure, moments, physics, plan, predict, sense, watch};
 
 /// One tick, phase by phase. Data flows one way: nothing upstream knows anything downstream.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -18,33 +18,43 @@ pub enum Phase {
     Act,
     /// Bodies move; contacts become collisions.
     Physics,
+    /// The building's heat balance: disturbance, control, temperatures, learning at the day's end.
+    Climate,
     /// What happened is measured.
     Measure,
     /// What happened is written down.
     Record,
 }
 
-/// The schedule of a driving world.
+/// The schedule of a world.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Tick;
 
 /// The loop: phases in order, one thread inside a world (worlds run side by side), ambiguity an error.
 pub fn schedule() -> Schedule {
-    use Phase::{Act, Measure, Physics, Plan, Predict, Record, Sense};
+    use Phase::{Act, Climate, Measure, Physics, Plan, Predict, Record, Sense};
     let mut schedule = Schedule::new(Tick);
     schedule.set_executor(SingleThreadedExecutor::new());
     schedule.set_build_settings(ScheduleBuildSettings {
         ambiguity_detection: LogLevel::Error,
         ..ScheduleBuildSettings::default()
     });
-    schedule.configure_sets((Sense, Predict, Plan, Act, Physics, Measure, Record).chain());
+    schedule.configure_sets((Sense, Predict, Plan, Act, Physics, Climate, Measure, Record).chain());
     schedule.add_systems((
-        sense::sense.in_set(Sense),
-        predict::predict.in_set(Predict),
-        plan::plan.in_set(Plan),
-        act::act.in_set(Act),
-        physics::step.in_set(Physics),
-        measure::measure.in_set(Measure),
+        (
+            sense::sense.in_set(Sense),
+            predict::predict.in_set(Predict),
+            plan::plan.in_set(Plan),
+            act::act.in_set(Act),
+            physics::step.in_set(Physics),
+            measure::measure.in_set(Measure),
+        )
+            .run_if(moments::vehicles),
+        (
+            (climate::disturb, climate::control, climate::balance, climate::learn).chain().in_set(Climate),
+            measure::measure_building.in_set(Measure).after(measure::measure),
+        )
+            .run_if(moments::building),
         watch::show.in_set(Record),
     ));
     schedule

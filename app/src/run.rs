@@ -3,13 +3,18 @@
 use std::time::Instant;
 
 use bevy::ecs::prelude::*;
+use interplay_building::control::ControlError;
 use interplay_scenarios::Scenario;
 use thiserror::Error;
 
-use crate::measure::Measures;
+use crate::climate::{Building, BuildingError};
+use crate::components::Present;
+use crate::frame::Frame;
+use crate::measure::{BuildingMeasures, Measures};
+use crate::moments::moments;
 use crate::report::Report;
 use crate::watch::{Watcher, Watchers};
-use crate::{phases, spawn};
+use crate::{climate, phases, spawn};
 
 /// Why a run could not be finished.
 #[derive(Debug, Error)]
@@ -17,6 +22,17 @@ pub enum RunError {
     /// What was to be kept of it could not be kept.
     #[error("{0}")]
     Watch(String),
+    /// The building cannot be built.
+    #[error("the building cannot be simulated: {0}")]
+    Building(#[from] BuildingError),
+    /// The building's controller gave up.
+    #[error("the controller of the building gave up on day {day}: {reason}")]
+    Control {
+        /// The day, from 1.
+        day: usize,
+        /// Why.
+        reason: ControlError,
+    },
     /// The loop itself is broken.
     #[error("the loop could not be built: {0}")]
     Loop(String),
@@ -31,14 +47,23 @@ pub enum RunError {
 pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Report, RunError> {
     let began = Instant::now();
     let mut world = spawn::world(scenario, watchers);
+    climate::spawn(&mut world, scenario)?;
     let mut schedule = phases::schedule();
     let built = schedule.initialize(&mut world);
     built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;
-    for _ in 0..scenario.tick_count() {
+    for (tick, moment) in moments(scenario).enumerate() {
+        world.resource_mut::<Present>().0 = Frame { tick, time_s: moment.time_s, ..Frame::default() };
+        world.insert_resource(moment);
         schedule.run(&mut world);
+        if let Some(mut building) = world.get_resource_mut::<Building>()
+            && let Some(reason) = building.failure.take()
+        {
+            return Err(RunError::Control { day: (building.step - 1) / building.steps_per_day() + 1, reason });
+        }
     }
     let wall_s = began.elapsed().as_secs_f64();
     let watchers = world.remove_resource::<Watchers>().unwrap_or_default();
     watchers.finish().map_err(RunError::Watch)?;
-    Ok(Report::new(name, scenario, world.resource::<Measures>(), wall_s))
+    let measures = (world.resource::<Measures>(), world.get_resource::<BuildingMeasures>());
+    Ok(Report::new(name, scenario, measures, wall_s))
 }

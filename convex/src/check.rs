@@ -20,7 +20,8 @@ pub(crate) fn shape(program: &Program) -> Result<(), ProblemError> {
             known(variable, count, || place_of(block, row))?;
         }
         let rows = block.right_hand_side.len();
-        if let Cone::SecondOrder { dimension } = block.cone
+        let dimension = block.cone.rows_of_one(rows);
+        if matches!(block.cone, Cone::SecondOrder { .. } | Cone::Semidefinite { .. })
             && (dimension == 0 || !rows.is_multiple_of(dimension))
         {
             let block = block.name.to_string();

@@ -5,7 +5,9 @@
 //! | zero | s = 0 | z free |
 //! | nonnegative | s ≥ 0 | z ≥ 0 |
 //! | second order | ‖(s₁, …)‖₂ ≤ s₀ | the same |
+//! | semidefinite | S ⪰ 0, s its stacked triangle | the same |
 
+use crate::lapack;
 use crate::norm::{euclidean, largest};
 
 /// What a block of rows asks of its slack s = b − Ax.
@@ -21,6 +23,18 @@ pub enum Cone {
         /// Rows of one cone: one for the bound s₀, the others for the vector below it.
         dimension: usize,
     },
+    /// Consecutive groups of order·(order + 1)/2 rows are each the [`triangle`] of a symmetric matrix S ⪰ 0.
+    Semidefinite {
+        /// Rows and columns of S.
+        order: usize,
+    },
+}
+
+/// How a symmetric matrix of an order becomes rows: the upper triangle by columns, as (i, j, weight) with i ≤ j. A row is
+/// the entry times its weight, 1 on the diagonal and √2 beside it, so that the inner product of two stacked matrices is
+/// the trace of their product.
+pub fn triangle(order: usize) -> impl Iterator<Item = (usize, usize, f64)> {
+    (0..order).flat_map(|j| (0..=j).map(move |i| (i, j, if i == j { 1.0 } else { std::f64::consts::SQRT_2 })))
 }
 
 impl Cone {
@@ -29,6 +43,7 @@ impl Cone {
         match self {
             Self::Zero | Self::Nonnegative => rows,
             Self::SecondOrder { dimension } => dimension,
+            Self::Semidefinite { order } => order * (order + 1) / 2,
         }
     }
 
@@ -38,6 +53,7 @@ impl Cone {
             Self::Zero => largest(s.iter().map(|v| v.abs())),
             Self::Nonnegative => largest(s.iter().map(|v| -v)),
             Self::SecondOrder { .. } => second_order_distance(s),
+            Self::Semidefinite { order } => semidefinite_distance(order, s),
         }
     }
 
@@ -45,18 +61,18 @@ impl Cone {
     pub(crate) fn dual_distance(self, z: &[f64]) -> f64 {
         match self {
             Self::Zero => 0.0,
-            Self::Nonnegative | Self::SecondOrder { .. } => self.distance(z),
+            Self::Nonnegative | Self::SecondOrder { .. } | Self::Semidefinite { .. } => self.distance(z),
         }
     }
 
     /// How far `s` and `z` are from being complementary: the largest |sᵢzᵢ| of the inequality rows, |sᵀz| of
-    /// one second-order cone. An equality has nothing to complement: its violation is a primal residual.
+    /// one second-order or semidefinite cone. An equality has nothing to complement: its violation is a primal residual.
     pub(crate) fn complementarity(self, s: &[f64], z: &[f64]) -> f64 {
         let products = s.iter().zip(z).map(|(s, z)| s * z);
         match self {
             Self::Zero => 0.0,
             Self::Nonnegative => largest(products.map(f64::abs)),
-            Self::SecondOrder { .. } => products.sum::<f64>().abs(),
+            Self::SecondOrder { .. } | Self::Semidefinite { .. } => products.sum::<f64>().abs(),
         }
     }
 }
@@ -74,6 +90,19 @@ fn second_order_distance(s: &[f64]) -> f64 {
     } else {
         (norm - bound) * std::f64::consts::FRAC_1_SQRT_2
     }
+}
+
+/// Frobenius distance from S to the nearest semidefinite matrix: the length of its negative eigenvalues.
+fn semidefinite_distance(order: usize, s: &[f64]) -> f64 {
+    let mut matrix = vec![0.0; order * order];
+    for ((i, j, weight), value) in triangle(order).zip(s) {
+        matrix[i + j * order] = value / weight;
+        matrix[j + i * order] = value / weight;
+    }
+    lapack::eigen(order, matrix).map_or(f64::NAN, |(values, _)| {
+        let negative: Vec<f64> = values.into_iter().map(|value| value.min(0.0)).collect();
+        euclidean(&negative)
+    })
 }
 
 #[cfg(test)]
@@ -100,5 +129,16 @@ mod tests {
     fn inequalities_count_only_the_violated_side() {
         assert_eq!(Cone::Nonnegative.distance(&[3.0, -0.25]), 0.25);
         assert_eq!(Cone::Nonnegative.complementarity(&[3.0, 0.0], &[0.5, 9.0]), 1.5);
+    }
+
+    #[test]
+    fn distance_to_the_semidefinite_cone_is_that_of_its_negative_part() {
+        let cone = Cone::Semidefinite { order: 2 };
+        // [1 2; 2 1] has the eigenvalues 3 and −1.
+        assert!((cone.distance(&[1.0, 2.0 * 2.0_f64.sqrt(), 1.0]) - 1.0).abs() < 1e-12);
+        assert!(cone.distance(&[1.0, 0.5, 1.0]) == 0.0);
+        assert!(cone.distance(&[f64::NAN, 0.5, 1.0]).is_nan());
+        let inner: f64 = triangle(2).zip([1.0, 2.0, 1.0]).map(|((_, _, w), v)| (w * v) * (w * v)).sum();
+        assert!((inner - 10.0).abs() < 1e-12, "trace of the square");
     }
 }

@@ -33,8 +33,8 @@ pub enum ProblemError {
         /// The offending number.
         value: f64,
     },
-    /// The rows of a second-order block do not divide into cones.
-    #[error("block `{block}` has {rows} rows, not a multiple of its cones' dimension {dimension} (at least 1)")]
+    /// The rows of a second-order or semidefinite block do not divide into cones.
+    #[error("block `{block}` has {rows} rows, not a multiple of the {dimension} of one of its cones (at least 1)")]
     ConeSize {
         /// The block.
         block: String,

@@ -7,8 +7,9 @@
 //! subject to A x + s = b,  s ∈ K    K a product of cones
 //! ```
 //!
-//! Rows come in named blocks, each with its [`Cone`]: equalities (aᵀx = b), inequalities (aᵀx ≤ b) and
-//! second-order cones (b − Ax ∈ { (t, u) : ‖u‖₂ ≤ t }). The duals z ∈ K* carry the sign for which
+//! Rows come in named blocks, each with its [`Cone`]: equalities (aᵀx = b), inequalities (aᵀx ≤ b)
+//! second-order cones (b − Ax ∈ { (t, u) : ‖u‖₂ ≤ t }) and symmetric matrices that are positive semidefinite
+//! ([`triangle`] says how they are stacked). The duals z ∈ K* carry the sign for which
 //!
 //! ```text
 //! P x + q + Aᵀz = 0,    sᵀz = 0,
@@ -59,6 +60,7 @@ mod check;
 mod cone;
 mod error;
 pub mod kkt;
+mod lapack;
 mod norm;
 mod program;
 mod settings;
@@ -67,7 +69,7 @@ mod solver;
 mod sparse;
 mod standard;
 
-pub use cone::Cone;
+pub use cone::{Cone, triangle};
 pub use error::{ProblemError, SolveError, Status};
 pub use program::{Block, Program, Variable, Variables};
 pub use settings::Settings;

@@ -132,6 +132,12 @@ impl Program {
         self.block(name, Cone::SecondOrder { dimension })
     }
 
+    /// Declares a block of positive semidefinite matrices: each group of order·(order + 1)/2 consecutive rows is the
+    /// [`triangle`](crate::triangle) of the matrix b − Ax.
+    pub fn semidefinite(&mut self, name: impl Into<Cow<'static, str>>, order: usize) -> Block {
+        self.block(name, Cone::Semidefinite { order })
+    }
+
     /// Declares a block of rows whose slack b − Ax lies in `cone`.
     pub fn block(&mut self, name: impl Into<Cow<'static, str>>, cone: Cone) -> Block {
         self.blocks.push(BlockRows {

@@ -40,6 +40,7 @@ impl Solver {
                 Cone::Zero => SupportedConeT::ZeroConeT(rows.len()),
                 Cone::Nonnegative => SupportedConeT::NonnegativeConeT(rows.len()),
                 Cone::SecondOrder { .. } => SupportedConeT::SecondOrderConeT(rows.len()),
+                Cone::Semidefinite { order } => SupportedConeT::PSDTriangleConeT(*order),
             })
             .collect();
         let backend = DefaultSolver::new(
@@ -174,8 +175,7 @@ impl std::fmt::Debug for Solver {
     }
 }
 
-/// One thread, no clock, no output, and nothing that would change the pattern. (With Clarabel's feature `sdp`
-/// that must include `chordal_decomposition_enable: false`.)
+/// One thread, no clock, no output, and nothing that would change the pattern.
 fn backend_settings(settings: &Settings) -> DefaultSettings<f64> {
     DefaultSettings {
         max_iter: settings.iteration_limit,
@@ -189,6 +189,7 @@ fn backend_settings(settings: &Settings) -> DefaultSettings<f64> {
         max_threads: 1,
         direct_solve_method: "qdldl".to_owned(),
         presolve_enable: false,
+        chordal_decomposition_enable: false,
         input_sparse_dropzeros: false,
         ..DefaultSettings::default()
     }

@@ -17,6 +17,10 @@ macro_rules! files {
 
 /// Sorted by name.
 static FILES: &[Embedded] = files![
+    "building/epw-weather",
+    "building/four-room-ilc",
+    "building/four-room-pid",
+    "building/hundred-zones",
     "intersection/nice",
     "intersection/tough",
     "lane-change/both-tough",

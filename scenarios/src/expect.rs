@@ -21,6 +21,33 @@ pub struct Expect {
     pub completes: Vec<Completes>,
     /// Bounds on the extremes of speeds over the run, one `[[expect.speed]]` each.
     pub speed: Vec<SpeedRange>,
+    /// What the building must achieve.
+    pub building: Option<BuildingExpect>,
+}
+
+/// Bounds on the key figures of a building. Each is judged on every day after `after_iterations`: the worst one counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BuildingExpect {
+    /// How many days are left out at the start, while a controller learns.
+    pub after_iterations: usize,
+    /// Whether the cost never rises from one of these days to the next.
+    pub cost_never_rises: Option<bool>,
+    /// Every cost is at most this share of the first day's.
+    #[schemars(extend("minimum" = 0.0))]
+    pub cost_at_most_share_of_first: Option<f64>,
+    /// Root of the mean squared error while occupied \[K\].
+    #[schemars(extend("minimum" = 0.0))]
+    pub tracking_rmse_c_at_most: Option<f64>,
+    /// Deviation beyond the comfort band while occupied \[K·h per zone and day\].
+    #[schemars(extend("minimum" = 0.0))]
+    pub discomfort_k_h_at_most: Option<f64>,
+    /// Heat brought in and taken out \[kWh a day\].
+    #[schemars(extend("minimum" = 0.0))]
+    pub energy_kwh_at_most: Option<f64>,
+    /// Largest excess of a requested input over its limit \[kW\].
+    #[schemars(extend("minimum" = 0.0))]
+    pub input_violation_kw_at_most: Option<f64>,
 }
 
 /// A vehicle reaches its goal (its lane, or the far side of an intersection), within a window of time if one is stated.

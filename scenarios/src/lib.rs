@@ -17,6 +17,7 @@
 //! # Ok::<(), interplay_scenarios::LoadError>(())
 //! ```
 
+mod building;
 mod embedded;
 mod error;
 mod expect;
@@ -33,9 +34,10 @@ mod shape;
 mod source;
 mod tree;
 
+pub use building::{Building, EpwFile, Grid, Preset, Synthetic, Weather};
 pub use embedded::{Embedded, embedded};
 pub use error::{LoadError, Problem};
-pub use expect::{Completes, Expect, SpeedRange};
+pub use expect::{BuildingExpect, Completes, Expect, SpeedRange};
 pub use load::{from_text, load};
 pub use overrides::Override;
 pub use road::{Branch, Intersection, Lanes, RampMerge, Road};

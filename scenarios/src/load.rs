@@ -6,7 +6,7 @@ use crate::overrides::Override;
 use crate::scenario::Scenario;
 use crate::source::Source;
 use crate::tree::{self, Node, Table, Value};
-use crate::{meaning, shape};
+use crate::{building, meaning, shape};
 
 /// How many files may extend one another.
 const LONGEST_CHAIN: usize = 16;
@@ -48,9 +48,10 @@ fn finish(name: &str, mut tree: Node, overrides: &[Override]) -> Result<Scenario
     if !problems.is_empty() {
         return Err(refused(problems));
     }
-    let scenario: Scenario = serde_json::from_value(tree.to_json())
+    let mut scenario: Scenario = serde_json::from_value(tree.to_json())
         .map_err(|error| refused(vec![Problem::at(&tree.place, "in this file", error.to_string())]))?;
-    let problems = meaning::check(&scenario, &tree);
+    let unread = building::attach(&mut scenario, &tree).err();
+    let problems: Vec<Problem> = meaning::check(&scenario, &tree).into_iter().chain(unread).collect();
     if problems.is_empty() { Ok(scenario) } else { Err(refused(problems)) }
 }
 

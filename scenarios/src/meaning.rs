@@ -7,7 +7,7 @@ use interplay_planners::{Driver, State};
 use crate::error::{Place, Problem, quoted};
 use crate::nearest::suggestion;
 use crate::tree::Node;
-use crate::{Branch, Road, Scenario, Vehicle};
+use crate::{Branch, Road, Scenario, Vehicle, building};
 
 /// The most ticks a run may take.
 const MOST_TICKS: f64 = 100_000.0;
@@ -28,6 +28,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
     }
     checker.starts();
     checker.expectations();
+    checker.problems.extend(building::check(scenario, tree));
     checker.problems
 }
 

@@ -8,7 +8,8 @@ use crate::schema;
 use crate::tree::{Entry, Node, Table, Value};
 
 /// Keys of which only one may be present.
-const EXCLUSIVE: [(&str, &str); 2] = [("lane", "y_m"), ("style", "safety_weight")];
+const EXCLUSIVE: [(&str, &str); 5] =
+    [("lane", "y_m"), ("style", "safety_weight"), ("preset", "grid"), ("preset", "zone"), ("grid", "zone")];
 
 /// Lays one table over another.
 pub(crate) fn merge_tables(mut under: Table, over: Table) -> Table {

@@ -3,10 +3,14 @@
 //! Everything here is plain data in SI units, already checked: a [`Scenario`] that came from [`load`](crate::load) keeps
 //! every promise that the descriptions below make.
 
+use interplay_building::comfort::Setpoints;
+use interplay_building::control::Controller;
+use interplay_building::occupancy::Occupancy;
 use interplay_planners::{Body, Driver, SafetyEllipse, State, human, mpc::Limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::building::{Building, Weather};
 use crate::{Branch, Expect, Road, jitter};
 
 /// One scenario: agents, their world, and what is expected of the run.
@@ -47,9 +51,28 @@ pub struct Scenario {
     #[serde(default)]
     pub start_jitter: StartJitter,
     /// The vehicles, one `[[vehicle]]` each.
-    #[serde(rename = "vehicle")]
-    #[schemars(length(min = 1, max = 64))]
+    #[serde(rename = "vehicle", default)]
+    #[schemars(length(max = 64))]
     pub vehicles: Vec<Vehicle>,
+    /// The building; without the table there is none.
+    #[serde(default)]
+    pub building: Option<Building>,
+    /// The weather around the building; by default a synthetic tropical climate, forecast without error.
+    #[serde(default)]
+    pub weather: Option<Weather>,
+    /// The people in the building; by default office hours with real deviations.
+    #[serde(default)]
+    pub occupancy: Option<Occupancy>,
+    /// Wanted temperatures and what it costs to miss them; by default those of chapter 3, free at night.
+    #[serde(default)]
+    pub setpoints: Option<Setpoints>,
+    /// Who controls the building; by default a PID controller in each zone.
+    #[serde(default)]
+    pub controller: Option<Controller>,
+    /// How many days of the building are simulated; by default 10.
+    #[serde(default)]
+    #[schemars(range(min = 1, max = 10000))]
+    pub iterations: Option<usize>,
     /// What makes the run pass; nothing by default.
     #[serde(default)]
     pub expect: Expect,
@@ -86,8 +109,11 @@ impl Scenario {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
     }
 
-    /// How many ticks the run takes: `duration_s / step_s`, rounded.
+    /// How many ticks the vehicles take: `duration_s / step_s`, rounded; 0 without vehicles.
     pub fn tick_count(&self) -> usize {
+        if self.vehicles.is_empty() {
+            return 0;
+        }
         (self.duration_s / self.step_s).round() as usize
     }
 

@@ -43,6 +43,11 @@ const BOUNDS: &[(&str, &str, Keywords)] = &[
     ("negotiation", "ego_normaliser", &[("exclusiveMinimum", 0.0)]),
     ("negotiation", "other_normaliser", &[("exclusiveMinimum", 0.0)]),
     ("negotiation", "weight_floor", &[("minimum", 0.0), ("maximum", 1.0)]),
+    ("Zone", "capacity_kj_per_k", &[("exclusiveMinimum", 0.0)]),
+    ("Zone", "limit_kw", &[("minimum", 0.0)]),
+    ("Zone", "solar_aperture_m2", &[("minimum", 0.0)]),
+    ("Wall", "resistance_k_per_kw", &[("exclusiveMinimum", 0.0)]),
+    ("Wall", "capacity_kj_per_k", &[("exclusiveMinimum", 0.0)]),
 ];
 
 static COMPLETE: LazyLock<Json> = LazyLock::new(|| {
@@ -125,6 +130,9 @@ fn polish(schema: &mut Json) {
         Json::Object(object) => {
             object.retain(|_, value| !value.is_null());
             drop_nothing(object);
+            if object.get("properties").is_some_and(Json::is_object) {
+                object.entry("additionalProperties").or_insert(json!(false));
+            }
             if let Some(Json::String(description)) = object.get_mut("description") {
                 *description = description.replace("\\[", "[").replace("\\]", "]").replace('\n', " ");
             }

@@ -127,6 +127,11 @@ impl Node {
         parts.chain([&node.place]).min_by_key(|place| (place.document.rank, place.span.start)).unwrap_or(&node.place)
     }
 
+    /// Whether anything is written at a path.
+    pub fn has(&self, path: &str) -> bool {
+        path.split('.').try_fold(self, |node, step| node.child(step)).is_some()
+    }
+
     /// The word by which a table in an array is addressed: its `name`, or the `vehicle` it is about.
     pub fn label(&self) -> Option<&str> {
         let table = self.table()?;

@@ -124,7 +124,7 @@ fn keys() {
     errors.error(
         "no_vehicle",
         from_text("bad.toml", "title = 'a'\nshows = 'b'\nvehicle = []", &[]),
-        &["at least 1 entry"],
+        &["nothing to simulate"],
     );
     errors.compare("keys");
 }

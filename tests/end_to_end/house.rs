@@ -13,9 +13,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("convex", &[]),
     ("planners", &["convex"]),
     ("building", &["convex"]),
-    ("scenarios", &["planners"]),
-    ("app", &["planners", "scenarios"]),
-    ("tests", &["app", "planners", "scenarios"]),
+    ("scenarios", &["planners", "building"]),
+    ("app", &["planners", "building", "scenarios"]),
+    ("tests", &["app", "planners", "building", "scenarios"]),
 ];
 
 /// Libraries that only one room may depend on.

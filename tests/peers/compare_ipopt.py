@@ -18,7 +18,7 @@ import numpy as np
 from trajectory_nlp import Ipopt
 
 ROOT = pathlib.Path(__file__).absolute().parents[2]
-KINDS = ["human", "conservative", "negotiation"]
+KINDS = ["human", "conservative", "negotiation", "bayesian", "game", "cooperative"]
 #: Costs below this count as this much in a relative difference.
 FLOOR = 1e-2
 

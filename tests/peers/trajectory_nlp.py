@@ -49,10 +49,20 @@ def outside(position, centre, shape):
     return ((cos * dx + sin * dy) / shape[1]) ** 2 + ((-sin * dx + cos * dy) / shape[2]) ** 2 - 1
 
 
+def distance_price(kind, numbers, omega):
+    """What the Bayesian planner pays for the elliptical distance omega (eq. 7.19)."""
+    if kind == "linear":
+        return numbers[0] * omega
+    attachment = (numbers[0] + omega) * numbers[1]
+    return -attachment * numbers[2] / (attachment - numbers[2]) * omega**2
+
+
 def shape_of(problem):
     """What decides the structure of the programme."""
     vehicles = tuple(
-        (len(v.get("known_inputs", [])), len(v.get("keep_outs", [])), v.get("lane_end") is not None)
+        (len(v.get("known_inputs", [])), len(v.get("keep_outs", [])), v.get("lane_end") is not None,
+         tuple(next(iter(d["price"])) for d in v.get("distance_costs", [])),
+         tuple(bound is not None for bound in v["mean_speed"]["bounds"]) if "mean_speed" in v else (False, False))
         for v in problem["vehicles"]
     )
     pairs = tuple(tuple(s["pair"]) for s in problem.get("separations", []))
@@ -63,6 +73,8 @@ class Programme:
     """The non-linear programme of one shape."""
 
     EXACT = (1e3, 1e3)
+    #: Smooths the tip of a distance.
+    TIP = 1e-4
 
     def __init__(self, shape):
         self.horizon, self.vehicles, self.pairs, self.leans = shape
@@ -101,7 +113,7 @@ class Programme:
     def soft(self, row, price):
         self.soft_rows.append((row, price))
 
-    def vehicle(self, i, known, ellipses, ends, step):
+    def vehicle(self, i, known, ellipses, ends, prices, bounds, step):
         n = self.horizon
         body, road = self.parameter(f"body{i}", 5), self.parameter(f"road{i}", 3)
         lane_end = self.parameter(f"lane_end{i}", 3) if ends else None
@@ -134,7 +146,23 @@ class Programme:
             form, price = self.parameter(f"form{i}_{j}", 3), self.parameter(f"price{i}_{j}", 2)
             for t in range(n):
                 self.soft(outside(states[t + 1], centres[:, t], form), price)
+        for j, kind in enumerate(prices):
+            centres, metric = self.parameter(f"impressions{i}_{j}", 2, n), self.parameter(f"metric{i}_{j}", 3)
+            numbers = self.parameter(f"distance_price{i}_{j}", 1 if kind == "linear" else 3)
+            for t in range(n):
+                dx, dy = states[t + 1][0] - centres[0, t], states[t + 1][1] - centres[1, t]
+                squared = metric[0] * dx**2 + 2 * metric[1] * dx * dy + metric[2] * dy**2
+                self.cost += distance_price(kind, numbers, ca.sqrt(squared + self.TIP**2))
+        if any(bounds):
+            self.mean_speed(i, states, bounds)
         return states, inputs
+
+    def mean_speed(self, i, states, bounds):
+        """Eq. 8.14, 8.15: bounds on the mean of N + 1 speeds."""
+        mean = sum(x[3] for x in states) / len(states)
+        limits, price = self.parameter(f"mean{i}", sum(bounds)), self.parameter(f"mean_price{i}", 2)
+        for j, sign in enumerate([1] * bounds[0] + [-1] * bounds[1]):
+            self.soft(sign * (mean - limits[j]), price)
 
     def lean(self):
         """Eq. 6.23, corrected: both norms squared."""
@@ -159,6 +187,13 @@ class Programme:
             }
             for j, e in enumerate(v.get("keep_outs", [])):
                 found |= {f"centres{i}_{j}": e["centres"], f"form{i}_{j}": e["shape"], f"price{i}_{j}": e["penalty"]}
+            for j, d in enumerate(v.get("distance_costs", [])):
+                found |= {f"impressions{i}_{j}": d["centres"], f"metric{i}_{j}": d["metric"],
+                          f"distance_price{i}_{j}": next(iter(d["price"].values()))}
+            if "mean_speed" in v:
+                mean = v["mean_speed"]
+                found |= {f"mean{i}": [bound for bound in mean["bounds"] if bound is not None],
+                          f"mean_price{i}": mean["penalty"]}
         for j, s in enumerate(problem.get("separations", [])):
             found |= {f"pair{j}": s["shape"], f"pair{j}price": s["penalty"]}
         if self.leans:
@@ -170,7 +205,7 @@ class Programme:
     def bounds(self, problem):
         """Boxes on inputs and speed; a vehicle that is too fast or slow now must come back only as fast as it can."""
         low, high = [], []
-        for v, (known, _, _) in zip(problem["vehicles"], self.vehicles):
+        for v, (known, *_) in zip(problem["vehicles"], self.vehicles):
             braking, accelerating, steering, slowest, fastest = v["limits"]
             for t in range(self.horizon):
                 elapsed = problem["step_s"] * (t + 1)
@@ -216,7 +251,7 @@ class Programme:
     def inputs(self, problem, solution):
         """Per vehicle, the inputs in a solution."""
         at, found = 0, []
-        for v, (known, _, _) in zip(problem["vehicles"], self.vehicles):
+        for v, (known, *_) in zip(problem["vehicles"], self.vehicles):
             own = [list(u) for u in v.get("known_inputs", [])]
             for t in range(self.horizon):
                 if t >= known:

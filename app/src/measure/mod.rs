@@ -1,5 +1,6 @@
 //! Measure: one metric a file, all fed with the same frames.
 
+mod building;
 mod collisions;
 mod comfort;
 mod completion;
@@ -12,6 +13,7 @@ use bevy::ecs::prelude::*;
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
 
+pub use building::{BuildingDigests, BuildingMeasures, DayFigures, measure_building};
 pub use collisions::Collision;
 pub use comfort::Comfort;
 pub use completion::Completion;

@@ -6,7 +6,7 @@ use interplay_scenarios::{Completes, Expect, SpeedRange};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Report;
+use super::{Report, building};
 
 /// One expectation and what became of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,6 +55,9 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
     }
     for range in &expect.speed {
         judged.extend(speed(range, report));
+    }
+    if let (Some(expect), Some(building)) = (&expect.building, &report.building) {
+        judged.extend(building::judge(expect, building));
     }
     judged
 }

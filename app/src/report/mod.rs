@@ -1,5 +1,6 @@
 //! What a run amounts to: figures, and whether the scenario's expectations held.
 
+mod building;
 mod expectations;
 mod junit;
 mod suite;
@@ -7,18 +8,22 @@ mod summary;
 
 use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+use xxhash_rust::xxh3::xxh3_128;
 
+pub use building::BuildingReport;
 pub use expectations::Expectation;
 pub use junit::junit;
 pub use suite::{Case, table};
 pub use summary::summary;
 
 use crate::components::to_nanosecond;
-use crate::measure::{Collision, Measures, PhaseDigests, VehicleMeasures};
+use crate::measure::{BuildingMeasures, Collision, Measures, PhaseDigests, VehicleMeasures};
 
-/// The outcome of one run; its serialisation is the output contract of `--json`.
+/// The outcome of one run; its serialisation is the output contract of `--json`. What is about vehicles is left out of
+/// that without vehicles, and `building` without a building.
 #[derive(Clone, Debug, Serialize)]
+#[serde(remote = "Report")]
 pub struct Report {
     /// Name of the scenario.
     pub scenario: String,
@@ -42,8 +47,27 @@ pub struct Report {
     pub order: Vec<String>,
     /// Every vehicle, in the scenario's order.
     pub vehicles: Vec<VehicleReport>,
+    /// The building.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub building: Option<BuildingReport>,
     /// What was expected.
     pub expectations: Vec<Expectation>,
+}
+
+/// Keys of the serialisation that are about vehicles.
+const DRIVING: [&str; 5] = ["phase_digests", "collisions", "min_gap_m", "order", "vehicles"];
+
+impl Serialize for Report {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if !self.vehicles.is_empty() {
+            return Report::serialize(self, serializer);
+        }
+        let mut whole = Report::serialize(self, serde_json::value::Serializer).map_err(serde::ser::Error::custom)?;
+        if let Some(object) = whole.as_object_mut() {
+            object.retain(|key, _| !DRIVING.contains(&key.as_str()));
+        }
+        whole.serialize(serializer)
+    }
 }
 
 /// The outcome for one vehicle.
@@ -85,24 +109,31 @@ pub struct PlansReport {
 
 impl Report {
     /// Puts the measures of a run together and judges them.
-    pub fn new(name: &str, scenario: &Scenario, measures: &Measures, wall_s: f64) -> Self {
+    pub fn new(
+        name: &str,
+        scenario: &Scenario,
+        (measures, building): (&Measures, Option<&BuildingMeasures>),
+        wall_s: f64,
+    ) -> Self {
         let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
         let vehicles = vehicles
             .map(|(vehicle, measured)| VehicleReport::new(&vehicle.name, vehicle.driver.kind(), measured))
             .collect();
         let phase_digests = measures.digest.phases();
+        let building = building.map(|measures| BuildingReport::new(scenario, measures));
         let mut report = Report {
             scenario: name.to_owned(),
             passed: true,
             seed: scenario.seed,
-            simulated_s: to_nanosecond(scenario.step_s * scenario.tick_count() as f64),
+            simulated_s: simulated_s(scenario),
             wall_s,
-            digest: phase_digests.physics.clone(),
+            digest: digest(scenario, &phase_digests, building.as_ref()),
             phase_digests,
             collisions: measures.collisions.clone(),
             min_gap_m: measures.gap.smallest_m,
             order: order(scenario, measures),
             vehicles,
+            building,
             expectations: Vec::new(),
         };
         report.expectations = expectations::judge(&scenario.expect, &report);
@@ -113,6 +144,23 @@ impl Report {
     /// The outcome for the vehicle of that name.
     pub fn vehicle(&self, name: &str) -> Option<&VehicleReport> {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
+    }
+}
+
+/// How long was simulated: until the slower of both clocks is done \[s\].
+fn simulated_s(scenario: &Scenario) -> f64 {
+    let last = |step_s: f64, count: usize| to_nanosecond(step_s * count as f64);
+    let building = scenario.building.as_ref();
+    let days_s = building.map_or(0.0, |house| last(house.step_s, scenario.days() * house.steps_per_day()));
+    last(scenario.step_s, scenario.tick_count()).max(days_s)
+}
+
+/// One digest of all states: that of the vehicles, of the building, or of both.
+fn digest(scenario: &Scenario, phases: &PhaseDigests, building: Option<&BuildingReport>) -> String {
+    match building.map(|building| &building.digests.balance) {
+        None => phases.physics.clone(),
+        Some(balance) if scenario.vehicles.is_empty() => balance.clone(),
+        Some(balance) => format!("{:032x}", xxh3_128(format!("{}{balance}", phases.physics).as_bytes())),
     }
 }
 

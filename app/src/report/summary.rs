@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Report, VehicleReport};
+use super::{Report, VehicleReport, building};
 
 /// The report for a person: who merged where and when, the smallest gap, planner times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {
@@ -14,8 +14,22 @@ pub fn summary(title: &str, report: &Report) -> String {
 
 fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
     let factor = report.simulated_s / report.wall_s.max(1e-9);
+    let simulated = match &report.building {
+        Some(building) if report.vehicles.is_empty() => format!("{} days", building.iterations.len()),
+        _ => format!("{:?} s", report.simulated_s),
+    };
     writeln!(text, "{title}  [{}]", report.scenario)?;
-    writeln!(text, "  {:?} s simulated in {:.2} s ({factor:.0} times real time)", report.simulated_s, report.wall_s)?;
+    writeln!(text, "  {simulated} simulated in {:.2} s ({factor:.0} times real time)", report.wall_s)?;
+    if !report.vehicles.is_empty() {
+        write_driving(text, report)?;
+    }
+    if let Some(building) = &report.building {
+        building::write(text, building)?;
+    }
+    write_expectations(text, report)
+}
+
+fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     for vehicle in &report.vehicles {
         if let Some(time_s) = vehicle.completed_s {
             writeln!(text, "  {} reached its goal at {time_s:?} s", vehicle.name)?;
@@ -30,7 +44,10 @@ fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::R
         let [a, b] = &collision.between;
         writeln!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
     }
-    write_vehicles(text, &report.vehicles)?;
+    write_vehicles(text, &report.vehicles)
+}
+
+fn write_expectations(text: &mut String, report: &Report) -> std::fmt::Result {
     if report.expectations.is_empty() {
         return writeln!(text, "  nothing was expected of this run");
     }

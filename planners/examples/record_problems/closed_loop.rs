@@ -72,22 +72,26 @@ fn vehicle(name: &str, [x_m, y_m, speed_mps]: [f64; 3], tracking: [f64; 4], driv
 }
 
 /// Drives a scenario with `ego` as the ego's driver and shows every decision to `watch`. The humans plan first, from the
-/// front of the road to its rear.
+/// front of the road to its rear. A cooperative ego needs somebody to cooperate with: then it drives the front car too.
 ///
 /// # Errors
 /// A planner's, or that of `watch`.
-pub fn run(scenario: &Scenario, ego: Driver, mut watch: impl FnMut(&Decision) -> Result<()>) -> Result<()> {
+pub fn run(scenario: &Scenario, ego: &Driver, mut watch: impl FnMut(&Decision) -> Result<()>) -> Result<()> {
     let human = |style| Driver::Human(human::Settings { style: Some(style), ..Default::default() });
+    let front = if matches!(ego, Driver::Cooperative(_)) { ego.clone() } else { human(scenario.front) };
     let mut vehicles = [
-        vehicle("front", [scenario.front_x_m, 0.555, scenario.speed_mps], [0.0, 4.0, 1.0, 1.0], human(scenario.front)),
+        vehicle("front", [scenario.front_x_m, 0.555, scenario.speed_mps], [0.0, 4.0, 1.0, 1.0], front),
         vehicle(
             "rear",
             [scenario.front_x_m - 1.3, 0.555, scenario.speed_mps],
             [0.0, 4.0, 1.0, 1.0],
             human(scenario.rear),
         ),
-        vehicle("ego", [0.0, 0.185, 1.0], [0.0, 1.0, 0.5, 1.0], ego),
+        vehicle("ego", [0.0, 0.185, 1.0], [0.0, 1.0, 0.5, 1.0], ego.clone()),
     ];
+    for Vehicle { agent, goal, driver, .. } in &mut vehicles {
+        agent.shared_goal = driver.shared_goal(goal);
+    }
     for tick in 0..TICKS {
         for index in 0..vehicles.len() {
             let scene = scene(tick, &vehicles, index);

@@ -4,14 +4,16 @@
 //! cargo run --release -p interplay-planners --example record_problems
 //! ```
 //!
-//! drives the three embedded lane changes with the conservative and with the negotiation planner, on the bicycle as the
-//! plant, and writes `planners/tests/data/{human,conservative,negotiation}.json`.
+//! drives the three embedded lane changes with every planner, on the bicycle as the plant, and writes
+//! `planners/tests/data/{human,conservative,negotiation,bayesian,game,cooperative}.json`. (Humans are recorded beside the first
+//! two only.)
 //!
 //! Problems are rebuilt from outside, from what a planner was shown and what it answered. Every one is checked before it
 //! is kept: solved again it must have exactly the cost that the planner stated. (A human states none: its plan must be an
 //! optimum of the rebuilt problem.)
 
 mod closed_loop;
+mod minutes;
 mod negotiation_view;
 #[path = "../../tests/common/recorded.rs"]
 mod recorded;
@@ -23,11 +25,12 @@ use interplay_planners::mpc::{Iterate, Optimiser, Problem, Robust};
 use interplay_planners::{Agent, Driver, Plan, Trajectory, conservative, human, negotiation};
 
 use closed_loop::{Decision, SCENARIOS};
+use minutes::Minutes;
 use negotiation_view::{NegotiationView, Posed};
 use recorded::{KINDS, Recorded};
 
-/// How many problems of a kind are kept.
-const KEPT: usize = 200;
+/// How many problems of each kind are kept.
+const KEPT: [usize; KINDS.len()] = [200, 200, 200, 100, 100, 100];
 /// The first ticks of every run are always kept: there is little to start from yet.
 const FIRST_TICKS: usize = 2;
 /// By how much a human's plan may be improved upon, relative.
@@ -42,19 +45,25 @@ struct Met {
 }
 
 fn main() -> Result<()> {
-    let mut met: [Vec<Met>; 3] = Default::default();
+    let mut met: [Vec<Met>; KINDS.len()] = Default::default();
     for scenario in SCENARIOS {
         let asking = negotiation::Settings::default();
         let baseline = conservative::Settings::default();
-        for ego in [Driver::Conservative(baseline), Driver::Negotiation(asking)] {
+        for ego in egos(baseline, asking) {
             let run = format!("{}/{}", scenario.name, ego.kind());
-            let mut view = NegotiationView::new(asking);
-            closed_loop::run(&scenario, ego, |decision| {
+            let (mut view, mut minutes) = (NegotiationView::new(asking), Minutes::default());
+            closed_loop::run(&scenario, &ego, |decision| {
                 let posed = match decision.driver {
-                    Driver::Human(settings) => Some(posed_by_human(decision, settings)?),
+                    Driver::Human(settings) => match ego {
+                        Driver::Conservative(_) | Driver::Negotiation(_) => Some(posed_by_human(decision, settings)?),
+                        _ => None,
+                    },
                     Driver::Conservative(_) => Some(posed_by_conservative(decision)?),
                     Driver::Negotiation(_) => view.rebuild(decision.scene, decision.plan)?,
-                    _ => None,
+                    Driver::Bayesian(settings) => minutes.bayesian(decision, settings)?,
+                    Driver::Game(settings) => minutes.game(decision, settings)?,
+                    Driver::Cooperative(settings) => minutes.cooperative(decision, settings)?,
+                    Driver::Idm(_) | Driver::Scripted(_) => None,
                 };
                 let kind = KINDS.iter().position(|kind| *kind == decision.driver.kind()).ok_or("a new kind")?;
                 let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
@@ -69,8 +78,8 @@ fn main() -> Result<()> {
             })?;
         }
     }
-    for (kind, met) in KINDS.into_iter().zip(met) {
-        let (all, kept) = (met.len(), thin_out(met));
+    for ((kind, most), met) in KINDS.into_iter().zip(KEPT).zip(met) {
+        let (all, kept) = (met.len(), thin_out(met, most));
         recorded::save(kind, &kept)?;
         let bytes = std::fs::metadata(recorded::path(kind))?.len();
         writeln!(std::io::stdout(), "{kind}: {} of {all} problems kept, {bytes} bytes", kept.len())?;
@@ -78,12 +87,24 @@ fn main() -> Result<()> {
     Ok(())
 }
 
+fn egos(baseline: conservative::Settings, asking: negotiation::Settings) -> [Driver; 5] {
+    [
+        Driver::Conservative(baseline),
+        Driver::Negotiation(asking),
+        Driver::Bayesian(Default::default()),
+        Driver::Game(Default::default()),
+        Driver::Cooperative(Default::default()),
+    ]
+}
+
 fn posed_by_human(decision: &Decision, settings: &human::Settings) -> Result<Posed> {
     let problem = human::problem(decision.scene, settings);
     let cost = cost_of_plan(&problem, decision.plan);
-    let better =
-        Optimiser::new(Robust::default()).descend(&problem, std::slice::from_ref(&decision.plan.trajectory.inputs))?;
-    if better.cost.total < cost - OPTIMAL * (1.0 + cost) {
+    let from_plan = std::slice::from_ref(&decision.plan.trajectory.inputs);
+    // A descent that does not converge from there has found nothing better to speak of.
+    if let Ok(better) = Optimiser::new(Robust::default()).descend(&problem, from_plan)
+        && better.cost.total < cost - OPTIMAL * (1.0 + cost)
+    {
         let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
         return Err(format!("tick {tick}: the plan of {name} is no optimum: {cost}, {}", better.cost.total).into());
     }
@@ -113,9 +134,9 @@ fn stated(plan: &Plan, what: &str) -> Result<f64> {
 }
 
 /// The first ticks of every run, and an even choice of the rest.
-fn thin_out(met: Vec<Met>) -> Vec<Recorded> {
+fn thin_out(met: Vec<Met>, most: usize) -> Vec<Recorded> {
     let rest = met.iter().filter(|met| met.tick >= FIRST_TICKS).count();
-    let wanted = (KEPT + rest).saturating_sub(met.len()).min(rest);
+    let wanted = (most + rest).saturating_sub(met.len()).min(rest);
     let mut index = 0;
     let kept = met.into_iter().filter(|met| {
         if met.tick < FIRST_TICKS {

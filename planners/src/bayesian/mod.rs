@@ -24,7 +24,7 @@ pub use value::attraction;
 use crate::activity::Activity;
 use crate::encounter::{Choice, Partner};
 use crate::mpc::{Optimiser, Optimum, Problem, Robust};
-use crate::solo::{Solved, solve};
+use crate::solo::{self, Solved};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A Bayesian planner with what it remembers.
@@ -44,7 +44,7 @@ impl Bayesian {
     pub fn new(settings: Settings) -> Self {
         Bayesian {
             settings,
-            optimiser: Optimiser::new(Robust::default()),
+            optimiser: solo::optimiser(),
             partner: Partner::default(),
             belief: Belief::initial(&settings),
             watched: None,
@@ -62,7 +62,8 @@ impl Bayesian {
         self.watch(&choice);
         let problem = problem(scene, choice.partner, &self.belief, &self.settings);
         let every = self.settings.look_around_every;
-        let Solved { problem, optimum, event } = solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+        let Solved { problem, optimum, event } =
+            solo::solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
         let diagnostics = self.diagnostics(&problem, &optimum);
         let trajectory = optimum.trajectory(0);
         if let Some(before) = &self.last {

@@ -24,7 +24,7 @@ pub use settings::Settings;
 use crate::activity::Activity;
 use crate::mpc::{Iterate, Optimiser, Optimum, Problem, Robust};
 use crate::predict::steady;
-use crate::solo::{Solved, retreat};
+use crate::solo::{self, Solved};
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 
 /// A cooperating planner with the joint plan it made last.
@@ -48,7 +48,7 @@ impl Settings {
 impl Cooperative {
     /// A planner that has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Cooperative { settings, optimiser: Optimiser::new(Robust::default()), last: Vec::new() }
+        Cooperative { settings, optimiser: solo::optimiser(), last: Vec::new() }
     }
 
     /// Plans everybody's moves and answers with the own ones.
@@ -76,7 +76,7 @@ impl Cooperative {
             Err(error) => {
                 let last = std::mem::take(&mut self.last);
                 let last = last.get(own).map(|(_, trajectory)| trajectory);
-                Ok(alone(retreat(&mut self.optimiser, scene, last, &error)?))
+                Ok(alone(solo::retreat(&mut self.optimiser, scene, last, &error)?))
             }
         }
     }

@@ -44,7 +44,7 @@ pub fn leader_follower(ego: &Player, other: &Player) -> Solution {
         }
     }
     let led = |own: f64| ego.utility(own, best_reply(other, own));
-    let own = maximum(led, intention(best.0), LEADING_STEPS);
+    let own = maximum(led, intention(best.0), CELL, LEADING_STEPS);
     solution(ego, other, own, best_reply(other, own))
 }
 

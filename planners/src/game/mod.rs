@@ -24,7 +24,7 @@ pub use settings::{Method, Settings};
 use crate::activity::Activity;
 use crate::encounter::{Choice, Partner};
 use crate::mpc::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
-use crate::solo::{Solved, solve};
+use crate::solo::{self, Solved};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use equilibrium::{Solution, leader_follower, nash};
 use intention::forget;
@@ -73,7 +73,7 @@ impl Game {
         Game {
             settings,
             mind: Mind::new(settings.prospect),
-            optimiser: Optimiser::new(Robust::default()),
+            optimiser: solo::optimiser(),
             partner: Partner::default(),
             intentions: Intentions::default(),
             last: None,
@@ -101,7 +101,8 @@ impl Game {
         }
         let problem = problem(scene, expressed);
         let every = self.settings.look_around_every;
-        let Solved { problem, optimum, event } = solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+        let Solved { problem, optimum, event } =
+            solo::solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
         let diagnostics = self.diagnostics(scene, round.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());

@@ -2,7 +2,7 @@
 //!
 //! Intentions are probabilities to pass in [0.05, 0.95] ("the extreme events are eliminated"). A utility may have two local
 //! maxima in the own probability (it does in some 3 % of games), so a gradient ascent, as the source proposes, may stop at
-//! the lesser one. A grid of hundredths finds the best cell, and a golden-section search the maximum inside it.
+//! the lesser one. A grid finds the best cell, and a golden-section search the maximum inside it.
 
 use super::payoff::Player;
 
@@ -14,8 +14,10 @@ pub const HIGHEST: f64 = 0.95;
 pub(super) const POINTS: usize = 91;
 /// Their distance.
 pub(super) const CELL: f64 = 0.01;
-/// Steps of the golden section from two cells to the square root of the rounding error.
-const STEPS: usize = 32;
+/// Every how many grid points a first look is taken: local maxima are farther apart than that.
+const STRIDE: usize = 3;
+/// Steps of the golden section from the strides on both sides to the square root of the rounding error.
+const STEPS: usize = 34;
 
 /// Lowest and highest intention in hundredths.
 pub(super) const HUNDREDTHS: [i32; 2] = [5, 95];
@@ -27,30 +29,28 @@ pub(super) fn intention(point: usize) -> f64 {
 
 /// The best reply to an intention of the other.
 pub fn best_reply(player: &Player, other: f64) -> f64 {
-    let best = best_of((0..POINTS).map(|point| player.utility(intention(point), other)));
-    reply_near(player, other, intention(best))
+    let best = best_of((0..POINTS).step_by(STRIDE).map(|point| player.utility(intention(point), other)));
+    reply_near(player, other, intention(STRIDE * best))
 }
 
 /// The best reply on the grid to the grid's intention `other`, as an index.
 pub(super) fn grid_reply(player: &Player, other: usize) -> usize {
-    let mut best = (0, f64::NEG_INFINITY);
-    player.scan(HUNDREDTHS, HUNDREDTHS[0] + other as i32, |own, utility| {
-        if utility > best.1 {
-            best = (own, utility);
-        }
-    });
-    (best.0 - HUNDREDTHS[0]) as usize
+    let [lowest, highest] = HUNDREDTHS;
+    let (other, stride) = (lowest + other as i32, STRIDE as i32);
+    let first = player.best_of((lowest..=highest).step_by(STRIDE), other);
+    let around = (first + 1 - stride).max(lowest)..=(first + stride - 1).min(highest);
+    (player.best_of(around, other) - lowest) as usize
 }
 
-/// The best reply within a cell of a guess.
+/// The best reply within a stride of a guess.
 pub(super) fn reply_near(player: &Player, other: f64, guess: f64) -> f64 {
-    maximum(|own| player.utility(own, other), guess, STEPS)
+    maximum(|own| player.utility(own, other), guess, STRIDE as f64 * CELL, STEPS)
 }
 
-/// The place of the maximum of `f` within a cell of `guess`, where `f` has one (golden section).
-pub(super) fn maximum(f: impl Fn(f64) -> f64, guess: f64, steps: usize) -> f64 {
+/// The place of the maximum of `f` within `reach` of `guess`, where `f` has one (golden section).
+pub(super) fn maximum(f: impl Fn(f64) -> f64, guess: f64, reach: f64, steps: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let (mut low, mut high) = ((guess - CELL).max(LOWEST), (guess + CELL).min(HIGHEST));
+    let (mut low, mut high) = ((guess - reach).max(LOWEST), (guess + reach).min(HIGHEST));
     let ends = [low, high];
     let (mut left, mut right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
     let (mut at_left, mut at_right) = (f(left), f(right));
@@ -89,7 +89,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(100))]
+        #![proptest_config(ProptestConfig::with_cases(400))]
 
         #[test]
         fn nothing_on_a_finer_grid_is_better(turn in 0.05..19.0, accident in 0.5..5.0, other in 0.05..0.95) {

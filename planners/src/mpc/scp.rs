@@ -119,6 +119,9 @@ pub struct Optimiser<S> {
     pub solver: S,
     /// When to stop.
     pub tolerances: Tolerances,
+    /// Whether a descent begins with the multipliers of the one before, if the problem has the same shape. They save a
+    /// planner that plans anew at every step a cold Gauss-Newton step; the optimum is the same.
+    pub resumes: bool,
     pub(super) qp: StageQp,
     pub(super) step: StageSolution,
     pub(super) search: Search,
@@ -131,6 +134,7 @@ impl<S: StageSolver> Optimiser<S> {
         Optimiser {
             solver,
             tolerances: Tolerances::default(),
+            resumes: false,
             qp: StageQp::default(),
             step: StageSolution::default(),
             search: Search::default(),
@@ -151,17 +155,19 @@ impl<S: StageSolver> Optimiser<S> {
         }
         self.search.restart();
         linearise(problem, &now.iterate, &mut self.qp);
+        let resumed = self.resumes && self.step.fits(&self.qp);
         let (mut damping, mut tolerance) = (0.0, TOLERANCE);
         for step in 0..self.tolerances.iteration_limit {
             self.before.clone_from(&self.step);
             self.qp.tolerance = tolerance;
-            self.direction(problem, &mut now, step > 0, damping)?;
+            let warm = step > 0 || resumed;
+            self.direction(problem, &mut now, warm, damping)?;
             let predicted = self.predict(&now.cost);
             let little = predicted <= self.tolerances.decrease * (1.0 + now.cost.total.abs());
             // A damped step promises little because it is short, not because there is little to gain.
             let last = self.qp.damping == 0.0 && little;
             let share = self.advance(problem, &mut now, predicted, last);
-            if step > 0 {
+            if warm {
                 self.step.retreat(&self.before, share);
             }
             damping = match share {

@@ -262,6 +262,14 @@ impl TrajectoryRow {
 }
 
 impl StageSolution {
+    /// Whether there are multipliers for a problem of this shape.
+    pub(super) fn fits(&self, problem: &StageQp) -> bool {
+        self.inputs.len() == problem.vehicles.len()
+            && self.inputs.iter().all(|inputs| inputs.len() == problem.horizon)
+            && self.row_multipliers.len() == problem.blocks.len()
+            && self.trajectory_multipliers.len() == problem.trajectory_rows.len()
+    }
+
     /// Gives every field the shape of `problem`, keeping allocations.
     pub fn shape_like(&mut self, problem: &StageQp) {
         let (horizon, vehicles) = (problem.horizon, problem.vehicles.len());

@@ -5,12 +5,15 @@
 use std::path::{Path, PathBuf};
 
 use interplay_planners::dynamics::Bicycle;
-use interplay_planners::mpc::{KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
+use interplay_planners::mpc::{
+    DistanceCost, DistancePrice, KeepOut, Leaning, Limits, MeanSpeed, Participant, Penalty, Problem, Separation,
+    Tracking,
+};
 use interplay_planners::{Body, Corridor, Input, LaneEnd, SafetyEllipse, State};
 use serde::{Deserialize, Serialize};
 
 /// The planners whose problems are recorded.
-pub const KINDS: [&str; 3] = ["human", "conservative", "negotiation"];
+pub const KINDS: [&str; 6] = ["human", "conservative", "negotiation", "bayesian", "game", "cooperative"];
 
 /// A problem, the guess its planner started from, and where it was met: `scenario/tick/vehicle`.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -61,6 +64,42 @@ pub struct Vehicle {
     /// Whom it avoids.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keep_outs: Vec<Ellipse>,
+    /// What distances cost it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub distance_costs: Vec<Distance>,
+    /// Bounds on its mean speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_speed: Option<Mean>,
+}
+
+/// The cost of distances from a moving centre.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Distance {
+    /// Centres at `t = 1…N`.
+    pub centres: Vec<[f64; 2]>,
+    /// `M`: xx, xy, yy.
+    pub metric: [f64; 3],
+    /// What a distance costs.
+    pub price: Price,
+}
+
+/// `φ(ω)`.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Price {
+    /// Weight.
+    Linear(f64),
+    /// Base, loyalty, aversion.
+    Exact([f64; 3]),
+}
+
+/// Bounds on a mean speed.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub struct Mean {
+    /// Lower and upper bound.
+    pub bounds: [Option<f64>; 2],
+    /// Linear and quadratic weight.
+    pub penalty: [f64; 2],
 }
 
 /// A moving ellipse.
@@ -153,6 +192,8 @@ impl Vehicle {
             targets,
             comfort: of.comfort,
             keep_outs: of.keep_outs.iter().map(Ellipse::new).collect(),
+            distance_costs: of.distance_costs.iter().map(Distance::new).collect(),
+            mean_speed: of.mean_speed.as_ref().map(Mean::new),
         }
     }
 
@@ -181,8 +222,8 @@ impl Vehicle {
             tracking: Tracking { weights: self.weights, targets: (0..horizon).map(target).collect() },
             comfort: self.comfort,
             keep_outs: self.keep_outs.iter().map(Ellipse::keep_out).collect(),
-            distance_costs: Vec::new(),
-            mean_speed: None,
+            distance_costs: self.distance_costs.iter().map(Distance::distance_cost).collect(),
+            mean_speed: self.mean_speed.as_ref().map(Mean::mean_speed),
         }
     }
 }
@@ -212,6 +253,34 @@ impl Ellipse {
             ellipse: ellipse(self.shape),
             penalty: penalty(self.penalty),
         }
+    }
+}
+
+impl Distance {
+    fn new(of: &DistanceCost) -> Self {
+        let price = match of.price {
+            DistancePrice::Linear { weight } => Price::Linear(weight),
+            DistancePrice::Exact { base, loyalty, aversion } => Price::Exact([base, loyalty, aversion]),
+        };
+        Distance { centres: of.centres.clone(), metric: of.metric, price }
+    }
+
+    fn distance_cost(&self) -> DistanceCost {
+        let price = match self.price {
+            Price::Linear(weight) => DistancePrice::Linear { weight },
+            Price::Exact([base, loyalty, aversion]) => DistancePrice::Exact { base, loyalty, aversion },
+        };
+        DistanceCost { centres: self.centres.clone(), metric: self.metric, price }
+    }
+}
+
+impl Mean {
+    fn new(of: &MeanSpeed) -> Self {
+        Mean { bounds: [of.lower_mps, of.upper_mps], penalty: [of.penalty.linear, of.penalty.quadratic] }
+    }
+
+    fn mean_speed(&self) -> MeanSpeed {
+        MeanSpeed { lower_mps: self.bounds[0], upper_mps: self.bounds[1], penalty: penalty(self.penalty) }
     }
 }
 

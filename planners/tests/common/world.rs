@@ -202,11 +202,11 @@ impl Run {
         Some((place, STEP_S * tick as f64))
     }
 
-    /// Median time of vehicle 0's plans \[ms\].
-    pub fn median_ms(&self) -> f64 {
+    /// A quantile of the times of vehicle 0's plans \[ms\].
+    pub fn plan_time_ms(&self, quantile: f64) -> f64 {
         let mut times = self.plan_ms.clone();
         times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
+        times[((times.len() - 1) as f64 * quantile) as usize]
     }
 }
 

@@ -1,0 +1,74 @@
+//! Moments: vehicles and building have a clock each, and the loop runs whenever one of them strikes.
+
+use bevy::ecs::prelude::*;
+use interplay_scenarios::Scenario;
+
+use crate::components::to_nanosecond;
+
+/// A moment at which something happens.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Simulated time \[s\].
+    pub time_s: f64,
+    /// Whether it begins a tick of the vehicles.
+    pub vehicles: bool,
+    /// Whether it begins a step of the building.
+    pub building: bool,
+}
+
+/// Every moment of a scenario, in order.
+pub fn moments(scenario: &Scenario) -> impl Iterator<Item = Moment> + use<> {
+    let building_step_s = scenario.building.as_ref().map_or(1.0, |building| building.step_s);
+    let steps = scenario.building.as_ref().map_or(0, |building| scenario.days() * building.steps_per_day());
+    let (step_s, ticks) = (scenario.step_s, scenario.tick_count());
+    let (mut tick, mut step) = (0, 0);
+    let strike =
+        |index: usize, count: usize, step_s: f64| (index < count).then(|| to_nanosecond(index as f64 * step_s));
+    std::iter::from_fn(move || {
+        let (vehicles_s, building_s) = (strike(tick, ticks, step_s), strike(step, steps, building_step_s));
+        let time_s = vehicles_s.into_iter().chain(building_s).min_by(f64::total_cmp)?;
+        let (vehicles, building) = (vehicles_s == Some(time_s), building_s == Some(time_s));
+        tick += usize::from(vehicles);
+        step += usize::from(building);
+        Some(Moment { time_s, vehicles, building })
+    })
+}
+
+/// Whether vehicles drive now.
+pub fn vehicles(moment: Res<Moment>) -> bool {
+    moment.vehicles
+}
+
+/// Whether the building takes a step now.
+pub fn building(moment: Res<Moment>) -> bool {
+    moment.building
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::from_text;
+
+    use super::*;
+
+    fn of(text: &str) -> Vec<Moment> {
+        let scenario = from_text("clocks.toml", &format!("title = 'a'\nshows = 'b'\n{text}"), &[]);
+        moments(&scenario.expect("a scenario without fault")).collect()
+    }
+
+    #[test]
+    fn each_clock_strikes_at_its_own_times_and_both_at_once_where_they_meet() {
+        let car = "vehicle = [{ name = 'a', start = { x_m = 0, y_m = 0.2, speed_mps = 0 } }]";
+        let (alone, house) =
+            (of(&format!("duration_s = 2000\nstep_s = 450\n{car}")), of("building = {}\niterations = 2"));
+        assert_eq!((alone.len(), house.len()), (4, 96));
+        assert!(alone.iter().all(|moment| moment.vehicles && !moment.building));
+        let both =
+            of(&format!("duration_s = 2000\nstep_s = 450\nbuilding = {{ step_s = 900 }}\niterations = 1\n{car}"));
+        let times: Vec<f64> = both[..5].iter().map(|moment| moment.time_s).collect();
+        assert_eq!(times, [0.0, 450.0, 900.0, 1350.0, 1800.0]);
+        let marks: Vec<(bool, bool)> = both[..5].iter().map(|moment| (moment.vehicles, moment.building)).collect();
+        assert_eq!(marks, [(true, true), (true, false), (true, true), (true, false), (false, true)]);
+        assert_eq!(both.len(), 2 + 96);
+        assert!(both.windows(2).all(|pair| pair[0].time_s < pair[1].time_s));
+    }
+}

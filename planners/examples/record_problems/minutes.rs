@@ -1,0 +1,111 @@
+//! The problems of the planners that state all they decided on, rebuilt from their statements.
+
+use interplay_planners::mpc::{Iterate, MeanSpeed, Penalty, Problem};
+use interplay_planners::{Agent, Input, Plan, Trajectory, bayesian, cooperative, game};
+
+use crate::closed_loop::Decision;
+use crate::negotiation_view::Posed;
+use crate::{Result, cost_of_plan, stated};
+
+/// What has to be remembered of a run.
+#[derive(Default)]
+pub struct Minutes {
+    /// Whom the ego interacts with.
+    partner: Option<String>,
+    /// Everybody's part of the last joint plan, by name.
+    joint: Vec<(String, Trajectory)>,
+}
+
+impl Minutes {
+    /// The problem of the Bayesian planner while it persuades somebody.
+    ///
+    /// # Errors
+    /// The rebuilt problem does not cost what the plan states.
+    pub fn bayesian(&mut self, decision: &Decision, settings: &bayesian::Settings) -> Result<Option<Posed>> {
+        let (scene, plan) = (decision.scene, decision.plan);
+        for event in &plan.events {
+            self.partner = event.strip_prefix("persuades ").map(str::to_owned);
+        }
+        let partner = scene.others.iter().find(|other| Some(&other.name) == self.partner.as_ref());
+        if retreats(plan) || partner.is_none() {
+            return Ok(None);
+        }
+        let (variance, w_1) = (stated(plan, "belief variance")?, stated(plan, "other's loyalty w_1")?);
+        let belief = bayesian::Belief { variance, w_1, ..bayesian::Belief::initial(settings) };
+        let problem = bayesian::problem(scene, partner, &belief, settings);
+        agrees(decision, cost_of_plan(&problem, plan))?;
+        Ok(Some((problem, vec![keep(decision.last)])))
+    }
+
+    /// The problem of the game's planner while it expresses an intention.
+    ///
+    /// # Errors
+    /// The rebuilt problem does not cost what the plan states.
+    pub fn game(&mut self, decision: &Decision, settings: &game::Settings) -> Result<Option<Posed>> {
+        let (scene, plan) = (decision.scene, decision.plan);
+        let (Ok(lower), Ok(upper)) = (stated(plan, "expressed speed from"), stated(plan, "expressed speed to")) else {
+            return Ok(None);
+        };
+        let limits = &scene.ego.limits;
+        let expressed = MeanSpeed {
+            lower_mps: Some(lower).filter(|lower| *lower > limits.speed_min_mps),
+            upper_mps: Some(upper).filter(|upper| *upper < limits.speed_max_mps),
+            penalty: Penalty { linear: settings.slack_weight * scene.horizon as f64, quadratic: 0.0 },
+        };
+        let problem = game::problem(scene, Some(expressed));
+        agrees(decision, cost_of_plan(&problem, plan))?;
+        Ok(Some((problem, vec![keep(decision.last)])))
+    }
+
+    /// The joint problem of two cooperating vehicles, once: as the ego sees it.
+    ///
+    /// # Errors
+    /// The rebuilt problem does not cost what the plan states.
+    pub fn cooperative(&mut self, decision: &Decision, settings: &cooperative::Settings) -> Result<Option<Posed>> {
+        let (scene, plan) = (decision.scene, decision.plan);
+        if scene.ego.name != "ego" || retreats(plan) {
+            return Ok(None);
+        }
+        let cooperators = cooperative::cooperators(scene, settings.shared_goal(&scene.goal));
+        let problem = cooperative::problem(scene, &cooperators);
+        let other = plan.proposal.as_ref().ok_or("nobody cooperates")?;
+        let parts = [(&scene.ego.name, &plan.trajectory), (&other.to, &other.trajectory)];
+        let guess = cooperators.iter().map(|of| keep(part(&self.joint, &of.agent))).collect();
+        self.joint = parts.map(|(name, trajectory)| (name.clone(), trajectory.clone())).into();
+        agrees(decision, joint_cost(&problem, &cooperators, &self.joint).ok_or("a part is missing")?)?;
+        Ok(Some((problem, guess)))
+    }
+}
+
+fn retreats(plan: &Plan) -> bool {
+    plan.events.iter().any(|event| event.starts_with("conservative plan"))
+}
+
+fn keep(last: Option<&Trajectory>) -> Vec<Input> {
+    last.map_or_else(Vec::new, Trajectory::later_inputs)
+}
+
+fn part<'a>(joint: &'a [(String, Trajectory)], of: &Agent) -> Option<&'a Trajectory> {
+    joint.iter().find(|(name, _)| *name == of.name).map(|(_, part)| part)
+}
+
+fn joint_cost(
+    problem: &Problem,
+    cooperators: &[cooperative::Cooperator],
+    joint: &[(String, Trajectory)],
+) -> Option<f64> {
+    let parts: Option<Vec<&Trajectory>> = cooperators.iter().map(|of| part(joint, &of.agent)).collect();
+    let parts = parts?;
+    let inputs = parts.iter().map(|part| part.inputs.clone()).collect();
+    let states = parts.iter().map(|part| part.states.clone()).collect();
+    Some(problem.cost(&Iterate { inputs, states }).total)
+}
+
+fn agrees(decision: &Decision, cost: f64) -> Result<()> {
+    let stated = stated(decision.plan, "cost")?;
+    if cost != stated {
+        let (tick, kind) = (decision.scene.tick, decision.driver.kind());
+        return Err(format!("tick {tick}: the rebuilt {kind} problem costs {cost}, not {stated}").into());
+    }
+    Ok(())
+}

@@ -1,0 +1,175 @@
+//! The check of what a scenario says about a building: parts that exclude one another, and numbers that fit no building.
+//!
+//! The building crate itself is asked whether it could work with them.
+
+use interplay_building::control::ControlError;
+use interplay_building::discretise::{Model, ModelError};
+use interplay_building::network::{Network, NetworkError};
+
+use super::{Building, DAY_S};
+use crate::Scenario;
+use crate::error::{Problem, quoted};
+use crate::tree::Node;
+
+/// The most steps that a building may take.
+const MOST_STEPS: usize = 100_000;
+/// The most zones.
+const MOST_ZONES: usize = 1000;
+/// What makes sense only with a building.
+const PARTS: [&str; 6] = ["weather", "occupancy", "setpoints", "controller", "iterations", "expect.building"];
+/// What makes sense only with vehicles.
+const DRIVING: [&str; 10] = [
+    "duration_s",
+    "step_s",
+    "horizon_steps",
+    "plant",
+    "road",
+    "start_jitter",
+    "expect.no_collision",
+    "expect.min_gap_m",
+    "expect.order",
+    "expect.plan_failures_at_most",
+];
+
+/// Everything that does not fit together.
+pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    if scenario.vehicles.is_empty() {
+        let stated = DRIVING.iter().filter(|key| tree.has(key));
+        problems.extend(stated.map(|key| {
+            let message = format!("{} is stated, but there are no vehicles", quoted(key));
+            let help = "a building takes its step from `building.step_s` and its days from `iterations`";
+            Problem::at(tree.place_of(key), "for vehicles only", message).help(help)
+        }));
+    }
+    let Some(building) = &scenario.building else {
+        if scenario.vehicles.is_empty() {
+            let message = "there is nothing to simulate: neither a `[[vehicle]]` nor a `[building]`";
+            let help = "state vehicles, a building, or both; or start with `extends = \"lane-change/front-nice\"`";
+            problems.push(Problem::at(&tree.place, "in this file", message).help(help));
+        }
+        problems.extend(PARTS.iter().filter(|key| tree.has(key)).map(|key| {
+            let message = format!("{} is stated, but there is no building", quoted(key));
+            Problem::at(tree.place_of(key), "for a building only", message).help("add a `[building]`")
+        }));
+        return problems;
+    };
+    let mut checker = Checker { scenario, tree, problems };
+    checker.times(building);
+    if checker.sources(building) {
+        match building.network() {
+            Ok(network) => checker.controlled(building, &network),
+            Err(error) => checker.network(building, &error),
+        }
+    }
+    checker.problems
+}
+
+struct Checker<'a> {
+    scenario: &'a Scenario,
+    tree: &'a Node,
+    problems: Vec<Problem>,
+}
+
+impl Checker<'_> {
+    fn refuse(&mut self, path: &str, label: &str, message: String, help: &str) {
+        let problem = Problem::at(self.tree.place_of(path), label, message);
+        self.problems.push(if help.is_empty() { problem } else { problem.help(help) });
+    }
+
+    fn times(&mut self, building: &Building) {
+        let (step_s, steps) = (building.step_s, building.steps_per_day());
+        if (steps as f64 * step_s - DAY_S).abs() > 1e-6 {
+            let message = format!("`building.step_s` ({step_s}) does not divide a day of 86400 s");
+            self.refuse(
+                "building.step_s",
+                "no whole number of steps",
+                message,
+                "choose 900, 1800 or 3600, for example",
+            );
+        } else if self.scenario.days() * steps > MOST_STEPS {
+            let message = format!("{} days of {steps} steps are more than {MOST_STEPS} steps", self.scenario.days());
+            self.refuse("iterations", "too many", message, "lower `iterations` or lengthen `building.step_s`");
+        }
+    }
+
+    /// Whether it is clear of which zones the building consists.
+    fn sources(&mut self, building: &Building) -> bool {
+        let before = self.problems.len();
+        let stated = [
+            ("preset", building.preset.is_some()),
+            ("grid", building.grid.is_some()),
+            ("zone", !building.zones.is_empty()),
+        ];
+        let stated: Vec<&str> = stated.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key).collect();
+        if let [first, second, ..] = stated.as_slice() {
+            let message = format!("`building` states both `{first}` and `{second}`");
+            self.refuse(&format!("building.{second}"), "one too many", message, "state the one or the other");
+        }
+        if building.zones.is_empty() && !building.walls.is_empty() {
+            let message = "`building` has walls but no zones".to_owned();
+            self.refuse(
+                "building.wall.0",
+                "between what?",
+                message,
+                "add a `[[building.zone]]` for each place, or no walls",
+            );
+        }
+        if let Some(grid) = building.grid.filter(|grid| grid.rows * grid.columns > MOST_ZONES) {
+            let message = format!("a grid of {} by {} has more than {MOST_ZONES} zones", grid.rows, grid.columns);
+            self.refuse("building.grid", "too many", message, "");
+        }
+        self.problems.len() == before
+    }
+
+    fn network(&mut self, building: &Building, error: &NetworkError) {
+        let named = |name: &str| building.zones.iter().rposition(|zone| zone.name == name).unwrap_or(0);
+        // A wall is called `wall 3 (…)`, counted from one.
+        let wall = |words: &str| {
+            let number = words.strip_prefix("wall ").and_then(|rest| rest.split(' ').next()?.parse::<usize>().ok());
+            number.map(|number| format!("building.wall.{}", number.saturating_sub(1)))
+        };
+        let path = match error {
+            NetworkError::NoZones => "building".to_owned(),
+            NetworkError::BadName { number, .. } => format!("building.zone.{}.name", number.saturating_sub(1)),
+            NetworkError::DuplicateZone { name } => format!("building.zone.{}.name", named(name)),
+            NetworkError::UnknownZone { wall: words, .. } | NetworkError::SamePlace { wall: words, .. } => {
+                wall(words).unwrap_or_default() + ".between"
+            }
+            NetworkError::OutOfRange { place, quantity, .. } => {
+                let zone = || format!("building.zone.{}", named(place.trim_start_matches("zone ").trim_matches('`')));
+                format!("{}.{quantity}", wall(place).unwrap_or_else(zone))
+            }
+        };
+        self.refuse(&path, "here", error.to_string(), "");
+    }
+
+    /// Whether the model can be simulated, aimed and controlled.
+    fn controlled(&mut self, building: &Building, network: &Network) {
+        let steps = building.steps_per_day();
+        let setpoints = self.scenario.setpoints.clone().unwrap_or_default();
+        if let Err(error) = setpoints.targets(network.zone_count(), building.step_s, steps) {
+            let message = format!("`setpoints`: {error}");
+            let key = ["occupied_c", "from_h", "to_h", "occupied_weight", "other_weight", "input_weight", "band_k"];
+            let key = key.iter().find(|key| error.to_string().starts_with(**key)).unwrap_or(&"occupied_c");
+            self.refuse(&format!("setpoints.{key}"), "here", message, "");
+        }
+        match Model::new(network, building.method, building.step_s) {
+            Err(error @ ModelError::BadStep { .. }) => {
+                self.refuse("building.step_s", "here", error.to_string(), "");
+            }
+            Err(error @ ModelError::Unstable { .. }) => {
+                self.refuse("building.method", "unstable", error.to_string(), "");
+            }
+            Ok(model) => {
+                if let Err(error) = self.scenario.controller().regulator(&model, steps) {
+                    let key = match &error {
+                        ControlError::Setting { setting, .. } => setting.split(' ').next().unwrap_or_default(),
+                        _ => "kind",
+                    };
+                    self.refuse(&format!("controller.{key}"), "here", format!("`controller`: {error}"), "");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! The building of a scenario: its zones and walls, the weather outside, and how long it is simulated.
+//!
+//! A building has a clock of its own: it goes from step to step, and an iteration is a day.
+
+mod check;
+mod weather;
+
+use interplay_building::control::Controller;
+use interplay_building::control::pid::PidSettings;
+use interplay_building::discretise::Method;
+use interplay_building::network::{Network, NetworkError, Wall, Zone};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::Scenario;
+
+pub(crate) use check::check;
+pub(crate) use weather::attach;
+pub use weather::{EpwFile, Synthetic, Weather};
+
+/// A day \[s\].
+const DAY_S: f64 = 86_400.0;
+/// How many days are simulated unless the scenario says so.
+const ITERATIONS: usize = 10;
+
+/// Zones and walls, given as a `preset`, as a `grid`, or one by one; by default the testbed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Building {
+    /// A building that is known by name. Not together with `grid` or `zone`.
+    pub preset: Option<Preset>,
+    /// Rooms in rows and columns, each like those of the testbed. Not together with `preset` or `zone`.
+    pub grid: Option<Grid>,
+    /// The zones, one `[[building.zone]]` each.
+    #[serde(rename = "zone")]
+    #[schemars(length(max = 1000))]
+    pub zones: Vec<Zone>,
+    /// The walls between them and to `ambient`, one `[[building.wall]]` each.
+    #[serde(rename = "wall")]
+    #[schemars(length(max = 10000))]
+    pub walls: Vec<Wall>,
+    /// Time from one step to the next, such as 900 or 1800; a day must be a whole number of steps \[s\].
+    #[schemars(range(min = 60.0, max = 3600.0))]
+    pub step_s: f64,
+    /// How time is cut into steps.
+    pub method: Method,
+    /// Temperature of everything at the start \[°C\].
+    #[schemars(range(min = -50.0, max = 100.0))]
+    pub initial_c: f64,
+}
+
+impl Default for Building {
+    fn default() -> Self {
+        Building {
+            preset: None,
+            grid: None,
+            zones: Vec::new(),
+            walls: Vec::new(),
+            step_s: 1800.0,
+            method: Method::Exact,
+            initial_c: 28.0,
+        }
+    }
+}
+
+/// A building that is known by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Preset {
+    /// The four rooms of Table 2.1, in corrected units: two by two, each with a wall to the air outside.
+    Testbed,
+}
+
+/// Rooms in rows and columns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Grid {
+    /// How many rows of rooms there are.
+    #[schemars(range(min = 1, max = 1000))]
+    pub rows: usize,
+    /// How many rooms a row has.
+    #[schemars(range(min = 1, max = 1000))]
+    pub columns: usize,
+}
+
+impl Building {
+    /// The thermal network.
+    ///
+    /// # Errors
+    /// [`NetworkError`] if zones and walls make none; never for a scenario that was loaded.
+    pub fn network(&self) -> Result<Network, NetworkError> {
+        match (self.preset, self.grid) {
+            _ if !self.zones.is_empty() => Network::new(&self.zones, &self.walls),
+            (None, Some(Grid { rows, columns })) if rows * columns > 0 => Ok(Network::grid(rows, columns)),
+            (None, Some(_)) => Err(NetworkError::NoZones),
+            (Some(Preset::Testbed) | None, _) => Ok(Network::testbed()),
+        }
+    }
+
+    /// How many zones a row of the floor plan has: that of the grid, or enough for a plan about as wide as deep.
+    pub fn plan_columns(&self) -> usize {
+        match (self.grid, self.zones.len()) {
+            (Some(grid), 0) => grid.columns,
+            (None, 0) => 2,
+            (_, zones) => (zones as f64).sqrt().ceil() as usize,
+        }
+    }
+
+    /// How many steps a day has.
+    pub fn steps_per_day(&self) -> usize {
+        (DAY_S / self.step_s).round() as usize
+    }
+}
+
+impl Scenario {
+    /// How many days of the building are simulated; 0 without a building.
+    pub fn days(&self) -> usize {
+        if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
+    }
+
+    /// Who controls the building; a PID controller in each zone unless the scenario says so.
+    pub fn controller(&self) -> Controller {
+        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
+    }
+}
