@@ -35,7 +35,8 @@ impl Case {
         let setpoints = Setpoints { occupied_c: wanted_c, occupied_weight: 2.0, band_k: 1.0, ..Setpoints::default() };
         let targets = setpoints.targets(n, STEP_S, STEPS).expect("valid");
         let ambient_c: Vec<f64> = (0..STEPS).map(|t| 28.0 + 3.0 * ((t as f64 - 16.0) / 8.0).sin()).collect();
-        let gains_kw = (0..n * STEPS).map(|k| if (16..38).contains(&(k / n)) { 0.3 + 0.03 * (k % n % 5) as f64 } else { 0.0 });
+        let gains_kw =
+            (0..n * STEPS).map(|k| if (16..38).contains(&(k / n)) { 0.3 + 0.03 * (k % n % 5) as f64 } else { 0.0 });
         let day = Disturbance { ambient_c, gains_kw: gains_kw.collect() };
         let mut regulator = controller.regulator(&model, STEPS).expect("valid");
         let mut initial_c = vec![27.5; n];
@@ -44,8 +45,7 @@ impl Case {
     }
 
     fn morning(&self, regulator: &mut Regulator) -> f64 {
-        let morning =
-            Morning { initial_c: &self.initial_c, targets: &self.targets, forecast: &self.day, actual: None };
+        let morning = Morning { initial_c: &self.initial_c, targets: &self.targets, forecast: &self.day, actual: None };
         regulator.start_of_day(&morning).expect("shapes fit");
         let design = regulator.design();
         assert!(design.fallback.is_none(), "{:?}", design.fallback);

@@ -86,10 +86,12 @@ impl Distributed {
             free_c: &free_c,
             silent: self.settings.silent_zone,
         };
+        let reliable = self.settings.loss == 0.0 && self.settings.delay_rounds == 0;
         let rules = Rules {
-            scheme: self.settings.scheme,
+            scheme: if reliable { self.settings.scheme } else { Scheme::Jacobi },
             tolerance_kw: self.settings.tolerance_kw,
             rounds: self.settings.rounds,
+            delay: self.settings.delay_rounds,
         };
         self.mail.start(morning.initial_c);
         let first_kw = self.diary.yesterday().map_or(vec![0.0; lifted.size()], |yesterday| yesterday.heat_kw.clone());
