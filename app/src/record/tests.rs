@@ -66,8 +66,7 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
     });
     let told = Event { vehicle: "ego".to_owned(), level: Level::Warning, text: "no plan".to_owned() };
     let events = if tick == 7 { vec![told] } else { Vec::new() };
-    let vehicles = vehicles.collect();
-    Frame { tick, time_s: 0.1 * tick as f64, vehicles, events, gap_m: Some(0.3), ..Frame::default() }
+    Frame { tick, time_s: 0.1 * tick as f64, vehicles: vehicles.collect(), events, gap_m: Some(0.3), building: None }
 }
 
 fn recorded(scenario: &Scenario, path: &Path) -> Recorder {
@@ -142,7 +141,7 @@ fn there_is_no_clock_of_the_wall() {
     let recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
     for (path, (_, timelines)) in entities(&recorder) {
         assert!(
-            timelines.iter().all(|name| [SIM_TIME, TICK, "blueprint"].contains(&name.as_str())),
+            timelines.iter().all(|name| [SIM_TIME, TICK, building::ITERATION, "blueprint"].contains(&name.as_str())),
             "{path}: {timelines:?}"
         );
     }
@@ -167,13 +166,45 @@ fn a_panel_is_there_only_if_it_has_something_to_show() {
     assert!(!shown.iter().any(|title| title == "Events" || title.starts_with("Gap")), "{shown:?}");
 }
 
-fn titles(panel: &blueprint::Panel) -> Vec<String> {
+fn titles(panel: &Panel) -> Vec<String> {
     match panel {
-        blueprint::Panel::Row(parts) | blueprint::Panel::Column(parts) => {
-            parts.iter().flat_map(|(_, part)| titles(part)).collect()
-        }
-        blueprint::Panel::View(view) => vec![view.title().to_owned()],
+        Panel::Row(parts) | Panel::Column(parts) => parts.iter().flat_map(|(_, part)| titles(part)).collect(),
+        Panel::View(view) => vec![view.title().to_owned()],
     }
+}
+
+#[test]
+fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
+    use crate::frame::{BuildingFrame, ZoneFrame};
+    let folder = Folder::new("building");
+    let scenario = load("building/hundred-zones", &[]).expect("embedded");
+    let sink = Sink::File(folder.0.join("run.rrd"));
+    let mut recorder = Recorder::begin(&scenario, "building/hundred-zones", &sink).expect("writable");
+    for tick in 0..3 {
+        let zone = ZoneFrame {
+            temperature_c: 24.0 + tick as f64,
+            next_c: 25.0 + tick as f64,
+            reference_c: (tick == 1).then_some(25.0),
+            requested_kw: 0.0,
+            heat_kw: 0.0,
+            gains_kw: 0.0,
+        };
+        let (ambient_c, forecast_c) = (30.0, 31.0);
+        let building =
+            BuildingFrame { day: tick, step: 0, zones: vec![zone; 100], ambient_c, forecast_c, figures: None };
+        let frame = Frame { tick, time_s: 1800.0 * tick as f64, building: Some(building), ..Frame::default() };
+        recorder.tick(&frame).expect("recorded");
+    }
+    let entities = entities(&recorder);
+    let rows = |path: &str| entities.get(path).map_or(0, |(rows, _)| *rows);
+    assert_eq!((rows("/building/plan/rooms"), rows("/building/zone/100/temperature")), (3, 3));
+    assert_eq!(rows("/building/zone/1/reference"), 2, "one value, and its end");
+    assert_eq!(rows("/building/zone/2/temperature"), 0, "a plot for each of a hundred would be none");
+    let (_, timelines) = &entities["/building/outdoors/real"];
+    assert!([SIM_TIME, TICK, building::ITERATION].iter().all(|name| timelines.iter().any(|there| there == name)));
+    assert!(!entities.keys().any(|path| path.starts_with("/world")), "no road without vehicles");
+    let house = recorder.house.as_ref().expect("a building");
+    assert_eq!(titles(&building::layout(house)).len(), 1 + 4 + 4, "plan, temperatures, numbers and words");
 }
 
 #[test]

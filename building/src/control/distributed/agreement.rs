@@ -9,6 +9,9 @@
 //! | line search | w d, 1/n ≤ w ≤ 1 | one for each try |
 //! | momentum | w d + β (the step before), clipped | one for each try |
 //!
+//! Where messages get lost or come late, the zones take Jacobi steps only, which need no sums, and the later the messages
+//! the shorter: a step against a gradient that is some rounds old overshoots.
+//!
 //! A convex J does not rise with Jacobi steps (Theorem I), whatever the number of zones: descent, not optimality. The
 //! variables are the inputs u_i, so that the limits are those of each zone alone; with the printed u_ff,i they are coupled
 //! through the feedback, and the zones stall above the optimum where limits bind.
@@ -112,6 +115,8 @@ pub(super) struct Rules {
     pub scheme: Scheme,
     pub tolerance_kw: f64,
     pub rounds: usize,
+    /// Rounds by which messages are late.
+    pub delay: usize,
 }
 
 /// What the zones agreed on.
@@ -168,7 +173,10 @@ impl Day<'_> {
                 (step, moved)
             });
             let next = match rules.scheme {
-                Scheme::Jacobi => self.moved(&heat_kw, &proposal, 1.0 / n as f64, None),
+                Scheme::Jacobi => {
+                    let share = 1.0 / (n * (1 + 2 * rules.delay)) as f64;
+                    self.moved(&heat_kw, &proposal, share, None)
+                }
                 Scheme::LineSearch | Scheme::Momentum => {
                     let past = past.filter(|_| rules.scheme == Scheme::Momentum);
                     self.best_step(mail, &heat_kw, &proposal, &known_c, past, &mut sums)

@@ -166,7 +166,7 @@ impl Mail {
             {
                 last.clone_from(&series[edge.from]);
             }
-            if queue.len() > self.delay
+            if queue.len() >= self.delay
                 && let Some(due) = queue.pop_front()
             {
                 edge.heard[subject as usize] = due;

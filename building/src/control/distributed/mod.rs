@@ -1,8 +1,8 @@
 //! Zones that plan together (chapter 5), and the same day in one problem.
 //!
 //! Both plan the inputs of least cost with a soft comfort band, and follow them with a feedback of each zone on its own
-//! error. The distributed design does it by messages between neighbours: [`mail`] has the messages, [`zone`] the problem of
-//! one zone, [`agreement`] the rounds, [`cooperative`] what is learned from neighbours and when that converges.
+//! error. The distributed design does it by messages between neighbours: `mail` has the messages, `zone` the problem of
+//! one zone, `agreement` the rounds, [`cooperative`] what is learned from neighbours and when that converges.
 //!
 //! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the source's
 //! "exponential" growth belongs to the dense form. What speaks for the exchange is that no zone needs to tell anything to
@@ -86,10 +86,12 @@ impl Distributed {
             free_c: &free_c,
             silent: self.settings.silent_zone,
         };
+        let reliable = self.settings.loss == 0.0 && self.settings.delay_rounds == 0;
         let rules = Rules {
-            scheme: self.settings.scheme,
+            scheme: if reliable { self.settings.scheme } else { Scheme::Jacobi },
             tolerance_kw: self.settings.tolerance_kw,
             rounds: self.settings.rounds,
+            delay: self.settings.delay_rounds,
         };
         self.mail.start(morning.initial_c);
         let first_kw = self.diary.yesterday().map_or(vec![0.0; lifted.size()], |yesterday| yesterday.heat_kw.clone());

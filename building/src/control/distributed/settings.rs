@@ -23,7 +23,7 @@ pub enum Scheme {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DistributedSettings {
-    /// How proposals become a step.
+    /// How proposals become a step. Where messages get lost or come late it is always Jacobi's.
     pub scheme: Scheme,
     /// ε: the zones agree when no input of a day moves by more than this \[kW, Euclidean\].
     pub tolerance_kw: f64,
