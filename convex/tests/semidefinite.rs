@@ -47,12 +47,15 @@ proptest! {
             program.row(block, [(x, -1.0)], 0.0);
         }
         let solution = Solver::new(&program, &Settings::default()).expect("well-formed").solve().expect("solvable");
-        let eigen = c.symmetric_eigen();
+        let eigen = c.clone().symmetric_eigen();
         let positive = DMatrix::from_diagonal(&eigen.eigenvalues.map(|v| v.max(0.0)));
         let nearest = &eigen.eigenvectors * positive * eigen.eigenvectors.transpose();
-        for ((i, j, weight), x) in triangle(order).zip(x.iter()) {
-            prop_assert!((solution.at(x) - weight * nearest[(i, j)]).abs() < 1e-5);
-        }
+        // ½ ‖X − C‖² is strongly convex: half of the squared distance to its optimum is at most what the cost is above it.
+        let distance2: f64 = (triangle(order).zip(x.iter()))
+            .map(|((i, j, weight), x)| (solution.at(x) - weight * nearest[(i, j)]).powi(2))
+            .sum();
+        let size = 1.0 + c.norm_squared();
+        prop_assert!(0.5 * distance2 < 1e-7 * size, "{distance2:e}");
     }
 
     #[test]

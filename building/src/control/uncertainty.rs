@@ -23,15 +23,15 @@ const NUGGET_KW2: f64 = 1e-8;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct UncertaintySettings {
-    /// σ_w \[kW\].
+    /// σ_w: standard deviation of what all zones have in common \[kW\].
     pub common_kw: f64,
-    /// ρ_w, from one step to the next.
+    /// ρ_w: correlation of the common part from one step to the next.
     pub common_correlation: f64,
-    /// σ_o while a zone is occupied, and a step before and after \[kW\].
+    /// σ_o: standard deviation of a zone's own part while it is occupied, and a step before and after \[kW\].
     pub zone_kw: f64,
-    /// σ_o at other times \[kW\].
+    /// σ_o: standard deviation of a zone's own part at other times \[kW\].
     pub zone_other_kw: f64,
-    /// ρ_o, from one step to the next.
+    /// ρ_o: correlation of a zone's own part from one step to the next.
     pub zone_correlation: f64,
     /// Whether the σ are estimated again each evening.
     pub reestimate: bool,
