@@ -104,8 +104,8 @@ impl Checker<'_> {
                 "add a `[[building.zone]]` for each place, or no walls",
             );
         }
-        if let Some(grid) = building.grid.filter(|grid| grid.rows * grid.columns > MOST_ZONES) {
-            let message = format!("a grid of {} by {} has more than {MOST_ZONES} zones", grid.rows, grid.columns);
+        if let Some(grid) = building.grid.filter(|grid| grid.rooms() > MOST_ZONES) {
+            let message = format!("a grid of {} rooms has more than {MOST_ZONES} zones", grid.rooms());
             self.refuse("building.grid", "too many", message, "");
         }
         self.problems.len() == before
