@@ -8,7 +8,7 @@ mod weather;
 use interplay_building::control::Controller;
 use interplay_building::control::pid::PidSettings;
 use interplay_building::discretise::Method;
-use interplay_building::network::{Network, NetworkError, Wall, Zone};
+use interplay_building::network::{Belief, Network, NetworkError, Wall, Zone};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -47,6 +47,8 @@ pub struct Building {
     /// Temperature of everything at the start \[°C\].
     #[schemars(range(min = -50.0, max = 100.0))]
     pub initial_c: f64,
+    /// What the controller takes the building for, where it is wrong.
+    pub believed: Belief,
 }
 
 impl Default for Building {
@@ -59,6 +61,7 @@ impl Default for Building {
             step_s: 1800.0,
             method: Method::Exact,
             initial_c: 28.0,
+            believed: Belief::default(),
         }
     }
 }
@@ -121,6 +124,14 @@ impl Building {
             (None, Some(_)) => Err(NetworkError::NoZones),
             (Some(Preset::Testbed) | None, _) => Ok(Network::testbed()),
         }
+    }
+
+    /// What the controller takes the network for.
+    ///
+    /// # Errors
+    /// As [`Building::network`], and if a believed factor is out of range.
+    pub fn believed_network(&self) -> Result<Network, NetworkError> {
+        self.network()?.believed(&self.believed)
     }
 
     /// How its rooms are drawn: as its grid says, or on one floor about as wide as deep.
