@@ -30,7 +30,6 @@ static FILES: &[Embedded] = files![
     "building/fixed-warm-nights",
     "building/four-room-ilc",
     "building/four-room-pid",
-    "building/garage",
     "building/hundred-zones",
     "building/iterative-free-nights",
     "building/iterative-model-error",
@@ -45,6 +44,7 @@ static FILES: &[Embedded] = files![
     "lane-change/front-tough",
     "lane-keeping/nice",
     "lane-keeping/tough",
+    "mixed/garage",
     "ramp-merge/nice",
     "ramp-merge/tough",
 ];
