@@ -20,6 +20,7 @@ static FILES: &[Embedded] = files![
     "building/epw-weather",
     "building/four-room-ilc",
     "building/four-room-pid",
+    "building/garage",
     "building/hundred-zones",
     "intersection/nice",
     "intersection/tough",

@@ -217,7 +217,10 @@ fn zones_apart_are_allowed_and_said() {
     let apart = SOUND.replace(r#"["office", "store"]"#, r#"["store", "ambient"]"#);
     let outcome = run_text("building-apart", &apart, &[]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
-    assert!(outcome.stdout.contains("note: no heat passes between (`office`) and (`store`)"), "{outcome:?}");
+    let said = "note: no heat passes between (`office`) and (`store`)";
+    assert!(outcome.stdout.contains(said), "{outcome:?}");
+    let checked = interplay(&scratch("building-apart"), &["check", "my.toml"]);
+    assert!(checked.stdout.starts_with("ok  my.toml\n") && checked.stdout.contains(said), "{checked:?}");
 }
 
 #[test]
