@@ -94,7 +94,7 @@ impl Writer {
                 if first && key != "kind" {
                     self.explain(property);
                 }
-                self.line(&format!("{key} = {}", toml(shown)), live);
+                self.line(&format!("{key} = {}", inline(property, shown)), live);
             }
         }
         for section in sections {
@@ -209,6 +209,14 @@ fn choices(schema: &Json) -> Vec<&str> {
     let tagged =
         alternatives.filter_map(|one| one.get("const").and_then(Json::as_str).or_else(|| schema::kind_of(one)));
     words.chain(tagged).collect()
+}
+
+/// A value as TOML, on one line, a table in the order of its schema.
+fn inline(property: &'static Json, value: &Json) -> String {
+    let Json::Object(table) = value else { return toml(value) };
+    let pairs = keys(property, table).filter_map(|(key, below)| Some((key, below, table.get(key)?)));
+    let pairs: Vec<String> = pairs.map(|(key, below, value)| format!("{key} = {}", inline(below, value))).collect();
+    format!("{{ {} }}", pairs.join(", "))
 }
 
 /// A value as TOML, on one line.

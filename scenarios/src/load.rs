@@ -33,7 +33,7 @@ pub(crate) fn tree(name_or_path: &str) -> Result<Node, LoadError> {
 /// As [`load`].
 pub fn from_text(name: &str, text: &str, overrides: &[Override]) -> Result<Scenario, LoadError> {
     let document = Document::new(name, text, 1);
-    let tree = crate::tree::parse(&document, text)
+    let tree = tree::parse(&document, text)
         .and_then(|node| extended(&Source::File(name.into()), node, &mut Vec::new()))
         .map_err(|problems| LoadError::new(name, problems))?;
     finish(name, tree, overrides)

@@ -1,12 +1,13 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`documents`]
+//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`authoring`], [`documents`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - buildings, in all of these respects: [`building`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
 
 mod authored;
+mod authoring;
 mod bad_input;
 mod building;
 mod collisions;

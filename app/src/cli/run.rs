@@ -153,7 +153,9 @@ impl Run {
 
     fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
         let sink = match &self.connect {
-            Some(viewer) => Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok).map_err(RecordError::Broken)?)),
+            Some(viewer) => {
+                Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok).map_err(RecordError::Broken)?))
+            }
             None => self.recording(name).map(Sink::File),
         };
         let Some(sink) = sink else { return Ok(Vec::new()) };

@@ -29,7 +29,9 @@ enum ViewError {
     NoRecording(PathBuf),
     #[error("there is no Rerun viewer here; to get it: pip install rerun-sdk=={0}")]
     NoViewer(String),
-    #[error("the Rerun viewer here is of version {found}, and the recording of {wanted}; to get it: pip install rerun-sdk=={wanted}")]
+    #[error(
+        "the Rerun viewer here is of version {found}, and the recording of {wanted}; to get it: pip install rerun-sdk=={wanted}"
+    )]
     OtherVersion { found: String, wanted: String },
     #[error("the Rerun viewer ended with an error ({0})")]
     Ended(String),
@@ -53,7 +55,8 @@ impl View {
     fn view(&self) -> Result<(), ViewError> {
         for path in &self.files {
             let mut start = [0; MAGIC.len()];
-            let unreadable = |error: std::io::Error| ViewError::Unreadable { path: path.clone(), reason: error.to_string() };
+            let unreadable =
+                |error: std::io::Error| ViewError::Unreadable { path: path.clone(), reason: error.to_string() };
             let mut file = File::open(path).map_err(unreadable)?;
             if file.metadata().map_err(unreadable)?.is_dir() || file.read_exact(&mut start).is_err() || start != MAGIC {
                 return Err(ViewError::NoRecording(path.clone()));
@@ -92,7 +95,8 @@ mod tests {
 
     #[test]
     fn a_viewer_of_the_same_line_of_versions_will_do() {
-        let said = "rerun-cli 0.36.3 [rustc 1.92.0, LLVM 21.1.3] x86_64-unknown-linux-gnu release-0.36.3 abc, built 2026";
+        let said =
+            "rerun-cli 0.36.3 [rustc 1.92.0, LLVM 21.1.3] x86_64-unknown-linux-gnu release-0.36.3 abc, built 2026";
         assert_eq!(version_in(said).as_deref(), Some("0.36.3"));
         assert_eq!(version_in("command not found"), None);
         assert_eq!(line_of("0.36.3"), line_of("0.36.0"));
