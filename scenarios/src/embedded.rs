@@ -20,7 +20,6 @@ static FILES: &[Embedded] = files![
     "building/epw-weather",
     "building/four-room-ilc",
     "building/four-room-pid",
-    "building/garage",
     "building/hundred-zones",
     "intersection/nice",
     "intersection/tough",
@@ -29,6 +28,7 @@ static FILES: &[Embedded] = files![
     "lane-change/front-tough",
     "lane-keeping/nice",
     "lane-keeping/tough",
+    "mixed/garage",
     "ramp-merge/nice",
     "ramp-merge/tough",
 ];
