@@ -6,8 +6,9 @@ use clap::Args;
 use interplay_scenarios::{Override, Scenario, load};
 
 use super::files::short_name;
+use super::watch::Watched;
 use super::{Ending, complain, complain_about, json, print, shell};
-use crate::record::{RecordError, Recorder, Sink};
+use crate::record::{RecordError, Recorder, Sink, Viewer};
 use crate::report::{Report, summary};
 use crate::run::run;
 use crate::watch::Watcher;
@@ -16,13 +17,15 @@ use crate::watch::Watcher;
 #[derive(Debug, Default, Args)]
 #[command(after_help = "Examples:\n  \
     interplay run lane-change/front-tough\n  \
-    interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json")]
+    interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json\n  \
+    interplay run my.toml --watch                        (again at every save, until Ctrl-C)")]
 pub(super) struct Run {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT)]
     scenario: Option<String>,
 
-    /// Who drives the ego instead of the scenario's choice: human, conservative, negotiation
+    /// Who drives the ego instead of the scenario's choice: human, conservative, negotiation, bayesian, game, cooperative,
+    /// idm
     #[arg(long, value_name = "KIND")]
     planner: Option<String>,
 
@@ -42,19 +45,46 @@ pub(super) struct Run {
     #[arg(long)]
     no_record: bool,
 
-    /// Stream to a viewer that is running instead of writing a file
-    #[arg(long, conflicts_with_all = ["record", "no_record"])]
-    connect: bool,
+    /// Stream to a viewer that is running instead of writing a file [default: the one on this machine]
+    #[arg(long, value_name = "URL", num_args = 0..=1, require_equals = true)]
+    #[arg(conflicts_with_all = ["record", "no_record"])]
+    connect: Option<Option<Viewer>>,
+
+    /// Run again whenever the scenario file, or one that it extends, is saved
+    #[arg(long)]
+    watch: bool,
 
     /// Print the report as one JSON document
     #[arg(long)]
     json: bool,
 }
 
-const DEFAULT: &str = "lane-change/front-nice";
+/// What is run, and started from, unless something else is asked for.
+pub(super) const DEFAULT: &str = "lane-change/front-nice";
 
 impl Run {
     pub(super) fn execute(self) -> Ending {
+        if self.watch { self.again_and_again() } else { self.once() }
+    }
+
+    /// Runs at every change of the scenario; never returns unless there is nothing to watch.
+    fn again_and_again(&self) -> Ending {
+        let mut watched = Watched::look(self.scenario());
+        if watched.is_empty() {
+            complain(&format!(
+                "--watch needs a scenario file, and `{}` is none; `interplay new my.toml --from {0}` makes one",
+                self.scenario()
+            ));
+            return Ending::BadInput;
+        }
+        loop {
+            self.once();
+            complain(&format!("watching {}; Ctrl-C ends", self.scenario()));
+            watched = watched.wait();
+        }
+    }
+
+    fn once(&self) -> Ending {
         let scenario = match load(self.scenario(), &self.overrides()) {
             Ok(scenario) => scenario,
             Err(error) => {
@@ -75,7 +105,7 @@ impl Run {
             .and_then(|report| self.tell(&scenario.title, &report).map(|()| report.passed));
         match told {
             Ok(passed) => {
-                if let Some(path) = self.recording(&name).filter(|_| !self.connect) {
+                if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
                     complain(&format!("recorded to {}", path.display()));
                 }
                 if passed { Ending::Well } else { Ending::Failed }
@@ -122,7 +152,12 @@ impl Run {
     }
 
     fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
-        let sink = if self.connect { Some(Sink::Live) } else { self.recording(name).map(Sink::File) };
+        let sink = match &self.connect {
+            Some(viewer) => {
+                Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok).map_err(RecordError::Broken)?))
+            }
+            None => self.recording(name).map(Sink::File),
+        };
         let Some(sink) = sink else { return Ok(Vec::new()) };
         let recorder = Recorder::begin(scenario, name, &sink)?;
         recorder.repeat_with(&self.command())?;
