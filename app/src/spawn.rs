@@ -24,7 +24,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> World {
         };
         world.spawn((
             Identity { index, name: vehicle.name.clone() },
-            Motion { state, input: Input::default() },
+            Motion { state, input: Input::default(), crashed: false },
             Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor(vehicle.road) },
             Wish { goal, shared: vehicle.driver.shared_goal(&goal) },
             Mind { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },

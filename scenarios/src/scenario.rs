@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::building::{Building, Weather};
-use crate::{Branch, Expect, Road, jitter};
+use crate::{Branch, Expect, Plant, Road, jitter};
 
 /// One scenario: agents, their world, and what is expected of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -41,7 +41,7 @@ pub struct Scenario {
     /// From which all random numbers are drawn.
     #[serde(default = "defaults::seed")]
     pub seed: u64,
-    /// What moves the vehicles.
+    /// What moves the vehicles, `kind` choosing; by default exactly the model that planners use.
     #[serde(default)]
     pub plant: Plant,
     /// Where vehicles may drive, `kind` choosing; by default two lanes for 1/10 scale cars.
@@ -136,15 +136,6 @@ impl Scenario {
 
 /// The name that makes a vehicle the ego.
 pub(crate) const EGO: &str = "ego";
-
-/// What moves the vehicles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Plant {
-    /// Exactly the bicycle model that the planners use (eq. 6.1-6.4).
-    #[default]
-    Kinematic,
-}
 
 /// A random change of every start, uniform over `±` the stated amounts and drawn from the seed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
