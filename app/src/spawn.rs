@@ -18,7 +18,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> World {
         let handle = physics.add(index, &vehicle.body, &state);
         let goal = Goal {
             target: vehicle.target(&scenario.road),
-            tracking: vehicle.tracking(&scenario.road),
+            tracking: vehicle.weights.tracking(),
             comfort: vehicle.weights.comfort(),
             safety: vehicle.safety,
         };

@@ -200,15 +200,6 @@ impl Vehicle {
             speed_mps: self.goal.speed_mps.unwrap_or(self.start.speed_mps),
         }
     }
-
-    /// Diagonal of `Q` on (x, y, θ, v): what the weights along and across the road are to the axes of the world. Roads
-    /// run along x or y.
-    pub fn tracking(&self, road: &Road) -> [f64; 4] {
-        let Weights { x, y, heading, speed, .. } = self.weights;
-        let runs_along_x = libm::cos(road.heading_rad(self.road)).abs() > 0.5;
-        let [in_x, in_y] = if runs_along_x { [x, y] } else { [y, x] };
-        [in_x, in_y, heading, speed]
-    }
 }
 
 /// What a vehicle wants. Whatever is not said stays as it is at the start.
@@ -254,6 +245,11 @@ impl Default for Weights {
 }
 
 impl Weights {
+    /// Diagonal of `Q` on (position along the vehicle's road, across it, θ, v).
+    pub fn tracking(&self) -> [f64; 4] {
+        [self.x, self.y, self.heading, self.speed]
+    }
+
     /// Diagonal of `R` on (Δa, Δδ).
     pub fn comfort(&self) -> [f64; 2] {
         [self.acceleration_change, self.steering_change]
