@@ -8,8 +8,8 @@ mod files;
 mod identify;
 mod list;
 mod progress;
+mod reproduce;
 mod run;
-mod shell;
 mod suite;
 
 use std::io::Write;
@@ -34,6 +34,7 @@ enum Command {
     List(list::List),
     Check(check::Check),
     Suite(suite::Suite),
+    Reproduce(reproduce::Reproduce),
     Identify(identify::Identify),
 }
 
@@ -70,6 +71,7 @@ pub fn main() -> ExitCode {
         Some(Command::List(command)) => command.execute(),
         Some(Command::Check(command)) => command.execute(),
         Some(Command::Suite(command)) => command.execute(),
+        Some(Command::Reproduce(command)) => command.execute(),
         Some(Command::Identify(command)) => command.execute(),
     };
     ending.into()

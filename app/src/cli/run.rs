@@ -6,10 +6,11 @@ use clap::Args;
 use interplay_scenarios::{Override, Scenario, load};
 
 use super::files::short_name;
-use super::{Ending, complain, complain_about, json, print, shell};
+use super::{Ending, complain, complain_about, json, print};
 use crate::record::{RecordError, Recorder, Sink};
 use crate::report::{Report, summary};
 use crate::run::run;
+use crate::shell;
 use crate::watch::Watcher;
 
 /// Run one scenario, say whether its expectations held, and record it.

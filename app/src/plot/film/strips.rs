@@ -35,9 +35,8 @@ impl Window {
     fn of(film: &Film) -> Window {
         let [[from, _], [to, _]] = film.bounds();
         let edges = film.roads.iter().map(|road| road.edges_m);
-        let mut edges_m = edges.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [right, left]| {
-            [low.min(right), high.max(left)]
-        });
+        let mut edges_m = edges
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [right, left]| [low.min(right), high.max(left)]);
         if edges_m[0] >= edges_m[1] {
             edges_m = [0.0, 1.0];
         }
