@@ -34,7 +34,7 @@ mod shape;
 mod source;
 mod tree;
 
-pub use building::{Building, EpwFile, Grid, Preset, Synthetic, Weather};
+pub use building::{Building, EpwFile, FloorPlan, Grid, Preset, Synthetic, Weather};
 pub use embedded::{Embedded, embedded};
 pub use error::{LoadError, Problem};
 pub use expect::{BuildingExpect, Completes, Expect, SpeedRange};

@@ -44,6 +44,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     let Some(described) = &scenario.building else { return Ok(()) };
     let (network, steps) = (described.network()?, described.steps_per_day());
     let model = Model::new(&network, described.method, described.step_s)?;
+    let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
     let weather = scenario.weather.clone().unwrap_or_default();
     let zones = network.zone_count();
     for index in 0..network.node_count() {
@@ -65,7 +66,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
         weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
         forecast: (weather.forecast(), scenario.seed ^ FORECAST),
         people: people(scenario, zones),
-        regulator: scenario.controller().regulator(&model, steps)?,
+        regulator: scenario.controller().regulator(&believed, steps)?,
         step: 0,
         today: Today { initial_c: Vec::new(), forecast: nothing.clone(), actual: nothing, record, design_s: 0.0 },
         failure: None,

@@ -181,7 +181,8 @@ impl Recorder {
     /// Sends the layout.
     fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
         let driving = || layout::layout(&self.scenario, &self.plots, road_m);
-        let panel = match self.house.as_ref().map(building::layout) {
+        let house = self.house.as_ref().map(|house| building::layout(house, self.plots.has(plots::LOG)));
+        let panel = match house {
             None => driving(),
             Some(house) if self.scenario.vehicles.is_empty() => house,
             Some(house) => Panel::Row(vec![(1.0, driving()), (1.0, house)]),
