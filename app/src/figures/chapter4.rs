@@ -3,23 +3,19 @@
 use super::{Entry, Exhibit, Kind, Shot, Take, climate, theory};
 use interplay_building::comfort::Setpoints;
 
-const DAYS: &str = "iterations=3";
-const WANTED: &str =
-    "setpoints={ occupied_c = [22.5, 22.0, 23.0, 23.5], from_h = 7.5, to_h = 18.0, occupied_weight = 2.0 }";
-const CONCURRENT: &str = "controller.kind=\"concurrent\"";
-const UNAWARE: &str = "controller.forecast=false";
-const EXACT: &str = "weather={ forecast = { kind = \"exact\" } }";
-const PUNCTUAL: &str = "occupancy.deviation={ least_bias = 0.0, greatest_bias = 0.0, scatter = 0.0, shift_h = 0.0, \
-    meeting_probability = 0.0, noise_kw = 0.0 }";
-
-const fn shot(label: &'static str, sets: &'static [&'static str]) -> Shot {
-    Shot { label, scenario: "building/four-room-ilc", sets }
+const fn shot(label: &'static str, scenario: &'static str) -> Shot {
+    Shot { label, scenario, sets: &[] }
 }
 
-const ACCURATE: Shot = shot("concurrent, exact prediction", &[CONCURRENT, DAYS, WANTED, EXACT, PUNCTUAL]);
-const FIXED_ACCURATE: Shot = shot("fixed PID and learning, no forecast", &[UNAWARE, DAYS, WANTED, EXACT, PUNCTUAL]);
-const UNCERTAIN: Shot = shot("concurrent, uncertain prediction", &[CONCURRENT, DAYS, WANTED]);
-const FIXED_UNCERTAIN: Shot = shot("fixed PID and learning, no forecast", &[UNAWARE, DAYS, WANTED]);
+const ACCURATE: Shot = shot("concurrent, exact prediction", "building/concurrent-exact");
+const FIXED_ACCURATE: Shot = shot("fixed PID and learning, no forecast", "building/pid-exact");
+const FORECAST: Shot = Shot {
+    label: "fixed PID and learning, with the forecast",
+    scenario: "building/pid-exact",
+    sets: &["controller.forecast=true"],
+};
+const UNCERTAIN: Shot = shot("concurrent, uncertain prediction", "building/concurrent-uncertain");
+const FIXED_UNCERTAIN: Shot = shot("fixed PID and learning, no forecast", "building/pid-uncertain");
 
 const BLIND: &str = "The vector α of (4.11) is blind to a Q that moves heat between rooms, and as printed Q does not enter the \
     cost at all: the Q that comes out can be far worse than none. Here Q minimises the effect of the disturbance that is \
@@ -67,7 +63,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         says: "With a fixed feedback the part of the disturbance that does not repeat stays visible.",
         erratum: Some(SAME),
         shots: &[FIXED_ACCURATE],
-        beside: &[ACCURATE],
+        beside: &[FORECAST, ACCURATE],
         draw: two_rooms,
     },
     Entry {

@@ -1,5 +1,7 @@
 //! Pictures of a run with a building.
 
+use interplay_building::comfort::Setpoints;
+use interplay_building::control::Exchange;
 use interplay_building::network::Network;
 
 use super::take::Take;
@@ -49,7 +51,7 @@ fn day_of(take: &Take, day: usize, zone: usize, value: impl Fn(&ZoneFrame) -> f6
 
 /// Temperatures of some zones over the day, one curve a day, against what is wanted and the comfort band.
 pub fn temperatures(title: &str, take: &Take, zones: &[usize]) -> Panels {
-    let band_k = take.scenario.setpoints.as_ref().map_or(0.5, |setpoints| setpoints.band_k);
+    let Setpoints { band_k, from_h, to_h, .. } = take.scenario.setpoints.clone().unwrap_or_default();
     let panel = |&zone: &usize| {
         let mut curves: Vec<Curve> = days(take)
             .into_iter()
@@ -63,7 +65,10 @@ pub fn temperatures(title: &str, take: &Take, zones: &[usize]) -> Panels {
             [("wanted", 0.0, WANTED), ("comfort band", band_k, LIMIT), ("comfort band", -band_k, LIMIT)]
         {
             let wanted = |now: &ZoneFrame| now.reference_c.map_or(f64::NAN, |wanted_c| wanted_c + beside_k);
-            let points = day_of(take, 0, zone, wanted);
+            let comfortable = |hour: f64| beside_k == 0.0 || (from_h..=to_h).contains(&hour);
+            let points = day_of(take, 0, zone, wanted).into_iter();
+            let points: Vec<[f64; 2]> =
+                points.map(|[hour, c]| [hour, if comfortable(hour) { c } else { f64::NAN }]).collect();
             if points.iter().any(|point| point[1].is_finite()) {
                 curves.push(Curve::new(name, ink, points));
             }
@@ -93,7 +98,7 @@ pub fn inputs(title: &str, take: &Take, zones: &[usize]) -> Panels {
 }
 
 fn over_day(title: &str, panels: Vec<Panel>) -> Panels {
-    Panels { title: title.to_owned(), across: "time of day [h]".to_owned(), columns: 2, panels }
+    Panels { title: title.to_owned(), across: "time of day [h]".to_owned(), columns: 2, every: Some(4.0), panels }
 }
 
 fn name(take: &Take, zone: usize) -> String {
@@ -119,13 +124,15 @@ pub fn costs(title: &str, takes: &[&Take]) -> Panels {
     }
     let values = curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]);
     let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), cost| (low.min(cost), high.max(cost)));
+    let days = curves.iter().map(|curve| curve.points.len()).max().unwrap_or(0);
+    let every = (days <= 20).then_some(1.0);
     let panel = Panel {
         name: "cost J of the day [–]".to_owned(),
         curves,
         logarithmic: low > 0.0 && high > 5.0 * low,
         ..Panel::default()
     };
-    Panels { title: title.to_owned(), across: "day (iteration)".to_owned(), columns: 1, panels: vec![panel] }
+    Panels { title: title.to_owned(), across: "day (iteration)".to_owned(), columns: 1, every, panels: vec![panel] }
 }
 
 /// Outdoor temperature and its forecast, day after day.
@@ -144,7 +151,13 @@ pub fn weather(title: &str, take: &Take) -> Panels {
         ],
         ..Panel::default()
     };
-    Panels { title: title.to_owned(), across: "time [days]".to_owned(), columns: 1, panels: vec![panel] }
+    Panels {
+        title: title.to_owned(),
+        across: "time [days]".to_owned(),
+        columns: 1,
+        every: Some(1.0),
+        panels: vec![panel],
+    }
 }
 
 /// The net effect of weather and people on each zone as a temperature: that of the air outside which would do the same,
@@ -181,4 +194,26 @@ fn scheduled_kw(take: &Take) -> Vec<f64> {
     let Some(building) = &take.scenario.building else { return Vec::new() };
     let zones = network(take).map_or(0, |network| network.zone_count());
     people(&take.scenario, zones).scheduled_kw(building.step_s, building.steps_per_day())
+}
+
+/// The cost of the common plan, round by round of an exchange of messages, for each day that had one.
+pub fn rounds(title: &str, take: &Take) -> Panels {
+    let exchanges = steps(take).filter_map(|step| Some((step.day, step.design.as_ref()?.exchange.as_ref()?)));
+    let exchanges: Vec<(usize, &Exchange)> = exchanges.filter(|(_, exchange)| exchange.costs.len() > 1).collect();
+    let mut curves = Vec::new();
+    for ((day, exchange), ink) in exchanges.iter().zip(ink::inks()) {
+        let points = exchange.costs.iter().enumerate().map(|(round, cost)| [round as f64, *cost]);
+        curves.push(Curve::new(format!("day {}", day + 1), ink, points.collect()));
+        if let Some(centralised) = exchange.centralised {
+            let ends = [0.0, exchange.costs.len() as f64 - 1.0];
+            let name = format!("day {}: the same in one problem", day + 1);
+            curves.push(Curve::new(name, WANTED, ends.map(|round| [round, centralised]).to_vec()));
+        }
+    }
+    let values = curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]);
+    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), cost| (low.min(cost), high.max(cost)));
+    let name = "expected cost J of the plan [–]".to_owned();
+    let panel = Panel { name, curves, logarithmic: low > 0.0 && high > 5.0 * low, ..Panel::default() };
+    let across = "round of messages k^c".to_owned();
+    Panels { title: title.to_owned(), across, columns: 1, every: None, panels: vec![panel] }
 }

@@ -1,6 +1,7 @@
 //! Pictures of a run with vehicles.
 
-use interplay_planners::State;
+use interplay_planners::human::Style;
+use interplay_planners::{Driver, State};
 use interplay_scenarios::{Road, Scenario, Vehicle};
 
 use super::take::Take;
@@ -11,7 +12,7 @@ use crate::plot::{Curve, Film, Moment, Panel, Panels, Strip};
 /// How many moments a film has: of strips, and of a plan.
 const MOMENTS: [usize; 2] = [8, 12];
 /// How long a film goes on after the last vehicle has reached its goal \[s\].
-const AFTERWARDS_S: f64 = 1.0;
+const AFTERWARDS_S: f64 = 1.5;
 /// Beyond its end, where a ramp is drawn as the edge of the road \[m\].
 const FAR_M: f64 = 1e4;
 
@@ -25,7 +26,7 @@ pub fn inks(scenario: &Scenario) -> Vec<Ink> {
         .collect()
 }
 
-/// Footprints at equal steps of time, until everybody has reached its goal.
+/// Footprints at equal steps of time, until all have reached their goals who do; to the end if the ego does not.
 pub fn film(title: &str, take: &Take) -> Film {
     let Take { scenario, frames, .. } = take;
     let roads = roads(scenario);
@@ -57,7 +58,7 @@ fn ticks(take: &Take, count: usize) -> Vec<usize> {
     let completed = take.report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s);
     let step_s = take.scenario.step_s;
     let last = (completed.fold(0.0, f64::max) + AFTERWARDS_S) / step_s;
-    let whole = take.report.vehicles.iter().any(|vehicle| vehicle.completed_s.is_none());
+    let whole = take.report.vehicles.get(take.scenario.ego_index()).is_none_or(|ego| ego.completed_s.is_none());
     let end = if whole { take.frames.len() } else { (last.round() as usize).min(take.frames.len()) };
     let every = end.div_ceil(count.max(2) - 1).max(1);
     (0..=end).step_by(every).collect()
@@ -75,11 +76,12 @@ fn state(take: &Take, tick: usize, index: usize) -> State {
 
 /// Name and driver of a vehicle.
 fn who(vehicle: &Vehicle) -> String {
-    let interplay_planners::Driver::Human(settings) = &vehicle.driver else {
+    let Driver::Human(settings) = &vehicle.driver else {
         return format!("{}: {}", vehicle.name, vehicle.driver.kind());
     };
     let weight = settings.weight();
-    let style = if weight == 0.0 { "tough".to_owned() } else { format!("safety weight {weight}") };
+    let style = [(Style::Nice, "nice"), (Style::Tough, "tough")].into_iter().find(|(s, _)| s.safety_weight() == weight);
+    let style = style.map_or_else(|| format!("safety weight {weight}"), |(_, word)| word.to_owned());
     format!("{}: human, {style}", vehicle.name)
 }
 
@@ -143,7 +145,7 @@ fn vehicle_frames(take: &Take) -> impl Iterator<Item = &Frame> {
 }
 
 fn over_time(title: &str, panels: Vec<Panel>) -> Panels {
-    Panels { title: title.to_owned(), across: "time [s]".to_owned(), columns: 1, panels }
+    Panels { title: title.to_owned(), across: "time [s]".to_owned(), columns: 1, every: None, panels }
 }
 
 /// A curve for each vehicle, of its state and its acceleration.

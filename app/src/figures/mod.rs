@@ -33,8 +33,8 @@ use rayon::prelude::*;
 use crate::plot::{Sheet, Sketch};
 
 pub use find::{UnknownFigure, find};
-pub use section::{own_section, section};
-pub use show::show;
+pub use section::{own_page, section};
+use show::show;
 pub use take::{Camera, Shot, Take};
 
 /// What an entry is in the source.
@@ -204,7 +204,7 @@ fn make_one(entry: &'static Entry, takes: &BTreeMap<Shot, Result<Take, String>>,
 ///
 /// # Errors
 /// In words, if one cannot be drawn or written.
-pub fn save(pictures: &[Sketch], folder: &Path, name: &str) -> Result<(), String> {
+fn save(pictures: &[Sketch], folder: &Path, name: &str) -> Result<(), String> {
     for (index, picture) in pictures.iter().enumerate() {
         let name = if index == 0 { name.to_owned() } else { format!("{name}-{}", index + 1) };
         picture.save(folder, &name).map_err(|error| error.to_string())?;

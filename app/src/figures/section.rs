@@ -1,7 +1,9 @@
 //! From what was made to parts of a page.
 
-use super::{Exhibit, Made, Ran, Take};
-use crate::page::{Section, Verdict};
+use std::path::{Path, PathBuf};
+
+use super::{Exhibit, Made, Ran, Take, save, show};
+use crate::page::{Page, Section, Verdict};
 use crate::report::summary;
 use crate::shell;
 
@@ -28,8 +30,27 @@ pub fn section(made: &Made) -> Section {
     section
 }
 
+/// Draws all there is to see of a run and puts it on a page, `index.html` in a folder, beside the pictures as files.
+/// `files` are already there, each with what it is. Says where the page is.
+///
+/// # Errors
+/// In words, if a picture cannot be drawn or the disk refuses a file.
+pub fn own_page(take: &Take, folder: &Path, files: Vec<(String, String)>) -> Result<PathBuf, String> {
+    let exhibit = show(take);
+    save(&exhibit.pictures, folder, "picture")?;
+    let page = Page {
+        title: take.scenario.title.clone(),
+        opening: Vec::new(),
+        sections: vec![own_section(take, &exhibit, files)],
+    };
+    let path = folder.join("index.html");
+    let written = std::fs::write(&path, page.html());
+    written.map_err(|error| format!("cannot write {}: {error}; name another folder with --report", path.display()))?;
+    Ok(path)
+}
+
 /// The part of the page that shows a run of its own; `files` lie beside the page.
-pub fn own_section(take: &Take, exhibit: &Exhibit, files: Vec<(String, String)>) -> Section {
+fn own_section(take: &Take, exhibit: &Exhibit, files: Vec<(String, String)>) -> Section {
     let held = (!take.report.expectations.is_empty()).then_some(take.report.passed);
     let ran = Ran { command: take.command.clone(), held };
     let mut section = Section {

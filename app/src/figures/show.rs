@@ -5,7 +5,7 @@ use super::{Exhibit, climate, driving, measures};
 
 /// Everything there is to see of a run: footprints, speeds and gaps, each planner's own numbers; for a building
 /// temperatures, inputs, costs and weather; and what was measured and expected.
-pub fn show(take: &Take) -> Exhibit {
+pub(super) fn show(take: &Take) -> Exhibit {
     let mut exhibit = Exhibit::default();
     if !take.scenario.vehicles.is_empty() {
         exhibit.pictures.push(driving::film("Footprints at equal steps of time", take).sketch());

@@ -12,7 +12,7 @@ use interplay_planners::{Body, SafetyEllipse};
 use interplay_scenarios::load;
 
 use super::Exhibit;
-use crate::plot::ink::{BLACK, BLUE, Dash, Ink, ORANGE};
+use crate::plot::ink::{BLACK, BLUE, Dash, GREY, Ink, ORANGE};
 use crate::plot::{Curve, Panel, Panels, Sheet};
 
 /// Days that the classroom is trained on.
@@ -36,19 +36,23 @@ fn fit(title: &str, found: &Identification, test: bool) -> Panels {
         let points = rows.clone().map(|row| [series.time_s[row] / 86_400.0, values[row]]);
         Curve::new(name, ink.thin(), points.collect())
     };
-    let measured = || curve("measured", Ink::new(BLACK, Dash::Solid), &series.measured_c);
+    let measured = || {
+        let curve = curve("measured", Ink::new(GREY, Dash::Solid), &series.measured_c);
+        Curve { ink: Ink { width: 6, ..curve.ink }, ..curve }
+    };
     let panel = |name: &str, predicted: Curve| Panel {
         name: name.to_owned(),
         curves: vec![measured(), predicted],
         ..Panel::default()
     };
-    let one_step = curve("predicted a step (15 min) ahead", Ink::new(ORANGE, Dash::Long), &series.one_step_c);
+    let one_step = curve("predicted a step (15 min) ahead", Ink::new(BLACK, Dash::Solid), &series.one_step_c);
     let free_run = &series.free_run_with_residual_model_c;
-    let free_run = curve("predicted a day ahead, from midnight on", Ink::new(BLUE, Dash::Long), free_run);
+    let free_run = curve("predicted a day ahead, from midnight on", Ink::new(BLUE, Dash::Solid), free_run);
     Panels {
         title: title.to_owned(),
         across: "time [days]".to_owned(),
         columns: 1,
+        every: Some(1.0),
         panels: vec![panel("temperature [°C]", one_step), panel("temperature [°C]", free_run)],
     }
 }
@@ -191,7 +195,7 @@ pub fn weights(title: &str) -> Exhibit {
         ..Panel::default()
     };
     let across = "objective cumulative probability p [–]".to_owned();
-    let picture = Panels { title: title.to_owned(), across, columns: 1, panels: vec![panel] };
+    let picture = Panels { title: title.to_owned(), across, columns: 1, every: None, panels: vec![panel] };
     let crossing = |exponent: f64| {
         let above = (1..1000).map(|i| f64::from(i) / 1000.0).take_while(|&p| weighting(p, exponent) > p);
         above.last().unwrap_or_default()

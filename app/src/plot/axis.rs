@@ -8,17 +8,23 @@ pub(super) struct Axis {
     values: Range<f64>,
     pixels: [f64; 2],
     logarithmic: bool,
+    every: Option<f64>,
 }
 
 impl Axis {
     /// An axis that takes the ends of `values` to `pixels`.
     pub fn new(values: Range<f64>, pixels: [f64; 2]) -> Axis {
-        Axis { values, pixels, logarithmic: false }
+        Axis { values, pixels, logarithmic: false, every: None }
     }
 
     /// The same by logarithms, if all values are above 0.
     pub fn logarithmic(self) -> Axis {
         Axis { logarithmic: self.values.start > 0.0, ..self }
+    }
+
+    /// The same with marks at multiples of a value, if there is one.
+    pub fn every(self, every: Option<f64>) -> Axis {
+        Axis { every, ..self }
     }
 
     /// Where a value lies; beyond the ends it stays there.
@@ -39,7 +45,7 @@ impl Axis {
             return decades(start, end);
         }
         let count = ((self.pixels[1] - self.pixels[0]).abs() / spacing).max(1.0);
-        let step = round_step((end - start) / count);
+        let step = self.every.unwrap_or_else(|| round_step((end - start) / count));
         let decimals = (-libm::floor(libm::log10(step) + 1e-9)).max(0.0) as usize;
         let decimals = if is_whole(step * libm::pow(10.0, decimals as f64)) { decimals } else { decimals + 1 };
         let (first, last) = (libm::ceil(start / step - 1e-9) as i64, libm::floor(end / step + 1e-9) as i64);

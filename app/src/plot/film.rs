@@ -14,6 +14,8 @@ use super::sketch::Sketch;
 const WIDTH: f64 = 1400.0;
 const MARGIN: f64 = 30.0;
 const TITLE: f64 = 48.0;
+/// Points of a path are not closer than this: whole pixels would make it ragged \[px\].
+const NEAREST: f64 = 16.0;
 /// The path of the ego, as the source draws it.
 const PATH: Ink = Ink::new(VERMILLION, Dash::Solid);
 
@@ -81,6 +83,18 @@ impl Film {
             }
         }
         if bounds[0][0] <= bounds[1][0] { bounds } else { [[0.0; 2], [1.0; 2]] }
+    }
+
+    /// The path in pixels until a time, with no two points closer than a line can show.
+    fn path_pixels(&self, until_s: f64, place: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
+        let mut pixels: Vec<[f64; 2]> = Vec::new();
+        for (_, point) in self.path.iter().take_while(|(time_s, _)| *time_s <= until_s + 1e-9) {
+            let pixel = place(*point);
+            if pixels.last().is_none_or(|last| distance(*last, pixel) >= NEAREST) {
+                pixels.push(pixel);
+            }
+        }
+        pixels
     }
 
     /// Length of the longest body.

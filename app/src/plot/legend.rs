@@ -32,6 +32,18 @@ impl Legend {
         }
     }
 
+    /// Both together.
+    pub fn with(mut self, other: &Legend) -> Legend {
+        other.entries.iter().for_each(|(sample, name)| self.add(*sample, name));
+        self
+    }
+
+    /// Whether two names have the same sample.
+    pub fn is_ambiguous(&self) -> bool {
+        let samples = || self.entries.iter().map(|(sample, _)| sample).enumerate();
+        samples().any(|(index, sample)| samples().take(index).any(|(_, before)| before == sample))
+    }
+
     /// Each entry with its row and where it begins, in a space that is `width` wide.
     fn places(&self, width: f64) -> Vec<(usize, f64)> {
         let (mut row, mut x) = (0, 0.0);

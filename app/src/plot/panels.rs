@@ -25,6 +25,8 @@ pub struct Panels {
     pub across: String,
     /// How many are side by side; 0 counts as 1.
     pub columns: usize,
+    /// Distance of the marks across, such as hours of a day; round numbers without it.
+    pub every: Option<f64>,
     /// The plots, by rows.
     pub panels: Vec<Panel>,
 }
@@ -98,23 +100,32 @@ impl Panels {
             2 => 300.0,
             _ => 200.0,
         };
-        let legend = self.legend();
+        let cell = WIDTH / columns as f64;
+        let common = self.common_legend();
+        let legend = common.clone().unwrap_or_default();
+        let names = match common {
+            Some(_) => NAME,
+            None => NAME + self.highest_legend(cell - LEFT - RIGHT),
+        };
         let head = TITLE + legend.height(WIDTH - 2.0 * RIGHT) + 6.0;
-        let row_height = NAME + plot_height + TICKS;
+        let row_height = names + plot_height + TICKS;
         let mut sketch = Sketch::new(WIDTH, head + rows as f64 * row_height + ACROSS + 8.0);
         sketch.text([RIGHT, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
         legend.draw(&mut sketch, [RIGHT, TITLE], WIDTH - 2.0 * RIGHT);
         let values = self.values_across();
         for (index, panel) in self.panels.iter().enumerate() {
             let (row, column) = (index / columns, index % columns);
-            let cell = WIDTH / columns as f64;
             let (left, right) = (column as f64 * cell + LEFT, (column + 1) as f64 * cell - RIGHT);
-            let top = head + row as f64 * row_height + NAME;
+            let top = head + row as f64 * row_height + names;
             let bottom = top + plot_height;
             let y = Axis::new(panel.values(), [bottom, top]);
             let y = if panel.logarithmic { y.logarithmic() } else { y };
-            let frame = Frame { x: Axis::new(values.clone(), [left, right]), y, left, right, top, bottom };
-            panel.draw(&mut sketch, &frame);
+            let x = Axis::new(values.clone(), [left, right]).every(self.every);
+            panel.draw(&mut sketch, &Frame { x, y, left, right, top, bottom });
+            sketch.text([left - 70.0, top - names + 0.5 * NAME], Side::Left, MEDIUM, panel.name.as_str());
+            if common.is_none() {
+                panel.legend().draw(&mut sketch, [left, top - names + NAME], right - left);
+            }
             if index + columns >= self.panels.len() {
                 let middle = [0.5 * (left + right), bottom + TICKS + 0.5 * ACROSS];
                 sketch.text(middle, Side::Middle, MEDIUM, self.across.as_str());
@@ -123,21 +134,17 @@ impl Panels {
         sketch
     }
 
-    fn legend(&self) -> Legend {
+    /// One legend for all plots, unless a line means different things in them.
+    fn common_legend(&self) -> Option<Legend> {
         let mut legend = Legend::default();
         for panel in &self.panels {
-            for curve in &panel.curves {
-                legend.add(Sample::Line(curve.ink), &curve.name);
-            }
-            for (_, name) in &panel.limits {
-                legend.add(Sample::Line(LIMIT), name);
-            }
-            for (_, ink, name) in &panel.moments {
-                legend.add(Sample::Line(ink.thin()), name);
-            }
-            legend.add(Sample::Patch(SURFACE), &panel.shaded.1);
+            legend = legend.with(&panel.legend());
         }
-        legend
+        (!legend.is_ambiguous()).then_some(legend)
+    }
+
+    fn highest_legend(&self, width: f64) -> f64 {
+        self.panels.iter().map(|panel| panel.legend().height(width)).fold(0.0, f64::max)
     }
 
     /// What is visible across; curves touch the sides.
@@ -150,6 +157,21 @@ impl Panels {
 }
 
 impl Panel {
+    fn legend(&self) -> Legend {
+        let mut legend = Legend::default();
+        for curve in &self.curves {
+            legend.add(Sample::Line(curve.ink), &curve.name);
+        }
+        for (_, name) in &self.limits {
+            legend.add(Sample::Line(LIMIT), name);
+        }
+        for (_, ink, name) in &self.moments {
+            legend.add(Sample::Line(ink.thin()), name);
+        }
+        legend.add(Sample::Patch(SURFACE), &self.shaded.1);
+        legend
+    }
+
     fn values(&self) -> Range<f64> {
         let drawn = self.curves.iter().flat_map(|curve| curve.points.iter().map(|point| point[1]));
         let values = drawn.chain(self.limits.iter().map(|(limit, _)| *limit)).chain(self.reaches.iter().copied());
@@ -200,6 +222,5 @@ impl Panel {
         }
         sketch.line(vec![[*left, *top], [*left, *bottom]], axis);
         sketch.line(vec![[*left, *bottom], [*right, *bottom]], axis);
-        sketch.text([left - 70.0, top - 0.5 * NAME], Side::Left, MEDIUM, self.name.as_str());
     }
 }

@@ -44,7 +44,7 @@ impl Film {
         let (low_m, high_m) = (low.map(|value| value - margin), high.map(|value| value + margin));
         let legend = self.legend();
         let steps = self.moments.get(1).map_or(0.0, |moment| moment.time_s - self.moments[0].time_s);
-        let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 48.0;
+        let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 84.0;
         let wide = (WIDTH - LEFT - MARGIN) / (high_m[0] - low_m[0]);
         let scale = wide.min(HIGHEST / (high_m[1] - low_m[1]));
         let [across, upwards] = [0, 1].map(|axis| (high_m[axis] - low_m[axis]) * scale);
@@ -54,11 +54,11 @@ impl Film {
         sketch.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
         legend.draw(&mut sketch, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
         let words = format!("footprint 1 at 0 s, then one every {steps:.1} s");
-        sketch.text([MARGIN, head - 28.0], Side::Left, MEDIUM, words);
+        sketch.text([MARGIN, head - 66.0], Side::Left, MEDIUM, words);
         self.roads.iter().for_each(|road| map.draw_road(&mut sketch, road));
         self.roads.iter().for_each(|road| map.draw_lines(&mut sketch, road));
         map.draw_axes(&mut sketch);
-        sketch.line(self.path.iter().map(|(_, point)| map.place(*point)).collect(), PATH);
+        sketch.line(self.path_pixels(f64::INFINITY, |point| map.place(point)), PATH);
         self.draw_footprints(&mut sketch, &map);
         sketch
     }

@@ -105,8 +105,7 @@ impl Film {
         for y in [top, bottom] {
             sketch.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], Ink::new(GREY, Dash::Solid).thin());
         }
-        let so_far = self.path.iter().take_while(|(time_s, _)| *time_s <= moment.time_s + 1e-9);
-        sketch.line(so_far.map(|(_, point)| place(*point)).collect(), PATH);
+        sketch.line(self.path_pixels(moment.time_s, place), PATH);
         let number = format!("{}", index + 1);
         for (body, (_, colour)) in moment.bodies.iter().zip(&self.cast) {
             let x = body.map(|corner| LEFT + (corner[0] - shift_m - window.start_m) * window.scale);
