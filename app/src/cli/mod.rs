@@ -11,9 +11,9 @@ mod list;
 mod man;
 mod new;
 mod progress;
+mod reproduce;
 mod run;
 mod schema;
-mod shell;
 mod suite;
 mod view;
 mod watch;
@@ -43,6 +43,7 @@ enum Command {
     New(new::New),
     Schema(schema::Schema),
     View(view::View),
+    Reproduce(reproduce::Reproduce),
     Identify(identify::Identify),
     Completions(completions::Completions),
     Man(man::Man),
@@ -84,6 +85,7 @@ pub fn main() -> ExitCode {
         Some(Command::New(command)) => command.execute(),
         Some(Command::Schema(command)) => command.execute(),
         Some(Command::View(command)) => command.execute(),
+        Some(Command::Reproduce(command)) => command.execute(),
         Some(Command::Identify(command)) => command.execute(),
         Some(Command::Completions(command)) => command.execute(Interplay::command()),
         Some(Command::Man(command)) => command.execute(Interplay::command()),
