@@ -25,6 +25,6 @@ pub use robust::Robust;
 pub use scp::{DescentError, Optimiser, Optimum, Statistics, Tolerances};
 pub use sparse::Sparse;
 pub use stage::{
-    Interval, Row, RowBlock, StageError, StageQp, StageSolution, StageSolver, StateCost, TrajectoryRow, VehicleStages,
+    Interval, Reach, Row, RowBlock, StageError, StageQp, StageSolution, StageSolver, StateCost, TrajectoryRow, VehicleStages,
 };
 pub use structured::Structured;

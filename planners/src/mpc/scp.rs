@@ -109,6 +109,8 @@ const FINEST: f64 = 1e-13;
 const GOOD: f64 = 1e-6;
 /// Of a curvature that is not convex this share is tried before none.
 const SOFTENED: f64 = 0.3;
+/// A step is expected to go no farther than this many times the one before.
+pub(super) const FARTHER: f64 = 2.0;
 /// A smaller share of a step calls for damping.
 const SHORT: f64 = 0.1;
 
@@ -179,7 +181,9 @@ impl<S: StageSolver> Optimiser<S> {
                 1.0 => 0.0,
                 _ => self.qp.damping,
             };
+            let reach = self.step.reach();
             linearise(problem, &now.iterate, &mut self.qp);
+            self.qp.reach = Some(reach.times(FARTHER));
             self.step.rest();
             now.statistics.residual = kkt::residual(&self.qp, &self.step).largest();
             let wanted = match last {
