@@ -26,6 +26,7 @@ pub use settings::{Settings, Style};
 
 use crate::mpc::{DescentError, KeepOut, Optimiser, Optimum, Penalty, Problem, Robust};
 use crate::predict::steady;
+use crate::solo;
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
@@ -53,7 +54,7 @@ pub struct Human {
 impl Human {
     /// A driver who has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Human { settings, optimiser: Optimiser::new(Robust::default()), last: None }
+        Human { settings, optimiser: solo::optimiser(), last: None }
     }
 
     /// Plans the next move.
@@ -94,11 +95,12 @@ impl Human {
                 guesses.insert(0, steady(0.0));
             }
             for guess in guesses {
-                let Ok(other) = self.optimiser.descend(problem, &[guess]) else { continue };
+                let Ok(other) = self.optimiser.explore(problem, &[guess]) else { continue };
                 statistics.add(&other.statistics);
                 let better = |held: &Optimum| other.cost.total < held.cost.total - HYSTERESIS * (1.0 + held.cost.total);
                 if best.as_ref().map_or(true, better) {
                     best = Ok(other);
+                    self.optimiser.adopt();
                 }
             }
         }

@@ -6,6 +6,7 @@
 
 use crate::conservative::{extremes, problem};
 use crate::mpc::{Optimiser, Optimum, Robust};
+use crate::solo;
 use crate::{Agent, Scene};
 
 /// Slack that a conservative plan may need after the step.
@@ -15,9 +16,15 @@ const GROWTH: f64 = 1.2;
 /// A proposal that itself violates safety by this much is refused.
 const OWN_SLACK: f64 = 0.05;
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Filter {
     optimiser: Optimiser<Robust>,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Filter { optimiser: solo::optimiser() }
+    }
 }
 
 impl Filter {

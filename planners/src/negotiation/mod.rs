@@ -26,6 +26,7 @@ pub use settings::Settings;
 
 use crate::conservative::{self, Conservative, extremes};
 use crate::mpc::{Leaning, Optimiser, Optimum, Problem, Robust};
+use crate::solo;
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use filter::Filter;
 use interlocutor::Interlocutor;
@@ -69,7 +70,7 @@ impl Negotiation {
             settings,
             retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
             filter: Filter::default(),
-            optimiser: Optimiser::new(Robust::default()),
+            optimiser: solo::optimiser(),
             interlocutor: Interlocutor::default(),
             talk: Talk::default(),
         }

@@ -18,7 +18,7 @@ impl Start {
     /// Nothing is known. (0.01 for both fails now and then.)
     pub(super) const COLD: Start = Start { slack: 0.1, complementarity: 1.0, informed: false };
     /// The multipliers belong to a neighbouring problem.
-    pub(super) const WARM: Start = Start { slack: 1e-3, complementarity: 1e-4, informed: true };
+    pub(super) const WARM: Start = Start { slack: 1e-2, complementarity: 1e-4, informed: true };
 }
 
 /// All inequalities `c + g·z + σ − s = 0` with `s ≥ 0`, multiplier `λ`.
@@ -153,7 +153,8 @@ impl Columns {
     /// begins there, its slack where the two are as complementary as all others.
     pub(super) fn begin(&mut self, start: Start, known: &[f64]) {
         let Start { slack, complementarity, informed } = start;
-        let apart = |multiplier: f64| if informed { smaller(complementarity / multiplier, slack) } else { slack };
+        let apart =
+            |multiplier: f64, most: f64| if informed { smaller(complementarity / multiplier, most) } else { slack };
         let first = self.first_soft();
         for (i, known) in known.iter().enumerate() {
             let known = if informed { *known } else { 0.0 };
@@ -165,21 +166,21 @@ impl Columns {
                 soft.multiplier[j] = 0.0;
                 if soft.linear[j] > 0.0 {
                     let price = larger(soft.curvature[j] * violation - excess, 0.0);
-                    violation = larger(violation, apart(price));
+                    violation = larger(violation, apart(price, larger(slack, -self.value[i])));
                     soft.multiplier[j] = larger(if informed { price } else { 0.0 }, complementarity / violation);
                 } else {
                     violation = larger(-self.value[i], 0.0);
                 }
                 soft.violation[j] = violation;
             }
-            self.slack[i] = larger(self.value[i] + violation, apart(known));
+            self.slack[i] = larger(self.value[i] + violation, apart(known, slack));
             self.multiplier[i] = larger(known, complementarity / self.slack[i]);
         }
     }
 
     /// Refreshes the residuals from `value`; returns mean complementarity and the largest residual.
     pub(super) fn measure(&mut self) -> (f64, f64) {
-        let (first, count) = (self.first_soft(), self.pairs() as f64);
+        let (first, count) = (self.first_soft(), self.pairs().max(1) as f64);
         let numbers = self.value.iter().zip(&self.slack).zip(&self.multiplier);
         let mut complementarity = 0.0;
         for (residual, ((value, slack), multiplier)) in self.residual.iter_mut().zip(numbers) {

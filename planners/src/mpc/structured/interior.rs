@@ -117,7 +117,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
 
     /// Newton's method with predictor and corrector until every residual is small.
     fn iterate(&mut self, qp: &StageQp, iterations: &mut usize) -> Result<(), StageError> {
-        let count = self.columns.pairs() as f64;
+        let count = self.columns.pairs().max(1) as f64;
         // The dual residual is linear in the unknowns, so every step of length α leaves 1 − α of it.
         let mut dual_share = 1.0;
         for _ in 0..ITERATION_LIMIT {
@@ -143,7 +143,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             let affine = self.columns.step();
             let share = if affine.ratio > 1.0 { 1.0 / affine.ratio } else { 1.0 };
             let left = complementarity + share * (affine.linear + share * affine.quadratic) / count;
-            let centring = (left / complementarity).powi(3).max(1e-8) * complementarity;
+            // Without any inequality there is nothing to centre.
+            let centring =
+                if complementarity > 0.0 { (left / complementarity).powi(3).max(1e-8) * complementarity } else { 0.0 };
             self.columns.aim(centring, true);
             self.newton(qp, complementarity < REFINED_BELOW);
             let ratio = self.columns.step().ratio;
