@@ -1,7 +1,7 @@
 //! Second derivatives and gradient of the step problem, with what the inequalities add to them.
 
 use super::interior::Interior;
-use super::riccati::{PairHessian, VehicleHessian};
+use super::riccati::{PairHessian, VehicleHessian, pair_index, pairs_among};
 use crate::mpc::adjoint::curvature_gradient;
 use crate::mpc::stage::StageQp;
 
@@ -44,9 +44,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
     pub(super) fn fill_smooth_hessians(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
         self.smooth_hessians.clear();
-        self.smooth_pairs.resize_with(qp.horizon, Vec::new);
+        self.smooth_pairs.clear();
+        self.smooth_pairs.resize(qp.horizon * pairs_among(vehicles), [0.0; 3]);
         for k in 0..qp.horizon {
-            self.smooth_pairs[k].clear();
             for stages in &qp.vehicles {
                 let cost = &stages.state_costs[k];
                 let ([xx, xy, yy], [.., heading, speed]) = (cost.position_hessian(), cost.hessian);
@@ -135,7 +135,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
 #[inline(always)]
 fn add_pair(
     hessians: &mut [VehicleHessian],
-    pairs: &mut [Vec<PairHessian>],
+    pairs: &mut [PairHessian],
     vehicles: usize,
     [at, other]: [usize; 2],
     position: [f64; 3],
@@ -146,6 +146,8 @@ fn add_pair(
         pose[1] += position[1];
         pose[3] += position[2];
     }
-    let (i, j) = (at % vehicles, other % vehicles);
-    pairs[at / vehicles].push(PairHessian { pair: [i.max(j), i.min(j)], position });
+    let pair = at / vehicles * pairs_among(vehicles) + pair_index(at % vehicles, other % vehicles);
+    for (value, add) in pairs[pair].iter_mut().zip(position) {
+        *value += add;
+    }
 }

@@ -52,10 +52,10 @@ pub(super) struct Interior<const W: usize, const Z: usize> {
     pub(super) inequalities: Inequalities,
     pub(super) columns: Columns,
     pub(super) hessians: Vec<VehicleHessian>,
-    pub(super) pairs: Vec<Vec<PairHessian>>,
+    pub(super) pairs: Vec<PairHessian>,
     /// The part of them that stays the same.
     pub(super) smooth_hessians: Vec<VehicleHessian>,
-    pub(super) smooth_pairs: Vec<Vec<PairHessian>>,
+    pub(super) smooth_pairs: Vec<PairHessian>,
     /// Where the iteration stands.
     pub(super) point: Point,
     /// Its next step.

@@ -21,12 +21,13 @@ impl Point {
     }
 
     pub(super) fn add(&mut self, share: f64, step: &Point) {
-        for (value, step) in self.states.iter_mut().flatten().zip(step.states.iter().flatten()) {
-            *value += share * step;
-        }
-        for (value, step) in self.inputs.iter_mut().flatten().zip(step.inputs.iter().flatten()) {
-            *value += share * step;
-        }
+        let go = |values: &mut [f64], steps: &[f64]| {
+            for (value, step) in values.iter_mut().zip(steps) {
+                *value += share * step;
+            }
+        };
+        go(self.states.as_flattened_mut(), step.states.as_flattened());
+        go(self.inputs.as_flattened_mut(), step.inputs.as_flattened());
     }
 }
 
