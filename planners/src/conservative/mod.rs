@@ -6,7 +6,6 @@ pub use settings::Settings;
 
 use crate::mpc::{Cost, DescentError, Optimiser, Optimum, Penalty, Problem, Robust};
 use crate::predict::steady;
-use crate::solo;
 use crate::{Agent, Input, Plan, PlanError, Scene, Trajectory};
 
 /// A conservative planner with the plan it made last.
@@ -41,7 +40,7 @@ pub(crate) fn extremes(scene: &Scene) -> [Vec<Input>; 2] {
 impl Conservative {
     /// A planner that has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Conservative { settings, optimiser: solo::optimiser(), last: None }
+        Conservative { settings, optimiser: Optimiser::resuming(Robust::default()), last: None }
     }
 
     /// Plans around the predictions of all others.

@@ -26,7 +26,6 @@ pub use settings::{Settings, Style};
 
 use crate::mpc::{DescentError, KeepOut, Optimiser, Optimum, Penalty, Problem, Robust};
 use crate::predict::steady;
-use crate::solo;
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
@@ -54,7 +53,7 @@ pub struct Human {
 impl Human {
     /// A driver who has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Human { settings, optimiser: solo::optimiser(), last: None }
+        Human { settings, optimiser: Optimiser::resuming(Robust::default()), last: None }
     }
 
     /// Plans the next move.

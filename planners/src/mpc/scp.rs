@@ -150,6 +150,13 @@ impl<S: StageSolver> Optimiser<S> {
         }
     }
 
+    /// An optimiser for somebody who plans anew at every step: it resumes, and it stops where the next plan will differ by
+    /// more than what is left to gain.
+    pub fn resuming(solver: S) -> Self {
+        let tolerances = Tolerances { residual: 1e-7, decrease: 1e-9, ..Tolerances::default() };
+        Optimiser { tolerances, resumes: true, ..Optimiser::new(solver) }
+    }
+
     /// Descends from a guess (per participant, inputs; made admissible first) to a local optimum, and remembers it.
     ///
     /// # Errors

@@ -6,7 +6,6 @@
 
 use crate::conservative::{extremes, problem};
 use crate::mpc::{Optimiser, Optimum, Robust};
-use crate::solo;
 use crate::{Agent, Scene};
 
 /// Slack that a conservative plan may need after the step.
@@ -23,7 +22,7 @@ pub(super) struct Filter {
 
 impl Default for Filter {
     fn default() -> Self {
-        Filter { optimiser: solo::optimiser() }
+        Filter { optimiser: Optimiser::resuming(Robust::default()) }
     }
 }
 

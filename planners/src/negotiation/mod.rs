@@ -26,7 +26,6 @@ pub use settings::Settings;
 
 use crate::conservative::{self, Conservative, extremes};
 use crate::mpc::{Leaning, Optimiser, Optimum, Problem, Robust};
-use crate::solo;
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use filter::Filter;
 use interlocutor::Interlocutor;
@@ -70,7 +69,7 @@ impl Negotiation {
             settings,
             retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
             filter: Filter::default(),
-            optimiser: solo::optimiser(),
+            optimiser: Optimiser::resuming(Robust::default()),
             interlocutor: Interlocutor::default(),
             talk: Talk::default(),
         }
