@@ -233,6 +233,8 @@ impl<S: StageSolver> Optimiser<S> {
             }
             damping = match share {
                 0.0 if last => 0.0,
+                // Nothing is left to gain but what the merit's own rounding hides.
+                0.0 if self.qp.damping > FIRMEST && now.statistics.residual <= GOOD => return Ok(now),
                 0.0 if self.qp.damping > FIRMEST => break,
                 0.0 => (16.0 * self.qp.damping).max(GENTLEST),
                 short if short < SHORT => (4.0 * self.qp.damping).max(GENTLEST),
@@ -240,7 +242,8 @@ impl<S: StageSolver> Optimiser<S> {
                 1.0 => 0.0,
                 _ => self.qp.damping,
             };
-            let reach = Some(self.step.reach().times(FARTHER));
+            // A damped step says little about the next.
+            let reach = (damping == 0.0).then(|| self.step.reach().times(FARTHER));
             if step == 0 {
                 self.reach = reach;
             }

@@ -79,26 +79,39 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         let mut iterations = 0;
         let mut outcome = Err(StageError::Unsolved { status: String::new(), iterations });
         if warm || qp.reach.is_some() {
-            self.begin(qp, solution, if warm { Start::WARM } else { Start::COLD }, qp.reach.as_ref());
-            outcome = self.iterate(qp, &mut iterations);
-            if outcome.is_ok() && !self.inequalities.far_ones_hold(&self.point) {
-                outcome = Err(StageError::Unsolved { status: String::new(), iterations });
-            }
+            let start = if warm { Start::WARM } else { Start::COLD };
+            outcome = self.attempt(qp, solution, start, qp.reach.as_ref(), &mut iterations);
         }
         if let Err(StageError::Unsolved { .. }) = outcome {
-            self.begin(qp, solution, Start::COLD, None);
-            outcome = self.iterate(qp, &mut iterations);
+            outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
         }
         solution.iterations = iterations;
-        outcome.map_err(|error| match error {
-            // Without curvature every problem is convex: it was rounding.
-            StageError::NotConvex { stage } if !qp.is_curved() => {
-                StageError::Unsolved { status: format!("the factorisation broke down at stage {stage}"), iterations }
-            }
-            other => other,
-        })?;
+        outcome?;
         self.write(solution);
         Ok(())
+    }
+
+    /// One way to the solution, with the inequalities within reach.
+    fn attempt(
+        &mut self,
+        qp: &StageQp,
+        known: &StageSolution,
+        start: Start,
+        reach: Option<&Reach>,
+        iterations: &mut usize,
+    ) -> Result<(), StageError> {
+        self.begin(qp, known, start, reach);
+        let unsolved = |status, iterations| Err(StageError::Unsolved { status, iterations });
+        match self.iterate(qp, iterations) {
+            Ok(()) if !self.inequalities.far_ones_hold(&self.point) => {
+                unsolved("the solution is farther than expected".to_owned(), *iterations)
+            }
+            // Without curvature every problem is convex: it was rounding.
+            Err(StageError::NotConvex { stage }) if !qp.is_curved() => {
+                unsolved(format!("the factorisation broke down at stage {stage}"), *iterations)
+            }
+            outcome => outcome,
+        }
     }
 
     /// Lists the inequalities, and sets slacks and multipliers at the iterate itself.
