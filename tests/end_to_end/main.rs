@@ -2,7 +2,7 @@
 //!
 //! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`documents`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
-//! - buildings, in all of these respects: [`building`]
+//! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
 
@@ -17,6 +17,7 @@ mod failures;
 mod film;
 mod house;
 mod laws;
+mod learning;
 mod measures;
 mod output;
 mod recordings;

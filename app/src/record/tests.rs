@@ -190,8 +190,15 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
             gains_kw: 0.0,
         };
         let (ambient_c, forecast_c) = (30.0, 31.0);
-        let building =
-            BuildingFrame { day: tick, step: 0, zones: vec![zone; 100], ambient_c, forecast_c, design: None, figures: None };
+        let building = BuildingFrame {
+            day: tick,
+            step: 0,
+            zones: vec![zone; 100],
+            ambient_c,
+            forecast_c,
+            design: None,
+            figures: None,
+        };
         let frame = Frame { tick, time_s: 1800.0 * tick as f64, building: Some(building), ..Frame::default() };
         recorder.tick(&frame).expect("recorded");
     }

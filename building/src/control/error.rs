@@ -120,7 +120,8 @@ impl ControlError {
 
     /// Refuses a series with a number that is none, or so large that whoever learns from it never recovers.
     pub(super) fn check_finite(what: &'static str, series: &[f64]) -> Result<(), Self> {
-        match series.iter().position(|value| !matches!(value.abs().partial_cmp(&BEYOND_MEASURE), Some(Ordering::Less))) {
+        match series.iter().position(|value| !matches!(value.abs().partial_cmp(&BEYOND_MEASURE), Some(Ordering::Less)))
+        {
             Some(index) => Err(Self::NotFinite { what, index, value: series[index] }),
             None => Ok(()),
         }

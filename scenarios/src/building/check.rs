@@ -156,12 +156,12 @@ impl Checker<'_> {
 
     /// Whether the controller can work with what it takes the building for.
     fn believed(&mut self, building: &Building, steps: usize) {
-        let model = match building.believed_network().map(|network| Model::new(&network, building.method, building.step_s))
-        {
-            Ok(Ok(model)) => model,
-            Ok(Err(error)) => return self.refuse("building.believed", "here", error.to_string(), ""),
-            Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
-        };
+        let model =
+            match building.believed_network().map(|network| Model::new(&network, building.method, building.step_s)) {
+                Ok(Ok(model)) => model,
+                Ok(Err(error)) => return self.refuse("building.believed", "here", error.to_string(), ""),
+                Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
+            };
         if let Err(error) = self.scenario.controller().regulator(&model, steps) {
             let key = match &error {
                 ControlError::Setting { setting, .. } => setting.split(' ').next().unwrap_or_default(),

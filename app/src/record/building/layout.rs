@@ -41,12 +41,11 @@ fn plans(house: &House) -> Vec<(f32, Panel)> {
         (design::CONVERGENCE, "Convergence, by the day's design"),
     ];
     let bars = [
-        (design::COST, "Cost J by round of the first exchange"),
+        (design::COST, "Log10 of J by round of the first exchange"),
         (design::MESSAGES, "Messages that each zone sent in all"),
     ];
     let lines = lines.into_iter().map(|(path, title)| (path, plot(house, title, below(path))));
-    let bars =
-        bars.into_iter().map(|(path, title)| (path, View::new("BarChart", title, vec![format!("/{path}")])));
+    let bars = bars.into_iter().map(|(path, title)| (path, View::new("BarChart", title, vec![format!("/{path}")])));
     lines.chain(bars).filter(|(path, _)| house.plans.has(path)).map(|(_, view)| (1.0, Panel::View(view))).collect()
 }
 

@@ -91,10 +91,7 @@ impl Plan {
         let along = |block: usize, rooms: usize, room: usize| {
             OUTDOORS + block * (rooms * (ROOM + WALL) - WALL + BETWEEN_FLOORS) + room * (ROOM + WALL)
         };
-        [
-            along(floor % self.across(), columns, room % columns),
-            along(floor / self.across(), rows, room / columns),
-        ]
+        [along(floor % self.across(), columns, room % columns), along(floor / self.across(), rows, room / columns)]
     }
 
     /// Red, green and blue of every picture element, row by row.
@@ -139,7 +136,8 @@ mod tests {
             gains_kw: 0.0,
         };
         let zones: Vec<ZoneFrame> = [20.0, 25.0, 30.0].map(zone).to_vec();
-        let frame = BuildingFrame { day: 0, step: 0, zones, ambient_c: 25.0, forecast_c: 25.0, design: None, figures: None };
+        let frame =
+            BuildingFrame { day: 0, step: 0, zones, ambient_c: 25.0, forecast_c: 25.0, design: None, figures: None };
         let [width, height] = plan.size();
         assert_eq!([width, height], [2 * OUTDOORS + 2 * ROOM + WALL; 2], "two columns, the second row half empty");
         let pixels = plan.pixels(&frame, [width, height]);
