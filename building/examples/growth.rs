@@ -23,11 +23,11 @@ const ENOUGH_S: f64 = 1.0;
 /// The kernel counts processor time in hundredths of a second.
 const TICKS_PER_S: f64 = 100.0;
 /// Width, height and margin of the picture.
-const WIDTH: f64 = 720.0;
+const WIDTH: f64 = 800.0;
 const HEIGHT: f64 = 480.0;
 const MARGIN: f64 = 70.0;
 /// The decades of rooms and of seconds that it shows.
-const ROOMS: [f64; 2] = [0.5, 2.7];
+const ROOMS: [f64; 2] = [0.5, 2.9];
 const SECONDS: [f64; 2] = [-3.0, 2.5];
 
 /// A design with its times.
@@ -93,65 +93,66 @@ fn status_kb(key: &str) -> Result<f64, Box<dyn std::error::Error>> {
     Ok(line.trim().trim_end_matches(" kB").parse()?)
 }
 
-/// Rooms across and seconds upwards, both by decades.
+/// The place of a number of rooms from the left, by decades.
+fn across(rooms: f64) -> f64 {
+    MARGIN + (rooms.log10() - ROOMS[0]) / (ROOMS[1] - ROOMS[0]) * (WIDTH - 2.0 * MARGIN)
+}
+
+/// The place of a time from above, by decades.
+fn down(seconds: f64) -> f64 {
+    HEIGHT - MARGIN - (seconds.log10() - SECONDS[0]) / (SECONDS[1] - SECONDS[0]) * (HEIGHT - 2.0 * MARGIN)
+}
+
 fn picture(curves: &[Curve]) -> Result<String, std::fmt::Error> {
-    let along =
-        |value: f64, [low, high]: [f64; 2], size: f64| MARGIN + (value - low) / (high - low) * (size - 2.0 * MARGIN);
-    let x = |rooms: f64| along(rooms.log10(), ROOMS, WIDTH);
-    let y = |seconds: f64| HEIGHT - along(seconds.log10(), SECONDS, HEIGHT);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"sans-serif\" \
          font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
-    let (left, right) = (MARGIN, WIDTH - MARGIN);
-    for seconds in [0.001, 0.01, 0.1, 1.0, 10.0, 100.0] {
-        let y = y(seconds);
-        writeln!(svg, "<path d=\"M{left} {y:.1}H{right}\" stroke=\"#ddd\"/>")?;
-        writeln!(svg, "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{seconds} s</text>", left - 6.0, y + 4.0)?;
-    }
-    for rooms in [4.0, 9.0, 16.0, 25.0, 49.0, 100.0, 196.0, 400.0] {
-        writeln!(
-            svg,
-            "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{rooms}</text>",
-            x(rooms),
-            HEIGHT - MARGIN + 20.0
-        )?;
-    }
-    writeln!(svg, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">rooms</text>", WIDTH / 2.0, HEIGHT - 20.0)?;
-    writeln!(svg, "<text x=\"{left}\" y=\"30\" font-size=\"15\">Processor time to design a day of 48 steps</text>")?;
-    for (name, seconds) in
-        [("source, ch. 3", 120.0), ("source, ch. 5 central", 10.21), ("source, ch. 5 distributed", 8.03)]
-    {
-        let (x, y) = (x(4.0), y(seconds));
-        writeln!(svg, "<path d=\"M{:.1} {y:.1}h8m-4 -4v8\" stroke=\"black\"/>", x - 4.0)?;
-        let below = if seconds < 10.0 { 14.0 } else { 2.0 };
-        writeln!(svg, "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"#444\">{name}</text>", x + 8.0, y + below)?;
-    }
+    axes(&mut svg)?;
+    source(&mut svg)?;
     for Curve { name, colour, points } in curves {
-        let line: Vec<String> =
-            points.iter().map(|&(rooms, seconds)| format!("{:.1},{:.1}", x(rooms as f64), y(seconds))).collect();
-        writeln!(
-            svg,
-            "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>",
-            line.join(" ")
-        )?;
-        for &(rooms, seconds) in points {
-            writeln!(
-                svg,
-                "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"3\" fill=\"{colour}\"/>",
-                x(rooms as f64),
-                y(seconds)
-            )?;
+        let places: Vec<(f64, f64)> = points.iter().map(|&(n, seconds)| (across(n as f64), down(seconds))).collect();
+        let line: Vec<String> = places.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
+        let line = line.join(" ");
+        writeln!(svg, "<polyline points=\"{line}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>")?;
+        for (x, y) in &places {
+            writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{colour}\"/>")?;
         }
-        if let Some(&(rooms, seconds)) = points.last() {
-            let (x, y) = (x(rooms as f64), y(seconds));
-            writeln!(
-                svg,
-                "<text x=\"{x:.1}\" y=\"{:.1}\" fill=\"{colour}\" text-anchor=\"middle\">{name}</text>",
-                y - 10.0
-            )?;
+        if let Some((x, y)) = places.last() {
+            let (x, y) = (x + 8.0, y + 14.0);
+            writeln!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"{colour}\" text-anchor=\"start\">{name}</text>")?;
         }
     }
     svg.push_str("</svg>\n");
     Ok(svg)
+}
+
+fn axes(svg: &mut String) -> std::fmt::Result {
+    let (left, right, bottom) = (MARGIN, WIDTH - MARGIN, HEIGHT - MARGIN + 20.0);
+    for seconds in [0.001, 0.01, 0.1, 1.0, 10.0, 100.0] {
+        let y = down(seconds);
+        writeln!(svg, "<path d=\"M{left} {y:.1}H{right}\" stroke=\"#ddd\"/>")?;
+        writeln!(svg, "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{seconds} s</text>", left - 6.0, y + 4.0)?;
+    }
+    for rooms in [4.0, 9.0, 16.0, 25.0, 49.0, 100.0, 196.0, 400.0] {
+        writeln!(svg, "<text x=\"{:.1}\" y=\"{bottom}\" text-anchor=\"middle\">{rooms}</text>", across(rooms))?;
+    }
+    let middle = WIDTH / 2.0;
+    writeln!(svg, "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">rooms</text>", HEIGHT - 20.0)?;
+    writeln!(svg, "<text x=\"{left}\" y=\"30\" font-size=\"15\">Processor time to design a day of 48 steps</text>")
+}
+
+/// What the source says of its own four rooms.
+fn source(svg: &mut String) -> std::fmt::Result {
+    let x = across(4.0);
+    for (name, seconds, lower) in [
+        ("source, chapter 3", 120.0, 4.0),
+        ("source, chapter 5, centralised", 10.21, -2.0),
+        ("source, chapter 5, distributed", 8.03, 12.0),
+    ] {
+        let y = down(seconds);
+        writeln!(svg, "<path d=\"M{:.1} {y:.1}h8m-4 -4v8\" stroke=\"black\"/>", x - 4.0)?;
+        writeln!(svg, "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"#444\">{name}</text>", x + 8.0, y + lower)?;
+    }
+    Ok(())
 }
