@@ -117,7 +117,7 @@ fn four_taps_are_nearly_as_good_as_any_causal_feedback() {
     let (lifted, targets) = (lifted(), chapter_4());
     let factor = interplay_building::control::uncertainty::factor(uncertainty().covariance(&targets)).expect("one");
     let taps = designed(&ConcurrentSettings::default()).expect("designed").taps;
-    let best = feedback::optimal_causal(&lifted, &targets, &factor).expect("designed").cost(&targets);
+    let best = feedback::optimal_causal(&lifted, &targets, &factor, &[]).expect("designed").cost(&targets);
     let ours = taps.response(&lifted, &factor).cost(&targets);
     let none = feedback::static_feedback(&lifted, &DMatrix::zeros(4, 4), &factor).cost(&targets);
     assert!(best <= ours && ours < best + 0.05 * (none - best), "{best} {ours} {none}");

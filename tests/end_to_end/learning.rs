@@ -147,7 +147,10 @@ fn inputs_stay_within_their_limits_and_rooms_are_cooled_ahead() {
 fn what_is_believed_wrongly_is_refused_where_it_is_said() {
     let folder = scratch("learn-belief");
     let text = "extends = 'building/iterative-warm-nights'\n[building]\nmethod = 'euler'\n[building.believed]\ncapacity_factor = ";
-    for (value, pieces) in [("0.0", ["my.toml:5:19", "at least 0.1"]), ("0.1\nouter_resistance_factor = 0.1", ["my.toml:4", "largest stable step"])] {
+    for (value, pieces) in [
+        ("0.0", ["my.toml:5:19", "at least 0.1"]),
+        ("0.1\nouter_resistance_factor = 0.1", ["my.toml:4", "largest stable step"]),
+    ] {
         fs::write(folder.join("my.toml"), format!("{text}{value}\n")).expect("written");
         let outcome = interplay(&folder, &["check", "my.toml"]);
         assert_eq!(outcome.code, Some(2), "{outcome:?}");
