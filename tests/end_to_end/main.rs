@@ -4,6 +4,7 @@
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - what others may add: [`own`]
 //! - buildings, in all of these respects: [`building`]
+//! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
 
@@ -20,6 +21,7 @@ mod failures;
 mod film;
 mod house;
 mod laws;
+mod learning;
 mod measures;
 mod output;
 mod own;
