@@ -191,7 +191,7 @@ fn roads() {
     errors.refusal("a_ramp_needs_a_lane_beside_it", &[ramp, ("lane_count = 2", "lane_count = 1")], &["at least 2"]);
     errors.refusal("heads_elsewhere", &[crossing, cross], &["not along the vehicle's road", "heading_rad = 1.57"]);
     let north = ("x_m = 1.0, y_m = 0.185", "x_m = 1.0, y_m = -1.0, heading_rad = 1.5708");
-    errors.refusal("beside_the_crossing_road", &[crossing, cross, north], &["from x = -0.37 to x = 0.37"]);
+    errors.refusal("beside_the_crossing_road", &[crossing, cross, north], &["reaches 0.37 to either side"]);
     let y_m = ("body = { width_m = 0.19 }", "goal = { y_m = 0.3 }");
     let there = ("x_m = 1.0, y_m = 0.185", "x_m = 0.2, y_m = -1.0, heading_rad = 1.5708");
     errors.refusal("no_lateral_position", &[crossing, cross, there, y_m], &["no lateral position", "its `lane`"]);
