@@ -253,6 +253,28 @@ fn drivers_and_limits() {
 }
 
 #[test]
+fn plants_and_crashes() {
+    let mut errors = Catalogue::default();
+    let plant = |plant: &'static str| [("duration_s = 5.0", plant)];
+    errors.refusal("a_word_for_a_plant", &plant("plant = \"dynamic\""), &["bad.toml:3:9", "{ kind = \"dynamic\" }"]);
+    let ice = plant("plant = { kind = \"dynamic\", friction = 0 }");
+    errors.refusal("no_friction", &ice, &["bad.toml:3:41", "`plant.friction` must be above 0"]);
+    let kinematic = plant("plant = { kind = \"kinematic\", friction = 0.5 }");
+    errors.refusal("friction_without_tyres", &kinematic, &["unknown key `friction`"]);
+    let crash = |pair: &'static str| [("no_collision = true", pair)];
+    errors.refusal(
+        "crash_with_nobody",
+        &crash("collisions = [[\"ego\", \"frnt\"]]"),
+        &["no vehicle `frnt`", "`front`?"],
+    );
+    errors.refusal("crash_with_itself", &crash("collisions = [[\"ego\", \"ego\"]]"), &["named twice"]);
+    errors.refusal("crash_of_three", &crash("collisions = [[\"ego\", \"front\", \"ego\"]]"), &["at most 2"]);
+    let both = crash("no_collision = false\ncollisions = [[\"ego\", \"front\"]]");
+    errors.refusal("said_twice", &both, &["both `collisions` and `no_collision`"]);
+    errors.compare("plants_and_crashes");
+}
+
+#[test]
 fn all_independent_errors_at_once() {
     let mut errors = Catalogue::default();
     let changes =

@@ -2,6 +2,7 @@
 //!
 //! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`documents`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
+//! - what tyres, friction and lag make of it: [`plants`]
 //! - buildings, in all of these respects: [`building`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
@@ -19,6 +20,7 @@ mod house;
 mod laws;
 mod measures;
 mod output;
+mod plants;
 mod recordings;
 mod rectangles;
 mod replay;
