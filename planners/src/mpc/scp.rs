@@ -105,7 +105,7 @@ const GENTLEST: f64 = 1.0;
 /// Where even this damping gains nothing, nothing does.
 const FIRMEST: f64 = 1e6;
 /// Tolerance of the very last step problem where rows on the verge of being active need it.
-const FINEST: f64 = 1e-13;
+const FINEST: f64 = 1e-11;
 /// The residual with which the last step is content.
 const GOOD: f64 = 1e-6;
 /// Of a curvature that is not convex this share is tried before none.
