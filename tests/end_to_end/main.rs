@@ -1,6 +1,6 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`documents`]
+//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`figures`], [`documents`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - buildings, in all of these respects: [`building`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
@@ -14,6 +14,7 @@ mod command;
 mod determinism;
 mod documents;
 mod failures;
+mod figures;
 mod film;
 mod house;
 mod laws;
