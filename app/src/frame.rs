@@ -87,6 +87,8 @@ pub enum Origin {
     Continued,
     /// The planner failed and there was nothing to continue: full braking.
     Braking,
+    /// It has crashed: full braking, and nobody is asked.
+    Crashed,
 }
 
 /// Something that happened.

@@ -6,9 +6,10 @@ use clap::Args;
 use interplay_scenarios::{Override, Scenario, load};
 
 use super::files::short_name;
+use super::watch::Watched;
 use super::{Ending, complain, complain_about, json, print};
 use crate::figures::{Camera, Take, own_page};
-use crate::record::{RecordError, Recorder, Sink};
+use crate::record::{RecordError, Recorder, Sink, Viewer};
 use crate::report::{Report, summary};
 use crate::run::run;
 use crate::shell;
@@ -19,13 +20,15 @@ use crate::watch::Watcher;
 #[command(after_help = "Examples:\n  \
     interplay run lane-change/front-tough\n  \
     interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json\n  \
+    interplay run my.toml --watch                        (again at every save, until Ctrl-C)\n  \
     interplay run intersection/nice --report my-report     (pictures and a page)")]
 pub(super) struct Run {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT)]
     scenario: Option<String>,
 
-    /// Who drives the ego instead of the scenario's choice: human, conservative, negotiation
+    /// Who drives the ego instead of the scenario's choice: human, conservative, negotiation, bayesian, game, cooperative,
+    /// idm
     #[arg(long, value_name = "KIND")]
     planner: Option<String>,
 
@@ -45,9 +48,14 @@ pub(super) struct Run {
     #[arg(long)]
     no_record: bool,
 
-    /// Stream to a viewer that is running instead of writing a file
-    #[arg(long, conflicts_with_all = ["record", "no_record"])]
-    connect: bool,
+    /// Stream to a viewer that is running instead of writing a file [default: the one on this machine]
+    #[arg(long, value_name = "URL", num_args = 0..=1, require_equals = true)]
+    #[arg(conflicts_with_all = ["record", "no_record"])]
+    connect: Option<Option<Viewer>>,
+
+    /// Run again whenever the scenario file, or one that it extends, is saved
+    #[arg(long)]
+    watch: bool,
 
     /// Draw what there is to see into this folder, as SVG and PNG, with a page, index.html, that shows it; the recording
     /// goes there too unless --record says otherwise
@@ -59,10 +67,32 @@ pub(super) struct Run {
     json: bool,
 }
 
-const DEFAULT: &str = "lane-change/front-nice";
+/// What is run, and started from, unless something else is asked for.
+pub(super) const DEFAULT: &str = "lane-change/front-nice";
 
 impl Run {
     pub(super) fn execute(self) -> Ending {
+        if self.watch { self.again_and_again() } else { self.once() }
+    }
+
+    /// Runs at every change of the scenario; never returns unless there is nothing to watch.
+    fn again_and_again(&self) -> Ending {
+        let mut watched = Watched::look(self.scenario());
+        if watched.is_empty() {
+            complain(&format!(
+                "--watch needs a scenario file, and `{}` is none; `interplay new my.toml --from {0}` makes one",
+                self.scenario()
+            ));
+            return Ending::BadInput;
+        }
+        loop {
+            self.once();
+            complain(&format!("watching {}; Ctrl-C ends", self.scenario()));
+            watched = watched.wait();
+        }
+    }
+
+    fn once(&self) -> Ending {
         let scenario = match load(self.scenario(), &self.overrides()) {
             Ok(scenario) => scenario,
             Err(error) => {
@@ -84,7 +114,7 @@ impl Run {
         });
         match told {
             Ok(passed) => {
-                if let Some(path) = self.recording(&name).filter(|_| !self.connect) {
+                if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
                     complain(&format!("recorded to {}", path.display()));
                 }
                 if passed { Ending::Well } else { Ending::Failed }
@@ -114,7 +144,7 @@ impl Run {
     /// Draws the page, if that is asked for.
     fn page(&self, name: &str, take: &Take) -> Result<(), String> {
         let Some(folder) = &self.report else { return Ok(()) };
-        let recording = self.recording(name).filter(|path| !self.connect && path.parent() == Some(folder));
+        let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
         let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
         let what =
             |file: &String| format!("the recording; open it with `rerun {file}` (pip install rerun-sdk==0.36.3)");
@@ -161,7 +191,12 @@ impl Run {
     }
 
     fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
-        let sink = if self.connect { Some(Sink::Live) } else { self.recording(name).map(Sink::File) };
+        let sink = match &self.connect {
+            Some(viewer) => {
+                Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok).map_err(RecordError::Broken)?))
+            }
+            None => self.recording(name).map(Sink::File),
+        };
         let Some(sink) = sink else { return Ok(Vec::new()) };
         let recorder = Recorder::begin(scenario, name, &sink)?;
         recorder.repeat_with(&self.command())?;

@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 use crate::Scenario;
 
 pub(crate) use check::check;
-pub(crate) use weather::attach;
 pub use weather::{EpwFile, Synthetic, Weather};
+pub(crate) use weather::{attach, is_embedded_weather};
 
 /// A day \[s\].
 const DAY_S: f64 = 86_400.0;
