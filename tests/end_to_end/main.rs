@@ -1,6 +1,7 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`authoring`], [`documents`], [`book`]
+//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`figures`], [`authoring`],
+//!   [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
@@ -18,6 +19,7 @@ mod command;
 mod determinism;
 mod documents;
 mod failures;
+mod figures;
 mod film;
 mod house;
 mod laws;
