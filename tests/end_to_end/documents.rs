@@ -76,7 +76,9 @@ fn the_readme_s_example_is_a_scenario_and_its_commands_exist() {
     if let Err(error) = from_text("README.toml", &example, &[]) {
         panic!("{:?}", error.problems());
     }
-    let help = ["run", "suite", "new", "identify"].map(|word| interplay(&scratch("readme-help"), &[word, "--help"]).stdout).concat();
+    let help = ["run", "suite", "new", "identify"]
+        .map(|word| interplay(&scratch("readme-help"), &[word, "--help"]).stdout)
+        .concat();
     for flag in readme.split(|c: char| !(c.is_alphanumeric() || c == '-')).filter(|word| is_flag(word)) {
         let known = help.contains(flag) || ["--release", "--workspace", "--locked", "--path"].contains(&flag);
         assert!(known, "the README speaks of `{flag}`");

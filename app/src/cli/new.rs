@@ -8,7 +8,8 @@ use clap::Args;
 use interplay_scenarios::{LoadError, commented};
 use thiserror::Error;
 
-use super::{Ending, complain, complain_about, print, schema, shell};
+use super::{Ending, complain, complain_about, print, schema};
+use crate::shell;
 
 /// What editors complete from, beside the scenario.
 const SCHEMA: &str = "interplay.schema.json";

@@ -144,7 +144,7 @@ impl Run {
     /// Draws the page, if that is asked for.
     fn page(&self, name: &str, take: &Take) -> Result<(), String> {
         let Some(folder) = &self.report else { return Ok(()) };
-        let recording = self.recording(name).filter(|path| !self.connect && path.parent() == Some(folder));
+        let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
         let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
         let what =
             |file: &String| format!("the recording; open it with `rerun {file}` (pip install rerun-sdk==0.36.3)");
