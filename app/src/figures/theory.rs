@@ -25,7 +25,7 @@ pub fn classroom(title: &str, test: bool) -> Result<Exhibit, String> {
     let found = identify(&telemetry, &settings).map_err(|error| error.to_string())?;
     let Some(zone) = found.report.zones.first() else { return Err("the classroom has no zone".to_owned()) };
     let errors = if test { zone.test.as_ref() } else { Some(&zone.train) };
-    let sheets = errors.map(|errors| fit_errors(errors)).into_iter().chain([parameters_found(zone)]).collect();
+    let sheets = errors.map(fit_errors).into_iter().chain([parameters_found(zone)]).collect();
     Ok(Exhibit { pictures: vec![fit(title, &found, test).sketch()], sheets })
 }
 

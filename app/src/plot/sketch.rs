@@ -81,11 +81,11 @@ impl Sketch {
 
     /// All words of the picture, for whoever cannot see it.
     pub fn words(&self) -> Vec<&str> {
-        let words = |mark| match mark {
-            &Mark::Text { ref words, .. } => Some(words.as_str()),
+        let words = self.marks.iter().filter_map(|mark| match mark {
+            Mark::Text { words, .. } => Some(words.as_str()),
             _ => None,
-        };
-        self.marks.iter().filter_map(words).collect()
+        });
+        words.collect()
     }
 }
 
