@@ -59,6 +59,14 @@ pub(super) const UNITS: &[(&str, &str, &str)] = &[
     ("UncertaintySettings", "zone_correlation", "dimensionless"),
     ("UncertaintySettings", "prior_days", "days"),
     ("BuildingExpect", "cost_at_most_share_of_first", "dimensionless"),
+    ("BuildingExpect", "regret_at_most", "dimensionless"),
+    ("BuildingExpect", "spectral_radius_at_most", "dimensionless"),
+    ("BuildingExpect", "above_centralised_at_most", "dimensionless"),
+    ("dynamic", "friction", "dimensionless"),
+    ("dynamic", "restitution", "dimensionless"),
+    ("Belief", "capacity_factor", "dimensionless"),
+    ("Belief", "inner_resistance_factor", "dimensionless"),
+    ("Belief", "outer_resistance_factor", "dimensionless"),
 ];
 
 /// Examples for keys without a default: table (nothing for the file itself), key, value.
@@ -122,6 +130,12 @@ pub(super) fn examples() -> Vec<(&'static str, &'static str, Json)> {
         ("SpeedRange", "max_above_mps", json!(1.1)),
         ("BuildingExpect", "cost_never_rises", json!(true)),
         ("BuildingExpect", "cost_at_most_share_of_first", json!(0.5)),
+        ("BuildingExpect", "regret_at_most", json!(30.0)),
+        ("BuildingExpect", "early_kwh_at_least", json!(1.0)),
+        ("BuildingExpect", "spectral_radius_at_most", json!(0.9)),
+        ("BuildingExpect", "fallbacks_at_most", json!(0)),
+        ("BuildingExpect", "exchange_never_rises", json!(true)),
+        ("BuildingExpect", "above_centralised_at_most", json!(0.01)),
         ("BuildingExpect", "tracking_rmse_c_at_most", json!(0.6)),
         ("BuildingExpect", "discomfort_k_h_at_most", json!(1.2)),
         ("BuildingExpect", "energy_kwh_at_most", json!(32.0)),
