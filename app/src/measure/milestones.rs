@@ -112,7 +112,10 @@ impl Today {
         let limited: Vec<&str> = limited.map(|(index, _)| names[index].as_str()).collect();
         if !limited.is_empty() && !self.limited {
             self.limited = true;
-            told.push(note(BUILDING, &format!("the heat of {} is at its limit", listed(&limited))));
+            told.push(note(
+                BUILDING,
+                &format!("{}: heat at its limit in {}", moment(frame, building), listed(&limited)),
+            ));
         }
         let references_c = &targets.reference_c[frame.step * targets.zones..];
         let missed = zones().filter(|(index, zone)| {
@@ -128,6 +131,12 @@ impl Today {
         }
         told
     }
+}
+
+/// The day, from 1, and the time of day at the end of a step.
+fn moment(frame: &BuildingFrame, building: &Building) -> String {
+    let minutes = ((frame.step + 1) as f64 * building.model.step_s() / 60.0).round() as usize;
+    format!("day {}, {}:{:02}", frame.day + 1, minutes / 60, minutes % 60)
 }
 
 /// Some names, and how many more there are.
