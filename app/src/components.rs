@@ -21,6 +21,8 @@ pub struct Motion {
     pub state: State,
     /// The input it applied last.
     pub input: Input,
+    /// Whether it had a collision that left it unfit to go on; with the dynamic plant every one does.
+    pub crashed: bool,
 }
 
 /// What a vehicle is like.

@@ -9,20 +9,20 @@ use std::time::Instant;
 use bevy::ecs::prelude::*;
 use interplay_planners::dynamics::Bicycle;
 use interplay_planners::predict::steady;
-use interplay_planners::{Agent, Plan, PlanError, Scene, Trajectory};
+use interplay_planners::{Agent, Input, Plan, PlanError, Scene, Trajectory};
 
-use crate::components::{Agents, Clock, Identity, Intention, Mind, Present, Wish};
+use crate::components::{Agents, Clock, Identity, Intention, Mind, Motion, Present, Wish};
 use crate::frame::{Event, Level, Origin};
 
 /// Lets every driver decide.
 pub fn plan(
-    mut vehicles: Query<(&Identity, &Wish, &mut Mind, &mut Intention)>,
+    mut vehicles: Query<(&Identity, &Motion, &Wish, &mut Mind, &mut Intention)>,
     clock: Res<Clock>,
     mut agents: ResMut<Agents>,
     mut present: ResMut<Present>,
 ) {
     let mut drivers: Vec<_> = vehicles.iter_mut().collect();
-    drivers.sort_by(|(a, _, a_mind, _), (b, _, b_mind, _)| {
+    drivers.sort_by(|(a, _, _, a_mind, _), (b, _, _, b_mind, _)| {
         let ahead = || {
             let along = |index: usize| agents.0[index].corridor.along(agents.0[index].state.position());
             along(b.index).total_cmp(&along(a.index))
@@ -31,13 +31,17 @@ pub fn plan(
         let by_place = if a_mind.goes_first && b_mind.goes_first { ahead() } else { std::cmp::Ordering::Equal };
         first.then(by_place).then(a.index.cmp(&b.index))
     });
-    for (identity, wish, mut mind, mut intention) in drivers {
+    for (identity, motion, wish, mut mind, mut intention) in drivers {
         let scene = scene(identity.index, wish, &clock, &agents.0);
-        let began = Instant::now();
-        let outcome = mind.planner.plan(&scene);
         let frame = &mut present.0;
-        frame.vehicles[identity.index].plan_ms = 1e3 * began.elapsed().as_secs_f64();
-        let (plan, origin) = settle(outcome, &scene, &intention, &mut frame.events);
+        let (plan, origin) = if motion.crashed {
+            (Plan { trajectory: braking(&scene), ..Plan::default() }, Origin::Crashed)
+        } else {
+            let began = Instant::now();
+            let outcome = mind.planner.plan(&scene);
+            frame.vehicles[identity.index].plan_ms = 1e3 * began.elapsed().as_secs_f64();
+            settle(outcome, &scene, &intention, &mut frame.events)
+        };
         let vehicle = &mut frame.vehicles[identity.index];
         if mind.goes_first {
             agents.0[identity.index].prediction = plan.trajectory.clone();
@@ -46,7 +50,7 @@ pub fn plan(
         intention.remaining = match origin {
             Origin::Planned => plan.trajectory.horizon().saturating_sub(1),
             Origin::Continued => intention.remaining.saturating_sub(1),
-            Origin::Braking => 0,
+            Origin::Braking | Origin::Crashed => 0,
         };
         intention.plan = Some(plan.trajectory.clone());
         vehicle.input = plan.trajectory.inputs.first().copied().unwrap_or_default();
@@ -94,15 +98,22 @@ fn settle(
 
 /// The previous plan one step further while inputs of it are left, then full braking.
 fn fallback(scene: &Scene, intention: &Intention) -> (Trajectory, Origin) {
+    match intention.plan.as_ref().filter(|_| intention.remaining > 0) {
+        Some(plan) => (rolled_out(scene, plan.shifted().inputs), Origin::Continued),
+        None => (braking(scene), Origin::Braking),
+    }
+}
+
+/// Full braking until the vehicle stands.
+fn braking(scene: &Scene) -> Trajectory {
     let limits = &scene.ego.limits;
-    let (inputs, origin) = match intention.plan.as_ref().filter(|_| intention.remaining > 0) {
-        Some(plan) => (plan.shifted().inputs, Origin::Continued),
-        None => {
-            let brake = limits.acceleration_min_mps2;
-            (steady(&scene.ego.state, brake, limits, scene.horizon, scene.step_s), Origin::Braking)
-        }
-    };
+    let brake = limits.acceleration_min_mps2;
+    rolled_out(scene, steady(&scene.ego.state, brake, limits, scene.horizon, scene.step_s))
+}
+
+/// Where inputs lead.
+fn rolled_out(scene: &Scene, inputs: Vec<Input>) -> Trajectory {
     let mut states = Vec::new();
     Bicycle::new(&scene.ego.body, scene.step_s).roll_out(&scene.ego.state, &inputs, &mut states);
-    (Trajectory { states, inputs }, origin)
+    Trajectory { states, inputs }
 }

@@ -18,13 +18,13 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> World {
         let handle = physics.add(index, &vehicle.body, &state);
         let goal = Goal {
             target: vehicle.target(&scenario.road),
-            tracking: vehicle.tracking(&scenario.road),
+            tracking: vehicle.weights.tracking(),
             comfort: vehicle.weights.comfort(),
             safety: vehicle.safety,
         };
         world.spawn((
             Identity { index, name: vehicle.name.clone() },
-            Motion { state, input: Input::default() },
+            Motion { state, input: Input::default(), crashed: false },
             Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor(vehicle.road) },
             Wish { goal, shared: vehicle.driver.shared_goal(&goal) },
             Mind { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },

@@ -16,6 +16,7 @@
 //! 2019); "corrected" marks where the printed equation is in error.
 
 mod activity;
+mod axes;
 pub mod bayesian;
 pub mod conservative;
 pub mod cooperative;
@@ -36,6 +37,7 @@ mod scene;
 mod solo;
 mod state;
 
+pub use axes::Axes;
 pub use driver::{Driver, Planner};
 pub use footprint::{Body, EllipticalDistance, SafetyEllipse};
 pub use plan::{Diagnostic, Plan, PlanError, Proposal};

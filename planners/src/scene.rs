@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::dynamics::Bicycle;
 use crate::mpc::{KeepOut, Limits, Participant, Penalty, Tracking};
 use crate::predict::Prediction;
-use crate::{Body, Corridor, Input, SafetyEllipse, State, Trajectory};
+use crate::{Axes, Body, Corridor, Input, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as anyone sees it.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub struct Agent {
 pub struct Goal {
     /// Desired state, `x_des` of eq. 6.6.
     pub target: State,
-    /// Diagonal of `Q` on (x, y, θ, v).
+    /// Diagonal of `Q` on (position along the target's heading, across it, θ, v).
     pub tracking: [f64; 4],
     /// Diagonal of `R` on (Δa, Δδ).
     pub comfort: [f64; 2],
@@ -80,6 +80,13 @@ impl Agent {
     }
 }
 
+impl Goal {
+    /// Along the target's heading, which is that of the road, and across.
+    pub fn axes(&self) -> Axes {
+        Axes::along(self.target.heading_rad)
+    }
+}
+
 impl Scene {
     /// The bicycle of the planning vehicle.
     pub fn model(&self) -> Bicycle {
@@ -96,7 +103,11 @@ impl Scene {
             start: self.ego.state,
             previous_input: self.ego.previous_input,
             known_inputs: Vec::new(),
-            tracking: Tracking { weights: self.goal.tracking, targets: vec![self.goal.target; self.horizon] },
+            tracking: Tracking {
+                weights: self.goal.tracking,
+                axes: self.goal.axes(),
+                targets: vec![self.goal.target; self.horizon],
+            },
             comfort: self.goal.comfort,
             keep_outs,
             distance_costs: Vec::new(),

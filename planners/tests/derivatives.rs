@@ -7,7 +7,7 @@ use common::{HORIZON, Random, follower, iterate, lane_change};
 use interplay_planners::mpc::{
     DistanceCost, DistancePrice, KeepOut, Leaning, MeanSpeed, Participant, Penalty, Problem, Separation, Tracking,
 };
-use interplay_planners::{Corridor, LaneEnd, SafetyEllipse, State};
+use interplay_planners::{Axes, Corridor, LaneEnd, SafetyEllipse, State};
 
 const SEEDS: u64 = 20;
 
@@ -15,7 +15,7 @@ const SEEDS: u64 = 20;
 fn indifferent(random: &mut Random) -> Participant {
     let free = lane_change(random);
     Participant {
-        tracking: Tracking { weights: [0.0; 4], targets: vec![State::default(); HORIZON] },
+        tracking: Tracking { weights: [0.0; 4], axes: Axes::WORLD, targets: vec![State::default(); HORIZON] },
         comfort: [0.0; 2],
         corridor: Corridor { heading_rad: 0.0, right_m: -9.0, left_m: 9.0, end: None },
         keep_outs: Vec::new(),
@@ -54,7 +54,8 @@ fn ellipse() -> SafetyEllipse {
 fn tracking() {
     check_all(|random| {
         let target = State { x_m: 1.0, y_m: 0.5, heading_rad: 0.2, speed_mps: 1.3 };
-        let tracking = Tracking { weights: [0.3, 1.0, 0.7, 2.0], targets: vec![target; HORIZON] };
+        let axes = Axes::along(random.between(-3.0, 3.0));
+        let tracking = Tracking { weights: [0.3, 1.0, 0.7, 2.0], axes, targets: vec![target; HORIZON] };
         alone(Participant { tracking, ..indifferent(random) })
     });
 }

@@ -18,15 +18,18 @@
 //! ```
 
 mod building;
+mod commented;
 mod embedded;
 mod error;
 mod expect;
+mod files;
 mod jitter;
 mod load;
 mod meaning;
 mod merge;
 mod nearest;
 mod overrides;
+mod plant;
 mod road;
 mod scenario;
 mod schema;
@@ -34,13 +37,16 @@ mod shape;
 mod source;
 mod tree;
 
-pub use building::{Building, EpwFile, Grid, Preset, Synthetic, Weather};
+pub use building::{Building, EpwFile, FloorPlan, Grid, Preset, Synthetic, Weather};
+pub use commented::commented;
 pub use embedded::{Embedded, embedded};
 pub use error::{LoadError, Problem};
 pub use expect::{BuildingExpect, Completes, Expect, SpeedRange};
+pub use files::files;
 pub use load::{from_text, load};
 pub use overrides::Override;
+pub use plant::{Dynamic, Kinematic, Plant};
 pub use road::{Branch, Intersection, Lanes, RampMerge, Road};
-pub use scenario::{Goal, Plant, Scenario, StartJitter, Vehicle, Weights};
+pub use scenario::{Goal, Scenario, StartJitter, Vehicle, Weights};
 pub use schema::schema;
 pub use source::Source;

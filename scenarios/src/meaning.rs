@@ -11,6 +11,8 @@ use crate::{Branch, Road, Scenario, Vehicle, building};
 
 /// The most ticks a run may take.
 const MOST_TICKS: f64 = 100_000.0;
+/// The angles at which roads may cross, to either side \[deg\].
+const CROSSING_DEG: std::ops::RangeInclusive<f64> = 20.0..=160.0;
 /// How far a corner may stick out of the road by rounding \[m\].
 const TOLERANCE_M: f64 = 1e-9;
 
@@ -93,14 +95,18 @@ impl Checker<'_> {
         }
     }
 
-    /// What a vehicle wants is weighed along the axes of the world, so that roads run along those.
+    /// Roads that cross at a small angle run side by side, and their conflict zone is as long as they are.
     fn road(&mut self) {
         if let Road::Intersection(crossing) = &self.scenario.road
-            && crossing.angle_deg.abs() != 90.0
+            && !CROSSING_DEG.contains(&crossing.angle_deg.abs())
         {
-            let message = format!("`road.angle_deg` is {}, but roads cross at right angles only", crossing.angle_deg);
-            let help = "90 comes from the right of the main road, -90 from its left";
-            self.refuse("road.angle_deg", "not a right angle", message, help);
+            let message = format!("`road.angle_deg` is {}, at which roads hardly cross", crossing.angle_deg);
+            let help = format!(
+                "from {} to {} the crossing road comes from the right of the main one, with a minus from its left",
+                CROSSING_DEG.start(),
+                CROSSING_DEG.end()
+            );
+            self.refuse("road.angle_deg", "too small an angle", message, &help);
         }
     }
 
@@ -225,6 +231,7 @@ impl Checker<'_> {
                 self.refuse(&path, "again", message, "");
             }
         }
+        self.collisions();
         for (index, completes) in expect.completes.iter().enumerate() {
             let path = format!("expect.completes.{index}");
             self.known(&format!("{path}.vehicle"), &completes.vehicle);
@@ -238,6 +245,24 @@ impl Checker<'_> {
                 let message = format!("`expect.speed` for {} expects nothing", quoted(&speed.vehicle));
                 let help = "state `min_below_mps`, `min_above_mps`, `max_below_mps` or `max_above_mps`";
                 self.refuse(&path, "no bound", message, help);
+            }
+        }
+    }
+
+    fn collisions(&mut self) {
+        let expect = &self.scenario.expect;
+        if expect.collisions.is_some() && expect.no_collision.is_some() {
+            let message = "`expect` states both `collisions` and `no_collision`".to_owned();
+            self.refuse("expect.no_collision", "beside `collisions`", message, "`collisions` says it more exactly");
+        }
+        for (index, pair) in expect.collisions.iter().flatten().enumerate() {
+            let path = format!("expect.collisions.{index}");
+            for (end, name) in pair.iter().enumerate() {
+                self.known(&format!("{path}.{end}"), name);
+            }
+            if pair[0] == pair[1] {
+                let message = format!("nobody collides with itself, and {} is named twice", quoted(&pair[0]));
+                self.refuse(&path, "the same vehicle", message, "");
             }
         }
     }
@@ -274,7 +299,11 @@ fn extent(road: &Road, branch: Branch) -> String {
             format!("the road reaches from y = 0 to y = {width}, and its lane 0 narrows until it ends at x = {end}")
         }
         (_, Branch::Main) => format!("the road reaches from y = 0 to y = {width}"),
-        (_, Branch::Cross) => format!("the crossing road reaches from x = -{0} to x = {0}", 0.5 * width),
+        (_, Branch::Cross) => format!(
+            "the crossing road reaches {0} to either side of its middle, which runs through x = 0, y = {0} at {1} degrees",
+            0.5 * width,
+            road.heading_rad(branch).to_degrees()
+        ),
     }
 }
 

@@ -72,8 +72,8 @@ pub struct Intersection {
     /// Width of each lane \[m\].
     #[schemars(range(min = 0.001))]
     pub lane_width_m: f64,
-    /// Direction of the crossing road, counter-clockwise from x: 90 comes from the right of the main one, −90 from its
-    /// left \[deg\].
+    /// Direction of the crossing road, counter-clockwise from x: who drives on it comes from the right of the main one, or, if
+    /// it is negative, from its left. From 20 to 160 to either side \[deg\].
     pub angle_deg: f64,
 }
 
@@ -130,11 +130,28 @@ impl Road {
         }
     }
 
-    /// Between which longitudinal coordinates of `branch` the other road lies; none where no roads cross \[m\].
+    /// Between which longitudinal coordinates of `branch` any part of it lies on the other road; none where no roads cross
+    /// \[m\].
     pub fn conflict_zone_m(&self, branch: Branch) -> Option<[f64; 2]> {
+        let corridor = self.corridor(branch);
+        let (right, left) = (self.crossed_m(branch, corridor.right_m)?, self.crossed_m(branch, corridor.left_m)?);
+        Some([right[0].min(left[0]), right[1].max(left[1])])
+    }
+
+    /// Between which longitudinal coordinates of `branch` its points at a lateral coordinate lie on the other road; none where
+    /// no roads cross \[m\].
+    ///
+    /// A point `(s, n)` has the lateral coordinate `n′ = n cos γ − s sin γ` on a road that is turned by `γ` against its own.
+    pub fn crossed_m(&self, branch: Branch, lateral_m: f64) -> Option<[f64; 2]> {
         let Road::Intersection(_) = self else { return None };
-        let centre = self.corridor(branch).along([0.0, 0.5 * self.width_m()]);
-        Some([centre - 0.5 * self.width_m(), centre + 0.5 * self.width_m()])
+        let other = match branch {
+            Branch::Main => Branch::Cross,
+            Branch::Cross => Branch::Main,
+        };
+        let corridor = self.corridor(other);
+        let (sin, cos) = libm::sincos(corridor.heading_rad - self.heading_rad(branch));
+        let reaches = [corridor.right_m, corridor.left_m].map(|edge_m| (lateral_m * cos - edge_m) / sin);
+        Some([reaches[0].min(reaches[1]), reaches[0].max(reaches[1])])
     }
 
     /// How many lanes there are.
@@ -189,7 +206,7 @@ mod tests {
     /// Whatever the direction, the point in the middle of one road is in the middle of the other.
     #[test]
     fn the_middles_of_crossing_roads_meet() {
-        for angle_deg in [90.0, -90.0] {
+        for angle_deg in [90.0, -90.0, 60.0, 120.0, -30.0] {
             let road = Road::Intersection(Intersection { lane_count: 3, angle_deg, ..Intersection::default() });
             let meeting = [0.0, 0.5 * road.width_m()];
             for branch in [Branch::Main, Branch::Cross] {
@@ -198,7 +215,9 @@ mod tests {
                 assert!((corridor.across(meeting) - road.lane_centre_m(branch, 1)).abs() < 1e-12);
                 let [from, to] = road.conflict_zone_m(branch).expect("they cross");
                 assert!((corridor.along(meeting) - 0.5 * (from + to)).abs() < 1e-12);
-                assert!((to - from - road.width_m()).abs() < 1e-12);
+                let (sin, cos) = angle_deg.to_radians().sin_cos();
+                let length_m = road.width_m() * (1.0 + cos.abs()) / sin.abs();
+                assert!((to - from - length_m).abs() < 1e-12, "{angle_deg}: {from} to {to}");
             }
         }
         assert_eq!(Road::default().conflict_zone_m(Branch::Main), None);

@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::building::{Building, Weather};
-use crate::{Branch, Expect, Road, jitter};
+use crate::{Branch, Expect, Plant, Road, jitter};
 
 /// One scenario: agents, their world, and what is expected of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -41,7 +41,7 @@ pub struct Scenario {
     /// From which all random numbers are drawn.
     #[serde(default = "defaults::seed")]
     pub seed: u64,
-    /// What moves the vehicles.
+    /// What moves the vehicles, `kind` choosing; by default exactly the model that planners use.
     #[serde(default)]
     pub plant: Plant,
     /// Where vehicles may drive, `kind` choosing; by default two lanes for 1/10 scale cars.
@@ -137,15 +137,6 @@ impl Scenario {
 /// The name that makes a vehicle the ego.
 pub(crate) const EGO: &str = "ego";
 
-/// What moves the vehicles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Plant {
-    /// Exactly the bicycle model that the planners use (eq. 6.1-6.4).
-    #[default]
-    Kinematic,
-}
-
 /// A random change of every start, uniform over `±` the stated amounts and drawn from the seed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -209,15 +200,6 @@ impl Vehicle {
             speed_mps: self.goal.speed_mps.unwrap_or(self.start.speed_mps),
         }
     }
-
-    /// Diagonal of `Q` on (x, y, θ, v): what the weights along and across the road are to the axes of the world. Roads
-    /// run along x or y.
-    pub fn tracking(&self, road: &Road) -> [f64; 4] {
-        let Weights { x, y, heading, speed, .. } = self.weights;
-        let runs_along_x = libm::cos(road.heading_rad(self.road)).abs() > 0.5;
-        let [in_x, in_y] = if runs_along_x { [x, y] } else { [y, x] };
-        [in_x, in_y, heading, speed]
-    }
 }
 
 /// What a vehicle wants. Whatever is not said stays as it is at the start.
@@ -263,6 +245,11 @@ impl Default for Weights {
 }
 
 impl Weights {
+    /// Diagonal of `Q` on (position along the vehicle's road, across it, θ, v).
+    pub fn tracking(&self) -> [f64; 4] {
+        [self.x, self.y, self.heading, self.speed]
+    }
+
     /// Diagonal of `R` on (Δa, Δδ).
     pub fn comfort(&self) -> [f64; 2] {
         [self.acceleration_change, self.steering_change]

@@ -4,7 +4,7 @@ use interplay::frame::Origin;
 use interplay_planners::State;
 use interplay_planners::dynamics::Bicycle;
 
-use crate::film::FILMS;
+use crate::film::{FILMS, kinematic};
 
 #[test]
 fn there_is_a_frame_for_every_tick_and_everybody_is_in_it() {
@@ -30,7 +30,7 @@ fn vehicles_begin_where_the_scenario_says() {
 /// Rolling out the applied inputs through the bicycle gives every state, bit for bit (eq. 6.1-6.5).
 #[test]
 fn the_kinematic_plant_is_the_bicycle() {
-    for film in FILMS.iter() {
+    for film in kinematic() {
         for (index, vehicle) in film.scenario.vehicles.iter().enumerate() {
             let applied: Vec<_> = film.frames.iter().map(|frame| frame.vehicles[index].input).collect();
             let mut states = Vec::new();
@@ -51,7 +51,7 @@ fn the_kinematic_plant_is_the_bicycle() {
 
 #[test]
 fn inputs_and_speeds_stay_within_the_limits() {
-    for film in FILMS.iter() {
+    for film in kinematic() {
         for (tick, frame) in film.frames.iter().enumerate() {
             for (index, (seen, vehicle)) in frame.vehicles.iter().zip(&film.scenario.vehicles).enumerate() {
                 let (limits, input, speed) = (vehicle.limits, seen.input, film.states_after(tick)[index].speed_mps);
@@ -105,7 +105,7 @@ fn plans_are_motions_of_the_vehicle() {
 /// The road edges are soft rows of the planners; an exact penalty keeps the vehicles on the road all the same.
 #[test]
 fn nobody_leaves_the_road() {
-    for film in FILMS.iter() {
+    for film in kinematic() {
         for frame in &film.frames {
             for (seen, vehicle) in frame.vehicles.iter().zip(&film.scenario.vehicles) {
                 let corridor = film.scenario.road.corridor(vehicle.road);

@@ -13,6 +13,9 @@ pub struct Planning {
 impl Planning {
     /// Takes one tick.
     pub fn observe(&mut self, vehicle: &VehicleFrame) {
+        if vehicle.origin == Origin::Crashed {
+            return;
+        }
         self.times_ms.push(vehicle.plan_ms);
         self.failed += usize::from(vehicle.origin != Origin::Planned);
     }

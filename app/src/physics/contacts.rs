@@ -4,7 +4,8 @@ use std::sync::Mutex;
 
 use interplay_planners::{Body, State};
 use rapier2d::prelude::{
-    ColliderSet, CollisionEvent, ContactPair, EventHandler, RigidBodySet, SoftBodySet, SoftBodyTearEvent,
+    ColliderSet, CollisionEvent, ContactPair, EventHandler, PhysicsWorld, RigidBodyHandle, RigidBodySet, SoftBodySet,
+    SoftBodyTearEvent,
 };
 
 use super::footprint::length_m;
@@ -65,15 +66,26 @@ impl EventHandler for Contacts {
     fn handle_soft_body_tear_event(&self, _bodies: &SoftBodySet, _event: &SoftBodyTearEvent) {}
 }
 
-/// How hard two vehicles meet \[N s\]. Rapier gives kinematic bodies no mass and so no impulse: it is the one that would
-/// stop their approach without rebound, `m_a m_b/(m_a + m_b)` times the closing speed along the contact's normal, with the
-/// mass of passenger cars.
+/// Mass of a vehicle: that of a passenger car, by the area of the footprint \[kg\].
+pub(super) fn mass_kg(body: &Body) -> f64 {
+    AREAL_DENSITY * length_m(body) * body.width_m
+}
+
+/// How hard two vehicles meet that have no dynamics \[N s\]. Rapier gives kinematic bodies no mass and so no impulse: it is
+/// the one that would stop their approach without rebound, `m_a m_b/(m_a + m_b)` times the closing speed along the contact's
+/// normal, with the mass of passenger cars.
 pub(super) fn impulse_ns(a: (&Body, &State), b: (&Body, &State), normal: [f64; 2]) -> f64 {
-    let mass = |body: &Body| AREAL_DENSITY * length_m(body) * body.width_m;
-    let reduced = mass(a.0) * mass(b.0) / (mass(a.0) + mass(b.0));
+    let reduced = mass_kg(a.0) * mass_kg(b.0) / (mass_kg(a.0) + mass_kg(b.0));
     let towards = |state: &State| {
         let (sin, cos) = libm::sincos(state.heading_rad);
         state.speed_mps * (cos * normal[0] + sin * normal[1])
     };
     reduced * (towards(a.1) - towards(b.1)).max(0.0)
+}
+
+/// What two dynamic bodies gave one another along the normal of their contact in the last sub-step \[N s\].
+pub(super) fn transmitted_ns(world: &PhysicsWorld, pair: [RigidBodyHandle; 2]) -> f64 {
+    let [a, b] = pair.map(|handle| world.bodies.get(handle).and_then(|body| body.colliders().first().copied()));
+    let contact = a.zip(b).and_then(|(a, b)| world.narrow_phase.contact_pair(a, b));
+    contact.map_or(0.0, |contact| f64::from(contact.total_impulse_magnitude()))
 }

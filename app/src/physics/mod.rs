@@ -1,35 +1,40 @@
 //! Physics: the one room that names Rapier and Parry.
 //!
-//! With the kinematic plant every vehicle follows the bicycle model exactly. Within a tick the bodies are looked at as often
-//! as it takes to miss no contact (`path`); each time Rapier finds who begins to touch, and Parry the distances between
-//! footprints. Both work in `f32` and the planners in `f64`: the conversion is here, with positions taken relative to a
+//! With the kinematic plant every vehicle follows the bicycle model exactly (`kinematic`). Within a tick the bodies are looked
+//! at as often as it takes to miss no contact (`path`); each time Rapier finds who begins to touch, and Parry the distances
+//! between footprints. With the dynamic plant Rapier moves the bodies, pushed by their tyres and by one another (`dynamic`).
+//! Both libraries work in `f32` and the planners in `f64`: the conversion is here, with positions taken relative to a
 //! vehicle, so that precision does not depend on how far along the road one is.
 
+mod actuators;
 mod contacts;
+mod dynamic;
+#[cfg(test)]
+mod dynamic_tests;
 mod footprint;
+mod kinematic;
 mod path;
 #[cfg(test)]
 mod tests;
+mod tyres;
 
 use bevy::ecs::prelude::*;
-use interplay_planners::dynamics::Bicycle;
-use interplay_planners::{Body, State};
-use interplay_scenarios::Scenario;
-use rapier2d::prelude::{
-    ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, Vector,
-};
+use interplay_planners::{Body, Input, State};
+use interplay_scenarios::{Plant, Scenario};
+use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
 
 pub use footprint::gap_m;
 
 use crate::components::{Clock, Identity, Motion, Physique, Present};
 use crate::frame::{Event, Level};
 use crate::measure::{Collision, Measures};
-use contacts::{Contacts, Touch, impulse_ns};
-use footprint::{centre, length_m, pose, shape};
-use path::{Path, next_look};
+use dynamic::DynamicPlant;
+use footprint::{centre, length_m, shape};
 
 /// From which distance on Rapier speaks of a contact, for vehicles of passenger cars' size \[m\].
 const TOUCHING_M: f32 = 1e-4;
+/// Friction coefficient between bodies that collide.
+const BODY_FRICTION: f32 = 0.3;
 
 /// The Rapier body of a vehicle.
 #[derive(Component, Clone, Copy, Debug)]
@@ -39,6 +44,25 @@ pub struct VehicleBody(pub RigidBodyHandle);
 #[derive(Resource)]
 pub struct Physics {
     world: PhysicsWorld,
+    /// The dynamic plant; without it, bodies follow the bicycle.
+    dynamic: Option<DynamicPlant>,
+}
+
+/// One vehicle at the start of a tick.
+struct Moving {
+    handle: RigidBodyHandle,
+    body: Body,
+    state: State,
+    input: Input,
+}
+
+/// Two vehicles, by their indices (ascending), that begin to touch.
+struct Contact {
+    pair: [usize; 2],
+    /// The share of the tick that has passed.
+    share: f64,
+    /// How hard \[N s\].
+    impulse_ns: f64,
 }
 
 impl Physics {
@@ -49,32 +73,30 @@ impl Physics {
         let longest = scenario.vehicles.iter().map(|vehicle| length_m(&vehicle.body)).fold(0.0, f64::max);
         world.integration_parameters.length_unit = (longest / 4.0).clamp(0.01, 1.0) as f32;
         world.integration_parameters.normalized_prediction_distance = TOUCHING_M;
-        Physics { world }
+        let origin = scenario.vehicles.first().map(|first| first.start.position()).unwrap_or_default();
+        let dynamic = match &scenario.plant {
+            Plant::Kinematic(_) => None,
+            Plant::Dynamic(settings) => Some(DynamicPlant::new(*settings, origin)),
+        };
+        Physics { world, dynamic }
     }
 
     /// Adds a vehicle.
     pub fn add(&mut self, index: usize, body: &Body, state: &State) -> RigidBodyHandle {
-        let rigid = RigidBodyBuilder::kinematic_position_based().pose(pose(state, [0.0; 2]));
         let collider = ColliderBuilder::new(shape(body))
             .position(centre(body))
             .active_collision_types(ActiveCollisionTypes::all())
             .active_events(ActiveEvents::COLLISION_EVENTS)
             .user_data(index as u128);
+        let (rigid, collider) = match &mut self.dynamic {
+            None => (kinematic::body(state), collider),
+            Some(plant) => {
+                let restitution = plant.restitution();
+                (plant.body(body, state), collider.density(0.0).restitution(restitution).friction(BODY_FRICTION))
+            }
+        };
         let (handle, _) = self.world.insert(rigid, collider);
         handle
-    }
-
-    /// Puts the bodies at their places and finds who did not touch at the last ones and does now.
-    fn look(&mut self, bodies: &[RigidBodyHandle], states: &[State]) -> Vec<Touch> {
-        let origin = states.first().map(State::position).unwrap_or_default();
-        for (handle, state) in bodies.iter().zip(states) {
-            if let Some(body) = self.world.bodies.get_mut(*handle) {
-                body.set_position(pose(state, origin), true);
-            }
-        }
-        let contacts = Contacts::default();
-        self.world.detect_collisions(&(), &contacts);
-        contacts.into_touches()
     }
 }
 
@@ -86,31 +108,44 @@ pub fn step(
     mut present: ResMut<Present>,
     mut measures: ResMut<Measures>,
 ) {
-    let mut moving: Vec<_> = vehicles.iter_mut().collect();
-    moving.sort_by_key(|(identity, ..)| identity.index);
-    let path = |physique: &Physique, motion: &Motion| Path {
+    let mut sorted: Vec<_> = vehicles.iter_mut().collect();
+    sorted.sort_by_key(|(identity, ..)| identity.index);
+    let moving = |(_, physique, motion, body): &(&Identity, &Physique, Mut<Motion>, &VehicleBody)| Moving {
+        handle: body.0,
         body: physique.body,
-        from: motion.state,
-        to: Bicycle::new(&physique.body, clock.step_s).step(&motion.state, &motion.input),
+        state: motion.state,
+        input: motion.input,
     };
-    let paths: Vec<Path> = moving.iter().map(|(_, physique, motion, _)| path(physique, motion)).collect();
-    let bodies: Vec<RigidBodyHandle> = moving.iter().map(|(.., body)| body.0).collect();
-    let mut share = 0.0;
-    while share < 1.0 {
-        share = next_look(&paths, share);
-        let states: Vec<State> = paths.iter().map(|path| path.at(share)).collect();
-        measures.gap.observe(&states);
-        for Touch { pair: [a, b], normal } in physics.look(&bodies, &states) {
-            let impulse_ns = impulse_ns((&paths[a].body, &states[a]), (&paths[b].body, &states[b]), normal);
-            let between = [a, b].map(|index| moving[index].0.name.clone());
-            let text = format!("collides with {} ({impulse_ns:.2} Ns)", between[1]);
-            present.0.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
-            let time_s = clock.within_s(share);
-            measures.collide([a, b], Collision { time_s, between, impulse_ns });
+    let moving: Vec<Moving> = sorted.iter().map(moving).collect();
+    let Physics { world, dynamic } = &mut *physics;
+    let (states, contacts) = match dynamic {
+        None => kinematic::advance(world, &moving, clock.step_s, &mut measures.gap),
+        Some(plant) => plant.advance(world, &moving, clock.step_s, &mut measures.gap),
+    };
+    for Contact { pair: [a, b], share, impulse_ns } in contacts {
+        let between = [a, b].map(|index| sorted[index].0.name.clone());
+        let text = format!("collides with {} ({impulse_ns:.2} Ns)", between[1]);
+        present.0.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
+        measures.collide([a, b], Collision { time_s: clock.within_s(share), between, impulse_ns });
+        for index in [a, b] {
+            sorted[index].2.crashed |= dynamic.is_some();
         }
     }
-    for ((_, _, motion, _), path) in moving.iter_mut().zip(paths) {
-        motion.state = path.to;
+    for ((_, _, motion, _), state) in sorted.iter_mut().zip(states) {
+        motion.state = state;
     }
     clock.tick += 1;
+}
+
+/// Momentum of all bodies along x and y, and about the origin of Rapier's world \[kg m/s, kg m²/s\].
+#[cfg(test)]
+fn momentum(world: &World) -> [f64; 3] {
+    let bodies = &world.resource::<Physics>().world.bodies;
+    let parts = bodies.iter().map(|(_, body)| {
+        let (mass, place, velocity) = (body.mass(), body.translation(), body.linvel());
+        let spin = body.mass_properties().local_mprops.principal_inertia() * body.angvel();
+        let about = mass * (place.x * velocity.y - place.y * velocity.x) + spin;
+        [mass * velocity.x, mass * velocity.y, about].map(f64::from)
+    });
+    parts.fold([0.0; 3], |sum, part| std::array::from_fn(|i| sum[i] + part[i]))
 }

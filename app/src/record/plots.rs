@@ -101,7 +101,7 @@ impl Plots {
         for vehicle in &frame.vehicles {
             let told = frame.events.iter().any(|event| event.vehicle == vehicle.name && event.level != Level::Note);
             let fallback = match vehicle.origin {
-                Origin::Planned => continue,
+                Origin::Planned | Origin::Crashed => continue,
                 Origin::Continued => "no plan: the previous one goes on",
                 Origin::Braking => "no plan: full braking",
             };

@@ -90,7 +90,7 @@ impl Strip<'_> {
 
     /// The edges, without the part that lies on the other road.
     fn edges(&self, corridor: &Corridor) -> Vec<Line> {
-        let pieces = match self.road.conflict_zone_m(self.branch) {
+        let pieces = |lateral_m: f64| match self.road.crossed_m(self.branch, lateral_m) {
             Some([enters_m, leaves_m]) => vec![[self.from_m, enters_m], [leaves_m, self.to_m]],
             None => vec![[self.from_m, self.to_m]],
         };
@@ -102,7 +102,8 @@ impl Strip<'_> {
             all.map(|at_m| [at_m as f32, corridor.right_edge_m(at_m) as f32]).collect()
         };
         let left = |[from_m, to_m]: [f64; 2]| along(corridor.left_m, from_m, to_m);
-        pieces.iter().flat_map(|piece| [right(*piece), left(*piece)]).collect()
+        let (rights, lefts) = (pieces(corridor.right_m), pieces(corridor.left_m));
+        rights.into_iter().map(right).chain(lefts.into_iter().map(left)).collect()
     }
 
     /// Dashes between lanes, as far as there are two of them and no other road.
@@ -110,17 +111,17 @@ impl Strip<'_> {
         let lane = self.road.lane_width_m();
         let period = 2.0 * DASH_LANES * lane;
         let dashes = ((self.to_m - self.from_m) / period).ceil() as usize;
-        let zone = self.road.conflict_zone_m(self.branch);
+        let lateral_m = |between: usize| corridor.right_m + between as f64 * lane;
         let is_free = |between: usize, start: f64| {
             let ramp = corridor.end.filter(|_| between == 1).is_some_and(|end| start > taper_m(end)[0]);
+            let zone = self.road.crossed_m(self.branch, lateral_m(between));
             let crossing = zone.is_some_and(|[from, to]| start + 0.5 * period > from && start < to);
             !ramp && !crossing
         };
         let marking = |between: usize| {
             let starts = (0..dashes).map(|dash| self.from_m + dash as f64 * period);
-            let lateral = corridor.right_m + between as f64 * lane;
-            let free = starts.filter(move |start| is_free(between, *start));
-            free.map(move |start| along(lateral, start, start + 0.5 * period)).collect::<Vec<_>>()
+            let free = starts.filter(|start| is_free(between, *start));
+            free.map(|start| along(lateral_m(between), start, start + 0.5 * period)).collect::<Vec<_>>()
         };
         (1..self.road.lane_count()).flat_map(marking).collect()
     }

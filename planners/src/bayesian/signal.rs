@@ -36,7 +36,7 @@ pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &Belief, settings
     problem
 }
 
-/// `2ΣW_2` of every component.
+/// `2ΣW_2` of every component (along, across, θ, v).
 fn doubts(scene: &Scene, belief: &Belief) -> [f64; 4] {
     scene.goal.tracking.map(|weight| (2.0 * belief.variance * weight).min(MOST_DOUBT))
 }
@@ -46,17 +46,25 @@ fn impression(
     scene: &Scene,
     partner: &Agent,
     belief: &Belief,
-    [doubt_x, doubt_y, ..]: [f64; 4],
+    [doubt_along, doubt_across, ..]: [f64; 4],
     settings: &Settings,
 ) -> DistanceCost {
-    let goal = scene.goal.target.position();
-    let moved = |[x, y]: [f64; 2]| [doubt_x * goal[0] + (1.0 - doubt_x) * x, doubt_y * goal[1] + (1.0 - doubt_y) * y];
+    let axes = scene.goal.axes();
+    let [goal_along, goal_across] = axes.components(scene.goal.target.position());
+    let moved = |centre: [f64; 2]| {
+        let [along, across] = axes.components(centre);
+        axes.vector([
+            doubt_along * goal_along + (1.0 - doubt_along) * along,
+            doubt_across * goal_across + (1.0 - doubt_across) * across,
+        ])
+    };
     // The curvature of a squared distance is twice its metric.
-    let [xx, xy, yy] = scene.goal.safety.curvature(partner.corridor.heading_rad).map(|bend| 0.5 * bend);
-    let (stretch_x, stretch_y) = (1.0 / (1.0 - doubt_x), 1.0 / (1.0 - doubt_y));
+    let metric = scene.goal.safety.curvature(partner.corridor.heading_rad).map(|bend| 0.5 * bend);
+    let [along, mixed, across] = axes.entries(metric);
+    let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
     DistanceCost {
         centres: scene.centres(&partner.prediction).into_iter().map(moved).collect(),
-        metric: [stretch_x * stretch_x * xx, stretch_x * stretch_y * xy, stretch_y * stretch_y * yy],
+        metric: axes.matrix([stretch * stretch * along, stretch * widen * mixed, widen * widen * across]),
         price: value::price(settings, belief.w_1, belief.deviation),
     }
 }

@@ -6,7 +6,7 @@
 
 use super::adjoint::costates;
 use super::problem::{Iterate, Leaning, Participant, Penalty, Problem};
-use super::stage::{Interval, Row, RowBlock, StageQp, StageSolution, StateCost, TrajectoryRow, VehicleStages};
+use super::stage::{Interval, Row, RowBlock, StageQp, StageSolution, TrajectoryRow, VehicleStages};
 use crate::State;
 use crate::dynamics::Curvature;
 
@@ -103,13 +103,7 @@ fn linearise_vehicle(
     for k in 0..horizon {
         let input = inputs[k].to_array();
         stages.jacobians.push(participant.model.jacobian(&states[k], &inputs[k]));
-        let (state, target) = (states[k + 1].to_array(), participant.tracking.targets[k].to_array());
-        let weights = participant.tracking.weights;
-        let mut cost = StateCost {
-            gradient: std::array::from_fn(|i| 2.0 * weights[i] * (state[i] - target[i])),
-            hessian: weights.map(|weight| 2.0 * weight),
-            ..StateCost::default()
-        };
+        let mut cost = participant.tracking.cost(k, &states[k + 1]);
         for distance_cost in &participant.distance_costs {
             distance_cost.add_to(k, states[k + 1].position(), &mut cost);
         }
@@ -121,7 +115,9 @@ fn linearise_vehicle(
             Interval { lower: -limits.steering_max_rad - input[1], upper: limits.steering_max_rad - input[1] },
         ]);
         let [slowest, fastest] = participant.speed_bounds(k + 1);
-        stages.speed_boxes.push(Interval { lower: slowest - state[3], upper: fastest - state[3] });
+        stages
+            .speed_boxes
+            .push(Interval { lower: slowest - states[k + 1].speed_mps, upper: fastest - states[k + 1].speed_mps });
     }
 }
 

@@ -10,9 +10,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::stage::StateCost;
 use super::{DistanceCost, MeanSpeed};
 use crate::dynamics::Bicycle;
-use crate::{Body, Corridor, Input, SafetyEllipse, State};
+use crate::{Axes, Body, Corridor, Input, SafetyEllipse, State};
 
 /// What a violation `s ≥ 0` costs: `linear·s + quadratic·s²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,10 +73,36 @@ impl Default for Limits {
 /// Deviation from eq. 6.6: as printed the sum runs over `t = 0…N−1`, which leaves the last input idle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracking {
-    /// Diagonal of `Q` on (x, y, θ, v).
+    /// Diagonal of `Q` on (position along `axes`, across them, θ, v).
     pub weights: [f64; 4],
+    /// The axes in which `Q` is diagonal: those of the vehicle's road.
+    pub axes: Axes,
     /// Desired state at `t = 1…N`; `N` long.
     pub targets: Vec<State>,
+}
+
+impl Tracking {
+    /// How far a state at `t + 1` is from the desired one, on (along, across, θ, v).
+    fn deviation(&self, t: usize, state: &State) -> [f64; 4] {
+        let (state, target) = (state.to_array(), self.targets[t].to_array());
+        let [x, y, heading, speed] = std::array::from_fn(|i| state[i] - target[i]);
+        let [along, across] = self.axes.components([x, y]);
+        [along, across, heading, speed]
+    }
+
+    /// Gradient and Hessian of the cost of a state at `t + 1`.
+    pub(super) fn cost(&self, t: usize, state: &State) -> StateCost {
+        let (missed, weights) = (self.deviation(t, state), self.weights);
+        let [along, across, heading, speed] = std::array::from_fn(|i| 2.0 * weights[i] * missed[i]);
+        let [x, y] = self.axes.vector([along, across]);
+        let [xx, xy, yy] = self.axes.matrix([2.0 * weights[0], 0.0, 2.0 * weights[1]]);
+        StateCost {
+            gradient: [x, y, heading, speed],
+            hessian: [xx, yy, 2.0 * weights[2], 2.0 * weights[3]],
+            cross: xy,
+            ..StateCost::default()
+        }
+    }
 }
 
 /// An ellipse around a moving centre that a vehicle keeps out of: `d² − 1 + s ≥ 0` at `t = 1…N`.
@@ -267,9 +294,9 @@ impl Participant {
                 }
             }
             previous = now;
-            let (state, target) = (states[t + 1].to_array(), self.tracking.targets[t].to_array());
+            let missed = self.tracking.deviation(t, &states[t + 1]);
             for i in 0..4 {
-                cost.total += self.tracking.weights[i] * (state[i] - target[i]).powi(2);
+                cost.total += self.tracking.weights[i] * missed[i].powi(2);
             }
             if t >= self.first() {
                 for corner in self.corridor.clearances(&self.body, &states[t + 1]) {

@@ -15,7 +15,7 @@
 use super::Settings;
 use crate::dynamics::Bicycle;
 use crate::mpc::{Leaning, Participant, Penalty, Problem, Separation, Tracking};
-use crate::{Agent, Scene};
+use crate::{Agent, Axes, Scene};
 
 /// Diagonal of `D` on (x, y, θ, v).
 const DEVIATION: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
@@ -58,6 +58,7 @@ fn asked(scene: &Scene, partner: &Agent, share: f64, settings: &Settings) -> Par
         known_inputs: (0..settled).map(|t| prediction.inputs.get(t).copied().unwrap_or_default()).collect(),
         tracking: Tracking {
             weights: DEVIATION.map(|d| share * d),
+            axes: Axes::WORLD,
             targets: (1..=scene.horizon).map(target).collect(),
         },
         comfort: [OTHER_COMFORT; 2],

@@ -6,7 +6,7 @@ pub mod world;
 
 use interplay_planners::dynamics::Bicycle;
 use interplay_planners::mpc::{Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
-use interplay_planners::{Body, Corridor, Input, SafetyEllipse, State};
+use interplay_planners::{Axes, Body, Corridor, Input, SafetyEllipse, State};
 
 /// SplitMix64: small, seeded, the same everywhere.
 pub struct Random(pub u64);
@@ -47,6 +47,7 @@ pub fn lane_change(random: &mut Random) -> Participant {
         known_inputs: Vec::new(),
         tracking: Tracking {
             weights: [0.0, random.between(0.5, 4.0), random.between(0.5, 1.0), 1.0],
+            axes: Axes::WORLD,
             targets: vec![wanted; HORIZON],
         },
         comfort: [0.1, 0.1],
@@ -71,7 +72,7 @@ pub fn follower(random: &mut Random, first: usize) -> Participant {
         start,
         previous_input: Input::default(),
         known_inputs: vec![Input::default(); first],
-        tracking: Tracking { weights: [0.005, 0.005, 0.0005, 0.0025], targets },
+        tracking: Tracking { weights: [0.005, 0.005, 0.0005, 0.0025], axes: Axes::WORLD, targets },
         comfort: [0.01, 0.01],
         keep_outs: Vec::new(),
         ..lane_change(random)

@@ -9,7 +9,7 @@ use interplay_planners::mpc::{
     DistanceCost, DistancePrice, KeepOut, Leaning, Limits, MeanSpeed, Memory, Participant, Penalty, Problem, Reach,
     Separation, StageSolution, Tracking,
 };
-use interplay_planners::{Body, Corridor, Input, LaneEnd, SafetyEllipse, State};
+use interplay_planners::{Axes, Body, Corridor, Input, LaneEnd, SafetyEllipse, State};
 use serde::{Deserialize, Serialize};
 
 /// The planners whose problems are recorded.
@@ -239,6 +239,7 @@ impl Recorded {
 impl Vehicle {
     fn new(of: &Participant) -> Self {
         let (body, limits) = (&of.body, &of.limits);
+        assert_eq!(of.tracking.axes, Axes::WORLD, "problems on slanted roads are not recorded");
         let mut targets: Vec<[f64; 4]> = of.tracking.targets.iter().map(|state| state.to_array()).collect();
         if targets.windows(2).all(|pair| pair[0] == pair[1]) {
             targets.truncate(1);
@@ -288,7 +289,11 @@ impl Vehicle {
             start: State::from_array(self.start),
             previous_input: Input::from_array(self.previous_input),
             known_inputs: self.known_inputs.iter().copied().map(Input::from_array).collect(),
-            tracking: Tracking { weights: self.weights, targets: (0..horizon).map(target).collect() },
+            tracking: Tracking {
+                weights: self.weights,
+                axes: Axes::WORLD,
+                targets: (0..horizon).map(target).collect(),
+            },
             comfort: self.comfort,
             keep_outs: self.keep_outs.iter().map(Ellipse::keep_out).collect(),
             distance_costs: self.distance_costs.iter().map(Distance::distance_cost).collect(),

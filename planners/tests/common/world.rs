@@ -103,7 +103,7 @@ pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
     let mut ego = vehicle("ego", [-2.0, LANES[0], 0.6], [LANES[0], 1.2], [0.0, 4.0, 1.0, 1.0], ego);
     ego.agent.corridor.left_m = 0.37;
     ego.goal.safety.across_m = 0.5;
-    let mut human = vehicle("crossing", [0.0, -away_m, 0.8], [0.0, 0.8], [4.0, 0.0, 1.0, 1.0], human(crossing));
+    let mut human = vehicle("crossing", [0.0, -away_m, 0.8], [0.0, 0.8], [0.0, 4.0, 1.0, 1.0], human(crossing));
     human.agent.corridor = Corridor { heading_rad: FRAC_PI_2, right_m: -0.185, left_m: 0.185, end: None };
     human.agent.state.heading_rad = FRAC_PI_2;
     human.agent.prediction = constant_velocity(&human.agent.state, HORIZON, STEP_S);

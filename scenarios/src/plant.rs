@@ -1,0 +1,72 @@
+//! What moves the vehicles.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What moves the vehicles; `kind` chooses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Plant {
+    /// Exactly the bicycle model that the planners use (eq. 6.1-6.4). A collision is noted and has no consequence.
+    Kinematic(Kinematic),
+    /// Bodies driven through the forces of their tyres, by actuators that lag. Planners meet a plant that is not their
+    /// model, and a collision pushes bodies about; whoever had one brakes and stays.
+    Dynamic(Dynamic),
+}
+
+impl Default for Plant {
+    fn default() -> Self {
+        Plant::Kinematic(Kinematic {})
+    }
+}
+
+/// The bicycle model has no settings of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Kinematic {}
+
+/// Tyres and actuators, of every vehicle alike. The default is that of a 1/10 scale car.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Dynamic {
+    /// Friction coefficient between tyres and road: no axle transmits more than this share of its load.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 3.0))]
+    pub friction: f64,
+    /// Lateral force of the front axle per slip angle, as a share of its load \[1/rad\].
+    #[schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub front_stiffness_per_rad: f64,
+    /// Lateral force of the rear axle per slip angle, as a share of its load; stiffer than the front, so that the vehicle
+    /// understeers \[1/rad\].
+    #[schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub rear_stiffness_per_rad: f64,
+    /// Time constant with which the acceleration follows what is asked for; 0 for at once \[s\].
+    #[schemars(extend("minimum" = 0.0))]
+    pub acceleration_lag_s: f64,
+    /// The fastest change of the acceleration \[m/s³\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub jerk_max_mps3: f64,
+    /// Time constant with which the steering angle follows what is asked for; 0 for at once \[s\].
+    #[schemars(extend("minimum" = 0.0))]
+    pub steering_lag_s: f64,
+    /// The fastest change of the steering angle \[rad/s\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub steering_rate_max_radps: f64,
+    /// Share of the closing speed with which bodies part after a collision.
+    #[schemars(extend("minimum" = 0.0, "maximum" = 1.0))]
+    pub restitution: f64,
+}
+
+impl Default for Dynamic {
+    fn default() -> Self {
+        Dynamic {
+            friction: 0.9,
+            front_stiffness_per_rad: 10.0,
+            rear_stiffness_per_rad: 12.0,
+            acceleration_lag_s: 0.05,
+            jerk_max_mps3: 20.0,
+            steering_lag_s: 0.05,
+            steering_rate_max_radps: 6.0,
+            restitution: 0.1,
+        }
+    }
+}
