@@ -1,6 +1,7 @@
 //! What one tick looked like: plain values, handed from the world to whoever watches it.
 
 use crate::measure::DayFigures;
+use interplay_building::control::Design;
 use interplay_planners::{Input, Plan, State, Trajectory};
 
 /// One tick of a run.
@@ -33,6 +34,8 @@ pub struct BuildingFrame {
     pub ambient_c: f64,
     /// What it was forecast to be at midnight \[°C\].
     pub forecast_c: f64,
+    /// What the controller says of its plan for the day, at its first step.
+    pub design: Option<Box<Design>>,
     /// How the day turned out, at its last step.
     pub figures: Option<DayFigures>,
 }
@@ -91,7 +94,7 @@ pub enum Origin {
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Event {
-    /// Whom it concerns.
+    /// Whom it concerns: a vehicle, or `controller` for that of the building.
     pub vehicle: String,
     /// How serious it is.
     pub level: Level,

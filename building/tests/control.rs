@@ -280,7 +280,9 @@ fn key_figures_are_what_they_say() {
 
 #[test]
 fn targets_are_wanted_at_the_ends_of_steps() {
-    let targets = targets(&Setpoints { other_c: Some(30.0), other_weight: 0.25, ..Setpoints::default() }, 4);
+    let occupied_c = vec![24.0, 25.0, 26.0, 27.0];
+    let targets =
+        targets(&Setpoints { occupied_c, other_c: Some(30.0), other_weight: 0.25, ..Setpoints::default() }, 4);
     let at = |hour: f64| (2.0 * hour) as usize;
     assert_eq!(targets.reference_at(at(8.0)), [24.0, 25.0, 26.0, 27.0]);
     assert_eq!(targets.reference_at(at(7.5)), [30.0; 4]);

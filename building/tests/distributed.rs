@@ -8,7 +8,9 @@ use interplay_building::control::distributed::cooperative::{LearningLaw, coopera
 use interplay_building::control::distributed::{
     Centralised, CentralisedSettings, Distributed, DistributedSettings, Scheme,
 };
-use interplay_building::control::{Control, ControlError, DayRecord, Design, Disturbance, Exchange, Morning};
+use interplay_building::control::{
+    Control, ControlError, Controller, DayRecord, Design, Disturbance, Exchange, Morning,
+};
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -244,4 +246,31 @@ fn unstable_steps_and_missing_weather_are_said() {
     assert!(matches!(records[1].design.fallback, Some(ControlError::NotFinite { index: 9, .. })));
     assert_eq!(records[1].design.planned_kw, records[0].heat_kw);
     assert!(records[2].design.fallback.is_none() && records[2].design.fallbacks == 1);
+}
+
+#[test]
+fn zones_that_can_solve_nothing_repeat_the_day_before() {
+    // Without a price on inputs, heat after the last reference is worth nothing: no zone has a single best answer.
+    let (model, targets) = (testbed(), Targets { input_weight: 0.0, ..chapter_5(vec![22.5], 4) });
+    let days: Vec<_> = (0..3).map(day).collect();
+    let mut distributed = Distributed::new(DistributedSettings::default(), &model, STEPS).expect("valid");
+    let records = run(&model, 28.5, &mut distributed, &targets, &days);
+    let fallback = records[1].design.fallback.as_ref().expect("no plan");
+    assert!(matches!(fallback, ControlError::NoZonePlans { zones: 4, round: 1 }), "{fallback}");
+    assert!(fallback.to_string().contains("input_weight"), "{fallback}");
+    assert_eq!(records[1].design.planned_kw, records[0].heat_kw);
+    assert_eq!(records[2].design.fallbacks, 2);
+
+    // A forecast that is a number, but beyond anything that can be computed with.
+    let targets = chapter_5(vec![22.5], 4);
+    let mut days: Vec<_> = (0..4).map(day).collect();
+    days[1].0.ambient_c[20] = f64::MAX;
+    for kind in [Controller::Distributed(Default::default()), Controller::Centralised(Default::default())] {
+        let mut regulator = kind.regulator(&model, STEPS).expect("valid");
+        let records = run(&model, 28.5, &mut regulator, &targets, &days);
+        let costs: Vec<f64> =
+            records.iter().map(|record| targets.cost(&record.temperatures_c, &record.heat_kw)).collect();
+        assert!(records[1].design.fallback.is_some(), "{}", kind.kind());
+        assert!(records[3].design.fallback.is_none() && costs[3] < 0.3 * costs[0], "{}: {costs:?}", kind.kind());
+    }
 }

@@ -5,8 +5,9 @@
 //! cargo run --release -p interplay-planners --example solve_problems -- KIND SOLVER REPEATS [STARTS.json]
 //! ```
 //!
-//! `KIND` is human, conservative or negotiation; `SOLVER` robust, structured or sparse; every problem is solved `REPEATS`
-//! times for the median time. A descent begins at the recorded guess, or at the inputs that `STARTS.json` holds by the
+//! `KIND` is a planner of `tests/data`; `SOLVER` robust, structured or sparse, which know nothing but the guess, or resumed:
+//! the robust one as planners use it, with the recorded memory of the step before. Every problem is solved `REPEATS` times
+//! for the median time. A descent begins at the recorded guess, or at the inputs that `STARTS.json` holds by the
 //! problem's id; the cost of that beginning is printed too.
 
 #[path = "../tests/common/recorded.rs"]
@@ -61,10 +62,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let problems = recorded::load(kind)?;
     let outcomes = match solver.as_str() {
-        "robust" => solve_all(&problems, &starts, repeats, Robust::default),
-        "structured" => solve_all(&problems, &starts, repeats, Structured::default),
-        "sparse" => solve_all(&problems, &starts, repeats, Sparse::default),
-        other => return Err(format!("no solver is called {other}: robust, structured and sparse are").into()),
+        "resumed" => solve_all(&problems, &starts, repeats, Optimiser::resuming(Robust::default())),
+        "robust" => solve_all(&problems, &starts, repeats, Optimiser::new(Robust::default())),
+        "structured" => solve_all(&problems, &starts, repeats, Optimiser::new(Structured::default())),
+        "sparse" => solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default())),
+        other => return Err(format!("no solver is called {other}: resumed, robust, structured and sparse are").into()),
     };
     writeln!(std::io::stdout(), "{}", serde_json::to_string(&outcomes)?)?;
     Ok(())
@@ -74,28 +76,35 @@ fn solve_all<S: StageSolver>(
     problems: &[Recorded],
     starts: &BTreeMap<String, Inputs>,
     repeats: usize,
-    solver: impl Fn() -> S,
+    mut optimiser: Optimiser<S>,
 ) -> Vec<Outcome> {
-    let mut optimiser = Optimiser::new(solver());
-    let solve = |recorded: &Recorded| {
+    let mut solve = |recorded: &Recorded| {
         let problem = recorded.problem();
         let guess = starts.get(&recorded.id).map_or_else(|| recorded.guess(), inputs);
-        let (outcome, time_ms) = timed(repeats, || optimiser.descend(&problem, &guess));
+        let memory = recorded.memory();
+        let remember = |optimiser: &mut Optimiser<S>| optimiser.memory = memory.clone();
+        let (outcome, time_ms) = timed(repeats, &mut optimiser, remember, |it| it.descend(&problem, &guess));
         Outcome::new(recorded.id.clone(), start_cost(&problem, &guess), outcome, time_ms)
     };
-    problems.iter().map(solve).collect()
+    problems.iter().map(&mut solve).collect()
 }
 
 fn inputs(rows: &Inputs) -> Vec<Vec<Input>> {
     rows.iter().map(|rows| rows.iter().copied().map(Input::from_array).collect()).collect()
 }
 
-/// The last of several equal results, and the median time of one.
-fn timed<T>(repeats: usize, mut work: impl FnMut() -> T) -> (T, f64) {
+/// The last of several equal results of `work`, and the median time of one, without that of the preparation.
+fn timed<S, T>(
+    repeats: usize,
+    on: &mut S,
+    mut prepare: impl FnMut(&mut S),
+    mut work: impl FnMut(&mut S) -> T,
+) -> (T, f64) {
     let mut times_ms = Vec::new();
     loop {
+        prepare(on);
         let began = Instant::now();
-        let result = work();
+        let result = work(on);
         times_ms.push(1e3 * began.elapsed().as_secs_f64());
         if times_ms.len() >= repeats {
             times_ms.sort_by(f64::total_cmp);

@@ -2,7 +2,7 @@
 //! full acceleration.
 
 use crate::conservative::{self, extremes};
-use crate::mpc::{DescentError, Optimiser, Optimum, Problem, Robust, Tolerances};
+use crate::mpc::{DescentError, Optimiser, Optimum, Problem, Robust};
 use crate::{Agent, Input, Scene, Trajectory};
 
 /// A plan with the problem that it solves.
@@ -12,14 +12,6 @@ pub(crate) struct Solved {
     pub optimum: Optimum,
     /// Why it is not the problem that was posed.
     pub event: Option<String>,
-}
-
-/// An optimiser for somebody who plans anew at every step.
-pub(crate) fn optimiser() -> Optimiser<Robust> {
-    let mut optimiser = Optimiser::new(Robust::default());
-    optimiser.tolerances = Tolerances { residual: 1e-7, decrease: 1e-9, ..Tolerances::default() };
-    optimiser.resumes = true;
-    optimiser
 }
 
 /// The cheapest optimum from the last plan, one step later, and in trouble or every `look_around_every` steps (0: never)

@@ -50,6 +50,23 @@ pub struct BuildingExpect {
     /// Largest excess of a requested input over its limit \[kW\].
     #[schemars(extend("minimum" = 0.0))]
     pub input_violation_kw_at_most: Option<f64>,
+    /// How much dearer a day is than the cheapest one that knows everything beforehand.
+    #[schemars(extend("minimum" = 0.0))]
+    pub regret_at_most: Option<f64>,
+    /// Heat brought in and taken out before the first occupied time of the day: the controller acts ahead \[kWh\].
+    #[schemars(extend("minimum" = 0.0))]
+    pub early_kwh_at_least: Option<f64>,
+    /// Spectral radius of the controller, where it has one.
+    #[schemars(extend("minimum" = 0.0))]
+    pub spectral_radius_at_most: Option<f64>,
+    /// On how many of these days the controller may have no plan of its own, all together.
+    pub fallbacks_at_most: Option<usize>,
+    /// Whether the cost of the common plan never rises from one round of messages to the next.
+    pub exchange_never_rises: Option<bool>,
+    /// By which share the zones' common plan is dearer than the centralised one; with `compare = true` of a distributed
+    /// controller.
+    #[schemars(extend("minimum" = 0.0))]
+    pub above_centralised_at_most: Option<f64>,
 }
 
 /// A vehicle reaches its goal (its lane, or the far side of an intersection), within a window of time if one is stated.

@@ -18,9 +18,11 @@
 //! ```
 
 mod building;
+mod commented;
 mod embedded;
 mod error;
 mod expect;
+mod files;
 mod jitter;
 mod load;
 mod meaning;
@@ -35,10 +37,12 @@ mod shape;
 mod source;
 mod tree;
 
-pub use building::{Building, EpwFile, Grid, Preset, Synthetic, Weather};
+pub use building::{Building, EpwFile, FloorPlan, Grid, Preset, Synthetic, Weather};
+pub use commented::commented;
 pub use embedded::{Embedded, embedded};
 pub use error::{LoadError, Problem};
 pub use expect::{BuildingExpect, Completes, Expect, SpeedRange};
+pub use files::files;
 pub use load::{from_text, load};
 pub use overrides::Override;
 pub use plant::{Dynamic, Kinematic, Plant};

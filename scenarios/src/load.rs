@@ -17,9 +17,12 @@ const LONGEST_CHAIN: usize = 16;
 ///
 /// Whatever is wrong with the file, the ones that it extends, or the overrides, each error located.
 pub fn load(name_or_path: &str, overrides: &[Override]) -> Result<Scenario, LoadError> {
-    let source = Source::find(name_or_path)?;
-    let tree = read_chain(&source).map_err(|problems| LoadError::new(name_or_path, problems))?;
-    finish(name_or_path, tree, overrides)
+    finish(name_or_path, tree(name_or_path)?, overrides)
+}
+
+/// The tree of a scenario, `extends` resolved, unchecked.
+pub(crate) fn tree(name_or_path: &str) -> Result<Node, LoadError> {
+    read_chain(&Source::find(name_or_path)?).map_err(|problems| LoadError::new(name_or_path, problems))
 }
 
 /// Loads a scenario from a text; `name` is what errors call it. It may extend authored scenarios, and

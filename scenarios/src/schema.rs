@@ -1,8 +1,10 @@
 //! The JSON Schema of a scenario file: what editors complete from, and what the loader checks against.
 //!
 //! It is generated from [`Scenario`], then tightened by [`BOUNDS`], the ranges within which the planners' own settings
-//! make sense. [`complete`] describes a whole scenario, all that it extends included. [`schema`] describes one file,
+//! make sense, and given the units and examples of [`words`]. [`complete`] describes a whole scenario, all that it extends included. [`schema`] describes one file,
 //! which may leave to its parent whatever it does not state.
+
+mod words;
 
 use std::sync::LazyLock;
 
@@ -60,6 +62,18 @@ static COMPLETE: LazyLock<Json> = LazyLock::new(|| {
             }
         }
     }
+    for (table, key, unit) in words::UNITS {
+        let property = properties_of(&mut schema, table).and_then(|properties| properties.get_mut(*key));
+        if let Some(Json::String(description)) = property.and_then(|property| property.get_mut("description")) {
+            *description = format!("{} [{unit}].", description.trim_end_matches('.'));
+        }
+    }
+    for (table, key, example) in words::examples() {
+        let property = properties_of(&mut schema, table).and_then(|properties| properties.get_mut(key));
+        if let Some(property) = property {
+            property["examples"] = json!([example]);
+        }
+    }
     polish(&mut schema);
     schema
 });
@@ -87,19 +101,23 @@ pub fn schema() -> Json {
 fn extends() -> Json {
     json!({
         "type": "string",
+        "examples": ["lane-change/front-nice"],
         "description": "Another scenario from which this one differs only in what it states: a file relative to this \
                         one, or the name of an embedded scenario. Tables merge key by key, vehicles by name.",
     })
 }
 
-/// The properties of a definition, or of the driver of that kind.
+/// The properties of a definition, of the tagged table of that kind, or, without a name, of the file itself.
 fn properties_of<'a>(schema: &'a mut Json, table: &str) -> Option<&'a mut Map<String, Json>> {
+    if table.is_empty() {
+        return schema.get_mut("properties")?.as_object_mut();
+    }
     let definitions = schema.get_mut("$defs")?.as_object_mut()?;
     let definition = if definitions.contains_key(table) {
         definitions.get_mut(table)?
     } else {
-        let kinds = definitions.get_mut("Driver")?.get_mut("oneOf")?.as_array_mut()?;
-        kinds.iter_mut().find(|kind| kind_of(kind) == Some(table))?
+        let tagged = definitions.values_mut().filter_map(|schema| schema.get_mut("oneOf")?.as_array_mut());
+        tagged.flatten().find(|kind| kind_of(kind) == Some(table))?
     };
     definition.get_mut("properties")?.as_object_mut()
 }
@@ -228,6 +246,16 @@ mod tests {
             for (keyword, bound) in *bounds {
                 assert_eq!(property.get(*keyword), Some(&json!(bound)), "{table}.{key}");
             }
+        }
+    }
+
+    #[test]
+    fn every_unit_and_every_example_belongs_to_a_key() {
+        let mut schema = complete().clone();
+        let units = words::UNITS.iter().map(|(table, key, _)| (*table, *key));
+        for (table, key) in units.chain(words::examples().into_iter().map(|(table, key, _)| (table, key))) {
+            let properties = properties_of(&mut schema, table).unwrap_or_else(|| panic!("no table {table}"));
+            assert!(properties.contains_key(key), "no key {key} in {table}");
         }
     }
 

@@ -234,7 +234,7 @@ mod tests {
     /// Keywords that the check obeys, and those that only inform.
     const UNDERSTOOD: &str = "$ref $defs oneOf const enum type properties required additionalProperties items minItems \
         maxItems minLength pattern minimum maximum exclusiveMinimum exclusiveMaximum format default description title \
-        $schema";
+        examples $schema";
 
     #[test]
     fn every_keyword_of_the_schema_is_understood() {

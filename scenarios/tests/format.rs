@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use interplay_planners::{Driver, human::Style};
-use interplay_scenarios::{Override, Road, Scenario, Source, embedded, from_text, load, schema};
+use interplay_scenarios::{Override, Road, Scenario, Source, commented, embedded, from_text, load, schema};
 use serde_json::{Map, Value as Json};
 
 /// As little as a scenario can say.
@@ -35,7 +35,8 @@ fn every_file_on_disk_is_embedded_and_loads_from_both() {
     let names: Vec<&str> = embedded().iter().map(|file| file.name).collect();
     assert_eq!(names, on_disk.iter().map(String::as_str).collect::<Vec<_>>(), "embedded, sorted, and complete");
     for file in embedded() {
-        assert!(file.text.starts_with("# "), "{} opens with what to look for", file.name);
+        let opening = file.text.strip_prefix("#:schema ../../schema.json\n").unwrap_or_default();
+        assert!(opening.starts_with("# "), "{} names the schema, then says what to look for", file.name);
         let scenario = load(file.name, &[]).unwrap_or_else(|error| panic!("{}: {error:?}", file.name));
         let path = folder.join(file.name).with_extension("toml");
         assert_eq!(load(&path.to_string_lossy(), &[]).expect("the same text"), scenario);
@@ -166,6 +167,19 @@ fn each_property(root: &Json, schema: &Json, path: &str, visit: &mut impl FnMut(
     }
 }
 
+/// The file that the first line of every authored scenario names. `INTERPLAY_BLESS=1` writes it anew.
+#[test]
+fn the_schema_beside_the_authored_files_is_the_one_that_is_published() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema.json");
+    let text = serde_json::to_string_pretty(&schema()).expect("JSON") + "\n";
+    if std::env::var_os("INTERPLAY_BLESS").is_some() {
+        fs::write(&path, &text).expect("the file can be written");
+    }
+    let written = fs::read_to_string(&path).unwrap_or_default();
+    let help = "renew it: INTERPLAY_BLESS=1 cargo test --release -p interplay-scenarios schema";
+    assert!(written == text, "scenarios/schema.json is out of date; {help}");
+}
+
 #[test]
 fn the_schema_describes_every_key() {
     let root = schema();
@@ -212,4 +226,82 @@ fn writing_out_every_default_of_the_schema_changes_nothing() {
     let text = toml::to_string(&written).expect("no nulls");
     assert!(text.contains("following_weight") && text.contains("lane_width_m"), "{text}");
     assert_eq!(from_text("full.toml", &text, &[]).expect("the schema's own defaults"), least("", &[]));
+}
+
+/// What `interplay new` starts from means what it was made from, and explains each key once.
+#[test]
+fn a_commented_file_means_the_same_as_its_origin() {
+    for file in embedded() {
+        let scenario = Scenario { figure: None, ..load(file.name, &[]).expect("authored") };
+        let text = commented(file.name, Path::new("")).expect("authored");
+        let again = from_text("new.toml", &text, &[]).unwrap_or_else(|error| panic!("{error:?}\n{text}"));
+        assert!(again == scenario, "{} is another scenario:\n{text}", file.name);
+        let comments = text.lines().filter(|line| line.starts_with("# "));
+        assert!(comments.map(|line| line.chars().count()).max() <= Some(110), "{text}");
+    }
+    let text = commented("lane-change/front-nice", Path::new("")).expect("authored");
+    for piece in
+        ["# Width of each lane [m]. At least 0.001.\nlane_width_m = 0.37", "\n#patience_steps = 5", "#[vehicle.limits]"]
+    {
+        assert!(text.contains(piece), "no {piece:?} in\n{text}");
+    }
+    assert_eq!(text.matches("# Position of the mass centre along the world's x axis [m].").count(), 1, "{text}");
+    let settings = text.lines().filter(|line| line.starts_with('#') && !line.starts_with("# ") && line.contains(" = "));
+    assert!(settings.count() > 20, "{text}");
+}
+
+/// Lines such as `#step_s = 0.1` say what is so without them: each of a complete scenario changes nothing when it is stated,
+/// unless the schema knows no default and gives an example.
+#[test]
+fn the_defaults_in_a_commented_file_are_the_defaults() {
+    let mut stated = 0;
+    for name in ["lane-change/front-nice", "building/four-room-ilc"] {
+        let scenario = Scenario { figure: None, ..load(name, &[]).expect("authored") };
+        let text = commented(name, Path::new("")).expect("authored");
+        let mut live = true;
+        for (at, line) in text.match_indices('\n').map(|(end, _)| (end + 1, text[end + 1..].lines().next())) {
+            let line = line.unwrap_or_default();
+            if line.starts_with(['[', '#']) && line.trim_start_matches('#').starts_with('[') {
+                live = line.starts_with('[');
+            }
+            let default = line.strip_prefix('#').filter(|rest| live && !rest.starts_with([' ', '[']));
+            let Some((key, _)) = default.and_then(|rest| rest.split_once(" = ")) else { continue };
+            let changed = text[..at].to_owned() + &text[at + 1..];
+            if let Ok(again) = from_text("new.toml", &changed, &[])
+                && again == scenario
+            {
+                stated += 1;
+                continue;
+            }
+            assert!(text[at..].starts_with('#') && example_only(key), "{name}: {line}");
+        }
+    }
+    assert!(stated > 20, "{stated} defaults");
+}
+
+/// Whether some table has that key without a default.
+fn example_only(key: &str) -> bool {
+    let (root, mut found) = (schema(), false);
+    each_property(&root, &root, "", &mut |path, property| {
+        found |= path.rsplit('.').next() == Some(key) && property.get("default").is_none();
+    });
+    found
+}
+
+/// A number has a unit: in brackets in its description, where editors show it. Whole numbers count something.
+#[test]
+fn the_schema_gives_every_number_a_unit_and_every_key_a_default_or_an_example() {
+    let root = schema();
+    let mut numbers = 0;
+    each_property(&root, &root, "", &mut |path, property| {
+        let kind = |schema: &Json| schema.get("type").and_then(Json::as_str) == Some("number");
+        if kind(property) || property.get("items").is_some_and(kind) {
+            numbers += 1;
+            let description = property["description"].as_str().unwrap_or_default();
+            assert!(description.contains('['), "{path} has no unit: {description} (see `UNITS` in schema/words.rs)");
+        }
+        let said = ["default", "examples", "const"].iter().any(|keyword| property.get(*keyword).is_some());
+        assert!(said, "{path} has neither default nor example (see `examples` in schema/words.rs)");
+    });
+    assert!(numbers > 100, "{numbers}");
 }

@@ -182,7 +182,8 @@ fn frames_hold_the_day_from_midnight_to_midnight() {
 #[test]
 fn vehicles_and_a_building_run_side_by_side() {
     let text = "extends = 'lane-change/front-nice'\nduration_s = 1.0\niterations = 1\n[expect]\ncompletes = []\n\
-        order = ['front', 'ego']\n[building]\npreset = 'testbed'\nstep_s = 900\n";
+        order = ['front', 'ego']\n[building]\npreset = 'testbed'\nstep_s = 900\n\
+        [setpoints]\noccupied_c = [24.0, 25.0, 26.0, 27.0]\n";
     let both = run_text("building-beside", text, &["--json"]).json();
     let alone = ["run", "--set", "duration_s=1", "--set", "expect.completes=[]", "--no-record", "--json"];
     let alone = interplay(&scratch("building-not-beside"), &alone).json();
@@ -217,7 +218,12 @@ fn zones_apart_are_allowed_and_said() {
     let apart = SOUND.replace(r#"["office", "store"]"#, r#"["store", "ambient"]"#);
     let outcome = run_text("building-apart", &apart, &[]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
-    assert!(outcome.stdout.contains("note: no heat passes between (`office`) and (`store`)"), "{outcome:?}");
+    let said = "note: no heat passes between (`office`) and (`store`)";
+    assert!(outcome.stdout.contains(said), "{outcome:?}");
+    let folder = scratch("building-apart-checked");
+    fs::write(folder.join("my.toml"), apart).expect("a scratch file can be written");
+    let checked = interplay(&folder, &["check", "my.toml"]);
+    assert!(checked.stdout.starts_with("ok  my.toml\n") && checked.stdout.contains(said), "{checked:?}");
 }
 
 #[test]

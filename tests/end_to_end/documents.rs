@@ -76,9 +76,11 @@ fn the_readme_s_example_is_a_scenario_and_its_commands_exist() {
     if let Err(error) = from_text("README.toml", &example, &[]) {
         panic!("{:?}", error.problems());
     }
-    let help = ["run", "suite"].map(|word| interplay(&scratch("readme-help"), &[word, "--help"]).stdout).concat();
+    let help = ["run", "suite", "new", "identify"]
+        .map(|word| interplay(&scratch("readme-help"), &[word, "--help"]).stdout)
+        .concat();
     for flag in readme.split(|c: char| !(c.is_alphanumeric() || c == '-')).filter(|word| is_flag(word)) {
-        let known = help.contains(flag) || ["--release", "--workspace"].contains(&flag);
+        let known = help.contains(flag) || ["--release", "--workspace", "--locked", "--path"].contains(&flag);
         assert!(known, "the README speaks of `{flag}`");
     }
 }
@@ -99,7 +101,11 @@ fn the_readme_lists_every_authored_scenario() {
 #[test]
 fn the_documents_speak_of_files_that_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    for name in ["README.md", "ARCHITECTURE.md"] {
+    let mut names = vec!["README.md".to_owned(), "ARCHITECTURE.md".to_owned()];
+    let pages = fs::read_dir(root.join("docs")).expect("the book");
+    let pages = pages.map(|entry| format!("docs/{}", entry.expect("readable").file_name().to_string_lossy()));
+    names.extend(pages.filter(|name| name.ends_with(".md")));
+    for name in &names {
         for path in document(name).split('`').filter(|word| is_path(word)) {
             assert!(root.join(path.trim_end_matches('/')).exists(), "{name} speaks of `{path}`");
         }

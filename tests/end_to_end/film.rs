@@ -52,11 +52,11 @@ pub fn authored(name: &str, changes: &[&str]) -> Scenario {
     load(name, &changes).unwrap_or_else(|error| panic!("{error}: {:?}", error.problems()))
 }
 
-/// Every authored scenario with vehicles, and the first one with other drivers and starts; made once, in parallel.
+/// Every authored scenario of vehicles alone, and the first one with other drivers and starts; made once, in parallel.
 pub static FILMS: LazyLock<Vec<Film>> = LazyLock::new(|| {
     let mut takes: Vec<(&str, Scenario)> =
         embedded().iter().map(|file| (file.name, authored(file.name, &[]))).collect();
-    takes.retain(|(_, scenario)| !scenario.vehicles.is_empty());
+    takes.retain(|(_, scenario)| scenario.building.is_none());
     let jitter = ["start_jitter.position_m=0.1", "start_jitter.speed_mps=0.1", "duration_s=6", "seed=7"];
     for kind in ["conservative", "human", "negotiation"] {
         let driver = format!("vehicle.ego.driver.kind=\"{kind}\"");

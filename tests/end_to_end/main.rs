@@ -1,14 +1,17 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`documents`]
+//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`authoring`], [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
+//! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
 //! - buildings, in all of these respects: [`building`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
 
 mod authored;
+mod authoring;
 mod bad_input;
+mod book;
 mod building;
 mod collisions;
 mod command;
@@ -20,6 +23,7 @@ mod house;
 mod laws;
 mod measures;
 mod output;
+mod own;
 mod plants;
 mod recordings;
 mod rectangles;

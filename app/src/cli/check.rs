@@ -1,7 +1,7 @@
 //! `interplay check`
 
 use clap::Args;
-use interplay_scenarios::load;
+use interplay_scenarios::{Scenario, load};
 
 use super::{Ending, complain, complain_about, files, print};
 
@@ -22,7 +22,7 @@ impl Check {
                 Ok(found) => {
                     for file in found.into_iter().map(|found| found.scenario) {
                         match load(&file, &[]) {
-                            Ok(_) => print(&format!("ok  {file}\n")),
+                            Ok(scenario) => print(&approved(&file, &scenario)),
                             Err(error) => {
                                 complain_about(error);
                                 ending = Ending::BadInput;
@@ -38,4 +38,11 @@ impl Check {
         }
         ending
     }
+}
+
+/// That a file is fine, and what is remarkable about its building although it is allowed.
+fn approved(file: &str, scenario: &Scenario) -> String {
+    let network = scenario.building.as_ref().and_then(|building| building.network().ok());
+    let remarks = network.iter().flat_map(|network| network.remarks());
+    remarks.fold(format!("ok  {file}\n"), |text, remark| text + &format!("    note: {remark}\n"))
 }

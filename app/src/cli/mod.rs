@@ -4,18 +4,24 @@
 //! could not be finished.
 
 mod check;
+mod completions;
 mod files;
 mod identify;
 mod list;
+mod man;
+mod new;
 mod progress;
+mod reproduce;
 mod run;
-mod shell;
+mod schema;
 mod suite;
+mod view;
+mod watch;
 
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use serde::Serialize;
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
@@ -34,7 +40,13 @@ enum Command {
     List(list::List),
     Check(check::Check),
     Suite(suite::Suite),
+    New(new::New),
+    Schema(schema::Schema),
+    View(view::View),
+    Reproduce(reproduce::Reproduce),
     Identify(identify::Identify),
+    Completions(completions::Completions),
+    Man(man::Man),
 }
 
 /// How a command ended.
@@ -70,7 +82,13 @@ pub fn main() -> ExitCode {
         Some(Command::List(command)) => command.execute(),
         Some(Command::Check(command)) => command.execute(),
         Some(Command::Suite(command)) => command.execute(),
+        Some(Command::New(command)) => command.execute(),
+        Some(Command::Schema(command)) => command.execute(),
+        Some(Command::View(command)) => command.execute(),
+        Some(Command::Reproduce(command)) => command.execute(),
         Some(Command::Identify(command)) => command.execute(),
+        Some(Command::Completions(command)) => command.execute(Interplay::command()),
+        Some(Command::Man(command)) => command.execute(Interplay::command()),
     };
     ending.into()
 }

@@ -6,23 +6,29 @@ use clap::Args;
 use interplay_scenarios::{Override, Scenario, load};
 
 use super::files::short_name;
-use super::{Ending, complain, complain_about, json, print, shell};
-use crate::record::{RecordError, Recorder, Sink};
+use super::watch::Watched;
+use super::{Ending, complain, complain_about, json, print};
+use crate::figures::{Camera, Take, own_page};
+use crate::record::{RecordError, Recorder, Sink, Viewer};
 use crate::report::{Report, summary};
 use crate::run::run;
+use crate::shell;
 use crate::watch::Watcher;
 
 /// Run one scenario, say whether its expectations held, and record it.
 #[derive(Debug, Default, Args)]
 #[command(after_help = "Examples:\n  \
     interplay run lane-change/front-tough\n  \
-    interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json")]
+    interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json\n  \
+    interplay run my.toml --watch                        (again at every save, until Ctrl-C)\n  \
+    interplay run intersection/nice --report my-report     (pictures and a page)")]
 pub(super) struct Run {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT)]
     scenario: Option<String>,
 
-    /// Who drives the ego instead of the scenario's choice: human, conservative, negotiation
+    /// Who drives the ego instead of the scenario's choice: human, conservative, negotiation, bayesian, game, cooperative,
+    /// idm
     #[arg(long, value_name = "KIND")]
     planner: Option<String>,
 
@@ -42,19 +48,51 @@ pub(super) struct Run {
     #[arg(long)]
     no_record: bool,
 
-    /// Stream to a viewer that is running instead of writing a file
-    #[arg(long, conflicts_with_all = ["record", "no_record"])]
-    connect: bool,
+    /// Stream to a viewer that is running instead of writing a file [default: the one on this machine]
+    #[arg(long, value_name = "URL", num_args = 0..=1, require_equals = true)]
+    #[arg(conflicts_with_all = ["record", "no_record"])]
+    connect: Option<Option<Viewer>>,
+
+    /// Run again whenever the scenario file, or one that it extends, is saved
+    #[arg(long)]
+    watch: bool,
+
+    /// Draw what there is to see into this folder, as SVG and PNG, with a page, index.html, that shows it; the recording
+    /// goes there too unless --record says otherwise
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
 
     /// Print the report as one JSON document
     #[arg(long)]
     json: bool,
 }
 
-const DEFAULT: &str = "lane-change/front-nice";
+/// What is run, and started from, unless something else is asked for.
+pub(super) const DEFAULT: &str = "lane-change/front-nice";
 
 impl Run {
     pub(super) fn execute(self) -> Ending {
+        if self.watch { self.again_and_again() } else { self.once() }
+    }
+
+    /// Runs at every change of the scenario; never returns unless there is nothing to watch.
+    fn again_and_again(&self) -> Ending {
+        let mut watched = Watched::look(self.scenario());
+        if watched.is_empty() {
+            complain(&format!(
+                "--watch needs a scenario file, and `{}` is none; `interplay new my.toml --from {0}` makes one",
+                self.scenario()
+            ));
+            return Ending::BadInput;
+        }
+        loop {
+            self.once();
+            complain(&format!("watching {}; Ctrl-C ends", self.scenario()));
+            watched = watched.wait();
+        }
+    }
+
+    fn once(&self) -> Ending {
         let scenario = match load(self.scenario(), &self.overrides()) {
             Ok(scenario) => scenario,
             Err(error) => {
@@ -70,12 +108,13 @@ impl Run {
                 return Ending::Unfinished;
             }
         };
-        let told = run(&name, &scenario, watchers)
-            .map_err(|error| error.to_string())
-            .and_then(|report| self.tell(&scenario.title, &report).map(|()| report.passed));
+        let told = self.film(&name, scenario, watchers).and_then(|take| {
+            self.page(&name, &take)?;
+            self.tell(&take.scenario.title, &take.report).map(|()| take.report.passed)
+        });
         match told {
             Ok(passed) => {
-                if let Some(path) = self.recording(&name).filter(|_| !self.connect) {
+                if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
                     complain(&format!("recorded to {}", path.display()));
                 }
                 if passed { Ending::Well } else { Ending::Failed }
@@ -92,6 +131,28 @@ impl Run {
         self.scenario.as_deref().unwrap_or(DEFAULT)
     }
 
+    /// Runs it; its frames are kept if a page is to be drawn of them.
+    fn film(&self, name: &str, scenario: Scenario, mut watchers: Vec<Box<dyn Watcher>>) -> Result<Take, String> {
+        let camera = Camera::default();
+        if self.report.is_some() {
+            watchers.push(Box::new(camera.clone()));
+        }
+        let report = run(name, &scenario, watchers).map_err(|error| error.to_string())?;
+        Ok(Take { label: String::new(), command: self.words(), scenario, frames: camera.frames(), report })
+    }
+
+    /// Draws the page, if that is asked for.
+    fn page(&self, name: &str, take: &Take) -> Result<(), String> {
+        let Some(folder) = &self.report else { return Ok(()) };
+        let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
+        let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
+        let what =
+            |file: &String| format!("the recording; open it with `rerun {file}` (pip install rerun-sdk==0.36.3)");
+        let page = own_page(take, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
+        complain(&format!("page in {}", page.display()));
+        Ok(())
+    }
+
     /// Prints the report as it was asked for.
     fn tell(&self, title: &str, report: &Report) -> Result<(), String> {
         let text = if self.json { json(report)? } else { summary(title, report) };
@@ -100,12 +161,17 @@ impl Run {
     }
 
     /// The words that run the same again. What is done with the results is no part of them.
+    fn words(&self) -> Vec<String> {
+        let planner = self.planner.iter().flat_map(|kind| ["--planner".to_owned(), kind.clone()]);
+        let seed = self.seed.iter().flat_map(|seed| ["--seed".to_owned(), seed.to_string()]);
+        let sets = self.sets.iter().flat_map(|change| ["--set".to_owned(), change.clone()]);
+        let run = ["interplay", "run", self.scenario()].map(str::to_owned);
+        run.into_iter().chain(planner).chain(seed).chain(sets).collect()
+    }
+
+    /// The same as one line for a shell.
     fn command(&self) -> String {
-        let seed = self.seed.map(|seed| seed.to_string());
-        let planner = self.planner.iter().flat_map(|kind| ["--planner", kind]);
-        let seed = seed.iter().flat_map(|seed| ["--seed", seed]);
-        let sets = self.sets.iter().flat_map(|change| ["--set", change]);
-        shell::line(["interplay", "run", self.scenario()].into_iter().chain(planner).chain(seed).chain(sets))
+        shell::line(self.words().iter().map(String::as_str))
     }
 
     /// Changes of the scenario, the most specific last.
@@ -117,12 +183,20 @@ impl Run {
 
     /// Where the recording goes, if anywhere.
     fn recording(&self, name: &str) -> Option<PathBuf> {
-        let default = || PathBuf::from("recordings").join(format!("{name}.rrd"));
+        let default = || match &self.report {
+            Some(folder) => folder.join("recording.rrd"),
+            None => PathBuf::from("recordings").join(format!("{name}.rrd")),
+        };
         (!self.no_record).then(|| self.record.clone().unwrap_or_else(default))
     }
 
     fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
-        let sink = if self.connect { Some(Sink::Live) } else { self.recording(name).map(Sink::File) };
+        let sink = match &self.connect {
+            Some(viewer) => {
+                Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok).map_err(RecordError::Broken)?))
+            }
+            None => self.recording(name).map(Sink::File),
+        };
         let Some(sink) = sink else { return Ok(Vec::new()) };
         let recorder = Recorder::begin(scenario, name, &sink)?;
         recorder.repeat_with(&self.command())?;

@@ -46,6 +46,7 @@ pub fn balance(
         zones: (0..count).map(zone).collect(),
         ambient_c,
         forecast_c: building.today.forecast.ambient_c[step],
+        design: (step == 0).then(|| Box::new(building.today.record.design.clone())),
         figures: None,
     });
     let record = &mut building.today.record;

@@ -13,7 +13,6 @@ pub fn learn(mut building: ResMut<Building>) {
     if step + 1 == building.steps_per_day() {
         let began = Instant::now();
         let Building { regulator, today, failure, .. } = &mut *building;
-        today.record.design = regulator.design();
         if let Err(error) = regulator.end_of_day(&today.record) {
             failure.get_or_insert(error);
         }

@@ -25,7 +25,7 @@ pub use balance::balance;
 pub use control::control;
 pub use disturbance::disturb;
 pub use learn::learn;
-pub use spawn::{BuildingError, spawn};
+pub use spawn::{BuildingError, people, spawn};
 
 /// A temperature of the building: a zone, or a wall that stores heat. Zones come first.
 #[derive(Component, Clone, Copy, Debug)]

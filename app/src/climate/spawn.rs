@@ -5,6 +5,7 @@ use interplay_building::comfort::SetpointsError;
 use interplay_building::control::{ControlError, DayRecord, Design, Disturbance};
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::NetworkError;
+use interplay_building::occupancy::People;
 use interplay_scenarios::Scenario;
 use thiserror::Error;
 
@@ -43,6 +44,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     let Some(described) = &scenario.building else { return Ok(()) };
     let (network, steps) = (described.network()?, described.steps_per_day());
     let model = Model::new(&network, described.method, described.step_s)?;
+    let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
     let weather = scenario.weather.clone().unwrap_or_default();
     let zones = network.zone_count();
     for index in 0..network.node_count() {
@@ -63,8 +65,8 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
         targets: scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?,
         weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
         forecast: (weather.forecast(), scenario.seed ^ FORECAST),
-        people: scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ PEOPLE),
-        regulator: scenario.controller().regulator(&model, steps)?,
+        people: people(scenario, zones),
+        regulator: scenario.controller().regulator(&believed, steps)?,
         step: 0,
         today: Today { initial_c: Vec::new(), forecast: nothing.clone(), actual: nothing, record, design_s: 0.0 },
         failure: None,
@@ -73,4 +75,9 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     world.insert_resource(BuildingMeasures::new(&building, &scenario.controller()));
     world.insert_resource(building);
     Ok(())
+}
+
+/// The people in so many zones of a scenario.
+pub fn people(scenario: &Scenario, zones: usize) -> People {
+    scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ PEOPLE)
 }

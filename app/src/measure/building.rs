@@ -2,7 +2,8 @@
 
 use bevy::ecs::prelude::*;
 use interplay_building::comfort::KeyFigures;
-use interplay_building::control::{Controller, optimum};
+use interplay_building::comfort::Targets;
+use interplay_building::control::{Controller, DayRecord, Exchange, optimum};
 use interplay_building::lifted::Lifted;
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
@@ -23,10 +24,64 @@ pub struct DayFigures {
     pub figures: KeyFigures,
     /// How much dearer the day was than the cheapest one that knows everything beforehand; not for large buildings.
     pub regret: Option<f64>,
-    /// Spectral radius of the learning from day to day, where it is known.
+    /// Heat brought in and taken out before the first occupied time of the day \[kWh\].
+    pub early_kwh: f64,
+    /// Spectral radius where it is known: of the learning from day to day, or of a designed feedback's closed loop.
     pub spectral_radius: Option<f64>,
+    /// Whether the controller had no plan of its own and repeated the day before.
+    pub fallback: bool,
+    /// How zones that plan together came to their plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exchange: Option<ExchangeFigures>,
     /// Wall time of planning and learning \[s\]; not reproducible.
     pub design_s: f64,
+}
+
+/// How zones came to a common plan; its serialisation is part of the output contract.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ExchangeFigures {
+    /// Rounds of messages.
+    pub rounds: usize,
+    /// Messages sent to neighbours, all zones together; one has a number for each step of the day.
+    pub messages: usize,
+    /// Messages that did not arrive in their round.
+    pub undelivered: usize,
+    /// What the plan was expected to cost before the first round.
+    pub first_cost: f64,
+    /// The same after the last.
+    pub cost: f64,
+    /// Whether no round made it dearer, but for rounding.
+    pub never_rises: bool,
+    /// What the centralised plan would have cost, if that was asked for.
+    pub centralised_cost: Option<f64>,
+}
+
+impl ExchangeFigures {
+    /// A rise by less than this share is rounding.
+    const ROUNDING: f64 = 1e-9;
+
+    /// Sums an exchange up; `None` if not even the first guess has a cost.
+    fn of(exchange: &Exchange) -> Option<Self> {
+        let costs = &exchange.costs;
+        Some(Self {
+            rounds: costs.len().checked_sub(1)?,
+            messages: exchange.messages.iter().sum(),
+            undelivered: exchange.undelivered,
+            first_cost: *costs.first()?,
+            cost: *costs.last()?,
+            never_rises: costs.windows(2).all(|pair| pair[1] <= pair[0] * (1.0 + Self::ROUNDING)),
+            centralised_cost: exchange.centralised,
+        })
+    }
+}
+
+/// Why a day had no plan of its own.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Fallback {
+    /// The day, from 1.
+    pub day: usize,
+    /// What its controller said.
+    pub reason: String,
 }
 
 /// Digests of what each part of the phase Climate produced.
@@ -45,6 +100,8 @@ pub struct BuildingDigests {
 pub struct BuildingMeasures {
     /// Every day.
     pub days: Vec<DayFigures>,
+    /// The days without a plan of their own.
+    pub fallbacks: Vec<Fallback>,
     /// How many zones there are.
     pub zones: usize,
     /// What is allowed and may not have been meant, in words.
@@ -70,6 +127,7 @@ impl BuildingMeasures {
         };
         BuildingMeasures {
             days: Vec::new(),
+            fallbacks: Vec::new(),
             zones: building.targets.zones,
             remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
             lifted,
@@ -110,8 +168,25 @@ impl BuildingMeasures {
         // An optimum that is not found is no reason to give up the run: the regret is then unknown.
         let cheapest = |lifted| optimum(lifted, &today.initial_c, targets, &today.actual, None).ok();
         let regret = self.lifted.as_ref().and_then(cheapest).map(|cheapest| figures.cost - cheapest.cost);
-        DayFigures { figures, regret, spectral_radius: self.spectral_radius, design_s: today.design_s }
+        let design = &today.record.design;
+        DayFigures {
+            figures,
+            regret,
+            early_kwh: early_kwh(&today.record, targets, model.step_s()),
+            spectral_radius: design.spectral_radius.or(self.spectral_radius),
+            fallback: design.fallback.is_some(),
+            exchange: design.exchange.as_ref().and_then(ExchangeFigures::of),
+            design_s: today.design_s,
+        }
     }
+}
+
+/// Heat brought in and taken out before the first occupied time; 0 on a day without one \[kWh\].
+fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
+    // Occupation belongs to the ends of steps: the step that ends with it is the last of the early ones.
+    let steps = targets.occupied.iter().position(|&occupied| occupied).map_or(0, |first| first + 1);
+    let early_kw: f64 = record.heat_kw[..steps * targets.zones].iter().map(|kw| kw.abs()).sum();
+    early_kw * step_s / 3600.0
 }
 
 /// Feeds the step into the digests, and measures the day when it is over.
@@ -121,6 +196,10 @@ pub fn measure_building(building: Res<Building>, mut present: ResMut<Present>, m
     if frame.step + 1 == building.steps_per_day() {
         let day = measures.day(&building);
         measures.days.push(day);
+        if let Some(why) = &building.today.record.design.fallback {
+            let day = measures.days.len();
+            measures.fallbacks.push(Fallback { day, reason: why.to_string() });
+        }
         frame.figures = Some(day);
     }
 }

@@ -13,7 +13,7 @@ use bevy::ecs::prelude::*;
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
 
-pub use building::{BuildingDigests, BuildingMeasures, DayFigures, measure_building};
+pub use building::{BuildingDigests, BuildingMeasures, DayFigures, ExchangeFigures, Fallback, measure_building};
 pub use collisions::Collision;
 pub use comfort::Comfort;
 pub use completion::Completion;

@@ -20,6 +20,7 @@ mod building;
 mod error;
 mod file;
 mod layout;
+mod live;
 mod palette;
 mod plots;
 mod stage;
@@ -27,7 +28,6 @@ mod stage;
 mod tests;
 mod vehicles;
 
-use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -35,11 +35,12 @@ use ::re_sdk_types;
 use interplay_scenarios::{Branch, Scenario};
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
-use rerun::{DEFAULT_SERVER_PORT, RecordingStream, RecordingStreamBuilder};
+use rerun::{RecordingStream, RecordingStreamBuilder};
 
 use blueprint::Panel;
 use building::House;
 pub use error::RecordError;
+pub use live::Viewer;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
 use vehicles::Cast;
@@ -52,11 +53,19 @@ pub const SIM_TIME: &str = "sim_time";
 /// Ticks.
 pub const TICK: &str = "tick";
 
+/// The first bytes of every recording in a file.
+pub const MAGIC: [u8; 3] = *b"RRF";
+
+/// The version of the viewer that is sure to show what is recorded here.
+pub fn viewer_version() -> String {
+    rerun::build_info().version.to_string()
+}
+
 /// What the viewer calls the sort of recording; it keeps one layout for each.
 const APPLICATION: &str = "interplay";
 /// How much faster than real time a building without vehicles is played: three hours a second.
 const DAYS: f64 = 3.0 * 3600.0;
-/// How long to wait for a viewer.
+/// How long a viewer may take to receive the rest.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// A recording into a file is cut into pieces by size only, not by the wall's clock.
 const NEVER: Duration = Duration::from_secs(24 * 3600);
@@ -66,8 +75,8 @@ const NEVER: Duration = Duration::from_secs(24 * 3600);
 pub enum Sink {
     /// Into a file, usually `*.rrd`, which appears when the recording is finished.
     File(PathBuf),
-    /// To the viewer that listens on its default port.
-    Live,
+    /// To a viewer that is running.
+    Live(Viewer),
 }
 
 /// A recording in the making. Dropped unfinished, it leaves no file.
@@ -104,9 +113,9 @@ impl Recorder {
                     builder.recording_id(identity(scenario, name)).batcher_config(pieces).memory()?;
                 (stream, Output::File { path: path.clone(), content })
             }
-            Sink::Live => {
-                find_viewer()?;
-                (builder.send_properties(false).connect_grpc()?, Output::Live { series: 0 })
+            Sink::Live(viewer) => {
+                viewer.find()?;
+                (builder.send_properties(false).connect_grpc_opts(viewer.to_string())?, Output::Live { series: 0 })
             }
         };
         stream.set_log_time_enabled(false);
@@ -181,7 +190,8 @@ impl Recorder {
     /// Sends the layout.
     fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
         let driving = || layout::layout(&self.scenario, &self.plots, road_m);
-        let panel = match self.house.as_ref().map(building::layout) {
+        let house = self.house.as_ref().map(|house| building::layout(house, self.plots.has(plots::LOG)));
+        let panel = match house {
             None => driving(),
             Some(house) if self.scenario.vehicles.is_empty() => house,
             Some(house) => Panel::Row(vec![(1.0, driving()), (1.0, house)]),
@@ -228,11 +238,4 @@ fn expected_road(scenario: &Scenario) -> [f64; 2] {
         road = [road[0].min(start), road[1].max(start + speed * scenario.duration_s)];
     }
     [road[0] - margin(scenario), road[1] + margin(scenario)]
-}
-
-fn find_viewer() -> Result<(), RecordError> {
-    let address = SocketAddr::from((Ipv4Addr::LOCALHOST, DEFAULT_SERVER_PORT));
-    let refuse =
-        |error: std::io::Error| RecordError::NoViewer { address: address.to_string(), reason: error.to_string() };
-    TcpStream::connect_timeout(&address, PATIENCE).map(drop).map_err(refuse)
 }

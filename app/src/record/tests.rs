@@ -190,8 +190,15 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
             gains_kw: 0.0,
         };
         let (ambient_c, forecast_c) = (30.0, 31.0);
-        let building =
-            BuildingFrame { day: tick, step: 0, zones: vec![zone; 100], ambient_c, forecast_c, figures: None };
+        let building = BuildingFrame {
+            day: tick,
+            step: 0,
+            zones: vec![zone; 100],
+            ambient_c,
+            forecast_c,
+            design: None,
+            figures: None,
+        };
         let frame = Frame { tick, time_s: 1800.0 * tick as f64, building: Some(building), ..Frame::default() };
         recorder.tick(&frame).expect("recorded");
     }
@@ -204,7 +211,7 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
     assert!([SIM_TIME, TICK, building::ITERATION].iter().all(|name| timelines.iter().any(|there| there == name)));
     assert!(!entities.keys().any(|path| path.starts_with("/world")), "no road without vehicles");
     let house = recorder.house.as_ref().expect("a building");
-    assert_eq!(titles(&building::layout(house)).len(), 1 + 4 + 4, "plan, temperatures, numbers and words");
+    assert_eq!(titles(&building::layout(house, false)).len(), 1 + 4 + 4, "plan, temperatures, numbers and words");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::Expectation;
-use crate::measure::{BuildingDigests, BuildingMeasures, DayFigures};
+use crate::measure::{BuildingDigests, BuildingMeasures, DayFigures, Fallback};
 
 /// The most days that a summary lists.
 const LISTED: usize = 14;
@@ -23,6 +23,8 @@ pub struct BuildingReport {
     pub digests: BuildingDigests,
     /// What is allowed and may not have been meant, such as zones that exchange heat with nobody.
     pub remarks: Vec<String>,
+    /// The days on which the controller had no plan of its own, and why.
+    pub fallbacks: Vec<Fallback>,
     /// Every day.
     pub iterations: Vec<DayFigures>,
 }
@@ -35,6 +37,7 @@ impl BuildingReport {
             zones: measures.zones,
             digests: measures.digests(),
             remarks: measures.remarks.clone(),
+            fallbacks: measures.fallbacks.clone(),
             iterations: measures.days.clone(),
         }
     }
@@ -52,25 +55,54 @@ pub(super) fn judge(expect: &BuildingExpect, report: &BuildingReport) -> Vec<Exp
         add("cost_never_rises", json!(want), json!(falls), want == falls);
     }
     let first = report.iterations.first().map_or(f64::NAN, |day| day.figures.cost);
-    type Bound = (&'static str, Option<f64>, fn(&DayFigures, f64) -> f64);
-    let bounds: [Bound; 5] = [
-        ("cost_at_most_share_of_first", expect.cost_at_most_share_of_first, |day, first| day.figures.cost / first),
-        ("tracking_rmse_c_at_most", expect.tracking_rmse_c_at_most, |day, _| day.figures.tracking_rmse_c),
-        ("discomfort_k_h_at_most", expect.discomfort_k_h_at_most, |day, _| day.figures.discomfort_k_h),
-        ("energy_kwh_at_most", expect.energy_kwh_at_most, |day, _| day.figures.energy_kwh),
-        ("input_violation_kw_at_most", expect.input_violation_kw_at_most, |day, _| day.figures.input_violation_kw),
-    ];
-    for (what, most, figure) in bounds {
+    for (what, most, figure) in upper_bounds(expect) {
         let Some(most) = most else { continue };
-        let worst = days.iter().map(|day| figure(day, first)).max_by(f64::total_cmp);
+        // What is not known on one of the days is not known to be within the bound.
+        let each: Option<Vec<f64>> = days.iter().map(|day| figure(day, first)).collect();
+        let worst = each.and_then(|each| each.into_iter().max_by(f64::total_cmp));
         add(what, json!(most), json!(worst), worst.is_some_and(|worst| worst <= most));
+    }
+    if let Some(least) = expect.early_kwh_at_least {
+        let worst = days.iter().map(|day| day.early_kwh).min_by(f64::total_cmp);
+        add("early_kwh_at_least", json!(least), json!(worst), worst.is_some_and(|worst| worst >= least));
+    }
+    if let Some(most) = expect.fallbacks_at_most {
+        let count = days.iter().filter(|day| day.fallback).count();
+        add("fallbacks_at_most", json!(most), json!(count), count <= most);
+    }
+    if let Some(want) = expect.exchange_never_rises {
+        let falls = !days.is_empty() && days.iter().all(|day| day.exchange.is_some_and(|spoken| spoken.never_rises));
+        add("exchange_never_rises", json!(want), json!(falls), want == falls);
     }
     judged
 }
 
+/// A figure of a day that has an upper bound, given the cost of the first day.
+type Bound = (&'static str, Option<f64>, fn(&DayFigures, f64) -> Option<f64>);
+
+fn upper_bounds(expect: &BuildingExpect) -> [Bound; 8] {
+    [
+        ("cost_at_most_share_of_first", expect.cost_at_most_share_of_first, |day, first| {
+            Some(day.figures.cost / first)
+        }),
+        ("tracking_rmse_c_at_most", expect.tracking_rmse_c_at_most, |day, _| Some(day.figures.tracking_rmse_c)),
+        ("discomfort_k_h_at_most", expect.discomfort_k_h_at_most, |day, _| Some(day.figures.discomfort_k_h)),
+        ("energy_kwh_at_most", expect.energy_kwh_at_most, |day, _| Some(day.figures.energy_kwh)),
+        ("input_violation_kw_at_most", expect.input_violation_kw_at_most, |day, _| {
+            Some(day.figures.input_violation_kw)
+        }),
+        ("regret_at_most", expect.regret_at_most, |day, _| day.regret),
+        ("spectral_radius_at_most", expect.spectral_radius_at_most, |day, _| day.spectral_radius),
+        ("above_centralised_at_most", expect.above_centralised_at_most, |day, _| {
+            let spoken = day.exchange?;
+            Some(spoken.cost / spoken.centralised_cost? - 1.0)
+        }),
+    ]
+}
+
 /// The days as a table.
 pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
-    let radius = building.iterations.first().and_then(|day| day.spectral_radius);
+    let radius = building.iterations.last().and_then(|day| day.spectral_radius);
     let radius = radius.map(|radius| format!(", spectral radius {radius:.3}")).unwrap_or_default();
     writeln!(text, "  {} zones, controller {}{radius}", building.zones, building.controller)?;
     for remark in &building.remarks {
@@ -104,5 +136,24 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
             1e3 * day.design_s
         )?;
     }
+    write_exchange(text, building)?;
+    for Fallback { day, reason } in building.fallbacks.iter().take(LISTED) {
+        writeln!(text, "  day {day} repeated the one before: {reason}")?;
+    }
     Ok(())
+}
+
+/// How zones that plan together did on the last day.
+fn write_exchange(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
+    let Some(spoken) = building.iterations.last().and_then(|day| day.exchange) else { return Ok(()) };
+    let per_zone = spoken.messages as f64 / building.zones as f64;
+    write!(text, "  last plan: {} rounds, {per_zone:.0} messages a zone", spoken.rounds)?;
+    if spoken.undelivered > 0 {
+        write!(text, " ({} in all not delivered in time)", spoken.undelivered)?;
+    }
+    write!(text, ", J from {:.2} to {:.2}", spoken.first_cost, spoken.cost)?;
+    if let Some(centralised) = spoken.centralised_cost {
+        write!(text, ", {:.3} % above the centralised {centralised:.2}", 100.0 * (spoken.cost / centralised - 1.0))?;
+    }
+    writeln!(text)
 }

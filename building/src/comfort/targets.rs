@@ -27,10 +27,10 @@ pub struct Setpoints {
 }
 
 impl Default for Setpoints {
-    /// Those of chapter 3 (Table 3.1), free at night.
+    /// The hours and weights of chapter 3 (Table 3.1), free at night, and one temperature for all zones.
     fn default() -> Self {
         Self {
-            occupied_c: vec![24.0, 25.0, 26.0, 27.0],
+            occupied_c: vec![25.0],
             from_h: 8.0,
             to_h: 19.0,
             other_c: None,

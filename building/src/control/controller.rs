@@ -85,6 +85,14 @@ impl Controller {
         })
     }
 
+    /// Whether this kind of controller plans its days and says how ([`Design`]).
+    pub fn plans(&self) -> bool {
+        match self {
+            Self::Thermostat(_) | Self::Pid(_) | Self::IterativeLearning(_) | Self::Clairvoyant => false,
+            Self::Iterative(_) | Self::Concurrent(_) | Self::Distributed(_) | Self::Centralised(_) => true,
+        }
+    }
+
     /// The word for this kind of controller in a scenario file.
     pub fn kind(&self) -> &'static str {
         match self {

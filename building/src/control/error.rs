@@ -1,8 +1,13 @@
 //! Why a controller cannot do its work.
 
+use std::cmp::Ordering;
+
 use interplay_convex::{ProblemError, SolveError};
 
 use crate::discretise::ModelError;
+
+/// No temperature in °C and no heat in kW is as large.
+const BEYOND_MEASURE: f64 = 1e6;
 
 /// Why a controller cannot be started, or cannot plan a day.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -27,8 +32,8 @@ pub enum ControlError {
         /// The right length.
         wanted: usize,
     },
-    /// A series has a number that is none.
-    #[error("{what} is {value} at place {index}; a day can only be planned with numbers")]
+    /// A series has a number that is none, or beyond all measure.
+    #[error("{what} is {value} at place {index}; a day can only be planned with numbers of less than a million")]
     NotFinite {
         /// The series.
         what: &'static str,
@@ -74,6 +79,17 @@ pub enum ControlError {
     /// The distributed design needs forward Euler, which would be unstable.
     #[error("zones that only speak with their neighbours plan with forward Euler: {0}")]
     Model(#[from] ModelError),
+    /// No zone of the distributed design can solve its own problem.
+    #[error(
+        "none of the {zones} zones can solve its own problem in round {round}: their costs are not strictly convex, or \
+         not finite; set `input_weight` above 0, and look for huge numbers in the forecast"
+    )]
+    NoZonePlans {
+        /// How many zones there are.
+        zones: usize,
+        /// The round of the exchange, from 1.
+        round: usize,
+    },
     /// The clairvoyant was not told what will happen.
     #[error("the clairvoyant controller needs to be told the day's actual weather and occupancy")]
     NotClairvoyant,
@@ -102,9 +118,10 @@ impl ControlError {
         if found == wanted { Ok(()) } else { Err(Self::Shape { what, found, wanted }) }
     }
 
-    /// Refuses a series with a number that is none.
+    /// Refuses a series with a number that is none, or so large that whoever learns from it never recovers.
     pub(super) fn check_finite(what: &'static str, series: &[f64]) -> Result<(), Self> {
-        match series.iter().position(|value| !value.is_finite()) {
+        match series.iter().position(|value| !matches!(value.abs().partial_cmp(&BEYOND_MEASURE), Some(Ordering::Less)))
+        {
             Some(index) => Err(Self::NotFinite { what, index, value: series[index] }),
             None => Ok(()),
         }

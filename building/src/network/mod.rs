@@ -16,6 +16,7 @@
 //!
 //! Table 2.1 gives resistances in kW/K; the numbers only make sense in K·min/kJ. [`Network::testbed`] has them in K/kW.
 
+mod belief;
 mod error;
 mod presets;
 mod settings;
@@ -23,6 +24,7 @@ mod structure;
 
 use nalgebra::DMatrix;
 
+pub use belief::Belief;
 pub use error::{NetworkError, Remark};
 pub use settings::{AMBIENT, Wall, Zone};
 

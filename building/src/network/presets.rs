@@ -14,28 +14,41 @@ impl Network {
         Self::grid(2, 2)
     }
 
-    /// Rooms of the testbed, called `room 1`, `room 2`, … by rows, each with a wall to its neighbours in the grid and one
-    /// to the air outside.
+    /// Rooms of the testbed on one floor, called `room 1`, `room 2`, … by rows, each with a wall to its neighbours in the
+    /// grid and one to the air outside.
     ///
     /// # Panics
     /// When the grid has no rooms.
     pub fn grid(rows: usize, columns: usize) -> Self {
-        let name = |row: usize, column: usize| format!("room {}", row * columns + column + 1);
-        let places = || (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
-        let zones: Vec<Zone> = places().map(|(row, column)| Zone::named(name(row, column))).collect();
-        let mut walls = Vec::new();
-        for (row, column) in places() {
-            if column + 1 < columns {
-                walls.push(Wall::new(name(row, column), name(row, column + 1), ROOM_TO_ROOM_K_PER_KW));
+        Self::tower(1, rows, columns)
+    }
+
+    /// Floors of rooms above one another, each a [`Network::grid`]; ceilings conduct like walls. Rooms are numbered floor
+    /// by floor from the ground and, if there are several, called `floor 1 room 1`, ….
+    ///
+    /// # Panics
+    /// When there are no rooms.
+    pub fn tower(floors: usize, rows: usize, columns: usize) -> Self {
+        let name = |floor: usize, row: usize, column: usize| {
+            let room = format!("room {}", row * columns + column + 1);
+            if floors == 1 { room } else { format!("floor {} {room}", floor + 1) }
+        };
+        let (mut zones, mut walls) = (Vec::new(), Vec::new());
+        for floor in 0..floors {
+            for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+                let here = name(floor, row, column);
+                zones.push(Zone::named(&here));
+                let beside = [(0, 0, 1), (0, 1, 0), (1, 0, 0)].map(|(up, down, right)| {
+                    let [floor, row, column] = [floor + up, row + down, column + right];
+                    (floor < floors && row < rows && column < columns).then(|| name(floor, row, column))
+                });
+                walls.extend(beside.into_iter().flatten().map(|there| Wall::new(&here, there, ROOM_TO_ROOM_K_PER_KW)));
+                walls.push(Wall::new(&here, AMBIENT, ROOM_TO_AMBIENT_K_PER_KW));
             }
-            if row + 1 < rows {
-                walls.push(Wall::new(name(row, column), name(row + 1, column), ROOM_TO_ROOM_K_PER_KW));
-            }
-            walls.push(Wall::new(name(row, column), AMBIENT, ROOM_TO_AMBIENT_K_PER_KW));
         }
         match Self::new(&zones, &walls) {
             Ok(network) => network,
-            Err(error) => panic!("a grid of {rows} by {columns} rooms: {error}"),
+            Err(error) => panic!("a tower of {floors} floors of {rows} by {columns} rooms: {error}"),
         }
     }
 }

@@ -11,8 +11,11 @@
 //! Problems are rebuilt from outside, from what a planner was shown and what it answered. Every one is checked before it
 //! is kept: solved again it must have exactly the cost that the planner stated. (A human states none: its plan must be an
 //! optimum of the rebuilt problem.)
+//!
+//! With each goes the memory with which a planner begins: that of a descent in the problem of the step before.
 
 mod closed_loop;
+mod echo;
 mod minutes;
 mod negotiation_view;
 #[path = "../../tests/common/recorded.rs"]
@@ -25,6 +28,7 @@ use interplay_planners::mpc::{Iterate, Optimiser, Problem, Robust};
 use interplay_planners::{Agent, Driver, Plan, Trajectory, conservative, human, negotiation};
 
 use closed_loop::{Decision, SCENARIOS};
+use echo::Echo;
 use minutes::Minutes;
 use negotiation_view::{NegotiationView, Posed};
 use recorded::{KINDS, Recorded};
@@ -52,6 +56,7 @@ fn main() -> Result<()> {
         for ego in egos(baseline, asking) {
             let run = format!("{}/{}", scenario.name, ego.kind());
             let (mut view, mut minutes) = (NegotiationView::new(asking), Minutes::default());
+            let mut echoes: [Echo; KINDS.len()] = Default::default();
             closed_loop::run(&scenario, &ego, |decision| {
                 let posed = match decision.driver {
                     Driver::Human(settings) => match ego {
@@ -68,7 +73,8 @@ fn main() -> Result<()> {
                 let kind = KINDS.iter().position(|kind| *kind == decision.driver.kind()).ok_or("a new kind")?;
                 let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
                 if let Some((problem, guess)) = posed {
-                    let recorded = Recorded::new(format!("{run}/{tick}/{name}"), &problem, &guess);
+                    let memory = echoes[kind].memory(tick, name, &problem, &guess)?;
+                    let recorded = Recorded::new(format!("{run}/{tick}/{name}"), &problem, &guess, &memory);
                     if recorded.problem() != problem {
                         return Err(format!("the record of {} lost something", recorded.id).into());
                     }

@@ -44,7 +44,7 @@ impl Bayesian {
     pub fn new(settings: Settings) -> Self {
         Bayesian {
             settings,
-            optimiser: solo::optimiser(),
+            optimiser: Optimiser::resuming(Robust::default()),
             partner: Partner::default(),
             belief: Belief::initial(&settings),
             watched: None,

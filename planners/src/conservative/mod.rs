@@ -40,7 +40,7 @@ pub(crate) fn extremes(scene: &Scene) -> [Vec<Input>; 2] {
 impl Conservative {
     /// A planner that has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Conservative { settings, optimiser: Optimiser::new(Robust::default()), last: None }
+        Conservative { settings, optimiser: Optimiser::resuming(Robust::default()), last: None }
     }
 
     /// Plans around the predictions of all others.

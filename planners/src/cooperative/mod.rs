@@ -48,7 +48,7 @@ impl Settings {
 impl Cooperative {
     /// A planner that has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Cooperative { settings, optimiser: solo::optimiser(), last: Vec::new() }
+        Cooperative { settings, optimiser: Optimiser::resuming(Robust::default()), last: Vec::new() }
     }
 
     /// Plans everybody's moves and answers with the own ones.

@@ -73,7 +73,7 @@ impl Game {
         Game {
             settings,
             mind: Mind::new(settings.prospect),
-            optimiser: solo::optimiser(),
+            optimiser: Optimiser::resuming(Robust::default()),
             partner: Partner::default(),
             intentions: Intentions::default(),
             last: None,

@@ -53,7 +53,7 @@ pub struct Human {
 impl Human {
     /// A driver who has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Human { settings, optimiser: Optimiser::new(Robust::default()), last: None }
+        Human { settings, optimiser: Optimiser::resuming(Robust::default()), last: None }
     }
 
     /// Plans the next move.
@@ -94,11 +94,12 @@ impl Human {
                 guesses.insert(0, steady(0.0));
             }
             for guess in guesses {
-                let Ok(other) = self.optimiser.descend(problem, &[guess]) else { continue };
+                let Ok(other) = self.optimiser.explore(problem, &[guess]) else { continue };
                 statistics.add(&other.statistics);
                 let better = |held: &Optimum| other.cost.total < held.cost.total - HYSTERESIS * (1.0 + held.cost.total);
                 if best.as_ref().map_or(true, better) {
                     best = Ok(other);
+                    self.optimiser.adopt();
                 }
             }
         }

@@ -20,6 +20,7 @@ pub fn linearise(problem: &Problem, iterate: &Iterate, qp: &mut StageQp) {
     qp.horizon = problem.horizon;
     qp.damping = 0.0;
     qp.tolerance = TOLERANCE;
+    qp.reach = None;
     qp.vehicles.resize_with(problem.participants.len(), VehicleStages::default);
     for (i, participant) in problem.participants.iter().enumerate() {
         linearise_vehicle(participant, problem.horizon, i, iterate, &mut qp.vehicles[i]);

@@ -8,6 +8,7 @@ mod distance_cost;
 pub mod kkt;
 mod linearise;
 mod mean_speed;
+mod memory;
 mod model;
 mod problem;
 mod robust;
@@ -20,11 +21,13 @@ mod structured;
 pub use distance_cost::{DistanceCost, DistancePrice};
 pub use linearise::{add_curvature, drop_curvature, linearise};
 pub use mean_speed::MeanSpeed;
+pub use memory::Memory;
 pub use problem::{Cost, Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
 pub use robust::Robust;
 pub use scp::{DescentError, Optimiser, Optimum, Statistics, Tolerances};
 pub use sparse::Sparse;
 pub use stage::{
-    Interval, Row, RowBlock, StageError, StageQp, StageSolution, StageSolver, StateCost, TrajectoryRow, VehicleStages,
+    Interval, Reach, Row, RowBlock, StageError, StageQp, StageSolution, StageSolver, StateCost, TrajectoryRow,
+    VehicleStages,
 };
 pub use structured::Structured;

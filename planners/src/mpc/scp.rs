@@ -21,9 +21,10 @@ use thiserror::Error;
 
 use super::kkt;
 use super::linearise::{TOLERANCE, add_curvature, drop_curvature, linearise, soften_curvature};
+use super::memory::Memory;
 use super::problem::{Cost, Iterate, Problem};
 use super::search::Search;
-use super::stage::{StageError, StageQp, StageSolution, StageSolver};
+use super::stage::{Reach, StageError, StageQp, StageSolution, StageSolver};
 use crate::Input;
 
 /// When to stop.
@@ -109,6 +110,8 @@ const FINEST: f64 = 1e-13;
 const GOOD: f64 = 1e-6;
 /// Of a curvature that is not convex this share is tried before none.
 const SOFTENED: f64 = 0.3;
+/// A step is expected to go no farther than this many times the one before.
+pub(super) const FARTHER: f64 = 2.0;
 /// A smaller share of a step calls for damping.
 const SHORT: f64 = 0.1;
 
@@ -119,13 +122,16 @@ pub struct Optimiser<S> {
     pub solver: S,
     /// When to stop.
     pub tolerances: Tolerances,
-    /// Whether a descent begins with the multipliers of the one before, if the problem has the same shape. They save a
-    /// planner that plans anew at every step a cold Gauss-Newton step; the optimum is the same.
+    /// Whether a descent begins with the memory of the one before, if the problem has the same shape.
     pub resumes: bool,
+    /// What the last descent left.
+    pub memory: Memory,
     pub(super) qp: StageQp,
     pub(super) step: StageSolution,
     pub(super) search: Search,
     before: StageSolution,
+    /// What the descent at work will leave as its reach.
+    reach: Option<Reach>,
 }
 
 impl<S: StageSolver> Optimiser<S> {
@@ -135,18 +141,55 @@ impl<S: StageSolver> Optimiser<S> {
             solver,
             tolerances: Tolerances::default(),
             resumes: false,
+            memory: Memory::default(),
             qp: StageQp::default(),
             step: StageSolution::default(),
             search: Search::default(),
             before: StageSolution::default(),
+            reach: None,
         }
     }
 
-    /// Descends from a guess (per participant, inputs; made admissible first) to a local optimum.
+    /// An optimiser for somebody who plans anew at every step: it resumes, and it stops where the next plan will differ by
+    /// more than what is left to gain.
+    pub fn resuming(solver: S) -> Self {
+        let tolerances = Tolerances { residual: 1e-7, decrease: 1e-9, ..Tolerances::default() };
+        Optimiser { tolerances, resumes: true, ..Optimiser::new(solver) }
+    }
+
+    /// Descends from a guess (per participant, inputs; made admissible first) to a local optimum, and remembers it.
     ///
     /// # Errors
     /// [`DescentError`] if a step problem cannot be solved or the iteration limit is reached.
     pub fn descend(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
+        let outcome = self.descend_from(problem, guess, self.resumes);
+        match outcome {
+            Ok(_) => self.adopt(),
+            Err(_) => self.memory = Memory::default(),
+        }
+        outcome
+    }
+
+    /// Descends from a guess that has nothing to do with what was planned before, and leaves the memory as it is.
+    ///
+    /// # Errors
+    /// As [`Optimiser::descend`].
+    pub fn explore(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
+        self.descend_from(problem, guess, false)
+    }
+
+    /// Remembers the descent that has just ended.
+    pub fn adopt(&mut self) {
+        self.memory.multipliers.clone_from(&self.step);
+        self.memory.reach = self.reach;
+    }
+
+    fn descend_from(
+        &mut self,
+        problem: &Problem,
+        guess: &[Vec<Input>],
+        resumes: bool,
+    ) -> Result<Optimum, DescentError> {
         let mut now = Optimum { iterate: problem.start(guess), ..Optimum::default() };
         now.statistics.starts = 1;
         now.cost = problem.cost(&now.iterate);
@@ -155,7 +198,25 @@ impl<S: StageSolver> Optimiser<S> {
         }
         self.search.restart();
         linearise(problem, &now.iterate, &mut self.qp);
-        let resumed = self.resumes && self.step.fits(&self.qp);
+        let resumed = resumes && self.memory.fits(&self.qp);
+        if resumed && self.recall(&mut now) {
+            return Ok(now);
+        }
+        self.go_down(problem, now, resumed)
+    }
+
+    /// Begins with what is remembered, one stage later. Returns whether nothing is left to do.
+    fn recall(&mut self, now: &mut Optimum) -> bool {
+        self.step.clone_from(&self.memory.multipliers);
+        self.step.pass_a_stage();
+        self.reach = self.memory.reach;
+        self.qp.reach = self.reach;
+        now.statistics.residual = kkt::residual(&self.qp, &self.step).largest();
+        now.statistics.residual <= self.tolerances.residual
+    }
+
+    /// Takes steps until the tolerances are met.
+    fn go_down(&mut self, problem: &Problem, mut now: Optimum, resumed: bool) -> Result<Optimum, DescentError> {
         let (mut damping, mut tolerance) = (0.0, TOLERANCE);
         for step in 0..self.tolerances.iteration_limit {
             self.before.clone_from(&self.step);
@@ -172,6 +233,8 @@ impl<S: StageSolver> Optimiser<S> {
             }
             damping = match share {
                 0.0 if last => 0.0,
+                // Nothing is left to gain but what the merit's own rounding hides.
+                0.0 if self.qp.damping > FIRMEST && now.statistics.residual <= GOOD => return Ok(now),
                 0.0 if self.qp.damping > FIRMEST => break,
                 0.0 => (16.0 * self.qp.damping).max(GENTLEST),
                 short if short < SHORT => (4.0 * self.qp.damping).max(GENTLEST),
@@ -179,7 +242,13 @@ impl<S: StageSolver> Optimiser<S> {
                 1.0 => 0.0,
                 _ => self.qp.damping,
             };
+            // A damped step says little about the next.
+            let reach = (damping == 0.0).then(|| self.step.reach().times(FARTHER));
+            if step == 0 {
+                self.reach = reach;
+            }
             linearise(problem, &now.iterate, &mut self.qp);
+            self.qp.reach = reach;
             self.step.rest();
             now.statistics.residual = kkt::residual(&self.qp, &self.step).largest();
             let wanted = match last {
@@ -248,7 +317,7 @@ impl<S: StageSolver> Optimiser<S> {
         }
         let mut total = best.as_ref().map_or_else(|_| Statistics::default(), |optimum| optimum.statistics);
         for guess in others {
-            let Ok(candidate) = self.descend(problem, guess) else { continue };
+            let Ok(candidate) = self.explore(problem, guess) else { continue };
             total.starts += 1;
             total.programmes += candidate.statistics.programmes;
             total.inner_iterations += candidate.statistics.inner_iterations;
@@ -256,6 +325,7 @@ impl<S: StageSolver> Optimiser<S> {
                 |held: &Optimum| candidate.cost.total < held.cost.total - 1e-9 * (1.0 + held.cost.total.abs());
             if best.as_ref().map_or(true, cheaper) {
                 best = Ok(candidate);
+                self.adopt();
             }
         }
         best.map(|optimum| {

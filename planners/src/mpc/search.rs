@@ -2,7 +2,7 @@
 
 use super::linearise::move_rows;
 use super::problem::{Cost, Iterate, Problem};
-use super::scp::{Optimiser, Optimum};
+use super::scp::{FARTHER, Optimiser, Optimum};
 use super::stage::{StageSolution, StageSolver};
 use crate::Input;
 
@@ -75,6 +75,7 @@ impl<S: StageSolver> Optimiser<S> {
     fn correct(&mut self, problem: &Problem, now: &mut Optimum, predicted: f64) -> bool {
         self.search.held.clone_from(&self.step);
         move_rows(problem, &self.search.trial, &self.step, &mut self.qp);
+        self.qp.reach = Some(self.step.reach().times(FARTHER));
         let solved = self.solve_step(now, true).is_ok();
         let taken = solved && self.take(problem, now, 1.0, predicted, false);
         if !taken {

@@ -122,6 +122,18 @@ pub struct StageQp {
     pub tolerance: f64,
     /// `μ ≥ 0`: keeps the step short, in units of the comfort weights.
     pub damping: f64,
+    /// How far the solution is expected to be, if anything is known about that. A solver may begin without the rows that are
+    /// farther, and must look at them in the end.
+    pub reach: Option<Reach>,
+}
+
+/// How far deviations are expected to go to either side, over all vehicles and stages.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// Of `(δx, δy, δθ, δv)`.
+    pub state: [f64; 4],
+    /// Of `(δa, δδ)`.
+    pub input: [f64; 2],
 }
 
 impl StageQp {
@@ -206,6 +218,13 @@ impl StageSolution {
     }
 }
 
+impl Reach {
+    /// So many times as far.
+    pub(super) fn times(self, factor: f64) -> Reach {
+        Reach { state: self.state.map(|reach| factor * reach), input: self.input.map(|reach| factor * reach) }
+    }
+}
+
 impl VehicleStages {
     /// `μ r` of one input; not zero without a comfort weight.
     #[inline(always)]
@@ -268,6 +287,18 @@ impl StageSolution {
             && self.inputs.iter().all(|inputs| inputs.len() == problem.horizon)
             && self.row_multipliers.len() == problem.blocks.len()
             && self.trajectory_multipliers.len() == problem.trajectory_rows.len()
+    }
+
+    /// How far the deviations go.
+    pub(super) fn reach(&self) -> Reach {
+        let mut reach = Reach::default();
+        for state in self.states.iter().flatten() {
+            reach.state = std::array::from_fn(|axis| reach.state[axis].max(state[axis].abs()));
+        }
+        for input in self.inputs.iter().flatten() {
+            reach.input = std::array::from_fn(|axis| reach.input[axis].max(input[axis].abs()));
+        }
+        reach
     }
 
     /// Gives every field the shape of `problem`, keeping allocations.

@@ -15,9 +15,15 @@ const GROWTH: f64 = 1.2;
 /// A proposal that itself violates safety by this much is refused.
 const OWN_SLACK: f64 = 0.05;
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Filter {
     optimiser: Optimiser<Robust>,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Filter { optimiser: Optimiser::resuming(Robust::default()) }
+    }
 }
 
 impl Filter {

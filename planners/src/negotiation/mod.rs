@@ -69,7 +69,7 @@ impl Negotiation {
             settings,
             retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
             filter: Filter::default(),
-            optimiser: Optimiser::new(Robust::default()),
+            optimiser: Optimiser::resuming(Robust::default()),
             interlocutor: Interlocutor::default(),
             talk: Talk::default(),
         }

@@ -104,8 +104,8 @@ impl Checker<'_> {
                 "add a `[[building.zone]]` for each place, or no walls",
             );
         }
-        if let Some(grid) = building.grid.filter(|grid| grid.rows * grid.columns > MOST_ZONES) {
-            let message = format!("a grid of {} by {} has more than {MOST_ZONES} zones", grid.rows, grid.columns);
+        if let Some(grid) = building.grid.filter(|grid| grid.rooms() > MOST_ZONES) {
+            let message = format!("a grid of {} rooms has more than {MOST_ZONES} zones", grid.rooms());
             self.refuse("building.grid", "too many", message, "");
         }
         self.problems.len() == before
@@ -150,15 +150,24 @@ impl Checker<'_> {
             Err(error @ ModelError::Unstable { .. }) => {
                 self.refuse("building.method", "unstable", error.to_string(), "");
             }
-            Ok(model) => {
-                if let Err(error) = self.scenario.controller().regulator(&model, steps) {
-                    let key = match &error {
-                        ControlError::Setting { setting, .. } => setting.split(' ').next().unwrap_or_default(),
-                        _ => "kind",
-                    };
-                    self.refuse(&format!("controller.{key}"), "here", format!("`controller`: {error}"), "");
-                }
-            }
+            Ok(_) => self.believed(building, steps),
+        }
+    }
+
+    /// Whether the controller can work with what it takes the building for.
+    fn believed(&mut self, building: &Building, steps: usize) {
+        let model =
+            match building.believed_network().map(|network| Model::new(&network, building.method, building.step_s)) {
+                Ok(Ok(model)) => model,
+                Ok(Err(error)) => return self.refuse("building.believed", "here", error.to_string(), ""),
+                Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
+            };
+        if let Err(error) = self.scenario.controller().regulator(&model, steps) {
+            let key = match &error {
+                ControlError::Setting { setting, .. } => setting.split(' ').next().unwrap_or_default(),
+                _ => "kind",
+            };
+            self.refuse(&format!("controller.{key}"), "here", format!("`controller`: {error}"), "");
         }
     }
 }

@@ -8,15 +8,15 @@ mod weather;
 use interplay_building::control::Controller;
 use interplay_building::control::pid::PidSettings;
 use interplay_building::discretise::Method;
-use interplay_building::network::{Network, NetworkError, Wall, Zone};
+use interplay_building::network::{Belief, Network, NetworkError, Wall, Zone};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Scenario;
 
 pub(crate) use check::check;
-pub(crate) use weather::attach;
 pub use weather::{EpwFile, Synthetic, Weather};
+pub(crate) use weather::{attach, is_embedded_weather};
 
 /// A day \[s\].
 const DAY_S: f64 = 86_400.0;
@@ -29,7 +29,7 @@ const ITERATIONS: usize = 10;
 pub struct Building {
     /// A building that is known by name. Not together with `grid` or `zone`.
     pub preset: Option<Preset>,
-    /// Rooms in rows and columns, each like those of the testbed. Not together with `preset` or `zone`.
+    /// Rooms in rows and columns, on one floor or several, each like those of the testbed. Not together with `preset` or `zone`.
     pub grid: Option<Grid>,
     /// The zones, one `[[building.zone]]` each.
     #[serde(rename = "zone")]
@@ -47,6 +47,8 @@ pub struct Building {
     /// Temperature of everything at the start \[°C\].
     #[schemars(range(min = -50.0, max = 100.0))]
     pub initial_c: f64,
+    /// What the controller takes the building for, where it is wrong.
+    pub believed: Belief,
 }
 
 impl Default for Building {
@@ -59,6 +61,7 @@ impl Default for Building {
             step_s: 1800.0,
             method: Method::Exact,
             initial_c: 28.0,
+            believed: Belief::default(),
         }
     }
 }
@@ -71,7 +74,7 @@ pub enum Preset {
     Testbed,
 }
 
-/// Rooms in rows and columns.
+/// Rooms in rows and columns, on one floor or several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {
@@ -81,6 +84,32 @@ pub struct Grid {
     /// How many rooms a row has.
     #[schemars(range(min = 1, max = 1000))]
     pub columns: usize,
+    /// How many floors of such rooms lie above one another.
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 1000))]
+    pub floors: usize,
+}
+
+fn one() -> usize {
+    1
+}
+
+impl Grid {
+    /// How many rooms there are.
+    pub fn rooms(&self) -> usize {
+        self.floors.saturating_mul(self.rows).saturating_mul(self.columns)
+    }
+}
+
+/// How rooms are drawn: floors side by side, rooms of a floor by rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FloorPlan {
+    /// Rooms in a row.
+    pub columns: usize,
+    /// Rows of a floor.
+    pub rows: usize,
+    /// Floors.
+    pub floors: usize,
 }
 
 impl Building {
@@ -91,18 +120,30 @@ impl Building {
     pub fn network(&self) -> Result<Network, NetworkError> {
         match (self.preset, self.grid) {
             _ if !self.zones.is_empty() => Network::new(&self.zones, &self.walls),
-            (None, Some(Grid { rows, columns })) if rows * columns > 0 => Ok(Network::grid(rows, columns)),
+            (None, Some(grid)) if grid.rooms() > 0 => Ok(Network::tower(grid.floors, grid.rows, grid.columns)),
             (None, Some(_)) => Err(NetworkError::NoZones),
             (Some(Preset::Testbed) | None, _) => Ok(Network::testbed()),
         }
     }
 
-    /// How many zones a row of the floor plan has: that of the grid, or enough for a plan about as wide as deep.
-    pub fn plan_columns(&self) -> usize {
+    /// What the controller takes the network for.
+    ///
+    /// # Errors
+    /// As [`Building::network`], and if a believed factor is out of range.
+    pub fn believed_network(&self) -> Result<Network, NetworkError> {
+        self.network()?.believed(&self.believed)
+    }
+
+    /// How its rooms are drawn: as its grid says, or on one floor about as wide as deep.
+    pub fn floor_plan(&self) -> FloorPlan {
+        let flat = |zones: usize| {
+            let columns = (zones as f64).sqrt().ceil() as usize;
+            FloorPlan { columns, rows: zones.div_ceil(columns.max(1)), floors: 1 }
+        };
         match (self.grid, self.zones.len()) {
-            (Some(grid), 0) => grid.columns,
-            (None, 0) => 2,
-            (_, zones) => (zones as f64).sqrt().ceil() as usize,
+            (Some(Grid { rows, columns, floors }), 0) => FloorPlan { columns, rows, floors },
+            (None, 0) => flat(4),
+            (_, zones) => flat(zones),
         }
     }
 

@@ -133,6 +133,11 @@ pub(crate) fn attach(scenario: &mut Scenario, tree: &Node) -> Result<(), Problem
     Ok(())
 }
 
+/// Whether a file of weather of that name is in the binary.
+pub(crate) fn is_embedded_weather(name: &str) -> bool {
+    EMBEDDED.iter().any(|(known, _)| *known == name)
+}
+
 /// Title and text of the EPW file that is called `file` at `place`.
 fn read(file: &str, place: &Place) -> Result<(String, String), Problem> {
     if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == file) {

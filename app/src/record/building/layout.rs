@@ -7,10 +7,12 @@ use super::super::re_sdk_types::components::Range1D;
 use super::super::re_sdk_types::datatypes::{TimeInt, TimeRange, TimeRangeBoundary};
 
 use super::super::blueprint::{Panel, View};
-use super::House;
+use super::{House, design};
+use crate::record::plots::LOG;
 
-/// The layout: the floor plan beside the temperatures, below it inputs, weather and costs, and the words.
-pub fn layout(house: &House) -> Panel {
+/// The layout: the floor plan beside the temperatures, below it inputs, weather and costs, and the words; then what the
+/// controller says of its plans, if it plans, and `events` if there were any.
+pub fn layout(house: &House, events: bool) -> Panel {
     let numbers = vec![
         (1.1, Panel::View(plot(house, "Heating (+), cooling (-) [kW]", inputs(house)))),
         (1.1, Panel::View(plot(house, "Outdoors [°C]", vec!["/building/outdoors/**".to_owned()]))),
@@ -18,7 +20,33 @@ pub fn layout(house: &House) -> Panel {
         (1.3, Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))),
     ];
     let top = Panel::Row(vec![(1.0, floor()), (2.3, temperatures(house))]);
-    Panel::Column(vec![(1.6, top), (1.0, Panel::Row(numbers))])
+    let mut rows = vec![(1.6, top), (1.0, Panel::Row(numbers))];
+    let mut said = plans(house);
+    if events {
+        said.push((1.1, Panel::View(View::new("TextLog", "Events", vec![format!("/{LOG}")]))));
+    }
+    if !said.is_empty() {
+        rows.push((0.9, Panel::Row(said)));
+    }
+    Panel::Column(rows)
+}
+
+/// What the controller says of its plans.
+fn plans(house: &House) -> Vec<(f32, Panel)> {
+    let below = |path: &str| vec![format!("/{path}/**")];
+    let lines = [
+        (design::LEARNED, "Learned: heat beyond the forecast [kW]"),
+        (design::GAIN, "Feedback gain K [kW/K]"),
+        (design::TAPS, "Feedback Q: answer to a deviation [kW/K]"),
+        (design::CONVERGENCE, "Convergence, by the day's design"),
+    ];
+    let bars = [
+        (design::COST, "Cost J by round of the first exchange"),
+        (design::MESSAGES, "Messages that each zone sent in all"),
+    ];
+    let lines = lines.into_iter().map(|(path, title)| (path, plot(house, title, below(path))));
+    let bars = bars.into_iter().map(|(path, title)| (path, View::new("BarChart", title, vec![format!("/{path}")])));
+    lines.chain(bars).filter(|(path, _)| house.plans.has(path)).map(|(_, view)| (1.0, Panel::View(view))).collect()
 }
 
 fn floor() -> Panel {

@@ -8,8 +8,10 @@
 //! building/zone/<n>/heat, building/limit/…             inputs and their limits
 //! building/outdoors/{real,forecast}
 //! building/iteration/{cost,optimum}                    one value a day
+//! building/{learned,feedback,convergence,exchange}/…   what the controller says of its plans, see `design.rs`
 //! ```
 
+mod design;
 mod layout;
 mod plan;
 mod series;
@@ -22,6 +24,7 @@ pub use layout::layout;
 pub use words::about;
 
 use crate::frame::BuildingFrame;
+use design::Plans;
 use plan::Plan;
 use series::Series;
 
@@ -43,6 +46,7 @@ pub struct House {
     range_c: Option<[f64; 2]>,
     plan: Plan,
     series: Series,
+    plans: Plans,
 }
 
 impl House {
@@ -57,10 +61,11 @@ impl House {
         let names = network.names()[..network.zone_count()].to_vec();
         let shown = shown(names.len());
         let setpoints = scenario.setpoints.clone().unwrap_or_default();
-        let plan = Plan::begin(stream, building.plan_columns(), &setpoints)?;
+        let plan = Plan::begin(stream, building.floor_plan(), &setpoints)?;
         let series = Series::begin(stream, &names, &shown, network.limits_kw(), setpoints.band_k)?;
         let duration_s = building.step_s * (scenario.days() * building.steps_per_day()) as f64;
-        Ok(Some(House { names, shown, duration_s, range_c: None, plan, series }))
+        let plans = Plans::begin(stream, &names, &shown, scenario.controller().plans())?;
+        Ok(Some(House { names, shown, duration_s, range_c: None, plan, series, plans }))
     }
 
     /// Logs one step.
@@ -77,6 +82,7 @@ impl House {
                 Some([low_c.min(now.temperature_c).min(wanted_c), high_c.max(now.temperature_c).max(wanted_c)]);
         }
         self.plan.step(stream, &self.names, frame)?;
+        self.plans.step(stream, &self.shown, frame)?;
         self.series.step(stream, &self.shown, frame)
     }
 }

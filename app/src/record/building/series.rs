@@ -92,7 +92,11 @@ impl Series {
     }
 }
 
-fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, width: f32) -> RecordingStreamResult<()> {
+/// Logs how a series of steps is called and drawn.
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, width: f32) -> RecordingStreamResult<()> {
     let line = SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([width]);
     stream.log_static(path, &line.with_interpolation_mode(InterpolationMode::StepAfter))
 }

@@ -12,6 +12,11 @@
 //! Where messages get lost or come late, the zones take Jacobi steps only, which need no sums, and the later the messages
 //! the shorter: a step against a gradient that is some rounds old overshoots.
 //!
+//! How near they come depends on the scheme: on the grids of the tests momentum is within 0.1 % of the centralised optimum
+//! after 40 rounds and line search after 200, while Jacobi's share 1/n leaves up to 0.2 % after 800, and the more zones
+//! the slower. A zone whose own problem has no solution keeps its inputs for the round; if that happens to all of them,
+//! there is no plan.
+//!
 //! A convex J does not rise with Jacobi steps (Theorem I), whatever the number of zones: descent, not optimality. The
 //! variables are the inputs u_i, so that the limits are those of each zone alone; with the printed u_ff,i they are coupled
 //! through the feedback, and the zones stall above the optimum where limits bind.
@@ -23,7 +28,7 @@ use super::mail::Mail;
 use super::settings::Scheme;
 use super::zone::{Bound, ZoneProblem};
 use crate::comfort::Targets;
-use crate::control::BandPenalty;
+use crate::control::{BandPenalty, ControlError};
 use crate::lifted::Lifted;
 
 /// Responses below this share of a zone's own are left out of its curvature.
@@ -153,13 +158,16 @@ impl Day<'_> {
     }
 
     /// Plans from a first guess, within the limits.
-    pub fn agree(&self, mail: &mut Mail, rules: Rules, first_kw: Vec<f64>) -> Agreement {
+    ///
+    /// # Errors
+    /// [`ControlError::NoZonePlans`] if no zone can solve its problem.
+    pub fn agree(&self, mail: &mut Mail, rules: Rules, first_kw: Vec<f64>) -> Result<Agreement, ControlError> {
         let n = self.targets.zones;
         let mut heat_kw = first_kw;
         let mut costs = vec![self.cost(&heat_kw)];
         let mut sums = 0;
         let mut before: Option<(Vec<f64>, Vec<f64>)> = None;
-        for _ in 0..rules.rounds {
+        for round in 1..=rules.rounds {
             let nodes_c = mail.temperatures(self.initial_c, &heat_kw, self.driving_kw);
             let known_c = stacked(&nodes_c, n);
             let slope: Vec<f64> = known_c.iter().enumerate().map(|(i, t)| self.slope(i, *t).0).collect();
@@ -168,6 +176,7 @@ impl Day<'_> {
                 *gradient += 2.0 * self.targets.input_weight * u;
             }
             let proposal = self.proposals(&heat_kw, &gradient, &known_c);
+            let proposal = proposal.ok_or(ControlError::NoZonePlans { zones: n, round })?;
             let past = before.take().map(|(step, base_c)| {
                 let moved: Vec<f64> = known_c.iter().zip(&base_c).map(|(now, then)| now - then).collect();
                 (step, moved)
@@ -193,16 +202,16 @@ impl Day<'_> {
                 break;
             }
         }
-        Agreement { heat_kw, costs, sums }
+        Ok(Agreement { heat_kw, costs, sums })
     }
 
-    /// What each zone would do, as changes of its inputs, stacked.
-    fn proposals(&self, heat_kw: &[f64], gradient: &[f64], known_c: &[f64]) -> Vec<f64> {
+    /// What each zone would do, as changes of its inputs, stacked; `None` if none of those that answer can say.
+    fn proposals(&self, heat_kw: &[f64], gradient: &[f64], known_c: &[f64]) -> Option<Vec<f64>> {
         let (n, steps) = (self.targets.zones, self.targets.steps());
         let limits_kw = self.lifted.model().network().limits_kw();
-        let solve = |i: usize| -> Vec<f64> {
+        let solve = |i: usize| -> Option<Vec<f64>> {
             if self.silent == Some(i) {
-                return vec![0.0; steps];
+                return None;
             }
             let zone = &self.commissioned.zones[i];
             let of = |series: &[f64]| -> Vec<f64> { series.iter().skip(i).step_by(n).copied().collect() };
@@ -217,8 +226,9 @@ impl Day<'_> {
             };
             problem.solve()
         };
-        let solved: Vec<Vec<f64>> = (0..n).into_par_iter().map(solve).collect();
-        (0..n * steps).map(|k| solved[k % n][k / n]).collect()
+        let solved: Vec<Option<Vec<f64>>> = (0..n).into_par_iter().map(solve).collect();
+        let some = solved.iter().any(Option::is_some) || self.silent.is_some_and(|_| n == 1);
+        some.then(|| (0..n * steps).map(|k| solved[k % n].as_ref().map_or(0.0, |zone| zone[k / n])).collect())
     }
 
     /// The comfort bounds of a zone and its neighbours.

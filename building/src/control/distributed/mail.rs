@@ -119,7 +119,8 @@ impl Mail {
     /// A new day: everybody knows the temperatures of its neighbours now, and nothing of their plans.
     pub fn start(&mut self, initial_c: &[f64]) {
         for edge in &mut self.edges {
-            if edge.heard[0].is_empty() {
+            let sound = |series: &Vec<f64>| !series.is_empty() && series.iter().all(|value| value.is_finite());
+            if !edge.heard.iter().all(sound) {
                 edge.heard[0] = vec![initial_c[edge.from]; self.steps];
                 edge.heard[1] = vec![0.0; self.steps];
             }

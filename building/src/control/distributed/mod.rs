@@ -95,7 +95,7 @@ impl Distributed {
         };
         self.mail.start(morning.initial_c);
         let first_kw = self.diary.yesterday().map_or(vec![0.0; lifted.size()], |yesterday| yesterday.heat_kw.clone());
-        let agreement = day.agree(&mut self.mail, rules, first_kw);
+        let agreement = day.agree(&mut self.mail, rules, first_kw)?;
         let temperatures_c = free_c.iter().zip(lifted.product(&agreement.heat_kw)).map(|(free, rise)| free + rise);
         let plan = Plan { temperatures_c: temperatures_c.collect(), heat_kw: agreement.heat_kw };
         let centralised = match self.settings.compare {

@@ -51,9 +51,13 @@ pub(super) struct ZoneProblem<'a> {
 }
 
 impl ZoneProblem<'_> {
-    /// The minimising d, and whether it was reached to rounding error.
-    pub fn solve(&self) -> Vec<f64> {
+    /// The minimising d, or as near to it as rounding allows. `None` if the problem has no single solution: a number is
+    /// none, or the cost is not strictly convex in the inputs that are not at a limit.
+    pub fn solve(&self) -> Option<Vec<f64>> {
         let n = self.gradient.len();
+        if !self.gradient.iter().all(|slope| slope.is_finite()) {
+            return None;
+        }
         let mut d = vec![0.0; n];
         for _ in 0..STEPS {
             let gradient = self.gradient_at(&d);
@@ -64,12 +68,12 @@ impl ZoneProblem<'_> {
             if largest <= 1e-10 * (1.0 + self.gradient.iter().fold(0.0, |m, g| f64::max(m, g.abs()))) {
                 break;
             }
-            let Some(step) = self.newton(&d, &gradient, &free) else { break };
+            let step = self.newton(&d, &gradient, &free)?;
             if !self.advance(&mut d, &gradient, &free, &step) {
                 break;
             }
         }
-        d
+        Some(d)
     }
 
     fn gradient_at(&self, d: &[f64]) -> Vec<f64> {
@@ -169,7 +173,7 @@ mod tests {
                 low: vec![-0.4; n],
                 high: vec![0.3; n],
             };
-            let d = problem.solve();
+            let d = problem.solve().expect("strictly convex");
             let gradient = problem.gradient_at(&d);
             for i in 0..n {
                 let projected = d[i] - (d[i] - gradient[i]).clamp(-0.4, 0.3);
@@ -185,5 +189,21 @@ mod tests {
                 assert!((slope - gradient[i]).abs() < 1e-4, "{slope} {}", gradient[i]);
             }
         }
+    }
+    #[test]
+    fn what_has_no_single_solution_is_said_to_have_none() {
+        let flat = DMatrix::zeros(2, 2);
+        let problem = |curvature, gradient| ZoneProblem {
+            gradient,
+            curvature,
+            penalty: 0.0,
+            bounds: Vec::new(),
+            low: vec![-1.0; 2],
+            high: vec![1.0; 2],
+        };
+        assert_eq!(problem(&flat, vec![1.0, -1.0]).solve(), None);
+        let round = DMatrix::identity(2, 2);
+        assert_eq!(problem(&round, vec![f64::NAN, 0.0]).solve(), None);
+        assert_eq!(problem(&round, vec![0.5, 3.0]).solve(), Some(vec![-0.5, -1.0]));
     }
 }

@@ -10,13 +10,15 @@
 pub(super) struct Start {
     slack: f64,
     complementarity: f64,
+    /// Whether the multipliers of a neighbouring problem are a start.
+    informed: bool,
 }
 
 impl Start {
     /// Nothing is known. (0.01 for both fails now and then.)
-    pub(super) const COLD: Start = Start { slack: 0.1, complementarity: 1.0 };
+    pub(super) const COLD: Start = Start { slack: 0.1, complementarity: 1.0, informed: false };
     /// The multipliers belong to a neighbouring problem.
-    pub(super) const WARM: Start = Start { slack: 1e-3, complementarity: 1e-4 };
+    pub(super) const WARM: Start = Start { slack: 1e-2, complementarity: 1e-4, informed: true };
 }
 
 /// All inequalities `c + g·z + σ − s = 0` with `s ≥ 0`, multiplier `λ`.
@@ -65,6 +67,12 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
+/// The smaller of two numbers; the second where the first is NaN.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 /// What a step would do: the largest relative decrease of a positive number, and how complementarity changes with the
 /// share `α` of the step: `Σ(s + αΔs)(λ + αΔλ) = Σsλ + α·linear + α²·quadratic`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -102,11 +110,9 @@ impl Columns {
         self.len() + self.soft.linear.iter().filter(|linear| **linear > 0.0).count()
     }
 
-    /// Makes room for `hard` inequalities and one soft one for each `(ℓ, q)`. Returns whether the shape was the same
-    /// before, so that slacks and multipliers may be kept.
-    pub(super) fn shape(&mut self, hard: usize, weights: impl ExactSizeIterator<Item = [f64; 2]>) -> bool {
+    /// Makes room for `hard` inequalities and one soft one for each `(ℓ, q)`.
+    pub(super) fn shape(&mut self, hard: usize, weights: impl ExactSizeIterator<Item = [f64; 2]>) {
         let soft = weights.len();
-        let same = self.len() == hard + soft && self.soft.violation.len() == soft;
         for column in [
             &mut self.value,
             &mut self.slope,
@@ -141,34 +147,40 @@ impl Columns {
         for (j, [linear, curvature]) in weights.enumerate() {
             (s.linear[j], s.curvature[j]) = (linear, curvature);
         }
-        same
     }
 
-    /// Slacks and multipliers at the start, from `value`; with `warm`, not below those that are there.
-    pub(super) fn begin(&mut self, start: Start, warm: bool) {
-        let floor = |kept: f64, least: f64| if warm { larger(kept, least) } else { least };
+    /// Slacks and multipliers at the start, from `value` and the multipliers `known` of a neighbouring problem: a multiplier
+    /// begins there, its slack where the two are as complementary as all others.
+    pub(super) fn begin(&mut self, start: Start, known: &[f64]) {
+        let Start { slack, complementarity, informed } = start;
+        let apart =
+            |multiplier: f64, most: f64| if informed { smaller(complementarity / multiplier, most) } else { slack };
         let first = self.first_soft();
-        for i in 0..self.len() {
+        for (i, known) in known.iter().enumerate() {
+            let known = if informed { *known } else { 0.0 };
             let mut violation = 0.0;
             if i >= first {
                 let (j, soft) = (i - first, &mut self.soft);
+                let excess = known - soft.linear[j];
+                violation = if excess > 0.0 && soft.curvature[j] > 0.0 { excess / soft.curvature[j] } else { 0.0 };
+                soft.multiplier[j] = 0.0;
                 if soft.linear[j] > 0.0 {
-                    violation = floor(soft.violation[j], start.slack);
-                    soft.multiplier[j] = floor(soft.multiplier[j], start.complementarity / violation);
+                    let price = larger(soft.curvature[j] * violation - excess, 0.0);
+                    violation = larger(violation, apart(price, larger(slack, -self.value[i])));
+                    soft.multiplier[j] = larger(if informed { price } else { 0.0 }, complementarity / violation);
                 } else {
                     violation = larger(-self.value[i], 0.0);
-                    soft.multiplier[j] = 0.0;
                 }
                 soft.violation[j] = violation;
             }
-            self.slack[i] = larger(self.value[i] + violation, start.slack);
-            self.multiplier[i] = floor(self.multiplier[i], start.complementarity / self.slack[i]);
+            self.slack[i] = larger(self.value[i] + violation, apart(known, slack));
+            self.multiplier[i] = larger(known, complementarity / self.slack[i]);
         }
     }
 
     /// Refreshes the residuals from `value`; returns mean complementarity and the largest residual.
     pub(super) fn measure(&mut self) -> (f64, f64) {
-        let (first, count) = (self.first_soft(), self.pairs() as f64);
+        let (first, count) = (self.first_soft(), self.pairs().max(1) as f64);
         let numbers = self.value.iter().zip(&self.slack).zip(&self.multiplier);
         let mut complementarity = 0.0;
         for (residual, ((value, slack), multiplier)) in self.residual.iter_mut().zip(numbers) {

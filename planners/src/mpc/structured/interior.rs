@@ -3,9 +3,8 @@
 use super::along::Along;
 use super::columns::{Columns, Start, larger};
 use super::riccati::{PairHessian, Riccati, VehicleHessian};
-use super::rows::{BOXES, Inequalities, Point};
-use crate::mpc::adjoint::curvature_gradient;
-use crate::mpc::stage::{StageError, StageQp, StageSolution, StageSolver};
+use super::rows::{Inequalities, Point};
+use crate::mpc::stage::{Reach, StageError, StageQp, StageSolution, StageSolver};
 
 /// Tolerance on the dual residual as a share of its start, per tolerance on everything else.
 const DUAL_TOLERANCE: f64 = 1e-3;
@@ -53,7 +52,10 @@ pub(super) struct Interior<const W: usize, const Z: usize> {
     pub(super) inequalities: Inequalities,
     pub(super) columns: Columns,
     pub(super) hessians: Vec<VehicleHessian>,
-    pub(super) pairs: Vec<Vec<PairHessian>>,
+    pub(super) pairs: Vec<PairHessian>,
+    /// The part of them that stays the same.
+    pub(super) smooth_hessians: Vec<VehicleHessian>,
+    pub(super) smooth_pairs: Vec<PairHessian>,
     /// Where the iteration stands.
     pub(super) point: Point,
     /// Its next step.
@@ -61,7 +63,7 @@ pub(super) struct Interior<const W: usize, const Z: usize> {
     /// What refinement adds to it.
     correction: Point,
     /// Gradient of the smooth cost at the point.
-    cost_gradient: Point,
+    pub(super) cost_gradient: Point,
     /// The same with the rows' pull.
     pub(super) gradient: Point,
     /// The rows over whole trajectories at the point.
@@ -72,48 +74,63 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
     pub(super) const VEHICLES: usize = W / 2;
 
     fn solve(&mut self, qp: &StageQp, solution: &mut StageSolution, warm: bool) -> Result<(), StageError> {
-        self.inequalities.fill(qp);
-        let hard = BOXES * self.inequalities.boxes.len() + self.inequalities.rows.len() - self.soft_rows(qp);
-        let same_shape = self.columns.shape(hard, self.inequalities.weights.iter().copied());
-        self.along.resize_with(qp.trajectory_rows.len(), Along::default);
-        self.along.iter_mut().zip(&qp.trajectory_rows).for_each(|(along, row)| along.shape_like(row));
+        let warm = warm && solution.fits(qp);
+        solution.shape_like(qp);
         let mut iterations = 0;
         let mut outcome = Err(StageError::Unsolved { status: String::new(), iterations });
-        if warm && same_shape {
-            self.begin(qp, Start::WARM, true);
-            outcome = self.iterate(qp, &mut iterations);
+        if warm || qp.reach.is_some() {
+            let start = if warm { Start::WARM } else { Start::COLD };
+            outcome = self.attempt(qp, solution, start, qp.reach.as_ref(), &mut iterations);
         }
         if let Err(StageError::Unsolved { .. }) = outcome {
-            self.begin(qp, Start::COLD, false);
-            outcome = self.iterate(qp, &mut iterations);
+            outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
         }
-        solution.shape_like(qp);
         solution.iterations = iterations;
-        outcome.map_err(|error| match error {
-            // Without curvature every problem is convex: it was rounding.
-            StageError::NotConvex { stage } if !qp.is_curved() => {
-                StageError::Unsolved { status: format!("the factorisation broke down at stage {stage}"), iterations }
-            }
-            other => other,
-        })?;
-        self.write(qp, solution);
+        outcome?;
+        self.write(solution);
         Ok(())
     }
 
-    fn soft_rows(&self, qp: &StageQp) -> usize {
-        self.inequalities.weights.len() - qp.trajectory_rows.len()
+    /// One way to the solution, with the inequalities within reach.
+    fn attempt(
+        &mut self,
+        qp: &StageQp,
+        known: &StageSolution,
+        start: Start,
+        reach: Option<&Reach>,
+        iterations: &mut usize,
+    ) -> Result<(), StageError> {
+        self.begin(qp, known, start, reach);
+        let unsolved = |status, iterations| Err(StageError::Unsolved { status, iterations });
+        match self.iterate(qp, iterations) {
+            Ok(()) if !self.inequalities.far_ones_hold(&self.point) => {
+                unsolved("the solution is farther than expected".to_owned(), *iterations)
+            }
+            // Without curvature every problem is convex: it was rounding.
+            Err(StageError::NotConvex { stage }) if !qp.is_curved() => {
+                unsolved(format!("the factorisation broke down at stage {stage}"), *iterations)
+            }
+            outcome => outcome,
+        }
     }
 
-    /// Slacks and multipliers at the iterate itself.
-    fn begin(&mut self, qp: &StageQp, start: Start, warm: bool) {
+    /// Lists the inequalities, and sets slacks and multipliers at the iterate itself.
+    fn begin(&mut self, qp: &StageQp, known: &StageSolution, start: Start, reach: Option<&Reach>) {
+        self.inequalities.fill(qp, known, reach);
+        let rows = self.inequalities.bounds.len() + self.inequalities.rows.len() + qp.trajectory_rows.len();
+        let hard = rows - self.inequalities.weights.len();
+        self.columns.shape(hard, self.inequalities.weights.iter().copied());
+        self.along.resize_with(qp.trajectory_rows.len(), Along::default);
+        self.along.iter_mut().zip(&qp.trajectory_rows).for_each(|(along, row)| along.shape_like(row));
         self.point.clear(qp.horizon * Self::VEHICLES);
+        self.fill_smooth_hessians(qp);
         self.refresh_values(qp);
-        self.columns.begin(start, warm);
+        self.columns.begin(start, &self.inequalities.multipliers);
     }
 
     /// Newton's method with predictor and corrector until every residual is small.
     fn iterate(&mut self, qp: &StageQp, iterations: &mut usize) -> Result<(), StageError> {
-        let count = self.columns.pairs() as f64;
+        let count = self.columns.pairs().max(1) as f64;
         // The dual residual is linear in the unknowns, so every step of length α leaves 1 − α of it.
         let mut dual_share = 1.0;
         for _ in 0..ITERATION_LIMIT {
@@ -130,14 +147,18 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             }
             *iterations += 1;
             self.columns.weigh();
-            self.factor(qp)?;
+            self.assemble(qp);
+            self.riccati.factor(qp, &self.hessians, &self.pairs)?;
+            self.respond(qp);
             self.fill_cost_gradient(qp);
             self.columns.aim(0.0, false);
             self.newton(qp, false);
             let affine = self.columns.step();
             let share = if affine.ratio > 1.0 { 1.0 / affine.ratio } else { 1.0 };
             let left = complementarity + share * (affine.linear + share * affine.quadratic) / count;
-            let centring = (left / complementarity).powi(3).max(1e-8) * complementarity;
+            // Without any inequality there is nothing to centre.
+            let centring =
+                if complementarity > 0.0 { (left / complementarity).powi(3).max(1e-8) * complementarity } else { 0.0 };
             self.columns.aim(centring, true);
             self.newton(qp, complementarity < REFINED_BELOW);
             let ratio = self.columns.step().ratio;
@@ -158,13 +179,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
 
     /// Every inequality at the point, and the gradients of rows over whole trajectories.
     fn refresh_values(&mut self, qp: &StageQp) {
-        let values = &mut self.columns.value;
-        let (boxed, rows) = values.split_at_mut(BOXES * self.inequalities.boxes.len());
-        for (boxes, values) in self.inequalities.boxes.iter().zip(boxed.chunks_exact_mut(BOXES)) {
-            let ([a, d], v) = (self.point.inputs[boxes.at], self.point.states[boxes.at][3]);
-            for (value, (room, moved)) in values.iter_mut().zip(boxes.room.iter().zip([a, -a, d, -d, v, -v])) {
-                *value = room + moved;
-            }
+        let (bounds, rows) = self.columns.value.split_at_mut(self.inequalities.bounds.len());
+        for (bound, value) in self.inequalities.bounds.iter().zip(bounds) {
+            *value = bound.room + bound.slope(&self.point);
         }
         let (rows, trajectories) = rows.split_at_mut(self.inequalities.rows.len());
         for (row, value) in self.inequalities.rows.iter().zip(rows) {
@@ -173,41 +190,6 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         for ((row, along), value) in qp.trajectory_rows.iter().zip(&mut self.along).zip(trajectories) {
             *value = along.refresh(row, &self.point, Self::VEHICLES);
         }
-    }
-
-    /// Assembles the second derivatives with the weights `ω` and factors them.
-    fn factor(&mut self, qp: &StageQp) -> Result<(), StageError> {
-        self.cost_hessians(qp);
-        let (boxed, rows) = self.columns.weight.split_at(BOXES * self.inequalities.boxes.len());
-        for (boxes, w) in self.inequalities.boxes.iter().zip(boxed.chunks_exact(BOXES)) {
-            let hessian = &mut self.hessians[boxes.at];
-            hessian.input[0] += w[0] + w[1];
-            hessian.input[1] += w[2] + w[3];
-            hessian.speed += w[4] + w[5];
-        }
-        for (row, weight) in self.inequalities.rows.iter().zip(rows) {
-            let [x, y, t] = row.gradient;
-            if let Some(other) = row.other {
-                let position = [weight * x * x, weight * x * y, weight * y * y];
-                add_pair(&mut self.hessians, &mut self.pairs, Self::VEHICLES, [row.at, other], position);
-            } else {
-                let pose = &mut self.hessians[row.at].pose;
-                for (value, product) in pose.iter_mut().zip([x * x, x * y, x * t, y * y, y * t, t * t]) {
-                    *value += weight * product;
-                }
-            }
-        }
-        let multipliers = &self.columns.multiplier[self.columns.len() - self.along.len()..];
-        for (row, multiplier) in qp.trajectory_rows.iter().zip(multipliers) {
-            for (k, beta) in row.bends.iter().enumerate() {
-                let pose = &mut self.hessians[k * Self::VEHICLES + row.vehicle].pose;
-                pose[0] += 2.0 * multiplier * beta;
-                pose[3] += 2.0 * multiplier * beta;
-            }
-        }
-        self.riccati.factor(qp, &self.hessians, &self.pairs)?;
-        self.respond(qp);
-        Ok(())
     }
 
     /// `H⁻¹ v` of every row over a whole trajectory, for Sherman and Morrison.
@@ -227,107 +209,13 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         }
     }
 
-    /// The smooth cost's second derivatives and the rows' own curvature.
-    fn cost_hessians(&mut self, qp: &StageQp) {
-        let vehicles = Self::VEHICLES;
-        self.hessians.clear();
-        self.pairs.resize_with(qp.horizon, Vec::new);
-        for k in 0..qp.horizon {
-            self.pairs[k].clear();
-            for stages in &qp.vehicles {
-                let cost = &stages.state_costs[k];
-                let ([xx, xy, yy], [.., heading, speed]) = (cost.position_hessian(), cost.hessian);
-                let pose = [xx, xy, 0.0, yy, 0.0, heading];
-                let input = [0, 1].map(|axis| stages.damping(qp.damping, axis));
-                self.hessians.push(VehicleHessian { pose, speed, input });
-            }
-        }
-        for block in &qp.blocks {
-            for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| row.active) {
-                let ([xx, xy, yy, turn], at) = (row.curvature, k * vehicles + block.vehicle);
-                if let Some(other) = block.other {
-                    let indices = [at, k * vehicles + other];
-                    add_pair(&mut self.hessians, &mut self.pairs, vehicles, indices, [xx, xy, yy]);
-                } else {
-                    let pose = &mut self.hessians[at].pose;
-                    pose[0] += xx;
-                    pose[1] += xy;
-                    pose[3] += yy;
-                    pose[5] += turn;
-                }
-            }
-        }
-    }
-
-    /// Gradient of the smooth cost (with curvature) at the point.
-    fn fill_cost_gradient(&mut self, qp: &StageQp) {
-        let vehicles = Self::VEHICLES;
-        self.cost_gradient.clear(qp.horizon * vehicles);
-        let (states, inputs) = (&self.point.states, &self.point.inputs);
-        for (i, stages) in qp.vehicles.iter().enumerate() {
-            for k in 0..qp.horizon {
-                let at = k * vehicles + i;
-                let gradient = stages.state_costs[k].gradient_at(&states[at]);
-                for axis in 0..4 {
-                    self.cost_gradient.states[at][axis] += gradient[axis];
-                }
-                if k < stages.first {
-                    continue;
-                }
-                for axis in 0..2 {
-                    let before = if k > stages.first { inputs[at - vehicles][axis] } else { 0.0 };
-                    let change = stages.changes[k][axis] + inputs[at][axis] - before;
-                    let pull = 2.0 * stages.change_weights[axis] * change;
-                    self.cost_gradient.inputs[at][axis] += pull + stages.damping(qp.damping, axis) * inputs[at][axis];
-                    if k > stages.first {
-                        self.cost_gradient.inputs[at - vehicles][axis] -= pull;
-                    }
-                }
-                let before = if k > 0 { states[at - vehicles] } else { [0.0; 4] };
-                let ([heading, speed], steering) = curvature_gradient(&stages.curvatures[k], &before, &inputs[at]);
-                self.cost_gradient.inputs[at][1] += steering;
-                if k > 0 {
-                    self.cost_gradient.states[at - vehicles][2] += heading;
-                    self.cost_gradient.states[at - vehicles][3] += speed;
-                }
-            }
-        }
-        self.add_row_curvature(qp);
-    }
-
-    fn add_row_curvature(&mut self, qp: &StageQp) {
-        let vehicles = Self::VEHICLES;
-        for block in &qp.blocks {
-            for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| row.active) {
-                let [xx, xy, yy, turn] = row.curvature;
-                let (at, other) = (k * vehicles + block.vehicle, block.other.map(|other| k * vehicles + other));
-                let own = self.point.states[at];
-                let origin = other.map_or([0.0; 4], |other| self.point.states[other]);
-                let (x, y) = (own[0] - origin[0], own[1] - origin[1]);
-                let pull = [xx * x + xy * y, xy * x + yy * y];
-                let gradients = &mut self.cost_gradient.states;
-                gradients[at][2] += turn * own[2];
-                for axis in 0..2 {
-                    gradients[at][axis] += pull[axis];
-                    if let Some(other) = other {
-                        gradients[other][axis] -= pull[axis];
-                    }
-                }
-            }
-        }
-    }
-
     /// One Newton step towards the targets, if asked with a refinement; leaves its slopes in the columns.
     fn newton(&mut self, qp: &StageQp, refined: bool) {
         self.gradient.states.clone_from(&self.cost_gradient.states);
         self.gradient.inputs.clone_from(&self.cost_gradient.inputs);
-        let boxed = BOXES * self.inequalities.boxes.len();
-        let (pulls, row_pulls) = self.columns.pull.split_at(boxed);
-        for (boxes, p) in self.inequalities.boxes.iter().zip(pulls.chunks_exact(BOXES)) {
-            let input = &mut self.gradient.inputs[boxes.at];
-            input[0] += p[1] - p[0];
-            input[1] += p[3] - p[2];
-            self.gradient.states[boxes.at][3] += p[5] - p[4];
+        let (pulls, row_pulls) = self.columns.pull.split_at(self.inequalities.bounds.len());
+        for (bound, pull) in self.inequalities.bounds.iter().zip(pulls) {
+            bound.pull(-pull, &mut self.gradient);
         }
         for (row, pull) in self.inequalities.rows.iter().zip(row_pulls) {
             row.pull(-pull, &mut self.gradient.states);
@@ -350,10 +238,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
     }
 
     fn fill_slopes(&mut self) {
-        let (boxed, rows) = self.columns.slope.split_at_mut(BOXES * self.inequalities.boxes.len());
-        for (boxes, slopes) in self.inequalities.boxes.iter().zip(boxed.chunks_exact_mut(BOXES)) {
-            let ([a, d], v) = (self.step.inputs[boxes.at], self.step.states[boxes.at][3]);
-            slopes.copy_from_slice(&[a, -a, d, -d, v, -v]);
+        let (bounds, rows) = self.columns.slope.split_at_mut(self.inequalities.bounds.len());
+        for (bound, slope) in self.inequalities.bounds.iter().zip(bounds) {
+            *slope = bound.slope(&self.step);
         }
         let (rows, trajectories) = rows.split_at_mut(self.inequalities.rows.len());
         for (row, slope) in self.inequalities.rows.iter().zip(rows) {
@@ -370,23 +257,4 @@ fn correct(columns: &Columns, along: &[Along], step: &mut Point, vehicles: usize
     for (along, weight) in along.iter().zip(&columns.weight[columns.len() - along.len()..]) {
         along.correct(*weight, step, vehicles);
     }
-}
-
-/// Adds a Hessian over the difference of two positions.
-#[inline(always)]
-fn add_pair(
-    hessians: &mut [VehicleHessian],
-    pairs: &mut [Vec<PairHessian>],
-    vehicles: usize,
-    [at, other]: [usize; 2],
-    position: [f64; 3],
-) {
-    for index in [at, other] {
-        let pose = &mut hessians[index].pose;
-        pose[0] += position[0];
-        pose[1] += position[1];
-        pose[3] += position[2];
-    }
-    let (i, j) = (at % vehicles, other % vehicles);
-    pairs[at / vehicles].push(PairHessian { pair: [i.max(j), i.min(j)], position });
 }

@@ -38,6 +38,7 @@
 //! iteration of 30 stages.
 
 mod along;
+mod assemble;
 mod columns;
 mod interior;
 mod refine;

@@ -10,7 +10,7 @@
 //! with the same factors.
 
 use super::interior::Interior;
-use super::riccati::{PairHessian, VehicleHessian};
+use super::riccati::{PairHessian, VehicleHessian, pairs};
 use super::rows::Point;
 use crate::mpc::adjoint::curvature_gradient;
 use crate::mpc::stage::StageQp;
@@ -47,7 +47,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
 fn add_product(
     qp: &StageQp,
     hessians: &[VehicleHessian],
-    pairs: &[Vec<PairHessian>],
+    coupling: &[PairHessian],
     step: &Point,
     gradient: &mut Point,
 ) {
@@ -62,13 +62,13 @@ fn add_product(
         gradient.inputs[at][0] += h.input[0] * a;
         gradient.inputs[at][1] += h.input[1] * s;
     }
-    for (k, pairs) in pairs.iter().enumerate() {
-        for PairHessian { pair: [i, j], position: [xx, xy, yy] } in pairs {
-            for (to, from) in [(k * vehicles + i, k * vehicles + j), (k * vehicles + j, k * vehicles + i)] {
-                let [x, y, ..] = step.states[from];
-                gradient.states[to][0] -= xx * x + xy * y;
-                gradient.states[to][1] -= xy * x + yy * y;
-            }
+    let every_pair =
+        (0..qp.horizon).flat_map(|k| pairs(vehicles).map(move |[i, j]| [k * vehicles + i, k * vehicles + j]));
+    for ([i, j], [xx, xy, yy]) in every_pair.zip(coupling) {
+        for (to, from) in [(i, j), (j, i)] {
+            let [x, y, ..] = step.states[from];
+            gradient.states[to][0] -= xx * x + xy * y;
+            gradient.states[to][1] -= xy * x + yy * y;
         }
     }
     for (i, stages) in qp.vehicles.iter().enumerate() {

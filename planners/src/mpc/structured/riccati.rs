@@ -5,10 +5,17 @@
 //!
 //! ```text
 //! F_ww = BᵀPB + 2R + …,   F_wz = BᵀPA − 2R (previous input),   F_zz = AᵀPA + 2R (previous input)
-//! K = −F_ww⁻¹ F_wz,       P ← F_zz + F_wzᵀ K
+//! F_ww = L Lᵀ,            V = L⁻¹ F_wz,                          P ← F_zz − Vᵀ V
 //! ```
 //!
-//! Vehicles meet only where rows of a pair fill the off-diagonal blocks of `P`.
+//! and with a gradient, `f` being to `F` what `p` is to `P`,
+//!
+//! ```text
+//! y = L⁻¹ f_w,            p ← f_z − Vᵀ y,                        w = −L⁻ᵀ (V z + y)
+//! ```
+//!
+//! The gains `−L⁻ᵀ V` are never formed. Vehicles meet only where rows of a pair fill the off-diagonal blocks of `P`, of which
+//! the lower ones are kept.
 
 use super::rows::Point;
 use crate::dynamics::Jacobian;
@@ -28,26 +35,39 @@ pub(super) struct VehicleHessian {
     pub input: [f64; 2],
 }
 
-/// Coupling between the positions of two vehicles at one stage: minus the Hessian over `p_i − p_j`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PairHessian {
-    /// The two vehicles, the larger index first.
-    pub pair: [usize; 2],
-    /// Over the difference: xx, xy, yy.
-    pub position: [f64; 3],
+/// Hessian over the difference `p_i − p_j` of two vehicles' positions at one stage: xx, xy, yy.
+pub(super) type PairHessian = [f64; 3];
+
+/// How many pairs so many vehicles make.
+pub(super) const fn pairs_among(vehicles: usize) -> usize {
+    vehicles * vehicles.saturating_sub(1) / 2
+}
+
+/// All pairs among so many vehicles, the larger index first, in the order in which their Hessians are kept.
+pub(super) fn pairs(vehicles: usize) -> impl Iterator<Item = [usize; 2]> {
+    (0..vehicles).flat_map(|i| (0..i).map(move |j| [i, j]))
+}
+
+/// Where the Hessian of a pair is kept among those of its stage.
+pub(super) fn pair_index(a: usize, b: usize) -> usize {
+    let (i, j) = (a.max(b), a.min(b));
+    pairs_among(i) + j
 }
 
 /// Factors of a stage problem of `W/2` vehicles; `Z = 3 W`.
 #[derive(Clone, Debug)]
 pub(super) struct Riccati<const W: usize, const Z: usize> {
-    gains: Vec<[[f64; Z]; W]>,
+    /// `L`.
     factors: Vec<Cholesky<W>>,
-    feed_forward: Vec<[f64; W]>,
+    /// `V`.
+    couplings: Vec<[[f64; Z]; W]>,
+    /// `y`.
+    feeds: Vec<[f64; W]>,
 }
 
 impl<const W: usize, const Z: usize> Default for Riccati<W, Z> {
     fn default() -> Self {
-        Riccati { gains: Vec::new(), factors: Vec::new(), feed_forward: Vec::new() }
+        Riccati { factors: Vec::new(), couplings: Vec::new(), feeds: Vec::new() }
     }
 }
 
@@ -83,19 +103,42 @@ impl<const W: usize> Cholesky<W> {
         Some(Cholesky { lower })
     }
 
+    /// `L⁻¹ v`.
     #[inline(always)]
-    fn solve(&self, rhs: &mut [f64; W]) {
+    fn forward(&self, v: &mut [f64; W]) {
         for i in 0..W {
             for k in 0..i {
-                rhs[i] -= self.lower[i][k] * rhs[k];
+                v[i] -= self.lower[i][k] * v[k];
             }
-            rhs[i] *= self.lower[i][i];
+            v[i] *= self.lower[i][i];
         }
+    }
+
+    /// `L⁻ᵀ v`.
+    #[inline(always)]
+    fn backward(&self, v: &mut [f64; W]) {
         for i in (0..W).rev() {
             for k in i + 1..W {
-                rhs[i] -= self.lower[k][i] * rhs[k];
+                v[i] -= self.lower[k][i] * v[k];
             }
-            rhs[i] *= self.lower[i][i];
+            v[i] *= self.lower[i][i];
+        }
+    }
+
+    /// `L⁻¹ M` for a matrix of `W` rows, all columns at once.
+    #[inline(always)]
+    fn forward_all<const Z: usize>(&self, matrix: &mut [[f64; Z]; W]) {
+        for i in 0..W {
+            let (above, below) = matrix.split_at_mut(i);
+            let row = &mut below[0];
+            for (k, earlier) in above.iter().enumerate() {
+                for c in 0..Z {
+                    row[c] -= self.lower[i][k] * earlier[c];
+                }
+            }
+            for value in row {
+                *value *= self.lower[i][i];
+            }
         }
     }
 }
@@ -127,7 +170,7 @@ struct Quadratic<const W: usize, const Z: usize> {
 impl<const W: usize, const Z: usize> Riccati<W, Z> {
     const VEHICLES: usize = W / 2;
 
-    /// Factors the problem whose second derivatives are given per stage (`hessians[k * M + vehicle]`, `pairs[k]`).
+    /// Factors the problem whose second derivatives are given per stage (`hessians[k * M + vehicle]`, `pairs` likewise).
     ///
     /// # Errors
     /// [`StageError::NotConvex`] names the stage at which the problem is unbounded below.
@@ -135,37 +178,30 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
         &mut self,
         qp: &StageQp,
         hessians: &[VehicleHessian],
-        pairs: &[Vec<PairHessian>],
+        pairs: &[PairHessian],
     ) -> Result<(), StageError> {
-        let horizon = qp.horizon;
-        self.gains.resize(horizon, [[0.0; Z]; W]);
+        let (horizon, width) = (qp.horizon, pairs_among(Self::VEHICLES));
+        self.couplings.resize(horizon, [[0.0; Z]; W]);
         self.factors.resize(horizon, Cholesky { lower: [[0.0; W]; W] });
-        self.feed_forward.resize(horizon, [0.0; W]);
+        self.feeds.resize(horizon, [0.0; W]);
         let mut p = [[0.0; Z]; Z];
         for k in (0..horizon).rev() {
-            add_stage::<Z>(&mut p, &hessians[k * Self::VEHICLES..(k + 1) * Self::VEHICLES], &pairs[k]);
-            let Quadratic { ww: f_ww, wz: f_wz, zz: f_zz } = Self::quadratic(qp, k, &p, hessians);
-            let factor = Cholesky::new(&f_ww).ok_or(StageError::NotConvex { stage: k })?;
+            let own = &hessians[k * Self::VEHICLES..(k + 1) * Self::VEHICLES];
+            add_stage(&mut p, own, &pairs[k * width..(k + 1) * width]);
+            let mut f = Self::quadratic(qp, k, &p, own);
+            let factor = Cholesky::new(&f.ww).ok_or(StageError::NotConvex { stage: k })?;
             self.factors[k] = factor;
-            if k == 0 {
-                break; // d_0 = 0: nothing to feed back
-            }
-            let gain = &mut self.gains[k];
-            for column in 0..Z {
-                let mut rhs: [f64; W] = std::array::from_fn(|row| -f_wz[row][column]);
-                factor.solve(&mut rhs);
-                for row in 0..W {
-                    gain[row][column] = rhs[row];
-                }
-            }
-            for i in 0..Z {
-                for j in 0..=i {
-                    let mut value = f_zz[i][j];
-                    for row in 0..W {
-                        value += f_wz[row][i] * gain[row][j];
+            factor.forward_all(&mut f.wz);
+            self.couplings[k] = f.wz;
+            p = f.zz;
+            for i in 0..Self::VEHICLES {
+                for r in BLOCK * i..BLOCK * (i + 1) {
+                    for v in &f.wz {
+                        let share = v[r];
+                        for (value, v) in p[r].iter_mut().zip(v).take(BLOCK * (i + 1)) {
+                            *value -= share * v;
+                        }
                     }
-                    p[i][j] = value;
-                    p[j][i] = value;
                 }
             }
         }
@@ -174,7 +210,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
 
     /// `F_ww`, `F_wz`, `F_zz` at stage `k` from the cost-to-go `p` of the next one.
     #[inline(always)]
-    fn quadratic(qp: &StageQp, k: usize, p: &[[f64; Z]; Z], hessians: &[VehicleHessian]) -> Quadratic<W, Z> {
+    fn quadratic(qp: &StageQp, k: usize, p: &[[f64; Z]; Z], own: &[VehicleHessian]) -> Quadratic<W, Z> {
         let mut f = Quadratic { ww: [[0.0; W]; W], wz: [[0.0; Z]; W], zz: [[0.0; Z]; Z] };
         for i in 0..Self::VEHICLES {
             for j in 0..=i {
@@ -182,7 +218,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             }
         }
         for i in 0..Self::VEHICLES {
-            let (stages, own) = (&qp.vehicles[i], &hessians[k * Self::VEHICLES + i]);
+            let (stages, own) = (&qp.vehicles[i], &own[i]);
             let (w, z) = (2 * i, BLOCK * i);
             if k < stages.first {
                 for a in w..w + 2 {
@@ -234,19 +270,13 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
                 }
                 carried[z..z + 4].copy_from_slice(&times_a(&row, &stages.jacobians[k]));
             }
-            let mut feed: [f64; W] = std::array::from_fn(|row| -f_w[row]);
-            self.factors[k].solve(&mut feed);
-            self.feed_forward[k] = feed;
-            if k == 0 {
-                break;
-            }
-            let gain = &self.gains[k];
-            for column in 0..Z {
-                let mut value = carried[column];
-                for row in 0..W {
-                    value += gain[row][column] * f_w[row];
+            self.factors[k].forward(&mut f_w);
+            self.feeds[k] = f_w;
+            p = carried;
+            for (v, y) in self.couplings[k].iter().zip(&f_w) {
+                for c in 0..Z {
+                    p[c] -= v[c] * y;
                 }
-                p[column] = value;
             }
         }
         self.roll_forward(qp, step);
@@ -256,14 +286,11 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
         let vehicles = Self::VEHICLES;
         let mut z = [0.0; Z];
         for k in 0..qp.horizon {
-            let mut w = self.feed_forward[k];
-            if k > 0 {
-                for row in 0..W {
-                    for column in 0..Z {
-                        w[row] += self.gains[k][row][column] * z[column];
-                    }
-                }
+            let mut w = self.feeds[k];
+            for (w, v) in w.iter_mut().zip(&self.couplings[k]) {
+                *w = -v.iter().zip(&z).fold(*w, |sum, (v, z)| sum + v * z);
             }
+            self.factors[k].backward(&mut w);
             for i in 0..vehicles {
                 let at = BLOCK * i;
                 let before = [z[at], z[at + 1], z[at + 2], z[at + 3]];
@@ -280,7 +307,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
 
 /// Adds a stage's own second derivatives to the cost-to-go.
 #[inline(always)]
-fn add_stage<const Z: usize>(p: &mut [[f64; Z]; Z], hessians: &[VehicleHessian], pairs: &[PairHessian]) {
+fn add_stage<const Z: usize>(p: &mut [[f64; Z]; Z], hessians: &[VehicleHessian], coupling: &[PairHessian]) {
     for (i, h) in hessians.iter().enumerate() {
         let z = BLOCK * i;
         let [xx, xy, xt, yy, yt, tt] = h.pose;
@@ -292,15 +319,12 @@ fn add_stage<const Z: usize>(p: &mut [[f64; Z]; Z], hessians: &[VehicleHessian],
         }
         p[z + 3][z + 3] += h.speed;
     }
-    for PairHessian { pair: [i, j], position: [xx, xy, yy] } in pairs {
+    for ([i, j], [xx, xy, yy]) in pairs(hessians.len()).zip(coupling) {
         let (zi, zj) = (BLOCK * i, BLOCK * j);
-        let position = [[xx, xy], [xy, yy]];
-        for a in 0..2 {
-            for b in 0..2 {
-                p[zi + a][zj + b] -= position[a][b];
-                p[zj + b][zi + a] -= position[a][b];
-            }
-        }
+        p[zi][zj] -= xx;
+        p[zi][zj + 1] -= xy;
+        p[zi + 1][zj] -= xy;
+        p[zi + 1][zj + 1] -= yy;
     }
 }
 
@@ -330,7 +354,6 @@ fn block_pair<const W: usize, const Z: usize>(
         let from_state = times_a(&column, a_i);
         for r in 0..4 {
             f.zz[zi + r][zj + c] = from_state[r];
-            f.zz[zj + c][zi + r] = from_state[r];
         }
         let from_input = times_b(&column, a_i);
         for r in 0..2 {

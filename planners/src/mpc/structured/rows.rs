@@ -1,7 +1,7 @@
-//! The inequalities of a stage problem: boxes, then hard rows, then soft rows, then the rows over whole trajectories.
+//! The inequalities of a stage problem: bounds, then hard rows, then soft rows, then the rows over whole trajectories.
 
 use crate::mpc::Penalty;
-use crate::mpc::stage::{RowBlock, StageQp};
+use crate::mpc::stage::{Reach, StageQp, StageSolution};
 
 /// Values over states and inputs of all vehicles, indexed `k * M + vehicle`.
 #[derive(Clone, Debug, Default)]
@@ -21,26 +21,47 @@ impl Point {
     }
 
     pub(super) fn add(&mut self, share: f64, step: &Point) {
-        for (value, step) in self.states.iter_mut().flatten().zip(step.states.iter().flatten()) {
-            *value += share * step;
-        }
-        for (value, step) in self.inputs.iter_mut().flatten().zip(step.inputs.iter().flatten()) {
-            *value += share * step;
-        }
+        let go = |values: &mut [f64], steps: &[f64]| {
+            for (value, step) in values.iter_mut().zip(steps) {
+                *value += share * step;
+            }
+        };
+        go(self.states.as_flattened_mut(), step.states.as_flattened());
+        go(self.inputs.as_flattened_mut(), step.inputs.as_flattened());
     }
 }
 
-/// The six boxes of one vehicle at one stage: lower and upper bound of acceleration, steering and speed.
+/// One bound of a box: `room + sign · quantity ≥ 0`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Boxes {
-    /// Index into a [`Point`].
+pub(super) struct Bound {
+    /// Whose, as an index into a [`Point`].
     pub at: usize,
-    /// `value`: how far the iterate is inside.
-    pub room: [f64; 6],
+    /// Of which quantity: acceleration, steering or speed.
+    pub quantity: usize,
+    /// 1 for a lower bound, −1 for an upper one.
+    pub sign: f64,
+    /// How far the iterate is inside.
+    pub room: f64,
 }
 
-/// Number of inequalities in [`Boxes`].
-pub(super) const BOXES: usize = 6;
+impl Bound {
+    /// `g·z`.
+    #[inline(always)]
+    pub(super) fn slope(&self, point: &Point) -> f64 {
+        let ([a, d], v) = (point.inputs[self.at], point.states[self.at][3]);
+        self.sign * [a, d, v][self.quantity]
+    }
+
+    /// Adds `weight · g` to a gradient.
+    #[inline(always)]
+    pub(super) fn pull(&self, weight: f64, gradient: &mut Point) {
+        let pull = self.sign * weight;
+        match self.quantity {
+            2 => gradient.states[self.at][3] += pull,
+            axis => gradient.inputs[self.at][axis] += pull,
+        }
+    }
+}
 
 /// One row `c + g·p + σ ≥ 0`.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +74,8 @@ pub(super) struct Inequality {
     pub gradient: [f64; 3],
     /// `c`.
     pub value: f64,
+    /// Which block it belongs to.
+    pub block: usize,
 }
 
 impl Inequality {
@@ -82,56 +105,102 @@ impl Inequality {
     }
 }
 
-/// All inequalities of a problem but those over whole trajectories.
+/// All inequalities of a problem but those over whole trajectories: those that are solved with, and those so far away that
+/// they are left out and only checked in the end.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Inequalities {
-    pub boxes: Vec<Boxes>,
+    pub bounds: Vec<Bound>,
     /// Hard rows first.
     pub rows: Vec<Inequality>,
     /// Weights `(ℓ, q)` of the soft rows, which are the last of `rows`, and of the rows over whole trajectories.
     pub weights: Vec<[f64; 2]>,
+    /// Multipliers of a neighbouring problem, in the order of bounds, rows and rows over whole trajectories.
+    pub multipliers: Vec<f64>,
+    far_bounds: Vec<Bound>,
+    far_rows: Vec<Inequality>,
 }
+
+/// A multiplier above this belongs to a row that matters.
+const MATTERS: f64 = 1e-6;
 
 impl Inequalities {
-    /// Lists the inequalities of a problem. Rows whose violation costs nothing are left out.
-    pub(super) fn fill(&mut self, qp: &StageQp) {
-        let vehicles = qp.vehicles.len();
-        self.boxes.clear();
-        for (i, stages) in qp.vehicles.iter().enumerate() {
-            for k in stages.first..qp.horizon {
-                let [[a, d], v] = [stages.input_boxes[k], [stages.speed_boxes[k]; 2]];
-                let room = [-a.lower, a.upper, -d.lower, d.upper, -v[0].lower, v[0].upper];
-                self.boxes.push(Boxes { at: k * vehicles + i, room });
-            }
-        }
+    /// Lists the inequalities of a problem. Rows whose violation costs nothing are left out, and with a `reach` those that
+    /// no deviation within it touches and that did not matter in the neighbouring problem whose multipliers `known` holds.
+    pub(super) fn fill(&mut self, qp: &StageQp, known: &StageSolution, reach: Option<&Reach>) {
+        self.bounds.clear();
         self.rows.clear();
         self.weights.clear();
-        for block in listed(qp, false) {
-            self.push(block, vehicles);
+        self.multipliers.clear();
+        self.far_bounds.clear();
+        self.far_rows.clear();
+        for vehicle in 0..qp.vehicles.len() {
+            self.list_bounds(qp, vehicle, known, reach);
         }
-        for block in listed(qp, true) {
-            let before = self.rows.len();
-            self.push(block, vehicles);
-            let added = self.rows.len() - before;
-            self.weights.extend(block.penalty.map(weights).into_iter().cycle().take(added));
+        for soft in [false, true] {
+            for (index, block) in qp.blocks.iter().enumerate() {
+                if block.penalty.is_some() == soft && block.costs_something() {
+                    self.list_rows(qp, index, known, reach);
+                }
+            }
         }
         self.weights.extend(qp.trajectory_rows.iter().map(|row| weights(row.penalty)));
+        self.multipliers.extend(&known.trajectory_multipliers);
     }
 
-    fn push(&mut self, block: &RowBlock, vehicles: usize) {
-        let active = block.rows.iter().enumerate().filter(|(_, row)| row.active);
-        self.rows.extend(active.map(|(k, row)| Inequality {
-            at: k * vehicles + block.vehicle,
-            other: block.other.map(|other| k * vehicles + other),
-            gradient: row.gradient,
-            value: row.value,
-        }));
+    fn list_bounds(&mut self, qp: &StageQp, vehicle: usize, known: &StageSolution, reach: Option<&Reach>) {
+        let stages = &qp.vehicles[vehicle];
+        for k in stages.first..qp.horizon {
+            let [[a, d], v] = [stages.input_boxes[k], [stages.speed_boxes[k]; 2]];
+            for (quantity, interval) in [a, d, v[0]].into_iter().enumerate() {
+                let known = known.bound_multipliers[vehicle][k][quantity];
+                let sides = [(1.0, -interval.lower), (-1.0, interval.upper)];
+                for ((sign, room), multiplier) in sides.into_iter().zip(known) {
+                    let bound = Bound { at: k * qp.vehicles.len() + vehicle, quantity, sign, room };
+                    if multiplier > MATTERS || reach.is_none_or(|reach| room <= reach.of_bound(quantity)) {
+                        self.bounds.push(bound);
+                        self.multipliers.push(multiplier);
+                    } else {
+                        self.far_bounds.push(bound);
+                    }
+                }
+            }
+        }
+    }
+
+    fn list_rows(&mut self, qp: &StageQp, index: usize, known: &StageSolution, reach: Option<&Reach>) {
+        let (block, vehicles) = (&qp.blocks[index], qp.vehicles.len());
+        let rows = block.rows.iter().zip(&known.row_multipliers[index]).enumerate();
+        for (k, (row, multiplier)) in rows.filter(|(_, (row, _))| row.active) {
+            let other = block.other.map(|other| k * vehicles + other);
+            let at = k * vehicles + block.vehicle;
+            let row = Inequality { at, other, gradient: row.gradient, value: row.value, block: index };
+            if *multiplier > MATTERS || reach.is_none_or(|reach| row.value <= reach.of_row(&row)) {
+                self.rows.push(row);
+                self.weights.extend(block.penalty.map(weights));
+                self.multipliers.push(*multiplier);
+            } else {
+                self.far_rows.push(row);
+            }
+        }
+    }
+
+    /// Whether a point satisfies everything that was left out, so that it is the optimum with it too.
+    pub(super) fn far_ones_hold(&self, point: &Point) -> bool {
+        self.far_bounds.iter().all(|bound| bound.room + bound.slope(point) >= 0.0)
+            && self.far_rows.iter().all(|row| row.value + row.slope(&point.states) >= 0.0)
     }
 }
 
-/// The blocks that are listed, hard or soft.
-fn listed(qp: &StageQp, soft: bool) -> impl Iterator<Item = &RowBlock> {
-    qp.blocks.iter().filter(move |block| block.penalty.is_some() == soft && block.costs_something())
+impl Reach {
+    fn of_bound(&self, quantity: usize) -> f64 {
+        [self.input[0], self.input[1], self.state[3]][quantity]
+    }
+
+    fn of_row(&self, row: &Inequality) -> f64 {
+        let [x, y, turn] = row.gradient.map(f64::abs);
+        let movers = if row.other.is_some() { 2.0 } else { 1.0 };
+        movers * (x * self.state[0] + y * self.state[1]) + turn * self.state[2]
+    }
 }
 
 /// `ℓ` and `q` of a violation's cost.

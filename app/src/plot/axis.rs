@@ -1,0 +1,104 @@
+//! Axes: from values to pixels, and round numbers to write beside them.
+
+use std::ops::Range;
+
+/// From values to pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Axis {
+    values: Range<f64>,
+    pixels: [f64; 2],
+    logarithmic: bool,
+    every: Option<f64>,
+}
+
+impl Axis {
+    /// An axis that takes the ends of `values` to `pixels`.
+    pub fn new(values: Range<f64>, pixels: [f64; 2]) -> Axis {
+        Axis { values, pixels, logarithmic: false, every: None }
+    }
+
+    /// The same by logarithms, if all values are above 0.
+    pub fn logarithmic(self) -> Axis {
+        Axis { logarithmic: self.values.start > 0.0, ..self }
+    }
+
+    /// The same with marks at multiples of a value, if there is one.
+    pub fn every(self, every: Option<f64>) -> Axis {
+        Axis { every, ..self }
+    }
+
+    /// Where a value lies; beyond the ends it stays there.
+    pub fn pixel(&self, value: f64) -> f64 {
+        let Range { start, end } = self.values;
+        let share = if self.logarithmic {
+            libm::log(value.max(start) / start) / libm::log(end / start)
+        } else {
+            (value - start) / (end - start)
+        };
+        self.pixels[0] + share.clamp(0.0, 1.0) * (self.pixels[1] - self.pixels[0])
+    }
+
+    /// Round values within the ends, about one every `spacing` pixels, and what is written beside them.
+    pub fn ticks(&self, spacing: f64) -> Vec<(f64, String)> {
+        let Range { start, end } = self.values;
+        if self.logarithmic {
+            return decades(start, end);
+        }
+        let count = ((self.pixels[1] - self.pixels[0]).abs() / spacing).max(1.0);
+        let step = self.every.unwrap_or_else(|| round_step((end - start) / count));
+        let decimals = (-libm::floor(libm::log10(step) + 1e-9)).max(0.0) as usize;
+        let decimals = if is_whole(step * libm::pow(10.0, decimals as f64)) { decimals } else { decimals + 1 };
+        let (first, last) = (libm::ceil(start / step - 1e-9) as i64, libm::floor(end / step + 1e-9) as i64);
+        (first..=last)
+            .map(|index| {
+                let value = index as f64 * step;
+                (value, format!("{value:.decimals$}").replace('-', "\u{2212}"))
+            })
+            .collect()
+    }
+}
+
+/// The next of 1, 2, 2.5 and 5 times a power of ten.
+fn round_step(least: f64) -> f64 {
+    let power = libm::pow(10.0, libm::floor(libm::log10(least)));
+    let factor = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().find(|factor| factor * power >= least * (1.0 - 1e-9));
+    factor.unwrap_or(10.0) * power
+}
+
+fn is_whole(value: f64) -> bool {
+    (value - value.round()).abs() < 1e-6
+}
+
+/// 1, 2 and 5 times powers of ten.
+fn decades(start: f64, end: f64) -> Vec<(f64, String)> {
+    let (first, last) = (libm::floor(libm::log10(start)) as i32, libm::ceil(libm::log10(end)) as i32);
+    let values = (first..=last).flat_map(|power| [1.0, 2.0, 5.0].map(|factor| factor * libm::pow(10.0, power.into())));
+    values.filter(|value| (start..=end).contains(value)).map(|value| (value, format!("{value}"))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(values: Range<f64>, pixels: f64, spacing: f64) -> Vec<String> {
+        Axis::new(values, [0.0, pixels]).ticks(spacing).into_iter().map(|(_, words)| words).collect()
+    }
+
+    #[test]
+    fn ticks_are_round_and_written_in_full() {
+        assert_eq!(words(0.0..12.0, 600.0, 100.0), ["0", "2", "4", "6", "8", "10", "12"]);
+        assert_eq!(words(-0.3..0.31, 400.0, 100.0), ["−0.2", "0.0", "0.2"]);
+        assert_eq!(words(22.4..24.1, 400.0, 100.0), ["22.5", "23.0", "23.5", "24.0"]);
+        assert_eq!(words(0.0..1.0, 400.0, 100.0), ["0.00", "0.25", "0.50", "0.75", "1.00"]);
+    }
+
+    #[test]
+    fn both_ends_and_the_middle_lie_where_they_should() {
+        let axis = Axis::new(10.0..1000.0, [500.0, 100.0]);
+        assert_eq!((axis.pixel(10.0), axis.pixel(505.0), axis.pixel(2000.0)), (500.0, 300.0, 100.0));
+        let log = axis.logarithmic();
+        assert!((log.pixel(100.0) - 300.0).abs() < 1e-9);
+        let ticks: Vec<String> = log.ticks(1.0).into_iter().map(|(_, words)| words).collect();
+        assert_eq!(ticks, ["10", "20", "50", "100", "200", "500", "1000"]);
+    }
+}

@@ -1,0 +1,109 @@
+//! Films: footprints at equal steps of time, numbered, on their roads.
+//!
+//! Where all roads run the same way, each moment is a strip of its own below the one before ([`Film::strips`]): vehicles
+//! in one lane would cover one another otherwise. Where roads cross, all moments are in one plan ([`Film::plan`]).
+
+mod body;
+mod plan;
+mod strips;
+
+use super::ink::{Colour, Dash, Ink, VERMILLION};
+use super::legend::{Legend, Sample};
+use super::sketch::Sketch;
+
+const WIDTH: f64 = 1400.0;
+const MARGIN: f64 = 30.0;
+const TITLE: f64 = 48.0;
+/// Points of a path are not closer than this: whole pixels would make it ragged \[px\].
+const NEAREST: f64 = 16.0;
+/// The path of the ego, as the source draws it.
+const PATH: Ink = Ink::new(VERMILLION, Dash::Solid);
+
+/// Vehicles at equal steps of time. Lengths are in metres, in a frame whose x axis runs along the main road.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Film {
+    /// What it shows.
+    pub title: String,
+    /// The roads.
+    pub roads: Vec<Strip>,
+    /// Who drives: name and colour.
+    pub cast: Vec<(String, Colour)>,
+    /// The moments, in order.
+    pub moments: Vec<Moment>,
+    /// Where the ego's centre was, with the time \[s\].
+    pub path: Vec<(f64, [f64; 2])>,
+}
+
+/// A straight road.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Strip {
+    /// Its direction, counter-clockwise from x \[rad\].
+    pub heading_rad: f64,
+    /// Lateral coordinates of its right and its left edge.
+    pub edges_m: [f64; 2],
+    /// Lateral coordinates of the lines between its lanes.
+    pub dividers_m: Vec<f64>,
+    /// What is no road although it lies between the edges: a polygon in the frame of the picture.
+    pub shoulder_m: Vec<[f64; 2]>,
+}
+
+/// One moment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// When it is \[s\].
+    pub time_s: f64,
+    /// Who is where: the corners of each body, front right, front left, rear right, rear left.
+    pub bodies: Vec<[[f64; 2]; 4]>,
+}
+
+impl Film {
+    /// The picture that suits the roads.
+    pub fn sketch(&self) -> Sketch {
+        let parallel = self.roads.iter().all(|road| libm::cos(road.heading_rad) > 0.999);
+        if parallel { self.strips() } else { self.plan() }
+    }
+
+    fn legend(&self) -> Legend {
+        let mut legend = Legend::default();
+        for (name, colour) in &self.cast {
+            legend.add(Sample::Patch(*colour), name);
+        }
+        let who = self.cast.first().map_or("", |(name, _)| name.split(':').next().unwrap_or(name));
+        legend.add(Sample::Line(PATH), &format!("path of {who}"));
+        legend
+    }
+
+    /// Smallest and largest x and y of all bodies.
+    fn bounds(&self) -> [[f64; 2]; 2] {
+        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for point in self.moments.iter().flat_map(|moment| moment.bodies.iter().flatten()) {
+            for axis in 0..2 {
+                bounds[0][axis] = bounds[0][axis].min(point[axis]);
+                bounds[1][axis] = bounds[1][axis].max(point[axis]);
+            }
+        }
+        if bounds[0][0] <= bounds[1][0] { bounds } else { [[0.0; 2], [1.0; 2]] }
+    }
+
+    /// The path in pixels until a time, with no two points closer than a line can show.
+    fn path_pixels(&self, until_s: f64, place: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
+        let mut pixels: Vec<[f64; 2]> = Vec::new();
+        for (_, point) in self.path.iter().take_while(|(time_s, _)| *time_s <= until_s + 1e-9) {
+            let pixel = place(*point);
+            if pixels.last().is_none_or(|last| distance(*last, pixel) >= NEAREST) {
+                pixels.push(pixel);
+            }
+        }
+        pixels
+    }
+
+    /// Length of the longest body.
+    fn longest_m(&self) -> f64 {
+        let bodies = self.moments.iter().flat_map(|moment| &moment.bodies);
+        bodies.map(|body| distance(body[0], body[2])).fold(0.0, f64::max).max(1e-3)
+    }
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::hypot(a[0] - b[0], a[1] - b[1])
+}

@@ -1,0 +1,33 @@
+//! A footprint: a filled rectangle with a windscreen and a number.
+
+use super::super::ink::{BLACK, Colour, Dash, Ink};
+use super::super::sketch::{SMALL, Side, Sketch, width_of};
+use super::distance;
+
+/// Draws a footprint; corners are in pixels, in the order of [`super::Moment::bodies`].
+pub(super) fn draw(sketch: &mut Sketch, corners: [[f64; 2]; 4], colour: Colour, opacity: f64) {
+    let [front_right, front_left, rear_right, rear_left] = corners;
+    let ring = vec![front_right, front_left, rear_left, rear_right];
+    sketch.fill(ring.clone(), colour, opacity);
+    let edge = Ink { width: 1, ..Ink::new(BLACK, Dash::Solid) };
+    sketch.line(ring.into_iter().chain([front_right]).collect(), edge);
+    let between = |a: [f64; 2], b: [f64; 2]| [a[0] + 0.15 * (b[0] - a[0]), a[1] + 0.15 * (b[1] - a[1])];
+    let screen = vec![between(front_right, rear_right), between(front_left, rear_left)];
+    sketch.line(screen, edge.thin());
+}
+
+/// Writes words onto a footprint if they fit, otherwise above it.
+pub(super) fn number(sketch: &mut Sketch, corners: [[f64; 2]; 4], words: &str) {
+    let middle = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0;
+    let (length, width) = (distance(corners[0], corners[2]), distance(corners[0], corners[1]));
+    let lies = (corners[0][0] - corners[2][0]).abs() > (corners[0][1] - corners[2][1]).abs();
+    let [across, upwards] = if lies { [length, width] } else { [width, length] };
+    let fits = width_of(words, SMALL) < 0.7 * across && 0.8 * SMALL < upwards;
+    let above = corners.iter().map(|corner| corner[1]).fold(f64::INFINITY, f64::min) - 0.45 * SMALL;
+    let beside = corners.iter().map(|corner| corner[0]).fold(f64::NEG_INFINITY, f64::max) + 4.0;
+    match (fits, lies) {
+        (true, _) => sketch.text([middle(0), middle(1)], Side::Middle, SMALL, words),
+        (false, true) => sketch.text([middle(0), above], Side::Middle, SMALL, words),
+        (false, false) => sketch.text([beside, middle(1)], Side::Left, SMALL, words),
+    }
+}

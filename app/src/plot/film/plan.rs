@@ -1,0 +1,174 @@
+//! All moments in one plan, for roads that cross.
+
+use super::super::axis::Axis;
+use super::super::ink::{Dash, GREY, Ink, PAPER, SURFACE};
+use super::super::sketch::{LARGE, MEDIUM, SMALL, Side, Sketch};
+use super::{Film, MARGIN, PATH, Strip, TITLE, WIDTH, body, distance};
+
+const LEFT: f64 = 92.0;
+const TICKS: f64 = 34.0;
+const ACROSS: f64 = 38.0;
+/// The highest plan \[px\].
+const HIGHEST: f64 = 900.0;
+/// Footprints whose centres are closer than this share of their length get one number together.
+const CLOSE: f64 = 0.45;
+
+/// From metres to pixels.
+struct Map {
+    low_m: [f64; 2],
+    high_m: [f64; 2],
+    scale: f64,
+    left: f64,
+    bottom: f64,
+}
+
+impl Map {
+    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.left + (x - self.low_m[0]) * self.scale, self.bottom - (y - self.low_m[1]) * self.scale]
+    }
+
+    fn right(&self) -> f64 {
+        self.place(self.high_m)[0]
+    }
+
+    fn top(&self) -> f64 {
+        self.place(self.high_m)[1]
+    }
+}
+
+impl Film {
+    /// The crossing from above, with every footprint of every moment.
+    pub fn plan(&self) -> Sketch {
+        let margin = 0.5 * self.longest_m();
+        let [low, high] = self.bounds();
+        let (low_m, high_m) = (low.map(|value| value - margin), high.map(|value| value + margin));
+        let legend = self.legend();
+        let steps = self.moments.get(1).map_or(0.0, |moment| moment.time_s - self.moments[0].time_s);
+        let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 84.0;
+        let wide = (WIDTH - LEFT - MARGIN) / (high_m[0] - low_m[0]);
+        let scale = wide.min(HIGHEST / (high_m[1] - low_m[1]));
+        let [across, upwards] = [0, 1].map(|axis| (high_m[axis] - low_m[axis]) * scale);
+        let left = LEFT + 0.5 * (WIDTH - LEFT - MARGIN - across);
+        let map = Map { low_m, high_m, scale, left, bottom: head + upwards };
+        let mut sketch = Sketch::new(WIDTH, head + upwards + TICKS + ACROSS + 8.0);
+        sketch.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
+        legend.draw(&mut sketch, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
+        let words = format!("footprint 1 at 0 s, then one every {steps:.1} s");
+        sketch.text([MARGIN, head - 66.0], Side::Left, MEDIUM, words);
+        self.roads.iter().for_each(|road| map.draw_road(&mut sketch, road));
+        self.roads.iter().for_each(|road| map.draw_lines(&mut sketch, road));
+        map.draw_axes(&mut sketch);
+        sketch.line(self.path_pixels(f64::INFINITY, |point| map.place(point)), PATH);
+        self.draw_footprints(&mut sketch, &map);
+        sketch
+    }
+
+    fn draw_footprints(&self, sketch: &mut Sketch, map: &Map) {
+        let last = self.moments.len().saturating_sub(1).max(1) as f64;
+        for (index, moment) in self.moments.iter().enumerate() {
+            for (body, (_, colour)) in moment.bodies.iter().zip(&self.cast) {
+                body::draw(sketch, body.map(|corner| map.place(corner)), *colour, 0.45 + 0.5 * index as f64 / last);
+            }
+        }
+        for who in 0..self.cast.len() {
+            let bodies: Vec<_> = self.moments.iter().filter_map(|moment| moment.bodies.get(who)).collect();
+            let mut first = 0;
+            while first < bodies.len() {
+                let near = |body: &[[f64; 2]; 4]| distance(body[0], bodies[first][0]) < CLOSE * self.longest_m();
+                let count = bodies[first..].iter().take_while(|body| near(body)).count().max(1);
+                let last = first + count - 1;
+                let words = if count == 1 { format!("{}", first + 1) } else { format!("{}–{}", first + 1, last + 1) };
+                body::number(sketch, bodies[last].map(|corner| map.place(corner)), &words);
+                first += count;
+            }
+        }
+    }
+}
+
+impl Map {
+    /// The part of a strip between two lateral coordinates that is visible.
+    fn band(&self, road: &Strip, [right_m, left_m]: [f64; 2]) -> Vec<[f64; 2]> {
+        let (sin, cos) = libm::sincos(road.heading_rad);
+        let far = 4.0 * distance(self.low_m, self.high_m);
+        let point = |along: f64, lateral: f64| [cos * along - sin * lateral, sin * along + cos * lateral];
+        let ring = [point(-far, right_m), point(far, right_m), point(far, left_m), point(-far, left_m)];
+        clipped(&ring, self.low_m, self.high_m)
+    }
+
+    fn draw_road(&self, sketch: &mut Sketch, road: &Strip) {
+        let surface = self.band(road, road.edges_m);
+        sketch.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
+        if !road.shoulder_m.is_empty() {
+            let ring = clipped(&road.shoulder_m, self.low_m, self.high_m);
+            sketch.fill(ring.into_iter().map(|point| self.place(point)).collect(), PAPER, 1.0);
+        }
+    }
+
+    fn draw_lines(&self, sketch: &mut Sketch, road: &Strip) {
+        let edges = road.edges_m.iter().map(|&edge| (edge, Dash::Solid));
+        let dividers = road.dividers_m.iter().map(|&divider| (divider, Dash::Long));
+        for (lateral_m, dash) in edges.chain(dividers) {
+            let line = self.band(road, [lateral_m, lateral_m]);
+            let ends: Vec<[f64; 2]> = line.into_iter().map(|point| self.place(point)).collect();
+            sketch.line(ends, Ink { width: 1, ..Ink::new(GREY, dash) });
+        }
+    }
+
+    fn draw_axes(&self, sketch: &mut Sketch) {
+        let [left, right, top, bottom] = [self.left, self.right(), self.top(), self.bottom];
+        let axis = Ink::new(GREY, Dash::Solid).thin();
+        let [x, y] = [0, 1].map(|i| self.low_m[i]..self.high_m[i]);
+        let (x, y) = (Axis::new(x, [left, right]), Axis::new(y, [bottom, top]));
+        for (value, words) in x.ticks(105.0) {
+            sketch.line(vec![[x.pixel(value), bottom], [x.pixel(value), bottom + 8.0]], axis);
+            sketch.text([x.pixel(value), bottom + 0.65 * TICKS], Side::Middle, SMALL, words);
+        }
+        for (value, words) in y.ticks(80.0) {
+            sketch.line(vec![[left - 8.0, y.pixel(value)], [left, y.pixel(value)]], axis);
+            sketch.text([left - 14.0, y.pixel(value)], Side::Right, SMALL, words);
+        }
+        sketch.line(vec![[left, top], [left, bottom], [right, bottom]], axis);
+        sketch.text([left - 14.0, top - 20.0], Side::Right, MEDIUM, "y [m]");
+        sketch.text([0.5 * (left + right), bottom + TICKS + 0.5 * ACROSS], Side::Middle, MEDIUM, "x [m]");
+    }
+}
+
+/// The part of a polygon within a rectangle (Sutherland and Hodgman).
+fn clipped(ring: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut ring = ring.to_vec();
+    for (axis, bound, sign) in [(0, low[0], 1.0), (0, high[0], -1.0), (1, low[1], 1.0), (1, high[1], -1.0)] {
+        let depth = |point: [f64; 2]| sign * (point[axis] - bound);
+        let mut kept = Vec::new();
+        for (index, &point) in ring.iter().enumerate() {
+            let before = ring[(index + ring.len() - 1) % ring.len()];
+            if (depth(before) < 0.0) != (depth(point) < 0.0) {
+                let share = depth(before) / (depth(before) - depth(point));
+                kept.push([0, 1].map(|i| before[i] + share * (point[i] - before[i])));
+            }
+            if depth(point) >= 0.0 {
+                kept.push(point);
+            }
+        }
+        ring = kept;
+    }
+    ring
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_outside_is_cut_away() {
+        let diamond = [[0.0, -2.0], [2.0, 0.0], [0.0, 2.0], [-2.0, 0.0]];
+        let inside = clipped(&diamond, [-1.0, -1.0], [1.0, 1.0]);
+        let area: f64 = (0..inside.len())
+            .map(|i| {
+                let ([x, y], [next_x, next_y]) = (inside[i], inside[(i + 1) % inside.len()]);
+                0.5 * (x * next_y - next_x * y)
+            })
+            .sum();
+        assert!((area - 4.0).abs() < 1e-12, "the diamond covers the whole square: {area}");
+        assert!(clipped(&diamond, [3.0, 3.0], [4.0, 4.0]).is_empty());
+    }
+}

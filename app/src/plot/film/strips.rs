@@ -1,0 +1,122 @@
+//! One strip of road a moment, below the one before.
+
+use super::super::axis::Axis;
+use super::super::ink::{Dash, GREY, Ink, PAPER, SURFACE};
+use super::super::sketch::{LARGE, MEDIUM, SMALL, Side, Sketch};
+use super::{Film, MARGIN, PATH, TITLE, WIDTH, body};
+
+/// Space for the number and the time of a moment \[px\].
+const LEFT: f64 = 150.0;
+const BETWEEN: f64 = 16.0;
+const TICKS: f64 = 36.0;
+const ACROSS: f64 = 38.0;
+/// A body shorter than this cannot be seen: the strips then move along with the ego \[px\].
+const SHORTEST: f64 = 26.0;
+/// How long it is then.
+const COMFORTABLE: f64 = 64.0;
+/// The highest strip \[px\].
+const HIGHEST: f64 = 150.0;
+
+/// What part of the road the strips show, and how large.
+struct Window {
+    /// Pixels per metre.
+    scale: f64,
+    /// How much road is visible \[m\].
+    length_m: f64,
+    /// Where the visible part begins: on the road, or before the ego.
+    start_m: f64,
+    /// Whether it moves along with the ego.
+    moves: bool,
+    /// Lateral coordinates of the outermost edges.
+    edges_m: [f64; 2],
+}
+
+impl Window {
+    fn of(film: &Film) -> Window {
+        let [[from, _], [to, _]] = film.bounds();
+        let edges = film.roads.iter().map(|road| road.edges_m);
+        let mut edges_m = edges
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [right, left]| [low.min(right), high.max(left)]);
+        if edges_m[0] >= edges_m[1] {
+            edges_m = [0.0, 1.0];
+        }
+        let (margin, longest) = (0.5 * film.longest_m(), film.longest_m());
+        let space = WIDTH - LEFT - MARGIN;
+        let whole = space / (to - from + 2.0 * margin);
+        let height = HIGHEST / (edges_m[1] - edges_m[0]);
+        if whole * longest < SHORTEST {
+            let scale = (COMFORTABLE / longest).min(height);
+            return Window { scale, length_m: space / scale, start_m: -0.5 * space / scale, moves: true, edges_m };
+        }
+        let scale = whole.min(height);
+        Window { scale, length_m: space / scale, start_m: from - margin, moves: false, edges_m }
+    }
+
+    fn height(&self) -> f64 {
+        self.scale * (self.edges_m[1] - self.edges_m[0])
+    }
+}
+
+impl Film {
+    /// Moments one below the other, all of the same part of the road, or of the part around the ego.
+    pub fn strips(&self) -> Sketch {
+        let window = Window::of(self);
+        let legend = self.legend();
+        let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 22.0;
+        let row = window.height() + BETWEEN;
+        let bottom = head + self.moments.len() as f64 * row;
+        let mut sketch = Sketch::new(WIDTH, bottom + TICKS + ACROSS + 8.0);
+        sketch.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
+        legend.draw(&mut sketch, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
+        for index in 0..self.moments.len() {
+            self.draw_strip(&mut sketch, &window, index, head + index as f64 * row);
+        }
+        let axis = Axis::new(window.start_m..window.start_m + window.length_m, [LEFT, WIDTH - MARGIN]);
+        for (value, words) in axis.ticks(105.0) {
+            let x = axis.pixel(value);
+            sketch.line(vec![[x, bottom - BETWEEN], [x, bottom - BETWEEN + 8.0]], Ink::new(GREY, Dash::Solid).thin());
+            sketch.text([x, bottom + 0.3 * TICKS], Side::Middle, SMALL, words);
+        }
+        let across = if window.moves { "place along the road, from the ego [m]" } else { "place along the road [m]" };
+        let middle = [0.5 * (LEFT + WIDTH - MARGIN), bottom + TICKS + 0.4 * ACROSS];
+        sketch.text(middle, Side::Middle, MEDIUM, across);
+        sketch
+    }
+
+    fn draw_strip(&self, sketch: &mut Sketch, window: &Window, index: usize, top: f64) {
+        let moment = &self.moments[index];
+        let centre = |body: &[[f64; 2]; 4]| 0.25 * body.iter().map(|corner| corner[0]).sum::<f64>();
+        let shift_m = if window.moves { moment.bodies.first().map_or(0.0, centre) } else { 0.0 };
+        let bottom = top + window.height();
+        let place = |[x, y]: [f64; 2]| {
+            let along = LEFT + (x - shift_m - window.start_m) * window.scale;
+            [along.clamp(LEFT, WIDTH - MARGIN), bottom - (y - window.edges_m[0]) * window.scale]
+        };
+        sketch.block([LEFT, top], [WIDTH - MARGIN, bottom], SURFACE);
+        for road in &self.roads {
+            if !road.shoulder_m.is_empty() {
+                sketch.fill(road.shoulder_m.iter().map(|&point| place(point)).collect(), PAPER, 1.0);
+            }
+            for &lateral_m in &road.dividers_m {
+                let y = place([0.0, lateral_m])[1];
+                sketch.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], Ink::new(GREY, Dash::Long).thin());
+            }
+        }
+        for y in [top, bottom] {
+            sketch.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], Ink::new(GREY, Dash::Solid).thin());
+        }
+        sketch.line(self.path_pixels(moment.time_s, place), PATH);
+        let number = format!("{}", index + 1);
+        for (body, (_, colour)) in moment.bodies.iter().zip(&self.cast) {
+            let x = body.map(|corner| LEFT + (corner[0] - shift_m - window.start_m) * window.scale);
+            if x.iter().all(|x| (LEFT..=WIDTH - MARGIN).contains(x)) {
+                let corners = body.map(place);
+                body::draw(sketch, corners, *colour, 1.0);
+                body::number(sketch, corners, &number);
+            }
+        }
+        let middle = 0.5 * (top + bottom);
+        sketch.text([MARGIN, middle], Side::Left, LARGE, number);
+        sketch.text([LEFT - 14.0, middle], Side::Right, SMALL, format!("{:.1} s", moment.time_s));
+    }
+}

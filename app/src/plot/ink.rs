@@ -1,0 +1,97 @@
+//! Colours and line styles: the palette of Okabe and Ito, which survives colour blindness, and a dash pattern with each
+//! colour, which survives a printer without colours.
+
+/// A colour, red, green and blue.
+pub type Colour = [u8; 3];
+
+/// Text and axes.
+pub const BLACK: Colour = [0x1A, 0x1A, 0x1A];
+/// What matters less: forecasts, the past, the shoulder of the road.
+pub const GREY: Colour = [0x80, 0x80, 0x80];
+/// Grid lines.
+pub const PALE: Colour = [0xDD, 0xDD, 0xDD];
+/// Behind bodies: the surface of the road; behind curves: working hours.
+pub const SURFACE: Colour = [0xEE, 0xEE, 0xEE];
+/// Behind everything.
+pub const PAPER: Colour = [0xFF, 0xFF, 0xFF];
+/// Limits, and the path of the ego as the source draws it.
+pub const VERMILLION: Colour = [0xD5, 0x5E, 0x00];
+/// The ego.
+pub const ORANGE: Colour = [0xE6, 0x9F, 0x00];
+/// The first of the others.
+pub const BLUE: Colour = [0x00, 0x72, 0xB2];
+const GREEN: Colour = [0x00, 0x9E, 0x73];
+const PURPLE: Colour = [0xCC, 0x79, 0xA7];
+const SKY: Colour = [0x56, 0xB4, 0xE9];
+
+/// How a line is broken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dash {
+    /// Not at all.
+    #[default]
+    Solid,
+    /// Into long pieces.
+    Long,
+    /// Into short ones.
+    Short,
+    /// Into long and short ones in turn.
+    Mixed,
+}
+
+impl Dash {
+    /// Lengths of pieces and gaps in turn \[px\]; empty for a solid line.
+    pub fn pattern(self) -> &'static [f64] {
+        match self {
+            Dash::Solid => &[],
+            Dash::Long => &[14.0, 7.0],
+            Dash::Short => &[4.0, 6.0],
+            Dash::Mixed => &[16.0, 6.0, 4.0, 6.0],
+        }
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ink {
+    /// Its colour.
+    pub colour: Colour,
+    /// How it is broken.
+    pub dash: Dash,
+    /// How wide it is \[px\].
+    pub width: u32,
+}
+
+impl Ink {
+    /// A line of ordinary width.
+    pub const fn new(colour: Colour, dash: Dash) -> Ink {
+        Ink { colour, dash, width: 3 }
+    }
+
+    /// The same, thin.
+    pub const fn thin(self) -> Ink {
+        Ink { width: 2, ..self }
+    }
+
+    /// The same, broken otherwise.
+    pub const fn dashed(self, dash: Dash) -> Ink {
+        Ink { dash, ..self }
+    }
+}
+
+/// A limit that must not be passed.
+pub const LIMIT: Ink = Ink::new(VERMILLION, Dash::Short).thin();
+/// Something wanted or expected, beside what came of it.
+pub const WANTED: Ink = Ink::new(BLACK, Dash::Long).thin();
+
+/// Inks of several things of one kind, told apart by colour and by dashes; they begin again after the last.
+pub fn inks() -> impl Iterator<Item = Ink> {
+    let inks = [
+        Ink::new(ORANGE, Dash::Solid),
+        Ink::new(BLUE, Dash::Long),
+        Ink::new(GREEN, Dash::Mixed),
+        Ink::new(PURPLE, Dash::Short),
+        Ink::new(SKY, Dash::Solid),
+        Ink::new(BLACK, Dash::Long),
+    ];
+    inks.into_iter().cycle()
+}

@@ -1,0 +1,226 @@
+//! Panels: plots of curves over a common kind of axis, in rows and columns, with one legend for all.
+
+use std::ops::Range;
+
+use super::axis::Axis;
+use super::ink::{Dash, GREY, Ink, LIMIT, PALE, SURFACE};
+use super::legend::{Legend, Sample};
+use super::range;
+use super::sketch::{LARGE, MEDIUM, SMALL, Side, Sketch};
+
+const WIDTH: f64 = 1400.0;
+const LEFT: f64 = 92.0;
+const RIGHT: f64 = 30.0;
+const TITLE: f64 = 48.0;
+const NAME: f64 = 40.0;
+const TICKS: f64 = 34.0;
+const ACROSS: f64 = 38.0;
+
+/// Plots in rows and columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panels {
+    /// What the whole shows.
+    pub title: String,
+    /// What runs across, with its unit; the same for all.
+    pub across: String,
+    /// How many are side by side; 0 counts as 1.
+    pub columns: usize,
+    /// Distance of the marks across, such as hours of a day; round numbers without it.
+    pub every: Option<f64>,
+    /// The plots, by rows.
+    pub panels: Vec<Panel>,
+}
+
+/// One plot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panel {
+    /// What runs upwards, with its unit.
+    pub name: String,
+    /// What is drawn.
+    pub curves: Vec<Curve>,
+    /// Horizontal lines that must not be passed, and their name.
+    pub limits: Vec<(f64, String)>,
+    /// Parts of the way across that are shaded, such as working hours, and their name.
+    pub shaded: (Vec<[f64; 2]>, String),
+    /// Uprights: something happened.
+    pub moments: Vec<(f64, Ink, String)>,
+    /// Values that must be visible even if no curve reaches them.
+    pub reaches: Vec<f64>,
+    /// Whether upwards goes by logarithms.
+    pub logarithmic: bool,
+}
+
+/// A curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Its name in the legend; none if it is empty.
+    pub name: String,
+    /// Its points; one that is not finite breaks it.
+    pub points: Vec<[f64; 2]>,
+    /// How it is drawn.
+    pub ink: Ink,
+    /// Whether each point is marked.
+    pub marked: bool,
+}
+
+impl Curve {
+    /// A curve without marks.
+    pub fn new(name: impl Into<String>, ink: Ink, points: Vec<[f64; 2]>) -> Curve {
+        Curve { name: name.into(), points, ink, marked: false }
+    }
+
+    /// The same with a mark on each point.
+    pub fn marked(self) -> Curve {
+        Curve { marked: true, ..self }
+    }
+
+    /// A value that holds for `step` from each place on, and then jumps.
+    pub fn held(name: impl Into<String>, ink: Ink, points: &[[f64; 2]], step: f64) -> Curve {
+        Curve::new(name, ink, points.iter().flat_map(|&[x, y]| [[x, y], [x + step, y]]).collect())
+    }
+}
+
+/// Where one plot lies.
+struct Frame {
+    x: Axis,
+    y: Axis,
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+}
+
+impl Panels {
+    /// The picture.
+    pub fn sketch(&self) -> Sketch {
+        let columns = self.columns.max(1);
+        let rows = self.panels.len().div_ceil(columns);
+        let plot_height = match rows {
+            0 | 1 => 460.0,
+            2 => 300.0,
+            _ => 200.0,
+        };
+        let cell = WIDTH / columns as f64;
+        let common = self.common_legend();
+        let legend = common.clone().unwrap_or_default();
+        let names = match common {
+            Some(_) => NAME,
+            None => NAME + self.highest_legend(cell - LEFT - RIGHT),
+        };
+        let head = TITLE + legend.height(WIDTH - 2.0 * RIGHT) + 6.0;
+        let row_height = names + plot_height + TICKS;
+        let mut sketch = Sketch::new(WIDTH, head + rows as f64 * row_height + ACROSS + 8.0);
+        sketch.text([RIGHT, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
+        legend.draw(&mut sketch, [RIGHT, TITLE], WIDTH - 2.0 * RIGHT);
+        let values = self.values_across();
+        for (index, panel) in self.panels.iter().enumerate() {
+            let (row, column) = (index / columns, index % columns);
+            let (left, right) = (column as f64 * cell + LEFT, (column + 1) as f64 * cell - RIGHT);
+            let top = head + row as f64 * row_height + names;
+            let bottom = top + plot_height;
+            let y = Axis::new(panel.values(), [bottom, top]);
+            let y = if panel.logarithmic { y.logarithmic() } else { y };
+            let x = Axis::new(values.clone(), [left, right]).every(self.every);
+            panel.draw(&mut sketch, &Frame { x, y, left, right, top, bottom });
+            sketch.text([left - 70.0, top - names + 0.5 * NAME], Side::Left, MEDIUM, panel.name.as_str());
+            if common.is_none() {
+                panel.legend().draw(&mut sketch, [left, top - names + NAME], right - left);
+            }
+            if index + columns >= self.panels.len() {
+                let middle = [0.5 * (left + right), bottom + TICKS + 0.5 * ACROSS];
+                sketch.text(middle, Side::Middle, MEDIUM, self.across.as_str());
+            }
+        }
+        sketch
+    }
+
+    /// One legend for all plots, unless a line means different things in them.
+    fn common_legend(&self) -> Option<Legend> {
+        let mut legend = Legend::default();
+        for panel in &self.panels {
+            legend = legend.with(&panel.legend());
+        }
+        (!legend.is_ambiguous()).then_some(legend)
+    }
+
+    fn highest_legend(&self, width: f64) -> f64 {
+        self.panels.iter().map(|panel| panel.legend().height(width)).fold(0.0, f64::max)
+    }
+
+    /// What is visible across; curves touch the sides.
+    fn values_across(&self) -> Range<f64> {
+        let points = self.panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points);
+        let finite = points.filter(|point| point[1].is_finite()).map(|point| point[0]);
+        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        if low < high { low..high } else { range([low]) }
+    }
+}
+
+impl Panel {
+    fn legend(&self) -> Legend {
+        let mut legend = Legend::default();
+        for curve in &self.curves {
+            legend.add(Sample::Line(curve.ink), &curve.name);
+        }
+        for (_, name) in &self.limits {
+            legend.add(Sample::Line(LIMIT), name);
+        }
+        for (_, ink, name) in &self.moments {
+            legend.add(Sample::Line(ink.thin()), name);
+        }
+        legend.add(Sample::Patch(SURFACE), &self.shaded.1);
+        legend
+    }
+
+    fn values(&self) -> Range<f64> {
+        let drawn = self.curves.iter().flat_map(|curve| curve.points.iter().map(|point| point[1]));
+        let values = drawn.chain(self.limits.iter().map(|(limit, _)| *limit)).chain(self.reaches.iter().copied());
+        if !self.logarithmic {
+            return range(values);
+        }
+        let finite = values.filter(|value| value.is_finite() && *value > 0.0);
+        let (low, high) = finite.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
+        if low < high { 0.8 * low..1.25 * high } else { 0.1..10.0 }
+    }
+
+    fn draw(&self, sketch: &mut Sketch, frame: &Frame) {
+        let Frame { x, y, left, right, top, bottom } = frame;
+        for [from, to] in &self.shaded.0 {
+            sketch.block([x.pixel(*from), *top], [x.pixel(*to), *bottom], SURFACE);
+        }
+        self.draw_axes(sketch, frame);
+        for (at, ink, _) in &self.moments {
+            sketch.line(vec![[x.pixel(*at), *top], [x.pixel(*at), *bottom]], ink.thin());
+        }
+        for (limit, _) in &self.limits {
+            sketch.line(vec![[*left, y.pixel(*limit)], [*right, y.pixel(*limit)]], LIMIT);
+        }
+        for curve in &self.curves {
+            let pixels: Vec<[f64; 2]> = curve.points.iter().map(|point| [point[0], point[1]]).collect();
+            for piece in pixels.split(|point| !point[1].is_finite()).filter(|piece| !piece.is_empty()) {
+                let points: Vec<[f64; 2]> = piece.iter().map(|point| [x.pixel(point[0]), y.pixel(point[1])]).collect();
+                if curve.marked {
+                    points.iter().for_each(|&point| sketch.disc(point, 6, curve.ink.colour));
+                }
+                sketch.line(points, curve.ink);
+            }
+        }
+    }
+
+    fn draw_axes(&self, sketch: &mut Sketch, frame: &Frame) {
+        let Frame { x, y, left, right, top, bottom } = frame;
+        let (grid, axis) = (Ink { width: 1, ..Ink::new(PALE, Dash::Solid) }, Ink::new(GREY, Dash::Solid).thin());
+        for (value, words) in x.ticks(105.0) {
+            let at = x.pixel(value);
+            sketch.line(vec![[at, *top], [at, *bottom]], grid);
+            sketch.text([at, bottom + 0.5 * TICKS], Side::Middle, SMALL, words);
+        }
+        for (value, words) in y.ticks(52.0) {
+            let at = y.pixel(value);
+            sketch.line(vec![[*left, at], [*right, at]], grid);
+            sketch.text([left - 10.0, at], Side::Right, SMALL, words);
+        }
+        sketch.line(vec![[*left, *top], [*left, *bottom]], axis);
+        sketch.line(vec![[*left, *bottom], [*right, *bottom]], axis);
+    }
+}

@@ -1,0 +1,85 @@
+//! The viewer that a live recording goes to.
+
+use std::fmt;
+use std::net::{TcpStream, ToSocketAddrs};
+use std::str::FromStr;
+use std::time::Duration;
+
+use rerun::external::re_uri::ProxyUri;
+
+use super::RecordError;
+
+/// How long to wait for a viewer.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// The address of a Rerun viewer, such as `rerun+http://127.0.0.1:9876/proxy`, which is where a viewer on this machine
+/// listens unless it is told otherwise.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Viewer(ProxyUri);
+
+impl Viewer {
+    /// A viewer on this machine that was started as `rerun`.
+    ///
+    /// # Errors
+    /// Never, as long as Rerun can read the address that it names itself.
+    pub fn here() -> Result<Viewer, String> {
+        rerun::DEFAULT_CONNECT_URL.parse()
+    }
+
+    /// Sees whether anybody listens.
+    pub(super) fn find(&self) -> Result<(), RecordError> {
+        let origin = &self.0.origin;
+        let address = (origin.host.to_string().trim_matches(['[', ']']).to_owned(), origin.port);
+        let reached = address.to_socket_addrs().and_then(|mut found| {
+            let first = found.next().ok_or(std::io::ErrorKind::NotFound)?;
+            TcpStream::connect_timeout(&first, PATIENCE)
+        });
+        let refuse = |error: std::io::Error| RecordError::NoViewer {
+            address: format!("{}:{}", origin.host, origin.port),
+            reason: error.to_string(),
+        };
+        reached.map(drop).map_err(refuse)
+    }
+}
+
+impl fmt::Display for Viewer {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(formatter)
+    }
+}
+
+impl FromStr for Viewer {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Viewer, String> {
+        let wrong = |_| format!("not the address of a viewer; write it like {}", rerun::DEFAULT_CONNECT_URL);
+        text.parse().map(Viewer).map_err(wrong)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_is_read_and_written_and_nothing_else_is_one() {
+        let here = Viewer::here().expect("Rerun's own");
+        assert_eq!(here.to_string(), "rerun+http://127.0.0.1:9876/proxy");
+        assert_eq!(here.to_string().parse(), Ok(here));
+        for wrong in ["", "nowhere", "http://127.0.0.1:9876", "rerun+http://127.0.0.1:9876/catalog"] {
+            let error = wrong.parse::<Viewer>().expect_err(wrong);
+            assert!(error.contains("rerun+http://127.0.0.1:9876/proxy"), "{error}");
+        }
+    }
+
+    #[test]
+    fn where_nobody_listens_there_is_no_viewer() {
+        let listener = std::net::TcpListener::bind("127.0.0.1:0").expect("a free port");
+        let port = listener.local_addr().expect("bound").port();
+        let viewer: Viewer = format!("rerun+http://127.0.0.1:{port}/proxy").parse().expect("an address");
+        viewer.find().expect("somebody listens");
+        drop(listener);
+        let error = viewer.find().expect_err("nobody listens any more").to_string();
+        assert!(error.contains(&format!("127.0.0.1:{port}")) && error.contains("--connect"), "{error}");
+    }
+}

@@ -1,0 +1,70 @@
+//! What a controller takes a building for, where it is wrong.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Network, NetworkError};
+
+/// By which factors a controller's model of a building is off. All one: not at all.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Belief {
+    /// Believed heat capacities, as multiples of the real ones.
+    #[schemars(range(min = 0.1, max = 10))]
+    pub capacity_factor: f64,
+    /// Believed resistances between zones, as multiples of the real ones.
+    #[schemars(range(min = 0.1, max = 10))]
+    pub inner_resistance_factor: f64,
+    /// Believed resistances to the air outside, as multiples of the real ones.
+    #[schemars(range(min = 0.1, max = 10))]
+    pub outer_resistance_factor: f64,
+}
+
+impl Default for Belief {
+    fn default() -> Self {
+        Self { capacity_factor: 1.0, inner_resistance_factor: 1.0, outer_resistance_factor: 1.0 }
+    }
+}
+
+impl Network {
+    /// The same network as somebody believes it to be.
+    ///
+    /// # Errors
+    /// [`NetworkError::OutOfRange`] if a factor is not a number above zero.
+    pub fn believed(&self, belief: &Belief) -> Result<Network, NetworkError> {
+        let Belief { capacity_factor, inner_resistance_factor, outer_resistance_factor } = *belief;
+        for (quantity, value) in [
+            ("capacity_factor", capacity_factor),
+            ("inner_resistance_factor", inner_resistance_factor),
+            ("outer_resistance_factor", outer_resistance_factor),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                let (place, wanted) = ("the believed building".to_owned(), "above 0");
+                return Err(NetworkError::OutOfRange { place, quantity, value, wanted });
+            }
+        }
+        let mut network = self.clone();
+        network.capacities_kj_per_k.iter_mut().for_each(|capacity| *capacity *= capacity_factor);
+        network.links.iter_mut().for_each(|link| link.conductance_kw_per_k /= inner_resistance_factor);
+        network.ambient_kw_per_k.iter_mut().for_each(|conductance| *conductance /= outer_resistance_factor);
+        Ok(network)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn factors_act_on_what_they_name() {
+        let real = Network::testbed();
+        assert_eq!(real.believed(&Belief::default()).expect("right"), real);
+        let belief = Belief { capacity_factor: 2.0, inner_resistance_factor: 4.0, outer_resistance_factor: 0.5 };
+        let believed = real.believed(&belief).expect("valid");
+        assert_eq!(believed.capacities_kj_per_k(), [2000.0; 4]);
+        assert_eq!(believed.links()[0].conductance_kw_per_k, 0.25 / 62.5);
+        assert_eq!(believed.ambient_kw_per_k(), [2.0 / 31.25; 4]);
+        let error = real.believed(&Belief { capacity_factor: 0.0, ..belief }).expect_err("nothing");
+        assert!(error.to_string().contains("capacity_factor"), "{error}");
+    }
+}

@@ -1,0 +1,253 @@
+//! The documents are run: every command in a fenced block, every scenario, every link, every name of a test.
+//!
+//! A TOML block whose first line is `# name.toml` is written to that file; every line of an `sh` block is then run in the
+//! order of the document, in one folder for each document. It must end with 0, or with what follows `# exit code`.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use saphyr_parser::{Event, Parser};
+
+use crate::command::{interplay, scratch};
+
+/// Commands that are not run here, and why.
+const NOT_RUN: &[(&str, &str)] = &[
+    ("cargo ", "this test is run by it"),
+    (".ci/run", "the same"),
+    ("tests/peers/", "needs Python with CasADi"),
+    ("pip ", "needs the network"),
+    ("rerun", "another program"),
+    ("mdbook ", "another program"),
+    ("interplay view ", "waits for a viewer: see `authoring`"),
+    ("interplay run mine.toml --watch", "never ends: see `authoring`"),
+    ("interplay run lane-change/front-tough --connect", "needs a viewer that listens"),
+    ("interplay identify dutch3/", "the measurements are not part of this repository"),
+    ("interplay reproduce", "takes minutes: it has tests of its own"),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Path from the root and text of every document for users.
+fn documents() -> Vec<(String, String)> {
+    let pages = fs::read_dir(root().join("docs")).expect("the book");
+    let pages = pages.map(|entry| format!("docs/{}", entry.expect("readable").file_name().to_string_lossy()));
+    let mut names: Vec<String> = pages.filter(|name| name.ends_with(".md")).collect();
+    names.push("README.md".to_owned());
+    names.sort();
+    names.into_iter().map(|name| (name.clone(), fs::read_to_string(root().join(name)).expect("a document"))).collect()
+}
+
+/// The fenced blocks of a document: language and content, in order.
+fn blocks(text: &str) -> Vec<(&str, String)> {
+    let mut found = Vec::new();
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        if let Some(language) = line.strip_prefix("```") {
+            let content: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
+            found.push((language, content.join("\n")));
+        }
+    }
+    found
+}
+
+/// Everything between single backticks outside of blocks.
+fn inline_code(text: &str) -> Vec<String> {
+    let mut fenced = false;
+    let prose = text.lines().filter(|line| {
+        let fence = line.starts_with("```");
+        fenced ^= fence;
+        !fenced && !fence
+    });
+    let prose = prose.collect::<Vec<_>>().join(" ");
+    prose.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+/// A folder in which `interplay` is the command under test.
+struct Shell {
+    folder: PathBuf,
+}
+
+impl Shell {
+    #[cfg(unix)]
+    fn new(name: &str) -> Shell {
+        let folder = scratch(name);
+        fs::create_dir(folder.join("bin")).expect("a scratch folder");
+        std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_interplay-under-test"), folder.join("bin/interplay"))
+            .expect("a link");
+        Shell { folder }
+    }
+
+    fn run(&self, line: &str) {
+        let (line, expected) = line.split_once(" # exit code ").unwrap_or((line, "0"));
+        let path = format!("{}:/bin:/usr/bin", self.folder.join("bin").display());
+        let mut shell = Command::new("sh");
+        let output = shell.args(["-c", line]).current_dir(&self.folder).env("PATH", path).stdin(Stdio::null()).output();
+        let output = output.expect("there is a shell");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code().map(|code| code.to_string()).as_deref(), Some(expected), "{line}\n{said}");
+    }
+
+    /// Writes a block that is a file; says its name.
+    fn write(&self, block: &str) -> Option<String> {
+        let name = block.lines().next()?.strip_prefix("# ").filter(|name| name.ends_with(".toml"))?;
+        let path = self.folder.join(name);
+        fs::create_dir_all(path.parent().expect("below the folder")).expect("a scratch folder");
+        fs::write(path, block).expect("a scratch file");
+        Some(name.to_owned())
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn every_command_in_the_documents_runs() {
+    let mut count = 0;
+    for (name, text) in documents() {
+        let shell = Shell::new(&format!("book/{}", name.replace('/', "-")));
+        for (language, block) in blocks(&text) {
+            if language == "toml" {
+                shell.write(&block);
+            }
+            let commands = block.lines().map(|line| line.strip_prefix("$ ").unwrap_or(line));
+            for line in commands.filter(|_| ["sh", "console"].contains(&language)) {
+                assert!(line.starts_with("interplay") || is_not_run(line), "{name}: who runs `{line}`?");
+                if !is_not_run(line) {
+                    shell.run(line);
+                    count += 1;
+                }
+            }
+        }
+    }
+    assert!(count > 20, "{count} commands");
+}
+
+fn is_not_run(line: &str) -> bool {
+    NOT_RUN.iter().any(|(start, _)| line.starts_with(start))
+}
+
+#[test]
+fn every_scenario_in_the_documents_is_used_there() {
+    for (name, text) in documents() {
+        let commands: String =
+            blocks(&text).into_iter().filter(|(word, _)| *word == "sh").map(|(_, block)| block).collect();
+        for (_, block) in blocks(&text).iter().filter(|(language, _)| *language == "toml") {
+            if let Some(file) = block.lines().next().and_then(|line| line.strip_prefix("# ")) {
+                let folder = file.split('/').next().unwrap_or(file);
+                assert!(commands.contains(folder), "{name}: no command uses {file}");
+            } else {
+                let scenario = interplay_scenarios::from_text(&name, block, &[]);
+                assert!(scenario.is_ok(), "{name}: {:?}", scenario.err());
+            }
+        }
+    }
+}
+
+/// The excerpt of an error message in the authoring guide is what the command says.
+#[test]
+fn the_error_in_the_authoring_guide_is_the_command_s() {
+    let text = fs::read_to_string(root().join("docs/authoring.md")).expect("the guide");
+    let folder = scratch("book-error");
+    let blocks = blocks(&text);
+    let find = |language: &str, piece: &str| {
+        let found = blocks.iter().find(|(word, block)| *word == language && block.contains(piece));
+        found.map(|(_, block)| block.clone()).expect("there is such a block")
+    };
+    fs::write(folder.join("wrong.toml"), find("toml", "# wrong.toml")).expect("a scratch file");
+    let said = interplay(&folder, &["check", "wrong.toml"]).stderr;
+    let bare = |text: &str| text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n");
+    assert!(bare(&said).contains(&bare(&find("text", "unknown key"))), "{said}");
+}
+
+/// Whatever the documents quote of the command line exists: commands, and flags beside them.
+#[test]
+fn quoted_commands_and_flags_exist() {
+    let folder = scratch("book-help");
+    let all = interplay(&folder, &["--help"]).stdout;
+    for (name, text) in documents() {
+        for code in inline_code(&text).iter().filter(|code| code.starts_with("interplay ")) {
+            let words: Vec<&str> = code.split_whitespace().skip(1).collect();
+            let Some(command) = words.first().filter(|word| !word.starts_with('-')) else { continue };
+            assert!(all.contains(&format!("\n  {command}")), "{name}: there is no `{code}`");
+            let help = interplay(&folder, &[command, "--help"]).stdout;
+            for flag in words.iter().filter(|word| word.starts_with("--")) {
+                let flag = flag.split('=').next().unwrap_or(flag);
+                assert!(help.contains(flag), "{name}: `interplay {command}` has no {flag}");
+            }
+        }
+    }
+}
+
+#[test]
+fn links_lead_somewhere_and_the_summary_lists_every_page() {
+    let summary = fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the summary");
+    for (name, text) in documents() {
+        let folder = root().join(&name).parent().expect("below the root").to_owned();
+        for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let path = target.split('#').next().unwrap_or(target);
+            assert!(target.starts_with("https://") || folder.join(path).exists(), "{name}: {target} leads nowhere");
+        }
+        if let Some(page) = name.strip_prefix("docs/").filter(|page| *page != "SUMMARY.md") {
+            assert!(summary.contains(&format!("]({page})")), "{page} is not in the summary");
+        }
+    }
+}
+
+/// Tests that the errata name are there.
+#[test]
+fn the_errata_name_tests_that_exist() {
+    let text = fs::read_to_string(root().join("docs/errata.md")).expect("the errata");
+    let named: BTreeSet<&str> = text
+        .lines()
+        .filter(|line| line.starts_with('|'))
+        .filter_map(|line| line.trim_end_matches(" |").rsplit("| ").next())
+        .flat_map(|cell| cell.split('`').skip(1).step_by(2))
+        .collect();
+    let mut sources = String::new();
+    for room in ["planners/src", "planners/tests", "building/src", "building/tests"] {
+        gather(&root().join(room), &mut sources);
+    }
+    for test in &named {
+        let found = sources.split("#[test]").skip(1).any(|rest| rest.trim_start().starts_with(&format!("fn {test}()")));
+        assert!(found, "the errata name `{test}`, which is no test");
+    }
+    assert!(named.len() > 30, "{named:?}");
+}
+
+fn gather(folder: &Path, into: &mut String) {
+    for entry in fs::read_dir(folder).expect("a room") {
+        let path = entry.expect("readable").path();
+        if path.is_dir() {
+            gather(&path, into);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            into.push_str(&fs::read_to_string(path).expect("a source"));
+        }
+    }
+}
+
+/// The workflow for users is what the page shows, is YAML, and what it runs of Interplay runs.
+#[cfg(unix)]
+#[test]
+fn the_workflow_for_users_is_sound() {
+    let text = fs::read_to_string(root().join("assets/ci/interplay.yml")).expect("the workflow");
+    let page = fs::read_to_string(root().join("docs/ci.md")).expect("the page");
+    let shown = blocks(&page).into_iter().find(|(language, _)| *language == "yaml").expect("it is shown").1;
+    assert_eq!(shown.trim_end(), text.trim_end());
+    let events = Parser::new_from_str(&text).map(|event| event.expect("YAML").0);
+    let words: Vec<String> = events
+        .filter_map(|event| if let Event::Scalar(text, ..) = event { Some(text.into_owned()) } else { None })
+        .collect();
+    let steps: Vec<&String> = words.windows(2).filter(|pair| pair[0] == "run").map(|pair| &pair[1]).collect();
+    let shell = Shell::new("book/workflow");
+    let scenario = blocks(&page).into_iter().find(|(language, _)| *language == "toml").expect("a scenario").1;
+    assert_eq!(shell.write(&scenario).as_deref(), Some("scenarios/merge.toml"));
+    let (install, ours): (Vec<&String>, Vec<&String>) =
+        steps.into_iter().partition(|step| step.starts_with("cargo install"));
+    assert_eq!((install.len(), ours.len()), (1, 3));
+    ours.iter().for_each(|step| shell.run(step));
+    let results = fs::read_to_string(shell.folder.join("results.xml")).expect("written");
+    assert!(results.contains("name=\"merge\""), "{results}");
+    assert!(shell.folder.join("recordings/merge.rrd").exists());
+}
