@@ -258,7 +258,7 @@ fn plants_and_crashes() {
     let plant = |plant: &'static str| [("duration_s = 5.0", plant)];
     errors.refusal("a_word_for_a_plant", &plant("plant = \"dynamic\""), &["bad.toml:3:9", "{ kind = \"dynamic\" }"]);
     let ice = plant("plant = { kind = \"dynamic\", friction = 0 }");
-    errors.refusal("no_friction", &ice, &["bad.toml:3:41", "`plant.friction` must be above 0"]);
+    errors.refusal("no_friction", &ice, &["bad.toml:3:40", "`plant.friction` must be above 0"]);
     let kinematic = plant("plant = { kind = \"kinematic\", friction = 0.5 }");
     errors.refusal("friction_without_tyres", &kinematic, &["unknown key `friction`"]);
     let crash = |pair: &'static str| [("no_collision = true", pair)];
