@@ -191,7 +191,7 @@ fn roads() {
     errors.refusal("a_ramp_needs_a_lane_beside_it", &[ramp, ("lane_count = 2", "lane_count = 1")], &["at least 2"]);
     errors.refusal("heads_elsewhere", &[crossing, cross], &["not along the vehicle's road", "heading_rad = 1.57"]);
     let north = ("x_m = 1.0, y_m = 0.185", "x_m = 1.0, y_m = -1.0, heading_rad = 1.5708");
-    errors.refusal("beside_the_crossing_road", &[crossing, cross, north], &["from x = -0.37 to x = 0.37"]);
+    errors.refusal("beside_the_crossing_road", &[crossing, cross, north], &["reaches 0.37 to either side"]);
     let y_m = ("body = { width_m = 0.19 }", "goal = { y_m = 0.3 }");
     let there = ("x_m = 1.0, y_m = 0.185", "x_m = 0.2, y_m = -1.0, heading_rad = 1.5708");
     errors.refusal("no_lateral_position", &[crossing, cross, there, y_m], &["no lateral position", "its `lane`"]);
@@ -250,6 +250,28 @@ fn drivers_and_limits() {
         &["`w_1_max` (5)"],
     );
     errors.compare("drivers_and_limits");
+}
+
+#[test]
+fn plants_and_crashes() {
+    let mut errors = Catalogue::default();
+    let plant = |plant: &'static str| [("duration_s = 5.0", plant)];
+    errors.refusal("a_word_for_a_plant", &plant("plant = \"dynamic\""), &["bad.toml:3:9", "{ kind = \"dynamic\" }"]);
+    let ice = plant("plant = { kind = \"dynamic\", friction = 0 }");
+    errors.refusal("no_friction", &ice, &["bad.toml:3:41", "`plant.friction` must be above 0"]);
+    let kinematic = plant("plant = { kind = \"kinematic\", friction = 0.5 }");
+    errors.refusal("friction_without_tyres", &kinematic, &["unknown key `friction`"]);
+    let crash = |pair: &'static str| [("no_collision = true", pair)];
+    errors.refusal(
+        "crash_with_nobody",
+        &crash("collisions = [[\"ego\", \"frnt\"]]"),
+        &["no vehicle `frnt`", "`front`?"],
+    );
+    errors.refusal("crash_with_itself", &crash("collisions = [[\"ego\", \"ego\"]]"), &["named twice"]);
+    errors.refusal("crash_of_three", &crash("collisions = [[\"ego\", \"front\", \"ego\"]]"), &["at most 2"]);
+    let both = crash("no_collision = false\ncollisions = [[\"ego\", \"front\"]]");
+    errors.refusal("said_twice", &both, &["both `collisions` and `no_collision`"]);
+    errors.compare("plants_and_crashes");
 }
 
 #[test]

@@ -4,7 +4,8 @@
 //!   [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - what others may add: [`own`]
-//! - buildings, in all of these respects: [`building`]
+//! - what tyres, friction and lag make of it: [`plants`]
+//! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
 
@@ -22,9 +23,11 @@ mod figures;
 mod film;
 mod house;
 mod laws;
+mod learning;
 mod measures;
 mod output;
 mod own;
+mod plants;
 mod recordings;
 mod rectangles;
 mod replay;
