@@ -14,6 +14,7 @@ use super::re_sdk_types::datatypes::Uuid;
 use rerun::external::re_log_types::BlueprintActivationCommand;
 use rerun::log::LogMsg;
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
+use xxhash_rust::xxh3::xxh3_128;
 
 /// A part of the window.
 pub enum Panel {
@@ -121,18 +122,22 @@ pub fn send(
 
 struct Writer<'a> {
     stream: &'a RecordingStream,
-    names: u128,
+    names: usize,
 }
 
 impl Writer<'_> {
     /// Writes a panel and everything in it; returns its name and its path.
     fn panel(&mut self, panel: &Panel) -> RecordingStreamResult<(Uuid, String)> {
         self.names += 1;
-        let name = Uuid { bytes: self.names.to_be_bytes() };
-        let path = match panel {
-            Panel::View(_) => format!("view/{name}"),
-            _ => format!("container/{name}"),
+        let (sort, class) = match panel {
+            Panel::View(view) => ("view", view.class),
+            Panel::Row(_) => ("container", "row"),
+            Panel::Column(_) => ("container", "column"),
         };
+        // The viewer remembers what it knows of a view by its name, also when it goes over to another recording's layout: a
+        // name must never stand for a view of another class.
+        let name = Uuid { bytes: xxh3_128(format!("{class} {}", self.names).as_bytes()).to_be_bytes() };
+        let path = format!("{sort}/{name}");
         match panel {
             Panel::View(view) => self.view(&path, view)?,
             Panel::Row(parts) => {
