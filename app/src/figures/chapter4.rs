@@ -1,7 +1,8 @@
 //! Chapter 4: feedforward and a Youla-parametrised feedback, designed at once.
 
-use super::{Entry, Exhibit, Kind, Shot, Take, climate, theory};
 use interplay_building::comfort::Setpoints;
+
+use super::{Entry, Exhibit, Kind, Shot, Take, climate, theory};
 
 const fn shot(label: &'static str, scenario: &'static str) -> Shot {
     Shot { label, scenario, sets: &[] }

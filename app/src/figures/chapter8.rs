@@ -1,6 +1,6 @@
 //! Chapter 8: the persuasion game.
 
-use super::chapter6::{film_and_mind, speeds};
+use super::drawings::{film_and_mind, speeds};
 use super::{Entry, Kind, Shot, theory};
 
 const fn shot(scenario: &'static str) -> Shot {
