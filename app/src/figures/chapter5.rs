@@ -49,7 +49,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         erratum: Some(
             "Theorem I promises descent, not the optimum: with u_ff of each zone as its unknown, as printed, the rounds \
              stall 2 to 76 % above it when inputs saturate. With the inputs themselves as unknowns they approach it; with \
-             momentum in a tenth of the rounds. That one problem grows exponentially is a property of the dense form: in \
+             momentum in an eighth of the rounds. That one problem grows exponentially is a property of the dense form: in \
              the sparse one it is the faster of both at every size.",
         ),
         shots: &[ROUNDS],

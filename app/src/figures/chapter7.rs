@@ -16,7 +16,7 @@ const fn exact(scenario: &'static str) -> Shot {
 }
 
 const DROPPED: &str = "(7.19) silently drops a term. The value that follows from the chapter's own equations repels: with it \
-    the ego stops or never merges (last row of the table). What is printed attracts, the more the readier the other seems \
+    the ego stops and goes last (last row of the table). What is printed attracts, the more the readier the other seems \
     to change its plan; it is kept, as a choice of model. (7.16) lacks a square, and (7.21) needs a maximum where the text \
     takes a minimum.";
 

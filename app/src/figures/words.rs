@@ -2,10 +2,14 @@
 
 use super::take::Take;
 
+/// Of a goal that is not reached, or was from the start.
+const NEVER: &str = "never";
+
 /// What a run came to.
 pub fn outcome(take: &Take) -> String {
     let mut sentences = vec![take.scenario.shows.trim_end_matches('.').to_owned()];
-    sentences.extend(facts(take).into_iter().map(|(what, value)| format!("{what} {value}")));
+    let known = facts(take).into_iter().filter(|(_, value)| value != NEVER);
+    sentences.extend(known.map(|(what, value)| format!("{what} {value}")));
     let mut text = sentences.remove(0);
     text.push_str(". ");
     text.push_str(&capitalised(&sentences.join("; ")));
@@ -30,7 +34,7 @@ fn facts(take: &Take) -> Vec<(String, String)> {
     let mut facts = Vec::new();
     let report = &take.report;
     if let Some(ego) = report.vehicles.get(take.scenario.ego_index()) {
-        let goal = ego.completed_s.map_or_else(|| "never".to_owned(), |time_s| format!("at {time_s:.1} s"));
+        let goal = ego.completed_s.map_or_else(|| NEVER.to_owned(), |time_s| format!("at {time_s:.1} s"));
         facts.push((format!("{} reaches its goal", ego.name), goal));
         facts.push(("order at the end".to_owned(), report.order.join(", ")));
         let gap = report.min_gap_m.map_or_else(|| "none".to_owned(), |gap_m| format!("{gap_m:.2} m"));
@@ -41,7 +45,7 @@ fn facts(take: &Take) -> Vec<(String, String)> {
     let days = report.building.as_ref().map(|building| building.iterations.as_slice()).unwrap_or_default();
     if let (Some(first), Some(last)) = (days.first(), days.last()) {
         facts.push(("cost of the first day".to_owned(), format!("{:.0}", first.figures.cost)));
-        facts.push(("of the last".to_owned(), format!("{:.1}", last.figures.cost)));
+        facts.push(("cost of the last day".to_owned(), format!("{:.1}", last.figures.cost)));
         facts.push(("error on the last day".to_owned(), format!("{:.2} K", last.figures.tracking_rmse_c)));
         let outside: f64 = days[1..].iter().map(|day| day.figures.discomfort_k_h).sum();
         let outside = outside / days[1..].len().max(1) as f64;
