@@ -184,10 +184,14 @@ impl Checker {
         if !words.is_empty() {
             return self.word(node, &words, path);
         }
+        let kinds: Vec<&str> = alternatives.iter().filter_map(schema::kind_of).collect();
+        if let Some(word) = node.text().filter(|word| kinds.contains(word)) {
+            let message = format!("{} must be a table whose `kind` is {}", quoted(&path.0), quoted(word));
+            return self.refuse(&node.place, "not a table", message, format!("write `{{ kind = \"{word}\" }}`"));
+        }
         let Value::Table(table) = &node.value else {
             return self.wrong_type(node, Some("object"), stated, path);
         };
-        let kinds: Vec<&str> = alternatives.iter().filter_map(schema::kind_of).collect();
         let Some(entry) = table.get("kind") else {
             let message = format!("{} is missing", quoted(&path.join("kind").0));
             return self.refuse(&node.place, "has no `kind`", message, format!("choose from: {}", listed(&kinds)));

@@ -206,7 +206,7 @@ fn roads() {
         &["not along the vehicle's road", "heading_rad = 1.57"],
     );
     let north = ("x_m = 1.0, y_m = 0.185", "x_m = 1.0, y_m = -1.0, heading_rad = 1.5708");
-    refusal(&mut errors, "beside_the_crossing_road", &[crossing, cross, north], &["0.37 to either side", "x = 0"]);
+    refusal(&mut errors, "beside_the_crossing_road", &[crossing, cross, north], &["reaches 0.37 to either side"]);
     let y_m = ("body = { width_m = 0.19 }", "goal = { y_m = 0.3 }");
     let there = ("x_m = 1.0, y_m = 0.185", "x_m = 0.2, y_m = -1.0, heading_rad = 1.5708");
     refusal(&mut errors, "no_lateral_position", &[crossing, cross, there, y_m], &["no lateral position", "its `lane`"]);
@@ -286,6 +286,34 @@ fn drivers_and_limits() {
         &["`w_1_max` (5)"],
     );
     insta::assert_snapshot!("drivers_and_limits", errors.0);
+}
+
+#[test]
+fn plants_and_crashes() {
+    let mut errors = Catalogue::default();
+    let plant = |plant: &'static str| [("duration_s = 5.0", plant)];
+    refusal(
+        &mut errors,
+        "a_word_for_a_plant",
+        &plant("plant = \"dynamic\""),
+        &["bad.toml:3:9", "{ kind = \"dynamic\" }"],
+    );
+    let ice = plant("plant = { kind = \"dynamic\", friction = 0 }");
+    refusal(&mut errors, "no_friction", &ice, &["bad.toml:3:41", "`plant.friction` must be above 0"]);
+    let kinematic = plant("plant = { kind = \"kinematic\", friction = 0.5 }");
+    refusal(&mut errors, "friction_without_tyres", &kinematic, &["unknown key `friction`"]);
+    let crash = |pair: &'static str| [("no_collision = true", pair)];
+    refusal(
+        &mut errors,
+        "crash_with_nobody",
+        &crash("collisions = [[\"ego\", \"frnt\"]]"),
+        &["no vehicle `frnt`", "`front`?"],
+    );
+    refusal(&mut errors, "crash_with_itself", &crash("collisions = [[\"ego\", \"ego\"]]"), &["named twice"]);
+    refusal(&mut errors, "crash_of_three", &crash("collisions = [[\"ego\", \"front\", \"ego\"]]"), &["at most 2"]);
+    let both = crash("no_collision = false\ncollisions = [[\"ego\", \"front\"]]");
+    refusal(&mut errors, "said_twice", &both, &["both `collisions` and `no_collision`"]);
+    insta::assert_snapshot!("plants_and_crashes", errors.0);
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn plans(house: &House) -> Vec<(f32, Panel)> {
         (design::CONVERGENCE, "Convergence, by the day's design"),
     ];
     let bars = [
-        (design::COST, "Cost J by round of the first exchange"),
+        (design::COST, "Log10 of J by round of the first exchange"),
         (design::MESSAGES, "Messages that each zone sent in all"),
     ];
     let lines = lines.into_iter().map(|(path, title)| (path, plot(house, title, below(path))));
