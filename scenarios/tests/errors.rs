@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::fs;
 
 use common::{Catalogue, rendered};
-use interplay_scenarios::{Override, from_text, load};
+use interplay_scenarios::{Override, from_text};
 
 /// A scenario without fault, for the cases to spoil.
 const GOOD: &str = r#"title = "Two cars"
