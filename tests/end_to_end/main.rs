@@ -1,6 +1,6 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`authoring`], [`documents`], [`book`]
+//! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`authoring`], [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - what others may add: [`own`]
 //! - buildings, in all of these respects: [`building`]
@@ -25,5 +25,6 @@ mod output;
 mod own;
 mod recordings;
 mod rectangles;
+mod replacements;
 mod replay;
 mod suite;
