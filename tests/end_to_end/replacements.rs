@@ -69,7 +69,8 @@ fn broken(name: &str, planner: &str) -> Vec<String> {
 #[test]
 fn a_planner_that_should_not_manage_a_scenario_breaks_its_expectations() {
     let wrong: Vec<String> = thread::scope(|scope| {
-        let runs: Vec<_> = REPLACEMENTS.iter().map(|(name, planner, _)| scope.spawn(|| broken(name, planner))).collect();
+        let runs: Vec<_> =
+            REPLACEMENTS.iter().map(|(name, planner, _)| scope.spawn(|| broken(name, planner))).collect();
         let outcomes = runs.into_iter().map(|run| run.join().expect("no run panics"));
         let judged = REPLACEMENTS.iter().zip(outcomes);
         let missed = judged.filter(|((_, _, what), broken)| !broken.iter().any(|one| one == what));

@@ -27,7 +27,7 @@ const SHARE_BEHIND: f64 = 0.42;
 
 /// The layout for a scenario of which `plots` were recorded between the longitudinal coordinates `road_m`.
 pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> Panel {
-    let words = (1.6, Panel::Row(words(scenario, plots)));
+    let words = (1.9, Panel::Row(words(scenario, plots)));
     if let Some([from_m, to_m]) = scenario.road.conflict_zone_m(Branch::Main) {
         let beside = Panel::Column(rows(numbers(scenario, plots), 2));
         let above = Panel::Row(vec![(1.0, crossing(scenario, 0.5 * (from_m + to_m))), (1.2, beside)]);

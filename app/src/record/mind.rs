@@ -18,31 +18,31 @@ pub struct Thought {
 pub const THOUGHTS: [Thought; 9] = [
     Thought {
         kind: Some("negotiation"),
-        title: "Negotiation: do they accept, does the asker concede?",
+        title: "Negotiation: acceptance and concession",
         names: &["acceptance", "concession weight", "persuasion active", "safety filter"],
         range: Some([-0.05, 1.1]),
     },
     Thought {
         kind: Some("bayesian"),
-        title: "Persuasion: how loyal is the other to its plan (w₁)?",
+        title: "Persuasion: the other's loyalty to its plan, w₁",
         names: &["other's loyalty w_1"],
         range: None,
     },
     Thought {
         kind: Some("bayesian"),
-        title: "Persuasion: how much is the ego drawn closer (k₁)?",
+        title: "Persuasion: pull towards the other, k₁",
         names: &["attraction k_1", "conservativeness"],
         range: None,
     },
     Thought {
         kind: Some("bayesian"),
-        title: "Persuasion: how do both change their plans, how clear is the signal?",
+        title: "Persuasion: changes of plans, noise of the signal",
         names: &["own change alpha", "other's change beta", "belief variance"],
         range: None,
     },
     Thought {
         kind: Some("game"),
-        title: "Game: who is believed to pass, who intends to?",
+        title: "Game: who seems to pass, who means to",
         names: &["posterior of the other", "posterior of the ego", "intention p_e", "other's intention p_s"],
         range: Some([-0.05, 1.05]),
     },
@@ -62,7 +62,7 @@ pub const THOUGHTS: [Thought; 9] = [
     },
     Thought {
         kind: Some("game"),
-        title: "Game: the mean speeds that show the intention [m/s]",
+        title: "Game: mean speeds that show the intention [m/s]",
         names: &["expressed speed from", "expressed speed to", "mean speed"],
         range: None,
     },
