@@ -7,51 +7,15 @@
 //! The source needed 120 s for an iteration of chapter 3, and 8.03 s (distributed) and 10.21 s (centralised) for one of
 //! chapter 5, with four zones.
 
+mod case;
+
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BatchSize, Criterion, SamplingMode, criterion_group, criterion_main};
-use interplay_building::comfort::{Setpoints, Targets};
-use interplay_building::control::{Control, Controller, Disturbance, Morning, Regulator, run_day};
-use interplay_building::discretise::Model;
-use interplay_building::network::Network;
+use interplay_building::control::Controller;
 
-const STEP_S: f64 = 1800.0;
-const STEPS: usize = 48;
-
-struct Case {
-    regulator: Regulator,
-    targets: Targets,
-    initial_c: Vec<f64>,
-    day: Disturbance,
-}
-
-impl Case {
-    /// A controller after its first day, with a building of so many rooms.
-    fn new(controller: Controller, rows: usize, columns: usize) -> Self {
-        let model = Model::euler(&Network::grid(rows, columns), STEP_S).expect("stable");
-        let n = rows * columns;
-        let wanted_c = (0..n).map(|i| 22.0 + 0.5 * (i % 4) as f64).collect();
-        let setpoints = Setpoints { occupied_c: wanted_c, occupied_weight: 2.0, band_k: 1.0, ..Setpoints::default() };
-        let targets = setpoints.targets(n, STEP_S, STEPS).expect("valid");
-        let ambient_c: Vec<f64> = (0..STEPS).map(|t| 28.0 + 3.0 * ((t as f64 - 16.0) / 8.0).sin()).collect();
-        let gains_kw =
-            (0..n * STEPS).map(|k| if (16..38).contains(&(k / n)) { 0.3 + 0.03 * (k % n % 5) as f64 } else { 0.0 });
-        let day = Disturbance { ambient_c, gains_kw: gains_kw.collect() };
-        let mut regulator = controller.regulator(&model, STEPS).expect("valid");
-        let mut initial_c = vec![27.5; n];
-        run_day(&model, &mut initial_c, &mut regulator, &targets, &day, &day).expect("runs");
-        Self { regulator, targets, initial_c: vec![27.0; n], day }
-    }
-
-    fn morning(&self, regulator: &mut Regulator) -> f64 {
-        let morning = Morning { initial_c: &self.initial_c, targets: &self.targets, forecast: &self.day, actual: None };
-        regulator.start_of_day(&morning).expect("shapes fit");
-        let design = regulator.design();
-        assert!(design.fallback.is_none(), "{:?}", design.fallback);
-        design.objective.expect("planned")
-    }
-}
+use case::Case;
 
 fn designs(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("design");

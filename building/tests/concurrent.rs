@@ -3,7 +3,7 @@
 mod common;
 
 use common::reference::*;
-use interplay_building::comfort::KeyFigures;
+use interplay_building::comfort::{KeyFigures, Setpoints};
 use interplay_building::control::concurrent::youla::{StateSpace, Taps};
 use interplay_building::control::concurrent::{Concurrent, ConcurrentSettings, taps};
 use interplay_building::control::iterative::feedback;
@@ -11,6 +11,9 @@ use interplay_building::control::learning::LearningSettings;
 use interplay_building::control::pid::PidSettings;
 use interplay_building::control::uncertainty::{Uncertainty, UncertaintySettings};
 use interplay_building::control::{BandPenalty, ControlError, Controller, optimum};
+use interplay_building::discretise::Model;
+use interplay_building::lifted::Lifted;
+use interplay_building::network::Network;
 use nalgebra::DMatrix;
 
 fn uncertainty() -> Uncertainty {
@@ -93,18 +96,19 @@ fn bounds_hold_cost_something_and_have_floors() {
     let free = designed(&ConcurrentSettings::default()).expect("designed");
     assert!((free.taps.row_norm() - 2.47).abs() < 0.01 && (free.taps.impulse_norm(&lifted) - 4.45).abs() < 0.01);
     for (gamma_q, gamma_2, dearer) in [(1.5, 4.0, 1.08), (1.0, 5.0, 1.46)] {
-        let settings = ConcurrentSettings { taps: 24, gamma_q, gamma_2, ..ConcurrentSettings::default() };
+        let settings =
+            ConcurrentSettings { taps: 24, gamma_q, gamma_2: Some(gamma_2), ..ConcurrentSettings::default() };
         let found = designed(&settings).expect("designed");
         assert!(found.taps.row_norm() <= gamma_q + 1e-6 && found.taps.impulse_norm(&lifted) <= gamma_2 + 1e-6);
         assert!((found.cost / free.cost - dearer).abs() < 0.03, "{gamma_q} {gamma_2}: {}", found.cost / free.cost);
     }
-    let error = designed(&ConcurrentSettings { gamma_q: 2.0, gamma_2: 3.0, ..ConcurrentSettings::default() });
+    let error = designed(&ConcurrentSettings { gamma_q: 2.0, gamma_2: Some(3.0), ..ConcurrentSettings::default() });
     assert!(matches!(error, Err(ControlError::BelowFloor { floor, .. }) if (floor - 3.6).abs() < 1e-9), "{error:?}");
     // Above one step's effect, but not with so little gain.
-    let error = designed(&ConcurrentSettings { gamma_q: 0.1, gamma_2: 4.0, ..ConcurrentSettings::default() });
+    let error = designed(&ConcurrentSettings { gamma_q: 0.1, gamma_2: Some(4.0), ..ConcurrentSettings::default() });
     let Err(ControlError::BelowFloor { floor, .. }) = error else { panic!("{error:?}") };
     assert!(floor > 4.0 && floor < 8.4);
-    let within = ConcurrentSettings { gamma_q: 0.1, gamma_2: floor * 1.001, ..ConcurrentSettings::default() };
+    let within = ConcurrentSettings { gamma_q: 0.1, gamma_2: Some(floor * 1.001), ..ConcurrentSettings::default() };
     designed(&within).expect("the floor is the floor");
 }
 
@@ -113,7 +117,7 @@ fn four_taps_are_nearly_as_good_as_any_causal_feedback() {
     let (lifted, targets) = (lifted(), chapter_4());
     let factor = interplay_building::control::uncertainty::factor(uncertainty().covariance(&targets)).expect("one");
     let taps = designed(&ConcurrentSettings::default()).expect("designed").taps;
-    let best = feedback::optimal_causal(&lifted, &targets, &factor).expect("designed").cost(&targets);
+    let best = feedback::optimal_causal(&lifted, &targets, &factor, &[]).expect("designed").cost(&targets);
     let ours = taps.response(&lifted, &factor).cost(&targets);
     let none = feedback::static_feedback(&lifted, &DMatrix::zeros(4, 4), &factor).cost(&targets);
     assert!(best <= ours && ours < best + 0.05 * (none - best), "{best} {ours} {none}");
@@ -141,7 +145,7 @@ fn it_tracks_better_than_pid_without_a_forecast_on_every_seed() {
 
 #[test]
 fn a_bound_below_its_floor_repeats_the_day_before() {
-    let settings = ConcurrentSettings { gamma_2: 3.0, ..ConcurrentSettings::default() };
+    let settings = ConcurrentSettings { gamma_2: Some(3.0), ..ConcurrentSettings::default() };
     let mut concurrent = Concurrent::new(settings, lifted()).expect("valid");
     let days: Vec<_> = (0..3).map(day).collect();
     let records = run(&testbed(), 28.5, &mut concurrent, &chapter_4(), &days);
@@ -163,5 +167,21 @@ fn a_day_that_comes_as_predicted_goes_as_planned() {
         assert!(common::distance(&record.heat_kw, &record.design.planned_kw) < 1e-8);
         // Precooling: something is done before the references start at 7:30.
         assert!(record.heat_kw[..14 * 4].iter().any(|kw| *kw < -0.05));
+    }
+}
+
+#[test]
+fn without_a_bound_it_grows_with_the_building() {
+    for side in [1, 3] {
+        let model = Model::euler(&Network::grid(side, side), STEP_S).expect("stable");
+        let zones = side * side;
+        let setpoints = Setpoints { occupied_c: vec![23.0], ..Setpoints::default() };
+        let targets = setpoints.targets(zones, STEP_S, STEPS).expect("valid");
+        let lifted = Lifted::new(&model, STEPS);
+        let found = taps::design(&ConcurrentSettings::default(), &lifted, &targets, &uncertainty()).expect("designed");
+        let floor = 1.8 * (zones as f64).sqrt();
+        let norm = found.taps.impulse_norm(&lifted);
+        assert!((floor..=4.6 / 3.6 * floor + 1e-6).contains(&norm), "{zones}: {norm}");
+        assert!(found.cost < 0.2 * found.open_cost);
     }
 }

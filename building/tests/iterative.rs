@@ -36,7 +36,7 @@ fn expected_costs_are_those_of_independent_code() {
         for (stability, key) in [(Stability::LeastSquares, "exp_cost_K_ls"), (Stability::Lmi, "exp_cost_K_lmi_decay07")]
         {
             let settings = IterativeSettings { stability, ..IterativeSettings::default() };
-            let found = Feedback::design(&settings, &lifted, &targets, covariance(weight)).expect("designed");
+            let found = Feedback::design(&settings, &lifted, &targets, covariance(weight), &[]).expect("designed");
             assert_close(found.causal_cost, number(&wanted["exp_cost_optimal_causal_Y"]), 1e-4);
             assert_close(found.cost, number(&wanted[key]), 1e-4);
         }
@@ -144,7 +144,7 @@ fn both_certificates_give_the_decay_rate_that_was_asked_for() {
     for stability in [Stability::Lmi, Stability::Linear] {
         for decay in [0.5, 0.7, 0.9] {
             let settings = IterativeSettings { stability, decay, ..IterativeSettings::default() };
-            let found = Feedback::design(&settings, &lifted, &targets, covariance(1.0)).expect("designed");
+            let found = Feedback::design(&settings, &lifted, &targets, covariance(1.0), &[]).expect("designed");
             assert!(found.spectral_radius <= decay, "{stability:?} {decay}: {}", found.spectral_radius);
             assert!(found.causal_cost <= found.cost && found.cost < 18.0, "{stability:?} {decay}: {}", found.cost);
         }
@@ -166,7 +166,8 @@ fn walls_that_store_heat_are_states_without_a_sensor() {
     let uncertainty = Uncertainty::new(UncertaintySettings::default()).expect("valid");
     for stability in [Stability::Lmi, Stability::Linear] {
         let settings = IterativeSettings { stability, decay: 0.99, ..IterativeSettings::default() };
-        let found = Feedback::design(&settings, &lifted, &targets, uncertainty.covariance(&targets)).expect("designed");
+        let found =
+            Feedback::design(&settings, &lifted, &targets, uncertainty.covariance(&targets), &[]).expect("designed");
         let closed = closed_loop(&model.state_matrix(), &model.gain_matrix(), &found.gain_kw_per_k);
         assert!((spectral_radius(&closed) - found.spectral_radius).abs() < 1e-12 && found.spectral_radius < 0.99);
         assert!(
@@ -187,7 +188,7 @@ fn the_causal_optimum_is_one() {
     // is free.
     let (lifted, targets) = (lifted(), chapter_3(1.0));
     let factor = factor(covariance(1.0)).expect("a covariance");
-    let causal = feedback::optimal_causal(&lifted, &targets, &factor).expect("designed");
+    let causal = feedback::optimal_causal(&lifted, &targets, &factor, &[]).expect("designed");
     for column in [0, 3, 17, 90, 187] {
         let first_free = (column / 4 + 1) * 4;
         let weighted: Vec<f64> = causal.temperatures_k.column(column).iter().copied().collect();
@@ -208,7 +209,7 @@ fn inputs_stay_within_their_limits_as_often_as_promised() {
     // A day on which the limits bind; the disturbance is drawn from its covariance.
     let (lifted, targets) = (lifted(), chapter_3(1.0));
     let settings = IterativeSettings::default();
-    let found = Feedback::design(&settings, &lifted, &targets, covariance(1.0)).expect("designed");
+    let found = Feedback::design(&settings, &lifted, &targets, covariance(1.0), &[]).expect("designed");
     let factor = factor(covariance(1.0)).expect("a covariance");
     let response = feedback::static_feedback(&lifted, &found.gain_kw_per_k, &factor);
     let quantile = normal_quantile(0.95);
@@ -262,7 +263,7 @@ fn a_covariance_that_is_none_is_refused() {
     assert!(matches!(factor(contradicting), Err(ControlError::Covariance { order: 3 })));
     let mut missing = covariance(1.0);
     missing[(5, 5)] = f64::NAN;
-    let error = Feedback::design(&IterativeSettings::default(), &lifted(), &chapter_3(1.0), missing);
+    let error = Feedback::design(&IterativeSettings::default(), &lifted(), &chapter_3(1.0), missing, &[]);
     assert!(matches!(error, Err(ControlError::Covariance { order: 192 })), "{error:?}");
 }
 

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct Expect {
     /// Whether nobody may touch anybody (`true`), or a collision must happen (`false`).
     pub no_collision: Option<bool>,
+    /// Who collides with whom, as pairs of names: these and nobody else. Not together with `no_collision`.
+    pub collisions: Option<Vec<[String; 2]>>,
     /// The vehicles from first to last: along the road at the end of the run, or through the conflict zone of an
     /// intersection. Those left out are not judged.
     pub order: Option<Vec<String>>,

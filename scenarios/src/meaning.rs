@@ -231,6 +231,7 @@ impl Checker<'_> {
                 self.refuse(&path, "again", message, "");
             }
         }
+        self.collisions();
         for (index, completes) in expect.completes.iter().enumerate() {
             let path = format!("expect.completes.{index}");
             self.known(&format!("{path}.vehicle"), &completes.vehicle);
@@ -244,6 +245,24 @@ impl Checker<'_> {
                 let message = format!("`expect.speed` for {} expects nothing", quoted(&speed.vehicle));
                 let help = "state `min_below_mps`, `min_above_mps`, `max_below_mps` or `max_above_mps`";
                 self.refuse(&path, "no bound", message, help);
+            }
+        }
+    }
+
+    fn collisions(&mut self) {
+        let expect = &self.scenario.expect;
+        if expect.collisions.is_some() && expect.no_collision.is_some() {
+            let message = "`expect` states both `collisions` and `no_collision`".to_owned();
+            self.refuse("expect.no_collision", "beside `collisions`", message, "`collisions` says it more exactly");
+        }
+        for (index, pair) in expect.collisions.iter().flatten().enumerate() {
+            let path = format!("expect.collisions.{index}");
+            for (end, name) in pair.iter().enumerate() {
+                self.known(&format!("{path}.{end}"), name);
+            }
+            if pair[0] == pair[1] {
+                let message = format!("nobody collides with itself, and {} is named twice", quoted(&pair[0]));
+                self.refuse(&path, "the same vehicle", message, "");
             }
         }
     }

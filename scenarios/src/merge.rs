@@ -8,8 +8,14 @@ use crate::schema;
 use crate::tree::{Entry, Node, Table, Value};
 
 /// Keys of which only one may be present.
-const EXCLUSIVE: [(&str, &str); 5] =
-    [("lane", "y_m"), ("style", "safety_weight"), ("preset", "grid"), ("preset", "zone"), ("grid", "zone")];
+const EXCLUSIVE: [(&str, &str); 6] = [
+    ("lane", "y_m"),
+    ("style", "safety_weight"),
+    ("preset", "grid"),
+    ("preset", "zone"),
+    ("grid", "zone"),
+    ("no_collision", "collisions"),
+];
 
 /// Lays one table over another.
 pub(crate) fn merge_tables(mut under: Table, over: Table) -> Table {

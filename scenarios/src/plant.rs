@@ -62,7 +62,7 @@ impl Default for Dynamic {
             friction: 0.9,
             front_stiffness_per_rad: 10.0,
             rear_stiffness_per_rad: 12.0,
-            acceleration_lag_s: 0.1,
+            acceleration_lag_s: 0.05,
             jerk_max_mps3: 20.0,
             steering_lag_s: 0.05,
             steering_rate_max_radps: 6.0,

@@ -13,6 +13,9 @@ use crate::tree::{Node, Table, Value, kind_of};
 /// No number is larger: beyond, squares and products of what is computed could overflow.
 const LARGEST: f64 = 1e9;
 
+/// Units at the end of keys of one word, such as `speed_mps`.
+const UNITS: [&str; 12] = ["m", "s", "h", "k", "c", "kw", "deg", "rad", "mps", "mps2", "k_per_kw", "kj_per_k"];
+
 /// A schema that says nothing.
 static NULL: Json = Json::Null;
 
@@ -105,7 +108,13 @@ impl Checker {
             let known: Vec<&str> = properties.into_iter().flat_map(|all| all.keys()).map(String::as_str).collect();
             let within = if path.0.is_empty() { String::new() } else { format!(" in {}", quoted(&path.0)) };
             let message = format!("unknown key {}{within}", quoted(key));
-            self.refuse(&entry.key, "unknown key", message, suggestion(key, "the keys here are", &known));
+            let in_another_unit = known.iter().find(|known| differ_by_unit(key, known)).and_then(|known| {
+                let stated = property(known)?;
+                let said = described(stated, schema::resolved(self.root, stated));
+                Some(format!("it is called `{known}` here, after its unit: {said}"))
+            });
+            let help = in_another_unit.unwrap_or_else(|| suggestion(key, "the keys here are", &known));
+            self.refuse(&entry.key, "unknown key", message, help);
         }
         let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
         for key in required.filter_map(Json::as_str).filter(|key| !table.contains_key(*key)) {
@@ -175,10 +184,14 @@ impl Checker {
         if !words.is_empty() {
             return self.word(node, &words, path);
         }
+        let kinds: Vec<&str> = alternatives.iter().filter_map(schema::kind_of).collect();
+        if let Some(word) = node.text().filter(|word| kinds.contains(word)) {
+            let message = format!("{} must be a table whose `kind` is {}", quoted(&path.0), quoted(word));
+            return self.refuse(&node.place, "not a table", message, format!("write `{{ kind = \"{word}\" }}`"));
+        }
         let Value::Table(table) = &node.value else {
             return self.wrong_type(node, Some("object"), stated, path);
         };
-        let kinds: Vec<&str> = alternatives.iter().filter_map(schema::kind_of).collect();
         let Some(entry) = table.get("kind") else {
             let message = format!("{} is missing", quoted(&path.join("kind").0));
             return self.refuse(&node.place, "has no `kind`", message, format!("choose from: {}", listed(&kinds)));
@@ -205,6 +218,15 @@ impl Checker {
             }
         }
     }
+}
+
+/// Whether two keys are the same quantity in different units, of which the first may be left out: `speed` and `speed_kmh`
+/// are `speed_mps`.
+fn differ_by_unit(key: &str, known: &str) -> bool {
+    let quantity = |word: &str| word.split_once('_').map(|(quantity, unit)| (quantity.to_owned(), unit.to_owned()));
+    let Some((quantity_known, unit)) = quantity(known) else { return false };
+    let is_unit = UNITS.contains(&unit.as_str());
+    is_unit && quantity(key).map_or(key == quantity_known, |(quantity, _)| quantity == quantity_known)
 }
 
 /// The description of a key: that beside the reference, or that of what it refers to.

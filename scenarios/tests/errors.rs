@@ -1,12 +1,13 @@
 //! Every error as its reader sees it: each case is rendered and compared with the snapshots, and must name what
 //! matters.
 
+mod common;
+
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
 
-use interplay_scenarios::{LoadError, Override, Scenario, from_text, load};
-use miette::{GraphicalReportHandler, GraphicalTheme};
+use common::{Catalogue, rendered};
+use interplay_scenarios::{Override, from_text, load};
 
 /// A scenario without fault, for the cases to spoil.
 const GOOD: &str = r#"title = "Two cars"
@@ -38,15 +39,6 @@ vehicle = "ego"
 before_s = 4.0
 "#;
 
-/// The error as a reader without colours sees it.
-fn rendered(error: &LoadError, width: usize) -> String {
-    let mut text = String::new();
-    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(width);
-    handler.render_report(&mut text, error).expect("writing to a string cannot fail");
-    // No line may end in blanks, which editors would take away.
-    text.lines().map(|line| line.trim_end().to_owned() + "\n").collect()
-}
-
 /// The good scenario with each text replaced, which must be there.
 fn spoiled(changes: &[(&str, &str)]) -> String {
     changes.iter().fold(GOOD.to_owned(), |text, (from, to)| {
@@ -55,40 +47,9 @@ fn spoiled(changes: &[(&str, &str)]) -> String {
     })
 }
 
-/// The errors of one test, as they will be read.
-#[derive(Default)]
-struct Catalogue(String);
-
-impl Catalogue {
-    /// Expects an error whose rendering has all the fragments.
-    fn add<T>(&mut self, name: &str, result: Result<T, LoadError>, width: usize, fragments: &[&str]) {
-        let error = result.err().unwrap_or_else(|| panic!("{name}: accepted"));
-        let text = rendered(&error, width);
-        for fragment in fragments {
-            assert!(text.contains(fragment), "{name}: no {fragment:?} in\n{text}");
-        }
-        writeln!(self.0, "=== {name}\n{text}").expect("writing to a string cannot fail");
-    }
-
-    fn error(&mut self, name: &str, result: Result<Scenario, LoadError>, fragments: &[&str]) {
-        self.add(name, result, 100, fragments);
-    }
-
-    /// Expects that the spoiled scenario is refused.
-    fn refusal(&mut self, name: &str, changes: &[(&str, &str)], fragments: &[&str]) {
-        self.error(name, from_text("bad.toml", &spoiled(changes), &[]), fragments);
-    }
-
-    /// Expects that a file is refused. Lines are not broken, since that depends on the length of the folder's path.
-    fn file(&mut self, folder: &Path, file: &str, fragments: &[&str]) {
-        let path = folder.join(file);
-        self.add(file, load(&path.to_string_lossy(), &[]), 2000, fragments);
-        self.0 = self.0.replace(&*folder.to_string_lossy(), "FOLDER");
-    }
-
-    fn compare(self, snapshot: &str) {
-        insta::assert_snapshot!(snapshot, self.0);
-    }
+/// Expects that the spoiled scenario is refused.
+fn refusal(errors: &mut Catalogue, name: &str, changes: &[(&str, &str)], fragments: &[&str]) {
+    errors.error(name, from_text("bad.toml", &spoiled(changes), &[]), fragments);
 }
 
 #[test]
@@ -99,84 +60,118 @@ fn the_good_scenario_is_good() {
 #[test]
 fn syntax() {
     let mut errors = Catalogue::default();
-    errors.refusal("syntax", &[("lane_count = 2", "lane_count = = 2")], &["bad.toml:7:", "not valid TOML"]);
-    errors.refusal(
+    refusal(&mut errors, "syntax", &[("lane_count = 2", "lane_count = = 2")], &["bad.toml:7:", "not valid TOML"]);
+    refusal(
+        &mut errors,
         "twice_the_same_key",
         &[("duration_s = 5.0", "title = \"Again\"")],
         &["bad.toml:3:1", "duplicate key"],
     );
     errors.error("control_characters", from_text("bad.toml", "title = \u{1b}[31m", &[]), &["not valid TOML"]);
-    errors.compare("syntax");
+    insta::assert_snapshot!("syntax", errors.0);
 }
 
 #[test]
 fn keys() {
     let mut errors = Catalogue::default();
-    errors.refusal("unknown_key", &[("speed_mps", "sped_mps")], &["bad.toml:11:", "`speed_mps`?", "is missing"]);
-    errors.refusal("unknown_key_far_from_all", &[("lane_count", "elephants")], &["bad.toml:7:1", "`lane_width_m`"]);
-    errors.refusal("missing_title", &[("title = \"Two cars\"", "")], &["`title` is missing", "in a few words"]);
-    errors.refusal(
+    refusal(&mut errors, "unknown_key", &[("speed_mps", "sped_mps")], &["bad.toml:11:", "`speed_mps`?", "is missing"]);
+    refusal(
+        &mut errors,
+        "unknown_key_far_from_all",
+        &[("lane_count", "elephants")],
+        &["bad.toml:7:1", "`lane_width_m`"],
+    );
+    refusal(&mut errors, "missing_title", &[("title = \"Two cars\"", "")], &["`title` is missing", "in a few words"]);
+    refusal(
+        &mut errors,
         "missing_start",
         &[("start = { x_m = 1.0, y_m = 0.185, speed_mps = 1.0 }\n", "")],
         &["bad.toml:15:1", "`vehicle.front.start` is missing"],
     );
-    errors.refusal("missing_kind", &[("kind = \"human\", ", "")], &["`vehicle.front.driver.kind`", "`conservative`"]);
+    refusal(
+        &mut errors,
+        "missing_kind",
+        &[("kind = \"human\", ", "")],
+        &["`vehicle.front.driver.kind`", "`conservative`"],
+    );
     errors.error(
         "no_vehicle",
         from_text("bad.toml", "title = 'a'\nshows = 'b'\nvehicle = []", &[]),
         &["nothing to simulate"],
     );
-    errors.compare("keys");
+    insta::assert_snapshot!("keys", errors.0);
 }
 
 #[test]
 fn types_and_words() {
     let mut errors = Catalogue::default();
-    errors.refusal("not_a_number", &[("5.0", "\"long\"")], &["bad.toml:3:14", "must be a number", "`long`"]);
-    errors.refusal("not_a_whole_number", &[("lane_count = 2", "lane_count = 2.5")], &["whole number", "2.5"]);
-    errors.refusal("not_a_table", &[("{ lane = 1 }", "1")], &["`vehicle.ego.goal` must be a table"]);
-    errors.refusal("not_a_list", &[("[\"front\", \"ego\"]", "\"front\"")], &["`expect.order` must be a list"]);
-    errors.refusal("not_true_or_false", &[("true", "1979-05-27")], &["`expect.no_collision` must be true or false"]);
-    errors.refusal("unknown_word", &[("\"nice\"", "\"nise\"")], &["`nise`", "did you mean `nice`?"]);
-    errors.refusal("unknown_kind", &[("\"lanes\"", "\"motorway\"")], &["`road.kind`", "`motorway`", "`lanes`"]);
-    errors.refusal("not_a_name", &[("\"front\"\nstart", "\"The front\"\nstart")], &["`The front` is not a name"]);
-    errors.refusal("empty_text", &[("\"Two cars\"", "\" \"")], &["`title` must not be empty"]);
-    errors.compare("types_and_words");
+    refusal(&mut errors, "not_a_number", &[("5.0", "\"long\"")], &["bad.toml:3:14", "must be a number", "`long`"]);
+    refusal(&mut errors, "not_a_whole_number", &[("lane_count = 2", "lane_count = 2.5")], &["whole number", "2.5"]);
+    refusal(&mut errors, "not_a_table", &[("{ lane = 1 }", "1")], &["`vehicle.ego.goal` must be a table"]);
+    refusal(&mut errors, "not_a_list", &[("[\"front\", \"ego\"]", "\"front\"")], &["`expect.order` must be a list"]);
+    refusal(
+        &mut errors,
+        "not_true_or_false",
+        &[("true", "1979-05-27")],
+        &["`expect.no_collision` must be true or false"],
+    );
+    refusal(&mut errors, "unknown_word", &[("\"nice\"", "\"nise\"")], &["`nise`", "did you mean `nice`?"]);
+    refusal(&mut errors, "unknown_kind", &[("\"lanes\"", "\"motorway\"")], &["`road.kind`", "`motorway`", "`lanes`"]);
+    refusal(&mut errors, "not_a_name", &[("\"front\"\nstart", "\"The front\"\nstart")], &["`The front` is not a name"]);
+    refusal(&mut errors, "empty_text", &[("\"Two cars\"", "\" \"")], &["`title` must not be empty"]);
+    insta::assert_snapshot!("types_and_words", errors.0);
 }
 
 #[test]
 fn numbers() {
     let mut errors = Catalogue::default();
-    errors.refusal("not_finite", &[("x_m = 1.0", "x_m = nan")], &["`vehicle.front.start.x_m`", "finite"]);
-    errors.refusal("infinite", &[("5.0", "inf")], &["`duration_s`", "finite"]);
-    errors.refusal("too_large_to_compute", &[("x_m = 1.0", "x_m = 1e300")], &["between -1e9 and 1e9"]);
-    errors.refusal(
+    refusal(&mut errors, "not_finite", &[("x_m = 1.0", "x_m = nan")], &["`vehicle.front.start.x_m`", "finite"]);
+    refusal(&mut errors, "infinite", &[("5.0", "inf")], &["`duration_s`", "finite"]);
+    refusal(&mut errors, "too_large_to_compute", &[("x_m = 1.0", "x_m = 1e300")], &["between -1e9 and 1e9"]);
+    refusal(
+        &mut errors,
         "negative_width",
         &[("width_m = 0.19", "width_m = -0.19")],
         &["`vehicle.front.body.width_m`", "-0.19"],
     );
-    errors.refusal("negative_duration", &[("5.0", "-5.0")], &["`duration_s` must be at least 0.001"]);
-    errors.refusal("beta_not_below_one", &[("beta = 0.8", "beta = 1")], &["`vehicle.ego.driver.beta` must be below 1"]);
-    errors.refusal("horizon_too_long", &[("[road]", "horizon_steps = 201\n[road]")], &["at most 200"]);
+    refusal(&mut errors, "negative_duration", &[("5.0", "-5.0")], &["`duration_s` must be at least 0.001"]);
+    refusal(
+        &mut errors,
+        "beta_not_below_one",
+        &[("beta = 0.8", "beta = 1")],
+        &["`vehicle.ego.driver.beta` must be below 1"],
+    );
+    refusal(&mut errors, "horizon_too_long", &[("[road]", "horizon_steps = 201\n[road]")], &["at most 200"]);
     let seed = [("[road]", "seed = 99999999999999999999999999999999999999999999\n[road]")];
-    errors.refusal("seed_too_large", &seed, &["`seed` must be at most 18446744073709551615"]);
-    errors.compare("numbers");
+    refusal(&mut errors, "seed_too_large", &seed, &["`seed` must be at most 18446744073709551615"]);
+    insta::assert_snapshot!("numbers", errors.0);
 }
 
 #[test]
 fn places() {
     let mut errors = Catalogue::default();
-    errors.refusal(
+    refusal(
+        &mut errors,
         "start_outside_the_road",
         &[("y_m = 0.185", "y_m = 0.05")],
         &["bad.toml:11:9", "`ego` starts outside"],
     );
-    errors.refusal("overlapping_cars", &[("x_m = 1.0", "x_m = 0.39")], &["`ego` and `front` overlap", "with this one"]);
-    errors.refusal("lane_out_of_range", &[("lane = 1", "lane = 2")], &["bad.toml:12:17", "only 2 lanes", "0 to 1"]);
-    errors.refusal("goal_beside_the_road", &[("lane = 1", "y_m = 1.0")], &["beside the road", "0.74"]);
-    errors.refusal("lane_and_position", &[("lane = 1", "lane = 1, y_m = 0.5")], &["both `lane` and `y_m`"]);
-    errors.refusal("weight_on_x", &[("goal = { lane = 1 }", "weights = { x = 1 }")], &["weights.x"]);
-    errors.compare("places");
+    refusal(
+        &mut errors,
+        "overlapping_cars",
+        &[("x_m = 1.0", "x_m = 0.39")],
+        &["`ego` and `front` overlap", "with this one"],
+    );
+    refusal(
+        &mut errors,
+        "lane_out_of_range",
+        &[("lane = 1", "lane = 2")],
+        &["bad.toml:12:17", "only 2 lanes", "0 to 1"],
+    );
+    refusal(&mut errors, "goal_beside_the_road", &[("lane = 1", "y_m = 1.0")], &["beside the road", "0.74"]);
+    refusal(&mut errors, "lane_and_position", &[("lane = 1", "lane = 1, y_m = 0.5")], &["both `lane` and `y_m`"]);
+    refusal(&mut errors, "weight_on_x", &[("goal = { lane = 1 }", "weights = { x = 1 }")], &["weights.x"]);
+    insta::assert_snapshot!("places", errors.0);
 }
 
 #[test]
@@ -185,71 +180,140 @@ fn roads() {
     let ramp = ("kind = \"lanes\"", "kind = \"ramp-merge\"\nramp_end_m = 3.0");
     let crossing = ("kind = \"lanes\"", "kind = \"intersection\"");
     let cross = ("name = \"front\"", "name = \"front\"\nroad = \"cross\"");
-    errors.refusal("no_crossing_road", &[cross], &["bad.toml:17:8", "no crossing road", "kind = \"intersection\""]);
-    errors.refusal("start_past_the_ramp", &[ramp, ("x_m = 1.0", "x_m = 3.0")], &["`front` starts outside", "x = 3"]);
-    errors.refusal("goal_on_the_ramp", &[ramp, ("lane = 1", "lane = 0")], &["the ramp, which ends", "lane 1"]);
-    errors.refusal("a_ramp_needs_a_lane_beside_it", &[ramp, ("lane_count = 2", "lane_count = 1")], &["at least 2"]);
-    errors.refusal("heads_elsewhere", &[crossing, cross], &["not along the vehicle's road", "heading_rad = 1.57"]);
+    refusal(
+        &mut errors,
+        "no_crossing_road",
+        &[cross],
+        &["bad.toml:17:8", "no crossing road", "kind = \"intersection\""],
+    );
+    refusal(
+        &mut errors,
+        "start_past_the_ramp",
+        &[ramp, ("x_m = 1.0", "x_m = 3.0")],
+        &["`front` starts outside", "x = 3"],
+    );
+    refusal(&mut errors, "goal_on_the_ramp", &[ramp, ("lane = 1", "lane = 0")], &["the ramp, which ends", "lane 1"]);
+    refusal(
+        &mut errors,
+        "a_ramp_needs_a_lane_beside_it",
+        &[ramp, ("lane_count = 2", "lane_count = 1")],
+        &["at least 2"],
+    );
+    refusal(
+        &mut errors,
+        "heads_elsewhere",
+        &[crossing, cross],
+        &["not along the vehicle's road", "heading_rad = 1.57"],
+    );
     let north = ("x_m = 1.0, y_m = 0.185", "x_m = 1.0, y_m = -1.0, heading_rad = 1.5708");
-    errors.refusal("beside_the_crossing_road", &[crossing, cross, north], &["from x = -0.37 to x = 0.37"]);
+    refusal(&mut errors, "beside_the_crossing_road", &[crossing, cross, north], &["reaches 0.37 to either side"]);
     let y_m = ("body = { width_m = 0.19 }", "goal = { y_m = 0.3 }");
     let there = ("x_m = 1.0, y_m = 0.185", "x_m = 0.2, y_m = -1.0, heading_rad = 1.5708");
-    errors.refusal("no_lateral_position", &[crossing, cross, there, y_m], &["no lateral position", "its `lane`"]);
+    refusal(&mut errors, "no_lateral_position", &[crossing, cross, there, y_m], &["no lateral position", "its `lane`"]);
     let slanted = ("kind = \"lanes\"", "kind = \"intersection\"\nangle_deg = 10");
-    errors.refusal("hardly_crossing", &[slanted], &["hardly cross", "from 20 to 160"]);
-    errors.compare("roads");
+    refusal(&mut errors, "hardly_crossing", &[slanted], &["hardly cross", "from 20 to 160"]);
+    insta::assert_snapshot!("roads", errors.0);
 }
 
 #[test]
 fn names_and_times() {
     let mut errors = Catalogue::default();
-    errors.refusal(
+    refusal(
+        &mut errors,
         "same_name_twice",
         &[("name = \"front\"", "name = \"ego\"")],
         &["called `ego`", "the first", "the second"],
     );
-    errors.refusal("unknown_vehicle_in_order", &[("[\"front\"", "[\"fornt\"")], &["`fornt`", "did you mean `front`?"]);
-    errors.refusal("named_twice_in_order", &[("[\"front\"", "[\"ego\"")], &["names `ego` twice"]);
-    errors.refusal(
+    refusal(
+        &mut errors,
+        "unknown_vehicle_in_order",
+        &[("[\"front\"", "[\"fornt\"")],
+        &["`fornt`", "did you mean `front`?"],
+    );
+    refusal(&mut errors, "named_twice_in_order", &[("[\"front\"", "[\"ego\"")], &["names `ego` twice"]);
+    refusal(
+        &mut errors,
         "unknown_vehicle_in_completes",
         &[("vehicle = \"ego\"", "vehicle = \"truck\"")],
         &["`truck`", "`front`"],
     );
-    errors.refusal(
+    refusal(
+        &mut errors,
         "empty_window",
         &[("before_s = 4.0", "before_s = 4.0\nafter_s = 4.5")],
         &["after 4.5 s and before 4 s"],
     );
-    errors.refusal("window_after_the_end", &[("before_s = 4.0", "after_s = 5.0")], &["the end of the run at 5 s"]);
-    errors.refusal(
+    refusal(
+        &mut errors,
+        "window_after_the_end",
+        &[("before_s = 4.0", "after_s = 5.0")],
+        &["the end of the run at 5 s"],
+    );
+    refusal(
+        &mut errors,
         "expects_nothing",
         &[("[[expect.completes]]", "[[expect.speed]]"), ("before_s = 4.0\n", "")],
         &["nothing"],
     );
-    errors.refusal("too_many_ticks", &[("5.0", "1e6")], &["more than 100000 ticks"]);
-    errors.refusal("shorter_than_a_step", &[("5.0", "0.05")], &["shorter than one step"]);
-    errors.compare("names_and_times");
+    refusal(&mut errors, "too_many_ticks", &[("5.0", "1e6")], &["more than 100000 ticks"]);
+    refusal(&mut errors, "shorter_than_a_step", &[("5.0", "0.05")], &["shorter than one step"]);
+    insta::assert_snapshot!("names_and_times", errors.0);
 }
 
 #[test]
 fn drivers_and_limits() {
     let mut errors = Catalogue::default();
     let limits = |text: &'static str| [("goal = { lane = 1 }", text)];
-    errors.refusal("limits_inverted", &limits("limits = { speed_min_mps = 2.0 }"), &["not below the largest"]);
-    errors.refusal("start_outside_limits", &limits("limits = { speed_max_mps = 0.9 }"), &["start.speed_mps", "0.9"]);
-    errors.refusal("goal_outside_limits", &limits("goal = { speed_mps = 1.6 }"), &["goal.speed_mps", "1.5"]);
-    errors.refusal(
+    refusal(&mut errors, "limits_inverted", &limits("limits = { speed_min_mps = 2.0 }"), &["not below the largest"]);
+    refusal(
+        &mut errors,
+        "start_outside_limits",
+        &limits("limits = { speed_max_mps = 0.9 }"),
+        &["start.speed_mps", "0.9"],
+    );
+    refusal(&mut errors, "goal_outside_limits", &limits("goal = { speed_mps = 1.6 }"), &["goal.speed_mps", "1.5"]);
+    refusal(
+        &mut errors,
         "style_and_weight",
         &[("style = \"nice\"", "style = \"nice\", safety_weight = 8")],
         &["both `style`"],
     );
-    errors.refusal("settled_too_long", &[("beta = 0.8", "settled_steps = 30")], &["settled_steps", "(30)"]);
-    errors.refusal(
+    refusal(&mut errors, "settled_too_long", &[("beta = 0.8", "settled_steps = 30")], &["settled_steps", "(30)"]);
+    refusal(
+        &mut errors,
         "weights_inverted",
         &[("kind = \"negotiation\", beta = 0.8", "kind = \"bayesian\", w_1_min = 9.0")],
         &["`w_1_max` (5)"],
     );
-    errors.compare("drivers_and_limits");
+    insta::assert_snapshot!("drivers_and_limits", errors.0);
+}
+
+#[test]
+fn plants_and_crashes() {
+    let mut errors = Catalogue::default();
+    let plant = |plant: &'static str| [("duration_s = 5.0", plant)];
+    refusal(
+        &mut errors,
+        "a_word_for_a_plant",
+        &plant("plant = \"dynamic\""),
+        &["bad.toml:3:9", "{ kind = \"dynamic\" }"],
+    );
+    let ice = plant("plant = { kind = \"dynamic\", friction = 0 }");
+    refusal(&mut errors, "no_friction", &ice, &["bad.toml:3:41", "`plant.friction` must be above 0"]);
+    let kinematic = plant("plant = { kind = \"kinematic\", friction = 0.5 }");
+    refusal(&mut errors, "friction_without_tyres", &kinematic, &["unknown key `friction`"]);
+    let crash = |pair: &'static str| [("no_collision = true", pair)];
+    refusal(
+        &mut errors,
+        "crash_with_nobody",
+        &crash("collisions = [[\"ego\", \"frnt\"]]"),
+        &["no vehicle `frnt`", "`front`?"],
+    );
+    refusal(&mut errors, "crash_with_itself", &crash("collisions = [[\"ego\", \"ego\"]]"), &["named twice"]);
+    refusal(&mut errors, "crash_of_three", &crash("collisions = [[\"ego\", \"front\", \"ego\"]]"), &["at most 2"]);
+    let both = crash("no_collision = false\ncollisions = [[\"ego\", \"front\"]]");
+    refusal(&mut errors, "said_twice", &both, &["both `collisions` and `no_collision`"]);
+    insta::assert_snapshot!("plants_and_crashes", errors.0);
 }
 
 #[test]
@@ -257,7 +321,12 @@ fn all_independent_errors_at_once() {
     let mut errors = Catalogue::default();
     let changes =
         [("5.0", "-1"), ("lane_count", "lanes"), ("\"nice\"", "3"), ("no_collision = true", "no_collision = 0")];
-    errors.refusal("several", &changes, &["4 errors", "bad.toml:3:", "bad.toml:7:", "bad.toml:19:", "bad.toml:22:"]);
+    refusal(
+        &mut errors,
+        "several",
+        &changes,
+        &["4 errors", "bad.toml:3:", "bad.toml:7:", "bad.toml:19:", "bad.toml:22:"],
+    );
     let mut many = GOOD.to_owned();
     for index in 0..30 {
         writeln!(many, "unknown_{index:02} = 1").expect("writing to a string cannot fail");
@@ -265,7 +334,7 @@ fn all_independent_errors_at_once() {
     let error = from_text("bad.toml", &many, &[]).expect_err("unknown keys");
     assert_eq!(error.problems().len(), 20);
     assert!(rendered(&error, 100).contains("10 more are not shown"));
-    errors.compare("all_independent_errors_at_once");
+    insta::assert_snapshot!("all_independent_errors_at_once", errors.0);
 }
 
 #[test]
@@ -291,7 +360,7 @@ fn overrides() {
     errors.error("set_too_deep", set(&format!("{}=1", "a.".repeat(100_000))), &["no key of a scenario"]);
     let planner = from_text("good.toml", GOOD, &[Override::Planner("negotiate".to_owned())]);
     errors.error("unknown_planner", planner, &["--planner:1:1", "`negotiation`?"]);
-    errors.compare("overrides");
+    insta::assert_snapshot!("overrides", errors.0);
 }
 
 #[test]
@@ -301,7 +370,7 @@ fn missing_files() {
     errors.error("no_such_name_near", load("something-else-entirely", &[]), &["interplay list"]);
     errors.error("no_such_file", load("front-tuogh.toml", &[]), &["no file", "lane-change/front-tough"]);
     errors.error("no_name", load("", &[]), &["no scenario and no file"]);
-    errors.compare("missing_files");
+    insta::assert_snapshot!("missing_files", errors.0);
 }
 
 #[test]
@@ -323,7 +392,7 @@ fn unreadable_files() {
     errors.file(folder.path(), "binary.toml", &["binary.toml:2:1", "not UTF-8"]);
     errors.file(folder.path(), "large.toml", &["larger than 1 MiB"]);
     errors.file(folder.path(), "", &["is a directory"]);
-    errors.compare("unreadable_files");
+    insta::assert_snapshot!("unreadable_files", errors.0);
 }
 
 #[test]
@@ -343,5 +412,5 @@ fn chains_of_files() {
     errors.file(folder.path(), "orphan.toml", &["orphan.toml:2:11", "lane-change/front-nice"]);
     errors.file(folder.path(), "list.toml", &["list.toml:1:11", "`extends`"]);
     errors.file(folder.path(), "child.toml", &["parent.toml:18:10", "`width_m`?"]);
-    errors.compare("chains_of_files");
+    insta::assert_snapshot!("chains_of_files", errors.0);
 }

@@ -195,6 +195,25 @@ fn links_lead_somewhere_and_the_summary_lists_every_page() {
     }
 }
 
+/// The page of all authored scenarios is what they say of themselves. `INTERPLAY_BLESS=1` writes it anew.
+#[test]
+fn the_list_of_scenarios_is_complete() {
+    let listed = interplay(&scratch("book-list"), &["list", "--json"]).json();
+    let mut page = "# Authored scenarios\n\nWhat is in the binary, as `interplay list` has it.\n\n\
+                    | name | what it shows | figure |\n|---|---|---|\n"
+        .to_owned();
+    for row in listed.as_array().expect("a list") {
+        let [name, shows, figure] = ["name", "shows", "figure"].map(|key| row[key].as_str().unwrap_or_default());
+        page += &format!("| `{name}` | {} | {figure} |\n", shows.replace('|', "\\|"));
+    }
+    let path = root().join("docs/scenarios.md");
+    if std::env::var_os("INTERPLAY_BLESS").is_some() {
+        fs::write(&path, &page).expect("the page can be written");
+    }
+    let written = fs::read_to_string(&path).unwrap_or_default();
+    assert!(written == page, "docs/scenarios.md is out of date: renew it with INTERPLAY_BLESS=1");
+}
+
 /// Tests that the errata name are there.
 #[test]
 fn the_errata_name_tests_that_exist() {
@@ -210,7 +229,7 @@ fn the_errata_name_tests_that_exist() {
         gather(&root().join(room), &mut sources);
     }
     for test in &named {
-        let found = sources.split("#[test]").skip(1).any(|rest| rest.trim_start().starts_with(&format!("fn {test}()")));
+        let found = sources.split("#[test]").skip(1).any(|rest| rest.trim_start().starts_with(&format!("fn {test}(")));
         assert!(found, "the errata name `{test}`, which is no test");
     }
     assert!(named.len() > 30, "{named:?}");

@@ -89,11 +89,15 @@ fn is_flag(word: &str) -> bool {
     word.strip_prefix("--").is_some_and(|name| name.starts_with(char::is_alphabetic))
 }
 
+/// Scenarios that the README names are there; `docs/scenarios.md` has all of them.
 #[test]
-fn the_readme_lists_every_authored_scenario() {
+fn the_readme_names_scenarios_that_exist() {
     let readme = document("README.md");
-    for file in embedded() {
-        assert!(readme.contains(&format!("`{}`", file.name)), "{} is missing", file.name);
+    let rows = readme.lines().filter_map(|line| line.strip_prefix("| `")?.split('`').next());
+    let named: Vec<&str> = rows.filter(|word| !word.ends_with('/')).collect();
+    assert!(named.len() > 8, "{named:?}");
+    for name in named {
+        assert!(embedded().iter().any(|file| file.name == name), "there is no {name}");
     }
 }
 

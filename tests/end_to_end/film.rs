@@ -8,7 +8,7 @@ use interplay::report::Report;
 use interplay::run::run;
 use interplay::watch::Watcher;
 use interplay_planners::State;
-use interplay_scenarios::{Override, Scenario, embedded, load};
+use interplay_scenarios::{Override, Plant, Scenario, embedded, load};
 
 /// A run and all that was seen of it.
 pub struct Film {
@@ -68,6 +68,11 @@ pub static FILMS: LazyLock<Vec<Film>> = LazyLock::new(|| {
         running.into_iter().map(|film| film.join().expect("no run panics")).collect()
     })
 });
+
+/// The films in which vehicles move exactly as planners think.
+pub fn kinematic() -> impl Iterator<Item = &'static Film> {
+    FILMS.iter().filter(|film| matches!(film.scenario.plant, Plant::Kinematic(_)))
+}
 
 impl Film {
     /// The states of all vehicles after a tick.

@@ -3,14 +3,8 @@
 use interplay::frame::Origin;
 use interplay_planners::State;
 use interplay_planners::dynamics::Bicycle;
-use interplay_scenarios::Plant;
 
-use crate::film::{FILMS, Film};
-
-/// The runs in which vehicles move exactly as planners think.
-fn kinematic() -> impl Iterator<Item = &'static Film> {
-    FILMS.iter().filter(|film| matches!(film.scenario.plant, Plant::Kinematic(_)))
-}
+use crate::film::{FILMS, kinematic};
 
 #[test]
 fn there_is_a_frame_for_every_tick_and_everybody_is_in_it() {
@@ -57,7 +51,7 @@ fn the_kinematic_plant_is_the_bicycle() {
 
 #[test]
 fn inputs_and_speeds_stay_within_the_limits() {
-    for film in FILMS.iter() {
+    for film in kinematic() {
         for (tick, frame) in film.frames.iter().enumerate() {
             for (index, (seen, vehicle)) in frame.vehicles.iter().zip(&film.scenario.vehicles).enumerate() {
                 let (limits, input, speed) = (vehicle.limits, seen.input, film.states_after(tick)[index].speed_mps);
@@ -111,7 +105,7 @@ fn plans_are_motions_of_the_vehicle() {
 /// The road edges are soft rows of the planners; an exact penalty keeps the vehicles on the road all the same.
 #[test]
 fn nobody_leaves_the_road() {
-    for film in FILMS.iter() {
+    for film in kinematic() {
         for frame in &film.frames {
             for (seen, vehicle) in frame.vehicles.iter().zip(&film.scenario.vehicles) {
                 let corridor = film.scenario.road.corridor(vehicle.road);

@@ -1,9 +1,11 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`authoring`], [`documents`], [`book`]
+//! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
+//!   [`figures`], [`authoring`], [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - what others may add: [`own`]
-//! - buildings, in all of these respects: [`building`]
+//! - what tyres, friction and lag make of it: [`plants`]
+//! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
 
@@ -17,12 +19,15 @@ mod command;
 mod determinism;
 mod documents;
 mod failures;
+mod figures;
 mod film;
 mod house;
 mod laws;
+mod learning;
 mod measures;
 mod output;
 mod own;
+mod plants;
 mod recordings;
 mod rectangles;
 mod replacements;

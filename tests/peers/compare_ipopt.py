@@ -119,7 +119,7 @@ def table(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--solver", default="robust", choices=["robust", "structured", "sparse"])
+    parser.add_argument("--solver", default="resumed", choices=["resumed", "robust", "structured", "sparse"])
     parser.add_argument("--kind", action="append", choices=KINDS)
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "tests/peers/compare_ipopt.json")
     arguments = parser.parse_args()

@@ -146,8 +146,7 @@ impl Run {
         let Some(folder) = &self.report else { return Ok(()) };
         let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
         let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
-        let what =
-            |file: &String| format!("the recording; open it with `rerun {file}` (pip install rerun-sdk==0.36.3)");
+        let what = |file: &String| format!("the recording; `interplay view {file}` opens it");
         let page = own_page(take, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
         complain(&format!("page in {}", page.display()));
         Ok(())

@@ -18,7 +18,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         ),
         shots: &[],
         beside: &[],
-        draw: |entry, _| theory::classroom(entry.title, false),
+        draw: |entry, _| theory::identification(entry.title, false),
     },
     Entry {
         kind: Kind::Figure,
@@ -32,7 +32,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         ),
         shots: &[],
         beside: &[],
-        draw: |entry, _| theory::classroom(entry.title, true),
+        draw: |entry, _| theory::identification(entry.title, true),
     },
     Entry {
         kind: Kind::Table,

@@ -33,14 +33,15 @@ fn driving(takes: &[&&Take]) -> Sheet {
     let row = |take: &&&Take| {
         let report = &take.report;
         let ego = report.vehicles.get(take.scenario.ego_index());
-        let completed = report.vehicles.iter().map(|vehicle| {
-            let time = vehicle.completed_s.map_or_else(|| "never".to_owned(), |time_s| format!("{time_s:.1}"));
-            format!("{} {time}", vehicle.name)
-        });
+        let completed = report
+            .vehicles
+            .iter()
+            .filter_map(|vehicle| vehicle.completed_s.map(|time_s| format!("{} {time_s:.1}", vehicle.name)));
+        let completed: Vec<String> = completed.collect();
         let failed: usize = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
         [
             label(take),
-            completed.collect::<Vec<_>>().join(", "),
+            if completed.is_empty() { "nobody".to_owned() } else { completed.join(", ") },
             report.order.join(", "),
             ego.map_or_else(String::new, |ego| format!("{:.2} to {:.2}", ego.min_speed_mps, ego.max_speed_mps)),
             report.min_gap_m.map_or_else(|| "–".to_owned(), |gap_m| format!("{gap_m:.3}")),
@@ -58,6 +59,7 @@ fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
         "cost J, day by day",
         "error, last day [K]",
         "discomfort, last day [K·h]",
+        "above the cheapest, last day",
         "energy, last day [kWh]",
         "over the limit, any day [kW]",
         "design of a day, slowest [ms]",
@@ -75,6 +77,7 @@ fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
             costs.join(", "),
             last(|day| day.figures.tracking_rmse_c),
             last(|day| day.figures.discomfort_k_h),
+            days.last().and_then(|day| day.regret).map_or_else(|| "–".to_owned(), |regret| format!("{regret:.1}")),
             last(|day| day.figures.energy_kwh),
             format!("{:.3}", most(|day| day.figures.input_violation_kw)),
             format!("{:.1}", 1e3 * most(|day| day.design_s)),

@@ -22,6 +22,8 @@ mod measures;
 mod section;
 mod show;
 mod take;
+#[cfg(test)]
+mod tests;
 mod theory;
 
 use std::collections::BTreeMap;

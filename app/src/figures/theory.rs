@@ -2,8 +2,8 @@
 
 use interplay_building::comfort::Setpoints;
 use interplay_building::discretise::Model;
-use interplay_building::identify::classroom::Classroom;
-use interplay_building::identify::{ErrorReport, Forecast, Identification, Settings, ZoneReport, identify};
+use interplay_building::identify::classroom::{self, Classroom};
+use interplay_building::identify::{ErrorReport, Forecast, Identification, Quantity, Settings, ZoneReport, identify};
 use interplay_building::network::Network;
 use interplay_planners::game::payoff::Stakes;
 use interplay_planners::game::prospect::{ProspectTheory, weighting};
@@ -19,7 +19,7 @@ use crate::plot::{Curve, Panel, Panels, Sheet};
 const TRAIN_DAYS: f64 = 9.0;
 
 /// The identified classroom over the rows trained on, or over the others (Figs. 2.5 and 2.6).
-pub fn classroom(title: &str, test: bool) -> Result<Exhibit, String> {
+pub fn identification(title: &str, test: bool) -> Result<Exhibit, String> {
     let telemetry = Classroom::default().simulate();
     let settings = Settings { train_days: Some(TRAIN_DAYS), ..Settings::default() };
     let found = identify(&telemetry, &settings).map_err(|error| error.to_string())?;
@@ -38,14 +38,14 @@ fn fit(title: &str, found: &Identification, test: bool) -> Panels {
     };
     let measured = || {
         let curve = curve("measured", Ink::new(GREY, Dash::Solid), &series.measured_c);
-        Curve { ink: Ink { width: 6, ..curve.ink }, ..curve }
+        Curve { ink: Ink { width: 7, ..curve.ink }, ..curve }
     };
     let panel = |name: &str, predicted: Curve| Panel {
         name: name.to_owned(),
         curves: vec![measured(), predicted],
         ..Panel::default()
     };
-    let one_step = curve("predicted a step (15 min) ahead", Ink::new(BLACK, Dash::Solid), &series.one_step_c);
+    let one_step = curve("predicted a step (15 min) ahead", Ink::new(ORANGE, Dash::Solid), &series.one_step_c);
     let free_run = &series.free_run_with_residual_model_c;
     let free_run = curve("predicted a day ahead, from midnight on", Ink::new(BLUE, Dash::Solid), free_run);
     Panels {
@@ -64,21 +64,31 @@ fn fit_errors(errors: &ErrorReport) -> Sheet {
         ["one step ahead, with residual model".to_owned(), kelvin(errors.one_step_with_residual_model_k)],
     ];
     let words = |forecast: &Forecast| match forecast {
-        Forecast::None => "a day ahead, network alone".to_owned(),
-        Forecast::ProfileArma => "a day ahead, with daily profile and ARMA".to_owned(),
-        other => format!("a day ahead, {other:?}"),
+        Forecast::None => "network alone",
+        Forecast::Constant => "with a constant",
+        Forecast::Arma => "with a constant and ARMA, as the source",
+        Forecast::Profile => "with a daily profile",
+        Forecast::ProfileArma => "with a daily profile and ARMA",
     };
     let runs = errors.free_run.errors_k.iter();
-    rows.extend(runs.filter_map(|(forecast, error_k)| Some([words(forecast), kelvin((*error_k)?)])));
+    rows.extend(runs.filter_map(|(how, error_k)| Some([format!("a day ahead, {}", words(how)), kelvin((*error_k)?)])));
     Sheet::new("Measured: errors, root mean square", ["prediction", "error [K]"], rows)
 }
 
 fn parameters_found(zone: &ZoneReport) -> Sheet {
     let number = |value: Option<f64>| value.map_or_else(|| "undetermined".to_owned(), |value| format!("{value:.4}"));
+    let truth = |name: &str| match name {
+        "heat capacity" => format!("{:.1}", classroom::CAPACITY_KJ_PER_K),
+        "resistance to outdoor" => format!("{:.2}", classroom::OUTDOOR_K_PER_KW),
+        "resistance to room-b" | "resistance to room-c" => format!("{:.2}", classroom::ROOM_K_PER_KW),
+        _ => String::new(),
+    };
     let rows = zone.physical.iter().map(|quantity| {
-        [quantity.name.clone(), number(quantity.value), number(quantity.standard_error), quantity.unit.clone()]
+        let Quantity { name, value, standard_error, unit, .. } = quantity;
+        [name.clone(), truth(name), number(*value), number(*standard_error), unit.clone()]
     });
-    Sheet::new("Measured: parameters", ["parameter", "estimate", "standard error", "unit"], rows.collect())
+    let header = ["parameter", "simulated with", "estimate", "standard error", "unit"];
+    Sheet::new("Measured: parameters", header, rows.collect())
 }
 
 /// Table 2.1 in the unit that makes sense of it, and what each reading of the printed unit leads to.

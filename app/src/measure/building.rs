@@ -8,9 +8,10 @@ use interplay_building::lifted::Lifted;
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
 
+use super::milestones::Today;
 use crate::climate::Building;
 use crate::components::Present;
-use crate::frame::BuildingFrame;
+use crate::frame::{BuildingFrame, Frame};
 
 /// Up to so many inputs a day (zones times steps) the day's optimum and the convergence of learning are worked out: they
 /// take time in the cube of it.
@@ -109,6 +110,7 @@ pub struct BuildingMeasures {
     /// The model of a day, if it is small enough for what takes long.
     lifted: Option<Lifted>,
     spectral_radius: Option<f64>,
+    today: Today,
     disturbance: Xxh3,
     control: Xxh3,
     balance: Xxh3,
@@ -132,6 +134,7 @@ impl BuildingMeasures {
             remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
             lifted,
             spectral_radius,
+            today: Today::default(),
             disturbance: Xxh3::new(),
             control: Xxh3::new(),
             balance: Xxh3::new(),
@@ -191,8 +194,9 @@ fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
 
 /// Feeds the step into the digests, and measures the day when it is over.
 pub fn measure_building(building: Res<Building>, mut present: ResMut<Present>, mut measures: ResMut<BuildingMeasures>) {
-    let Some(frame) = &mut present.0.building else { return };
+    let Frame { building: Some(frame), events, .. } = &mut present.0 else { return };
     measures.digest(frame);
+    events.extend(measures.today.observe(frame, &building));
     if frame.step + 1 == building.steps_per_day() {
         let day = measures.day(&building);
         measures.days.push(day);

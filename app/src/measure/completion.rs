@@ -53,10 +53,17 @@ impl Completion {
         }
     }
 
-    /// Looks at one moment.
-    pub fn observe(&mut self, state: &State, time_s: f64) {
-        if self.has_task && self.completed_s.is_none() && self.is_there(state) {
+    /// Whether it is the other road that is to be crossed.
+    pub fn crosses(&self) -> bool {
+        matches!(self.task, Task::Cross { .. })
+    }
+
+    /// Looks at one moment; says whether the goal is reached in it.
+    pub fn observe(&mut self, state: &State, time_s: f64) -> bool {
+        let reached = self.has_task && self.completed_s.is_none() && self.is_there(state);
+        if reached {
             self.completed_s = Some(time_s);
         }
+        reached
     }
 }

@@ -6,6 +6,7 @@ mod comfort;
 mod completion;
 mod digest;
 mod gap;
+mod milestones;
 mod planning;
 mod speed;
 
@@ -19,6 +20,7 @@ pub use comfort::Comfort;
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
 pub use gap::Gap;
+pub use milestones::Milestones;
 pub use planning::Planning;
 pub use speed::SpeedRange;
 
@@ -33,6 +35,8 @@ pub struct Measures {
     pub gap: Gap,
     /// Digest of the run, by phase.
     pub digest: Digest,
+    /// What happens that is worth a line in the log.
+    pub milestones: Milestones,
     /// Per vehicle, in the scenario's order.
     pub vehicles: Vec<VehicleMeasures>,
 }
@@ -66,6 +70,7 @@ impl Measures {
             collisions: Vec::new(),
             gap: Gap::new(scenario),
             digest: Digest::default(),
+            milestones: Milestones::new(scenario),
             vehicles: vehicles.collect(),
         }
     }
@@ -95,10 +100,14 @@ pub fn measure(
     for ((vehicle, measured), state) in frame.vehicles.iter().zip(&mut measures.vehicles).zip(&after) {
         measured.planning.observe(vehicle);
         measured.comfort.observe(&vehicle.input);
-        measured.completion.observe(state, clock.time_s());
+        if measured.completion.observe(state, clock.time_s()) {
+            frame.events.push(milestones::arrival(&vehicle.name, measured.completion.crosses()));
+        }
         measured.speed.observe(state.speed_mps);
         measured.last = *state;
     }
+    let begun = measures.milestones.observe(frame);
+    frame.events.extend(begun);
     measures.gap.observe(&after);
     measures.digest.observe(frame, &after);
 }

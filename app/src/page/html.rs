@@ -10,6 +10,7 @@ body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; m
 h1 { font-size: 1.7rem; margin: 1rem 0 .5rem; } h2 { font-size: 1.25rem; margin: 0 0 .5rem; }
 nav { columns: 2; font-size: .92rem; margin: 1rem 0 2rem; } nav ul { margin: 0; padding: 0; list-style: none; }
 section { border-top: 2px solid #ddd; padding-top: 1.2rem; margin-top: 2.2rem; }
+figure { margin: 0; } nav .mark { border: 0; padding: 0; }
 svg { display: block; width: 100%; height: auto; max-width: 1120px; margin: .8rem 0; font-family: 'DejaVu Sans', sans-serif; }
 svg.small { width: auto; max-width: 100%; }
 table { border-collapse: collapse; font-size: .9rem; margin: .8rem 0; display: block; overflow-x: auto; }
@@ -44,7 +45,9 @@ fn write_page(text: &mut String, page: &Page) -> std::fmt::Result {
         writeln!(text, "<nav aria-label=\"Contents\"><ul>")?;
         for section in &page.sections {
             let (id, heading) = (escaped(&section.id), escaped(&section.heading));
-            writeln!(text, "<li><a href=\"#{id}\">{heading}</a> {}</li>", mark(&section.verdict))?;
+            let (verdict, sign) = (&section.verdict, section.verdict.sign());
+            let mark = format!("<span class=\"mark {}\" title=\"{}\">{sign}</span>", class(verdict), verdict.word());
+            writeln!(text, "<li>{mark} <a href=\"#{id}\">{heading}</a></li>")?;
         }
         writeln!(text, "</ul></nav>")?;
     }
@@ -54,14 +57,17 @@ fn write_page(text: &mut String, page: &Page) -> std::fmt::Result {
     writeln!(text, "</body>\n</html>")
 }
 
-fn mark(verdict: &Verdict) -> String {
-    let class = match verdict {
+fn class(verdict: &Verdict) -> &'static str {
+    match verdict {
         Verdict::Shown => "shown",
         Verdict::Held => "held",
         Verdict::Missed => "missed",
         Verdict::Broken(_) => "broken",
-    };
-    format!("<span class=\"mark {class}\">{}</span>", verdict.word())
+    }
+}
+
+fn mark(verdict: &Verdict) -> String {
+    format!("<span class=\"mark {}\">{}</span>", class(verdict), verdict.word())
 }
 
 fn write_section(text: &mut String, section: &Section) -> std::fmt::Result {

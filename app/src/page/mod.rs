@@ -53,13 +53,24 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The word for it.
+    /// The words for it.
     pub fn word(&self) -> &'static str {
         match self {
             Verdict::Shown => "shown",
             Verdict::Held => "expectations held",
             Verdict::Missed => "an expectation failed",
             Verdict::Broken(_) => "could not be made",
+        }
+    }
+}
+
+impl Verdict {
+    /// A sign for it.
+    fn sign(&self) -> &'static str {
+        match self {
+            Verdict::Shown => "–",
+            Verdict::Held => "✓",
+            Verdict::Missed | Verdict::Broken(_) => "✗",
         }
     }
 }

@@ -150,3 +150,61 @@ impl Chassis {
         impulses_ns
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SUB_STEP_S: f64 = 1e-3;
+
+    fn chassis() -> Chassis {
+        Chassis::new(&Body::default(), 14.0, &Dynamic { friction: 0.7, ..Dynamic::default() })
+    }
+
+    /// Velocities in all directions, fast and slow, with all that actuators may do.
+    fn for_all(check: impl Fn(Planar, f64, f64)) {
+        for forward in [-2.0, -0.01, 0.0, 1e-9, 0.3, 4.0] {
+            for left in [-1.0, 0.0, 0.02] {
+                for yaw in [-8.0, 0.0, 0.5] {
+                    for steering_rad in [-1.0, 0.0, 0.2] {
+                        for acceleration_mps2 in [-20.0, -1.0, 0.0, 3.0] {
+                            check(Planar { forward, left, yaw }, acceleration_mps2, steering_rad);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn tyres_transmit_no_more_than_friction_allows() {
+        let (chassis, most) = (chassis(), 0.7 * 14.0 * GRAVITY_MPS2 * SUB_STEP_S);
+        for_all(|velocity, acceleration, steering| {
+            let Planar { forward, left, yaw } = chassis.impulse(&velocity, acceleration, steering, SUB_STEP_S);
+            assert!((forward * forward + left * left).sqrt() <= most * (1.0 + 1e-12), "{velocity:?}");
+            assert!(yaw.abs() <= 0.21 * most, "{velocity:?}: no arm is longer than {yaw}");
+        });
+    }
+
+    /// Tyres that do not drive take energy away, or leave it.
+    #[test]
+    fn without_drive_the_kinetic_energy_never_grows() {
+        let chassis = chassis();
+        let energy = |v: &Planar| {
+            chassis.mass_kg * (v.forward * v.forward + v.left * v.left) + chassis.inertia_kgm2 * v.yaw * v.yaw
+        };
+        for_all(|velocity, acceleration, steering| {
+            let impulse = chassis.impulse(&velocity, acceleration.min(0.0), steering, SUB_STEP_S);
+            let after = velocity.plus(1.0, &chassis.response(&impulse));
+            assert!(energy(&after) <= energy(&velocity) * (1.0 + 1e-9) + 1e-15, "{velocity:?} {after:?}");
+        });
+    }
+
+    /// Sliding sideways at standstill, both axles stop at once if friction suffices.
+    #[test]
+    fn a_wheel_that_does_not_roll_does_not_slip() {
+        let (chassis, velocity) = (chassis(), Planar { forward: 0.0, left: 1e-3, yaw: 4e-3 });
+        let after = velocity.plus(1.0, &chassis.response(&chassis.impulse(&velocity, 0.0, 0.0, SUB_STEP_S)));
+        assert!(after.left.abs() < 1e-9 && after.yaw.abs() < 1e-8, "{after:?}");
+    }
+}

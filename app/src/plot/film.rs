@@ -107,3 +107,65 @@ impl Film {
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     libm::hypot(a[0] - b[0], a[1] - b[1])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::ink::{BLUE, ORANGE};
+    use crate::plot::sketch::Mark;
+
+    /// Two cars of 4.5 m on a straight road, seen at equal steps while they go `length_m`.
+    fn drive(length_m: f64) -> Film {
+        let body = |x: f64, y: f64| [[x + 2.3, y - 1.0], [x + 2.3, y + 1.0], [x - 2.2, y - 1.0], [x - 2.2, y + 1.0]];
+        let place = |i: u32| f64::from(i) * length_m / 7.0;
+        let moment =
+            |i: u32| Moment { time_s: f64::from(i), bodies: vec![body(place(i), 1.75), body(place(i) + 12.0, 5.25)] };
+        Film {
+            title: "Drive".to_owned(),
+            roads: vec![Strip { edges_m: [0.0, 7.0], dividers_m: vec![3.5], ..Strip::default() }],
+            cast: vec![("ego: human".to_owned(), ORANGE), ("front: human".to_owned(), BLUE)],
+            moments: (0..8).map(moment).collect(),
+            path: (0..8).map(|i| (f64::from(i), [place(i), 1.75])).collect(),
+        }
+    }
+
+    /// However long the drive, every footprint of every moment is seen, large enough, and its number can be read.
+    #[test]
+    fn short_and_long_drives_show_every_footprint() {
+        for length_m in [20.0, 100.0, 2000.0] {
+            let sketch = drive(length_m).sketch();
+            assert_eq!(sketch.illegible(), Vec::<String>::new(), "{length_m} m");
+            let bodies = sketch.marks.iter().filter_map(|mark| match mark {
+                Mark::Fill { ring, colour, .. } if ring.len() == 4 && [ORANGE, BLUE].contains(colour) => Some(ring),
+                _ => None,
+            });
+            // Two of the patches belong to the legend.
+            let lengths: Vec<f64> =
+                bodies.map(|ring| distance(ring[0], ring[3]).max(distance(ring[0], ring[1]))).collect();
+            assert_eq!(lengths.len(), 2 + 16, "{length_m} m");
+            assert!(lengths.iter().all(|length| *length > 25.0), "{length_m} m: {lengths:?}");
+            assert_eq!(sketch.words().iter().filter(|words| **words == "8").count(), 3, "{length_m} m");
+        }
+    }
+
+    /// Where roads cross, all moments are in one plan, as large in x as in y.
+    #[test]
+    fn a_crossing_is_drawn_to_scale() {
+        let mut film = drive(20.0);
+        film.roads.push(Strip { heading_rad: std::f64::consts::FRAC_PI_2, edges_m: [-3.5, 3.5], ..Strip::default() });
+        film.moments.iter_mut().for_each(|moment| moment.bodies[1] = moment.bodies[1].map(|[x, y]| [-y, x]));
+        let sketch = film.sketch();
+        let sizes: Vec<[f64; 2]> = sketch
+            .marks
+            .iter()
+            .filter_map(|mark| match mark {
+                Mark::Fill { ring, opacity, .. } if *opacity < 1.0 => {
+                    Some([distance(ring[0], ring[3]), distance(ring[0], ring[1])])
+                }
+                _ => None,
+            })
+            .collect();
+        assert_eq!(sizes.len(), 16);
+        assert!(sizes.iter().all(|[length, width]| (length / width - 2.25).abs() < 1e-9), "{sizes:?}");
+    }
+}

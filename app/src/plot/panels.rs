@@ -215,7 +215,7 @@ impl Panel {
             sketch.line(vec![[at, *top], [at, *bottom]], grid);
             sketch.text([at, bottom + 0.5 * TICKS], Side::Middle, SMALL, words);
         }
-        for (value, words) in y.ticks(52.0) {
+        for (value, words) in y.ticks(42.0) {
             let at = y.pixel(value);
             sketch.line(vec![[*left, at], [*right, at]], grid);
             sketch.text([left - 10.0, at], Side::Right, SMALL, words);

@@ -71,7 +71,37 @@ impl Sketch {
     }
 
     pub(super) fn text(&mut self, at: [f64; 2], side: Side, size: f64, words: impl Into<String>) {
-        self.marks.push(Mark::Text { at, words: words.into(), size, colour: BLACK, side });
+        self.coloured_text(at, side, size, words, BLACK);
+    }
+
+    pub(super) fn coloured_text(
+        &mut self,
+        at: [f64; 2],
+        side: Side,
+        size: f64,
+        words: impl Into<String>,
+        colour: Colour,
+    ) {
+        self.marks.push(Mark::Text { at, words: words.into(), size, colour, side });
+    }
+
+    /// Words that cannot be read: they lie on other words, or beyond the edge. Text is a little lower than its line.
+    #[cfg(test)]
+    pub(crate) fn illegible(&self) -> Vec<String> {
+        let boxes: Vec<(&str, [f64; 4])> = self.marks.iter().filter_map(text_box).collect();
+        let mut found = Vec::new();
+        for (index, (words, [left, top, right, bottom])) in boxes.iter().enumerate() {
+            let [width, height] = [self.size.0, self.size.1].map(f64::from);
+            if *left < 0.0 || *top < 0.0 || *right > width || *bottom > height {
+                found.push(format!("`{words}` lies beyond the edge"));
+            }
+            for (other, [l, t, r, b]) in &boxes[..index] {
+                if left < r && l < right && top < b && t < bottom {
+                    found.push(format!("`{words}` lies on `{other}`"));
+                }
+            }
+        }
+        found
     }
 
     /// How many marks there are.
@@ -87,6 +117,19 @@ impl Sketch {
         });
         words.collect()
     }
+}
+
+/// The words of a mark and what they cover: left, top, right, bottom.
+#[cfg(test)]
+fn text_box(mark: &Mark) -> Option<(&str, [f64; 4])> {
+    let Mark::Text { at: [x, y], words, size, side, .. } = mark else { return None };
+    let (wide, high) = (width_of(words, *size), 0.6 * size);
+    let left = match side {
+        Side::Left => *x,
+        Side::Middle => x - 0.5 * wide,
+        Side::Right => x - wide,
+    };
+    Some((words, [left, y - 0.5 * high, left + wide, y + 0.5 * high]))
 }
 
 /// How wide words are \[px\].

@@ -1,9 +1,8 @@
 //! A layout of the viewer as a tree of panels, written into a Rerun blueprint.
 //!
 //! The viewer reads a blueprint as a recording of its own, in which every container and view is an entity named by a
-//! UUID. The builder in the SDK cannot set bounds or axes of the views used here, so the tree is written directly. A UUID
-//! is made of what the panel is and of its place, so that the same layout is the same blueprint, and so that a viewer that
-//! still has another recording open never takes one sort of view for another.
+//! UUID. The builder in the SDK cannot set bounds or axes of the views used here, so the tree is written directly;
+//! and it counts the UUIDs, so that the same layout is the same blueprint.
 
 use super::re_sdk_types::blueprint::archetypes::{
     ContainerBlueprint, PanelBlueprint, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
@@ -89,7 +88,7 @@ pub fn send(
     blueprint.set_time_sequence("blueprint", 0);
     blueprint.set_log_time_enabled(false);
     blueprint.set_log_tick_enabled(false);
-    let mut writer = Writer { stream: &blueprint, places: 0 };
+    let mut writer = Writer { stream: &blueprint, names: 0 };
     let (root, _) = writer.panel(root)?;
     blueprint.log(
         "viewport",
@@ -123,23 +122,22 @@ pub fn send(
 
 struct Writer<'a> {
     stream: &'a RecordingStream,
-    places: usize,
+    names: usize,
 }
 
 impl Writer<'_> {
     /// Writes a panel and everything in it; returns its name and its path.
     fn panel(&mut self, panel: &Panel) -> RecordingStreamResult<(Uuid, String)> {
-        self.places += 1;
-        let what = match panel {
-            Panel::View(view) => format!("{} {}", view.class, view.title),
-            Panel::Row(_) => "row".to_owned(),
-            Panel::Column(_) => "column".to_owned(),
+        self.names += 1;
+        let (sort, class) = match panel {
+            Panel::View(view) => ("view", view.class),
+            Panel::Row(_) => ("container", "row"),
+            Panel::Column(_) => ("container", "column"),
         };
-        let name = Uuid { bytes: xxh3_128(format!("{} {what}", self.places).as_bytes()).to_be_bytes() };
-        let path = match panel {
-            Panel::View(_) => format!("view/{name}"),
-            _ => format!("container/{name}"),
-        };
+        // The viewer remembers what it knows of a view by its name, also when it goes over to another recording's layout: a
+        // name must never stand for a view of another class.
+        let name = Uuid { bytes: xxh3_128(format!("{class} {}", self.names).as_bytes()).to_be_bytes() };
+        let path = format!("{sort}/{name}");
         match panel {
             Panel::View(view) => self.view(&path, view)?,
             Panel::Row(parts) => {

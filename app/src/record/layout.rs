@@ -109,7 +109,8 @@ impl Plot {
     }
 }
 
-fn events() -> Panel {
+/// What happened, in words.
+pub fn events() -> Panel {
     let column = |kind| TextLogColumn { visible: true.into(), kind };
     let columns = [TextLogColumnKind::LogLevel, TextLogColumnKind::Body].map(column);
     let view = View::new("TextLog", "Events", vec![format!("/{}", plots::LOG)]);

@@ -1,5 +1,6 @@
 //! Whether a run did what its scenario expects.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use interplay_scenarios::{Completes, Expect, SpeedRange};
@@ -37,6 +38,11 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
         let count = report.collisions.len();
         add("no_collision".into(), json!(none), json!(count == 0), none == (count == 0));
     }
+    if let Some(pairs) = &expect.collisions {
+        let (want, got) = (unordered(pairs.iter()), unordered(report.collisions.iter().map(|one| &one.between)));
+        let passed = want == got;
+        add("collisions".into(), json!(want), json!(got), passed);
+    }
     if let Some(order) = &expect.order {
         let got: Vec<&String> = report.order.iter().filter(|name| order.contains(name)).collect();
         let passed = got.iter().copied().eq(order);
@@ -60,6 +66,11 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
         judged.extend(building::judge(expect, building));
     }
     judged
+}
+
+/// Each pair once, whoever is named first.
+fn unordered<'a>(pairs: impl Iterator<Item = &'a [String; 2]>) -> BTreeSet<[&'a str; 2]> {
+    pairs.map(|[a, b]| if a < b { [a.as_str(), b] } else { [b.as_str(), a] }).collect()
 }
 
 fn completes(window: &Completes, report: &Report) -> Expectation {

@@ -11,7 +11,7 @@
 //! amount to as printed. The states are variables (those of y, so that the rows have no constants), which keeps the
 //! problem sparse: eliminated, it would be a dense one in G.
 
-use interplay_convex::{Program, Settings, Solver, Variable, Variables};
+use interplay_convex::{Block, Program, Settings, Solver, Variable, Variables};
 
 use super::{ControlError, Disturbance};
 use crate::comfort::Targets;
@@ -41,6 +41,8 @@ pub struct Optimum {
     pub cost: f64,
     /// What is minimised: J with the penalty.
     pub objective: f64,
+    /// By how much the objective would fall for each kilowatt by which the limits of an input were wider, stacked.
+    pub limit_price: Vec<f64>,
 }
 
 /// The cheapest inputs for a day from the nodes' temperatures at midnight.
@@ -110,7 +112,9 @@ pub(super) fn plan(
         free_c.iter().zip(lifted.product(&heat_kw)).map(|(free_c, risen_k)| free_c + risen_k).collect();
     let cost = targets.cost(&temperatures_c, &heat_kw);
     let objective = cost + penalty.map_or(0.0, |penalty| penalty.of(targets, &temperatures_c));
-    Ok(Optimum { heat_kw, temperatures_c, cost, objective })
+    let [most, least] = posed.limits.map(|block| solution.dual(block));
+    let limit_price = most.iter().zip(least).map(|(most, least)| most + least).collect();
+    Ok(Optimum { heat_kw, temperatures_c, cost, objective, limit_price })
 }
 
 impl BandPenalty {
@@ -132,6 +136,8 @@ struct Posed {
     input: Variables,
     /// y(1) … y(N), nodes of a time together.
     state: Variables,
+    /// Rows of u ≤ limit, and of −u ≤ limit, stacked each.
+    limits: [Block; 2],
 }
 
 impl Posed {
@@ -139,7 +145,8 @@ impl Posed {
         let mut program = Program::new();
         let input = program.variables("heat", free_c.len());
         let state = program.variables("state", model.network().node_count() * targets.steps());
-        let mut posed = Self { program, input, state };
+        let limits = [program.at_most("heating limit"), program.at_most("cooling limit")];
+        let mut posed = Self { program, input, state, limits };
         posed.costs(model, targets, free_c);
         posed.dynamics(model, targets.steps());
         posed.limits(model.network().limits_kw(), &caution.input_margin_kw);
@@ -190,7 +197,7 @@ impl Posed {
 
     /// −limit ≤ u ≤ limit, less the margins.
     fn limits(&mut self, limits_kw: &[f64], margin_kw: &[f64]) {
-        let (most, least) = (self.program.at_most("heating limit"), self.program.at_most("cooling limit"));
+        let [most, least] = self.limits;
         for (i, u) in self.input.iter().enumerate() {
             let limit_kw = limits_kw[i % limits_kw.len()] - margin_kw.get(i).copied().unwrap_or(0.0);
             self.program.row(most, [(u, 1.0)], limit_kw);

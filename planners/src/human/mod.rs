@@ -94,10 +94,11 @@ impl Human {
                 guesses.insert(0, steady(0.0));
             }
             for guess in guesses {
-                let Ok(other) = self.optimiser.explore(problem, &[guess]) else { continue };
+                let margin = |held: &Optimum| held.cost.total - HYSTERESIS * (1.0 + held.cost.total);
+                let below = best.as_ref().map_or(f64::INFINITY, margin);
+                let Ok(other) = self.optimiser.explore(problem, &[guess], below) else { continue };
                 statistics.add(&other.statistics);
-                let better = |held: &Optimum| other.cost.total < held.cost.total - HYSTERESIS * (1.0 + held.cost.total);
-                if best.as_ref().map_or(true, better) {
+                if other.cost.total < below {
                     best = Ok(other);
                     self.optimiser.adopt();
                 }

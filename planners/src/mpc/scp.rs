@@ -95,6 +95,9 @@ pub enum DescentError {
     /// The iteration limit.
     #[error("not converged after {} programmes: residual {:.1e}", .0.programmes, .0.residual)]
     NotConverged(Statistics),
+    /// An exploration that was given up: nothing suggests that it ends below the cost that it has to beat.
+    #[error("not below a cost of {0} within reason")]
+    NotBelow(f64),
     /// The problem holds a number that is not finite.
     #[error("the problem has a cost that is not a number")]
     NotFinite,
@@ -105,13 +108,15 @@ const GENTLEST: f64 = 1.0;
 /// Where even this damping gains nothing, nothing does.
 const FIRMEST: f64 = 1e6;
 /// Tolerance of the very last step problem where rows on the verge of being active need it.
-const FINEST: f64 = 1e-13;
+const FINEST: f64 = 1e-11;
 /// The residual with which the last step is content.
 const GOOD: f64 = 1e-6;
 /// Of a curvature that is not convex this share is tried before none.
 const SOFTENED: f64 = 0.3;
 /// A step is expected to go no farther than this many times the one before.
 pub(super) const FARTHER: f64 = 2.0;
+/// An exploration may still gain so many times what a step promises.
+const PATIENCE: f64 = 10.0;
 /// A smaller share of a step calls for damping.
 const SHORT: f64 = 0.1;
 
@@ -162,7 +167,7 @@ impl<S: StageSolver> Optimiser<S> {
     /// # Errors
     /// [`DescentError`] if a step problem cannot be solved or the iteration limit is reached.
     pub fn descend(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
-        let outcome = self.descend_from(problem, guess, self.resumes);
+        let outcome = self.descend_from(problem, guess, self.resumes, f64::INFINITY);
         match outcome {
             Ok(_) => self.adopt(),
             Err(_) => self.memory = Memory::default(),
@@ -170,12 +175,14 @@ impl<S: StageSolver> Optimiser<S> {
         outcome
     }
 
-    /// Descends from a guess that has nothing to do with what was planned before, and leaves the memory as it is.
+    /// Descends from a guess that has nothing to do with what was planned before, in search of an optimum that costs less
+    /// than `below`, and leaves the memory as it is.
     ///
     /// # Errors
-    /// As [`Optimiser::descend`].
-    pub fn explore(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
-        self.descend_from(problem, guess, false)
+    /// As [`Optimiser::descend`], and [`DescentError::NotBelow`] as soon as not even many times what a step promises would
+    /// lead below.
+    pub fn explore(&mut self, problem: &Problem, guess: &[Vec<Input>], below: f64) -> Result<Optimum, DescentError> {
+        self.descend_from(problem, guess, false, below)
     }
 
     /// Remembers the descent that has just ended.
@@ -189,6 +196,7 @@ impl<S: StageSolver> Optimiser<S> {
         problem: &Problem,
         guess: &[Vec<Input>],
         resumes: bool,
+        below: f64,
     ) -> Result<Optimum, DescentError> {
         let mut now = Optimum { iterate: problem.start(guess), ..Optimum::default() };
         now.statistics.starts = 1;
@@ -202,7 +210,7 @@ impl<S: StageSolver> Optimiser<S> {
         if resumed && self.recall(&mut now) {
             return Ok(now);
         }
-        self.go_down(problem, now, resumed)
+        self.go_down(problem, now, resumed, below)
     }
 
     /// Begins with what is remembered, one stage later. Returns whether nothing is left to do.
@@ -216,14 +224,24 @@ impl<S: StageSolver> Optimiser<S> {
     }
 
     /// Takes steps until the tolerances are met.
-    fn go_down(&mut self, problem: &Problem, mut now: Optimum, resumed: bool) -> Result<Optimum, DescentError> {
+    fn go_down(
+        &mut self,
+        problem: &Problem,
+        mut now: Optimum,
+        resumed: bool,
+        below: f64,
+    ) -> Result<Optimum, DescentError> {
         let (mut damping, mut tolerance) = (0.0, TOLERANCE);
         for step in 0..self.tolerances.iteration_limit {
             self.before.clone_from(&self.step);
             self.qp.tolerance = tolerance;
             let warm = step > 0 || resumed;
             self.direction(problem, &mut now, warm, damping)?;
-            let predicted = self.predict(&now.cost);
+            let promised = -self.qp.change(&self.step);
+            if now.cost.total - PATIENCE * (1.0 + damping) * promised.max(0.0) > below {
+                return Err(DescentError::NotBelow(below));
+            }
+            let predicted = self.predict(&now.cost, promised);
             let little = predicted <= self.tolerances.decrease * (1.0 + now.cost.total.abs());
             // A damped step promises little because it is short, not because there is little to gain.
             let last = self.qp.damping == 0.0 && little;
@@ -317,13 +335,13 @@ impl<S: StageSolver> Optimiser<S> {
         }
         let mut total = best.as_ref().map_or_else(|_| Statistics::default(), |optimum| optimum.statistics);
         for guess in others {
-            let Ok(candidate) = self.explore(problem, guess) else { continue };
+            let margin = |held: &Optimum| held.cost.total - 1e-9 * (1.0 + held.cost.total.abs());
+            let below = best.as_ref().map_or(f64::INFINITY, margin);
+            let Ok(candidate) = self.explore(problem, guess, below) else { continue };
             total.starts += 1;
             total.programmes += candidate.statistics.programmes;
             total.inner_iterations += candidate.statistics.inner_iterations;
-            let cheaper =
-                |held: &Optimum| candidate.cost.total < held.cost.total - 1e-9 * (1.0 + held.cost.total.abs());
-            if best.as_ref().map_or(true, cheaper) {
+            if candidate.cost.total < below {
                 best = Ok(candidate);
                 self.adopt();
             }

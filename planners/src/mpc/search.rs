@@ -36,11 +36,12 @@ impl Search {
 
 impl<S: StageSolver> Optimiser<S> {
     /// Chooses `κ` for the step's multipliers and returns the decrease of the merit that the step promises.
-    pub(super) fn predict(&mut self, cost: &Cost) -> f64 {
+    /// Its model promises a decrease of the whole cost, `promised`.
+    pub(super) fn predict(&mut self, cost: &Cost, promised: f64) -> f64 {
         let (steep, share) = self.qp.steep(&self.step);
         let enough = (2.0 * share).clamp(LEAST_FIRMNESS, 1.0);
         self.search.firmness = enough.max(0.5 * self.search.firmness);
-        -self.qp.change(&self.step) - (1.0 - self.search.firmness) * (cost.steep - steep)
+        promised - (1.0 - self.search.firmness) * (cost.steep - steep)
     }
 
     /// Moves along the step as far as pays; returns the share of it that was taken. The last step of a descent promises

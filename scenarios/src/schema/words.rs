@@ -59,11 +59,25 @@ pub(super) const UNITS: &[(&str, &str, &str)] = &[
     ("UncertaintySettings", "zone_correlation", "dimensionless"),
     ("UncertaintySettings", "prior_days", "days"),
     ("BuildingExpect", "cost_at_most_share_of_first", "dimensionless"),
+    ("BuildingExpect", "regret_at_most", "dimensionless"),
+    ("BuildingExpect", "spectral_radius_at_most", "dimensionless"),
+    ("BuildingExpect", "above_centralised_at_most", "dimensionless"),
+    ("dynamic", "friction", "dimensionless"),
+    ("dynamic", "restitution", "dimensionless"),
+    ("Belief", "capacity_factor", "dimensionless"),
+    ("Belief", "inner_resistance_factor", "dimensionless"),
+    ("Belief", "outer_resistance_factor", "dimensionless"),
 ];
 
 /// Examples for keys without a default: table (nothing for the file itself), key, value.
-pub(super) fn examples() -> Vec<(&'static str, &'static str, Json)> {
-    let file = [
+pub(super) fn examples() -> Vec<Example> {
+    [of_a_file(), of_vehicles(), of_buildings(), of_expectations()].concat()
+}
+
+type Example = (&'static str, &'static str, Json);
+
+fn of_a_file() -> Vec<Example> {
+    vec![
         ("", "title", json!("Lane change, front driver nice")),
         ("", "shows", json!("The ego cuts in ahead of a driver who yields")),
         ("", "figure", json!("6.1")),
@@ -73,8 +87,11 @@ pub(super) fn examples() -> Vec<(&'static str, &'static str, Json)> {
         ("", "setpoints", json!({ "occupied_c": [24.0] })),
         ("", "controller", json!({ "kind": "pid" })),
         ("", "iterations", json!(10)),
-    ];
-    let driving = [
+    ]
+}
+
+fn of_vehicles() -> Vec<Example> {
+    vec![
         ("Vehicle", "name", json!("ego")),
         ("Vehicle", "start", json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 })),
         ("State", "x_m", json!(0.0)),
@@ -89,8 +106,11 @@ pub(super) fn examples() -> Vec<(&'static str, &'static str, Json)> {
         ("Order", "speed_mps", json!(0.5)),
         ("Order", "acceleration_mps2", json!(-0.5)),
         ("Order", "lateral_m", json!(0.555)),
-    ];
-    let building = [
+    ]
+}
+
+fn of_buildings() -> Vec<Example> {
+    vec![
         ("Building", "preset", json!("testbed")),
         ("Building", "grid", json!({ "rows": 3, "columns": 4 })),
         ("Grid", "rows", json!(3)),
@@ -105,8 +125,11 @@ pub(super) fn examples() -> Vec<(&'static str, &'static str, Json)> {
         ("uncertain", "level", json!("low")),
         ("Setpoints", "other_c", json!(28.0)),
         ("distributed", "silent_zone", json!(0)),
-    ];
-    let expect = [
+    ]
+}
+
+fn of_expectations() -> Vec<Example> {
+    vec![
         ("Expect", "no_collision", json!(true)),
         ("Expect", "order", json!(["ego", "front"])),
         ("Expect", "min_gap_m", json!(0.05)),
@@ -122,10 +145,15 @@ pub(super) fn examples() -> Vec<(&'static str, &'static str, Json)> {
         ("SpeedRange", "max_above_mps", json!(1.1)),
         ("BuildingExpect", "cost_never_rises", json!(true)),
         ("BuildingExpect", "cost_at_most_share_of_first", json!(0.5)),
+        ("BuildingExpect", "regret_at_most", json!(30.0)),
+        ("BuildingExpect", "early_kwh_at_least", json!(1.0)),
+        ("BuildingExpect", "spectral_radius_at_most", json!(0.9)),
+        ("BuildingExpect", "fallbacks_at_most", json!(0)),
+        ("BuildingExpect", "exchange_never_rises", json!(true)),
+        ("BuildingExpect", "above_centralised_at_most", json!(0.01)),
         ("BuildingExpect", "tracking_rmse_c_at_most", json!(0.6)),
         ("BuildingExpect", "discomfort_k_h_at_most", json!(1.2)),
         ("BuildingExpect", "energy_kwh_at_most", json!(32.0)),
         ("BuildingExpect", "input_violation_kw_at_most", json!(0.0)),
-    ];
-    [&file[..], &driving, &building, &expect].concat()
+    ]
 }

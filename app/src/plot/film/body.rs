@@ -1,6 +1,6 @@
 //! A footprint: a filled rectangle with a windscreen and a number.
 
-use super::super::ink::{BLACK, Colour, Dash, Ink};
+use super::super::ink::{BLACK, Colour, Dash, Ink, PAPER};
 use super::super::sketch::{SMALL, Side, Sketch, width_of};
 use super::distance;
 
@@ -16,17 +16,23 @@ pub(super) fn draw(sketch: &mut Sketch, corners: [[f64; 2]; 4], colour: Colour, 
     sketch.line(screen, edge.thin());
 }
 
+/// Black or white, whichever is better read on a colour.
+fn readable_on([red, green, blue]: Colour) -> Colour {
+    let bright = 0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue);
+    if bright > 125.0 { BLACK } else { PAPER }
+}
+
 /// Writes words onto a footprint if they fit, otherwise above it.
-pub(super) fn number(sketch: &mut Sketch, corners: [[f64; 2]; 4], words: &str) {
+pub(super) fn number(sketch: &mut Sketch, corners: [[f64; 2]; 4], colour: Colour, words: &str) {
     let middle = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0;
     let (length, width) = (distance(corners[0], corners[2]), distance(corners[0], corners[1]));
     let lies = (corners[0][0] - corners[2][0]).abs() > (corners[0][1] - corners[2][1]).abs();
     let [across, upwards] = if lies { [length, width] } else { [width, length] };
-    let fits = width_of(words, SMALL) < 0.7 * across && 0.8 * SMALL < upwards;
+    let fits = width_of(words, SMALL) < 0.85 * across && 0.8 * SMALL < upwards;
     let above = corners.iter().map(|corner| corner[1]).fold(f64::INFINITY, f64::min) - 0.45 * SMALL;
     let beside = corners.iter().map(|corner| corner[0]).fold(f64::NEG_INFINITY, f64::max) + 4.0;
     match (fits, lies) {
-        (true, _) => sketch.text([middle(0), middle(1)], Side::Middle, SMALL, words),
+        (true, _) => sketch.coloured_text([middle(0), middle(1)], Side::Middle, SMALL, words, readable_on(colour)),
         (false, true) => sketch.text([middle(0), above], Side::Middle, SMALL, words),
         (false, false) => sketch.text([beside, middle(1)], Side::Left, SMALL, words),
     }

@@ -1,7 +1,7 @@
 //! All moments in one plan, for roads that cross.
 
 use super::super::axis::Axis;
-use super::super::ink::{Dash, GREY, Ink, PAPER, SURFACE};
+use super::super::ink::{Colour, Dash, GREY, Ink, PAPER, SURFACE};
 use super::super::sketch::{LARGE, MEDIUM, SMALL, Side, Sketch};
 use super::{Film, MARGIN, PATH, Strip, TITLE, WIDTH, body, distance};
 
@@ -12,6 +12,9 @@ const ACROSS: f64 = 38.0;
 const HIGHEST: f64 = 900.0;
 /// Footprints whose centres are closer than this share of their length get one number together.
 const CLOSE: f64 = 0.45;
+
+/// What numbers are read against: earlier footprints are pale.
+const UNDERNEATH: Colour = PAPER;
 
 /// From metres to pixels.
 struct Map {
@@ -78,7 +81,7 @@ impl Film {
                 let count = bodies[first..].iter().take_while(|body| near(body)).count().max(1);
                 let last = first + count - 1;
                 let words = if count == 1 { format!("{}", first + 1) } else { format!("{}–{}", first + 1, last + 1) };
-                body::number(sketch, bodies[last].map(|corner| map.place(corner)), &words);
+                body::number(sketch, bodies[last].map(|corner| map.place(corner)), UNDERNEATH, &words);
                 first += count;
             }
         }

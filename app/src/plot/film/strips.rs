@@ -112,7 +112,7 @@ impl Film {
             if x.iter().all(|x| (LEFT..=WIDTH - MARGIN).contains(x)) {
                 let corners = body.map(place);
                 body::draw(sketch, corners, *colour, 1.0);
-                body::number(sketch, corners, &number);
+                body::number(sketch, corners, *colour, &number);
             }
         }
         let middle = 0.5 * (top + bottom);

@@ -5,7 +5,7 @@
 //! building/feedback/gain/<n>/{own,others}     K: a zone's answer to its own error, and to those of the others in sum
 //! building/feedback/tap/<l>                   Q: a zone's answer to its own deviation, l steps later; mean of the zones
 //! building/convergence/{spectral-radius,largest-singular-value,one}
-//! building/exchange/cost                      J before the first round and after each, of the first exchange
+//! building/exchange/cost                      log₁₀ J before the first round and after each, of the first exchange
 //! building/exchange/messages                  messages that each zone has sent
 //! ```
 
@@ -39,8 +39,8 @@ pub const MESSAGES: &str = "building/exchange/messages";
 pub struct Plans {
     /// Whether this controller plans at all.
     learns: bool,
-    /// Learned bias of the day, stacked \[kW\].
-    bias_kw: Vec<f64>,
+    /// What was said of the day's plan.
+    design: Design,
     /// Messages sent so far, by zone.
     messages: Vec<usize>,
     /// What there was something to show of.
@@ -69,7 +69,7 @@ impl Plans {
         }
         for (name, words, paint) in [
             ("one", "limit of convergence", FAILURE),
-            ("spectral-radius", "spectral radius", palette::series(1)),
+            ("spectral-radius", "spectral radius", palette::series(0)),
             ("largest-singular-value", "largest singular value", NEUTRAL),
         ] {
             style(stream, &format!("{CONVERGENCE}/{name}"), words, paint.solid(), 1.5)?;
@@ -96,55 +96,64 @@ impl Plans {
             return Ok(());
         }
         if let Some(design) = &frame.design {
-            self.bias_kw.clone_from(&design.bias_kw);
-            self.feedback(stream, shown, design)?;
-            self.convergence(stream, design)?;
+            self.design = (**design).clone();
+            self.styled(stream)?;
             if let Some(exchange) = &design.exchange {
                 self.exchange(stream, exchange)?;
             }
         }
-        self.seen.insert(LEARNED);
         for &index in shown {
             // Before there was a day, nothing is learned.
-            let bias_kw = self.bias_kw.get(frame.step * frame.zones.len() + index).copied().unwrap_or(0.0);
+            let bias_kw = self.design.bias_kw.get(frame.step * frame.zones.len() + index).copied().unwrap_or(0.0);
             stream.log(of(LEARNED, index), &Scalars::single(bias_kw))?;
+        }
+        self.feedback(stream, shown)?;
+        self.convergence(stream)
+    }
+
+    /// Notes what there is to show of a new design, and logs the names and colours of its taps.
+    fn styled(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        let Design { gain_kw_per_k, taps_kw_per_k, spectral_radius, .. } = &self.design;
+        self.seen.insert(LEARNED);
+        self.seen.extend((!gain_kw_per_k.is_empty()).then_some(GAIN));
+        self.seen.extend(spectral_radius.map(|_| CONVERGENCE));
+        if !taps_kw_per_k.is_empty() && self.seen.insert(TAPS) {
+            for delay in 0..taps_kw_per_k.len() {
+                let words = format!("after {delay} steps");
+                style(stream, &of(TAPS, delay), &words, palette::series(delay).solid(), 1.5)?;
+            }
         }
         Ok(())
     }
 
-    fn feedback(&mut self, stream: &RecordingStream, shown: &[usize], design: &Design) -> RecordingStreamResult<()> {
-        for (index, row) in shown.iter().filter_map(|&index| Some((index, design.gain_kw_per_k.get(index)?))) {
-            self.seen.insert(GAIN);
+    fn feedback(&self, stream: &RecordingStream, shown: &[usize]) -> RecordingStreamResult<()> {
+        let Design { gain_kw_per_k, taps_kw_per_k, .. } = &self.design;
+        for (index, row) in shown.iter().filter_map(|&index| Some((index, gain_kw_per_k.get(index)?))) {
             let own = row[index];
             let others = row.iter().sum::<f64>() - own;
             stream.log(of(GAIN, index) + "/own", &Scalars::single(own))?;
             stream.log(of(GAIN, index) + "/others", &Scalars::single(others))?;
         }
-        for (delay, tap) in design.taps_kw_per_k.iter().enumerate() {
-            let path = of(TAPS, delay);
-            if self.seen.insert(TAPS) || delay > 0 {
-                let words = format!("after {delay} steps");
-                style(stream, &path, &words, palette::series(delay).solid(), 1.5)?;
-            }
+        for (delay, tap) in taps_kw_per_k.iter().enumerate() {
             let own = tap.iter().enumerate().map(|(zone, row)| row[zone]).sum::<f64>() / tap.len() as f64;
-            stream.log(path, &Scalars::single(own))?;
+            stream.log(of(TAPS, delay), &Scalars::single(own))?;
         }
         Ok(())
     }
 
-    fn convergence(&mut self, stream: &RecordingStream, design: &Design) -> RecordingStreamResult<()> {
+    fn convergence(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         let log = |name: &str, value: f64| stream.log(format!("{CONVERGENCE}/{name}"), &Scalars::single(value));
-        if let Some(radius) = design.spectral_radius {
-            self.seen.insert(CONVERGENCE);
+        if let Some(radius) = self.design.spectral_radius {
             log("one", 1.0)?;
             log("spectral-radius", radius)?;
         }
-        design.largest_singular_value.map_or(Ok(()), |value| log("largest-singular-value", value))
+        self.design.largest_singular_value.map_or(Ok(()), |value| log("largest-singular-value", value))
     }
 
     fn exchange(&mut self, stream: &RecordingStream, exchange: &Exchange) -> RecordingStreamResult<()> {
         if self.seen.insert(COST) {
-            stream.log_static(COST, &bars(exchange.costs.clone()).with_color(palette::series(1).solid()))?;
+            let logarithms = exchange.costs.iter().map(|cost| cost.log10()).collect();
+            stream.log_static(COST, &bars(logarithms).with_color(palette::series(1).solid()))?;
         }
         self.seen.insert(MESSAGES);
         self.messages.resize(exchange.messages.len(), 0);

@@ -8,7 +8,6 @@ use super::super::re_sdk_types::datatypes::{TimeInt, TimeRange, TimeRangeBoundar
 
 use super::super::blueprint::{Panel, View};
 use super::{House, design};
-use crate::record::plots::LOG;
 
 /// The layout: the floor plan beside the temperatures, below it inputs, weather and costs, and the words; then what the
 /// controller says of its plans, if it plans, and `events` if there were any.
@@ -23,10 +22,12 @@ pub fn layout(house: &House, events: bool) -> Panel {
     let mut rows = vec![(1.6, top), (1.0, Panel::Row(numbers))];
     let mut said = plans(house);
     if events {
-        said.push((1.1, Panel::View(View::new("TextLog", "Events", vec![format!("/{LOG}")]))));
+        said.push((1.1, super::super::layout::events()));
     }
     if !said.is_empty() {
-        rows.push((0.9, Panel::Row(said)));
+        // A log alone needs less room than plots.
+        let share = if said.len() == 1 { 0.5 } else { 0.9 };
+        rows.push((share, Panel::Row(said)));
     }
     Panel::Column(rows)
 }
@@ -41,7 +42,7 @@ fn plans(house: &House) -> Vec<(f32, Panel)> {
         (design::CONVERGENCE, "Convergence, by the day's design"),
     ];
     let bars = [
-        (design::COST, "Cost J by round of the first exchange"),
+        (design::COST, "Log10 of J by round of the first exchange"),
         (design::MESSAGES, "Messages that each zone sent in all"),
     ];
     let lines = lines.into_iter().map(|(path, title)| (path, plot(house, title, below(path))));

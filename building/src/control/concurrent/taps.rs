@@ -29,6 +29,8 @@ use crate::lifted::Lifted;
 pub const MOST_UNKNOWNS: usize = 1024;
 /// Keeps the normal equations definite.
 const RIDGE: f64 = 1e-9;
+/// γ₂ without a setting, as a multiple of its floor.
+const LENIENCY: f64 = 4.6 / 3.6;
 
 /// A designed Q.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,8 +127,9 @@ pub fn design(
         return Err(ControlError::TooManyUnknowns { design: "concurrent", found, most: MOST_UNKNOWNS });
     }
     let step_floor = lifted.product_norm_of_a_step();
-    if settings.gamma_2 < step_floor {
-        return Err(ControlError::BelowFloor { bound: "gamma_2", value: settings.gamma_2, floor: step_floor });
+    let gamma_2 = settings.gamma_2.unwrap_or(LENIENCY * step_floor);
+    if gamma_2 < step_floor {
+        return Err(ControlError::BelowFloor { bound: "gamma_2", value: gamma_2, floor: step_floor });
     }
     let shaped = uncertainty.impulse_responses(n, lifted.steps());
     let error_weight = targets.error_weight.iter().copied().fold(0.0, f64::max);
@@ -135,8 +138,8 @@ pub fn design(
     let free = Cholesky::new(gram.clone()).ok_or(ControlError::Covariance { order: found })?.solve(&-&linear);
     let mut taps = unstacked(free.as_slice(), n);
     let mut theta = free;
-    if taps.row_norm() > settings.gamma_q || taps.impulse_norm(lifted) > settings.gamma_2 {
-        theta = DVector::from_vec(bounded(settings, lifted, &gram, &linear)?);
+    if taps.row_norm() > settings.gamma_q || taps.impulse_norm(lifted) > gamma_2 {
+        theta = DVector::from_vec(bounded(settings, gamma_2, lifted, &gram, &linear)?);
         taps = unstacked(theta.as_slice(), n);
     }
     let mut curved = DVector::zeros(found);
@@ -155,6 +158,7 @@ fn unstacked(theta: &[f64], n: usize) -> Taps {
 /// The same cost within the bounds, or the floor of γ₂ under γ_q.
 fn bounded(
     settings: &ConcurrentSettings,
+    gamma_2: f64,
     lifted: &Lifted,
     gram: &DMatrix<f64>,
     linear: &DVector<f64>,
@@ -169,12 +173,12 @@ fn bounded(
         }
     }
     rows_within(&mut program, theta, lifted.zones(), settings.gamma_q);
-    robust.within(&mut program, theta, settings.gamma_2, None);
+    robust.within(&mut program, theta, gamma_2, None);
     match solved(&program) {
         Ok(solution) => Ok(solution.value(theta).to_vec()),
         Err(ControlError::Solve(SolveError::PrimalInfeasible { .. })) => {
             let floor = robust.floor(lifted.zones(), settings.gamma_q)?;
-            Err(ControlError::BelowFloor { bound: "gamma_2", value: settings.gamma_2, floor })
+            Err(ControlError::BelowFloor { bound: "gamma_2", value: gamma_2, floor })
         }
         Err(other) => Err(other),
     }

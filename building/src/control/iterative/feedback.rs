@@ -62,13 +62,22 @@ fn row_norms(matrix: &DMatrix<f64>) -> Vec<f64> {
     squares.into_iter().map(f64::sqrt).collect()
 }
 
-/// The response under the causal feedback of least expected cost. `factor` is L with Σ = LLᵀ.
+/// The response under the causal feedback of least expected cost. `factor` is L with Σ = LLᵀ; `price` is added to W_u for
+/// each input, and may be empty (see [`super::joint`]).
 ///
 /// # Errors
 /// [`ControlError::Covariance`] if H is not positive definite: W_u is zero.
-pub fn optimal_causal(lifted: &Lifted, targets: &Targets, factor: &DMatrix<f64>) -> Result<Response, ControlError> {
+pub fn optimal_causal(
+    lifted: &Lifted,
+    targets: &Targets,
+    factor: &DMatrix<f64>,
+    price: &[f64],
+) -> Result<Response, ControlError> {
     let (n, size) = (lifted.zones(), lifted.size());
-    let curvature = curvature(lifted, targets);
+    let mut curvature = curvature(lifted, targets);
+    for (i, price) in price.iter().enumerate() {
+        curvature[(i, i)] += price;
+    }
     let root = upper_factor(curvature).ok_or(ControlError::Covariance { order: size })?;
     let mut response = Response { temperatures_k: DMatrix::zeros(size, size), inputs_kw: DMatrix::zeros(size, size) };
     for column in 0..size {

@@ -11,15 +11,19 @@
 //! The source's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
 //! the nominal inputs. Those are found with temperatures as variables, sparsely. The last line is U_ff = Û − K Ê.
 //!
+//! Where limits bind, feedback and plan compete for them; [`joint`] settles that, at the price of designing both some
+//! times over. Step 3 after step 1 is dearer by a few percent then.
+//!
 //! The feedback is designed again when Σ or the targets have changed; with a constant Σ it would be a constant gain.
 
 pub mod feedback;
+pub mod joint;
 pub mod projection;
 mod settings;
 
 use nalgebra::DMatrix;
 
-pub use settings::{Chance, Convergence, IterativeSettings, Objective, Stability};
+pub use settings::{Chance, Convergence, Coordination, IterativeSettings, Objective, Stability};
 
 use super::experience::Experience;
 use super::follow::{Diary, Plan, check_shapes};
@@ -29,6 +33,7 @@ use super::uncertainty::{Uncertainty, factor, normal_quantile};
 use super::{Control, ControlError, DayRecord, Design, Morning, Observation};
 use crate::comfort::Targets;
 use crate::lifted::Lifted;
+use joint::Joint;
 use projection::Projection;
 
 /// Up to so many numbers in a day's inputs the feedback is designed; its matrices have the square of that.
@@ -68,7 +73,7 @@ pub struct Feedback {
 }
 
 impl Feedback {
-    /// Steps 1 and 2 for a covariance of the disturbance.
+    /// Steps 1 and 2 for a covariance of the disturbance; `price` as in [`feedback::optimal_causal`].
     ///
     /// # Errors
     /// [`ControlError`] if the covariance is not one, no gain has the decay rate, or the solver fails.
@@ -77,13 +82,11 @@ impl Feedback {
         lifted: &Lifted,
         targets: &Targets,
         covariance: DMatrix<f64>,
+        price: &[f64],
     ) -> Result<Self, ControlError> {
-        if lifted.size() > MOST_UNKNOWNS {
-            let (found, most) = (lifted.size(), MOST_UNKNOWNS);
-            return Err(ControlError::TooManyUnknowns { design: "iterative", found, most });
-        }
+        check_size(lifted)?;
         let factor = factor(covariance)?;
-        let causal = feedback::optimal_causal(lifted, targets, &factor)?;
+        let causal = feedback::optimal_causal(lifted, targets, &factor, price)?;
         let n = lifted.zones();
         let (a, b) = (lifted.model().state_matrix(), lifted.model().gain_matrix());
         let radius = |gain: &DMatrix<f64>| spectral_radius(&closed_loop(&a, &b, gain));
@@ -140,7 +143,7 @@ impl Iterative {
         }
         let targets = morning.targets;
         let feedback = match self.settings.objective {
-            Objective::Expected => Some(self.feedback(targets)?),
+            Objective::Expected => Some(self.feedback(targets, &free_c)?),
             Objective::Nominal => None,
         };
         let caution = Caution {
@@ -154,32 +157,46 @@ impl Iterative {
         Ok((Some(Plan::from(&optimum)), self.describe(feedback.as_ref(), Some(optimum.objective))))
     }
 
-    /// The feedback for the targets, designed anew when something has changed.
-    fn feedback(&mut self, targets: &Targets) -> Result<Feedback, ControlError> {
+    /// The feedback for the targets, designed anew when something has changed; with the joint design, every day.
+    fn feedback(&mut self, targets: &Targets, free_c: &[f64]) -> Result<Feedback, ControlError> {
+        let price = match self.settings.coordination {
+            Coordination::TwoStage => Vec::new(),
+            Coordination::Joint => {
+                self.feedback = None;
+                self.joint(targets, free_c)?.price
+            }
+        };
         if let Some((known, feedback)) = &self.feedback
             && known == targets
         {
             return Ok(feedback.clone());
         }
         let covariance = self.uncertainty.covariance(targets);
-        let feedback = Feedback::design(&self.settings, self.experience.lifted(), targets, covariance)?;
+        let feedback = Feedback::design(&self.settings, self.experience.lifted(), targets, covariance, &price)?;
         self.feedback = Some((targets.clone(), feedback.clone()));
         Ok(feedback)
     }
 
+    /// Feedback and plan together, as if the optimal causal feedback were used.
+    fn joint(&self, targets: &Targets, free_c: &[f64]) -> Result<Joint, ControlError> {
+        let lifted = self.experience.lifted();
+        check_size(lifted)?;
+        let factor = factor(self.uncertainty.covariance(targets))?;
+        joint::design(lifted, targets, free_c, &factor, self.quantile())
+    }
+
+    /// Φ⁻¹(η) of eq. 3.21.
+    fn quantile(&self) -> f64 {
+        let count = self.experience.lifted().size() as f64;
+        normal_quantile(match self.settings.chance {
+            Chance::EachInput => self.settings.confidence,
+            Chance::WholeDay => 1.0 - (1.0 - self.settings.confidence) / count,
+        })
+    }
+
     /// Φ⁻¹(η) σ_u (eq. 3.21).
     fn margins_kw(&self, feedback: &Feedback) -> Vec<f64> {
-        let count = feedback.input_deviation_kw.len() as f64;
-        let miss = 1.0 - self.settings.confidence;
-        let confidence = match self.settings.chance {
-            Chance::EachInput => self.settings.confidence,
-            Chance::WholeDay => 1.0 - miss / count,
-        };
-        let quantile = normal_quantile(confidence);
-        let limits_kw = self.experience.lifted().model().network().limits_kw();
-        (feedback.input_deviation_kw.iter().enumerate())
-            .map(|(i, deviation_kw)| (quantile * deviation_kw).min(LARGEST_MARGIN * limits_kw[i % limits_kw.len()]))
-            .collect()
+        margins_kw(self.experience.lifted(), &feedback.input_deviation_kw, self.quantile())
     }
 
     /// ‖E_k+1‖ ≤ ‖E_k‖ over the errors that count (eq. 3.8).
@@ -206,6 +223,20 @@ impl Iterative {
             ..Design::default()
         }
     }
+}
+
+/// How far a plan stays within its limits \[kW\], for inputs with these deviations.
+fn margins_kw(lifted: &Lifted, input_deviation_kw: &[f64], quantile: f64) -> Vec<f64> {
+    let limits_kw = lifted.model().network().limits_kw();
+    (input_deviation_kw.iter().enumerate())
+        .map(|(i, deviation_kw)| (quantile * deviation_kw).min(LARGEST_MARGIN * limits_kw[i % limits_kw.len()]))
+        .collect()
+}
+
+/// Refuses a building that is too large for dense matrices.
+fn check_size(lifted: &Lifted) -> Result<(), ControlError> {
+    let (found, most) = (lifted.size(), MOST_UNKNOWNS);
+    if found <= most { Ok(()) } else { Err(ControlError::TooManyUnknowns { design: "iterative", found, most }) }
 }
 
 /// A matrix by rows.

@@ -34,6 +34,17 @@ pub enum Stability {
     Fixed,
 }
 
+/// How feedback and plan share the limits of the inputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coordination {
+    /// First the feedback, as if there were no limits; then a plan that leaves it room.
+    #[default]
+    TwoStage,
+    /// Both together, which is cheaper where limits bind and takes some times as long.
+    Joint,
+}
+
 /// What (3.8), that errors do not grow from day to day, means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -64,6 +75,8 @@ pub enum Chance {
 pub struct IterativeSettings {
     /// What is minimised.
     pub objective: Objective,
+    /// How feedback and plan share the limits.
+    pub coordination: Coordination,
     /// How the feedback is made stabilising.
     pub stability: Stability,
     /// Decay rate r of the closed loop that is certified.
@@ -88,6 +101,7 @@ impl Default for IterativeSettings {
     fn default() -> Self {
         Self {
             objective: Objective::default(),
+            coordination: Coordination::default(),
             stability: Stability::default(),
             decay: 0.7,
             initial_gain_kw_per_k: 0.1,

@@ -108,6 +108,23 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         self.add_row_curvature(qp);
     }
 
+    /// The gradient with the rows' pull: of the multipliers where they are, or where the step aims.
+    pub(super) fn fill_gradient(&mut self, at_rest: bool) {
+        self.gradient.states.clone_from(&self.cost_gradient.states);
+        self.gradient.inputs.clone_from(&self.cost_gradient.inputs);
+        let multipliers = if at_rest { &self.columns.multiplier } else { &self.columns.pull };
+        let (pulls, row_pulls) = multipliers.split_at(self.inequalities.bounds.len());
+        for (bound, pull) in self.inequalities.bounds.iter().zip(pulls) {
+            bound.pull(-pull, &mut self.gradient);
+        }
+        for (row, pull) in self.inequalities.rows.iter().zip(row_pulls) {
+            row.pull(-pull, &mut self.gradient.states);
+        }
+        for (along, pull) in self.along.iter().zip(&row_pulls[self.inequalities.rows.len()..]) {
+            along.pull(*pull, &mut self.gradient, Self::VEHICLES);
+        }
+    }
+
     fn add_row_curvature(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
         for block in &qp.blocks {

@@ -12,6 +12,12 @@ const DUAL_TOLERANCE: f64 = 1e-3;
 const ACCEPTED: f64 = 1e-7;
 /// Below this complementarity the factorisation has lost digits that matter.
 const REFINED_BELOW: f64 = 1e-4;
+/// Complementarity is not aimed below this share of the tolerance.
+const CENTRED: f64 = 1e-2;
+/// A derivative of the Lagrangian below this is zero but for rounding …
+const STATIONARY: f64 = 1e-8;
+/// … and what so many steps do not improve is left as it is.
+const POLISHES: usize = 2;
 /// Most iterations.
 const ITERATION_LIMIT: usize = 50;
 /// A multiplier beyond this with a row still violated means that the rows contradict each other.
@@ -132,11 +138,15 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
     fn iterate(&mut self, qp: &StageQp, iterations: &mut usize) -> Result<(), StageError> {
         let count = self.columns.pairs().max(1) as f64;
         // The dual residual is linear in the unknowns, so every step of length α leaves 1 − α of it.
-        let mut dual_share = 1.0;
+        let (mut dual_share, mut polished) = (1.0, 0);
         for _ in 0..ITERATION_LIMIT {
             let (complementarity, primal) = self.columns.measure();
             if complementarity < qp.tolerance && primal < qp.tolerance && dual_share < DUAL_TOLERANCE * qp.tolerance {
-                return Ok(());
+                // Multipliers come out of large weights with few digits; a step that is next to nothing cleans them.
+                if polished == POLISHES || self.stationarity(qp) < STATIONARY {
+                    return Ok(());
+                }
+                polished += 1;
             }
             if !complementarity.is_finite() {
                 break;
@@ -148,7 +158,10 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             *iterations += 1;
             self.columns.weigh();
             self.assemble(qp);
-            self.riccati.factor(qp, &self.hessians, &self.pairs)?;
+            match self.riccati.factor(qp, &self.hessians, &self.pairs) {
+                Err(_) if polished > 0 => return Ok(()),
+                outcome => outcome?,
+            }
             self.respond(qp);
             self.fill_cost_gradient(qp);
             self.columns.aim(0.0, false);
@@ -156,9 +169,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             let affine = self.columns.step();
             let share = if affine.ratio > 1.0 { 1.0 / affine.ratio } else { 1.0 };
             let left = complementarity + share * (affine.linear + share * affine.quadratic) / count;
-            // Without any inequality there is nothing to centre.
-            let centring =
-                if complementarity > 0.0 { (left / complementarity).powi(3).max(1e-8) * complementarity } else { 0.0 };
+            // Without any inequality there is nothing to centre; beyond the tolerance there is nothing to gain but rounding.
+            let centring = if complementarity > 0.0 { (left / complementarity).powi(3) * complementarity } else { 0.0 };
+            let centring = larger(centring, CENTRED * qp.tolerance);
             self.columns.aim(centring, true);
             self.newton(qp, complementarity < REFINED_BELOW);
             let ratio = self.columns.step().ratio;
@@ -211,18 +224,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
 
     /// One Newton step towards the targets, if asked with a refinement; leaves its slopes in the columns.
     fn newton(&mut self, qp: &StageQp, refined: bool) {
-        self.gradient.states.clone_from(&self.cost_gradient.states);
-        self.gradient.inputs.clone_from(&self.cost_gradient.inputs);
-        let (pulls, row_pulls) = self.columns.pull.split_at(self.inequalities.bounds.len());
-        for (bound, pull) in self.inequalities.bounds.iter().zip(pulls) {
-            bound.pull(-pull, &mut self.gradient);
-        }
-        for (row, pull) in self.inequalities.rows.iter().zip(row_pulls) {
-            row.pull(-pull, &mut self.gradient.states);
-        }
-        for (along, pull) in self.along.iter().zip(&row_pulls[self.inequalities.rows.len()..]) {
-            along.pull(*pull, &mut self.gradient, Self::VEHICLES);
-        }
+        self.fill_gradient(false);
         self.step.states.resize(self.gradient.states.len(), [0.0; 4]);
         self.step.inputs.resize(self.gradient.inputs.len(), [0.0; 2]);
         self.riccati.solve(qp, &self.gradient, &mut self.step);

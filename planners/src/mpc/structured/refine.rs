@@ -9,6 +9,7 @@
 //!
 //! with the same factors.
 
+use super::columns::larger;
 use super::interior::Interior;
 use super::riccati::{PairHessian, VehicleHessian, pairs};
 use super::rows::Point;
@@ -24,6 +25,20 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         for (along, weight) in self.along.iter().zip(weights) {
             along.pull(weight * along.dot(&self.step, vehicles), &mut self.gradient, vehicles);
         }
+        self.carry_back(qp);
+    }
+
+    /// Largest derivative of the Lagrangian over the inputs, where the iteration stands.
+    pub(super) fn stationarity(&mut self, qp: &StageQp) -> f64 {
+        self.fill_cost_gradient(qp);
+        self.fill_gradient(true);
+        self.carry_back(qp);
+        self.gradient.inputs.as_flattened().iter().fold(0.0, |largest, slope| larger(slope.abs(), largest))
+    }
+
+    /// Turns a gradient over states and inputs into one over inputs alone, the states following the dynamics.
+    fn carry_back(&mut self, qp: &StageQp) {
+        let vehicles = Self::VEHICLES;
         for (i, stages) in qp.vehicles.iter().enumerate() {
             let mut carried = [0.0; 4];
             for k in (0..qp.horizon).rev() {

@@ -1,0 +1,99 @@
+//! Feedback and plan that share the limits of the inputs, found together.
+//!
+//! ```text
+//! minimise    J(û) + tr(W_e G Y Σ Yᵀ Gᵀ) + tr(W_u (I − Y) Σ (I − Y)ᵀ)
+//! subject to  |û_i| + q σ_i ≤ limit_i,      σ_i = ‖i-th row of (I − Y) L‖,   q = Φ⁻¹(η)      (eqs. 3.15, 3.18, 3.21)
+//! ```
+//!
+//! is a second-order cone programme in some (nN)² numbers. It is not posed: at its solution, with prices μ_i of the limits,
+//! the feedback is that of least expected cost with
+//!
+//! ```text
+//! W_u + diag(μ_i q / (2 σ_i))      in place of      W_u
+//! ```
+//!
+//! since the slope of μ_i q σ_i in the row is μ_i q / σ_i times the row. So prices are exchanged: feedback by columns
+//! ([`super::feedback`]), the plan within what it leaves, whose multipliers are the next prices, damped. The problem is
+//! convex, so a fixed point is its solution; the first round is the two-stage design, and the best round is kept.
+
+use nalgebra::DMatrix;
+
+use super::feedback::{Response, optimal_causal};
+use super::margins_kw;
+use crate::comfort::Targets;
+use crate::control::optimum::{Caution, plan};
+use crate::control::{ControlError, Optimum};
+use crate::lifted::Lifted;
+
+/// Rounds after which the best so far has to do.
+const ROUNDS: usize = 60;
+/// Share of the new prices that is taken over.
+const DAMPING: f64 = 0.5;
+/// The exchange ends when the cost moves by less than this share.
+const SETTLED: f64 = 1e-7;
+/// Deviations below this are as good as none, and have no price \[kW\].
+const LEAST_DEVIATION_KW: f64 = 1e-9;
+
+/// Feedback and plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// What is added to W_u for each input in the design of the feedback, stacked.
+    pub price: Vec<f64>,
+    /// What the feedback does.
+    pub response: Response,
+    /// The plan.
+    pub plan: Optimum,
+    /// The expected cost: of the plan, and of what the disturbance adds.
+    pub cost: f64,
+    /// The same of the two-stage design.
+    pub two_stage_cost: f64,
+    /// Rounds.
+    pub rounds: usize,
+}
+
+/// Designs both on top of the expected temperatures without equipment `free_c`, stacked. `factor` is L with Σ = LLᵀ, and
+/// `quantile` q.
+///
+/// # Errors
+/// [`ControlError`] if W_u is zero or the solver fails.
+pub fn design(
+    lifted: &Lifted,
+    targets: &Targets,
+    free_c: &[f64],
+    factor: &DMatrix<f64>,
+    quantile: f64,
+) -> Result<Joint, ControlError> {
+    let round = |price: &[f64]| -> Result<(Joint, Vec<f64>), ControlError> {
+        let response = optimal_causal(lifted, targets, factor, price)?;
+        let deviation_kw = response.input_deviation_kw();
+        let input_margin_kw = margins_kw(lifted, &deviation_kw, quantile);
+        let caution = Caution { input_margin_kw, ..Caution::default() };
+        let plan = plan(lifted, free_c, targets, None, &caution)?;
+        let next = plan.limit_price.iter().zip(&deviation_kw).map(|(price, deviation_kw)| {
+            if *deviation_kw > LEAST_DEVIATION_KW { price * quantile / (2.0 * deviation_kw) } else { 0.0 }
+        });
+        let (next, cost) = (next.collect(), plan.objective + response.cost(targets));
+        Ok((Joint { price: price.to_vec(), response, plan, cost, two_stage_cost: cost, rounds: 1 }, next))
+    };
+    let mut price = vec![0.0; lifted.size()];
+    let (mut best, mut next) = round(&price)?;
+    let mut before = best.cost;
+    for rounds in 2..=ROUNDS {
+        for (price, next) in price.iter_mut().zip(&next) {
+            *price += DAMPING * (next - *price);
+        }
+        let (found, wanted) = round(&price)?;
+        next = wanted;
+        let moved = (found.cost - before).abs();
+        before = found.cost;
+        let two_stage_cost = best.two_stage_cost;
+        if found.cost < best.cost {
+            best = found;
+        }
+        best = Joint { two_stage_cost, rounds, ..best };
+        if moved <= SETTLED * before {
+            break;
+        }
+    }
+    Ok(best)
+}

@@ -1,0 +1,121 @@
+//! Wrong buildings and wrong units, and what is said of them; as `errors.rs`.
+
+mod common;
+
+use common::Catalogue;
+use interplay_scenarios::from_text;
+
+/// A building without fault, for the cases to spoil.
+const GOOD: &str = r#"title = "An office and a store"
+shows = "Two rooms"
+iterations = 2
+
+[building]
+step_s = 900.0
+
+[[building.zone]]
+name = "office"
+limit_kw = 3.0
+
+[[building.zone]]
+name = "store"
+
+[[building.wall]]
+between = ["office", "store"]
+resistance_k_per_kw = 62.5
+
+[[building.wall]]
+between = ["office", "ambient"]
+resistance_k_per_kw = 31.25
+
+[setpoints]
+occupied_c = [24.0, 26.0]
+
+[controller]
+kind = "pid"
+"#;
+
+fn refusal(errors: &mut Catalogue, name: &str, (from, to): (&str, &str), fragments: &[&str]) {
+    assert!(GOOD.contains(from), "{from} is not in the good building");
+    errors.error(name, from_text("bad.toml", &GOOD.replacen(from, to, 1), &[]), fragments);
+}
+
+#[test]
+fn the_good_building_is_good() {
+    from_text("good.toml", GOOD, &[]).expect("nothing is wrong with it");
+}
+
+#[test]
+fn wrong_units() {
+    let mut errors = Catalogue::default();
+    let all = &mut errors;
+    let resistance = "resistance_k_per_kw = 62.5";
+    refusal(
+        all,
+        "another_unit",
+        (resistance, "resistance_k_per_w = 0.0625"),
+        &["bad.toml:17:1", "`resistance_k_per_kw`", "[K/kW]"],
+    );
+    refusal(all, "no_unit", ("limit_kw = 3.0", "limit = 3.0"), &["bad.toml:10:1", "`limit_kw`", "[kW]"]);
+    refusal(all, "minutes", ("step_s = 900.0", "step_min = 15"), &["`step_s`", "[s]"]);
+    refusal(all, "minutes_as_seconds", ("step_s = 900.0", "step_s = 15"), &["at least 60", "[s]"]);
+    refusal(
+        all,
+        "kelvin_as_celsius",
+        ("[24.0, 26.0]", "[297.0, 299.0]"),
+        &["bad.toml:24:14", "between -50 and 100 °C"],
+    );
+    refusal(all, "a_text_with_its_unit", ("limit_kw = 3.0", "limit_kw = \"3 kW\""), &["a number", "`3 kW`", "[kW]"]);
+    let car = "title = 'a'\nshows = 'b'\nvehicle = [{ name = 'ego', start = { x_m = 0, y_m = 0.2, speed_kmh = 90 } }]";
+    errors.error("km_per_hour", from_text("bad.toml", car, &[]), &["`speed_mps`", "[m/s]", "is missing"]);
+    insta::assert_snapshot!("units", errors.0);
+}
+
+#[test]
+fn zones_and_walls() {
+    let mut errors = Catalogue::default();
+    let all = &mut errors;
+    refusal(all, "same_zone_twice", ("name = \"store\"", "name = \"office\""), &["bad.toml:13:8", "`office`"]);
+    refusal(
+        all,
+        "unknown_zone",
+        ("[\"office\", \"store\"]", "[\"ofice\", \"store\"]"),
+        &["bad.toml:16:11", "`ofice`", "office"],
+    );
+    refusal(all, "wall_to_itself", ("[\"office\", \"store\"]", "[\"store\", \"store\"]"), &["bad.toml:16:11", "store"]);
+    refusal(all, "three_sides", ("[\"office\", \"store\"]", "[\"office\", \"store\", \"ambient\"]"), &["at most 2"]);
+    refusal(all, "negative_resistance", ("31.25", "-31.25"), &["bad.toml:21:23", "above 0"]);
+    refusal(all, "preset_and_zones", ("step_s = 900.0", "preset = \"testbed\""), &["both `preset` and `zone`"]);
+    insta::assert_snapshot!("zones_and_walls", errors.0);
+}
+
+#[test]
+fn days_and_controllers() {
+    let mut errors = Catalogue::default();
+    let all = &mut errors;
+    refusal(all, "step_divides_no_day", ("900.0", "1000.0"), &["bad.toml:6:10", "does not divide a day", "1800"]);
+    refusal(
+        all,
+        "too_few_temperatures",
+        ("[24.0, 26.0]", "[24.0, 25.0, 26.0]"),
+        &["3 temperatures for 2 zones", "one for all"],
+    );
+    refusal(all, "unknown_controller", ("\"pid\"", "\"pdi\""), &["`pdi`", "did you mean `pid`?"]);
+    refusal(all, "no_days", ("iterations = 2", "iterations = 0"), &["at least 1"]);
+    let weather = |file: &str| format!("[weather]\nkind = \"epw\"\nfile = \"{file}\"\n\n[setpoints]");
+    refusal(
+        all,
+        "missing_weather",
+        ("[setpoints]", &weather("tropical-juli.epw")),
+        &["tropical-juli.epw", "tropical-july.epw"],
+    );
+    refusal(
+        all,
+        "only_for_vehicles",
+        ("[controller]", "[expect]\nno_collision = true\n\n[controller]"),
+        &["no vehicles"],
+    );
+    let none = "extends = 'lane-change/front-nice'\ntitle = 'a'\niterations = 3";
+    errors.error("only_for_buildings", from_text("bad.toml", none, &[]), &["there is no building", "`[building]`"]);
+    insta::assert_snapshot!("days_and_controllers", errors.0);
+}
