@@ -42,6 +42,7 @@ const REPLACEMENTS: &[Replacement] = &[
     // The intelligent driver model sees no crossing traffic, and waits for a gap that nobody makes.
     ("intersection/tough", "idm", "no_collision"),
     ("intersection/bayesian-tough", "idm", "no_collision"),
+    ("intersection/bayesian-inches", "idm", "no_collision"),
     ("intersection/game-aggressive", "idm", "no_collision"),
     ("lane-change/bayesian-front-tough", "idm", "order"),
     ("lane-change/game-friendly", "idm", "order"),
@@ -51,6 +52,7 @@ const REPLACEMENTS: &[Replacement] = &[
     // Among drivers who ignore it, the ego must find the way by itself.
     ("lane-change/both-tough", "scripted", "completes.ego"),
     ("lane-change/bayesian-both-tough", "scripted", "completes.ego"),
+    ("lane-change/bayesian-gap-closed", "scripted", "completes.ego"),
     ("lane-change/game-aggressive", "scripted", "completes.ego"),
     ("lane-keeping/bayesian-nice", "scripted", "speed.ego.max_above_mps"),
     ("lane-keeping/tough", "scripted", "speed.ego.min_below_mps"),
