@@ -299,7 +299,7 @@ fn plants_and_crashes() {
         &["bad.toml:3:9", "{ kind = \"dynamic\" }"],
     );
     let ice = plant("plant = { kind = \"dynamic\", friction = 0 }");
-    refusal(&mut errors, "no_friction", &ice, &["bad.toml:3:41", "`plant.friction` must be above 0"]);
+    refusal(&mut errors, "no_friction", &ice, &["bad.toml:3:40", "`plant.friction` must be above 0"]);
     let kinematic = plant("plant = { kind = \"kinematic\", friction = 0.5 }");
     refusal(&mut errors, "friction_without_tyres", &kinematic, &["unknown key `friction`"]);
     let crash = |pair: &'static str| [("no_collision = true", pair)];
