@@ -41,10 +41,7 @@ fn plans(house: &House) -> Vec<(f32, Panel)> {
         (design::TAPS, "Feedback Q [kW/K]"),
         (design::CONVERGENCE, "Convergence of the design"),
     ];
-    let bars = [
-        (design::COST, "First exchange: log10 J by round"),
-        (design::MESSAGES, "Messages sent by each zone"),
-    ];
+    let bars = [(design::COST, "First exchange: log10 J by round"), (design::MESSAGES, "Messages sent by each zone")];
     let lines = lines.into_iter().map(|(path, title)| (path, plot(house, title, below(path))));
     let bars = bars.into_iter().map(|(path, title)| (path, View::new("BarChart", title, vec![format!("/{path}")])));
     lines.chain(bars).filter(|(path, _)| house.plans.has(path)).map(|(_, view)| (1.0, Panel::View(view))).collect()
