@@ -1,7 +1,7 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`figures`], [`authoring`],
-//!   [`documents`], [`book`]
+//! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
+//!   [`figures`], [`authoring`], [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
@@ -31,6 +31,7 @@ mod own;
 mod plants;
 mod recordings;
 mod rectangles;
+mod replacements;
 mod replay;
 mod suite;
 mod unsuited;

@@ -127,6 +127,7 @@ fn of_buildings() -> Vec<Example> {
         ("uncertain", "level", json!("low")),
         ("Setpoints", "other_c", json!(28.0)),
         ("distributed", "silent_zone", json!(0)),
+        ("concurrent", "gamma_2", json!(4.6)),
     ]
 }
 
@@ -135,6 +136,7 @@ fn of_expectations() -> Vec<Example> {
         ("Expect", "no_collision", json!(true)),
         ("Expect", "collisions", json!([["ego", "front"]])),
         ("Expect", "order", json!(["ego", "front"])),
+        ("Expect", "collisions", json!([["ego", "front"]])),
         ("Expect", "min_gap_m", json!(0.05)),
         ("Expect", "plan_failures_at_most", json!(0)),
         ("Expect", "building", json!({ "after_iterations": 2 })),
