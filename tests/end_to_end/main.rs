@@ -1,10 +1,11 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
-//! - what a user sees: [`authored`], [`bad_input`], [`output`], [`recordings`], [`suite`], [`figures`], [`authoring`],
-//!   [`documents`], [`book`]
+//! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
+//!   [`figures`], [`authoring`], [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
+//! - what scenarios demand of drivers: [`unsuited`]
 //! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
@@ -30,5 +31,7 @@ mod own;
 mod plants;
 mod recordings;
 mod rectangles;
+mod replacements;
 mod replay;
 mod suite;
+mod unsuited;

@@ -14,6 +14,7 @@ use super::re_sdk_types::{blueprint, datatypes};
 use interplay_scenarios::{Branch, Scenario, Vehicle};
 
 use super::blueprint::{Panel, View};
+use super::mind::THOUGHTS;
 use super::plots::{self, Plots};
 use super::vehicles::FOLLOW;
 
@@ -26,53 +27,60 @@ const SHARE_BEHIND: f64 = 0.42;
 
 /// The layout for a scenario of which `plots` were recorded between the longitudinal coordinates `road_m`.
 pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> Panel {
+    let words = (1.9, Panel::Row(words(scenario, plots)));
     if let Some([from_m, to_m]) = scenario.road.conflict_zone_m(Branch::Main) {
-        let beside = Panel::Column(numbers(scenario, plots));
-        let above = Panel::Row(vec![(1.1, crossing(scenario, 0.5 * (from_m + to_m))), (0.9, beside)]);
-        return Panel::Column(vec![(2.4, above), (1.0, Panel::Row(words(scenario, plots)))]);
+        let beside = Panel::Column(rows(numbers(scenario, plots), 2));
+        let above = Panel::Row(vec![(1.0, crossing(scenario, 0.5 * (from_m + to_m))), (1.2, beside)]);
+        return Panel::Column(vec![(3.4, above), words]);
     }
-    Panel::Column(vec![
-        (1.9, close_up(scenario)),
-        (0.75, whole_road(scenario, road_m)),
-        (1.7, Panel::Row(numbers(scenario, plots))),
-        (1.9, Panel::Row(words(scenario, plots))),
-    ])
+    let mut parts = vec![(1.7, close_up(scenario)), (0.65, whole_road(scenario, road_m))];
+    parts.extend(rows(numbers(scenario, plots), 4).into_iter().map(|(_, row)| (1.5, row)));
+    parts.push(words);
+    Panel::Column(parts)
 }
 
+/// Panels in rows of at most `longest`, all about equally long.
+fn rows(panels: Vec<(f32, Panel)>, longest: usize) -> Vec<(f32, Panel)> {
+    let count = panels.len().div_ceil(longest).max(1);
+    let length = panels.len().div_ceil(count).max(1);
+    let mut panels = panels.into_iter().peekable();
+    let mut rows = Vec::new();
+    while panels.peek().is_some() {
+        rows.push((1.0, Panel::Row(panels.by_ref().take(length).collect())));
+    }
+    rows
+}
+
+/// Speeds, what goes on in the planners, and the gap.
 fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
     let fastest = scenario.vehicles.iter().map(|vehicle| vehicle.limits.speed_max_mps).fold(0.0, f64::max);
     let speeds = Plot::new(scenario, "Speeds [m/s]", vec!["/plots/speed/**".to_owned()]);
-    let mut row = vec![(1.0, speeds.between(0.0, 1.05 * fastest).legend_at(Corner2D::RightBottom))];
-    let shares = ["acceptance", "concession-weight", "persuasion-active", "safety-filter"];
-    let negotiation = among(plots, "plots/negotiation/", &shares);
-    let costs = among(plots, "plots/", &["cost", "safety-slack"]);
-    if !negotiation.is_empty() {
-        let plot = Plot::new(scenario, "Negotiation: do they accept, does the asker concede?", negotiation);
-        row.push((1.3, plot.between(-0.05, 1.1).legend_at(Corner2D::RightTop)));
-    } else if !costs.is_empty() {
-        row.push((1.3, Plot::new(scenario, "Costs of the plans", costs).legend_at(Corner2D::RightTop)));
+    let mut panels = vec![(1.0, speeds.between(0.0, 1.05 * fastest).legend_at(Corner2D::RightBottom))];
+    for thought in &THOUGHTS {
+        let series = plots.among(thought.kind, thought.names);
+        if !series.is_empty() {
+            let mut plot = Plot::new(scenario, thought.title, series);
+            if let Some([low, high]) = thought.range {
+                plot = plot.between(low, high);
+            }
+            panels.push((1.0, plot.legend_at(Corner2D::RightTop)));
+        }
     }
     if plots.has(plots::GAP) {
         let gap = vec![format!("/{}", plots::GAP)];
-        row.push((1.0, Plot::new(scenario, "Gap from the ego to the nearest vehicle [m]", gap).alone()));
+        panels.push((1.0, Plot::new(scenario, "Gap from the ego to the nearest vehicle [m]", gap).alone()));
     }
-    row
+    panels
 }
 
 fn words(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
     let computing = Plot::new(scenario, "Time to plan [ms]", vec!["/plots/planner-ms/**".to_owned()]);
-    let mut row = vec![(1.0, computing.legend_at(Corner2D::RightTop))];
+    let mut row = vec![(0.8, computing.legend_at(Corner2D::RightTop))];
     if plots.has(plots::LOG) {
-        row.push((1.1, events()));
+        row.push((1.0, events()));
     }
-    row.push((1.4, Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))));
+    row.push((1.6, Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))));
     row
-}
-
-/// The recorded series below `folder` that have one of these names in their path.
-fn among(plots: &Plots, folder: &str, names: &[&str]) -> Vec<String> {
-    let mine = |path: &&String| path.starts_with(folder) && path.split('/').any(|part| names.contains(&part));
-    plots.seen().iter().filter(mine).map(|path| format!("/{path}")).collect()
 }
 
 /// A plot over the whole run.

@@ -9,7 +9,7 @@
 //! world/vehicle/<name>/{plan,prediction,proposal}     what it will do, is expected to do, asks another to do
 //! world/vehicle/<name>/safety                         where the ego keeps out
 //! plots/{speed,acceleration,steering,planner-ms}/<name>
-//! plots/<kind of planner>/<diagnostic>[/<name>]       the name if several vehicles have that planner
+//! plots/<kind of planner>/<diagnostic>[/<name>]       as letters, digits, `-`; the name if several have that planner
 //! plots/gap                                           the ego's distance to the nearest footprint
 //! log, about                                          events; what the recording shows
 //! building/…                                          see `building/mod.rs`
@@ -21,6 +21,7 @@ mod error;
 mod file;
 mod layout;
 mod live;
+mod mind;
 mod palette;
 mod plots;
 mod stage;

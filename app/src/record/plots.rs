@@ -7,6 +7,7 @@ use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
 use interplay_scenarios::Scenario;
 use rerun::{RecordingStream, RecordingStreamResult};
 
+use super::mind::slug;
 use super::palette::{self, FAILURE, NEUTRAL, Paint};
 use crate::frame::{Frame, Level, Origin, VehicleFrame};
 
@@ -56,6 +57,18 @@ impl Plots {
         self.seen.contains(path)
     }
 
+    /// The recorded numbers of these names, of one kind of planner or of all.
+    pub fn among(&self, kind: Option<&str>, names: &[&str]) -> Vec<String> {
+        let slugs: Vec<String> = names.iter().map(|name| slug(name)).collect();
+        let mine = |path: &&String| {
+            let mut parts = path.split('/').skip(1);
+            let (folder, name) = (parts.next(), parts.next());
+            kind.is_none_or(|kind| folder == Some(kind))
+                && name.is_some_and(|name| slugs.iter().any(|slug| slug == name))
+        };
+        self.seen.iter().filter(mine).map(|path| format!("/{path}")).collect()
+    }
+
     /// Every path so far that not every run has.
     pub fn seen(&self) -> &BTreeSet<String> {
         &self.seen
@@ -82,7 +95,7 @@ impl Plots {
     fn reasons(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
         for (vehicle, (folder, end)) in frame.vehicles.iter().zip(&self.voices) {
             for (index, (name, value)) in vehicle.plan.diagnostics.iter().enumerate() {
-                let path = format!("{folder}/{}{end}", name.replace(' ', "-"));
+                let path = format!("{folder}/{}{end}", slug(name));
                 if !self.seen.contains(&path) {
                     let label = if end.is_empty() { (*name).to_owned() } else { format!("{name}, {}", vehicle.name) };
                     style(stream, &path, &label, palette::series(index).solid(), is_switch(name))?;

@@ -4,9 +4,11 @@ mod settings;
 
 pub use settings::Settings;
 
-use crate::mpc::{Cost, DescentError, Optimiser, Optimum, Penalty, Problem, Robust};
+use crate::activity::Activity;
+use crate::mpc::{Cost, DescentError, Optimiser, Penalty, Problem, Robust};
 use crate::predict::steady;
-use crate::{Agent, Input, Plan, PlanError, Scene, Trajectory};
+use crate::solo::Solved;
+use crate::{Agent, Diagnostic, Input, Plan, PlanError, Scene, Trajectory};
 
 /// A conservative planner with the plan it made last.
 #[derive(Clone, Debug)]
@@ -48,18 +50,11 @@ impl Conservative {
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let optimum = self.optimise(scene)?;
-        let Cost { total, safety_slack, .. } = optimum.cost;
-        Ok(Plan {
-            trajectory: optimum.trajectory(0),
-            diagnostics: vec![("cost", total), ("safety slack", safety_slack)],
-            statistics: optimum.statistics,
-            ..Plan::default()
-        })
+        Ok(answer(&self.optimise(scene)?))
     }
 
-    /// The same as [`Conservative::plan`], with the optimum's cost.
-    pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Optimum, DescentError> {
+    /// The same as [`Conservative::plan`], with the problem that it solves.
+    pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Solved, DescentError> {
         let scene = &scene.expecting(self.settings.prediction);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let keep = self.last.as_ref().map_or_else(Vec::new, Trajectory::later_inputs);
@@ -67,8 +62,23 @@ impl Conservative {
         let guesses = [vec![keep], vec![brake], vec![accelerate]];
         let every = self.settings.look_around_every;
         let look_around = every > 0 && scene.tick.is_multiple_of(every);
-        let optimum = self.optimiser.best_of(&problem(scene, &others), &guesses, look_around)?;
+        let problem = problem(scene, &others);
+        let optimum = self.optimiser.best_of(&problem, &guesses, look_around)?;
         self.last = Some(optimum.trajectory(0));
-        Ok(optimum)
+        Ok(Solved { problem, optimum, event: None })
+    }
+}
+
+/// A conservative plan with its cost and with what holds it back.
+pub(crate) fn answer(Solved { problem, optimum, event }: &Solved) -> Plan {
+    let Cost { total, safety_slack, .. } = optimum.cost;
+    let mut diagnostics: Vec<Diagnostic> = vec![("cost", total), ("safety slack", safety_slack)];
+    diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
+    Plan {
+        trajectory: optimum.trajectory(0),
+        proposal: None,
+        diagnostics,
+        events: event.iter().cloned().collect(),
+        statistics: optimum.statistics,
     }
 }

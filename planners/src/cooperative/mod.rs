@@ -22,9 +22,10 @@ pub use problem::{Cooperator, cooperators, problem};
 pub use settings::Settings;
 
 use crate::activity::Activity;
+use crate::conservative;
 use crate::mpc::{Iterate, Optimiser, Optimum, Problem, Robust};
 use crate::predict::steady;
-use crate::solo::{self, Solved};
+use crate::solo;
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 
 /// A cooperating planner with the joint plan it made last.
@@ -76,7 +77,7 @@ impl Cooperative {
             Err(error) => {
                 let last = std::mem::take(&mut self.last);
                 let last = last.get(own).map(|(_, trajectory)| trajectory);
-                Ok(alone(solo::retreat(&mut self.optimiser, scene, last, &error)?))
+                Ok(conservative::answer(&solo::retreat(&mut self.optimiser, scene, last, &error)?))
             }
         }
     }
@@ -111,19 +112,6 @@ impl Cooperative {
         diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
         Plan { trajectory, proposal, diagnostics, events: Vec::new(), statistics: optimum.statistics }
-    }
-}
-
-/// The conservative plan as it is.
-fn alone(Solved { problem, optimum, event }: Solved) -> Plan {
-    let mut diagnostics = vec![("cost", optimum.cost.total), ("safety slack", optimum.cost.safety_slack)];
-    diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
-    Plan {
-        trajectory: optimum.trajectory(0),
-        proposal: None,
-        diagnostics,
-        events: event.into_iter().collect(),
-        statistics: optimum.statistics,
     }
 }
 

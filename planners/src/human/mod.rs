@@ -12,10 +12,13 @@
 //! our choice, as with one of them drivers and planners disagree about who is in whose way. The car ahead in the same lane
 //! is followed with at least `following_weight`, whatever the style; whoever is behind in the same lane is ignored.
 //!
+//! One who closes gaps (`closing`) wants to be faster while somebody is about to cut in ahead of it.
+//!
 //! The source only says that nice drivers have a higher safety weight (section 6.5). Ties between going first and yielding
 //! are decided by the initial guess, so a driver who reconsiders tries all three: the last plan, braking and accelerating.
 //! Where the last plan, improved, keeps clear of everybody there is no tie: it would be the same without them.
 
+mod closing;
 pub mod idm;
 pub mod mobil;
 pub mod scripted;
@@ -61,6 +64,8 @@ impl Human {
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let hurried = closing::hurried(scene, self.settings.closing_mps);
+        let scene = hurried.as_ref().unwrap_or(scene);
         let minded = minded(scene, &self.settings);
         let (best, statistics) = self.decide(&problem(scene, &self.settings), &minded, scene)?;
         let trajectory = best.trajectory(0);

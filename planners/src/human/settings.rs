@@ -35,6 +35,10 @@ pub struct Settings {
     pub safety_weight: Option<f64>,
     /// Weight of the same kind for the vehicle ahead in the same lane, whatever the style.
     pub following_weight: f64,
+    /// By how much faster than it wants the driver drives while somebody from another lane is about to cut in ahead of it
+    /// \[m/s\].
+    #[schemars(range(min = 0.0))]
+    pub closing_mps: f64,
     /// Whether keeping on, yielding and passing are all weighed at every step, or only the last plan improved.
     pub reconsiders: bool,
     /// What others are expected to do that might cut in or cross: by default what their present heading and speed say, so
@@ -48,6 +52,7 @@ impl Default for Settings {
             style: None,
             safety_weight: None,
             following_weight: 20.0,
+            closing_mps: 0.0,
             reconsiders: true,
             prediction: Prediction::ConstantVelocity,
         }

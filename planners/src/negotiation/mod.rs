@@ -24,8 +24,10 @@ pub use concession::Concession;
 pub use proposal::problem;
 pub use settings::Settings;
 
+use crate::activity::Activity;
 use crate::conservative::{self, Conservative, extremes};
 use crate::mpc::{Leaning, Optimiser, Optimum, Problem, Robust};
+use crate::solo::Solved;
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use filter::Filter;
 use interlocutor::Interlocutor;
@@ -84,20 +86,21 @@ impl Negotiation {
         let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
         let Some(partner) = self.choose(scene, &mut events) else {
-            return Ok(Plan { events, ..retreating(&retreat?) });
+            return Ok(Plan { events, ..conservative::answer(&retreat?) });
         };
         let accepted = self.listen(partner);
         let leaning = persuasion::leaning(&self.settings, self.talk.last.as_ref(), accepted);
         let outcome = self.propose(scene, partner, leaning.clone());
-        let optimum = match outcome {
-            Ok(optimum) => optimum,
+        let Solved { problem, optimum, .. } = match outcome {
+            Ok(solved) => solved,
             Err(error) => {
                 events.push(format!("no proposal: {error}"));
-                return Ok(Plan { events, ..retreating(&retreat?) });
+                return Ok(Plan { events, ..conservative::answer(&retreat?) });
             }
         };
         self.remember(&optimum, &retreat, partner);
         let mut plan = self.speak(&optimum, partner, accepted, leaning.as_ref());
+        plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         self.filter(scene, &retreat, &optimum, &mut plan);
         Ok(plan)
@@ -131,13 +134,14 @@ impl Negotiation {
         accepted.unwrap_or(1.0)
     }
 
-    fn propose(&mut self, scene: &Scene, partner: &Agent, leaning: Option<Leaning>) -> Result<Optimum, PlanError> {
+    fn propose(&mut self, scene: &Scene, partner: &Agent, leaning: Option<Leaning>) -> Result<Solved, PlanError> {
         let problem = problem(scene, partner, self.talk.concession.weight(), leaning, &self.settings);
         let keep = self.guess(&problem, partner);
         let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
         let every = self.settings.look_around_every;
         let look_around = every > 0 && scene.tick.is_multiple_of(every);
-        Ok(self.optimiser.best_of(&problem, &[keep, brake, accelerate], look_around)?)
+        let optimum = self.optimiser.best_of(&problem, &[keep, brake, accelerate], look_around)?;
+        Ok(Solved { problem, optimum, event: None })
     }
 
     /// The last round one step later. The other may have changed its mind since: what was proposed before can be worse than
@@ -151,10 +155,10 @@ impl Negotiation {
         if problem.cost_of(&proposed) <= problem.cost_of(&unasked) { proposed } else { unasked }
     }
 
-    fn remember(&mut self, optimum: &Optimum, retreat: &Result<Optimum, PlanError>, partner: &Agent) {
+    fn remember(&mut self, optimum: &Optimum, retreat: &Result<Solved, PlanError>, partner: &Agent) {
         self.talk.last = Some(Round {
             cooperative: optimum.trajectory(0),
-            conservative: retreat.as_ref().ok().map(|retreat| retreat.trajectory(0)),
+            conservative: retreat.as_ref().ok().map(|retreat| retreat.optimum.trajectory(0)),
             proposal: optimum.trajectory(1),
             prediction: partner.prediction.clone(),
         });
@@ -180,8 +184,8 @@ impl Negotiation {
     }
 
     /// Replaces the plan by the retreat where the filter demands it.
-    fn filter(&mut self, scene: &Scene, retreat: &Result<Optimum, PlanError>, optimum: &Optimum, plan: &mut Plan) {
-        let Ok(retreat) = retreat else {
+    fn filter(&mut self, scene: &Scene, retreat: &Result<Solved, PlanError>, optimum: &Optimum, plan: &mut Plan) {
+        let Ok(Solved { optimum: retreat, .. }) = retreat else {
             plan.events.push("no conservative plan to retreat to".to_owned());
             return;
         };
@@ -192,15 +196,5 @@ impl Negotiation {
             plan.events.push("safety filter: conservative input".to_owned());
         }
         plan.diagnostics.push(("safety filter", f64::from(u8::from(refused))));
-    }
-}
-
-/// The conservative plan as it is.
-fn retreating(retreat: &Optimum) -> Plan {
-    Plan {
-        trajectory: retreat.trajectory(0),
-        diagnostics: vec![("cost", retreat.cost.total), ("safety slack", retreat.cost.safety_slack)],
-        statistics: retreat.statistics,
-        ..Plan::default()
     }
 }

@@ -1,0 +1,92 @@
+//! Expected failures: what a scenario shows is owed to its planner. Each one, driven by a planner that should not manage it,
+//! must break the expectation named here. "scripted" is a driver without a script, who goes on as it began and looks at
+//! nobody.
+
+use std::collections::BTreeSet;
+use std::thread;
+
+use interplay::run::run;
+use interplay_scenarios::{Override, embedded, load};
+
+/// A scenario, who drives its ego instead, and the expectation that then breaks.
+type Replacement = (&'static str, &'static str, &'static str);
+
+const REPLACEMENTS: &[Replacement] = &[
+    // Nobody yields to who does not ask, and who asks goes first.
+    ("intersection/nice", "conservative", "order"),
+    ("intersection/bayesian-nice", "conservative", "order"),
+    ("intersection/game-friendly", "conservative", "order"),
+    ("intersection/game-nash", "conservative", "order"),
+    ("intersection/conservative-nice", "negotiation", "order"),
+    ("intersection/negotiation-meets-game", "conservative", "speed.crossing.min_below_mps"),
+    ("lane-change/front-nice", "conservative", "order"),
+    ("lane-change/bayesian-front-nice", "conservative", "order"),
+    ("lane-change/game-front-nice", "conservative", "order"),
+    ("lane-change/game-nash", "conservative", "order"),
+    ("lane-change/conservative-front-nice", "negotiation", "order"),
+    ("lane-keeping/nice", "conservative", "order"),
+    ("lane-keeping/conservative-nice", "negotiation", "order"),
+    ("lane-keeping/two-negotiators", "conservative", "order"),
+    ("ramp-merge/nice", "conservative", "order"),
+    ("ramp-merge/bayesian-nice", "conservative", "order"),
+    ("ramp-merge/game-nice", "conservative", "order"),
+    ("ramp-merge/conservative-nice", "negotiation", "order"),
+    // Who cooperates alone does not cooperate: all wait for one another.
+    ("intersection/cooperative", "conservative", "order"),
+    ("lane-change/cooperative", "conservative", "completes.ego"),
+    ("lane-keeping/cooperative", "conservative", "completes.merger"),
+    // The game shows that it passes, also to those who cannot see it; the exact value keeps away, the linear one does not.
+    ("lane-change/front-tough", "game", "order"),
+    ("lane-change/among-idm", "game", "order"),
+    ("lane-change/bayesian-exact", "conservative", "order"),
+    // The intelligent driver model sees no crossing traffic, and waits for a gap that nobody makes.
+    ("intersection/tough", "idm", "no_collision"),
+    ("intersection/bayesian-tough", "idm", "no_collision"),
+    ("intersection/bayesian-inches", "idm", "no_collision"),
+    ("intersection/game-aggressive", "idm", "no_collision"),
+    ("lane-change/bayesian-front-tough", "idm", "order"),
+    ("lane-change/game-friendly", "idm", "order"),
+    ("lane-keeping/bayesian-tough", "idm", "no_collision"),
+    ("ramp-merge/bayesian-front-tough", "idm", "order"),
+    ("ramp-merge/front-tough", "idm", "order"),
+    // Among drivers who ignore it, the ego must find the way by itself.
+    ("lane-change/both-tough", "scripted", "completes.ego"),
+    ("lane-change/bayesian-both-tough", "scripted", "completes.ego"),
+    ("lane-change/bayesian-gap-closed", "scripted", "completes.ego"),
+    ("lane-change/game-aggressive", "scripted", "completes.ego"),
+    ("lane-keeping/bayesian-nice", "scripted", "speed.ego.max_above_mps"),
+    ("lane-keeping/tough", "scripted", "speed.ego.min_below_mps"),
+    ("ramp-merge/tough", "scripted", "completes.ego"),
+    ("ramp-merge/bayesian-tough", "scripted", "completes.ego"),
+    ("ramp-merge/game-tough", "scripted", "completes.ego"),
+];
+
+/// The expectations that break when somebody else drives the ego.
+fn broken(name: &str, planner: &str) -> Vec<String> {
+    let scenario = load(name, &[Override::Planner(planner.to_owned())]).expect("authored, with a known planner");
+    let report = run(name, &scenario, Vec::new()).expect("the run can be finished");
+    report.expectations.into_iter().filter(|one| !one.passed).map(|one| one.what).collect()
+}
+
+#[test]
+fn a_planner_that_should_not_manage_a_scenario_breaks_its_expectations() {
+    let wrong: Vec<String> = thread::scope(|scope| {
+        let runs: Vec<_> =
+            REPLACEMENTS.iter().map(|(name, planner, _)| scope.spawn(|| broken(name, planner))).collect();
+        let outcomes = runs.into_iter().map(|run| run.join().expect("no run panics"));
+        let judged = REPLACEMENTS.iter().zip(outcomes);
+        let missed = judged.filter(|((_, _, what), broken)| !broken.iter().any(|one| one == what));
+        missed.map(|((name, planner, what), broken)| format!("{name} by {planner}: {what} not in {broken:?}")).collect()
+    });
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn every_figure_has_a_planner_that_does_not_manage_it() {
+    let listed: BTreeSet<&str> = REPLACEMENTS.iter().map(|(name, _, _)| *name).collect();
+    for file in embedded() {
+        let scenario = load(file.name, &[]).expect("authored");
+        let has_figure = scenario.figure.is_some() && !scenario.vehicles.is_empty();
+        assert!(!has_figure || listed.contains(file.name), "{} needs a line in REPLACEMENTS", file.name);
+    }
+}
