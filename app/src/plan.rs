@@ -2,7 +2,9 @@
 //!
 //! Humans plan from the front of the road to its rear, so that each knows what the car ahead is about to do; the others
 //! follow and know the humans' plans (the source's assumption of perfect prediction), but not one another's: of each
-//! other they expect that the last plan goes on, so that it does not matter who is listed first. A planner that fails falls back to its previous plan, shifted, and then to full braking; the failure is recorded and counted.
+//! other they expect that the last plan goes on, so that it does not matter who is listed first. A planner that fails
+//! falls back to its previous plan, shifted, and then to full braking; the failure is recorded and counted. Who has crashed
+//! brakes, and is not asked.
 
 use std::time::Instant;
 

@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let grids = [(2, 2), (3, 3), (4, 4), (5, 5), (7, 7), (10, 10), (14, 14), (20, 20)];
     let designs = [
         ("iterative", "#0072b2", Controller::Iterative(Default::default()), 3),
-        ("concurrent", "#cc79a7", Controller::Concurrent(Default::default()), 2),
+        ("concurrent", "#cc79a7", Controller::Concurrent(Default::default()), 3),
         ("distributed", "#d55e00", Controller::Distributed(Default::default()), grids.len()),
         ("centralised, sparse", "#009e73", Controller::Centralised(Default::default()), grids.len()),
     ];

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::fs;
 
 use common::{Catalogue, rendered};
-use interplay_scenarios::{Override, from_text, load};
+use interplay_scenarios::{Override, from_text};
 
 /// A scenario without fault, for the cases to spoil.
 const GOOD: &str = r#"title = "Two cars"
@@ -299,7 +299,7 @@ fn plants_and_crashes() {
         &["bad.toml:3:9", "{ kind = \"dynamic\" }"],
     );
     let ice = plant("plant = { kind = \"dynamic\", friction = 0 }");
-    refusal(&mut errors, "no_friction", &ice, &["bad.toml:3:41", "`plant.friction` must be above 0"]);
+    refusal(&mut errors, "no_friction", &ice, &["bad.toml:3:40", "`plant.friction` must be above 0"]);
     let kinematic = plant("plant = { kind = \"kinematic\", friction = 0.5 }");
     refusal(&mut errors, "friction_without_tyres", &kinematic, &["unknown key `friction`"]);
     let crash = |pair: &'static str| [("no_collision = true", pair)];
@@ -361,38 +361,6 @@ fn overrides() {
     let planner = from_text("good.toml", GOOD, &[Override::Planner("negotiate".to_owned())]);
     errors.error("unknown_planner", planner, &["--planner:1:1", "`negotiation`?"]);
     insta::assert_snapshot!("overrides", errors.0);
-}
-
-#[test]
-fn missing_files() {
-    let mut errors = Catalogue::default();
-    errors.error("no_such_name", load("lane-change/front-nicer", &[]), &["did you mean", "lane-change/front-nice"]);
-    errors.error("no_such_name_near", load("something-else-entirely", &[]), &["interplay list"]);
-    errors.error("no_such_file", load("front-tuogh.toml", &[]), &["no file", "lane-change/front-tough"]);
-    errors.error("no_name", load("", &[]), &["no scenario and no file"]);
-    insta::assert_snapshot!("missing_files", errors.0);
-}
-
-#[test]
-fn unreadable_files() {
-    let mut errors = Catalogue::default();
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).expect("a writable folder");
-    write("empty.toml", b"");
-    write("blank.toml", b"\n  \n");
-    write("binary.toml", b"title = 'a'\n\x80\xff");
-    let mut state = 1_u32;
-    let random = (0..10 << 20).map(|_| {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        state.to_be_bytes()[0]
-    });
-    write("large.toml", &random.collect::<Vec<u8>>());
-    errors.file(folder.path(), "empty.toml", &["is empty", "`title`"]);
-    errors.file(folder.path(), "blank.toml", &["is empty"]);
-    errors.file(folder.path(), "binary.toml", &["binary.toml:2:1", "not UTF-8"]);
-    errors.file(folder.path(), "large.toml", &["larger than 1 MiB"]);
-    errors.file(folder.path(), "", &["is a directory"]);
-    insta::assert_snapshot!("unreadable_files", errors.0);
 }
 
 #[test]

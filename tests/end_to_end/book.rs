@@ -24,7 +24,6 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("interplay run mine.toml --watch", "never ends: see `authoring`"),
     ("interplay run lane-change/front-tough --connect", "needs a viewer that listens"),
     ("interplay identify dutch3/", "the measurements are not part of this repository"),
-    ("interplay reproduce", "takes minutes: it has tests of its own"),
 ];
 
 fn root() -> PathBuf {

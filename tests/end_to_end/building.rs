@@ -236,7 +236,7 @@ fn spoilt_buildings_are_refused_where_they_are_spoilt() {
         ("unknown", r#""ambient"]"#, r#""ambeint"]"#, &["my.toml:21", "`ambeint`, which is no zone", "`ambient`"]),
         ("twice", "\"store\"\n\n[[building.wall]]", "\"office\"\n\n[[building.wall]]", &["my.toml:14", "two zones"]),
         ("step", "1800.0", "1700.0", &["my.toml:7:10", "does not divide a day"]),
-        ("key", "limit_kw", "limit_w", &["my.toml:11:1", "unknown key `limit_w`", "did you mean `limit_kw`"]),
+        ("key", "limit_kw", "limit_w", &["my.toml:11:1", "unknown key `limit_w`", "it is called `limit_kw` here"]),
         ("negative", "limit_kw = 1.5", "limit_kw = -1.5", &["my.toml:11:12", "must be at least 0, not -1.5"]),
         ("counts", "[24.0]", "[24.0, 25.0, 26.0]", &["my.toml:25", "3 temperatures for 2 zones"]),
         ("kind", "\"pid\"", "\"pdi\"", &["my.toml:28:8", "did you mean `pid`"]),

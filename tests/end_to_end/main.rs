@@ -5,6 +5,7 @@
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
+//! - what scenarios demand of drivers: [`unsuited`]
 //! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`house`]
@@ -33,3 +34,4 @@ mod rectangles;
 mod replacements;
 mod replay;
 mod suite;
+mod unsuited;

@@ -12,6 +12,8 @@ use crate::film::{FILMS, Film, authored, film};
 
 const DYNAMIC: &str = "plant.kind=\"dynamic\"";
 const MARKS: [&str; 2] = ["<!-- figures -->\n", "<!-- end of figures -->\n"];
+/// How a difference is dealt with.
+const ADVICE: &str = "if the change is meant: INTERPLAY_BLESS=1 cargo test --release -p interplay-tests plants";
 /// Of sixteen figures, how many keep their outcome.
 const KEPT_OF_16: usize = 14;
 
@@ -95,7 +97,7 @@ fn the_figures_keep_their_outcome_on_tyres_and_the_page_says_which() {
         let page = format!("{before}{}{wanted}{}{after}", MARKS[0], MARKS[1]);
         return fs::write(path, page).expect("the page can be written");
     }
-    assert!(found == wanted, "the page says\n{found}\nbut it is\n{wanted}");
+    assert!(found == wanted, "the page says\n{found}\nbut it is\n{wanted}\n{ADVICE}");
 }
 
 /// Sensed on tyres, everything that does not depend on the model holds: nobody is driven off the road by more than a hand's

@@ -67,6 +67,7 @@ def compare(kind, ipopt, solver):
             "ours_from_ipopt": at["cost"], "ours_from_ipopt_error": at["error"],
             "ipopt_from_ours": an["start_cost"], "ipopt_from_ours_status": n["status"],
             "inputs_moved_by_ipopt": gap(m["inputs"], n["inputs"]) if solved else None,
+            "other_side": passes_elsewhere(p, m["inputs"], t["inputs"]) if solved else None,
         })
         rows[-1]["verdict"] = verdict(rows[-1])
     return rows
@@ -75,6 +76,33 @@ def compare(kind, ipopt, solver):
 def gap(a, b):
     """Largest difference of inputs."""
     return max(float(np.abs(np.array(x) - np.array(y)).max()) for x, y in zip(a, b))
+
+
+def passes_elsewhere(problem, ours, theirs):
+    """Whether two joint plans pass one another on different sides: whether the direction from the second vehicle to the first
+    turns by angles that differ by more than a quarter turn."""
+    if len(problem["vehicles"]) < 2:
+        return False
+
+    def turned(inputs):
+        paths = [roll_out(vehicle, own, problem["step_s"]) for vehicle, own in zip(problem["vehicles"], inputs)]
+        apart = paths[0] - paths[1]
+        return np.unwrap(np.arctan2(apart[:, 1], apart[:, 0]))[[0, -1]] @ [-1, 1]
+
+    return bool(abs(turned(ours) - turned(theirs)) > np.pi / 2)
+
+
+def roll_out(vehicle, inputs, step_s):
+    """Positions of a bicycle (eq. 6.1-6.5)."""
+    front, rear = vehicle["body"][3:]
+    x, y, heading, speed = vehicle["start"]
+    path = [(x, y)]
+    for acceleration, steering in inputs:
+        slip = np.arctan(rear / (front + rear) * np.tan(steering))
+        x, y = x + step_s * speed * np.cos(heading + slip), y + step_s * speed * np.sin(heading + slip)
+        heading, speed = heading + step_s * speed * np.sin(slip) / rear, speed + step_s * acceleration
+        path.append((x, y))
+    return np.array(path)
 
 
 def verdict(row, close=1e-6):
@@ -111,6 +139,10 @@ def table(results):
     for name in ["same", "ours is a cheaper optimum", "unfinished by IPOPT", "unsolved by IPOPT",
                  "ours is a dearer optimum", "unfinished by us", "unsolved by us"]:
         line(name, lambda rows: sum(r["verdict"] == name for r in rows))
+    line("dearer, and IPOPT's passes on another side",
+         lambda rows: sum(r["verdict"] == "ours is a dearer optimum" and r["other_side"] for r in rows))
+    line("cheaper, and IPOPT's passes on another side",
+         lambda rows: sum(r["verdict"] == "ours is a cheaper optimum" and r["other_side"] for r in rows))
     line("largest KKT residual", lambda rows: f"{max(r['residual'] for r in rows if not r['error']):.1e}")
     line("KKT residual above 1e-6", lambda rows: sum(r["residual"] > 1e-6 for r in rows if not r["error"]))
     line("largest safety slack", lambda rows: f"{max(r['safety_slack'] for r in rows if not r['error']):.1e}")

@@ -70,7 +70,8 @@ impl New {
         let command = shell::line(words.iter().map(String::as_str));
         let head = format!(
             "#:schema {SCHEMA}\n# Written by `{command}`.\n\
-             # Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them.\n\n"
+             # Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\
+             # and that of the `#[table]` above them.\n\n"
         );
         create(&self.file, &(head + &scenario))?;
         let schema = folder.join(SCHEMA);

@@ -1,7 +1,8 @@
 //! Chapter 3: feedforward and feedback designed in turn.
 
-use super::{Entry, Kind, Shot, climate, theory};
 use interplay_building::comfort::Setpoints;
+
+use super::{Entry, Kind, Shot, climate, drawings, theory};
 
 const TUNED: Shot = Shot { label: "feedback tuned every day", scenario: "building/iterative-warm-nights", sets: &[] };
 const FIXED: Shot = Shot { label: "fixed feedback, K = 0.1 kW/K", scenario: "building/fixed-warm-nights", sets: &[] };
@@ -45,9 +46,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         erratum: Some(DEGENERATE),
         shots: &[TUNED],
         beside: &[PRINTED],
-        draw: |entry, takes| {
-            Ok(climate::temperatures(entry.title, takes[0], &climate::first_zones(takes[0])).sketch().into())
-        },
+        draw: drawings::temperatures,
     },
     Entry {
         kind: Kind::Figure,
@@ -60,9 +59,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         ),
         shots: &[TUNED],
         beside: &[],
-        draw: |entry, takes| {
-            Ok(climate::inputs(entry.title, takes[0], &climate::first_zones(takes[0])).sketch().into())
-        },
+        draw: drawings::inputs,
     },
     Entry {
         kind: Kind::Figure,

@@ -1,7 +1,8 @@
 //! Chapter 4: feedforward and a Youla-parametrised feedback, designed at once.
 
-use super::{Entry, Exhibit, Kind, Shot, Take, climate, theory};
 use interplay_building::comfort::Setpoints;
+
+use super::{Entry, Exhibit, Kind, Shot, Take, climate, theory};
 
 const fn shot(label: &'static str, scenario: &'static str) -> Shot {
     Shot { label, scenario, sets: &[] }
@@ -10,9 +11,9 @@ const fn shot(label: &'static str, scenario: &'static str) -> Shot {
 const ACCURATE: Shot = shot("concurrent, exact prediction", "building/concurrent-exact");
 const FIXED_ACCURATE: Shot = shot("fixed PID and learning, no forecast", "building/pid-exact");
 const FORECAST: Shot = Shot {
-    label: "fixed PID and learning, with the forecast",
-    scenario: "building/pid-exact",
-    sets: &["controller.forecast=true"],
+    label: "planned with the forecast, fixed feedback",
+    scenario: "building/concurrent-exact",
+    sets: &["controller={ kind = \"iterative\", stability = \"fixed\" }"],
 };
 const UNCERTAIN: Shot = shot("concurrent, uncertain prediction", "building/concurrent-uncertain");
 const FIXED_UNCERTAIN: Shot = shot("fixed PID and learning, no forecast", "building/pid-uncertain");
@@ -20,8 +21,9 @@ const FIXED_UNCERTAIN: Shot = shot("fixed PID and learning, no forecast", "build
 const BLIND: &str = "The vector α of (4.11) is blind to a Q that moves heat between rooms, and as printed Q does not enter the \
     cost at all: the Q that comes out can be far worse than none. Here Q minimises the effect of the disturbance that is \
     left, with bounds by rows and in the Frobenius norm, and comfort bounds are soft.";
-const SAME: &str = "With an exact prediction, a fixed feedback with a forecast does as well as the concurrent design: the gap \
-    between Figs. 4.5 and 4.6 needs a learner that is given no forecast, which is what is drawn here.";
+const SAME: &str = "With an exact prediction, feedback has nothing left to do: inputs that are planned with the forecast do as \
+    well with a fixed feedback as in the concurrent design. The gap between Figs. 4.5 and 4.6 needs a learner that is given \
+    no forecast, which is what is drawn here.";
 
 /// The first two rooms, as the source draws them.
 fn two_rooms(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {

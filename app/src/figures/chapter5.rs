@@ -1,6 +1,6 @@
 //! Chapter 5: zones that plan together.
 
-use super::{Entry, Kind, Shot, climate};
+use super::{Entry, Kind, Shot, climate, drawings};
 
 const TOGETHER: Shot = Shot { label: "distributed", scenario: "building/distributed", sets: &[] };
 const CENTRAL: Shot = Shot {
@@ -28,9 +28,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         ),
         shots: &[TOGETHER],
         beside: &[CENTRAL],
-        draw: |entry, takes| {
-            Ok(climate::temperatures(entry.title, takes[0], &climate::first_zones(takes[0])).sketch().into())
-        },
+        draw: drawings::temperatures,
     },
     Entry {
         kind: Kind::Figure,
@@ -40,9 +38,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         erratum: None,
         shots: &[TOGETHER],
         beside: &[CENTRAL],
-        draw: |entry, takes| {
-            Ok(climate::inputs(entry.title, takes[0], &climate::first_zones(takes[0])).sketch().into())
-        },
+        draw: drawings::inputs,
     },
     Entry {
         kind: Kind::Figure,
@@ -53,7 +49,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         erratum: Some(
             "Theorem I promises descent, not the optimum: with u_ff of each zone as its unknown, as printed, the rounds \
              stall 2 to 76 % above it when inputs saturate. With the inputs themselves as unknowns they approach it; with \
-             momentum in a tenth of the rounds. That one problem grows exponentially is a property of the dense form: in \
+             momentum in an eighth of the rounds. That one problem grows exponentially is a property of the dense form: in \
              the sparse one it is the faster of both at every size.",
         ),
         shots: &[ROUNDS],

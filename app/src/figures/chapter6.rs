@@ -1,6 +1,7 @@
 //! Chapter 6: negotiation.
 
-use super::{Entry, Exhibit, Kind, Shot, Take, driving, theory};
+use super::drawings::{film, film_and_mind, speeds};
+use super::{Entry, Kind, Shot, theory};
 
 const CONSERVATIVE: &[&str] = &["vehicle.ego.driver.kind=\"conservative\""];
 
@@ -10,24 +11,6 @@ const fn shot(scenario: &'static str) -> Shot {
 
 const fn beside(scenario: &'static str) -> Shot {
     Shot { label: "conservative planner instead", scenario, sets: CONSERVATIVE }
-}
-
-/// Footprints.
-pub(super) fn film(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    Ok(driving::film(entry.title, takes[0]).sketch().into())
-}
-
-/// Speeds.
-pub(super) fn speeds(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    Ok(driving::speeds(entry.title, takes[0]).sketch().into())
-}
-
-/// Footprints, and below them what the ego had in mind.
-pub(super) fn film_and_mind(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    let mut exhibit = film(entry, takes)?;
-    let mind = driving::reasons("What the ego has in mind", takes[0], takes[0].scenario.ego_index());
-    exhibit.pictures.extend(mind.map(|panels| panels.sketch()));
-    Ok(exhibit)
 }
 
 const PINNED: &str = "(6.15) demands safety from the other's old prediction, with which the best proposal is no proposal; \

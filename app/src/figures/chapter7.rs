@@ -1,6 +1,6 @@
 //! Chapter 7: Bayesian persuasion.
 
-use super::chapter6::{film, film_and_mind, speeds};
+use super::drawings::{film, film_and_mind, speeds};
 use super::{Entry, Kind, Shot};
 
 const fn shot(scenario: &'static str) -> Shot {
@@ -16,9 +16,12 @@ const fn exact(scenario: &'static str) -> Shot {
 }
 
 const DROPPED: &str = "(7.19) silently drops a term. The value that follows from the chapter's own equations repels: with it \
-    the ego stops or never merges (last row of the table). What is printed attracts, the more the readier the other seems \
+    the ego stops and goes last (last row of the table). What is printed attracts, the more the readier the other seems \
     to change its plan; it is kept, as a choice of model. (7.16) lacks a square, and (7.21) needs a maximum where the text \
     takes a minimum.";
+
+const NO_LINE: &str = "Nothing in the formulation holds the ego at a line: with these weights it slows down and times its \
+    arrival behind the other, without coming to a stop.";
 
 /// The figures of the chapter.
 pub(super) static ENTRIES: &[Entry] = &[
@@ -97,7 +100,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         number: "7.8",
         title: "Bayesian persuasion, intersection, crossing driver tough",
         says: "The ego inches forward, then stops and waits for the other to pass.",
-        erratum: None,
+        erratum: Some(NO_LINE),
         shots: &[shot("intersection/bayesian-tough")],
         beside: &[conservative("intersection/bayesian-tough")],
         draw: film,
@@ -117,7 +120,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         number: "7.10",
         title: "Bayesian persuasion, intersection, speeds with a tough driver",
         says: "The ego inches, then stops.",
-        erratum: None,
+        erratum: Some(NO_LINE),
         shots: &[shot("intersection/bayesian-tough")],
         beside: &[conservative("intersection/bayesian-tough")],
         draw: speeds,

@@ -1,6 +1,6 @@
 //! Chapter 8: the persuasion game.
 
-use super::chapter6::{film_and_mind, speeds};
+use super::drawings::{film_and_mind, speeds};
 use super::{Entry, Kind, Shot, theory};
 
 const fn shot(scenario: &'static str) -> Shot {
@@ -24,10 +24,11 @@ const fn nash(scenario: &'static str) -> Shot {
 }
 
 const LARGE: &str = "Probabilities are clipped to [0.05, 0.95], since (8.1) reaches exactly 1 and (8.12) then takes the \
-    logarithm of 0. With that, stakes reach 19, and a \"large\" M makes both yield for ever; M is 1 to 3 here. The printed \
+    logarithm of 0. With that, stakes reach 19, and M is of their order here, 1 to 3. The printed \
     procedure (8.8), (8.9) is that of a leader and a follower, not a Nash equilibrium; both are offered.";
 const SWAPPED: &str = "The bounds of (8.15) are swapped in print, so that the interval of speeds is empty; here the lower \
-    one belongs to p_l and the upper one to p*. A denominator that is not positive bounds nothing on that side.";
+    one belongs to p_l and the upper one to p*. A denominator that is not positive bounds nothing on that side. With a \
+    \"large\" M, as printed, the ego yields even to a friendly driver.";
 
 /// The figures and tables of the chapter.
 pub(super) static ENTRIES: &[Entry] = &[

@@ -16,6 +16,7 @@ mod chapter6;
 mod chapter7;
 mod chapter8;
 mod climate;
+mod drawings;
 mod driving;
 mod find;
 mod measures;
@@ -25,6 +26,7 @@ mod take;
 #[cfg(test)]
 mod tests;
 mod theory;
+mod words;
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -79,11 +81,13 @@ pub struct Exhibit {
     pub pictures: Vec<Sketch>,
     /// What was measured.
     pub sheets: Vec<Sheet>,
+    /// What came of it, in sentences with a word in front of each.
+    pub words: Vec<(String, String)>,
 }
 
 impl From<Sketch> for Exhibit {
     fn from(picture: Sketch) -> Exhibit {
-        Exhibit { pictures: vec![picture], sheets: Vec::new() }
+        Exhibit { pictures: vec![picture], ..Exhibit::default() }
     }
 }
 
@@ -194,12 +198,26 @@ fn make_one(entry: &'static Entry, takes: &BTreeMap<Shot, Result<Take, String>>,
         drawn.iter().chain(&beside).filter_map(|take| take.as_ref().ok()).map(|take| take.ran()).collect();
     let outcome = drawn.into_iter().collect::<Result<Vec<&Take>, String>>().and_then(|drawn| {
         let mut exhibit = (entry.draw)(entry, &drawn)?;
-        let measured: Vec<&Take> = drawn.into_iter().chain(beside.into_iter().flatten()).collect();
-        exhibit.sheets.extend(measures::side_by_side(&measured));
+        let beside: Vec<&Take> = beside.into_iter().flatten().collect();
+        if entry.kind == Kind::Figure {
+            exhibit.words.extend(told(&drawn, &beside));
+            let measured: Vec<&Take> = drawn.into_iter().chain(beside).collect();
+            exhibit.sheets.extend(measures::side_by_side(&measured));
+        }
         save(&exhibit.pictures, folder, &entry.id())?;
         Ok(exhibit)
     });
     Made { entry, outcome, runs: ran }
+}
+
+/// What came of the run that is drawn, and what each of the others changes.
+fn told(drawn: &[&Take], beside: &[&Take]) -> Vec<(String, String)> {
+    let Some((first, others)) = drawn.split_first() else { return Vec::new() };
+    let changes = others.iter().chain(beside).filter_map(|other| words::difference(first, other));
+    let changes: Vec<String> = changes.collect();
+    let mut told = vec![("Here".to_owned(), words::outcome(first))];
+    told.extend((!changes.is_empty()).then(|| ("Beside it".to_owned(), changes.join(" "))));
+    told
 }
 
 /// Writes pictures as `name.svg` and `name.png`; from the second on with a number.

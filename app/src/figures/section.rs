@@ -87,4 +87,5 @@ fn fill(section: &mut Section, exhibit: &Exhibit) {
         }
     }
     section.tables.extend(exhibit.sheets.iter().cloned());
+    section.words.extend(exhibit.words.iter().cloned());
 }

@@ -3,7 +3,9 @@
 use interplay_building::comfort::Setpoints;
 use interplay_building::discretise::Model;
 use interplay_building::identify::classroom::{self, Classroom};
-use interplay_building::identify::{ErrorReport, Forecast, Identification, Quantity, Settings, ZoneReport, identify};
+use interplay_building::identify::{
+    ErrorReport, Forecast, Identification, Method, Quantity, Settings, ZoneReport, identify,
+};
 use interplay_building::network::Network;
 use interplay_planners::game::payoff::Stakes;
 use interplay_planners::game::prospect::{ProspectTheory, weighting};
@@ -21,12 +23,17 @@ const TRAIN_DAYS: f64 = 9.0;
 /// The identified classroom over the rows trained on, or over the others (Figs. 2.5 and 2.6).
 pub fn identification(title: &str, test: bool) -> Result<Exhibit, String> {
     let telemetry = Classroom::default().simulate();
-    let settings = Settings { train_days: Some(TRAIN_DAYS), ..Settings::default() };
-    let found = identify(&telemetry, &settings).map_err(|error| error.to_string())?;
-    let Some(zone) = found.report.zones.first() else { return Err("the classroom has no zone".to_owned()) };
+    let identified = |method: Method| {
+        let settings = Settings { method, train_days: Some(TRAIN_DAYS), ..Settings::default() };
+        identify(&telemetry, &settings).map_err(|error| error.to_string())
+    };
+    let (found, source) = (identified(Method::PredictionError)?, identified(Method::Semiparametric)?);
+    let (Some(zone), Some(other)) = (found.report.zones.first(), source.report.zones.first()) else {
+        return Err("the classroom has no zone".to_owned());
+    };
     let errors = if test { zone.test.as_ref() } else { Some(&zone.train) };
-    let sheets = errors.map(fit_errors).into_iter().chain([parameters_found(zone)]).collect();
-    Ok(Exhibit { pictures: vec![fit(title, &found, test).sketch()], sheets })
+    let sheets = errors.map(fit_errors).into_iter().chain([parameters_found(zone, other)]).collect();
+    Ok(Exhibit { pictures: vec![fit(title, &found, test).sketch()], sheets, ..Exhibit::default() })
 }
 
 fn fit(title: &str, found: &Identification, test: bool) -> Panels {
@@ -75,7 +82,7 @@ fn fit_errors(errors: &ErrorReport) -> Sheet {
     Sheet::new("Measured: errors, root mean square", ["prediction", "error [K]"], rows)
 }
 
-fn parameters_found(zone: &ZoneReport) -> Sheet {
+fn parameters_found(zone: &ZoneReport, other: &ZoneReport) -> Sheet {
     let number = |value: Option<f64>| value.map_or_else(|| "undetermined".to_owned(), |value| format!("{value:.4}"));
     let truth = |name: &str| match name {
         "heat capacity" => format!("{:.1}", classroom::CAPACITY_KJ_PER_K),
@@ -85,9 +92,10 @@ fn parameters_found(zone: &ZoneReport) -> Sheet {
     };
     let rows = zone.physical.iter().map(|quantity| {
         let Quantity { name, value, standard_error, unit, .. } = quantity;
-        [name.clone(), truth(name), number(*value), number(*standard_error), unit.clone()]
+        let by_source = other.physical.iter().find(|other| other.name == *name).and_then(|other| other.value);
+        [name.clone(), truth(name), number(*value), number(*standard_error), number(by_source), unit.clone()]
     });
-    let header = ["parameter", "simulated with", "estimate", "standard error", "unit"];
+    let header = ["parameter", "simulated with", "estimate", "standard error", "by the source's method", "unit"];
     Sheet::new("Measured: parameters", header, rows.collect())
 }
 
@@ -125,7 +133,7 @@ pub fn thermal_parameters(title: &str) -> Result<Exhibit, String> {
         findings,
     );
     let constants = Sheet::new("Measured: time constants", ["time constants [h]"], vec![[hours]]);
-    Ok(Exhibit { pictures: vec![table.sketch()], sheets: vec![findings, constants] })
+    Ok(Exhibit { pictures: vec![table.sketch()], sheets: vec![findings, constants], ..Exhibit::default() })
 }
 
 /// Eigenvalues of the step of forward Euler if Table 2.1's numbers were conductances \[kW/K\], as printed. The four rooms
@@ -144,7 +152,7 @@ pub fn setpoints(title: &str, setpoints: &Setpoints) -> Exhibit {
     let other = setpoints.other_c.map_or_else(|| "free".to_owned(), |other_c| format!("{other_c:.1} °C"));
     let rows = vec![[format!("{from_h:.1} h to {to_h:.1} h"), other, format!("±{band_k:.1} K")]];
     let findings = Sheet::new("As used here", ["working hours", "at other times", "comfort band"], rows);
-    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings] }
+    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings], ..Exhibit::default() }
 }
 
 /// The size of vehicles (Table 6.1).
@@ -159,7 +167,7 @@ pub fn dimensions(title: &str) -> Exhibit {
     ];
     let row = |(symbol, name, value): (&str, &str, f64)| [symbol.to_owned(), name.to_owned(), format!("{value:.2} m")];
     let table = Sheet::new(title, ["symbol", "meaning", "value"], values.map(row).to_vec());
-    Exhibit { pictures: vec![table.sketch()], sheets: Vec::new() }
+    Exhibit { pictures: vec![table.sketch()], ..Exhibit::default() }
 }
 
 /// How plans are optimised (Table 6.2).
@@ -185,7 +193,7 @@ pub fn configuration(title: &str) -> Result<Exhibit, String> {
         row("b_s", "half axis across it", format!("{:.2} m", ellipse.across_m)),
     ];
     let table = Sheet::new(title, ["symbol", "meaning", "value"], rows);
-    Ok(Exhibit { pictures: vec![table.sketch()], sheets: Vec::new() })
+    Ok(Exhibit { pictures: vec![table.sketch()], ..Exhibit::default() })
 }
 
 /// How people weigh cumulated probabilities (Fig. 8.1).
@@ -216,7 +224,7 @@ pub fn weights(title: &str) -> Exhibit {
     };
     let header = ["", "weight of p = 0.05", "weight of p = 0.95", "overweighted up to p ="];
     let findings = Sheet::new("Measured", header, vec![row("gains", gamma), row("losses", eta)]);
-    Exhibit { pictures: vec![picture.sketch()], sheets: vec![findings] }
+    Exhibit { pictures: vec![picture.sketch()], sheets: vec![findings], ..Exhibit::default() }
 }
 
 /// The game of chicken (Table 8.1).
@@ -224,7 +232,7 @@ pub fn chicken(title: &str) -> Exhibit {
     let row = |words: [&str; 3]| words.map(str::to_owned);
     let rows = vec![row(["X swerves", "(1, 1)", "(−1, 2)"]), row(["X drives", "(2, −1)", "(−M, −M)"])];
     let table = Sheet::new(title, ["payoffs (X, Y)", "Y swerves", "Y drives"], rows);
-    Exhibit { pictures: vec![table.sketch()], sheets: Vec::new() }
+    Exhibit { pictures: vec![table.sketch()], ..Exhibit::default() }
 }
 
 /// The payoffs of the driving game (Table 8.2), in symbols and for one pair of intentions.
@@ -246,7 +254,7 @@ pub fn payoffs(title: &str) -> Exhibit {
     });
     let header = ["stake x of a player", "both yield", "it alone yields", "it alone passes", "both pass (M = 2)"];
     let findings = Sheet::new("Measured: what one player gets", header, rows.to_vec());
-    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings] }
+    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings], ..Exhibit::default() }
 }
 
 /// The probabilities of the four events (Table 8.3), in symbols and as they are computed.
@@ -263,5 +271,5 @@ pub fn events(title: &str) -> Exhibit {
     });
     let header = ["for", "both yield", "SV passes alone", "EV passes alone", "both pass", "together"];
     let findings = Sheet::new("Measured", header, rows.to_vec());
-    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings] }
+    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings], ..Exhibit::default() }
 }

@@ -126,7 +126,7 @@ impl Today {
             self.uncomfortable = true;
             told.push(note(
                 BUILDING,
-                &format!("people are there, and {} is outside the comfort band", listed(&missed)),
+                &format!("{}: people there, and outside the comfort band {}", moment(frame, building), listed(&missed)),
             ));
         }
         told

@@ -90,6 +90,14 @@ struct Frame {
     bottom: f64,
 }
 
+/// Around what hardly changes, room enough for readable marks.
+fn with_room(values: Range<f64>) -> Range<f64> {
+    let middle = 0.5 * (values.start + values.end);
+    let room = if middle.abs() < 1e-9 { 0.1 } else { 0.1 * middle.abs() };
+    let flat = values.end - values.start < 0.02 * middle.abs().max(1e-3);
+    if flat { middle - room..middle + room } else { values }
+}
+
 impl Panels {
     /// The picture.
     pub fn sketch(&self) -> Sketch {
@@ -176,7 +184,7 @@ impl Panel {
         let drawn = self.curves.iter().flat_map(|curve| curve.points.iter().map(|point| point[1]));
         let values = drawn.chain(self.limits.iter().map(|(limit, _)| *limit)).chain(self.reaches.iter().copied());
         if !self.logarithmic {
-            return range(values);
+            return with_room(range(values));
         }
         let finite = values.filter(|value| value.is_finite() && *value > 0.0);
         let (low, high) = finite.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));

@@ -22,6 +22,20 @@ fn readable_on([red, green, blue]: Colour) -> Colour {
     if bright > 125.0 { BLACK } else { PAPER }
 }
 
+/// Writes words to the right or the left of a footprint; where it lies, below or above it.
+pub(super) fn number_beside(sketch: &mut Sketch, corners: [[f64; 2]; 4], right: bool, words: &str) {
+    let middle = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0;
+    let end =
+        |axis: usize, sign: f64| corners.iter().map(|corner| sign * corner[axis]).fold(f64::NEG_INFINITY, f64::max);
+    let lies = (corners[0][0] - corners[2][0]).abs() > (corners[0][1] - corners[2][1]).abs();
+    match (lies, right) {
+        (true, true) => sketch.text([middle(0), end(1, 1.0) + 0.5 * SMALL], Side::Middle, SMALL, words),
+        (true, false) => sketch.text([middle(0), -end(1, -1.0) - 0.45 * SMALL], Side::Middle, SMALL, words),
+        (false, true) => sketch.text([end(0, 1.0) + 4.0, middle(1)], Side::Left, SMALL, words),
+        (false, false) => sketch.text([-end(0, -1.0) - 4.0, middle(1)], Side::Right, SMALL, words),
+    }
+}
+
 /// Writes words onto a footprint if they fit, otherwise above it.
 pub(super) fn number(sketch: &mut Sketch, corners: [[f64; 2]; 4], colour: Colour, words: &str) {
     let middle = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0;

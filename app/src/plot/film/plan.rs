@@ -75,16 +75,41 @@ impl Film {
         }
         for who in 0..self.cast.len() {
             let bodies: Vec<_> = self.moments.iter().filter_map(|moment| moment.bodies.get(who)).collect();
+            let mates = self.mates(who);
             let mut first = 0;
             while first < bodies.len() {
                 let near = |body: &[[f64; 2]; 4]| distance(body[0], bodies[first][0]) < CLOSE * self.longest_m();
                 let count = bodies[first..].iter().take_while(|body| near(body)).count().max(1);
                 let last = first + count - 1;
                 let words = if count == 1 { format!("{}", first + 1) } else { format!("{}–{}", first + 1, last + 1) };
-                body::number(sketch, bodies[last].map(|corner| map.place(corner)), UNDERNEATH, &words);
+                let corners = bodies[last].map(|corner| map.place(corner));
+                match mates.iter().position(|&mate| mate == who) {
+                    Some(place) if mates.len() > 1 => body::number_beside(sketch, corners, place % 2 == 0, &words),
+                    _ => body::number(sketch, corners, UNDERNEATH, &words),
+                }
                 first += count;
             }
         }
+    }
+}
+
+impl Film {
+    /// Everybody who starts in the lane of `who`: their footprints lie on one another, and numbers must not.
+    fn mates(&self, who: usize) -> Vec<usize> {
+        let Some(start) = self.moments.first() else { return Vec::new() };
+        let lane = |[front_right, front_left, rear_right, _]: [[f64; 2]; 4]| {
+            let length = distance(front_right, rear_right);
+            let [cos, sin] = [0, 1].map(|axis| (front_right[axis] - rear_right[axis]) / length);
+            let middle = [0, 1].map(|axis| 0.5 * (front_right[axis] + front_left[axis]));
+            ([cos, sin], cos * middle[1] - sin * middle[0])
+        };
+        let width = start.bodies.get(who).map_or(0.0, |body| distance(body[0], body[1]));
+        let same = |other: &usize| {
+            let (Some(a), Some(b)) = (start.bodies.get(who), start.bodies.get(*other)) else { return false };
+            let ((along, lateral), (others, beside)) = (lane(*a), lane(*b));
+            distance(along, others) < 0.1 && (lateral - beside).abs() < 0.5 * width
+        };
+        (0..self.cast.len()).filter(same).collect()
     }
 }
 

@@ -11,7 +11,7 @@ const BETWEEN: f64 = 16.0;
 const TICKS: f64 = 36.0;
 const ACROSS: f64 = 38.0;
 /// A body shorter than this cannot be seen: the strips then move along with the ego \[px\].
-const SHORTEST: f64 = 26.0;
+const SHORTEST: f64 = 40.0;
 /// How long it is then.
 const COMFORTABLE: f64 = 64.0;
 /// The highest strip \[px\].

@@ -30,12 +30,21 @@
 //! Riccati solve, Sherman and Morrison give `Δz = Δz₀ − ω (v·Δz₀)/(1 + ω v·y) y`. With several rows this is done for one
 //! after the other, `H` being what the rows before have made of it.
 //!
+//! # Start and end
+//!
+//! With the multipliers `λ` of a neighbouring problem every product starts at the same small `μ`: `s = μ/λ` where the row was
+//! active, `λ = μ/s` where it was not; a violation follows from `λ` by stationarity, `σ = (λ − ℓ)₊/q`, `ν = ℓ + q σ − λ`. Rows
+//! that the expected deviations cannot reach are left out; the solution without them is the solution if it satisfies them,
+//! else it is sought again with all. The end is where `μ` and every residual are below the tolerance and the derivative of
+//! the Lagrangian over the inputs, computed anew, vanishes: with large weights multipliers lose digits, which a further step
+//! (next to nothing in `z`) restores.
+//!
 //! # Cost per iteration
 //!
-//! One factorisation and two back-substitutions (and one for each row over a trajectory). Per stage and pair of vehicles the
-//! factorisation takes some 200 multiplications for `AᵀPA`, `BᵀPA`, `BᵀPB` (the bicycle's `A` has five entries beside its
-//! diagonal, its `B` four), and the gains of `M` vehicles cost `(2M)²·6M` more. For one vehicle that is some 4 µs per
-//! iteration of 30 stages.
+//! One factorisation and two back-substitutions (one more where refined, and one for each row over a trajectory). Per stage
+//! and pair of vehicles the factorisation takes some 200 multiplications for `AᵀPA`, `BᵀPA`, `BᵀPB` (the bicycle's `A` has
+//! five entries beside its diagonal, its `B` four); `L⁻¹F_wz` and `VᵀV` of `M` vehicles cost `(2M)²·3M` and some
+//! `2M·18M(M + 1)` more. `tests/instructions/count.sh` counts what becomes of that.
 
 mod along;
 mod assemble;

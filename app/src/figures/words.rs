@@ -1,0 +1,82 @@
+//! What came of runs, in a sentence.
+
+use super::take::Take;
+
+/// Of a goal that is not reached, or was from the start.
+const NEVER: &str = "never";
+
+/// What a run came to.
+pub fn outcome(take: &Take) -> String {
+    let mut sentences = vec![take.scenario.shows.trim_end_matches('.').to_owned()];
+    let known = facts(take).into_iter().filter(|(_, value)| value != NEVER);
+    sentences.extend(known.map(|(what, value)| format!("{what} {value}")));
+    let mut text = sentences.remove(0);
+    text.push_str(". ");
+    text.push_str(&capitalised(&sentences.join("; ")));
+    text.push('.');
+    text
+}
+
+/// What another run changes, if anything that counts.
+pub fn difference(take: &Take, beside: &Take) -> Option<String> {
+    let changed: Vec<String> = facts(take)
+        .into_iter()
+        .zip(facts(beside))
+        .filter(|((_, here), (_, there))| here != there)
+        .map(|((what, here), (_, there))| format!("{what} {there} instead of {here}"))
+        .collect();
+    let result = if changed.is_empty() { "nothing that is measured changes".to_owned() } else { changed.join("; ") };
+    (!beside.label.is_empty()).then(|| format!("{}: {result}.", capitalised(&beside.label)))
+}
+
+/// What counts of a run, always in the same order.
+fn facts(take: &Take) -> Vec<(String, String)> {
+    let mut facts = Vec::new();
+    let report = &take.report;
+    if let Some(ego) = report.vehicles.get(take.scenario.ego_index()) {
+        let goal = ego.completed_s.map_or_else(|| NEVER.to_owned(), |time_s| format!("at {time_s:.1} s"));
+        facts.push((format!("{} reaches its goal", ego.name), goal));
+        facts.push(("order at the end".to_owned(), report.order.join(", ")));
+        let gap = report.min_gap_m.map_or_else(|| "none".to_owned(), |gap_m| format!("{gap_m:.2} m"));
+        facts.push(("smallest gap".to_owned(), gap));
+        facts.push(("slowest".to_owned(), format!("{:.2} m/s", ego.min_speed_mps)));
+        facts.push(("collisions".to_owned(), report.collisions.len().to_string()));
+    }
+    let days = report.building.as_ref().map(|building| building.iterations.as_slice()).unwrap_or_default();
+    if let (Some(first), Some(last)) = (days.first(), days.last()) {
+        facts.push(("cost of the first day".to_owned(), format!("{:.0}", first.figures.cost)));
+        facts.push(("cost of the last day".to_owned(), format!("{:.1}", last.figures.cost)));
+        facts.push(("error on the last day".to_owned(), format!("{:.2} K", last.figures.tracking_rmse_c)));
+        let outside: f64 = days[1..].iter().map(|day| day.figures.discomfort_k_h).sum();
+        let outside = outside / days[1..].len().max(1) as f64;
+        facts.push(("outside the comfort band after the first day".to_owned(), format!("{outside:.2} K·h a day")));
+        if let Some(exchange) = &last.exchange {
+            facts.push(("rounds of messages on the last day".to_owned(), exchange.rounds.to_string()));
+        }
+    }
+    facts
+}
+
+fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Shot;
+    use super::*;
+
+    #[test]
+    fn a_run_is_told_from_another_by_what_counts() {
+        let take = |label, sets| Shot { label, scenario: "lane-change/front-nice", sets }.take().expect("a run");
+        let (nice, other) = (take("", &[]), take("conservative", &["vehicle.ego.driver.kind=\"conservative\""]));
+        let words = outcome(&nice);
+        assert!(words.contains(". Ego reaches its goal at "), "{words}");
+        let words = difference(&nice, &other).expect("it has a label");
+        assert!(words.starts_with("Conservative: ego reaches its goal at "), "{words}");
+        assert!(words.contains("order at the end front, ego, rear instead of ego, front, rear"), "{words}");
+        assert_eq!(difference(&other, &nice), None, "nothing to call it");
+        assert!(difference(&other, &other).expect("a label").contains("nothing that is measured changes"));
+    }
+}

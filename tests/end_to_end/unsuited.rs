@@ -1,0 +1,49 @@
+//! Drivers and plants that should not manage a scenario do not: its expectations are strong enough to say so.
+
+use std::sync::Mutex;
+use std::thread;
+
+use interplay_scenarios::{Override, load};
+
+use crate::film::film;
+
+/// Scenario, what is changed, and which expectations then fail.
+const UNSUITED: &[(&str, &str, &[&str])] = &[
+    ("full-size/lane-change", CONSERVATIVE, &["order"]),
+    ("full-size/lane-keeping", CONSERVATIVE, &["order", "speed.ego.max_above_mps"]),
+    ("full-size/ramp-merge", CONSERVATIVE, &["order"]),
+    ("full-size/intersection", CONSERVATIVE, &["order", "completes.ego"]),
+    ("intersection/slanted-nice", CONSERVATIVE, &["order", "completes.ego"]),
+    ("intersection/slanted-tough", RECKLESS, &["order"]),
+    ("intersection/four-way", CONSERVATIVE, &["order"]),
+    ("intersection/stop-sign", RECKLESS, &["no_collision", "order"]),
+    ("crash/side-impact", "plant.kind='kinematic'", &["speed.crossing.min_below_mps", "speed.follower.min_below_mps"]),
+    ("crash/side-impact", "vehicle.ego.driver={ kind = 'conservative' }", &["collisions"]),
+];
+
+const CONSERVATIVE: &str = "vehicle.ego.driver={ kind = 'conservative' }";
+const RECKLESS: &str = "vehicle.ego.driver={ kind = 'human', style = 'tough' }";
+
+#[test]
+fn whoever_should_not_manage_does_not() {
+    let waiting = Mutex::new(UNSUITED.iter());
+    let check = |(name, change, expected): &(&str, &str, &[&str])| {
+        let scenario = load(name, &[Override::Set((*change).to_owned())]).expect("a sound change");
+        let report = film(name, scenario).report;
+        let failed = report.expectations.iter().filter(|one| !one.passed).map(|one| one.what.as_str());
+        let failed: Vec<&str> = failed.collect();
+        assert!(expected.iter().all(|what| failed.contains(what)), "{name} with {change}: {failed:?} fail");
+        assert!(!report.passed);
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                loop {
+                    let next = waiting.lock().expect("nobody panics with it").next();
+                    let Some(case) = next else { break };
+                    check(case);
+                }
+            });
+        }
+    });
+}
