@@ -57,7 +57,8 @@ fn chapter_3_days_cost_what_independent_code_says() {
     let optima = file(include_str!("data/optima.json"));
     let lifted = lifted(&testbed());
     for (name, other_weight) in [("ch3_night1", 1.0), ("ch3_night0", 0.0)] {
-        let setpoints = Setpoints { other_c: Some(30.0), other_weight, ..Setpoints::default() };
+        let occupied_c = vec![24.0, 25.0, 26.0, 27.0];
+        let setpoints = Setpoints { occupied_c, other_c: Some(30.0), other_weight, ..Setpoints::default() };
         let wanted = &optima[name];
         let initial_c = vec![wanted["T0"].as_f64().expect("a number"); 4];
         let found = optimum(&lifted, &initial_c, &targets(&setpoints, 4), &forecast(1), None).expect("solvable");

@@ -62,7 +62,12 @@ pub fn day(day: usize) -> (Disturbance, Disturbance) {
 
 /// Targets of chapter 3, with 30 °C at night at this weight.
 pub fn chapter_3(night_weight: f64) -> Targets {
-    let setpoints = Setpoints { other_c: Some(30.0), other_weight: night_weight, ..Setpoints::default() };
+    let setpoints = Setpoints {
+        occupied_c: vec![24.0, 25.0, 26.0, 27.0],
+        other_c: Some(30.0),
+        other_weight: night_weight,
+        ..Setpoints::default()
+    };
     setpoints.targets(4, STEP_S, STEPS).expect("valid")
 }
 
