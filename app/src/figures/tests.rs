@@ -50,6 +50,7 @@ fn every_picture_can_be_read() {
         // The source's own tables and parameters need no run; all else is measured.
         assert!(entry.kind == Kind::Table || !exhibit.sheets.is_empty(), "{entry} has nothing measured");
     }
+    std::fs::remove_dir_all(folder).expect("it was made above");
 }
 
 /// Every axis has a unit, or is a number of something.
@@ -104,7 +105,9 @@ fn a_figure_that_fails_does_not_stop_the_others() {
         steps.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
     };
     let entries = [&BROKEN, &MISSING, whole];
-    let made = make(&entries, &folder("failing"), &advance);
+    let folder = folder("failing");
+    let made = make(&entries, &folder, &advance);
+    std::fs::remove_dir_all(folder).expect("it was made above");
     let outcomes: Vec<Result<(), &str>> =
         made.iter().map(|made| made.outcome.as_ref().map(|_| ()).map_err(String::as_str)).collect();
     assert_eq!(outcomes[0], Err("nothing there"));
