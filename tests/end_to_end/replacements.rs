@@ -42,7 +42,7 @@ const REPLACEMENTS: &[Replacement] = &[
     // The intelligent driver model sees no crossing traffic, and waits for a gap that nobody makes.
     ("intersection/tough", "idm", "no_collision"),
     ("intersection/bayesian-tough", "idm", "no_collision"),
-    ("intersection/bayesian-inches", "idm", "no_collision"),
+    ("intersection/bayesian-inches", "idm", "order"),
     ("intersection/game-aggressive", "idm", "no_collision"),
     ("lane-change/bayesian-front-tough", "idm", "order"),
     ("lane-change/game-friendly", "idm", "order"),
