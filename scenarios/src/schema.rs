@@ -252,6 +252,11 @@ mod tests {
     #[test]
     fn every_unit_and_every_example_belongs_to_a_key() {
         let mut schema = complete().clone();
+        for (table, key, unit) in words::UNITS {
+            let property = &properties_of(&mut schema, table).unwrap_or_else(|| panic!("no table {table}"))[*key];
+            let said = property["description"].as_str().unwrap_or_default();
+            assert_eq!(said.matches(&format!("[{unit}]")).count(), 1, "{table}.{key} states its unit already: {said}");
+        }
         let units = words::UNITS.iter().map(|(table, key, _)| (*table, *key));
         for (table, key) in units.chain(words::examples().into_iter().map(|(table, key, _)| (table, key))) {
             let properties = properties_of(&mut schema, table).unwrap_or_else(|| panic!("no table {table}"));

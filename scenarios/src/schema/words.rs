@@ -6,8 +6,6 @@ use serde_json::{Value as Json, json};
 /// no unit, so that a weight has the inverse of what it weighs. Whole numbers are counts and need none.
 pub(super) const UNITS: &[(&str, &str, &str)] = &[
     ("Weights", "x", "1/m²"),
-    ("dynamic", "friction", "dimensionless"),
-    ("dynamic", "restitution", "dimensionless"),
     ("human", "safety_weight", "dimensionless"),
     ("human", "following_weight", "dimensionless"),
     ("idm", "exponent", "dimensionless"),
@@ -134,7 +132,6 @@ fn of_buildings() -> Vec<Example> {
 fn of_expectations() -> Vec<Example> {
     vec![
         ("Expect", "no_collision", json!(true)),
-        ("Expect", "collisions", json!([["ego", "front"]])),
         ("Expect", "order", json!(["ego", "front"])),
         ("Expect", "collisions", json!([["ego", "front"]])),
         ("Expect", "min_gap_m", json!(0.05)),
