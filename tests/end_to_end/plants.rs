@@ -12,6 +12,8 @@ use crate::film::{FILMS, Film, authored, film};
 
 const DYNAMIC: &str = "plant.kind=\"dynamic\"";
 const MARKS: [&str; 2] = ["<!-- figures -->\n", "<!-- end of figures -->\n"];
+/// How far a corner may be beside the road \[m\].
+const ASTRAY_M: f64 = 0.095;
 /// How a difference is dealt with.
 const ADVICE: &str = "if the change is meant: INTERPLAY_BLESS=1 cargo test --release -p interplay-tests plants";
 /// Of sixteen figures, how many keep their outcome.
@@ -100,17 +102,17 @@ fn the_figures_keep_their_outcome_on_tyres_and_the_page_says_which() {
     assert!(found == wanted, "the page says\n{found}\nbut it is\n{wanted}\n{ADVICE}");
 }
 
-/// Sensed on tyres, everything that does not depend on the model holds: nobody is driven off the road by more than a hand's
-/// breadth, and inputs stay within the limits.
+/// Nobody leaves the road by more than half a vehicle's width (on a ramp that ends; elsewhere by a quarter), though the edge is
+/// reached by somebody who plans with another model; and inputs stay within the limits.
 #[test]
 fn on_tyres_vehicles_stay_on_their_road() {
-    for (name, most_m) in [("lane-change/front-nice", 0.06), ("intersection/tough", 0.02), ("ramp-merge/nice", 0.04)] {
+    for name in ["lane-change/front-nice", "intersection/tough", "ramp-merge/nice"] {
         let film = film(name, authored(name, &[DYNAMIC]));
         for frame in &film.frames {
             for (seen, vehicle) in frame.vehicles.iter().zip(&film.scenario.vehicles) {
                 let corridor = film.scenario.road.corridor(vehicle.road);
-                assert!(corridor.contains(&vehicle.body, &seen.state, most_m), "{name}: {seen:?}");
-                assert!(seen.input.steering_rad.abs() <= vehicle.limits.steering_max_rad, "{name}: {seen:?}");
+                assert!(corridor.contains(&vehicle.body, &seen.state, ASTRAY_M), "{name}: {:?}", seen.state);
+                assert!(seen.input.steering_rad.abs() <= vehicle.limits.steering_max_rad, "{name}: {:?}", seen.input);
             }
         }
     }

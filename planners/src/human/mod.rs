@@ -101,7 +101,9 @@ impl Human {
             for guess in guesses {
                 let margin = |held: &Optimum| held.cost.total - HYSTERESIS * (1.0 + held.cost.total);
                 let below = best.as_ref().map_or(f64::INFINITY, margin);
-                let Ok(other) = self.optimiser.explore(problem, &[guess], below) else { continue };
+                // In trouble nothing is given up early.
+                let goal = if trusted { below } else { f64::INFINITY };
+                let Ok(other) = self.optimiser.explore(problem, &[guess], goal) else { continue };
                 statistics.add(&other.statistics);
                 if other.cost.total < below {
                     best = Ok(other);

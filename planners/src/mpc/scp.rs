@@ -341,7 +341,9 @@ impl<S: StageSolver> Optimiser<S> {
         for guess in others {
             let margin = |held: &Optimum| held.cost.total - 1e-9 * (1.0 + held.cost.total.abs());
             let below = best.as_ref().map_or(f64::INFINITY, margin);
-            let Ok(candidate) = self.explore(problem, guess, below) else { continue };
+            // In trouble nothing is given up early.
+            let goal = if self.tolerances.trust(&best) { below } else { f64::INFINITY };
+            let Ok(candidate) = self.explore(problem, guess, goal) else { continue };
             total.starts += 1;
             total.programmes += candidate.statistics.programmes;
             total.inner_iterations += candidate.statistics.inner_iterations;

@@ -88,9 +88,13 @@ impl Film {
         let centre = |body: &[[f64; 2]; 4]| 0.25 * body.iter().map(|corner| corner[0]).sum::<f64>();
         let shift_m = if window.moves { moment.bodies.first().map_or(0.0, centre) } else { 0.0 };
         let bottom = top + window.height();
-        let place = |[x, y]: [f64; 2]| {
+        let point = |[x, y]: [f64; 2]| {
             let along = LEFT + (x - shift_m - window.start_m) * window.scale;
-            [along.clamp(LEFT, WIDTH - MARGIN), bottom - (y - window.edges_m[0]) * window.scale]
+            [along, bottom - (y - window.edges_m[0]) * window.scale]
+        };
+        let place = |at: [f64; 2]| {
+            let [x, y] = point(at);
+            [x.clamp(LEFT, WIDTH - MARGIN), y]
         };
         sketch.block([LEFT, top], [WIDTH - MARGIN, bottom], SURFACE);
         for road in &self.roads {
@@ -105,7 +109,8 @@ impl Film {
         for y in [top, bottom] {
             sketch.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], Ink::new(GREY, Dash::Solid).thin());
         }
-        sketch.line(self.path_pixels(moment.time_s, place), PATH);
+        let path = self.path_pixels(moment.time_s, point).into_iter();
+        sketch.line(path.filter(|[x, _]| (LEFT..=WIDTH - MARGIN).contains(x)).collect(), PATH);
         let number = format!("{}", index + 1);
         for (body, (_, colour)) in moment.bodies.iter().zip(&self.cast) {
             let x = body.map(|corner| LEFT + (corner[0] - shift_m - window.start_m) * window.scale);

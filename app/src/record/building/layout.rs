@@ -36,15 +36,12 @@ pub fn layout(house: &House, events: bool) -> Panel {
 fn plans(house: &House) -> Vec<(f32, Panel)> {
     let below = |path: &str| vec![format!("/{path}/**")];
     let lines = [
-        (design::LEARNED, "Learned: heat beyond the forecast [kW]"),
+        (design::LEARNED, "Learned extra heat [kW]"),
         (design::GAIN, "Feedback gain K [kW/K]"),
-        (design::TAPS, "Feedback Q: answer to a deviation [kW/K]"),
-        (design::CONVERGENCE, "Convergence, by the day's design"),
+        (design::TAPS, "Feedback Q [kW/K]"),
+        (design::CONVERGENCE, "Convergence of the design"),
     ];
-    let bars = [
-        (design::COST, "Log10 of J by round of the first exchange"),
-        (design::MESSAGES, "Messages that each zone sent in all"),
-    ];
+    let bars = [(design::COST, "First exchange: log10 J by round"), (design::MESSAGES, "Messages sent by each zone")];
     let lines = lines.into_iter().map(|(path, title)| (path, plot(house, title, below(path))));
     let bars = bars.into_iter().map(|(path, title)| (path, View::new("BarChart", title, vec![format!("/{path}")])));
     lines.chain(bars).filter(|(path, _)| house.plans.has(path)).map(|(_, view)| (1.0, Panel::View(view))).collect()
