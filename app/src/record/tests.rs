@@ -166,6 +166,39 @@ fn a_panel_is_there_only_if_it_has_something_to_show() {
     assert!(!shown.iter().any(|title| title == "Events" || title.starts_with("Gap")), "{shown:?}");
 }
 
+/// Keeps the names of the numbers that the ego's planner gives.
+struct Listener(std::sync::Arc<std::sync::Mutex<std::collections::BTreeSet<&'static str>>>);
+
+impl Watcher for Listener {
+    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+        let mut heard = self.0.lock().map_err(|error| error.to_string())?;
+        heard.extend(frame.vehicles[0].plan.diagnostics.iter().map(|(name, _)| *name));
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// A panel for a number that its planner does not give would be missing for ever, and nobody would know.
+#[test]
+fn planners_give_every_number_that_a_panel_shows() {
+    for kind in ["negotiation", "bayesian", "game", "cooperative", "conservative"] {
+        let mut scenario = scenario(Some(kind));
+        scenario.duration_s = 0.5;
+        let heard = std::sync::Arc::default();
+        let watcher = Listener(std::sync::Arc::clone(&heard));
+        crate::run::run(kind, &scenario, vec![Box::new(watcher)]).expect("half a second");
+        let heard = heard.lock().expect("nobody panicked");
+        for thought in mind::THOUGHTS.iter().filter(|thought| thought.kind.is_none_or(|one| one == kind)) {
+            for name in thought.names {
+                assert!(heard.contains(name), "{kind} gives no `{name}`: {heard:?}");
+            }
+        }
+    }
+}
+
 fn titles(panel: &Panel) -> Vec<String> {
     match panel {
         Panel::Row(parts) | Panel::Column(parts) => parts.iter().flat_map(|(_, part)| titles(part)).collect(),
