@@ -51,7 +51,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 let cost = &stages.state_costs[k];
                 let ([xx, xy, yy], [.., heading, speed]) = (cost.position_hessian(), cost.hessian);
                 let pose = [xx, xy, 0.0, yy, 0.0, heading];
-                let input = [0, 1].map(|axis| stages.damping(qp.damping, axis));
+                let input = [0, 1].map(|axis| stages.damping(qp.damping, axis) + self.firmness);
                 self.smooth_hessians.push(VehicleHessian { pose, speed, input });
             }
         }

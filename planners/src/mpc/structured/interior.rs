@@ -14,6 +14,8 @@ const ACCEPTED: f64 = 1e-7;
 const REFINED_BELOW: f64 = 1e-4;
 /// Complementarity is not aimed below this share of the tolerance.
 const CENTRED: f64 = 1e-2;
+/// See [`Interior::firmness`].
+const FIRM: f64 = 1e-3;
 /// A derivative of the Lagrangian below this is zero but for rounding …
 const STATIONARY: f64 = 1e-8;
 /// … and what so many steps do not improve is left as it is.
@@ -62,6 +64,8 @@ pub(super) struct Interior<const W: usize, const Z: usize> {
     /// The part of them that stays the same.
     pub(super) smooth_hessians: Vec<VehicleHessian>,
     pub(super) smooth_pairs: Vec<PairHessian>,
+    /// Added to the Hessian over the inputs where it is singular but for rounding; steps are then a little short.
+    pub(super) firmness: f64,
     /// Where the iteration stands.
     pub(super) point: Point,
     /// Its next step.
@@ -90,6 +94,11 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         }
         if let Err(StageError::Unsolved { .. }) = outcome {
             outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
+        }
+        if matches!(outcome, Err(StageError::Unsolved { .. })) && !qp.is_curved() {
+            self.firmness = FIRM;
+            outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
+            self.firmness = 0.0;
         }
         solution.iterations = iterations;
         outcome?;
