@@ -45,7 +45,8 @@ fn below(folder: &Path) -> io::Result<Vec<PathBuf>> {
             }
         }
     }
-    found.sort();
+    // By name: `distributed` before `distributed-hundred`.
+    found.sort_by_key(|path| path.with_extension(""));
     Ok(found)
 }
 
