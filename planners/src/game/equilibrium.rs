@@ -199,11 +199,6 @@ mod tests {
         theory.utility(&mut stakes.lottery(instead, other)) - theory.utility(&mut stakes.lottery(own, other))
     }
 
-    /// By how much the optimum on the grid may miss a maximum next to a jump of the replies: part of a cell.
-    fn margin(stakes: Stakes) -> f64 {
-        2e-2 * (1.0 + stakes.turn)
-    }
-
     fn deviations() -> impl Iterator<Item = f64> {
         (0..=450).map(|i| LOWEST + 0.002 * f64::from(i))
     }
@@ -232,7 +227,7 @@ mod tests {
         #[test]
         fn a_leader_is_served_no_worse_than_in_an_equilibrium(stakes in stakes()) {
             let (led, at) = (solved(stakes, leader_follower), solved(stakes, nash));
-            prop_assert!(led.utilities[0] >= at.utilities[0] - margin(stakes[0]), "{led:?}, {at:?}");
+            prop_assert!(led.utilities[0] >= at.utilities[0] - 1e-4 * (1.0 + stakes[0].turn), "{led:?}, {at:?}");
         }
 
         #[test]
@@ -240,7 +235,9 @@ mod tests {
             let [ego, other] = stakes.map(|stakes| MIND.player(stakes));
             let led = leader_follower(&ego, &other);
             prop_assert_eq!(led.temptation[1], 0.0, "the follower follows");
-            prop_assert!(ego.utility(instead, best_reply(&other, instead)) <= led.utilities[0] + margin(stakes[0]));
+            // The optimum on the grid may miss a maximum next to a jump of the replies by part of a cell.
+            let margin = 2e-2 * (1.0 + stakes[0].turn);
+            prop_assert!(ego.utility(instead, best_reply(&other, instead)) <= led.utilities[0] + margin);
         }
     }
 
