@@ -35,17 +35,28 @@ pub struct Solution {
 }
 
 /// The ego leads, the other follows (eq. 8.8, 8.9).
+///
+/// The grid finds where maxima are. It rounds replies, and utilities may be steep in them, so that which maximum is the
+/// highest is told by exact replies.
 pub fn leader_follower(ego: &Player, other: &Player) -> Solution {
-    let mut best = (0, f64::NEG_INFINITY);
-    for own in 0..POINTS {
-        let utility = ego.utility(intention(own), intention(grid_reply(other, own)));
+    let rough: [f64; POINTS] =
+        std::array::from_fn(|own| ego.utility(intention(own), intention(grid_reply(other, own))));
+    let led = |own: f64| ego.utility(own, best_reply(other, own));
+    let mut best = (LOWEST, f64::NEG_INFINITY);
+    for own in (0..POINTS).filter(|own| is_peak(&rough, *own)).map(intention) {
+        let utility = led(own);
         if utility > best.1 {
             best = (own, utility);
         }
     }
-    let led = |own: f64| ego.utility(own, best_reply(other, own));
-    let own = maximum(led, intention(best.0), CELL, LEADING_STEPS);
+    let own = maximum(led, best.0, CELL, LEADING_STEPS);
     solution(ego, other, own, best_reply(other, own))
+}
+
+/// Whether no neighbour has a larger value.
+fn is_peak(values: &[f64], index: usize) -> bool {
+    let before = index.checked_sub(1).map(|before| values[before]);
+    [before, values.get(index + 1).copied()].into_iter().flatten().all(|beside| beside <= values[index])
 }
 
 /// A mixed equilibrium.
