@@ -5,8 +5,9 @@
 //! cargo run --release -p interplay-planners --example solve_problems -- KIND SOLVER REPEATS [STARTS.json]
 //! ```
 //!
-//! `KIND` is a planner of `tests/data`; `SOLVER` robust, structured or sparse, which know nothing but the guess, or resumed:
-//! the robust one as planners use it, with the recorded memory of the step before. Every problem is solved `REPEATS` times
+//! `KIND` is a planner of `tests/data`; `SOLVER` robust, structured or sparse, which know nothing but the guess; resumed: the
+//! robust one with the recorded memory of the step before; or planner: the same, looking to other sides where the planner
+//! does. Every problem is solved `REPEATS` times
 //! for the median time. A descent begins at the recorded guess, or at the inputs that `STARTS.json` holds by the
 //! problem's id; the cost of that beginning is printed too.
 
@@ -62,11 +63,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let problems = recorded::load(kind)?;
     let outcomes = match solver.as_str() {
+        "planner" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind)),
         "resumed" => solve_all(&problems, &starts, repeats, Optimiser::resuming(Robust::default())),
         "robust" => solve_all(&problems, &starts, repeats, Optimiser::new(Robust::default())),
         "structured" => solve_all(&problems, &starts, repeats, Optimiser::new(Structured::default())),
         "sparse" => solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default())),
-        other => return Err(format!("no solver is called {other}: resumed, robust, structured and sparse are").into()),
+        other => {
+            return Err(
+                format!("no solver is called {other}: planner, resumed, robust, structured and sparse are").into()
+            );
+        }
     };
     writeln!(std::io::stdout(), "{}", serde_json::to_string(&outcomes)?)?;
     Ok(())
@@ -83,7 +89,8 @@ fn solve_all<S: StageSolver>(
         let guess = starts.get(&recorded.id).map_or_else(|| recorded.guess(), inputs);
         let memory = recorded.memory();
         let remember = |optimiser: &mut Optimiser<S>| optimiser.memory = memory.clone();
-        let (outcome, time_ms) = timed(repeats, &mut optimiser, remember, |it| it.descend(&problem, &guess));
+        let (outcome, time_ms) =
+            timed(repeats, &mut optimiser, remember, |it| it.best_of(&problem, std::slice::from_ref(&guess), false));
         Outcome::new(recorded.id.clone(), start_cost(&problem, &guess), outcome, time_ms)
     };
     problems.iter().map(&mut solve).collect()

@@ -48,12 +48,13 @@ def relative(a, b, floor=FLOOR):
 def compare(kind, ipopt, solver):
     """Every problem's costs: ours and IPOPT's from the guess and from each other's optimum, all by our cost function."""
     posed, mine = problems(kind), ours(kind, solver)
+    alone = "resumed" if solver == "planner" else solver
     first = [ipopt.solve(p, p["guess"], Ipopt.PLAIN) for p in posed]
     theirs = [ipopt.solve(p, f["inputs"], Ipopt.NEARBY) for p, f in zip(posed, first)]
-    at_first = ours(kind, solver, {p["id"]: f["inputs"] for p, f in zip(posed, first)})
-    at_theirs = ours(kind, solver, {p["id"]: t["inputs"] for p, t in zip(posed, theirs)})
+    at_first = ours(kind, alone, {p["id"]: f["inputs"] for p, f in zip(posed, first)})
+    at_theirs = ours(kind, alone, {p["id"]: t["inputs"] for p, t in zip(posed, theirs)})
     nearby = [ipopt.solve(p, m["inputs"] or p["guess"], Ipopt.NEARBY) for p, m in zip(posed, mine)]
-    at_nearby = ours(kind, solver, {p["id"]: n["inputs"] for p, n in zip(posed, nearby)})
+    at_nearby = ours(kind, alone, {p["id"]: n["inputs"] for p, n in zip(posed, nearby)})
     rows = []
     for p, m, f, af, t, at, n, an in zip(posed, mine, first, at_first, theirs, at_theirs, nearby, at_nearby):
         solved = m["inputs"] is not None
@@ -151,7 +152,7 @@ def table(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--solver", default="resumed", choices=["resumed", "robust", "structured", "sparse"])
+    parser.add_argument("--solver", default="planner", choices=["planner", "resumed", "robust", "structured", "sparse"])
     parser.add_argument("--kind", action="append", choices=KINDS)
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "tests/peers/compare_ipopt.json")
     arguments = parser.parse_args()

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use interplay_planners::Input;
-use interplay_planners::mpc::{Memory, Optimiser, Problem, Robust};
+use interplay_planners::mpc::{Memory, Optimiser, Robust};
 
 use crate::Result;
+use crate::negotiation_view::Posed;
+use crate::recorded::optimiser;
 
 /// By the vehicle's name, the tick of its last problem and an optimiser that has solved it.
 #[derive(Default)]
@@ -18,8 +19,8 @@ impl Echo {
     ///
     /// # Errors
     /// A descent that the planner found possible is not.
-    pub fn memory(&mut self, tick: usize, name: &str, problem: &Problem, guess: &[Vec<Input>]) -> Result<Memory> {
-        let anew = || (tick, Optimiser::resuming(Robust::default()));
+    pub fn memory(&mut self, kind: &str, tick: usize, name: &str, (problem, guess): &Posed) -> Result<Memory> {
+        let anew = || (tick, optimiser(kind));
         let (last, optimiser) = self.optimisers.entry(name.to_owned()).or_insert_with(anew);
         if *last + 1 != tick {
             optimiser.memory = Memory::default();
@@ -27,7 +28,7 @@ impl Echo {
         *last = tick;
         let memory = optimiser.memory.clone();
         // One that fails leaves nothing to the next.
-        let _ = optimiser.descend(problem, guess);
+        let _ = optimiser.best_of(problem, std::slice::from_ref(guess), false);
         Ok(memory)
     }
 }

@@ -72,8 +72,9 @@ fn main() -> Result<()> {
                 };
                 let kind = KINDS.iter().position(|kind| *kind == decision.driver.kind()).ok_or("a new kind")?;
                 let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
-                if let Some((problem, guess)) = posed {
-                    let memory = echoes[kind].memory(tick, name, &problem, &guess)?;
+                if let Some(posed) = posed {
+                    let memory = echoes[kind].memory(KINDS[kind], tick, name, &posed)?;
+                    let (problem, guess) = posed;
                     let recorded = Recorded::new(format!("{run}/{tick}/{name}"), &problem, &guess, &memory);
                     if recorded.problem() != problem {
                         return Err(format!("the record of {} lost something", recorded.id).into());

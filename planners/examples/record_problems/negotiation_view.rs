@@ -44,7 +44,7 @@ impl NegotiationView {
         NegotiationView {
             settings,
             retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
-            optimiser: Optimiser::resuming(Robust::default()),
+            optimiser: negotiation::optimiser(&settings),
             talk: None,
         }
     }

@@ -3,6 +3,7 @@
 //! A planner poses a [`Problem`]; an [`Optimiser`] descends to a local optimum of it by a sequence of quadratic
 //! programmes in stage form ([`StageQp`]), each solved by a [`StageSolver`]. [`kkt`] checks optimality independently.
 
+mod across;
 mod adjoint;
 mod distance_cost;
 pub mod kkt;
@@ -16,6 +17,7 @@ mod scp;
 mod search;
 mod sparse;
 mod stage;
+mod starts;
 mod structured;
 
 pub use distance_cost::{DistanceCost, DistancePrice};

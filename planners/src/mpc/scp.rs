@@ -24,7 +24,7 @@
 use thiserror::Error;
 
 use super::kkt;
-use super::linearise::{TOLERANCE, add_curvature, drop_curvature, linearise, soften_curvature};
+use super::linearise::{add_curvature, drop_curvature, linearise, soften_curvature};
 use super::memory::Memory;
 use super::problem::{Cost, Iterate, Problem};
 use super::search::Search;
@@ -111,8 +111,9 @@ pub enum DescentError {
 const GENTLEST: f64 = 1.0;
 /// Where even this damping gains nothing, nothing does.
 const FIRMEST: f64 = 1e6;
-/// Tolerance of the very last step problem where rows on the verge of being active need it.
-const FINEST: f64 = 1e-11;
+/// Tolerance of the very last step problem where rows on the verge of being active need it: such a row has slack and
+/// multiplier of about its root.
+const FINEST: f64 = 1e-14;
 /// The residual with which the last step is content.
 const GOOD: f64 = 1e-6;
 /// Of a curvature that is not convex this share is tried before none.
@@ -133,6 +134,8 @@ pub struct Optimiser<S> {
     pub tolerances: Tolerances,
     /// Whether a descent begins with the memory of the one before, if the problem has the same shape.
     pub resumes: bool,
+    /// Whether [`Optimiser::best_of`] looks to the other side of the ellipses that an optimum touches (`across`).
+    pub looks_across: bool,
     /// What the last descent left.
     pub memory: Memory,
     pub(super) qp: StageQp,
@@ -150,6 +153,7 @@ impl<S: StageSolver> Optimiser<S> {
             solver,
             tolerances: Tolerances::default(),
             resumes: false,
+            looks_across: false,
             memory: Memory::default(),
             qp: StageQp::default(),
             step: StageSolution::default(),
@@ -217,6 +221,20 @@ impl<S: StageSolver> Optimiser<S> {
         self.go_down(problem, now, resumed, below)
     }
 
+    /// Descends from where the last step has led.
+    pub(super) fn descend_on(
+        &mut self,
+        problem: &Problem,
+        mut now: Optimum,
+        below: f64,
+    ) -> Result<Optimum, DescentError> {
+        now.statistics.starts = 1;
+        now.cost = problem.cost(&now.iterate);
+        self.search.restart();
+        linearise(problem, &now.iterate, &mut self.qp);
+        self.go_down(problem, now, true, below)
+    }
+
     /// Begins with what is remembered, one stage later. Returns whether nothing is left to do.
     fn recall(&mut self, now: &mut Optimum) -> bool {
         self.step.clone_from(&self.memory.multipliers);
@@ -235,10 +253,9 @@ impl<S: StageSolver> Optimiser<S> {
         resumed: bool,
         below: f64,
     ) -> Result<Optimum, DescentError> {
-        let (mut damping, mut tolerance) = (0.0, TOLERANCE);
+        let mut damping = 0.0;
         for step in 0..self.tolerances.iteration_limit {
             self.before.clone_from(&self.step);
-            self.qp.tolerance = tolerance;
             let warm = step > 0 || resumed;
             self.direction(problem, &mut now, warm, damping)?;
             let promised = -self.qp.change(&self.step);
@@ -273,19 +290,34 @@ impl<S: StageSolver> Optimiser<S> {
             self.qp.reach = reach;
             self.step.rest();
             now.statistics.residual = kkt::residual(&self.qp, &self.step).largest();
-            let wanted = match last {
-                false => self.tolerances.residual,
-                true if tolerance == TOLERANCE => GOOD,
-                true => f64::INFINITY,
-            };
-            if last {
-                tolerance = FINEST;
+            if last && now.statistics.residual > GOOD {
+                self.polish(problem, &mut now);
             }
-            if now.statistics.residual <= wanted {
+            if last || now.statistics.residual <= self.tolerances.residual {
                 return Ok(now);
             }
         }
         Err(DescentError::NotConverged(now.statistics))
+    }
+
+    /// One more step, from a step problem solved to the last digits, if that brings the optimality conditions nearer.
+    /// (Where large weights cost more digits than that it does not.)
+    fn polish(&mut self, problem: &Problem, now: &mut Optimum) {
+        let Optimum { cost, statistics: Statistics { residual, .. }, .. } = *now;
+        self.before.clone_from(&self.step);
+        self.qp.tolerance = FINEST;
+        if self.direction(problem, now, true, 0.0).is_ok() && self.take(problem, now, 1.0, 0.0, true) {
+            linearise(problem, &now.iterate, &mut self.qp);
+            self.step.rest();
+            now.statistics.residual = kkt::residual(&self.qp, &self.step).largest();
+            if now.statistics.residual <= residual {
+                return;
+            }
+            self.undo(now);
+            now.cost = cost;
+        }
+        self.step.clone_from(&self.before);
+        now.statistics.residual = residual;
     }
 
     /// Solves the step problem at `now`: with the exact Hessian if there are multipliers to make it from and it is convex.
@@ -319,42 +351,5 @@ impl<S: StageSolver> Optimiser<S> {
         let outcome = self.solver.solve(&self.qp, &mut self.step, warm);
         now.statistics.inner_iterations += self.step.iterations;
         outcome
-    }
-
-    /// Descends from the first guess; if that fails or ends on a violated safety row or road edge (a stationary point
-    /// inside an ellipse: it happens), or if `look_around` asks for it, from the others too. The cheapest optimum wins.
-    ///
-    /// # Errors
-    /// That of the first guess, if every guess fails.
-    pub fn best_of(
-        &mut self,
-        problem: &Problem,
-        guesses: &[Vec<Vec<Input>>],
-        look_around: bool,
-    ) -> Result<Optimum, DescentError> {
-        let Some((first, others)) = guesses.split_first() else { return Err(DescentError::NotFinite) };
-        let mut best = self.descend(problem, first);
-        if self.tolerances.trust(&best) && !look_around {
-            return best;
-        }
-        let mut total = best.as_ref().map_or_else(|_| Statistics::default(), |optimum| optimum.statistics);
-        for guess in others {
-            let margin = |held: &Optimum| held.cost.total - 1e-9 * (1.0 + held.cost.total.abs());
-            let below = best.as_ref().map_or(f64::INFINITY, margin);
-            // In trouble nothing is given up early.
-            let goal = if self.tolerances.trust(&best) { below } else { f64::INFINITY };
-            let Ok(candidate) = self.explore(problem, guess, goal) else { continue };
-            total.starts += 1;
-            total.programmes += candidate.statistics.programmes;
-            total.inner_iterations += candidate.statistics.inner_iterations;
-            if candidate.cost.total < below {
-                best = Ok(candidate);
-                self.adopt();
-            }
-        }
-        best.map(|optimum| {
-            let residual = optimum.statistics.residual;
-            Optimum { statistics: Statistics { residual, ..total }, ..optimum }
-        })
     }
 }

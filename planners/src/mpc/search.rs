@@ -11,7 +11,7 @@ use crate::Input;
 pub(super) struct Search {
     /// `κ`: the share of the linear penalties that the merit counts.
     firmness: f64,
-    trial: Iterate,
+    pub(super) trial: Iterate,
     held: StageSolution,
 }
 
@@ -22,6 +22,8 @@ impl Default for Search {
 }
 
 const LEAST_FIRMNESS: f64 = 1e-4;
+/// Rounding of a cost of order 1.
+const ROUNDING: f64 = 1e-13;
 
 impl Search {
     /// Forgets the last descent (and keeps its memory).
@@ -45,7 +47,7 @@ impl<S: StageSolver> Optimiser<S> {
     }
 
     /// Moves along the step as far as pays; returns the share of it that was taken. The last step of a descent promises
-    /// less than the merit's own rounding and is taken if it lowers the cost at all.
+    /// less than the merit's own rounding and is taken unless the cost rises by more than its own.
     pub(super) fn advance(&mut self, problem: &Problem, now: &mut Optimum, predicted: f64, last: bool) -> f64 {
         const SHORTEST: f64 = 1.0 / 1024.0;
         if self.take(problem, now, 1.0, predicted, last) || self.correct(problem, now, predicted) {
@@ -57,18 +59,30 @@ impl<S: StageSolver> Optimiser<S> {
     }
 
     /// Takes a share of the step if the merit falls by a sufficient part of what was predicted.
-    fn take(&mut self, problem: &Problem, now: &mut Optimum, share: f64, predicted: f64, last: bool) -> bool {
+    pub(super) fn take(
+        &mut self,
+        problem: &Problem,
+        now: &mut Optimum,
+        share: f64,
+        predicted: f64,
+        last: bool,
+    ) -> bool {
         const SUFFICIENT: f64 = 1e-4;
         self.try_step(problem, &now.iterate, share);
         let cost = problem.cost(&self.search.trial);
         let (before, after) = (self.search.merit(&now.cost), self.search.merit(&cost));
         let pays = after < before && after <= before - SUFFICIENT * share * predicted.max(0.0);
-        let accepted = pays || (last && cost.total < now.cost.total);
+        let accepted = pays || (last && cost.total <= now.cost.total + ROUNDING * (1.0 + now.cost.total.abs()));
         if accepted {
             std::mem::swap(&mut now.iterate, &mut self.search.trial);
             now.cost = cost;
         }
         accepted
+    }
+
+    /// Goes back to where the step just taken began.
+    pub(super) fn undo(&mut self, now: &mut Optimum) {
+        std::mem::swap(&mut now.iterate, &mut self.search.trial);
     }
 
     /// Second-order correction: the rows are taken where the full step really led, and the step problem is solved again.
@@ -85,7 +99,7 @@ impl<S: StageSolver> Optimiser<S> {
         taken
     }
 
-    fn try_step(&mut self, problem: &Problem, from: &Iterate, share: f64) {
+    pub(super) fn try_step(&mut self, problem: &Problem, from: &Iterate, share: f64) {
         let trial = &mut self.search.trial;
         trial.inputs.resize_with(from.inputs.len(), Vec::new);
         for (i, inputs) in from.inputs.iter().enumerate() {

@@ -21,7 +21,7 @@ mod settings;
 
 pub use acceptance::acceptance;
 pub use concession::Concession;
-pub use proposal::problem;
+pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
 use crate::activity::Activity;
@@ -71,7 +71,7 @@ impl Negotiation {
             settings,
             retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
             filter: Filter::default(),
-            optimiser: Optimiser::resuming(Robust::default()),
+            optimiser: optimiser(&settings),
             interlocutor: Interlocutor::default(),
             talk: Talk::default(),
         }

@@ -14,13 +14,20 @@
 
 use super::Settings;
 use crate::dynamics::Bicycle;
-use crate::mpc::{Leaning, Participant, Penalty, Problem, Separation, Tracking};
+use crate::mpc::{Leaning, Optimiser, Participant, Penalty, Problem, Robust, Separation, Tracking};
 use crate::{Agent, Axes, Scene};
 
 /// Diagonal of `D` on (x, y, θ, v).
 const DEVIATION: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
 /// Weight of the other's changes of input.
 const OTHER_COMFORT: f64 = 1e-2;
+
+/// What solves the negotiation problem.
+pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
+    let mut optimiser = Optimiser::resuming(Robust::default());
+    optimiser.looks_across = settings.look_across;
+    optimiser
+}
 
 /// The negotiation problem: participant 0 is the ego, participant 1 the `partner`; `weight` is the concession weight `w`.
 pub fn problem(scene: &Scene, partner: &Agent, weight: f64, leaning: Option<Leaning>, settings: &Settings) -> Problem {

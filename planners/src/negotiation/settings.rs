@@ -35,6 +35,9 @@ pub struct Settings {
     /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
     /// improved without trouble; 0 tries them only in trouble.
     pub look_around_every: usize,
+    /// Whether, at every step, the plan is compared with one on the other side of each vehicle whose ellipse it touches, and
+    /// the cheaper one is followed. Without it a plan stays on the side where it began, for half the time.
+    pub look_across: bool,
     /// What the others are expected to do. At constant velocity nobody ever seems to accept a proposal.
     pub prediction: Prediction,
 }
@@ -54,6 +57,7 @@ impl Default for Settings {
             persuasion: true,
             safety_filter: true,
             look_around_every: 0,
+            look_across: true,
             prediction: Prediction::Plan,
         }
     }

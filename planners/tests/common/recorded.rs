@@ -9,16 +9,24 @@ use std::path::{Path, PathBuf};
 
 use interplay_planners::dynamics::Bicycle;
 use interplay_planners::mpc::{
-    DistanceCost, DistancePrice, KeepOut, Leaning, Limits, MeanSpeed, Memory, Participant, Penalty, Problem,
-    Separation, Tracking,
+    DistanceCost, DistancePrice, KeepOut, Leaning, Limits, MeanSpeed, Memory, Optimiser, Participant, Penalty, Problem,
+    Robust, Separation, Tracking,
 };
-use interplay_planners::{Axes, Body, Corridor, Input, LaneEnd, SafetyEllipse, State};
+use interplay_planners::{Axes, Body, Corridor, Input, LaneEnd, SafetyEllipse, State, negotiation};
 use serde::{Deserialize, Serialize};
 
 use minutes::Minutes;
 
 /// The planners whose problems are recorded.
 pub const KINDS: [&str; 6] = ["human", "conservative", "negotiation", "bayesian", "game", "cooperative"];
+
+/// What planners of a kind solve their problems with.
+pub fn optimiser(kind: &str) -> Optimiser<Robust> {
+    match kind {
+        "negotiation" => negotiation::optimiser(&Default::default()),
+        _ => Optimiser::resuming(Robust::default()),
+    }
+}
 
 /// A problem, the guess its planner started from, and where it was met: `scenario/tick/vehicle`.
 #[derive(Clone, Debug, Deserialize, Serialize)]

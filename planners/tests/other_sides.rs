@@ -1,0 +1,76 @@
+//! Optima on either side of somebody, and a search that sees both.
+
+mod common;
+
+use common::{HORIZON, Random, alone, iterate, pair};
+use interplay_planners::dynamics::Bicycle;
+use interplay_planners::mpc::{KeepOut, Limits, Optimiser, Participant, Penalty, Problem, Robust, Tracking};
+use interplay_planners::{Axes, Body, Corridor, Input, SafetyEllipse, State};
+
+/// Somebody stands ahead on a wide road, a little to the left of the way.
+fn somebody_ahead(left_m: f64) -> Problem {
+    let body = Body::default();
+    let wanted = State { x_m: 0.0, y_m: 0.0, heading_rad: 0.0, speed_mps: 1.2 };
+    let vehicle = Participant {
+        model: Bicycle::new(&body, 0.1),
+        body,
+        limits: Limits::default(),
+        corridor: Corridor { heading_rad: 0.0, right_m: -2.0, left_m: 2.0, end: None },
+        start: wanted,
+        previous_input: Input::default(),
+        known_inputs: Vec::new(),
+        tracking: Tracking { weights: [0.0, 1.0, 0.5, 1.0], axes: Axes::WORLD, targets: vec![wanted; HORIZON] },
+        comfort: [0.1; 2],
+        keep_outs: vec![KeepOut {
+            centres: vec![[1.8, left_m]; HORIZON],
+            heading_rad: 0.0,
+            ellipse: SafetyEllipse::default(),
+            penalty: Penalty::EXACT,
+        }],
+        distance_costs: Vec::new(),
+        mean_speed: None,
+    };
+    Problem { horizon: HORIZON, participants: vec![vehicle], separations: Vec::new(), leaning: None }
+}
+
+/// To one side (1 left, −1 right) and straight on.
+fn swerve(side: f64) -> Vec<Vec<Input>> {
+    let steering = |t: usize| side * [0.3, -0.3, 0.0][(t / 5).min(2)];
+    vec![(0..HORIZON).map(|t| Input { acceleration_mps2: 0.0, steering_rad: steering(t) }).collect()]
+}
+
+/// The optimum from a guess and what it costs, alone and looking across.
+fn optima(problem: &Problem, guess: &[Vec<Input>]) -> Option<[f64; 2]> {
+    let mut optimiser = Optimiser::new(Robust::default());
+    let alone = optimiser.best_of(problem, &[guess.to_vec()], false).ok()?;
+    optimiser.looks_across = true;
+    let across = optimiser.best_of(problem, &[guess.to_vec()], false).ok()?;
+    Some([alone.cost.total, across.cost.total])
+}
+
+#[test]
+fn whoever_looks_across_passes_on_the_cheaper_side_wherever_the_guess_begins() {
+    for left_m in [-0.12, -0.08, -0.04, -0.02, 0.02, 0.04, 0.08, 0.12] {
+        let problem = somebody_ahead(left_m);
+        let far = -left_m.signum();
+        let [cheap, still_cheap] = optima(&problem, &swerve(far)).expect("an optimum");
+        let [dear, found] = optima(&problem, &swerve(-far)).expect("an optimum");
+        assert!(dear > cheap + 1e-3, "{left_m}: the near side costs {dear}, the far one {cheap}");
+        assert!((still_cheap - cheap).abs() <= 1e-7 * cheap, "{left_m}: {cheap} was left for {still_cheap}");
+        assert!((found - cheap).abs() <= 1e-7 * cheap, "{left_m}: {found} instead of {cheap}");
+    }
+}
+
+#[test]
+fn looking_across_is_never_dearer() {
+    let mut gained = 0;
+    for seed in 0..60 {
+        for problem in [alone(seed), pair(seed, 1.0 + 0.02 * seed as f64)] {
+            let guess = iterate(&problem, &mut Random(seed + 7)).inputs;
+            let Some([alone, across]) = optima(&problem, &guess) else { continue };
+            assert!(across <= alone, "seed {seed}: {across} instead of {alone}");
+            gained += usize::from(across < alone * (1.0 - 1e-3));
+        }
+    }
+    assert!(gained > 0, "random problems have other sides");
+}
