@@ -6,7 +6,8 @@ A time is the median of several solves of one problem (wall clock, one thread; I
 functions evaluated by CasADi's virtual machine); the table shows median and 99th percentile over the problems. IPOPT is
 shown as in the comparison (tolerance 1e-8) and as fast as we could make it: adaptive barrier, tolerance 1e-6.
 
-"resumed" is the planners' solver in closed loop, with the multipliers of the plan before; "robust" is the same solver,
+"planner" is what planners do in closed loop, with the multipliers of the plan before: one descent, and in negotiation a
+look to the other side of every ellipse that the plan touches; "resumed" is the descent alone. "robust" is the same solver,
 "structured" and "sparse" its two halves, from the guess alone.
 """
 
@@ -39,9 +40,9 @@ def main():
         posed = problems(kind)
         times, unsolved = {}, {}
         often = 7 * arguments.repeats
-        for solver, repeats in [("resumed", often), ("robust", often), ("structured", often), ("sparse", 1)]:
+        for solver, repeats in [("planner", often), ("resumed", often), ("robust", often), ("structured", often), ("sparse", 1)]:
             outcomes = ours(kind, solver, repeats=repeats)
-            if solver == "resumed":
+            if solver in ("planner", "resumed"):
                 # The first plan of a run has nothing to resume.
                 outcomes = [o for o, problem in zip(outcomes, posed) if problem.get("memory")]
             times[solver] = [outcome["time_ms"] for outcome in outcomes]

@@ -85,6 +85,11 @@ pub const THOUGHTS: [Thought; 9] = [
     },
 ];
 
+/// The place of a number among those that share its panel.
+pub fn place(name: &str) -> Option<usize> {
+    THOUGHTS.iter().find_map(|thought| thought.names.iter().position(|other| *other == name))
+}
+
 /// The part of a path that stands for a planner's number: its name in letters, digits, `_` and `-`.
 pub fn slug(name: &str) -> String {
     let allowed = |character: &char| character.is_ascii_alphanumeric() || "_- ".contains(*character);

@@ -66,7 +66,7 @@ pub fn paints(scenario: &Scenario) -> Vec<Paint> {
         .collect()
 }
 
-/// Colours of the numbers that belong to one planner, by their place among them.
+/// Colours of a planner's numbers, by their place among those that share a panel.
 pub fn series(index: usize) -> Paint {
     let palette = [
         Paint { rgb: [0x00, 0x9E, 0x73], word: "green" },

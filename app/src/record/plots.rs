@@ -7,7 +7,7 @@ use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
 use interplay_scenarios::Scenario;
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::mind::slug;
+use super::mind::{place, slug};
 use super::palette::{self, FAILURE, NEUTRAL, Paint};
 use crate::frame::{Frame, Level, Origin, VehicleFrame};
 
@@ -94,11 +94,12 @@ impl Plots {
 
     fn reasons(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
         for (vehicle, (folder, end)) in frame.vehicles.iter().zip(&self.voices) {
-            for (index, (name, value)) in vehicle.plan.diagnostics.iter().enumerate() {
+            for (name, value) in &vehicle.plan.diagnostics {
                 let path = format!("{folder}/{}{end}", slug(name));
                 if !self.seen.contains(&path) {
                     let label = if end.is_empty() { (*name).to_owned() } else { format!("{name}, {}", vehicle.name) };
-                    style(stream, &path, &label, palette::series(index).solid(), is_switch(name))?;
+                    let paint = palette::series(place(name).unwrap_or_default());
+                    style(stream, &path, &label, paint.solid(), is_switch(name))?;
                     self.seen.insert(path.clone());
                 }
                 stream.log(path, &Scalars::single(*value))?;

@@ -26,30 +26,42 @@ use crate::Axes;
 const ACTIVE: f64 = 1e-6;
 /// A promise counts if it is below so many times the optimum at hand: tangents make it too dear.
 const CHEAP: f64 = 1.01;
+/// Above so many times it the other side is out of reach, …
+const HOPELESS: f64 = 2.0;
+/// … and will be for so many plans.
+const REST: usize = 4;
 
 impl<S: StageSolver> Optimiser<S> {
     /// The cheapest of an optimum, whose descent is the last that was remembered, and those on the other side of each
     /// ellipse that it touches.
     pub(super) fn look_across(&mut self, problem: &Problem, mut best: Optimum) -> Optimum {
+        self.memory.rests.resize(self.memory.multipliers.row_multipliers.len(), 0);
         for (block, axes) in ellipses(problem) {
-            let touches = self.memory.multipliers.row_multipliers[block].iter().any(|multiplier| *multiplier > ACTIVE);
-            if touches && self.step_across(problem, &mut best, block, &axes) {
-                self.follow(problem, &mut best);
+            let rest = &mut self.memory.rests[block];
+            if *rest > 0 {
+                *rest -= 1;
+            } else if self.memory.multipliers.row_multipliers[block].iter().any(|multiplier| *multiplier > ACTIVE) {
+                match self.step_across(problem, &mut best, block, &axes) {
+                    Some(promise) if promise < CHEAP * best.cost.total => self.follow(problem, &mut best),
+                    Some(promise) if promise > HOPELESS * best.cost.total => self.memory.rests[block] = REST,
+                    _ => {}
+                }
             }
         }
         best
     }
 
-    /// The step to the other side of one ellipse; whether it promises anything.
-    fn step_across(&mut self, problem: &Problem, best: &mut Optimum, block: usize, axes: &Axes) -> bool {
+    /// The step to the other side of one ellipse, and the cost that it promises there; nothing if no side was taken.
+    fn step_across(&mut self, problem: &Problem, best: &mut Optimum, block: usize, axes: &Axes) -> Option<f64> {
         linearise(problem, &best.iterate, &mut self.qp);
         let before = penalties(&self.qp.blocks[block]);
         if !cross(&mut self.qp.blocks[block].rows, axes) {
-            return false;
+            return None;
         }
         drop_curvature(&mut self.qp);
         let posed = best.cost.total + penalties(&self.qp.blocks[block]) - before;
-        self.solve_step(best, false).is_ok() && posed + self.qp.change(&self.step) < CHEAP * best.cost.total
+        let solved = self.solve_step(best, false).is_ok();
+        Some(if solved { posed + self.qp.change(&self.step) } else { f64::INFINITY })
     }
 
     /// Descends from where the step leads, and stays there if it is cheaper.

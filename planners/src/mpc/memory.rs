@@ -12,6 +12,8 @@ pub struct Memory {
     pub multipliers: StageSolution,
     /// How far the descent's first step was expected to go from where it began.
     pub reach: Option<Reach>,
+    /// Per block of rows, for how many more times the other side of its ellipse is not looked at.
+    pub rests: Vec<usize>,
 }
 
 impl Memory {

@@ -55,7 +55,7 @@ impl Minutes {
             fill(values, sparse);
         }
         let reach = self.reach.map(|[x, y, t, v, a, d]| Reach { state: [x, y, t, v], input: [a, d] });
-        Memory { multipliers, reach }
+        Memory { multipliers, reach, ..Memory::default() }
     }
 }
 
