@@ -16,6 +16,9 @@ use crate::sparse::Sparse;
 use crate::standard::StandardForm;
 use crate::{Cone, ProblemError, Program, Settings, Solution, SolveError, Status, kkt};
 
+/// The share of the way to the boundary of the cones that a step may go where the usual 0.99 stalls.
+const SHORT_STEP: f64 = 0.9;
+
 /// A problem ready to be solved, and to be solved again with other numbers in the same pattern.
 pub struct Solver {
     form: StandardForm,
@@ -77,9 +80,33 @@ impl Solver {
     /// the residuals recomputed from the data are below
     /// [`Settings::accepted_tolerance`]; those of a certificate are taken at bᵀz = −1 or qᵀx = −1.
     ///
+    /// Where it stalls the problem is solved once more with shorter steps, which keep farther from the cones' boundaries.
+    ///
     /// # Errors
     /// [`SolveError`]: infeasible or unbounded, with a certificate, or unsolved, with the reason.
     pub fn solve(&mut self) -> Result<Solution, SolveError> {
+        let outcome = self.attempt();
+        match &outcome {
+            Err(SolveError::Unsolved { status, .. }) if *status != Status::IterationLimit => {
+                self.attempt_with(SHORT_STEP).or(outcome)
+            }
+            _ => outcome,
+        }
+    }
+
+    /// Solves with steps of at most so much of the way to the boundary of the cones.
+    fn attempt_with(&mut self, step: f64) -> Result<Solution, SolveError> {
+        let usual = self.backend_settings.clone();
+        let short = DefaultSettings { max_step_fraction: step, ..usual.clone() };
+        // A step's length may be changed at any time.
+        let changed = self.backend.update_settings(short);
+        let outcome = self.attempt();
+        let restored = self.backend.update_settings(usual);
+        debug_assert!(changed.is_ok() && restored.is_ok());
+        outcome
+    }
+
+    fn attempt(&mut self) -> Result<Solution, SolveError> {
         self.backend.solve();
         let result = &self.backend.solution;
         let form = &self.form;
