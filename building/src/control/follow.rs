@@ -1,6 +1,7 @@
 //! A plan, and what becomes of it when the day's design fails.
 
-use super::{ControlError, DayRecord, Design, Morning, Optimum};
+use super::experience::{Experience, Lesson};
+use super::{Control, ControlError, DayRecord, Design, Morning, Observation, Optimum};
 
 /// Inputs and the temperatures they are meant to lead to.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,8 +88,57 @@ impl Diary {
 }
 
 /// Refuses a morning of another building or day.
-pub(super) fn check_shapes(morning: &Morning<'_>, nodes: usize, size: usize) -> Result<(), ControlError> {
+fn check_shapes(morning: &Morning<'_>, nodes: usize, size: usize) -> Result<(), ControlError> {
     ControlError::check_length("the day", morning.targets.reference_c.len(), size)?;
     ControlError::check_length("the temperatures at midnight", morning.initial_c.len(), nodes)?;
     morning.forecast.check(morning.targets)
+}
+
+/// A design that plans every day with what earlier days taught, and follows the plan.
+pub(super) trait Learner {
+    /// What earlier days taught, and what is planned.
+    fn books(&mut self) -> (&mut Experience, &mut Diary);
+
+    /// What is planned.
+    fn diary(&self) -> &Diary;
+
+    /// Today's plan, none before there was a day to learn from, and what there is to say of it.
+    ///
+    /// # Errors
+    /// [`ControlError`] if the design fails.
+    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError>;
+
+    /// The heat of each zone \[kW\].
+    fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64>;
+
+    /// Takes note of what a day was like.
+    fn note(&mut self, _lesson: &Lesson) {}
+}
+
+impl<L: Learner> Control for L {
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
+        let lifted = self.books().0.lifted();
+        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
+        let outcome = self.plan(morning);
+        self.books().1.open(outcome);
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        self.follow(observation)
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        let (experience, diary) = self.books();
+        let lesson = experience.learn(record)?;
+        diary.close(record);
+        if let Some(lesson) = &lesson {
+            self.note(lesson);
+        }
+        Ok(())
+    }
+
+    fn design(&self) -> Design {
+        self.diary().design().clone()
+    }
 }

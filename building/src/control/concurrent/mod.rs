@@ -17,12 +17,12 @@ pub mod youla;
 
 pub use settings::ConcurrentSettings;
 
-use super::experience::Experience;
-use super::follow::{Diary, Plan, check_shapes};
+use super::experience::{Experience, Lesson};
+use super::follow::{Diary, Learner, Plan};
 use super::iterative::rows;
 use super::optimum::{Caution, plan};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
-use super::{Control, ControlError, DayRecord, Design, Morning, Observation};
+use super::{ControlError, Design, Morning, Observation};
 use crate::comfort::Targets;
 use crate::lifted::Lifted;
 use youla::StateSpace;
@@ -73,7 +73,40 @@ impl Concurrent {
         })
     }
 
+    /// The feedback for the targets, designed anew when something has changed.
+    fn feedback(&mut self, targets: &Targets) -> Result<Feedback, ControlError> {
+        if let Some((known, feedback)) = &self.feedback
+            && known == targets
+        {
+            return Ok(feedback.clone());
+        }
+        let lifted = self.experience.lifted();
+        let design = taps::design(&self.settings, lifted, targets, &self.uncertainty)?;
+        let response = design.taps.response(lifted, &factor(self.uncertainty.covariance(targets))?);
+        let feedback = Feedback {
+            design,
+            input_deviation_kw: response.input_deviation_kw(),
+            temperature_deviation_k: response.temperature_deviation_k(),
+        };
+        self.feedback = Some((targets.clone(), feedback.clone()));
+        Ok(feedback)
+    }
+}
+
+impl Learner for Concurrent {
+    fn books(&mut self) -> (&mut Experience, &mut Diary) {
+        (&mut self.experience, &mut self.diary)
+    }
+
+    fn diary(&self) -> &Diary {
+        &self.diary
+    }
+
     fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
+        self.targets = Some(morning.targets.clone());
+        // After a failed design yesterday's plan is followed with the last feedback, from rest.
+        let last = self.feedback.as_ref().map(|(_, feedback)| feedback.design.taps.clone());
+        self.state = last.map(|taps| StateSpace::new(taps, self.experience.lifted().model()));
         let free_c = self.experience.expect(morning)?;
         if self.experience.is_empty() {
             return Ok((None, Design::default()));
@@ -102,40 +135,7 @@ impl Concurrent {
         Ok((Some(Plan::from(&optimum)), design))
     }
 
-    /// The feedback for the targets, designed anew when something has changed.
-    fn feedback(&mut self, targets: &Targets) -> Result<Feedback, ControlError> {
-        if let Some((known, feedback)) = &self.feedback
-            && known == targets
-        {
-            return Ok(feedback.clone());
-        }
-        let lifted = self.experience.lifted();
-        let design = taps::design(&self.settings, lifted, targets, &self.uncertainty)?;
-        let response = design.taps.response(lifted, &factor(self.uncertainty.covariance(targets))?);
-        let feedback = Feedback {
-            design,
-            input_deviation_kw: response.input_deviation_kw(),
-            temperature_deviation_k: response.temperature_deviation_k(),
-        };
-        self.feedback = Some((targets.clone(), feedback.clone()));
-        Ok(feedback)
-    }
-}
-
-impl Control for Concurrent {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let lifted = self.experience.lifted();
-        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
-        self.targets = Some(morning.targets.clone());
-        // After a failed design yesterday's plan is followed with the last feedback, from rest.
-        let last = self.feedback.as_ref().map(|(_, feedback)| feedback.design.taps.clone());
-        self.state = last.map(|taps| StateSpace::new(taps, lifted.model()));
-        let outcome = self.plan(morning);
-        self.diary.open(outcome);
-        Ok(())
-    }
-
-    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+    fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let Observation { step, temperatures_c, targets } = *observation;
         let n = temperatures_c.len();
         let limits_kw = self.experience.lifted().model().network().limits_kw();
@@ -157,18 +157,11 @@ impl Control for Concurrent {
         heat_kw
     }
 
-    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
-        let lesson = self.experience.learn(record)?;
-        self.diary.close(record);
-        if let (Some(lesson), Some(targets)) = (lesson, &self.targets)
+    fn note(&mut self, lesson: &Lesson) {
+        if let Some(targets) = &self.targets
             && self.uncertainty.learn(&lesson.surprise_kw, targets)
         {
             self.feedback = None;
         }
-        Ok(())
-    }
-
-    fn design(&self) -> Design {
-        self.diary.design().clone()
     }
 }

@@ -17,9 +17,9 @@ mod zone;
 pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
 
 use super::experience::Experience;
-use super::follow::{Diary, Plan, check_shapes};
+use super::follow::{Diary, Learner, Plan};
 use super::optimum::{Caution, plan};
-use super::{Control, ControlError, DayRecord, Design, Exchange, Morning, Observation};
+use super::{ControlError, Design, Exchange, Morning, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
@@ -62,62 +62,6 @@ impl Distributed {
         let mail = Mail::new(&lifted, settings.loss, settings.delay_rounds, settings.silent_zone);
         let experience = Experience::new(lifted, settings.prediction, settings.learning_rate)?;
         Ok(Self { settings, experience, diary: Diary::default(), mail, commissioned: None })
-    }
-
-    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
-        let free_c = self.experience.expect(morning)?;
-        if self.experience.is_empty() {
-            return Ok((None, Design::default()));
-        }
-        let targets = morning.targets;
-        let lifted = self.experience.lifted().clone();
-        if self.commissioned.as_ref().is_none_or(|(known, _)| known != targets) {
-            self.commissioned = Some((targets.clone(), Commissioned::new(&lifted, targets, &self.mail)));
-        }
-        let Some((_, commissioned)) = &self.commissioned else { return Ok((None, Design::default())) };
-        let driving_kw = driving_kw(&lifted, morning, &free_c);
-        let day = Day {
-            lifted: &lifted,
-            targets,
-            penalty: penalty(self.settings.discomfort_quadratic),
-            commissioned,
-            initial_c: morning.initial_c,
-            driving_kw: &driving_kw,
-            free_c: &free_c,
-            silent: self.settings.silent_zone,
-        };
-        let reliable = self.settings.loss == 0.0 && self.settings.delay_rounds == 0;
-        let rules = Rules {
-            scheme: if reliable { self.settings.scheme } else { Scheme::Jacobi },
-            tolerance_kw: self.settings.tolerance_kw,
-            rounds: self.settings.rounds,
-            delay: self.settings.delay_rounds,
-        };
-        self.mail.start(morning.initial_c);
-        let first_kw = self.diary.yesterday().map_or(vec![0.0; lifted.size()], |yesterday| yesterday.heat_kw.clone());
-        let agreement = day.agree(&mut self.mail, rules, first_kw)?;
-        let temperatures_c = free_c.iter().zip(lifted.product(&agreement.heat_kw)).map(|(free, rise)| free + rise);
-        let plan = Plan { temperatures_c: temperatures_c.collect(), heat_kw: agreement.heat_kw };
-        let centralised = match self.settings.compare {
-            true => Some(central(&lifted, &free_c, targets, self.settings.discomfort_quadratic)?.objective),
-            false => None,
-        };
-        let conditions = self.conditions(&lifted, targets, &plan);
-        let design = Design {
-            objective: agreement.costs.last().copied(),
-            bias_kw: self.experience.bias_kw().to_vec(),
-            spectral_radius: conditions.map(|conditions| conditions.spectral_radius),
-            largest_singular_value: conditions.map(|conditions| conditions.largest_singular_value),
-            exchange: Some(Exchange {
-                costs: agreement.costs,
-                centralised,
-                messages: self.mail.sent.clone(),
-                undelivered: self.mail.undelivered,
-                sums: agreement.sums,
-            }),
-            ..Design::default()
-        };
-        Ok((Some(plan), design))
     }
 
     /// The convergence conditions of the learning law that leads from yesterday to the plan.
@@ -188,28 +132,74 @@ fn follow(diary: &Diary, gain_kw_per_k: f64, limits_kw: &[f64], observation: &Ob
         .collect()
 }
 
-impl Control for Distributed {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let lifted = self.experience.lifted();
-        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
-        let outcome = self.plan(morning);
-        self.diary.open(outcome);
-        Ok(())
+impl Learner for Distributed {
+    fn books(&mut self) -> (&mut Experience, &mut Diary) {
+        (&mut self.experience, &mut self.diary)
     }
 
-    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+    fn diary(&self) -> &Diary {
+        &self.diary
+    }
+
+    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
+        let free_c = self.experience.expect(morning)?;
+        if self.experience.is_empty() {
+            return Ok((None, Design::default()));
+        }
+        let targets = morning.targets;
+        let lifted = self.experience.lifted().clone();
+        if self.commissioned.as_ref().is_none_or(|(known, _)| known != targets) {
+            self.commissioned = Some((targets.clone(), Commissioned::new(&lifted, targets, &self.mail)));
+        }
+        let Some((_, commissioned)) = &self.commissioned else { return Ok((None, Design::default())) };
+        let driving_kw = driving_kw(&lifted, morning, &free_c);
+        let day = Day {
+            lifted: &lifted,
+            targets,
+            penalty: penalty(self.settings.discomfort_quadratic),
+            commissioned,
+            initial_c: morning.initial_c,
+            driving_kw: &driving_kw,
+            free_c: &free_c,
+            silent: self.settings.silent_zone,
+        };
+        let reliable = self.settings.loss == 0.0 && self.settings.delay_rounds == 0;
+        let rules = Rules {
+            scheme: if reliable { self.settings.scheme } else { Scheme::Jacobi },
+            tolerance_kw: self.settings.tolerance_kw,
+            rounds: self.settings.rounds,
+            delay: self.settings.delay_rounds,
+        };
+        self.mail.start(morning.initial_c);
+        let first_kw = self.diary.yesterday().map_or(vec![0.0; lifted.size()], |yesterday| yesterday.heat_kw.clone());
+        let agreement = day.agree(&mut self.mail, rules, first_kw)?;
+        let temperatures_c = free_c.iter().zip(lifted.product(&agreement.heat_kw)).map(|(free, rise)| free + rise);
+        let plan = Plan { temperatures_c: temperatures_c.collect(), heat_kw: agreement.heat_kw };
+        let centralised = match self.settings.compare {
+            true => Some(central(&lifted, &free_c, targets, self.settings.discomfort_quadratic)?.objective),
+            false => None,
+        };
+        let conditions = self.conditions(&lifted, targets, &plan);
+        let design = Design {
+            objective: agreement.costs.last().copied(),
+            bias_kw: self.experience.bias_kw().to_vec(),
+            spectral_radius: conditions.map(|conditions| conditions.spectral_radius),
+            largest_singular_value: conditions.map(|conditions| conditions.largest_singular_value),
+            exchange: Some(Exchange {
+                costs: agreement.costs,
+                centralised,
+                messages: self.mail.sent.clone(),
+                undelivered: self.mail.undelivered,
+                sums: agreement.sums,
+            }),
+            ..Design::default()
+        };
+        Ok((Some(plan), design))
+    }
+
+    fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let limits_kw = self.experience.lifted().model().network().limits_kw();
         follow(&self.diary, self.settings.gain_kw_per_k, limits_kw, observation)
-    }
-
-    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
-        self.experience.learn(record)?;
-        self.diary.close(record);
-        Ok(())
-    }
-
-    fn design(&self) -> Design {
-        self.diary.design().clone()
     }
 }
 
@@ -223,6 +213,16 @@ impl Centralised {
         let experience = Experience::new(lifted, settings.prediction, settings.learning_rate)?;
         Ok(Self { settings, experience, diary: Diary::default() })
     }
+}
+
+impl Learner for Centralised {
+    fn books(&mut self) -> (&mut Experience, &mut Diary) {
+        (&mut self.experience, &mut self.diary)
+    }
+
+    fn diary(&self) -> &Diary {
+        &self.diary
+    }
 
     fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
         let free_c = self.experience.expect(morning)?;
@@ -235,29 +235,9 @@ impl Centralised {
         let design = Design { objective: Some(optimum.objective), bias_kw, ..Design::default() };
         Ok((Some(Plan::from(&optimum)), design))
     }
-}
 
-impl Control for Centralised {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let lifted = self.experience.lifted();
-        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
-        let outcome = self.plan(morning);
-        self.diary.open(outcome);
-        Ok(())
-    }
-
-    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+    fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let limits_kw = self.experience.lifted().model().network().limits_kw();
         follow(&self.diary, self.settings.gain_kw_per_k, limits_kw, observation)
-    }
-
-    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
-        self.experience.learn(record)?;
-        self.diary.close(record);
-        Ok(())
-    }
-
-    fn design(&self) -> Design {
-        self.diary.design().clone()
     }
 }

@@ -25,12 +25,12 @@ use nalgebra::DMatrix;
 
 pub use settings::{Chance, Convergence, Coordination, IterativeSettings, Objective, Stability};
 
-use super::experience::Experience;
-use super::follow::{Diary, Plan, check_shapes};
+use super::experience::{Experience, Lesson};
+use super::follow::{Diary, Learner, Plan};
 use super::optimum::{Caution, ErrorBound, plan};
 use super::stability::{closed_loop, spectral_radius};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
-use super::{Control, ControlError, DayRecord, Design, Morning, Observation};
+use super::{ControlError, Design, Morning, Observation};
 use crate::comfort::Targets;
 use crate::lifted::Lifted;
 use joint::Joint;
@@ -136,27 +136,6 @@ impl Iterative {
     }
 
     /// The day's plan, and what there is to say of it; no plan before there was a day.
-    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
-        let free_c = self.experience.expect(morning)?;
-        if self.experience.is_empty() {
-            return Ok((None, self.describe(None, None)));
-        }
-        let targets = morning.targets;
-        let feedback = match self.settings.objective {
-            Objective::Expected => Some(self.feedback(targets, &free_c)?),
-            Objective::Nominal => None,
-        };
-        let caution = Caution {
-            input_margin_kw: feedback.as_ref().map_or(Vec::new(), |feedback| self.margins_kw(feedback)),
-            band_margin_k: Vec::new(),
-            error_bound: self.error_bound(targets),
-        };
-        let optimum = plan(self.experience.lifted(), &free_c, targets, None, &caution)?;
-        let n = targets.zones;
-        self.gain = feedback.as_ref().map_or(DMatrix::zeros(n, n), |feedback| feedback.gain_kw_per_k.clone());
-        Ok((Some(Plan::from(&optimum)), self.describe(feedback.as_ref(), Some(optimum.objective))))
-    }
-
     /// The feedback for the targets, designed anew when something has changed; with the joint design, every day.
     fn feedback(&mut self, targets: &Targets, free_c: &[f64]) -> Result<Feedback, ControlError> {
         let price = match self.settings.coordination {
@@ -244,17 +223,38 @@ pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
-impl Control for Iterative {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let lifted = self.experience.lifted();
-        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
-        self.targets = Some(morning.targets.clone());
-        let outcome = self.plan(morning);
-        self.diary.open(outcome);
-        Ok(())
+impl Learner for Iterative {
+    fn books(&mut self) -> (&mut Experience, &mut Diary) {
+        (&mut self.experience, &mut self.diary)
     }
 
-    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+    fn diary(&self) -> &Diary {
+        &self.diary
+    }
+
+    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
+        self.targets = Some(morning.targets.clone());
+        let free_c = self.experience.expect(morning)?;
+        if self.experience.is_empty() {
+            return Ok((None, self.describe(None, None)));
+        }
+        let targets = morning.targets;
+        let feedback = match self.settings.objective {
+            Objective::Expected => Some(self.feedback(targets, &free_c)?),
+            Objective::Nominal => None,
+        };
+        let caution = Caution {
+            input_margin_kw: feedback.as_ref().map_or(Vec::new(), |feedback| self.margins_kw(feedback)),
+            band_margin_k: Vec::new(),
+            error_bound: self.error_bound(targets),
+        };
+        let optimum = plan(self.experience.lifted(), &free_c, targets, None, &caution)?;
+        let n = targets.zones;
+        self.gain = feedback.as_ref().map_or(DMatrix::zeros(n, n), |feedback| feedback.gain_kw_per_k.clone());
+        Ok((Some(Plan::from(&optimum)), self.describe(feedback.as_ref(), Some(optimum.objective))))
+    }
+
+    fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let Observation { step, temperatures_c, targets } = *observation;
         let n = temperatures_c.len();
         let (mut heat_kw, error_k) = match self.diary.plan() {
@@ -275,18 +275,11 @@ impl Control for Iterative {
         heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
     }
 
-    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
-        let lesson = self.experience.learn(record)?;
-        self.diary.close(record);
-        if let (Some(lesson), Some(targets)) = (lesson, &self.targets)
+    fn note(&mut self, lesson: &Lesson) {
+        if let Some(targets) = &self.targets
             && self.uncertainty.learn(&lesson.surprise_kw, targets)
         {
             self.feedback = None;
         }
-        Ok(())
-    }
-
-    fn design(&self) -> Design {
-        self.diary.design().clone()
     }
 }
