@@ -79,7 +79,7 @@ fn words(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
     if plots.has(plots::LOG) {
         row.push((1.0, events()));
     }
-    row.push((1.6, Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))));
+    row.push((1.6, about()));
     row
 }
 
@@ -107,6 +107,11 @@ impl Plot {
     fn alone(self) -> Panel {
         Panel::View(self.0.with("PlotLegend", PlotLegend::new().with_visible(false)))
     }
+}
+
+/// What the recording is, and what to look for.
+pub fn about() -> Panel {
+    Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))
 }
 
 /// What happened, in words.

@@ -191,7 +191,12 @@ impl Recorder {
     /// Sends the layout.
     fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
         let driving = || layout::layout(&self.scenario, &self.plots, road_m);
-        let house = self.house.as_ref().map(|house| building::layout(house, self.plots.has(plots::LOG)));
+        let words = match self.scenario.vehicles.is_empty() {
+            false => building::Words::Elsewhere,
+            true if self.plots.has(plots::LOG) => building::Words::AboutAndEvents,
+            true => building::Words::About,
+        };
+        let house = self.house.as_ref().map(|house| building::layout(house, words));
         let panel = match house {
             None => driving(),
             Some(house) if self.scenario.vehicles.is_empty() => house,

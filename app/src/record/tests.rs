@@ -244,7 +244,13 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
     assert!([SIM_TIME, TICK, building::ITERATION].iter().all(|name| timelines.iter().any(|there| there == name)));
     assert!(!entities.keys().any(|path| path.starts_with("/world")), "no road without vehicles");
     let house = recorder.house.as_ref().expect("a building");
-    assert_eq!(titles(&building::layout(house, false)).len(), 1 + 4 + 4, "plan, temperatures, numbers and words");
+    assert_eq!(
+        titles(&building::layout(house, building::Words::About)).len(),
+        1 + 4 + 4,
+        "plan, temperatures, numbers and words"
+    );
+    let beside = titles(&building::layout(house, building::Words::Elsewhere));
+    assert_eq!(beside.len(), 1 + 4 + 3, "vehicles have the words");
 }
 
 #[test]

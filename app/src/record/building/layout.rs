@@ -9,19 +9,32 @@ use super::super::re_sdk_types::datatypes::{TimeInt, TimeRange, TimeRangeBoundar
 use super::super::blueprint::{Panel, View};
 use super::{House, design};
 
-/// The layout: the floor plan beside the temperatures, below it inputs, weather and costs, and the words; then what the
-/// controller says of its plans, if it plans, and `events` if there were any.
-pub fn layout(house: &House, events: bool) -> Panel {
-    let numbers = vec![
+/// The words that belong to a recording of a building. Beside vehicles their layout has them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Words {
+    /// Elsewhere.
+    Elsewhere,
+    /// What this is; nothing has happened.
+    About,
+    /// What this is, and what happened.
+    AboutAndEvents,
+}
+
+/// The layout: the floor plan beside the temperatures, below it inputs, weather and costs; then what the controller says of
+/// its plans, if it plans; and the words.
+pub fn layout(house: &House, words: Words) -> Panel {
+    let mut numbers = vec![
         (1.1, Panel::View(plot(house, "Heating (+), cooling (-) [kW]", inputs(house)))),
         (1.1, Panel::View(plot(house, "Outdoors [°C]", vec!["/building/outdoors/**".to_owned()]))),
         (1.1, Panel::View(plot(house, "Cost J of each day", vec!["/building/iteration/**".to_owned()]))),
-        (1.3, Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))),
     ];
+    if words != Words::Elsewhere {
+        numbers.push((1.3, super::super::layout::about()));
+    }
     let top = Panel::Row(vec![(1.0, floor()), (2.3, temperatures(house))]);
     let mut rows = vec![(1.6, top), (1.0, Panel::Row(numbers))];
     let mut said = plans(house);
-    if events {
+    if words == Words::AboutAndEvents {
         said.push((1.1, super::super::layout::events()));
     }
     if !said.is_empty() {

@@ -20,7 +20,7 @@ mod words;
 use interplay_scenarios::Scenario;
 use rerun::{RecordingStream, RecordingStreamResult};
 
-pub use layout::layout;
+pub use layout::{Words, layout};
 pub use words::about;
 
 use crate::frame::BuildingFrame;
