@@ -1,9 +1,9 @@
 //! How a vehicle that decides alone finds its plan: from the last one, and where that leads nowhere, from full braking and
 //! full acceleration.
 
-use crate::conservative::{self, extremes};
 use crate::mpc::{DescentError, Optimiser, Optimum, Problem, Robust};
-use crate::{Agent, Input, Scene, Trajectory};
+use crate::predict::steady;
+use crate::{Input, Scene, Trajectory};
 
 /// A plan with the problem that it solves.
 #[derive(Clone, Debug)]
@@ -15,10 +15,10 @@ pub(crate) struct Solved {
 }
 
 /// The cheapest optimum from the last plan, one step later, and in trouble or every `look_around_every` steps (0: never)
-/// from the extremes too. If there is none, that of the conservative problem.
+/// from the extremes too.
 ///
 /// # Errors
-/// That of the conservative problem.
+/// [`DescentError`] if none of the guesses leads to an optimum.
 pub(crate) fn solve(
     optimiser: &mut Optimiser<Robust>,
     scene: &Scene,
@@ -27,26 +27,15 @@ pub(crate) fn solve(
     look_around_every: usize,
 ) -> Result<Solved, DescentError> {
     let look_around = look_around_every > 0 && scene.tick.is_multiple_of(look_around_every);
-    match optimiser.best_of(&problem, &guesses(scene, last), look_around) {
-        Ok(optimum) => Ok(Solved { problem, optimum, event: None }),
-        Err(error) => retreat(optimiser, scene, last, &error),
-    }
+    let optimum = optimiser.best_of(&problem, &guesses(scene, last), look_around)?;
+    Ok(Solved { problem, optimum, event: None })
 }
 
-/// The conservative plan, because of an error.
-///
-/// # Errors
-/// That of the conservative problem.
-pub(crate) fn retreat(
-    optimiser: &mut Optimiser<Robust>,
-    scene: &Scene,
-    last: Option<&Trajectory>,
-    because: &DescentError,
-) -> Result<Solved, DescentError> {
-    let others: Vec<&Agent> = scene.others.iter().collect();
-    let problem = conservative::problem(scene, &others);
-    let optimum = optimiser.best_of(&problem, &guesses(scene, last), false)?;
-    Ok(Solved { problem, optimum, event: Some(format!("conservative plan: {because}")) })
+/// Inputs that brake or accelerate as hard as the vehicle can, straight on.
+pub(crate) fn extremes(scene: &Scene) -> [Vec<Input>; 2] {
+    let limits = &scene.ego.limits;
+    [limits.acceleration_min_mps2, limits.acceleration_max_mps2]
+        .map(|acceleration| steady(&scene.ego.state, acceleration, limits, scene.horizon, scene.step_s))
 }
 
 /// The last plan one step later, full braking and full acceleration.

@@ -22,9 +22,10 @@ pub use signal::problem;
 pub use value::attraction;
 
 use crate::activity::Activity;
+use crate::conservative;
 use crate::encounter::{Choice, Partner};
 use crate::mpc::{Optimiser, Optimum, Problem, Robust};
-use crate::solo::{self, Solved};
+use crate::solo::Solved;
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A Bayesian planner with what it remembers.
@@ -63,7 +64,7 @@ impl Bayesian {
         let problem = problem(scene, choice.partner, &self.belief, &self.settings);
         let every = self.settings.look_around_every;
         let Solved { problem, optimum, event } =
-            solo::solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+            conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
         let diagnostics = self.diagnostics(&problem, &optimum);
         let trajectory = optimum.trajectory(0);
         if let Some(before) = &self.last {

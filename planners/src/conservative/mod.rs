@@ -1,14 +1,15 @@
 //! The conservative baseline (eq. 6.13): the others' predictions are constraints, whoever has the right of way.
 
+mod retreat;
 mod settings;
 
+pub(crate) use retreat::{retreat, solve_or_retreat};
 pub use settings::Settings;
 
 use crate::activity::Activity;
 use crate::mpc::{Cost, DescentError, Optimiser, Penalty, Problem, Robust};
-use crate::predict::steady;
-use crate::solo::Solved;
-use crate::{Agent, Diagnostic, Input, Plan, PlanError, Scene, Trajectory};
+use crate::solo::{self, Solved};
+use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A conservative planner with the plan it made last.
 #[derive(Clone, Debug)]
@@ -32,13 +33,6 @@ pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
     }
 }
 
-/// Inputs that brake or accelerate as hard as the vehicle can, straight on.
-pub(crate) fn extremes(scene: &Scene) -> [Vec<Input>; 2] {
-    let limits = &scene.ego.limits;
-    [limits.acceleration_min_mps2, limits.acceleration_max_mps2]
-        .map(|acceleration| steady(&scene.ego.state, acceleration, limits, scene.horizon, scene.step_s))
-}
-
 impl Conservative {
     /// A planner that has not planned yet.
     pub fn new(settings: Settings) -> Self {
@@ -57,15 +51,11 @@ impl Conservative {
     pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Solved, DescentError> {
         let scene = &scene.expecting(self.settings.prediction);
         let others: Vec<&Agent> = scene.others.iter().collect();
-        let keep = self.last.as_ref().map_or_else(Vec::new, Trajectory::later_inputs);
-        let [brake, accelerate] = extremes(scene);
-        let guesses = [vec![keep], vec![brake], vec![accelerate]];
-        let every = self.settings.look_around_every;
-        let look_around = every > 0 && scene.tick.is_multiple_of(every);
         let problem = problem(scene, &others);
-        let optimum = self.optimiser.best_of(&problem, &guesses, look_around)?;
-        self.last = Some(optimum.trajectory(0));
-        Ok(Solved { problem, optimum, event: None })
+        let every = self.settings.look_around_every;
+        let solved = solo::solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+        self.last = Some(solved.optimum.trajectory(0));
+        Ok(solved)
     }
 }
 

@@ -25,7 +25,6 @@ use crate::activity::Activity;
 use crate::conservative;
 use crate::mpc::{Iterate, Optimiser, Optimum, Problem, Robust};
 use crate::predict::steady;
-use crate::solo;
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 
 /// A cooperating planner with the joint plan it made last.
@@ -77,7 +76,7 @@ impl Cooperative {
             Err(error) => {
                 let last = std::mem::take(&mut self.last);
                 let last = last.get(own).map(|(_, trajectory)| trajectory);
-                Ok(conservative::answer(&solo::retreat(&mut self.optimiser, scene, last, &error)?))
+                Ok(conservative::answer(&conservative::retreat(&mut self.optimiser, scene, last, &error)?))
             }
         }
     }

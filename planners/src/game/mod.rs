@@ -24,7 +24,7 @@ pub use settings::{Method, Settings};
 use crate::activity::Activity;
 use crate::encounter::{Choice, Partner};
 use crate::mpc::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
-use crate::solo::{self, Solved};
+use crate::solo::Solved;
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use equilibrium::{Solution, leader_follower, nash};
 use intention::forget;
@@ -102,7 +102,7 @@ impl Game {
         let problem = problem(scene, expressed);
         let every = self.settings.look_around_every;
         let Solved { problem, optimum, event } =
-            solo::solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+            conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
         let diagnostics = self.diagnostics(scene, round.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());

@@ -4,8 +4,9 @@
 //! predictions, a conservative plan still keeps its slack small. There is no guarantee if a prediction changes, so every
 //! intervention is recorded.
 
-use crate::conservative::{extremes, problem};
+use crate::conservative::problem;
 use crate::mpc::{Optimiser, Optimum, Robust};
+use crate::solo::extremes;
 use crate::{Agent, Scene};
 
 /// Slack that a conservative plan may need after the step.

@@ -25,9 +25,9 @@ pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
 use crate::activity::Activity;
-use crate::conservative::{self, Conservative, extremes};
+use crate::conservative::{self, Conservative};
 use crate::mpc::{Leaning, Optimiser, Optimum, Problem, Robust};
-use crate::solo::Solved;
+use crate::solo::{Solved, extremes};
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use filter::Filter;
 use interlocutor::Interlocutor;
