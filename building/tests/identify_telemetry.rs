@@ -187,6 +187,7 @@ fn wrong_mappings_say_where_and_what() {
         unknown_key.starts_with("home.toml:10:1: the mapping cannot be read: unknown field `step_m`"),
         "{unknown_key}"
     );
+    assert!(broken("step_s = 900.0", "steps_s = 900.0").ends_with("did you mean `step_s`?"));
     let unit = broken("unit = \"w\"", "unit = \"horsepower\"");
     assert!(unit.starts_with("home.toml:") && unit.contains("unknown variant `horsepower`"), "{unit}");
     assert_eq!(broken("900.0", "0.0"), "home.toml: time.step_s is 0; it must be a positive number of seconds");
@@ -209,4 +210,30 @@ fn the_example_mappings_are_sound() {
         Mapping::parse(file, text).expect("an example is sound");
     }
     assert!(matches!(*read("").expect_err("empty").problem, TelemetryProblem::Empty));
+}
+
+/// Every key of an object in a schema, and of those below it.
+fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
+    match schema {
+        serde_json::Value::Object(fields) => {
+            if let Some(serde_json::Value::Object(properties)) = fields.get("properties") {
+                found.extend(properties.keys().cloned());
+            }
+            fields.values().for_each(|value| keys(value, found));
+        }
+        serde_json::Value::Array(items) => items.iter().for_each(|item| keys(item, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn the_page_shows_a_sound_mapping_and_names_every_key() {
+    let page = include_str!("../../docs/identification.md");
+    let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a mapping");
+    Mapping::parse("docs/identification.md", example).expect("sound");
+    let mut found = Vec::new();
+    keys(schemars::schema_for!(Mapping).as_value(), &mut found);
+    assert!(found.len() > 20);
+    let missing: Vec<_> = found.iter().filter(|key| !page.contains(key.as_str())).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }

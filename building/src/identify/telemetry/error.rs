@@ -131,7 +131,10 @@ impl TelemetryProblem {
     /// What would work instead.
     pub fn remedy(&self) -> String {
         match self {
-            Self::Mapping { .. } => "see the example mappings".into(),
+            Self::Mapping { reason } => match meant(reason) {
+                Some(known) => format!("did you mean `{known}`?"),
+                None => "`interplay identify --help` shows a mapping, docs/identification.md every key".into(),
+            },
             Self::Field { wanted, .. } => format!("it must be {wanted}"),
             Self::Name { known, .. } => format!("known names: {}", listed(known)),
             Self::Empty => "it needs a header and at least two rows".into(),
@@ -157,6 +160,16 @@ impl TelemetryProblem {
 }
 
 /// Names for a message, a long list cut.
+/// The known word that is nearest to an unknown one, both of which the TOML reader puts between backticks: "unknown field `a`,
+/// expected one of `b`, `c`".
+fn meant(reason: &str) -> Option<&str> {
+    let words = reason.strip_prefix("unknown ")?;
+    let mut words = words.split('`').skip(1).step_by(2);
+    let unknown = words.next().filter(|word| word.len() < 100)?;
+    let (edits, known) = words.map(|known| (strsim::osa_distance(unknown, known), known)).min()?;
+    (edits <= 1 + unknown.len() / 3).then_some(known)
+}
+
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
     let shown: Vec<_> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
