@@ -1,6 +1,6 @@
 //! What one tick looked like: plain values, handed from the world to whoever watches it.
 
-use crate::measure::DayFigures;
+use crate::day::DayFigures;
 use interplay_building::control::Design;
 use interplay_planners::{Input, Plan, State, Trajectory};
 

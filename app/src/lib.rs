@@ -10,6 +10,7 @@ pub mod act;
 pub mod cli;
 pub mod climate;
 pub mod components;
+pub mod day;
 pub mod figures;
 pub mod frame;
 pub mod measure;

@@ -68,10 +68,10 @@ fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
     let row = |(take, report): &(&Take, &BuildingReport)| {
         let days = &report.iterations;
         let costs: Vec<String> = days.iter().map(|day| format!("{:.1}", day.figures.cost)).collect();
-        let last = |value: fn(&crate::measure::DayFigures) -> f64| {
+        let last = |value: fn(&crate::day::DayFigures) -> f64| {
             days.last().map_or_else(String::new, |day| format!("{:.3}", value(day)))
         };
-        let most = |value: fn(&crate::measure::DayFigures) -> f64| days.iter().map(value).fold(0.0, f64::max);
+        let most = |value: fn(&crate::day::DayFigures) -> f64| days.iter().map(value).fold(0.0, f64::max);
         [
             label(take),
             costs.join(", "),

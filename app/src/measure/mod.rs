@@ -5,7 +5,6 @@ mod collisions;
 mod comfort;
 mod completion;
 mod digest;
-mod gap;
 mod milestones;
 mod planning;
 mod speed;
@@ -14,17 +13,17 @@ use bevy::ecs::prelude::*;
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
 
-pub use building::{BuildingDigests, BuildingMeasures, DayFigures, ExchangeFigures, Fallback, measure_building};
+pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
 pub use collisions::Collision;
 pub use comfort::Comfort;
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
-pub use gap::Gap;
 pub use milestones::Milestones;
 pub use planning::Planning;
 pub use speed::SpeedRange;
 
 use crate::components::{Clock, Identity, Motion, Present};
+use crate::physics::Gap;
 
 /// Everything that is measured in a run.
 #[derive(Resource, Clone, Debug)]

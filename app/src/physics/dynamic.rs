@@ -8,12 +8,12 @@ use interplay_planners::State;
 use interplay_scenarios::Dynamic;
 use rapier2d::prelude::{MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector};
 
+use super::Gap;
 use super::actuators::Actuators;
 use super::contacts::{Contacts, mass_kg, transmitted_ns};
 use super::footprint::pose;
 use super::tyres::{Chassis, Planar};
 use super::{Contact, Moving};
-use crate::measure::Gap;
 
 /// The longest sub-step \[s\].
 const SUB_STEP_S: f64 = 1e-3;

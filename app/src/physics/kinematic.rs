@@ -4,11 +4,11 @@ use interplay_planners::State;
 use interplay_planners::dynamics::Bicycle;
 use rapier2d::prelude::{PhysicsWorld, RigidBodyBuilder};
 
+use super::Gap;
 use super::contacts::{Contacts, Touch, impulse_ns};
 use super::footprint::pose;
 use super::path::{Path, next_look};
 use super::{Contact, Moving};
-use crate::measure::Gap;
 
 /// A body that is put where the model says.
 pub(super) fn body(state: &State) -> RigidBodyBuilder {

@@ -12,6 +12,7 @@ mod dynamic;
 #[cfg(test)]
 mod dynamic_tests;
 mod footprint;
+mod gap;
 mod kinematic;
 mod path;
 #[cfg(test)]
@@ -24,6 +25,7 @@ use interplay_scenarios::{Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
 
 pub use footprint::gap_m;
+pub use gap::Gap;
 
 use crate::components::{Clock, Identity, Motion, Physique, Present};
 use crate::frame::{Event, Level};

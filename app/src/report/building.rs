@@ -7,7 +7,8 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::Expectation;
-use crate::measure::{BuildingDigests, BuildingMeasures, DayFigures, Fallback};
+use crate::day::DayFigures;
+use crate::measure::{BuildingDigests, BuildingMeasures, Fallback};
 
 /// The most days that a summary lists.
 const LISTED: usize = 14;

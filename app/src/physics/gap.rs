@@ -3,7 +3,7 @@
 use interplay_planners::{Body, State};
 use interplay_scenarios::Scenario;
 
-use crate::physics::gap_m;
+use super::gap_m;
 
 /// The smallest distance so far.
 #[derive(Clone, Debug)]
