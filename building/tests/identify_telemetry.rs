@@ -229,7 +229,7 @@ fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
 #[test]
 fn the_page_shows_a_sound_mapping_and_names_every_key() {
     let page = include_str!("../../docs/identification.md");
-    let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a mapping");
+    let example = page.split("```toml mapping\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a mapping");
     Mapping::parse("docs/identification.md", example).expect("sound");
     let mut found = Vec::new();
     keys(schemars::schema_for!(Mapping).as_value(), &mut found);
