@@ -4,7 +4,8 @@
 
 For every problem both solvers start from the recorded guess, IPOPT with a tolerance of 1e-8 and then on from there to the
 last digits. Then each starts at the other's optimum, to tell a second local optimum from unfinished work. IPOPT's inputs
-are rolled out and charged by our cost function; its own objectives are kept in the details.
+are rolled out and charged by our cost function; its own objectives are kept in the details. The same method with Clarabel for
+its step problems ("sparse") is a third opinion.
 """
 
 import argparse
@@ -47,7 +48,7 @@ def relative(a, b, floor=FLOOR):
 
 def compare(kind, ipopt, solver):
     """Every problem's costs: ours and IPOPT's from the guess and from each other's optimum, all by our cost function."""
-    posed, mine = problems(kind), ours(kind, solver)
+    posed, mine, third = problems(kind), ours(kind, solver), ours(kind, "sparse")
     alone = "resumed" if solver == "planner" else solver
     first = [ipopt.solve(p, p["guess"], Ipopt.PLAIN) for p in posed]
     theirs = [ipopt.solve(p, f["inputs"], Ipopt.NEARBY) for p, f in zip(posed, first)]
@@ -56,13 +57,13 @@ def compare(kind, ipopt, solver):
     nearby = [ipopt.solve(p, m["inputs"] or p["guess"], Ipopt.NEARBY) for p, m in zip(posed, mine)]
     at_nearby = ours(kind, alone, {p["id"]: n["inputs"] for p, n in zip(posed, nearby)})
     rows = []
-    for p, m, f, af, t, at, n, an in zip(posed, mine, first, at_first, theirs, at_theirs, nearby, at_nearby):
+    for p, m, c, f, af, t, at, n, an in zip(posed, mine, third, first, at_first, theirs, at_theirs, nearby, at_nearby):
         solved = m["inputs"] is not None
         better = [cost for cost, outcome in [(af["start_cost"], f), (at["start_cost"], t)] if outcome["solved"]]
         rows.append({
             "id": p["id"], "ours": m["cost"], "error": m["error"], "residual": m["residual"],
             "programmes": m["programmes"], "safety_slack": m["safety_slack"], "guess": m["start_cost"],
-            "penalty": ipopt.programme(p).penalty(p, m["inputs"]) if solved else None,
+            "clarabel": c["cost"], "penalty": ipopt.programme(p).penalty(p, m["inputs"]) if solved else None,
             "ipopt": min(better, default=None), "ipopt_status": f["status"], "ipopt_iterations": f["iterations"],
             "ipopt_objectives": [f["cost"], t["cost"]],
             "ours_from_ipopt": at["cost"], "ours_from_ipopt_error": at["error"],
@@ -133,9 +134,15 @@ def table(results):
                if not r["error"] and (r["ipopt"] is None or relative(r["ours"], r["ipopt"], floor) <= close)]
         return f"{100 * len(met) / len(rows):.1f} %"
 
+    def best_share(rows, close):
+        best = [min((cost for cost in (r["ipopt"], r["clarabel"]) if cost is not None), default=None) for r in rows]
+        met = [r for r, b in zip(rows, best) if not r["error"] and (b is None or relative(r["ours"], b) <= close)]
+        return f"{100 * len(met) / len(rows):.1f} %"
+
     line("problems", len)
     line("ours within 1e-4 of the better one", lambda rows: share(rows, 1e-4))
     line("ours within 1e-6 of the better one", lambda rows: share(rows, 1e-6))
+    line("ours within 1e-6 of the better of IPOPT's and Clarabel's", lambda rows: best_share(rows, 1e-6))
     line("the same, costs below 1 counting as 1", lambda rows: share(rows, 1e-6, 1.0))
     for name in ["same", "ours is a cheaper optimum", "unfinished by IPOPT", "unsolved by IPOPT",
                  "ours is a dearer optimum", "unfinished by us", "unsolved by us"]:
