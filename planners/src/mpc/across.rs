@@ -16,7 +16,7 @@
 //! The tangent keeps out of the whole ellipse, so the promise is rather too dear than too cheap. A plan that begins abreast cannot
 //! be on the other side at once: it crosses where it is nearest to the axis.
 
-use super::linearise::{drop_curvature, linearise};
+use super::linearise::{drop_curvature, ellipses, linearise};
 use super::problem::Problem;
 use super::scp::{Optimiser, Optimum};
 use super::stage::{Row, RowBlock, StageSolver};
@@ -67,8 +67,7 @@ impl<S: StageSolver> Optimiser<S> {
     /// Descends from where the step leads, and stays there if it is cheaper.
     fn follow(&mut self, problem: &Problem, best: &mut Optimum) {
         self.try_step(problem, &best.iterate, 1.0);
-        let start = Optimum { iterate: self.search.trial.clone(), ..Optimum::default() };
-        let found = self.descend_on(problem, start, best.below());
+        let found = self.descend_on(problem, self.search.trial.clone(), best.below());
         self.keep_cheaper(best, found);
     }
 }
@@ -77,18 +76,6 @@ impl<S: StageSolver> Optimiser<S> {
 fn penalties(block: &RowBlock) -> f64 {
     let rows = block.rows.iter().filter(|row| row.active);
     block.penalty.map_or(0.0, |penalty| rows.map(|row| penalty.cost(row.value)).sum())
-}
-
-/// Index of the block and axes of every ellipse, in the order of [`linearise`].
-fn ellipses(problem: &Problem) -> Vec<(usize, Axes)> {
-    const CORNERS: usize = 4;
-    let own = problem.participants.iter().flat_map(|participant| {
-        let keep_outs = participant.keep_outs.iter().map(|keep_out| Some(keep_out.heading_rad));
-        [None; CORNERS].into_iter().chain(keep_outs)
-    });
-    let pairs = problem.separations.iter().map(|pair| Some(pair.heading_rad));
-    let blocks = own.chain(pairs).enumerate();
-    blocks.filter_map(|(block, heading)| Some((block, Axes::along(heading?)))).collect()
 }
 
 /// Where a row of an ellipse is evaluated: `r`, and the Hessian of `d²` on (along, across).

@@ -7,11 +7,13 @@
 use super::adjoint::costates;
 use super::problem::{Iterate, Leaning, Participant, Penalty, Problem};
 use super::stage::{Interval, Row, RowBlock, StageQp, StageSolution, TrajectoryRow, VehicleStages};
-use crate::State;
 use crate::dynamics::Curvature;
+use crate::{Axes, State};
 
 /// Tolerance of an ordinary step problem.
 pub(super) const TOLERANCE: f64 = 1e-9;
+/// Blocks of rows that keep a vehicle on its road.
+const CORNERS: usize = 4;
 /// Beyond this squared elliptical distance an ellipse is left out of the step: the merit still counts it.
 const FAR_SQUARED: f64 = 25.0;
 
@@ -142,7 +144,7 @@ fn for_each_block(
 ) {
     for (i, participant) in problem.participants.iter().enumerate() {
         let states = &iterate.states[i][1..];
-        let mut corners: [Vec<Row>; 4] = Default::default();
+        let mut corners: [Vec<Row>; CORNERS] = Default::default();
         for (k, state) in states.iter().enumerate() {
             let clearances = participant.corridor.clearances(&participant.body, state);
             for (rows, c) in corners.iter_mut().zip(clearances) {
@@ -171,6 +173,17 @@ fn for_each_block(
         });
         take(pair.of, Some(pair.from), pair.penalty, &mut { rows });
     }
+}
+
+/// Index of the block and axes of every ellipse, in the order of [`for_each_block`].
+pub(super) fn ellipses(problem: &Problem) -> Vec<(usize, Axes)> {
+    let own = problem.participants.iter().flat_map(|participant| {
+        let keep_outs = participant.keep_outs.iter().map(|keep_out| Some(keep_out.heading_rad));
+        [None; CORNERS].into_iter().chain(keep_outs)
+    });
+    let pairs = problem.separations.iter().map(|pair| Some(pair.heading_rad));
+    let blocks = own.chain(pairs).enumerate();
+    blocks.filter_map(|(block, heading)| Some((block, Axes::along(heading?)))).collect()
 }
 
 fn ellipse_row(squared: f64, [x, y]: [f64; 2], curvature: [f64; 4]) -> Row {

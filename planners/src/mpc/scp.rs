@@ -206,14 +206,7 @@ impl<S: StageSolver> Optimiser<S> {
         resumes: bool,
         below: f64,
     ) -> Result<Optimum, DescentError> {
-        let mut now = Optimum { iterate: problem.start(guess), ..Optimum::default() };
-        now.statistics.starts = 1;
-        now.cost = problem.cost(&now.iterate);
-        if !now.cost.total.is_finite() {
-            return Err(DescentError::NotFinite);
-        }
-        self.search.restart();
-        linearise(problem, &now.iterate, &mut self.qp);
+        let mut now = self.begin(problem, problem.start(guess))?;
         let resumed = resumes && self.memory.fits(&self.qp);
         if resumed && self.recall(&mut now) {
             return Ok(now);
@@ -221,18 +214,26 @@ impl<S: StageSolver> Optimiser<S> {
         self.go_down(problem, now, resumed, below)
     }
 
-    /// Descends from where the last step has led.
+    /// Descends from where the last step has led, with its multipliers.
     pub(super) fn descend_on(
         &mut self,
         problem: &Problem,
-        mut now: Optimum,
+        iterate: Iterate,
         below: f64,
     ) -> Result<Optimum, DescentError> {
-        now.statistics.starts = 1;
-        now.cost = problem.cost(&now.iterate);
-        self.search.restart();
-        linearise(problem, &now.iterate, &mut self.qp);
+        let now = self.begin(problem, iterate)?;
         self.go_down(problem, now, true, below)
+    }
+
+    /// The beginning of a descent, with its step problem posed.
+    fn begin(&mut self, problem: &Problem, iterate: Iterate) -> Result<Optimum, DescentError> {
+        let cost = problem.cost(&iterate);
+        if !cost.total.is_finite() {
+            return Err(DescentError::NotFinite);
+        }
+        self.search.restart();
+        linearise(problem, &iterate, &mut self.qp);
+        Ok(Optimum { iterate, cost, statistics: Statistics { starts: 1, ..Statistics::default() } })
     }
 
     /// Begins with what is remembered, one stage later. Returns whether nothing is left to do.
