@@ -129,20 +129,16 @@ def table(results):
     def line(name, value):
         lines.append(f"| {name} | " + " | ".join(str(value(rows)) for rows in results.values()) + " |")
 
-    def share(rows, close, floor=FLOOR):
-        met = [r for r in rows
-               if not r["error"] and (r["ipopt"] is None or relative(r["ours"], r["ipopt"], floor) <= close)]
-        return f"{100 * len(met) / len(rows):.1f} %"
-
-    def best_share(rows, close):
-        best = [min((cost for cost in (r["ipopt"], r["clarabel"]) if cost is not None), default=None) for r in rows]
-        met = [r for r, b in zip(rows, best) if not r["error"] and (b is None or relative(r["ours"], b) <= close)]
+    def share(rows, close, floor=FLOOR, others=("ipopt",)):
+        best = [min((r[other] for other in others if r[other] is not None), default=None) for r in rows]
+        met = [r for r, b in zip(rows, best)
+               if not r["error"] and (b is None or relative(r["ours"], b, floor) <= close)]
         return f"{100 * len(met) / len(rows):.1f} %"
 
     line("problems", len)
     line("ours within 1e-4 of the better one", lambda rows: share(rows, 1e-4))
     line("ours within 1e-6 of the better one", lambda rows: share(rows, 1e-6))
-    line("ours within 1e-6 of the better of IPOPT's and Clarabel's", lambda rows: best_share(rows, 1e-6))
+    line("ours within 1e-6 of the better of IPOPT's and Clarabel's", lambda rows: share(rows, 1e-6, others=["ipopt", "clarabel"]))
     line("the same, costs below 1 counting as 1", lambda rows: share(rows, 1e-6, 1.0))
     for name in ["same", "ours is a cheaper optimum", "unfinished by IPOPT", "unsolved by IPOPT",
                  "ours is a dearer optimum", "unfinished by us", "unsolved by us"]:

@@ -65,6 +65,9 @@ pub fn optimum(
     plan(lifted, &free_c, targets, penalty, &Caution::default())
 }
 
+/// The margin of an input is at most this share of its limit: something must be left to plan with.
+const LARGEST_MARGIN: f64 = 0.95;
+
 /// What a plan keeps away from, beyond the limits of the day.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Caution {
@@ -74,6 +77,14 @@ pub(super) struct Caution {
     pub band_margin_k: Vec<f64>,
     /// A bound for the length of the errors that count (eq. 3.8).
     pub error_bound: Option<ErrorBound>,
+}
+
+/// How far a plan stays within its limits \[kW\], for inputs with these deviations.
+pub(super) fn margins_kw(lifted: &Lifted, input_deviation_kw: &[f64], quantile: f64) -> Vec<f64> {
+    let limits_kw = lifted.model().network().limits_kw();
+    (input_deviation_kw.iter().enumerate())
+        .map(|(i, deviation_kw)| (quantile * deviation_kw).min(LARGEST_MARGIN * limits_kw[i % limits_kw.len()]))
+        .collect()
 }
 
 /// ‖e‖₂ ≤ bound over the errors with a weight, per step and zone (eq. 3.8).

@@ -12,7 +12,7 @@
 //! [`Solution::temptation`] tells.
 
 use super::payoff::Player;
-use super::reply::{CELL, HIGHEST, LOWEST, POINTS, best_reply, grid_reply, intention, maximum, reply_near};
+use super::reply::{CELL, HIGHEST, LOWEST, POINTS, best_of, best_reply, grid_reply, intention, maximum, reply_near};
 
 /// Utilities closer than this are equal.
 const NO_TEMPTATION: f64 = 1e-9;
@@ -42,14 +42,9 @@ pub fn leader_follower(ego: &Player, other: &Player) -> Solution {
     let rough: [f64; POINTS] =
         std::array::from_fn(|own| ego.utility(intention(own), intention(grid_reply(other, own))));
     let led = |own: f64| ego.utility(own, best_reply(other, own));
-    let mut best = (LOWEST, f64::NEG_INFINITY);
-    for own in (0..POINTS).filter(|own| is_peak(&rough, *own)).map(intention) {
-        let utility = led(own);
-        if utility > best.1 {
-            best = (own, utility);
-        }
-    }
-    let own = maximum(led, best.0, CELL, LEADING_STEPS);
+    let peaks: Vec<f64> = (0..POINTS).filter(|own| is_peak(&rough, *own)).map(intention).collect();
+    let highest = peaks.get(best_of(peaks.iter().map(|own| led(*own)))).copied().unwrap_or(LOWEST);
+    let own = maximum(led, highest, CELL, LEADING_STEPS);
     solution(ego, other, own, best_reply(other, own))
 }
 

@@ -71,7 +71,7 @@ pub(super) fn maximum(f: impl Fn(f64) -> f64, guess: f64, reach: f64, steps: usi
 }
 
 /// The index of the largest number; the first of equals.
-fn best_of(values: impl Iterator<Item = f64>) -> usize {
+pub(super) fn best_of(values: impl Iterator<Item = f64>) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
     for (index, value) in values.enumerate() {
         if value > best.1 {

@@ -20,15 +20,12 @@ pub use settings::ConcurrentSettings;
 use super::experience::{Experience, Lesson};
 use super::follow::{Diary, Learner, Plan};
 use super::iterative::rows;
-use super::optimum::{Caution, plan};
+use super::optimum::{Caution, margins_kw, plan};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
 use super::{ControlError, Design, Morning, Observation};
 use crate::comfort::Targets;
 use crate::lifted::Lifted;
 use youla::StateSpace;
-
-/// The margin of an input is at most this share of its limit.
-const LARGEST_MARGIN: f64 = 0.95;
 
 /// The concurrent design at work.
 #[derive(Clone, Debug)]
@@ -115,12 +112,8 @@ impl Learner for Concurrent {
         let feedback = self.feedback(targets)?;
         let quantile = normal_quantile(self.settings.confidence);
         let lifted = self.experience.lifted();
-        let limits_kw = lifted.model().network().limits_kw();
-        let margin = |(i, deviation_kw): (usize, &f64)| {
-            (quantile * deviation_kw).min(LARGEST_MARGIN * limits_kw[i % limits_kw.len()])
-        };
         let caution = Caution {
-            input_margin_kw: feedback.input_deviation_kw.iter().enumerate().map(margin).collect(),
+            input_margin_kw: margins_kw(lifted, &feedback.input_deviation_kw, quantile),
             band_margin_k: feedback.temperature_deviation_k.iter().map(|deviation_k| quantile * deviation_k).collect(),
             error_bound: None,
         };

@@ -19,9 +19,8 @@
 use nalgebra::DMatrix;
 
 use super::feedback::{Response, optimal_causal};
-use super::margins_kw;
 use crate::comfort::Targets;
-use crate::control::optimum::{Caution, plan};
+use crate::control::optimum::{Caution, margins_kw, plan};
 use crate::control::{ControlError, Optimum};
 use crate::lifted::Lifted;
 

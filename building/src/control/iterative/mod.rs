@@ -27,7 +27,7 @@ pub use settings::{Chance, Convergence, Coordination, IterativeSettings, Objecti
 
 use super::experience::{Experience, Lesson};
 use super::follow::{Diary, Learner, Plan};
-use super::optimum::{Caution, ErrorBound, plan};
+use super::optimum::{Caution, ErrorBound, margins_kw, plan};
 use super::stability::{closed_loop, spectral_radius};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
 use super::{ControlError, Design, Morning, Observation};
@@ -40,8 +40,6 @@ use projection::Projection;
 pub const MOST_UNKNOWNS: usize = 1200;
 /// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft.
 const GROWTH_COST: f64 = 1e3;
-/// The margin of an input is at most this share of its limit: something must be left to plan with.
-const LARGEST_MARGIN: f64 = 0.95;
 
 /// The iterative design at work.
 #[derive(Clone, Debug)]
@@ -202,14 +200,6 @@ impl Iterative {
             ..Design::default()
         }
     }
-}
-
-/// How far a plan stays within its limits \[kW\], for inputs with these deviations.
-fn margins_kw(lifted: &Lifted, input_deviation_kw: &[f64], quantile: f64) -> Vec<f64> {
-    let limits_kw = lifted.model().network().limits_kw();
-    (input_deviation_kw.iter().enumerate())
-        .map(|(i, deviation_kw)| (quantile * deviation_kw).min(LARGEST_MARGIN * limits_kw[i % limits_kw.len()]))
-        .collect()
 }
 
 /// Refuses a building that is too large for dense matrices.
