@@ -2,12 +2,12 @@
 //!
 //! No scenario file makes a planner fail on purpose, so the goal of a vehicle is spoilt in the running world.
 
-use interplay::components::{Identity, Wish};
-use interplay::frame::{Frame, Level, Origin};
-use interplay::measure::Measures;
-use interplay::{phases, spawn};
 use interplay_planners::mpc::Limits;
 use interplay_planners::predict::steady;
+use interplay_simulation::components::{Identity, Wish};
+use interplay_simulation::frame::{Frame, Level, Origin};
+use interplay_simulation::measure::Measures;
+use interplay_simulation::{phases, spawn};
 
 use crate::film::{Camera, authored, film};
 

@@ -15,9 +15,9 @@
 use std::error::Error;
 
 use clap::Parser;
-use interplay::report::Report;
-use interplay::run::run;
 use interplay_scenarios::{Override, Scenario, embedded, load};
+use interplay_simulation::report::Report;
+use interplay_simulation::run::run;
 use rayon::prelude::*;
 
 /// Perturbs the starts of scenarios and prints which outcomes are kept, as a Markdown table.

@@ -7,7 +7,7 @@ use interplay_scenarios::embedded;
 
 /// A scenario to be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Found {
+pub(crate) struct Found {
     /// What its run is called: see [`short_name`]; in a folder, its path below that folder, without the extension.
     pub name: String,
     /// Name of the embedded scenario, or path of the file.
@@ -18,7 +18,7 @@ pub(super) struct Found {
 ///
 /// # Errors
 /// In words, if a folder cannot be read or has no such file in it. Whether the others exist shows when they are loaded.
-pub(super) fn find(argument: &str) -> Result<Vec<Found>, String> {
+pub(crate) fn find(argument: &str) -> Result<Vec<Found>, String> {
     if !Path::new(argument).is_dir() {
         return Ok(vec![Found { name: short_name(argument), scenario: argument.to_owned() }]);
     }
@@ -51,7 +51,7 @@ fn below(folder: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 /// What a run is called: an authored scenario by its name, a file by its own name, without folders and extension.
-pub(super) fn short_name(scenario: &str) -> String {
+pub(crate) fn short_name(scenario: &str) -> String {
     if embedded().iter().any(|file| file.name == scenario) {
         return scenario.to_owned();
     }

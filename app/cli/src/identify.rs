@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use interplay_building::identify::{Identification, Mapping, Telemetry, identify};
+use interplay_presentation::{plot, report};
 
-use super::{Ending, complain, print};
-use crate::{plot, report};
+use crate::{Ending, complain, print};
 
 /// Find thermal parameters in telemetry, with uncertainty and residual diagnostics.
 ///
@@ -22,7 +22,7 @@ use crate::{plot, report};
     boundary = [{ name = \"outdoor\", temperature = \"T_out\" }]\n  \
     zone = [{ name = \"office\", temperature = \"T_in\", heat = [{ kind = \"power\", column = \"P\", unit = \"kw\" }] }]\n  \
     identify = { method = \"prediction-error\", train_days = 9.0 }")]
-pub(super) struct Identify {
+pub(crate) struct Identify {
     /// The table, with a header
     #[arg(value_name = "FILE.csv")]
     table: PathBuf,
@@ -41,7 +41,7 @@ pub(super) struct Identify {
 }
 
 impl Identify {
-    pub(super) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> Ending {
         let found = match self.identify() {
             Ok(found) => found,
             Err(error) => {

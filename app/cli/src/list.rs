@@ -4,19 +4,19 @@ use clap::Args;
 use interplay_scenarios::{embedded, load};
 use serde_json::json;
 
-use super::{Ending, complain_about, print};
+use crate::{Ending, complain_about, print};
 
 /// List the embedded scenarios: name, what it shows, figure reproduced.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  interplay list --json")]
-pub(super) struct List {
+pub(crate) struct List {
     /// Print the list as one JSON document
     #[arg(long)]
     json: bool,
 }
 
 impl List {
-    pub(super) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> Ending {
         let mut rows = Vec::new();
         for file in embedded() {
             match load(file.name, &[]) {

@@ -1,5 +1,5 @@
 //! The `interplay` command.
 
 fn main() -> std::process::ExitCode {
-    interplay::cli::main()
+    interplay::main()
 }

@@ -2,19 +2,19 @@
 
 use clap::Args;
 
-use super::{Ending, complain, print};
+use crate::{Ending, complain, print};
 
 /// Print a manual page: of the whole, or of one command.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  interplay man > interplay.1\n  interplay man run > interplay-run.1")]
-pub(super) struct Man {
+pub(crate) struct Man {
     /// The command [default: all of them in brief]
     #[arg(value_name = "COMMAND")]
     of: Option<String>,
 }
 
 impl Man {
-    pub(super) fn execute(self, mut interplay: clap::Command) -> Ending {
+    pub(crate) fn execute(self, mut interplay: clap::Command) -> Ending {
         interplay.build();
         let page = match &self.of {
             None => Some(interplay),

@@ -5,11 +5,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use interplay_presentation::shell;
 use interplay_scenarios::{LoadError, commented};
 use thiserror::Error;
 
-use super::{Ending, complain, complain_about, print, schema};
-use crate::shell;
+use crate::{Ending, complain, complain_about, print, schema};
 
 /// What editors complete from, beside the scenario.
 const SCHEMA: &str = "interplay.schema.json";
@@ -20,13 +20,13 @@ const SCHEMA: &str = "interplay.schema.json";
 /// defaults: take away the `#` to change them. The schema for editors is written beside it, unless it is there already.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  interplay new my.toml --from intersection/nice && interplay run my.toml")]
-pub(super) struct New {
+pub(crate) struct New {
     /// The file to write; a file that exists is never overwritten
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
-    #[arg(long, value_name = "NAME|FILE", default_value = super::run::DEFAULT)]
+    #[arg(long, value_name = "NAME|FILE", default_value = crate::run::DEFAULT)]
     from: String,
 }
 
@@ -42,7 +42,7 @@ enum NewError {
 }
 
 impl New {
-    pub(super) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> Ending {
         match self.write() {
             Ok(()) => {
                 let run = shell::line(["interplay", "run", &self.file.to_string_lossy()]);

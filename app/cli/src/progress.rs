@@ -4,7 +4,7 @@ use std::io::{IsTerminal, Write, stderr};
 use std::sync::{Mutex, PoisonError};
 
 /// A line on stderr that is written over and over; nothing if stderr is no terminal.
-pub(super) struct Progress {
+pub(crate) struct Progress {
     total: usize,
     done: Mutex<usize>,
     shown: bool,

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
+use interplay_presentation::figures::{self, Entry, Kind, Made, find, make, registry, section};
+use interplay_presentation::page::Page;
 
-use super::progress::Progress;
-use super::{Ending, complain, print};
-use crate::figures::{self, Entry, Kind, Made, find, make, registry, section};
-use crate::page::Page;
+use crate::progress::Progress;
+use crate::{Ending, complain, print};
 
 /// Make the figures and tables of the dissertation again, as SVG and PNG, with a page that shows and explains them.
 #[derive(Debug, Args)]
@@ -16,7 +16,7 @@ use crate::page::Page;
     interplay reproduce                          (all of them, into figures/)\n  \
     interplay reproduce 6.1 table-8.2 --out mine\n  \
     interplay reproduce 5                        (all of chapter 5)")]
-pub(super) struct Reproduce {
+pub(crate) struct Reproduce {
     /// Figures (6.1), tables (table-6.1), or chapters (6) [default: all]
     #[arg(value_name = "FIGURE")]
     figures: Vec<String>,
@@ -31,7 +31,7 @@ pub(super) struct Reproduce {
 }
 
 impl Reproduce {
-    pub(super) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> Ending {
         if self.list {
             registry().for_each(|entry| print(&format!("{:10}  {}\n", entry.id(), entry.title)));
             return Ending::Well;

@@ -3,17 +3,18 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use interplay_presentation::figures::{Camera, Take, own_page};
+use interplay_presentation::record::{RecordError, Recorder, Sink, Viewer};
+use interplay_presentation::report::summary;
+use interplay_presentation::shell;
 use interplay_scenarios::{Override, Scenario, load};
+use interplay_simulation::report::Report;
+use interplay_simulation::run::run;
+use interplay_simulation::watch::Watcher;
 
-use super::files::short_name;
-use super::watch::Watched;
-use super::{Ending, complain, complain_about, json, print};
-use crate::figures::{Camera, Take, own_page};
-use crate::record::{RecordError, Recorder, Sink, Viewer};
-use crate::report::{Report, summary};
-use crate::run::run;
-use crate::shell;
-use crate::watch::Watcher;
+use crate::files::short_name;
+use crate::watch::Watched;
+use crate::{Ending, complain, complain_about, json, print};
 
 /// Run one scenario, say whether its expectations held, and record it.
 #[derive(Debug, Default, Args)]
@@ -22,7 +23,7 @@ use crate::watch::Watcher;
     interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json\n  \
     interplay run my.toml --watch                        (again at every save, until Ctrl-C)\n  \
     interplay run intersection/nice --report my-report     (pictures and a page)")]
-pub(super) struct Run {
+pub(crate) struct Run {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT)]
     scenario: Option<String>,
@@ -68,10 +69,10 @@ pub(super) struct Run {
 }
 
 /// What is run, and started from, unless something else is asked for.
-pub(super) const DEFAULT: &str = "lane-change/front-nice";
+pub(crate) const DEFAULT: &str = "lane-change/front-nice";
 
 impl Run {
-    pub(super) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> Ending {
         if self.watch { self.again_and_again() } else { self.once() }
     }
 

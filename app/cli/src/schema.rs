@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{Ending, print};
+use crate::{Ending, print};
 
 /// Print the JSON Schema of the scenario format, from which editors complete and explain keys.
 ///
@@ -10,16 +10,16 @@ use super::{Ending, print};
 /// read. It is the schema that scenarios are checked against.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  interplay schema > interplay.schema.json")]
-pub(super) struct Schema {}
+pub(crate) struct Schema {}
 
 impl Schema {
-    pub(super) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> Ending {
         print(&text());
         Ending::Well
     }
 }
 
 /// The schema as it is written into files.
-pub(super) fn text() -> String {
+pub(crate) fn text() -> String {
     format!("{:#}\n", interplay_scenarios::schema())
 }

@@ -5,21 +5,22 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
+use interplay_presentation::report::{Case, junit, table};
 use interplay_scenarios::{Scenario, embedded, load};
+use interplay_simulation::report::Report;
+use interplay_simulation::run::run;
 use rayon::prelude::*;
 
-use super::files::{self, Found};
-use super::progress::Progress;
-use super::{Ending, complain, complain_about, json, print};
-use crate::report::{Case, Report, junit, table};
-use crate::run::run;
+use crate::files::{self, Found};
+use crate::progress::Progress;
+use crate::{Ending, complain, complain_about, json, print};
 
 /// Run many scenarios side by side and say which of them do what they should.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     interplay suite\n  \
     interplay suite lane-change/front-nice my-scenarios/ --junit results.xml --jobs 4")]
-pub(super) struct Suite {
+pub(crate) struct Suite {
     /// Names of embedded scenarios, scenario files, or folders that are searched for .toml files [default: all embedded
     /// scenarios]
     #[arg(value_name = "NAME|FILE|DIR")]
@@ -39,7 +40,7 @@ pub(super) struct Suite {
 }
 
 impl Suite {
-    pub(super) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> Ending {
         let Some(scenarios) = self.load() else { return Ending::BadInput };
         let began = Instant::now();
         let cases = match self.run(&scenarios) {

@@ -6,15 +6,15 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use clap::Args;
+use interplay_presentation::record::{MAGIC, viewer_version};
 use thiserror::Error;
 
-use super::{Ending, complain};
-use crate::record::{MAGIC, viewer_version};
+use crate::{Ending, complain};
 
 /// Open recordings in the installed Rerun viewer, once its version is seen to be the right one.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  interplay view recordings/lane-change/front-nice.rrd")]
-pub(super) struct View {
+pub(crate) struct View {
     /// Recordings, opened side by side
     #[arg(value_name = "FILE.rrd", required = true)]
     files: Vec<PathBuf>,
@@ -38,7 +38,7 @@ enum ViewError {
 }
 
 impl View {
-    pub(super) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> Ending {
         match self.view() {
             Ok(()) => Ending::Well,
             Err(error) => {

@@ -11,7 +11,7 @@ const LOOK: Duration = Duration::from_millis(200);
 
 /// The files of a scenario as they were when it was last looked at.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Watched {
+pub(crate) struct Watched {
     scenario: String,
     seen: Vec<(PathBuf, Option<(SystemTime, u64)>)>,
 }

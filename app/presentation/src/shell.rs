@@ -1,7 +1,7 @@
 //! Words as a POSIX shell reads them.
 
 /// One line that a shell splits into exactly these words.
-pub(crate) fn line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+pub fn line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 

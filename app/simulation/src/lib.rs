@@ -1,30 +1,25 @@
-//! Interplay: a simulator for agents that must interact.
+//! The simulation: a scenario becomes an ECS world, is run, and is measured.
 //!
 //! ```text
-//! scenario file -> Scenario -> entities -> sense -> predict -> plan -> act -> physics | climate -> measure -> record -> report
+//! scenario -> entities -> sense -> predict -> plan -> act -> physics | climate -> measure -> record -> report
 //! ```
 //!
-//! [`run`](run::run) does all of it. The loop is one visible list in [`phases`]; each phase is one file.
+//! [`run`](run::run) does all of it. The loop is one visible list in [`phases`]; each phase is one file. Who wants to see
+//! the ticks of a run implements [`Watcher`](watch::Watcher).
 
 pub mod act;
-pub mod cli;
 pub mod climate;
 pub mod components;
 pub mod day;
-pub mod figures;
 pub mod frame;
 pub mod measure;
 pub mod moments;
-pub mod page;
 pub mod phases;
 pub mod physics;
 pub mod plan;
-pub mod plot;
 pub mod predict;
-pub mod record;
 pub mod report;
 pub mod run;
 pub mod sense;
-mod shell;
 pub mod spawn;
 pub mod watch;

@@ -3,10 +3,10 @@
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::Exchange;
 use interplay_building::network::Network;
+use interplay_simulation::climate::people;
+use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
 
 use super::take::Take;
-use crate::climate::people;
-use crate::frame::{BuildingFrame, ZoneFrame};
 use crate::plot::ink::{self, BLUE, Dash, Ink, LIMIT, ORANGE, WANTED};
 use crate::plot::{Curve, Panel, Panels};
 

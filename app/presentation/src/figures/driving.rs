@@ -3,9 +3,9 @@
 use interplay_planners::human::Style;
 use interplay_planners::{Driver, State};
 use interplay_scenarios::{Road, Scenario, Vehicle};
+use interplay_simulation::frame::Frame;
 
 use super::take::Take;
-use crate::frame::Frame;
 use crate::plot::ink::{self, BLACK, BLUE, Dash, GREY, Ink, ORANGE};
 use crate::plot::{Curve, Film, Moment, Panel, Panels, Strip};
 
@@ -208,6 +208,6 @@ pub fn reasons(title: &str, take: &Take, index: usize) -> Option<Panels> {
 
 /// When a planner failed \[s\].
 fn refusals(take: &Take, index: usize) -> Vec<f64> {
-    let failed = |frame: &&Frame| frame.vehicles[index].origin != crate::frame::Origin::Planned;
+    let failed = |frame: &&Frame| frame.vehicles[index].origin != interplay_simulation::frame::Origin::Planned;
     vehicle_frames(take).filter(failed).map(|frame| frame.time_s).collect()
 }

@@ -1,8 +1,9 @@
 //! What was measured of runs, as tables of words.
 
+use interplay_simulation::report::{BuildingReport, Report};
+
 use super::take::Take;
 use crate::plot::Sheet;
-use crate::report::{BuildingReport, Report};
 
 /// The runs side by side: what tells whether they are what the source shows.
 pub fn side_by_side(takes: &[&Take]) -> Vec<Sheet> {
@@ -68,10 +69,11 @@ fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
     let row = |(take, report): &(&Take, &BuildingReport)| {
         let days = &report.iterations;
         let costs: Vec<String> = days.iter().map(|day| format!("{:.1}", day.figures.cost)).collect();
-        let last = |value: fn(&crate::day::DayFigures) -> f64| {
+        let last = |value: fn(&interplay_simulation::day::DayFigures) -> f64| {
             days.last().map_or_else(String::new, |day| format!("{:.3}", value(day)))
         };
-        let most = |value: fn(&crate::day::DayFigures) -> f64| days.iter().map(value).fold(0.0, f64::max);
+        let most =
+            |value: fn(&interplay_simulation::day::DayFigures) -> f64| days.iter().map(value).fold(0.0, f64::max);
         [
             label(take),
             costs.join(", "),
@@ -104,7 +106,7 @@ fn expectations(report: &Report, changed: bool) -> String {
 
 /// Every expectation of a run: what was wanted and what came of it.
 pub fn expected(report: &Report) -> Sheet {
-    let row = |expectation: &crate::report::Expectation| {
+    let row = |expectation: &interplay_simulation::report::Expectation| {
         [
             expectation.what.clone(),
             expectation.want.to_string(),

@@ -3,12 +3,12 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use interplay_scenarios::{Override, Scenario, load};
+use interplay_simulation::frame::Frame;
+use interplay_simulation::report::Report;
+use interplay_simulation::run::{RunError, run};
+use interplay_simulation::watch::Watcher;
 
 use super::Ran;
-use crate::frame::Frame;
-use crate::report::Report;
-use crate::run::{RunError, run};
-use crate::watch::Watcher;
 
 /// A run that a figure needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

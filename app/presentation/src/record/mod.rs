@@ -33,21 +33,21 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use ::re_sdk_types;
+use blueprint::Panel;
+use building::House;
 use interplay_scenarios::{Branch, Scenario};
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
-use blueprint::Panel;
-use building::House;
 pub use error::RecordError;
 pub use live::Viewer;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
 use vehicles::Cast;
 
-use crate::frame::Frame;
-use crate::watch::Watcher;
+use interplay_simulation::frame::Frame;
+use interplay_simulation::watch::Watcher;
 
 /// Simulated time.
 pub const SIM_TIME: &str = "sim_time";

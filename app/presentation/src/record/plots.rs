@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
-use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
 use interplay_scenarios::Scenario;
+use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::mind::{place, slug};
 use super::palette::{self, FAILURE, NEUTRAL, Paint};
-use crate::frame::{Frame, Level, Origin, VehicleFrame};
+use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
+use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
 
 /// The events of all vehicles.
 pub const LOG: &str = "log";

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use interplay_planners::{Plan, Proposal, State, Trajectory};
 use interplay_scenarios::{Override, Scenario, load};
+use interplay_simulation::frame::{Event, Level, Origin, VehicleFrame};
 use rerun::log::LogMsg;
 
 use super::*;
-use crate::frame::{Event, Level, Origin, VehicleFrame};
 
 /// A folder of a test's own, gone after it.
 pub struct Folder(pub PathBuf);
@@ -189,7 +189,7 @@ fn planners_give_every_number_that_a_panel_shows() {
         scenario.duration_s = 0.5;
         let heard = std::sync::Arc::default();
         let watcher = Listener(std::sync::Arc::clone(&heard));
-        crate::run::run(kind, &scenario, vec![Box::new(watcher)]).expect("half a second");
+        interplay_simulation::run::run(kind, &scenario, vec![Box::new(watcher)]).expect("half a second");
         let heard = heard.lock().expect("nobody panicked");
         for thought in mind::THOUGHTS.iter().filter(|thought| thought.kind.is_none_or(|one| one == kind)) {
             for name in thought.names {
@@ -208,7 +208,7 @@ fn titles(panel: &Panel) -> Vec<String> {
 
 #[test]
 fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
-    use crate::frame::{BuildingFrame, ZoneFrame};
+    use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
     let folder = Folder::new("building");
     let scenario = load("building/hundred-zones", &[]).expect("embedded");
     let sink = Sink::File(folder.0.join("run.rrd"));

@@ -1,14 +1,14 @@
 //! What moves: bodies with their labels, the paths behind them and the lines ahead of them.
 
-use super::re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
-use super::re_sdk_types::components::Radius;
 use interplay_planners::{Body, State, Trajectory};
 use interplay_scenarios::Scenario;
+use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::palette::{FAILURE, NEUTRAL, Paint};
+use super::re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
+use super::re_sdk_types::components::Radius;
 use super::stage::turn;
-use crate::frame::{Frame, Origin, VehicleFrame};
 
 /// The entity whose frame moves along the road with the ego.
 pub const FOLLOW: &str = "follow";

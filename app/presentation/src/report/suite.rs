@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Expectation, Report};
+use interplay_simulation::report::{Expectation, Report};
 
 /// One run of a suite: its report, or why it could not be finished.
 #[derive(Clone, Debug)]

@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use super::{Report, VehicleReport, building};
+use interplay_simulation::report::{Report, VehicleReport};
+
+use super::building;
 
 /// The report for a person: who merged where and when, the smallest gap, planner times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {

@@ -2,10 +2,6 @@
 
 mod building;
 mod expectations;
-mod identification;
-mod junit;
-mod suite;
-mod summary;
 
 use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
@@ -14,10 +10,6 @@ use xxhash_rust::xxh3::xxh3_128;
 
 pub use building::BuildingReport;
 pub use expectations::Expectation;
-pub use identification::identification;
-pub use junit::junit;
-pub use suite::{Case, table};
-pub use summary::summary;
 
 use crate::components::to_nanosecond;
 use crate::measure::{BuildingMeasures, Collision, Measures, PhaseDigests, VehicleMeasures};

@@ -11,15 +11,15 @@
 
 use std::collections::BTreeSet;
 
-use super::super::re_sdk_types::archetypes::{BarChart, Scalars};
-use super::super::re_sdk_types::components::TensorData;
-use super::super::re_sdk_types::datatypes;
 use interplay_building::control::{Design, Exchange};
+use interplay_simulation::frame::BuildingFrame;
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::super::palette::{self, FAILURE, NEUTRAL};
+use super::super::re_sdk_types::archetypes::{BarChart, Scalars};
+use super::super::re_sdk_types::components::TensorData;
+use super::super::re_sdk_types::datatypes;
 use super::series::style;
-use crate::frame::BuildingFrame;
 
 /// The learned bias.
 pub const LEARNED: &str = "building/learned";

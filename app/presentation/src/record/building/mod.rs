@@ -23,8 +23,8 @@ use rerun::{RecordingStream, RecordingStreamResult};
 pub use layout::{Words, layout};
 pub use words::about;
 
-use crate::frame::BuildingFrame;
 use design::Plans;
+use interplay_simulation::frame::BuildingFrame;
 use plan::Plan;
 use series::Series;
 

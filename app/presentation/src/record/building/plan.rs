@@ -1,13 +1,13 @@
 //! The floor plan: rooms coloured by temperature, floors side by side, and the air outside around them.
 
-use super::super::re_sdk_types::archetypes::{Image, Points2D};
-use super::super::re_sdk_types::components::Radius;
 use interplay_building::comfort::Setpoints;
 use interplay_scenarios::FloorPlan;
+use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::super::palette::NEUTRAL;
-use crate::frame::{BuildingFrame, ZoneFrame};
+use super::super::re_sdk_types::archetypes::{Image, Points2D};
+use super::super::re_sdk_types::components::Radius;
 
 /// Picture elements of a room from wall to wall, of a wall, and of the strip outdoors.
 const ROOM: usize = 24;

@@ -1,11 +1,11 @@
 //! Numbers of a building over time.
 
-use super::super::re_sdk_types::archetypes::{Clear, Scalars, SeriesLines};
-use super::super::re_sdk_types::components::{Color, InterpolationMode};
+use interplay_simulation::frame::BuildingFrame;
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::super::palette::{self, FAILURE, MARKING, NEUTRAL};
-use crate::frame::BuildingFrame;
+use super::super::re_sdk_types::archetypes::{Clear, Scalars, SeriesLines};
+use super::super::re_sdk_types::components::{Color, InterpolationMode};
 
 /// The series of a building.
 pub struct Series {
