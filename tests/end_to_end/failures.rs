@@ -19,7 +19,7 @@ const SPOILT: std::ops::Range<usize> = 10..20;
 fn run_with_failures() -> (Vec<Frame>, usize) {
     let scenario = authored("lane-change/front-nice", &["horizon_steps=5", "vehicle.ego.driver.settled_steps=2"]);
     let camera = Camera::default();
-    let mut world = spawn::world(&scenario, vec![Box::new(camera.clone())]);
+    let mut world = spawn::world(&scenario, vec![Box::new(camera.clone())]).expect("no building");
     let mut schedule = phases::schedule();
     for tick in 0..SPOILT.end + 2 {
         let mut wishes = world.query::<(&Identity, &mut Wish)>();

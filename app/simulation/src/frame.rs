@@ -1,8 +1,10 @@
 //! What one tick looked like: plain values, handed from the world to whoever watches it.
 
-use crate::day::DayFigures;
 use interplay_building::control::Design;
 use interplay_planners::{Input, Plan, State, Trajectory};
+use serde::Serialize;
+
+use crate::day::DayFigures;
 
 /// One tick of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,8 +17,12 @@ pub struct Frame {
     pub vehicles: Vec<VehicleFrame>,
     /// What happened, in order.
     pub events: Vec<Event>,
-    /// Smallest distance of the ego's footprint to another one \[m\]; none without others.
+    /// Who began to touch during the tick, in order.
+    pub collisions: Vec<Collision>,
+    /// Distance of the ego's footprint to the nearest other one at the beginning of the tick \[m\]; none without others.
     pub gap_m: Option<f64>,
+    /// The smallest such distance during the tick, its end included \[m\].
+    pub smallest_gap_m: Option<f64>,
     /// The building, if this is one of its steps.
     pub building: Option<BuildingFrame>,
 }
@@ -75,6 +81,17 @@ pub struct VehicleFrame {
     pub prediction: Trajectory,
     /// Wall time of planning \[ms\]; never part of a digest.
     pub plan_ms: f64,
+}
+
+/// Two vehicles that began to touch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Collision {
+    /// When \[s\].
+    pub time_s: f64,
+    /// Who, in the scenario's order.
+    pub between: [String; 2],
+    /// How hard \[N s\].
+    pub impulse_ns: f64,
 }
 
 /// Where a plan comes from.

@@ -14,7 +14,7 @@ use crate::measure::{BuildingMeasures, Measures};
 use crate::moments::moments;
 use crate::report::Report;
 use crate::watch::{Watcher, Watchers};
-use crate::{climate, phases, spawn};
+use crate::{phases, spawn};
 
 /// Why a run could not be finished.
 #[derive(Debug, Error)]
@@ -46,8 +46,7 @@ pub enum RunError {
 /// [`RunError`] if the schedule cannot be built or a watcher fails.
 pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Report, RunError> {
     let began = Instant::now();
-    let mut world = spawn::world(scenario, watchers);
-    climate::spawn(&mut world, scenario)?;
+    let mut world = spawn::world(scenario, watchers)?;
     let mut schedule = phases::schedule();
     let built = schedule.initialize(&mut world);
     built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;

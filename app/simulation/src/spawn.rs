@@ -4,14 +4,18 @@ use bevy::ecs::prelude::*;
 use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 
+use crate::climate::{self, BuildingError};
 use crate::components::{Agents, Clock, Identity, Intention, Mind, Motion, Physique, Present, Wish};
-use crate::measure::Measures;
+use crate::measure::{BuildingMeasures, Measures};
 use crate::moments::Moment;
 use crate::physics::{Physics, VehicleBody};
 use crate::watch::{Watcher, Watchers};
 
 /// A world with everything that the scenario names, seen by `watchers`.
-pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> World {
+///
+/// # Errors
+/// [`BuildingError`], for a building that was not checked when it was loaded.
+pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<World, BuildingError> {
     let mut world = World::new();
     let mut physics = Physics::new(scenario);
     for (index, (vehicle, state)) in scenario.vehicles.iter().zip(scenario.starts()).enumerate() {
@@ -39,5 +43,10 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> World {
     world.insert_resource(Measures::new(scenario));
     world.insert_resource(physics);
     world.insert_resource(Watchers::new(watchers));
-    world
+    climate::spawn(&mut world, scenario)?;
+    let measures = world.get_resource().map(|building| BuildingMeasures::new(building, &scenario.controller()));
+    if let Some(measures) = measures {
+        world.insert_resource(measures);
+    }
+    Ok(world)
 }

@@ -32,7 +32,7 @@ pub use sketch::Sketch;
 const SIZE: (u32, u32) = (1200, 520);
 /// The font of all labels.
 const FONT: &str = "sans-serif";
-static FONT_BYTES: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
+static FONT_BYTES: &[u8] = include_bytes!("../../../../assets/fonts/DejaVuSans.ttf");
 
 /// Colours of Okabe and Ito, which survive colour blindness.
 const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);

@@ -10,7 +10,6 @@ use interplay_scenarios::Scenario;
 use thiserror::Error;
 
 use super::{Building, Equipment, Gains, Node, Temperature, Today};
-use crate::measure::BuildingMeasures;
 
 /// Kinds of chance, so that weather, people and forecasts of one seed have nothing to do with one another.
 const PEOPLE: u64 = 1 << 40;
@@ -72,7 +71,6 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
         failure: None,
         model,
     };
-    world.insert_resource(BuildingMeasures::new(&building, &scenario.controller()));
     world.insert_resource(building);
     Ok(())
 }

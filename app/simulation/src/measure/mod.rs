@@ -1,10 +1,10 @@
 //! Measure: one metric a file, all fed with the same frames.
 
 mod building;
-mod collisions;
 mod comfort;
 mod completion;
 mod digest;
+mod gap;
 mod milestones;
 mod planning;
 mod speed;
@@ -14,16 +14,16 @@ use interplay_planners::State;
 use interplay_scenarios::Scenario;
 
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
-pub use collisions::Collision;
 pub use comfort::Comfort;
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
+pub use gap::SmallestGap;
 pub use milestones::Milestones;
 pub use planning::Planning;
 pub use speed::SpeedRange;
 
 use crate::components::{Clock, Identity, Motion, Present};
-use crate::physics::Gap;
+use crate::frame::Collision;
 
 /// Everything that is measured in a run.
 #[derive(Resource, Clone, Debug)]
@@ -31,7 +31,7 @@ pub struct Measures {
     /// Contacts, in order.
     pub collisions: Vec<Collision>,
     /// Distance of the ego's footprint to the others'.
-    pub gap: Gap,
+    pub gap: SmallestGap,
     /// Digest of the run, by phase.
     pub digest: Digest,
     /// What happens that is worth a line in the log.
@@ -67,17 +67,11 @@ impl Measures {
         });
         Measures {
             collisions: Vec::new(),
-            gap: Gap::new(scenario),
+            gap: SmallestGap::default(),
             digest: Digest::default(),
             milestones: Milestones::new(scenario),
             vehicles: vehicles.collect(),
         }
-    }
-
-    /// Notes a contact of two vehicles, given by their indices.
-    pub fn collide(&mut self, pair: [usize; 2], collision: Collision) {
-        self.gap.touch(pair);
-        self.collisions.push(collision);
     }
 }
 
@@ -90,9 +84,7 @@ pub fn measure(
 ) {
     let frame = &mut present.0;
     let measures = &mut *measures;
-    let before: Vec<State> = frame.vehicles.iter().map(|vehicle| vehicle.state).collect();
-    frame.gap_m = measures.gap.observe(&before);
-    let mut after = before.clone();
+    let mut after: Vec<State> = frame.vehicles.iter().map(|vehicle| vehicle.state).collect();
     for (identity, motion) in &vehicles {
         after[identity.index] = motion.state;
     }
@@ -107,6 +99,7 @@ pub fn measure(
     }
     let begun = measures.milestones.observe(frame);
     frame.events.extend(begun);
-    measures.gap.observe(&after);
+    measures.gap.observe(frame);
+    measures.collisions.extend_from_slice(&frame.collisions);
     measures.digest.observe(frame, &after);
 }

@@ -8,12 +8,12 @@ use interplay_planners::State;
 use interplay_scenarios::Dynamic;
 use rapier2d::prelude::{MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector};
 
-use super::Gap;
 use super::actuators::Actuators;
 use super::contacts::{Contacts, mass_kg, transmitted_ns};
 use super::footprint::pose;
+use super::gap::EgoGap;
+use super::moving::{Contact, Moving};
 use super::tyres::{Chassis, Planar};
-use super::{Contact, Moving};
 
 /// The longest sub-step \[s\].
 const SUB_STEP_S: f64 = 1e-3;
@@ -63,7 +63,7 @@ impl DynamicPlant {
         world: &mut PhysicsWorld,
         moving: &[Moving],
         step_s: f64,
-        gap: &mut Gap,
+        gap: &mut EgoGap,
     ) -> (Vec<State>, Vec<Contact>) {
         let steps = (step_s / SUB_STEP_S).ceil().max(1.0) as usize;
         let sub_step_s = step_s / steps as f64;

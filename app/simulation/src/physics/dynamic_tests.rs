@@ -6,8 +6,8 @@ use interplay_scenarios::{Dynamic, Plant, Scenario, from_text};
 
 use super::step;
 use super::tyres::GRAVITY_MPS2;
-use crate::components::Motion;
-use crate::measure::{Collision, Measures};
+use crate::components::{Motion, Present};
+use crate::frame::Collision;
 use crate::spawn;
 
 const STEP_S: f64 = 0.1;
@@ -40,7 +40,7 @@ fn scenario(plant: Dynamic, starts: &[State]) -> Scenario {
 
 /// The states after every tick in which everybody applies an input of its own, and the collisions.
 fn drive(plant: Dynamic, starts: &[State], inputs: &[Input], ticks: usize) -> (Vec<Vec<State>>, Vec<Collision>) {
-    let mut world = spawn::world(&scenario(plant, starts), Vec::new());
+    let mut world = spawn::world(&scenario(plant, starts), Vec::new()).expect("no building");
     for (mut motion, input) in world.query::<&mut Motion>().iter_mut(&mut world).zip(inputs) {
         motion.input = *input;
     }
@@ -49,7 +49,7 @@ fn drive(plant: Dynamic, starts: &[State], inputs: &[Input], ticks: usize) -> (V
         world.run_system_once(step).expect("physics runs");
         all.push(world.query::<&Motion>().iter(&world).map(|motion| motion.state).collect());
     }
-    (all, world.resource::<Measures>().collisions.clone())
+    (all, world.resource::<Present>().0.collisions.clone())
 }
 
 /// One car alone.
@@ -173,15 +173,15 @@ fn on_ice_a_crash_conserves_momentum_and_angular_momentum() {
     let plant = Dynamic { friction: 1e-6, ..prompt() };
     let quarter = std::f64::consts::FRAC_PI_2;
     let starts = [at(-0.7, 0.1, 0.0, 2.0), at(0.0, 0.0, quarter, 0.0)];
-    let mut world = spawn::world(&scenario(plant, &starts), Vec::new());
+    let mut world = spawn::world(&scenario(plant, &starts), Vec::new()).expect("no building");
     world.run_system_once(step).expect("physics runs");
     let before = super::momentum(&world);
-    assert!(world.resource::<Measures>().collisions.is_empty() && before[0] > 1.0, "{before:?}");
+    assert!(world.resource::<Present>().0.collisions.is_empty() && before[0] > 1.0, "{before:?}");
     for _ in 0..4 {
         world.run_system_once(step).expect("physics runs");
     }
     let after = super::momentum(&world);
-    let collisions = &world.resource::<Measures>().collisions;
+    let collisions = &world.resource::<Present>().0.collisions;
     assert_eq!(collisions.len(), 1, "{collisions:?}");
     for (was, is) in before.into_iter().zip(after) {
         assert!((was - is).abs() < 1e-3 * before[0].abs(), "{before:?} {after:?}");

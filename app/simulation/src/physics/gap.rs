@@ -1,24 +1,38 @@
-//! The true distance of the ego's footprint to the others'.
+//! The true distance of the ego's footprint to the others' during a tick.
 
 use interplay_planners::{Body, State};
 use interplay_scenarios::Scenario;
 
-use super::gap_m;
+use super::footprint::gap_m;
 
-/// The smallest distance so far.
+/// The smallest distance so far in a tick.
 #[derive(Clone, Debug)]
-pub struct Gap {
+pub(super) struct EgoGap {
     ego: usize,
     bodies: Vec<Body>,
-    /// Smallest distance \[m\]; none without other vehicles.
-    pub smallest_m: Option<f64>,
+    smallest_m: Option<f64>,
 }
 
-impl Gap {
+impl EgoGap {
     /// Nothing seen yet.
     pub fn new(scenario: &Scenario) -> Self {
         let bodies = scenario.vehicles.iter().map(|vehicle| vehicle.body).collect();
-        Gap { ego: scenario.ego_index(), bodies, smallest_m: None }
+        EgoGap { ego: scenario.ego_index(), bodies, smallest_m: None }
+    }
+
+    /// Begins a tick; returns the distance there \[m\], none without other vehicles.
+    pub fn begin(&mut self, states: &[State]) -> Option<f64> {
+        self.smallest_m = None;
+        self.observe(states);
+        self.smallest_m
+    }
+
+    /// Looks at one moment of the tick.
+    pub fn observe(&mut self, states: &[State]) {
+        let (Some(body), Some(state)) = (self.bodies.get(self.ego), states.get(self.ego)) else { return };
+        let others = self.bodies.iter().zip(states).enumerate().filter(|(index, _)| *index != self.ego);
+        let now_m = others.map(|(_, other)| gap_m((body, state), other));
+        self.smallest_m = self.smallest_m.into_iter().chain(now_m).min_by(f64::total_cmp);
     }
 
     /// Notes that two vehicles touch.
@@ -28,12 +42,8 @@ impl Gap {
         }
     }
 
-    /// Looks at one moment; returns the distance there \[m\].
-    pub fn observe(&mut self, states: &[State]) -> Option<f64> {
-        let ego = (self.bodies.get(self.ego)?, states.get(self.ego)?);
-        let others = self.bodies.iter().zip(states).enumerate().filter(|(index, _)| *index != self.ego);
-        let now = others.map(|(_, other)| gap_m(ego, other)).min_by(f64::total_cmp)?;
-        self.smallest_m = Some(self.smallest_m.map_or(now, |smallest| smallest.min(now)));
-        Some(now)
+    /// The smallest distance of the tick \[m\]; none without other vehicles.
+    pub fn smallest_m(&self) -> Option<f64> {
+        self.smallest_m
     }
 }

@@ -4,11 +4,11 @@ use interplay_planners::State;
 use interplay_planners::dynamics::Bicycle;
 use rapier2d::prelude::{PhysicsWorld, RigidBodyBuilder};
 
-use super::Gap;
 use super::contacts::{Contacts, Touch, impulse_ns};
 use super::footprint::pose;
+use super::gap::EgoGap;
+use super::moving::{Contact, Moving};
 use super::path::{Path, next_look};
-use super::{Contact, Moving};
 
 /// A body that is put where the model says.
 pub(super) fn body(state: &State) -> RigidBodyBuilder {
@@ -20,7 +20,7 @@ pub(super) fn advance(
     world: &mut PhysicsWorld,
     vehicles: &[Moving],
     step_s: f64,
-    gap: &mut Gap,
+    gap: &mut EgoGap,
 ) -> (Vec<State>, Vec<Contact>) {
     let path = |vehicle: &Moving| Path {
         body: vehicle.body,

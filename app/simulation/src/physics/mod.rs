@@ -14,24 +14,25 @@ mod dynamic_tests;
 mod footprint;
 mod gap;
 mod kinematic;
+mod moving;
 mod path;
 #[cfg(test)]
 mod tests;
 mod tyres;
 
 use bevy::ecs::prelude::*;
-use interplay_planners::{Body, Input, State};
+use interplay_planners::{Body, State};
 use interplay_scenarios::{Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
 
 pub use footprint::gap_m;
-pub use gap::Gap;
 
 use crate::components::{Clock, Identity, Motion, Physique, Present};
-use crate::frame::{Event, Level};
-use crate::measure::{Collision, Measures};
+use crate::frame::{Collision, Event, Level};
 use dynamic::DynamicPlant;
 use footprint::{centre, length_m, shape};
+use gap::EgoGap;
+use moving::{Contact, Moving};
 
 /// From which distance on Rapier speaks of a contact, for vehicles of passenger cars' size \[m\].
 const TOUCHING_M: f32 = 1e-4;
@@ -48,23 +49,7 @@ pub struct Physics {
     world: PhysicsWorld,
     /// The dynamic plant; without it, bodies follow the bicycle.
     dynamic: Option<DynamicPlant>,
-}
-
-/// One vehicle at the start of a tick.
-struct Moving {
-    handle: RigidBodyHandle,
-    body: Body,
-    state: State,
-    input: Input,
-}
-
-/// Two vehicles, by their indices (ascending), that begin to touch.
-struct Contact {
-    pair: [usize; 2],
-    /// The share of the tick that has passed.
-    share: f64,
-    /// How hard \[N s\].
-    impulse_ns: f64,
+    gap: EgoGap,
 }
 
 impl Physics {
@@ -80,7 +65,7 @@ impl Physics {
             Plant::Kinematic(_) => None,
             Plant::Dynamic(settings) => Some(DynamicPlant::new(*settings, origin)),
         };
-        Physics { world, dynamic }
+        Physics { world, dynamic, gap: EgoGap::new(scenario) }
     }
 
     /// Adds a vehicle.
@@ -108,7 +93,6 @@ pub fn step(
     mut physics: ResMut<Physics>,
     mut clock: ResMut<Clock>,
     mut present: ResMut<Present>,
-    mut measures: ResMut<Measures>,
 ) {
     let mut sorted: Vec<_> = vehicles.iter_mut().collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
@@ -119,20 +103,26 @@ pub fn step(
         input: motion.input,
     };
     let moving: Vec<Moving> = sorted.iter().map(moving).collect();
-    let Physics { world, dynamic } = &mut *physics;
+    let frame = &mut present.0;
+    let Physics { world, dynamic, gap } = &mut *physics;
+    let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
+    frame.gap_m = gap.begin(&before);
     let (states, contacts) = match dynamic {
-        None => kinematic::advance(world, &moving, clock.step_s, &mut measures.gap),
-        Some(plant) => plant.advance(world, &moving, clock.step_s, &mut measures.gap),
+        None => kinematic::advance(world, &moving, clock.step_s, gap),
+        Some(plant) => plant.advance(world, &moving, clock.step_s, gap),
     };
+    gap.observe(&states);
     for Contact { pair: [a, b], share, impulse_ns } in contacts {
         let between = [a, b].map(|index| sorted[index].0.name.clone());
         let text = format!("collides with {} ({impulse_ns:.2} Ns)", between[1]);
-        present.0.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
-        measures.collide([a, b], Collision { time_s: clock.within_s(share), between, impulse_ns });
+        frame.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
+        frame.collisions.push(Collision { time_s: clock.within_s(share), between, impulse_ns });
+        gap.touch([a, b]);
         for index in [a, b] {
             sorted[index].2.crashed |= dynamic.is_some();
         }
     }
+    frame.smallest_gap_m = gap.smallest_m();
     for ((_, _, motion, _), state) in sorted.iter_mut().zip(states) {
         motion.state = state;
     }

@@ -6,8 +6,8 @@ use interplay_scenarios::from_text;
 
 use super::path::SHORTEST;
 use super::step;
-use crate::components::Motion;
-use crate::measure::{Collision, Measures};
+use crate::components::{Motion, Present};
+use crate::frame::Collision;
 use crate::spawn;
 
 const TWO_CARS: &str = r#"
@@ -28,17 +28,18 @@ fn roll(starts: [State; 2], ticks: usize) -> (Vec<Collision>, f64) {
     for (vehicle, start) in scenario.vehicles.iter_mut().zip(starts) {
         vehicle.start = start;
     }
-    let mut world = spawn::world(&scenario, Vec::new());
+    let mut world = spawn::world(&scenario, Vec::new()).expect("no building");
+    let mut smallest_m = f64::INFINITY;
     for _ in 0..ticks {
         world.run_system_once(step).expect("physics runs");
+        smallest_m = smallest_m.min(world.resource::<Present>().0.smallest_gap_m.expect("there are two"));
     }
     let ends: Vec<State> = world.query::<&Motion>().iter(&world).map(|motion| motion.state).collect();
     for (start, end) in starts.iter().zip(&ends) {
         let far = start.speed_mps * STEP_S * ticks as f64;
         assert!(((end.x_m - start.x_m).hypot(end.y_m - start.y_m) - far.abs()).abs() < 1e-9, "{start:?} {end:?}");
     }
-    let measures = world.resource::<Measures>();
-    (measures.collisions.clone(), measures.gap.smallest_m.expect("there are two"))
+    (world.resource::<Present>().0.collisions.clone(), smallest_m)
 }
 
 fn at(x_m: f64, y_m: f64, heading_rad: f64, speed_mps: f64) -> State {
