@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Body, State};
+use crate::vehicle::{Body, State};
 
 /// A straight strip of road, bounded on both sides; with heading 0 it is eq. 6.7 as printed.
 #[derive(Clone, Copy, Debug, PartialEq)]

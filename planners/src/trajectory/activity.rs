@@ -1,7 +1,7 @@
 //! Which constraints hold a plan back: at how many of its steps each kind is active.
 
 use crate::Diagnostic;
-use crate::mpc::{Iterate, Participant, Problem};
+use crate::trajectory::{Iterate, Participant, Problem};
 
 /// A bound that is closer than this is active (in the unit of what it bounds; `d²` for ellipses).
 const TOUCHING: f64 = 1e-4;
@@ -50,9 +50,11 @@ impl Activity {
 fn touches_ellipse(problem: &Problem, iterate: &Iterate, participant: usize, t: usize) -> bool {
     let position = |index: usize| iterate.states[index][t].position();
     let hard = problem.participants[participant].keep_outs.iter().filter(|keep_out| keep_out.penalty.linear > 0.0);
-    let mut centres = hard.map(|out| out.ellipse.distance(position(participant), out.centres[t - 1], out.heading_rad));
+    let mut centres =
+        hard.map(|out| out.ellipse.oriented(out.heading_rad).distance(position(participant), out.centres[t - 1]));
     let pairs = problem.separations.iter().filter(|pair| [pair.of, pair.from].contains(&participant));
-    let mut pairs = pairs.map(|pair| pair.ellipse.distance(position(pair.of), position(pair.from), pair.heading_rad));
+    let mut pairs =
+        pairs.map(|pair| pair.ellipse.oriented(pair.heading_rad).distance(position(pair.of), position(pair.from)));
     centres.any(|distance| distance.squared < 1.0 + TOUCHING) || pairs.any(|distance| distance.squared < 1.0 + TOUCHING)
 }
 

@@ -3,33 +3,20 @@
 //! A planner poses a [`Problem`]; an [`Optimiser`] descends to a local optimum of it by a sequence of quadratic
 //! programmes in stage form ([`StageQp`]), each solved by a [`StageSolver`]. [`kkt`] checks optimality independently.
 
-mod across;
-mod adjoint;
-mod distance_cost;
-pub mod kkt;
-mod linearise;
-mod mean_speed;
-mod memory;
-mod model;
+pub(crate) mod activity;
+mod penalty;
 mod problem;
-mod robust;
-mod scp;
-mod search;
-mod sparse;
+mod sqp;
 mod stage;
-mod starts;
-mod structured;
+mod terms;
 
-pub use distance_cost::{DistanceCost, DistancePrice};
-pub use linearise::{add_curvature, drop_curvature, linearise};
-pub use mean_speed::MeanSpeed;
-pub use memory::Memory;
-pub use problem::{Cost, Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
-pub use robust::Robust;
-pub use scp::{DescentError, Optimiser, Optimum, Statistics, Tolerances};
-pub use sparse::Sparse;
-pub use stage::{
-    Interval, Reach, Row, RowBlock, StageError, StageQp, StageSolution, StageSolver, StateCost, TrajectoryRow,
-    VehicleStages,
+pub use penalty::Penalty;
+pub use problem::{Cost, Iterate, KeepOut, Leaning, Participant, Problem, Separation, Tracking};
+pub use sqp::{
+    DescentError, Memory, Optimiser, Optimum, Statistics, Tolerances, add_curvature, drop_curvature, linearise,
 };
-pub use structured::Structured;
+pub use stage::{
+    Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver, StateCost,
+    Structured, TrajectoryRow, VehicleStages, kkt,
+};
+pub use terms::{DistanceCost, DistancePrice, MeanSpeed};

@@ -7,66 +7,10 @@
 //! whenever it can (Nocedal and Wright, section 17.2). The states follow from the inputs. So the cost of an input
 //! sequence is one number, and it is its own merit function.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
+use super::penalty::Penalty;
 use super::stage::StateCost;
-use super::{DistanceCost, MeanSpeed};
-use crate::dynamics::Bicycle;
-use crate::{Axes, Body, Corridor, Input, SafetyEllipse, State};
-
-/// What a violation `s ≥ 0` costs: `linear·s + quadratic·s²`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Penalty {
-    /// Weight of `s`.
-    pub linear: f64,
-    /// Weight of `s²`.
-    pub quadratic: f64,
-}
-
-impl Penalty {
-    /// The exact penalty of the safety and road-edge rows.
-    pub const EXACT: Penalty = Penalty { linear: 1e3, quadratic: 1e3 };
-
-    /// A hinge: no cost inside, `weight·s²` beyond (the human driver's discomfort).
-    pub fn hinge(weight: f64) -> Penalty {
-        Penalty { linear: 0.0, quadratic: weight }
-    }
-
-    /// Cost of a row of value `c`, violated by `max(0, −c)`.
-    pub fn cost(&self, value: f64) -> f64 {
-        let violation = (-value).max(0.0);
-        violation * (self.linear + self.quadratic * violation)
-    }
-}
-
-/// Hard bounds on input and speed (eq. 6.9). The default is Table 6.2.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Limits {
-    /// Smallest acceleration (the strongest braking), negative \[m/s²\].
-    pub acceleration_min_mps2: f64,
-    /// Largest acceleration \[m/s²\].
-    pub acceleration_max_mps2: f64,
-    /// Largest steering angle to either side \[rad\].
-    pub steering_max_rad: f64,
-    /// Smallest speed \[m/s\].
-    pub speed_min_mps: f64,
-    /// Largest speed \[m/s\].
-    pub speed_max_mps: f64,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Limits {
-            acceleration_min_mps2: -1.0,
-            acceleration_max_mps2: 1.0,
-            steering_max_rad: std::f64::consts::FRAC_PI_3,
-            speed_min_mps: 0.0,
-            speed_max_mps: 1.5,
-        }
-    }
-}
+use super::terms::{DistanceCost, MeanSpeed};
+use crate::{Axes, Bicycle, Body, Corridor, Input, Limits, SafetyEllipse, State};
 
 /// Tracking cost `Σ_{t=1…N} ‖x_t − target_t‖²_Q` with diagonal `Q`.
 ///
@@ -152,8 +96,8 @@ impl KeepOut {
     /// How near a motion comes: the largest `1 − d²` over `t = 1…N`, negative outside. `states` begin at `t = 0`.
     pub fn intrusion(&self, states: &[State]) -> f64 {
         let centres = states.iter().skip(1).zip(&self.centres);
-        let distances =
-            centres.map(|(state, centre)| self.ellipse.distance(state.position(), *centre, self.heading_rad).squared);
+        let distances = centres
+            .map(|(state, centre)| self.ellipse.oriented(self.heading_rad).distance(state.position(), *centre).squared);
         1.0 - distances.fold(f64::INFINITY, f64::min)
     }
 }
@@ -305,8 +249,10 @@ impl Participant {
                 }
             }
             for keep_out in &self.keep_outs {
-                let distance =
-                    keep_out.ellipse.distance(states[t + 1].position(), keep_out.centres[t], keep_out.heading_rad);
+                let distance = keep_out
+                    .ellipse
+                    .oriented(keep_out.heading_rad)
+                    .distance(states[t + 1].position(), keep_out.centres[t]);
                 cost.add_safety(&keep_out.penalty, distance.squared - 1.0);
             }
             for distance_cost in &self.distance_costs {
@@ -369,7 +315,7 @@ impl Problem {
         for pair in &self.separations {
             for t in 1..=self.horizon {
                 let (of, from) = (iterate.states[pair.of][t], iterate.states[pair.from][t]);
-                let distance = pair.ellipse.distance(of.position(), from.position(), pair.heading_rad);
+                let distance = pair.ellipse.oriented(pair.heading_rad).distance(of.position(), from.position());
                 cost.add_safety(&pair.penalty, distance.squared - 1.0);
             }
         }

@@ -11,7 +11,7 @@
 //!
 //! and `β′ = r sec²δ / (1 + r² tan²δ)`, `β″ = 2 r (1 − r²) tan δ sec²δ / (1 + r² tan²δ)²`.
 
-use crate::{Body, Input, State};
+use super::{Body, Input, State};
 
 /// The bicycle model of one vehicle with a fixed time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub struct Jacobian {
 /// Non-zero second derivatives of `λ·f(x, u)`, the curvature that a multiplier `λ` of the dynamics gives the
 /// Lagrangian.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Curvature {
+pub struct DynamicsCurvature {
     /// Heading twice.
     pub heading_heading: f64,
     /// Heading and speed.
@@ -64,10 +64,10 @@ pub struct Curvature {
     pub steering_steering: f64,
 }
 
-impl Curvature {
+impl DynamicsCurvature {
     /// A share of it.
-    pub fn scaled(&self, share: f64) -> Curvature {
-        Curvature {
+    pub fn scaled(&self, share: f64) -> DynamicsCurvature {
+        DynamicsCurvature {
             heading_heading: share * self.heading_heading,
             heading_speed: share * self.heading_speed,
             heading_steering: share * self.heading_steering,
@@ -157,7 +157,7 @@ impl Bicycle {
     }
 
     /// Second derivatives of `λ·f` for a multiplier `λ` over `(x, y, θ, v)`.
-    pub fn curvature(&self, state: &State, input: &Input, multiplier: &[f64; 4]) -> Curvature {
+    pub fn curvature(&self, state: &State, input: &Input, multiplier: &[f64; 4]) -> DynamicsCurvature {
         let slip = self.slip(state.heading_rad, input.steering_rad);
         let distance = self.step_s * state.speed_mps;
         let [x, y, heading, _] = *multiplier;
@@ -166,7 +166,7 @@ impl Bicycle {
         let turn = heading / self.rear_axle_m;
         let slope_squared = slip.slope * slip.slope;
         let turn_bend = turn * (slip.cos_slip * slip.bend - slip.sin_slip * slope_squared);
-        Curvature {
+        DynamicsCurvature {
             heading_heading: -distance * forward,
             heading_speed: self.step_s * sideways,
             heading_steering: -distance * forward * slip.slope,

@@ -1,10 +1,10 @@
-//! The search along a step (see [`super::scp`] for the merit function).
+//! The search along a step (see [`super::optimiser`] for the merit function).
 
-use super::linearise::move_rows;
-use super::problem::{Cost, Iterate, Problem};
-use super::scp::{FARTHER, Optimiser, Optimum};
-use super::stage::{StageSolution, StageSolver};
+use super::linearize::move_rows;
+use super::optimiser::{FARTHER, Optimiser, Optimum};
 use crate::Input;
+use crate::trajectory::problem::{Cost, Iterate, Problem};
+use crate::trajectory::stage::{StageSolution, StageSolver};
 
 /// What a search remembers from one step to the next.
 #[derive(Clone, Debug)]

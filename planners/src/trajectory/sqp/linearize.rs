@@ -4,10 +4,11 @@
 //! dynamics, rows and concave costs enters only when multipliers of a previous step are given (the exact Hessian of the Lagrangian);
 //! without them the step is Gauss-Newton.
 
-use super::adjoint::costates;
-use super::problem::{Iterate, Leaning, Participant, Penalty, Problem};
-use super::stage::{Interval, Row, RowBlock, StageQp, StageSolution, TrajectoryRow, VehicleStages};
-use crate::dynamics::Curvature;
+use crate::trajectory::penalty::Penalty;
+use crate::trajectory::problem::{Iterate, Leaning, Participant, Problem};
+use crate::trajectory::stage::costates;
+use crate::trajectory::stage::{Interval, Row, RowBlock, StageQp, StageSolution, TrajectoryRow, VehicleStages};
+use crate::vehicle::DynamicsCurvature;
 use crate::{Axes, State};
 
 /// Tolerance of an ordinary step problem.
@@ -73,7 +74,7 @@ pub fn move_rows(problem: &Problem, trial: &Iterate, step: &StageSolution, qp: &
 /// Sets every curvature to zero, which makes the step Gauss-Newton (and convex).
 pub fn drop_curvature(qp: &mut StageQp) {
     for stages in &mut qp.vehicles {
-        stages.curvatures.fill(Curvature::default());
+        stages.curvatures.fill(DynamicsCurvature::default());
         stages.state_costs.iter_mut().for_each(|cost| cost.curvature = [0.0; 3]);
     }
     for block in &mut qp.blocks {
@@ -100,7 +101,7 @@ fn linearise_vehicle(
     stages.input_boxes.clear();
     stages.speed_boxes.clear();
     stages.curvatures.clear();
-    stages.curvatures.resize(horizon, Curvature::default());
+    stages.curvatures.resize(horizon, DynamicsCurvature::default());
     let mut previous = participant.previous_input.to_array();
     for k in 0..horizon {
         let input = inputs[k].to_array();
@@ -156,19 +157,19 @@ fn for_each_block(
             take(i, None, Penalty::EXACT, &mut rows.into_iter());
         }
         for keep_out in &participant.keep_outs {
-            let [xx, xy, yy] = keep_out.ellipse.curvature(keep_out.heading_rad);
+            let [xx, xy, yy] = keep_out.ellipse.oriented(keep_out.heading_rad).hessian();
             let rows = states.iter().zip(&keep_out.centres).map(|(state, centre)| {
-                let d = keep_out.ellipse.distance(state.position(), *centre, keep_out.heading_rad);
+                let d = keep_out.ellipse.oriented(keep_out.heading_rad).distance(state.position(), *centre);
                 ellipse_row(d.squared, d.gradient, [xx, xy, yy, 0.0])
             });
             take(i, None, keep_out.penalty, &mut { rows });
         }
     }
     for pair in &problem.separations {
-        let [xx, xy, yy] = pair.ellipse.curvature(pair.heading_rad);
+        let [xx, xy, yy] = pair.ellipse.oriented(pair.heading_rad).hessian();
         let states = iterate.states[pair.of][1..].iter().zip(&iterate.states[pair.from][1..]);
         let rows = states.map(|(of, from)| {
-            let d = pair.ellipse.distance(of.position(), from.position(), pair.heading_rad);
+            let d = pair.ellipse.oriented(pair.heading_rad).distance(of.position(), from.position());
             ellipse_row(d.squared, d.gradient, [xx, xy, yy, 0.0])
         });
         take(pair.of, Some(pair.from), pair.penalty, &mut { rows });

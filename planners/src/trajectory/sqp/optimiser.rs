@@ -23,13 +23,13 @@
 
 use thiserror::Error;
 
-use super::kkt;
-use super::linearise::{add_curvature, drop_curvature, linearise, soften_curvature};
-use super::memory::Memory;
-use super::problem::{Cost, Iterate, Problem};
-use super::search::Search;
-use super::stage::{Reach, StageError, StageQp, StageSolution, StageSolver};
+use super::line_search::Search;
+use super::linearize::{add_curvature, drop_curvature, linearise, soften_curvature};
+use super::warm_start::Memory;
 use crate::Input;
+use crate::trajectory::problem::{Cost, Iterate, Problem};
+use crate::trajectory::stage::kkt;
+use crate::trajectory::stage::{Reach, StageError, StageQp, StageSolution, StageSolver};
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]

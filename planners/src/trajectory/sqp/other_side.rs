@@ -16,11 +16,11 @@
 //! The tangent keeps out of the whole ellipse, so the promise is rather too dear than too cheap. A plan that begins abreast cannot
 //! be on the other side at once: it crosses where it is nearest to the axis.
 
-use super::linearise::{drop_curvature, ellipses, linearise};
-use super::problem::Problem;
-use super::scp::{Optimiser, Optimum};
-use super::stage::{Row, RowBlock, StageSolver};
+use super::linearize::{drop_curvature, ellipses, linearise};
+use super::optimiser::{Optimiser, Optimum};
 use crate::Axes;
+use crate::trajectory::problem::Problem;
+use crate::trajectory::stage::{Row, RowBlock, StageSolver};
 
 /// A multiplier above this makes a row active.
 const ACTIVE: f64 = 1e-6;
@@ -130,8 +130,8 @@ mod tests {
     const ELLIPSE: SafetyEllipse = SafetyEllipse { along_m: 0.75, across_m: 0.35 };
 
     fn row_at(relative: [f64; 2], heading_rad: f64) -> Row {
-        let distance = ELLIPSE.distance(relative, [0.0; 2], heading_rad);
-        let [xx, xy, yy] = ELLIPSE.curvature(heading_rad);
+        let distance = ELLIPSE.oriented(heading_rad).distance(relative, [0.0; 2]);
+        let [xx, xy, yy] = ELLIPSE.oriented(heading_rad).hessian();
         let [x, y] = distance.gradient;
         Row { active: true, value: distance.squared - 1.0, gradient: [x, y, 0.0], curvature: [xx, xy, yy, 0.0] }
     }
@@ -151,7 +151,7 @@ mod tests {
             let value = |p: [f64; 2]| row.value + row.gradient[0] * (p[0] - here[0]) + row.gradient[1] * (p[1] - here[1]);
             let edge = side * ELLIPSE.across_m * (1.0 - (along / ELLIPSE.along_m).powi(2)).sqrt();
             prop_assert!(value(axes.vector([along, edge])).abs() < 1e-9);
-            let distance = ELLIPSE.distance(to, [0.0; 2], heading).squared;
+            let distance = ELLIPSE.oriented(heading).distance(to, [0.0; 2]).squared;
             prop_assert!(value(to) <= distance - 1.0 + 1e-9, "{} where the ellipse has {}", value(to), distance - 1.0);
         }
     }

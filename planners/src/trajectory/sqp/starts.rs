@@ -1,9 +1,9 @@
-//! Which optimum: descents from several guesses, and to the other sides of ellipses ([`super::across`]). The cheapest wins.
+//! Which optimum: descents from several guesses, and to the other sides of ellipses ([`super::other_side`]). The cheapest wins.
 
-use super::problem::Problem;
-use super::scp::{DescentError, Optimiser, Optimum, Statistics};
-use super::stage::StageSolver;
+use super::optimiser::{DescentError, Optimiser, Optimum, Statistics};
 use crate::Input;
+use crate::trajectory::problem::Problem;
+use crate::trajectory::stage::StageSolver;
 
 impl<S: StageSolver> Optimiser<S> {
     /// Descends from the first guess; if that fails or ends on a violated safety row or road edge (a stationary point

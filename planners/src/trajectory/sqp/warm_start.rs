@@ -3,7 +3,7 @@
 //! Rows keep their meaning from one step to the next, but time has moved on: the multiplier of stage `k + 1` is that of stage
 //! `k` now. They save a planner that plans anew at every step the cold Gauss-Newton step; the optimum is the same.
 
-use super::stage::{Reach, StageQp, StageSolution};
+use crate::trajectory::stage::{Reach, StageQp, StageSolution};
 
 /// Multipliers and reach of an earlier descent; empty before the first.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,8 +8,9 @@
 //!
 //! and stationarity in `w_k` needs `B_kᵀ n_k` plus the input's own terms to vanish.
 
-use super::stage::{StageQp, StageSolution};
-use crate::dynamics::Curvature;
+use super::qp::StageQp;
+use super::solution::StageSolution;
+use crate::vehicle::DynamicsCurvature;
 
 impl StageSolution {
     /// Sets the deviations to zero and keeps the multipliers: the point is now the iterate itself.
@@ -19,13 +20,13 @@ impl StageSolution {
     }
 
     /// The deviation `d_k` of a vehicle's state before stage `k`; zero at the first.
-    pub(super) fn state_before(&self, vehicle: usize, k: usize) -> [f64; 4] {
+    pub(crate) fn state_before(&self, vehicle: usize, k: usize) -> [f64; 4] {
         if k == 0 { [0.0; 4] } else { self.states[vehicle][k - 1] }
     }
 }
 
 /// `C (d, w)`: the gradient of the dynamics' curvature over `(θ, v)` and `δ`.
-pub(super) fn curvature_gradient(c: &Curvature, d: &[f64; 4], w: &[f64; 2]) -> ([f64; 2], f64) {
+pub(crate) fn curvature_gradient(c: &DynamicsCurvature, d: &[f64; 4], w: &[f64; 2]) -> ([f64; 2], f64) {
     let (heading, speed, steering) = (d[2], d[3], w[1]);
     (
         [

@@ -4,8 +4,9 @@
 //! At deviations of zero it is the residual of the nonlinear problem at the iterate.
 
 use super::adjoint::{costates, curvature_gradient};
-use super::problem::Penalty;
-use super::stage::{Row, RowBlock, StageQp, StageSolution};
+use super::qp::{Row, RowBlock, StageQp};
+use super::solution::StageSolution;
+use crate::trajectory::penalty::Penalty;
 
 /// Largest violation of each optimality condition.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -75,7 +76,7 @@ pub fn residual(qp: &StageQp, solution: &StageSolution) -> Residual {
 }
 
 /// `c + ∇c·p` of a row at the solution's deviations.
-pub(super) fn row_value(block: &RowBlock, row: &Row, solution: &StageSolution, k: usize) -> f64 {
+pub(crate) fn row_value(block: &RowBlock, row: &Row, solution: &StageSolution, k: usize) -> f64 {
     let own = solution.states[block.vehicle][k];
     let other = block.other.map_or([0.0; 4], |other| solution.states[other][k]);
     row.value + row.gradient[0] * (own[0] - other[0]) + row.gradient[1] * (own[1] - other[1]) + row.gradient[2] * own[2]

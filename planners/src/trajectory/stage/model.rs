@@ -2,8 +2,9 @@
 
 use super::adjoint::curvature_gradient;
 use super::kkt::row_value;
-use super::problem::Penalty;
-use super::stage::{StageQp, StageSolution};
+use super::qp::StageQp;
+use super::solution::StageSolution;
+use crate::trajectory::penalty::Penalty;
 
 impl StageQp {
     /// How the cost of the model changes from the iterate (all deviations zero) to the solution; negative for a
@@ -19,7 +20,7 @@ impl StageQp {
     }
 
     /// `Σ linear·s` after the step, as the rows' linear model has it, and the largest `λ/linear` of its multipliers.
-    pub(super) fn steep(&self, solution: &StageSolution) -> (f64, f64) {
+    pub(crate) fn steep(&self, solution: &StageSolution) -> (f64, f64) {
         let (mut steep, mut share) = (0.0, 0.0_f64);
         let mut add = |penalty: Penalty, value: f64, multiplier: f64| {
             if penalty.linear > 0.0 {

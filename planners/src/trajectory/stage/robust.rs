@@ -1,7 +1,9 @@
 //! The stage solver that planners use: the structured one, and the general one where that gives up.
 
+use super::qp::StageQp;
+use super::solution::StageSolution;
+use super::solver::{StageError, StageSolver};
 use super::sparse::Sparse;
-use super::stage::{StageError, StageQp, StageSolution, StageSolver};
 use super::structured::Structured;
 
 /// Tries [`Structured`], then [`Sparse`] on convex problems that it could not solve.

@@ -9,7 +9,9 @@
 
 use interplay_convex::{Block, Program, Settings, Solution, SolveError, Solver, Variable, Variables};
 
-use super::stage::{RowBlock, StageError, StageQp, StageSolution, StageSolver, TrajectoryRow};
+use super::qp::{RowBlock, StageQp, TrajectoryRow};
+use super::solution::StageSolution;
+use super::solver::{StageError, StageSolver};
 
 /// The general solver; it keeps the symbolic factorisation as long as the shape of the problem stays the same.
 #[derive(Default)]

@@ -10,7 +10,7 @@
 //! `M − n nᵀ` is positive semi-definite (Cauchy and Schwarz). So the Hessian splits into a convex part, where `φ′` or `φ″`
 //! is positive, and a concave one: the first is in every step problem, the second in exact ones only.
 
-use super::stage::StateCost;
+use crate::trajectory::stage::StateCost;
 
 /// Smooths the tip of the cone at `d = 0`, `ε`.
 const TIP: f64 = 1e-4;
@@ -47,7 +47,7 @@ pub enum DistancePrice {
 
 /// A value of one variable with its first two derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Jet {
+pub(crate) struct Jet {
     value: f64,
     slope: f64,
     bend: f64,
@@ -58,7 +58,7 @@ impl DistancePrice {
     ///
     /// For the exact price, with `s = A − w_4`, division gives
     /// `φ = −w_4 (ω² + w_4 ω²/s) ` and `ω²/s = (ω − m/w_1)/w_1 + (m/w_1)²/s`, `m = base·w_1 − w_4`.
-    pub(super) fn at(&self, omega: f64) -> Jet {
+    pub(crate) fn at(&self, omega: f64) -> Jet {
         match *self {
             DistancePrice::Linear { weight } => Jet { value: weight * omega, slope: weight, bend: 0.0 },
             DistancePrice::Exact { base, loyalty, aversion } => {
@@ -100,7 +100,7 @@ impl DistanceCost {
     }
 
     /// Adds gradient and Hessian at stage `k` to a stage's cost.
-    pub(super) fn add_to(&self, k: usize, position: [f64; 2], cost: &mut StateCost) {
+    pub(crate) fn add_to(&self, k: usize, position: [f64; 2], cost: &mut StateCost) {
         let (omega, n) = self.distance(k, position);
         let Jet { slope, bend, .. } = self.price.at(omega);
         cost.gradient[0] += slope * n[0];

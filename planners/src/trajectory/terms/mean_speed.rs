@@ -1,8 +1,8 @@
 //! Bounds on a vehicle's mean speed: two linear rows over its whole trajectory (eq. 8.14, 8.15).
 
-use super::Penalty;
-use super::stage::TrajectoryRow;
 use crate::State;
+use crate::trajectory::penalty::Penalty;
+use crate::trajectory::stage::TrajectoryRow;
 
 /// Bounds on the mean speed `v̄ = Σ_{t=0…N} v_t / (N + 1)`: `lower − v̄ ≤ s` and `v̄ − upper ≤ s`.
 ///
@@ -24,14 +24,14 @@ impl MeanSpeed {
     }
 
     /// Left sides of the rows that exist, each at most 0 when it holds, with the sign of the mean speed in it.
-    pub(super) fn values(&self, states: &[State]) -> impl Iterator<Item = (f64, f64)> {
+    pub(crate) fn values(&self, states: &[State]) -> impl Iterator<Item = (f64, f64)> {
         let mean = MeanSpeed::of(states);
         let rows = [self.lower_mps.map(|lower| (lower - mean, -1.0)), self.upper_mps.map(|upper| (mean - upper, 1.0))];
         rows.into_iter().flatten()
     }
 
     /// The rows at a trajectory of `vehicle`; they are linear, so exact.
-    pub(super) fn rows(&self, vehicle: usize, states: &[State]) -> impl Iterator<Item = TrajectoryRow> {
+    pub(crate) fn rows(&self, vehicle: usize, states: &[State]) -> impl Iterator<Item = TrajectoryRow> {
         let (steps, penalty) = (states.len() - 1, self.penalty);
         self.values(states).map(move |(value, sign)| TrajectoryRow {
             vehicle,

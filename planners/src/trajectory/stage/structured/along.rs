@@ -1,7 +1,7 @@
 //! Rows over a whole trajectory: each changes the Hessian by rank one (see the parent module).
 
 use super::rows::Point;
-use crate::mpc::stage::TrajectoryRow;
+use crate::trajectory::stage::qp::TrajectoryRow;
 
 /// One such row at the current point.
 #[derive(Clone, Debug, Default)]

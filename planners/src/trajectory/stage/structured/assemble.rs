@@ -2,8 +2,8 @@
 
 use super::interior::Interior;
 use super::riccati::{PairHessian, VehicleHessian, pair_index, pairs_among};
-use crate::mpc::adjoint::curvature_gradient;
-use crate::mpc::stage::StageQp;
+use crate::trajectory::stage::adjoint::curvature_gradient;
+use crate::trajectory::stage::qp::StageQp;
 
 impl<const W: usize, const Z: usize> Interior<W, Z> {
     /// Assembles the second derivatives with the weights `ω`.

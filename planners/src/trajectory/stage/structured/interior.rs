@@ -4,7 +4,9 @@ use super::along::Along;
 use super::columns::{Columns, Start, larger};
 use super::riccati::{PairHessian, Riccati, VehicleHessian};
 use super::rows::{Inequalities, Point};
-use crate::mpc::stage::{Reach, StageError, StageQp, StageSolution, StageSolver};
+use crate::trajectory::stage::qp::{Reach, StageQp};
+use crate::trajectory::stage::solution::StageSolution;
+use crate::trajectory::stage::solver::{StageError, StageSolver};
 
 /// Tolerance on the dual residual as a share of its start, per tolerance on everything else.
 const DUAL_TOLERANCE: f64 = 1e-3;

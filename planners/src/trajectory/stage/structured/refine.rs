@@ -13,8 +13,8 @@ use super::columns::larger;
 use super::interior::Interior;
 use super::riccati::{PairHessian, VehicleHessian, pairs};
 use super::rows::Point;
-use crate::mpc::adjoint::curvature_gradient;
-use crate::mpc::stage::StageQp;
+use crate::trajectory::stage::adjoint::curvature_gradient;
+use crate::trajectory::stage::qp::StageQp;
 
 impl<const W: usize, const Z: usize> Interior<W, Z> {
     /// Turns `gradient` into what the step leaves of it: zero over states, `ρ` over inputs.

@@ -18,8 +18,9 @@
 //! the lower ones are kept.
 
 use super::rows::Point;
-use crate::dynamics::Jacobian;
-use crate::mpc::stage::{StageError, StageQp};
+use crate::trajectory::stage::qp::StageQp;
+use crate::trajectory::stage::solver::StageError;
+use crate::vehicle::Jacobian;
 
 /// Number of states of a vehicle with its previous input.
 const BLOCK: usize = 6;

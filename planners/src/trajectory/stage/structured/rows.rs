@@ -1,7 +1,8 @@
 //! The inequalities of a stage problem: bounds, then hard rows, then soft rows, then the rows over whole trajectories.
 
-use crate::mpc::Penalty;
-use crate::mpc::stage::{Reach, StageQp, StageSolution};
+use crate::trajectory::penalty::Penalty;
+use crate::trajectory::stage::qp::{Reach, StageQp};
+use crate::trajectory::stage::solution::StageSolution;
 
 /// Values over states and inputs of all vehicles, indexed `k * M + vehicle`.
 #[derive(Clone, Debug, Default)]

@@ -1,7 +1,7 @@
 //! From the columns back to the shape of a solution.
 
 use super::interior::Interior;
-use crate::mpc::stage::StageSolution;
+use crate::trajectory::stage::solution::StageSolution;
 
 impl<const W: usize, const Z: usize> Interior<W, Z> {
     /// Copies point and multipliers into the solution's shape.
