@@ -2,7 +2,7 @@
 //!
 //! No scenario file makes a planner fail on purpose, so the goal of a vehicle is spoilt in the running world.
 
-use interplay_planners::mpc::Limits;
+use interplay_planners::Limits;
 use interplay_planners::predict::steady;
 use interplay_simulation::components::{Identity, Wish};
 use interplay_simulation::frame::{Frame, Level, Origin};

@@ -1,7 +1,6 @@
 //! What holds at every tick of every run.
 
-use interplay_planners::State;
-use interplay_planners::dynamics::Bicycle;
+use interplay_planners::{Bicycle, State};
 use interplay_simulation::frame::Origin;
 
 use crate::film::{FILMS, kinematic};

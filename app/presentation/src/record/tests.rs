@@ -66,7 +66,14 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
     });
     let told = Event { vehicle: "ego".to_owned(), level: Level::Warning, text: "no plan".to_owned() };
     let events = if tick == 7 { vec![told] } else { Vec::new() };
-    Frame { tick, time_s: 0.1 * tick as f64, vehicles: vehicles.collect(), events, gap_m: Some(0.3), building: None }
+    Frame {
+        tick,
+        time_s: 0.1 * tick as f64,
+        vehicles: vehicles.collect(),
+        events,
+        gap_m: Some(0.3),
+        ..Frame::default()
+    }
 }
 
 fn recorded(scenario: &Scenario, path: &Path) -> Recorder {
