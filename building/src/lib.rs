@@ -8,6 +8,7 @@
 //! - [`control`]: controllers that are compared day by day, and the day's optimum
 //! - [`comfort`]: what is wanted, and key figures of how it turned out
 //! - [`identify`]: thermal parameters from telemetry
+//! - [`setting`]: settings that are out of range
 //!
 //! Temperatures are in °C, differences in K, heat in kW (positive into a zone), energy in kWh, capacities in kJ/K,
 //! resistances in K/kW, time in seconds or hours, as the names say. A day's signals are stacked time-major: entry t·n + i
@@ -61,4 +62,5 @@ pub mod lifted;
 pub mod network;
 pub mod occupancy;
 mod random;
+pub mod setting;
 pub mod weather;

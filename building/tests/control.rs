@@ -296,7 +296,7 @@ fn targets_are_wanted_at_the_ends_of_steps() {
 fn wrong_settings_are_refused() {
     let model = testbed();
     let refused = |controller: Controller| match controller.regulator(&model, STEPS) {
-        Err(ControlError::Setting { setting, .. }) => setting,
+        Err(ControlError::Setting(error)) => error.key.to_string(),
         other => panic!("{other:?}"),
     };
     let thermostat = |dead_band_k, power| Controller::Thermostat(ThermostatSettings { dead_band_k, power });
@@ -305,17 +305,27 @@ fn wrong_settings_are_refused() {
     let pid = PidSettings { integral_kw_per_k_h: f64::NAN, ..PidSettings::default() };
     assert_eq!(refused(Controller::Pid(pid)), "integral_kw_per_k_h");
     let learning = LearningSettings { proportional_kw_per_k: -1.0, ..LearningSettings::default() };
-    assert_eq!(refused(Controller::IterativeLearning(learning)), "proportional_kw_per_k of learning");
+    assert_eq!(refused(Controller::IterativeLearning(learning)), "proportional_kw_per_k");
+    let feedback = PidSettings { proportional_kw_per_k: -1.0, ..PidSettings::default() };
+    let learning = LearningSettings { feedback, ..LearningSettings::default() };
+    assert_eq!(refused(Controller::IterativeLearning(learning)), "feedback.proportional_kw_per_k");
+    let uncertainty = UncertaintySettings { zone_kw: -1.0, ..UncertaintySettings::default() };
+    let iterative = IterativeSettings { uncertainty, ..IterativeSettings::default() };
+    assert_eq!(refused(Controller::Iterative(iterative)), "uncertainty.zone_kw");
+    let concurrent = ConcurrentSettings { uncertainty, ..ConcurrentSettings::default() };
+    assert_eq!(refused(Controller::Concurrent(concurrent)), "uncertainty.zone_kw");
 
-    for wrong in [
-        Setpoints { occupied_c: vec![20.0; 3], ..Setpoints::default() },
-        Setpoints { occupied_c: vec![], ..Setpoints::default() },
-        Setpoints { from_h: 25.0, ..Setpoints::default() },
-        Setpoints { to_h: 7.0, ..Setpoints::default() },
-        Setpoints { band_k: -1.0, ..Setpoints::default() },
-        Setpoints { occupied_c: vec![f64::NAN], ..Setpoints::default() },
+    for (key, wrong) in [
+        ("occupied_c", Setpoints { occupied_c: vec![20.0; 3], ..Setpoints::default() }),
+        ("occupied_c", Setpoints { occupied_c: vec![], ..Setpoints::default() }),
+        ("occupied_c.1", Setpoints { occupied_c: vec![20.0, f64::NAN, 20.0, 20.0], ..Setpoints::default() }),
+        ("other_c", Setpoints { other_c: Some(297.0), ..Setpoints::default() }),
+        ("from_h", Setpoints { from_h: 25.0, ..Setpoints::default() }),
+        ("to_h", Setpoints { to_h: 7.0, ..Setpoints::default() }),
+        ("band_k", Setpoints { band_k: -1.0, ..Setpoints::default() }),
     ] {
-        assert!(wrong.targets(4, STEP_S, STEPS).is_err(), "{wrong:?}");
+        let error = wrong.targets(4, STEP_S, STEPS).expect_err("it makes no sense");
+        assert_eq!(error.key().as_str(), key, "{error}");
     }
 }
 
