@@ -3,13 +3,17 @@
 mod common;
 
 use common::{distance, numbers};
-use interplay_building::comfort::{KeyFigures, Setpoints, Targets};
+use interplay_building::comfort::{Setpoints, Targets};
+use interplay_building::control::concurrent::ConcurrentSettings;
+use interplay_building::control::iterative::IterativeSettings;
 use interplay_building::control::learning::LearningSettings;
 use interplay_building::control::pid::PidSettings;
 use interplay_building::control::thermostat::ThermostatSettings;
+use interplay_building::control::uncertainty::UncertaintySettings;
 use interplay_building::control::{
-    Control, ControlError, Controller, DayRecord, Disturbance, Morning, Observation, Regulator, optimum, run_day,
+    Control, ControlError, Controller, DayRecord, Disturbance, Morning, Observation, Regulator, optimum,
 };
+use interplay_building::day::{KeyFigures, Surroundings, run_day};
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -159,32 +163,13 @@ fn p_type_learning_converges_in_the_end_and_grows_on_the_way() {
     assert!(pd_type.largest_singular_value < 1.0, "{pd_type:?}");
 }
 
-/// A day of synthetic weather and occupancy: what is forecast and what happens.
-struct World {
-    weather: interplay_building::weather::Weather,
-    people: interplay_building::occupancy::People,
-    forecast: Forecast,
-    seed: u64,
-}
+/// Days of synthetic weather and occupancy.
+struct World(Surroundings);
 
 impl World {
     fn new(seed: u64, forecast: Forecast) -> Self {
         let weather = Climate::default().weather(seed, 8);
-        Self { weather, people: Occupancy::default().people(4, seed), forecast, seed }
-    }
-
-    fn forecast(&self, day: usize) -> Disturbance {
-        Disturbance {
-            ambient_c: self.forecast.ambient_steps_c(&self.weather, self.seed, day, STEP_S, STEPS),
-            gains_kw: self.people.scheduled_kw(STEP_S, STEPS),
-        }
-    }
-
-    fn actual(&self, day: usize) -> Disturbance {
-        Disturbance {
-            ambient_c: self.weather.ambient_steps_c(86_400.0 * day as f64, STEP_S, STEPS),
-            gains_kw: self.people.actual_kw(day, STEP_S, STEPS),
-        }
+        Self(Surroundings { weather, forecast, forecast_seed: seed, people: Occupancy::default().people(4, seed) })
     }
 
     /// Cost and regret of each of five days; the building goes on from where a day left it.
@@ -196,7 +181,7 @@ impl World {
         let mut temperatures_c = vec![28.5; 4];
         (0..5)
             .map(|day| {
-                let (forecast, actual) = (self.forecast(day), self.actual(day));
+                let (forecast, actual) = (self.0.forecast(&model, STEPS, day), self.0.actual(&model, STEPS, day));
                 let initial_c = temperatures_c.clone();
                 let record = run_day(&model, &mut temperatures_c, &mut regulator, &targets, &forecast, &actual);
                 let record = record.expect("runs");

@@ -108,7 +108,7 @@ pub enum ControlError {
 
 impl ControlError {
     /// Refuses a series of the wrong length.
-    pub(super) fn check_length(what: &'static str, found: usize, wanted: usize) -> Result<(), Self> {
+    pub(crate) fn check_length(what: &'static str, found: usize, wanted: usize) -> Result<(), Self> {
         if found == wanted { Ok(()) } else { Err(Self::Shape { what, found, wanted }) }
     }
 

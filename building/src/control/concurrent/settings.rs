@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::control::BandPenalty;
 use crate::control::experience::Prediction;
 use crate::control::uncertainty::UncertaintySettings;
-use crate::control::BandPenalty;
 use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// Feedforward and a Youla-parametrised feedback (chapter 4).

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::control::experience::Prediction;
 use crate::control::BandPenalty;
+use crate::control::experience::Prediction;
 use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// How the zones' proposals of a round become a step.
