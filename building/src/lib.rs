@@ -53,6 +53,7 @@
 //! # }
 //! ```
 
+pub mod bounds;
 pub mod comfort;
 pub mod control;
 pub mod discretise;

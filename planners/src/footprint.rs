@@ -10,14 +10,19 @@ use crate::State;
 #[serde(deny_unknown_fields, default)]
 pub struct Body {
     /// Distance from the mass centre to the front bumper \[m\].
+    #[schemars(range(min = 0.001))]
     pub front_m: f64,
     /// Distance from the mass centre to the rear bumper \[m\].
+    #[schemars(range(min = 0.001))]
     pub rear_m: f64,
     /// Width of the body, `W` \[m\].
+    #[schemars(range(min = 0.001))]
     pub width_m: f64,
     /// Distance from the mass centre to the front axle, `L_f` \[m\].
+    #[schemars(range(min = 0.001))]
     pub front_axle_m: f64,
     /// Distance from the mass centre to the rear axle, `L_r` \[m\].
+    #[schemars(range(min = 0.001))]
     pub rear_axle_m: f64,
 }
 
@@ -54,8 +59,10 @@ impl Body {
 #[serde(deny_unknown_fields, default)]
 pub struct SafetyEllipse {
     /// Half axis along the road, `a_s` \[m\].
+    #[schemars(range(min = 0.001))]
     pub along_m: f64,
     /// Half axis across the road, `b_s` \[m\].
+    #[schemars(range(min = 0.001))]
     pub across_m: f64,
 }
 
