@@ -12,6 +12,8 @@ pub const LARGEST_SETTING: f64 = 1e9;
 pub enum Bound {
     /// Neither infinite nor NaN.
     Finite,
+    /// Of at most this magnitude.
+    Magnitude(f64),
     /// `minimum`.
     AtLeast(f64),
     /// `exclusiveMinimum`.
@@ -27,6 +29,7 @@ impl Bound {
     pub fn admits(self, value: f64) -> bool {
         match self {
             Self::Finite => value.is_finite(),
+            Self::Magnitude(largest) => value.abs() <= largest,
             Self::AtLeast(bound) => value >= bound,
             Self::Above(bound) => value > bound,
             Self::AtMost(bound) => value <= bound,
@@ -47,8 +50,8 @@ impl Bound {
     }
 
     /// The bounds of every setting.
-    pub fn of_every_setting() -> [Bound; 3] {
-        [Self::Finite, Self::AtLeast(-LARGEST_SETTING), Self::AtMost(LARGEST_SETTING)]
+    pub fn of_every_setting() -> [Bound; 2] {
+        [Self::Finite, Self::Magnitude(LARGEST_SETTING)]
     }
 }
 
@@ -56,6 +59,7 @@ impl fmt::Display for Bound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Finite => write!(f, "a finite number"),
+            Self::Magnitude(largest) => write!(f, "between -{largest:e} and {largest:e}"),
             Self::AtLeast(bound) => write!(f, "at least {bound}"),
             Self::Above(bound) => write!(f, "above {bound}"),
             Self::AtMost(bound) => write!(f, "at most {bound}"),

@@ -11,7 +11,7 @@ pub struct Expect {
     /// Whether nobody may touch anybody (`true`), or a collision must happen (`false`).
     #[schemars(example = true, extend("x-concerns" = "vehicles"))]
     pub no_collision: Option<bool>,
-    /// Who collides with whom, as pairs of names: these and nobody else. Not together with `no_collision`.
+    /// Who collides with whom, as pairs of names: these and nobody else.
     #[schemars(example = vec![["ego", "front"]], extend("x-excludes" = ["no_collision"]), extend("x-concerns" = "vehicles"))]
     pub collisions: Option<Vec<[String; 2]>>,
     /// The vehicles from first to last: along the road at the end of the run, or through the conflict zone of an

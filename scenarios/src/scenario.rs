@@ -210,10 +210,10 @@ impl Vehicle {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Goal {
-    /// The lane whose centre it wants, counted from the right; 0 is the rightmost. Not together with `y_m`.
+    /// The lane whose centre it wants, counted from the right; 0 is the rightmost.
     #[schemars(example = 1, extend("x-excludes" = ["y_m"]))]
     pub lane: Option<usize>,
-    /// The lateral position that it wants, on the road along x. Not together with `lane` \[m\].
+    /// The lateral position that it wants, on the road along x \[m\].
     #[schemars(example = 0.555)]
     pub y_m: Option<f64>,
     /// The speed that it wants \[m/s\].

@@ -94,6 +94,7 @@ fn polish(schema: &mut Json) {
             object.values_mut().for_each(polish);
             if let Some(properties) = object.get_mut("properties").and_then(Json::as_object_mut) {
                 properties.iter_mut().for_each(|(key, property)| state_unit(key, property));
+                state_exclusions(properties);
             }
         }
         Json::Array(items) => items.iter_mut().for_each(polish),
@@ -115,6 +116,26 @@ fn state_unit(key: &str, property: &mut Json) {
         *description = format!("{} [{unit}].", description.trim_end_matches('.'));
     }
     property["x-unit"] = json!(unit);
+}
+
+/// Says in the description of a key which others may not stand beside it.
+fn state_exclusions(properties: &mut Map<String, Json>) {
+    let excluded = |property: &Json| property.get("x-excludes").and_then(Json::as_array).cloned().unwrap_or_default();
+    let pairs: Vec<(String, String)> = properties
+        .iter()
+        .flat_map(|(one, property)| excluded(property).into_iter().map(|other| (one.clone(), other)))
+        .filter_map(|(one, other)| Some((one, other.as_str()?.to_owned())))
+        .collect();
+    for (key, property) in properties {
+        let beside = |(one, other): &(String, String)| {
+            let other = if one == key { Some(other) } else { Some(one).filter(|_| other == key) };
+            other.map(|other| format!("`{other}`"))
+        };
+        let others: Vec<String> = pairs.iter().filter_map(beside).collect();
+        if let Some(Json::String(description)) = property.get_mut("description").filter(|_| !others.is_empty()) {
+            *description += &format!(" Not together with {}.", others.join(" or "));
+        }
+    }
 }
 
 /// Takes the alternative "null" from a schema: an optional key is one that may be absent.

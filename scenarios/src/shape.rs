@@ -96,7 +96,9 @@ impl Checker {
         for (one, other) in schema.exclusions() {
             if let (Some(_), Some(second)) = (stated(one), stated(other)) {
                 let message = format!("{} states both `{one}` and `{other}`", quoted(&path.0));
-                self.refuse(&second.node.place, &format!("beside `{one}`"), message, "state the one or the other");
+                let said = schema.property(one).map(SchemaNode::description).unwrap_or_default();
+                let help = format!("state the one or the other; of `{one}`: {said}");
+                self.refuse(&second.node.place, &format!("beside `{one}`"), message, help);
             }
         }
     }
@@ -104,9 +106,10 @@ impl Checker {
     fn unknown_key(&mut self, key: &str, place: &Place, schema: SchemaNode, path: &Path) {
         let within = if path.0.is_empty() { String::new() } else { format!(" in {}", quoted(&path.0)) };
         let message = format!("unknown key {}{within}", quoted(key));
-        let in_another_unit = schema.properties().find(|(known, _)| differ_by_unit(key, known)).map(|(known, property)| {
-            format!("it is called `{known}` here, after its unit: {}", property.description())
-        });
+        let in_another_unit =
+            schema.properties().find(|(known, _)| differ_by_unit(key, known)).map(|(known, property)| {
+                format!("it is called `{known}` here, after its unit: {}", property.description())
+            });
         let known: Vec<&str> = schema.properties().map(|(key, _)| key.as_str()).collect();
         let help = in_another_unit.unwrap_or_else(|| suggestion(key, "the keys here are", &known));
         self.refuse(place, "unknown key", message, help);

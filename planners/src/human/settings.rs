@@ -29,7 +29,7 @@ impl Style {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// A word for the safety weight. Not together with `safety_weight`. Without either the driver is nice.
+    /// A word for the safety weight. Without it and without `safety_weight` the driver is nice.
     #[schemars(example = &"nice", extend("x-excludes" = ["safety_weight"]))]
     pub style: Option<Style>,
     /// Weight of the squared intrusion of others into the safety ellipse, at constant velocity; 0 ignores them.

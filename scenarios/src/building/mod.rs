@@ -28,10 +28,10 @@ const ITERATIONS: usize = 10;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Building {
-    /// A building that is known by name. Not together with `grid` or `zone`.
+    /// A building that is known by name.
     #[schemars(example = &"testbed", extend("x-excludes" = ["grid", "zone"]))]
     pub preset: Option<Preset>,
-    /// Rooms in rows and columns, on one floor or several, each like those of the testbed. Not together with `preset` or `zone`.
+    /// Rooms in rows and columns, on one floor or several, each like those of the testbed.
     #[schemars(example = json!({ "rows": 3, "columns": 4 }), extend("x-excludes" = ["zone"]))]
     pub grid: Option<Grid>,
     /// The zones, one `[[building.zone]]` each.

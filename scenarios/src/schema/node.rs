@@ -17,12 +17,14 @@ pub(crate) enum Concern {
 pub(crate) struct SchemaNode {
     root: &'static Json,
     stated: &'static Json,
+    /// The list of which this is an entry.
+    list: Option<&'static Json>,
 }
 
 impl SchemaNode {
     /// The whole schema.
     pub fn of(root: &'static Json) -> SchemaNode {
-        SchemaNode { root, stated: root }
+        SchemaNode { root, stated: root, list: None }
     }
 
     /// The keywords as they are stated here.
@@ -32,7 +34,7 @@ impl SchemaNode {
     }
 
     fn at(self, stated: &'static Json) -> SchemaNode {
-        SchemaNode { stated, ..self }
+        SchemaNode { stated, list: None, ..self }
     }
 
     /// The name of the definition that this refers to.
@@ -58,9 +60,10 @@ impl SchemaNode {
         self.text("type")
     }
 
-    /// What the key is about; empty if nothing is said.
+    /// What the key is about, or the list of which this is an entry; empty if nothing is said.
     pub fn description(self) -> &'static str {
-        self.text("description").unwrap_or_default()
+        let of_list = || self.list?.get("description")?.as_str();
+        self.text("description").or_else(of_list).unwrap_or_default()
     }
 
     /// The bounds of a number.
@@ -140,7 +143,7 @@ impl SchemaNode {
 
     /// What each entry of a list is.
     pub fn entries(self) -> Option<SchemaNode> {
-        self.keyword("items").map(|items| self.at(items))
+        self.keyword("items").map(|items| SchemaNode { list: Some(self.stated), ..self.at(items) })
     }
 
     /// What each entry of a list of tables is.
