@@ -4,9 +4,10 @@
 //! [`Plan`] or a [`PlanError`]. Nothing here knows of time, files, physics or pictures.
 //!
 //! - nouns: [`State`], [`Input`], [`Trajectory`], [`Body`], [`SafetyEllipse`], [`Corridor`], [`Scene`], [`Plan`]
-//! - [`dynamics`]: vehicle models with derivatives
+//! - [`vehicle`]: state, body, limits and the bicycle with its derivatives
+//! - [`road`]: where a vehicle may drive
 //! - [`predict`]: what the others will do
-//! - [`mpc`]: one trajectory optimiser
+//! - [`trajectory`]: one trajectory optimiser
 //! - drivers, one folder each: [`human`], [`conservative`], [`cooperative`], [`negotiation`], [`bayesian`], [`game`];
 //!   [`Driver`] lists them
 //!
@@ -15,32 +16,26 @@
 //! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
 //! 2019); "corrected" marks where the printed equation is in error.
 
-mod activity;
-mod axes;
 pub mod bayesian;
 pub mod conservative;
 pub mod cooperative;
 mod driver;
-pub mod dynamics;
 mod encounter;
 #[cfg(test)]
 mod fixture;
-mod footprint;
 pub mod game;
 pub mod human;
-pub mod mpc;
 pub mod negotiation;
 mod plan;
 pub mod predict;
-mod road;
+pub mod road;
 mod scene;
 mod solo;
-mod state;
+pub mod trajectory;
+pub mod vehicle;
 
-pub use axes::Axes;
 pub use driver::{Driver, Planner};
-pub use footprint::{Body, EllipticalDistance, SafetyEllipse};
 pub use plan::{Diagnostic, Plan, PlanError, Proposal};
-pub use road::{Clearance, Corridor, LaneEnd};
+pub use road::{Axes, Clearance, Corridor, LaneEnd};
 pub use scene::{Agent, Goal, Scene};
-pub use state::{Input, State, Trajectory};
+pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

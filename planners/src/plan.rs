@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::Trajectory;
-use crate::mpc::{DescentError, Optimum, StageError, Statistics};
+use crate::trajectory::{DescentError, Optimum, StageError, Statistics};
 
 /// A named number that explains a plan, for plots.
 pub type Diagnostic = (&'static str, f64);

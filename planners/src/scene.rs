@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
-use crate::dynamics::Bicycle;
-use crate::mpc::{KeepOut, Limits, Participant, Penalty, Tracking};
 use crate::predict::Prediction;
-use crate::{Axes, Body, Corridor, Input, SafetyEllipse, State, Trajectory};
+use crate::trajectory::{KeepOut, Participant, Penalty, Tracking};
+use crate::vehicle::Bicycle;
+use crate::{Axes, Body, Corridor, Input, Limits, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as anyone sees it.
 #[derive(Clone, Debug, PartialEq)]

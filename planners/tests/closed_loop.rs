@@ -1,7 +1,7 @@
 //! Planners and humans together on a road, with the bicycle as the plant.
 
-use interplay_planners::dynamics::Bicycle;
-use interplay_planners::mpc::Limits;
+use interplay_planners::Bicycle;
+use interplay_planners::Limits;
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{
     Agent, Body, Corridor, Driver, Goal, Input, Planner, SafetyEllipse, Scene, State, conservative, human, negotiation,
@@ -72,7 +72,7 @@ fn lane_change(driver: Driver, styles: [human::Style; 2]) -> (f64, Vec<String>, 
     run(&mut vehicles, 120, |tick, vehicles| {
         let ego = &vehicles[0].agent;
         for other in &vehicles[1..] {
-            let d = SafetyEllipse::default().distance(ego.state.position(), other.agent.state.position(), 0.0);
+            let d = SafetyEllipse::default().oriented(0.0).distance(ego.state.position(), other.agent.state.position());
             nearest = nearest.min(d.squared.sqrt());
         }
         if ego.state.y_m > 0.5 && merged_s.is_infinite() {

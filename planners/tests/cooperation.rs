@@ -5,7 +5,7 @@ mod common;
 use common::world::{HORIZON, LANES, STEP_S, Vehicle, run, vehicle};
 use interplay_planners::cooperative::{self, Cooperator, cooperators, problem};
 use interplay_planners::human::Style;
-use interplay_planners::mpc::{Optimiser, Problem, Robust};
+use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Driver, Plan, Planner, Scene};
 
 fn cooperative(normaliser: f64) -> Driver {
@@ -78,7 +78,7 @@ fn costs(normalisers: [f64; 2], guess: &Problem) -> ([f64; 2], Problem) {
         let participants = vec![guess.participants[i].clone()];
         let alone = Problem { participants, separations: Vec::new(), ..guess.clone() };
         let (inputs, states) = (optimum.iterate.inputs[i].clone(), optimum.iterate.states[i].clone());
-        alone.cost(&interplay_planners::mpc::Iterate { inputs: vec![inputs], states: vec![states] }).total
+        alone.cost(&interplay_planners::trajectory::Iterate { inputs: vec![inputs], states: vec![states] }).total
     });
     (own, weighted)
 }

@@ -1,8 +1,8 @@
 //! The embedded lane changes in a tiny closed loop: no physics, every vehicle moves as the bicycle says.
 
-use interplay_planners::dynamics::Bicycle;
+use interplay_planners::Bicycle;
+use interplay_planners::Limits;
 use interplay_planners::human::{self, Style};
-use interplay_planners::mpc::Limits;
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{
     Agent, Body, Corridor, Driver, Goal, Input, Plan, Planner, SafetyEllipse, Scene, State, Trajectory,

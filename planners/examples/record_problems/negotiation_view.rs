@@ -1,9 +1,9 @@
 //! The negotiation planner's problem, rebuilt from its scene and answer by keeping the same minutes of the talk.
 
 use interplay_planners::conservative::{self, Conservative};
-use interplay_planners::mpc::{Leaning, Optimiser, Penalty, Problem, Robust};
 use interplay_planners::negotiation::{self, Concession, Settings, acceptance};
 use interplay_planners::predict::steady;
+use interplay_planners::trajectory::{Leaning, Optimiser, Penalty, Problem, Robust};
 use interplay_planners::{Agent, Input, Plan, Scene, Trajectory};
 
 use crate::{Result, stated};

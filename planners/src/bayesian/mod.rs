@@ -21,11 +21,11 @@ pub use settings::{Settings, Value};
 pub use signal::problem;
 pub use value::attraction;
 
-use crate::activity::Activity;
 use crate::conservative;
 use crate::encounter::{Choice, Partner};
-use crate::mpc::{Optimiser, Optimum, Problem, Robust};
 use crate::solo::Solved;
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A Bayesian planner with what it remembers.

@@ -21,10 +21,10 @@ mod settings;
 pub use problem::{Cooperator, cooperators, problem};
 pub use settings::Settings;
 
-use crate::activity::Activity;
 use crate::conservative;
-use crate::mpc::{Iterate, Optimiser, Optimum, Problem, Robust};
 use crate::predict::steady;
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{Iterate, Optimiser, Optimum, Problem, Robust};
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 
 /// A cooperating planner with the joint plan it made last.

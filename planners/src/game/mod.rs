@@ -21,10 +21,10 @@ mod settings;
 
 pub use settings::{Method, Settings};
 
-use crate::activity::Activity;
 use crate::encounter::{Choice, Partner};
-use crate::mpc::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
 use crate::solo::Solved;
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use equilibrium::{Solution, leader_follower, nash};
 use intention::forget;

@@ -24,10 +24,10 @@ pub use concession::Concession;
 pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
-use crate::activity::Activity;
 use crate::conservative::{self, Conservative};
-use crate::mpc::{Leaning, Optimiser, Optimum, Problem, Robust};
 use crate::solo::{Solved, extremes};
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{Leaning, Optimiser, Optimum, Problem, Robust};
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use filter::Filter;
 use interlocutor::Interlocutor;

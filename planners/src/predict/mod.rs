@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::mpc::Limits;
+use crate::Limits;
 use crate::{Agent, Input, State, Trajectory};
 
 /// How a driver predicts the others.
@@ -55,7 +55,7 @@ pub fn steady(state: &State, acceleration_mps2: f64, limits: &Limits, horizon: u
 mod tests {
     use super::*;
     use crate::Body;
-    use crate::dynamics::Bicycle;
+    use crate::vehicle::Bicycle;
 
     #[test]
     fn constant_velocity_is_the_bicycle_without_input() {

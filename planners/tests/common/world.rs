@@ -4,9 +4,9 @@
 use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
 
-use interplay_planners::dynamics::Bicycle;
+use interplay_planners::Bicycle;
+use interplay_planners::Limits;
 use interplay_planners::human::{self, Style};
-use interplay_planners::mpc::Limits;
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{
     Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Plan, PlanError, Planner, SafetyEllipse, Scene, State,
@@ -173,7 +173,7 @@ impl Run {
         let ego = &vehicles[0];
         for (i, other) in vehicles.iter().enumerate().skip(1) {
             let (at, heading) = (other.agent.state.position(), other.agent.corridor.heading_rad);
-            let distance = ego.goal.safety.distance(ego.agent.state.position(), at, heading);
+            let distance = ego.goal.safety.oriented(heading).distance(ego.agent.state.position(), at);
             self.nearest = self.nearest.min(distance.squared.sqrt());
             for earlier in &vehicles[..i] {
                 if self.collision.is_none() && overlap(&earlier.agent, &other.agent) {

@@ -1,0 +1,116 @@
+//! What the entities carry: components of vehicles, and the resources of a world.
+
+use bevy::ecs::prelude::*;
+use interplay_planners::{Agent, Body, Corridor, Goal, Input, Limits, Planner, State, Trajectory};
+
+use crate::frame::Frame;
+
+/// Who a vehicle is: its place in the scenario, which is the order of everything that is listed.
+#[derive(Component, Clone, Debug)]
+pub struct Identity {
+    /// Index in the scenario.
+    pub index: usize,
+    /// Name in the scenario.
+    pub name: String,
+}
+
+/// How a vehicle moves.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Motion {
+    /// Where it is.
+    pub state: State,
+    /// The input it applied last.
+    pub input: Input,
+    /// Whether it had a collision that left it unfit to go on; with the dynamic plant every one does.
+    pub crashed: bool,
+}
+
+/// What a vehicle is like.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Physique {
+    /// Its body.
+    pub body: Body,
+    /// What it can do.
+    pub limits: Limits,
+    /// The road it may use.
+    pub corridor: Corridor,
+}
+
+/// What a vehicle wants.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Wish {
+    /// Its goal.
+    pub goal: Goal,
+    /// What it tells the others of it, if anything.
+    pub shared: Option<Goal>,
+}
+
+/// Who drives a vehicle, with all that the planner remembers.
+#[derive(Component, Clone, Debug)]
+pub struct Mind {
+    /// The planner.
+    pub planner: Planner,
+    /// Whether it plans before those who rely on knowing its plan.
+    pub goes_first: bool,
+}
+
+/// What a vehicle decided last, to be expected by others and continued if its planner fails.
+#[derive(Component, Clone, Debug, Default)]
+pub struct Intention {
+    /// The plan as it was decided, or the fallback since.
+    pub plan: Option<Trajectory>,
+    /// How many inputs of the planner's last plan are still to come.
+    pub remaining: usize,
+}
+
+/// Simulated time.
+#[derive(Resource, Clone, Copy, Debug)]
+pub struct Clock {
+    /// Ticks done.
+    pub tick: usize,
+    /// Length of a tick \[s\].
+    pub step_s: f64,
+    /// Steps that plans look ahead.
+    pub horizon: usize,
+}
+
+impl Clock {
+    /// Simulated time at the start of this tick \[s\].
+    pub fn time_s(&self) -> f64 {
+        self.within_s(0.0)
+    }
+
+    /// Simulated time when a share of this tick has passed, to the nanosecond: 29 ticks of 0.1 s are 2.9 s and not
+    /// 2.9000000000000004 s \[s\].
+    pub fn within_s(&self, share: f64) -> f64 {
+        to_nanosecond(self.step_s * (self.tick as f64 + share))
+    }
+}
+
+/// A time without the rounding errors of its making \[s\].
+pub fn to_nanosecond(time_s: f64) -> f64 {
+    (time_s * 1e9).round() / 1e9
+}
+
+/// All vehicles as plain values, in the scenario's order; sensed anew every tick.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Agents(pub Vec<Agent>);
+
+/// The tick in the making.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Present(pub Frame);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_what_people_write() {
+        let clock = |tick| Clock { tick, step_s: 0.1, horizon: 30 };
+        for tick in 0..100_000_u32 {
+            let written = format!("{}.{}", tick / 10, tick % 10);
+            assert_eq!(format!("{:?}", clock(tick as usize).time_s()), written);
+        }
+        assert_eq!(clock(29).within_s(0.25), 2.925);
+    }
+}

@@ -1,0 +1,195 @@
+//! Moments worth a line in the log that no planner tells of: who brakes, who accepts, who has arrived; heat at its limit,
+//! comfort that was missed.
+//!
+//! Each is told when it begins, and again only after it has ended.
+
+use interplay_planners::Limits;
+use interplay_scenarios::Scenario;
+
+use crate::climate::Building;
+use crate::frame::{BuildingFrame, Event, Frame, Level, VehicleFrame};
+
+/// From this share of its strongest braking on, a vehicle brakes.
+const BRAKES: f64 = 0.4;
+/// Below this share of it, it has stopped to.
+const COASTS: f64 = 0.1;
+/// An acceptance probability from which on a proposal is accepted, and one below which it is refused.
+const ACCEPTED: f64 = 0.8;
+const REFUSED: f64 = 0.2;
+/// The name under which planners tell it.
+const ACCEPTANCE: &str = "acceptance";
+/// So many zones are named; the others are counted.
+const NAMED: usize = 3;
+/// Who speaks for the building in the log.
+const BUILDING: &str = "building";
+
+/// What vehicles are known to do.
+#[derive(Clone, Debug)]
+pub struct Milestones {
+    limits: Vec<Limits>,
+    brakes: Vec<bool>,
+    /// Whether the last proposal of each vehicle was accepted, once that was clear.
+    accepted: Vec<Option<bool>>,
+}
+
+impl Milestones {
+    /// Nothing told yet.
+    pub fn new(scenario: &Scenario) -> Milestones {
+        let limits: Vec<Limits> = scenario.vehicles.iter().map(|vehicle| vehicle.limits).collect();
+        Milestones { brakes: vec![false; limits.len()], accepted: vec![None; limits.len()], limits }
+    }
+
+    /// What begins in this tick.
+    pub fn observe(&mut self, frame: &Frame) -> Vec<Event> {
+        let vehicles = frame.vehicles.iter().enumerate();
+        vehicles
+            .flat_map(|(index, vehicle)| [self.braking(index, vehicle), self.answer(index, vehicle)])
+            .flatten()
+            .collect()
+    }
+
+    fn braking(&mut self, index: usize, vehicle: &VehicleFrame) -> Option<Event> {
+        let share = vehicle.input.acceleration_mps2 / self.limits[index].acceleration_min_mps2;
+        let braked = self.brakes[index];
+        self.brakes[index] = share > if braked { COASTS } else { BRAKES };
+        (self.brakes[index] && !braked).then(|| note(&vehicle.name, "brakes"))
+    }
+
+    /// How the other takes a proposal. One that asks for nothing new counts as accepted and is not told of.
+    fn answer(&mut self, index: usize, vehicle: &VehicleFrame) -> Option<Event> {
+        let Some(proposal) = &vehicle.plan.proposal else {
+            self.accepted[index] = None;
+            return None;
+        };
+        let acceptance = vehicle.plan.diagnostics.iter().find(|(name, _)| *name == ACCEPTANCE)?.1;
+        let now = if acceptance >= ACCEPTED {
+            true
+        } else if acceptance <= REFUSED {
+            false
+        } else {
+            return None;
+        };
+        let before = self.accepted[index].replace(now);
+        match (before, now) {
+            (None | Some(true), false) => {
+                Some(note(&proposal.to, &format!("does not do what {} proposes", vehicle.name)))
+            }
+            (Some(false), true) => Some(note(&proposal.to, &format!("does what {} proposes", vehicle.name))),
+            _ => None,
+        }
+    }
+}
+
+/// A vehicle has reached its goal.
+pub fn arrival(vehicle: &str, crosses: bool) -> Event {
+    note(vehicle, if crosses { "has crossed" } else { "is in its lane" })
+}
+
+fn note(vehicle: &str, text: &str) -> Event {
+    Event { vehicle: vehicle.to_owned(), level: Level::Note, text: text.to_owned() }
+}
+
+/// What was told of a building today.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Today {
+    limited: bool,
+    uncomfortable: bool,
+}
+
+impl Today {
+    /// What begins in this step: the first time each day that heat is at its limit, and that comfort is missed while people
+    /// are there.
+    pub fn observe(&mut self, frame: &BuildingFrame, building: &Building) -> Vec<Event> {
+        if frame.step == 0 {
+            *self = Today::default();
+        }
+        let network = building.model.network();
+        let (names, limits_kw, targets) = (network.names(), network.limits_kw(), &building.targets);
+        let zones = || frame.zones.iter().enumerate();
+        let mut told = Vec::new();
+        let limited =
+            zones().filter(|(index, zone)| zone.requested_kw.abs() >= limits_kw[*index] && zone.heat_kw != 0.0);
+        let limited: Vec<&str> = limited.map(|(index, _)| names[index].as_str()).collect();
+        if !limited.is_empty() && !self.limited {
+            self.limited = true;
+            told.push(note(
+                BUILDING,
+                &format!("{}: heat at its limit in {}", moment(frame, building), listed(&limited)),
+            ));
+        }
+        let references_c = &targets.reference_c[frame.step * targets.zones..];
+        let missed = zones().filter(|(index, zone)| {
+            targets.occupied[frame.step] && (zone.next_c - references_c[*index]).abs() > targets.band_k
+        });
+        let missed: Vec<&str> = missed.map(|(index, _)| names[index].as_str()).collect();
+        if !missed.is_empty() && !self.uncomfortable {
+            self.uncomfortable = true;
+            told.push(note(
+                BUILDING,
+                &format!("{}: people there, and outside the comfort band {}", moment(frame, building), listed(&missed)),
+            ));
+        }
+        told
+    }
+}
+
+/// The day, from 1, and the time of day at the end of a step.
+fn moment(frame: &BuildingFrame, building: &Building) -> String {
+    let minutes = ((frame.step + 1) as f64 * building.model.step_s() / 60.0).round() as usize;
+    format!("day {}, {}:{:02}", frame.day + 1, minutes / 60, minutes % 60)
+}
+
+/// Some names, and how many more there are.
+fn listed(names: &[&str]) -> String {
+    let shown = names[..names.len().min(NAMED)].join(", ");
+    let more = names.len().saturating_sub(NAMED);
+    if more == 0 { shown } else { format!("{shown} and {more} more") }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_planners::{Input, Plan, Proposal, Trajectory};
+    use interplay_scenarios::load;
+
+    use super::*;
+
+    fn tick(acceleration_mps2: f64, acceptance: Option<f64>) -> Frame {
+        let proposal = acceptance.map(|_| Proposal { to: "front".to_owned(), trajectory: Trajectory::default() });
+        let diagnostics = acceptance.map(|value| (ACCEPTANCE, value)).into_iter().collect();
+        let vehicle = VehicleFrame {
+            name: "ego".to_owned(),
+            input: Input { acceleration_mps2, steering_rad: 0.0 },
+            plan: Plan { proposal, diagnostics, ..Plan::default() },
+            ..VehicleFrame::default()
+        };
+        Frame { vehicles: vec![vehicle], ..Frame::default() }
+    }
+
+    fn told(frames: &[Frame]) -> Vec<(usize, String)> {
+        let mut milestones = Milestones::new(&load("lane-change/front-nice", &[]).expect("authored"));
+        let frames = frames.iter().enumerate();
+        let events = frames.flat_map(|(at, frame)| milestones.observe(frame).into_iter().map(move |event| (at, event)));
+        events.map(|(at, event)| (at, format!("{} {}", event.vehicle, event.text))).collect()
+    }
+
+    #[test]
+    fn braking_is_told_once_until_it_has_ended() {
+        let said = told(&[0.0, -0.5, -0.3, -0.6, 0.0, -0.3, -0.41].map(|a| tick(a, None)));
+        assert_eq!(said, [(1, "ego brakes".to_owned()), (6, "ego brakes".to_owned())]);
+    }
+
+    #[test]
+    fn answers_are_told_when_they_change() {
+        let said = told(&[1.0, 0.5, 0.1, 0.15, 0.5, 0.9, 1.0].map(|p| tick(0.0, Some(p))));
+        let (refused, accepted) = ("front does not do what ego proposes", "front does what ego proposes");
+        assert_eq!(said, [(2, refused.to_owned()), (5, accepted.to_owned())]);
+        let again = told(&[tick(0.0, Some(0.1)), tick(0.0, None), tick(0.0, Some(0.9)), tick(0.0, Some(0.1))]);
+        assert_eq!(again.len(), 2, "{again:?}");
+    }
+
+    #[test]
+    fn many_zones_are_counted() {
+        assert_eq!(listed(&["a"]), "a");
+        assert_eq!(listed(&["a", "b", "c", "d", "e"]), "a, b, c and 2 more");
+    }
+}
