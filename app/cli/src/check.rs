@@ -33,7 +33,7 @@ impl Check {
                     }
                 }
                 Err(error) => {
-                    complain(&error);
+                    complain(&error.to_string());
                     ending = Ending::BadInput;
                 }
             }

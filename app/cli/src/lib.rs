@@ -6,6 +6,7 @@
 mod check;
 mod completions;
 mod ending;
+mod error;
 mod files;
 mod identify;
 mod list;

@@ -11,8 +11,10 @@ use interplay_scenarios::{Override, Scenario, load};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::Watcher;
+use thiserror::Error;
 
 use crate::ending::Ending;
+use crate::error::CommandError;
 use crate::files::short_name;
 use crate::output::{complain, complain_about, json, print};
 use crate::watch::Watched;
@@ -122,7 +124,7 @@ impl Run {
                 if passed { Ending::Well } else { Ending::Failed }
             }
             Err(error) => {
-                complain(&error);
+                complain(&error.to_string());
                 Ending::Unfinished
             }
         }
@@ -134,17 +136,17 @@ impl Run {
     }
 
     /// Runs it; its frames are kept if a page is to be drawn of them.
-    fn film(&self, name: &str, scenario: Scenario, mut watchers: Vec<Box<dyn Watcher>>) -> Result<Take, String> {
+    fn film(&self, name: &str, scenario: Scenario, mut watchers: Vec<Box<dyn Watcher>>) -> Result<Take, CommandError> {
         let camera = Camera::default();
         if self.report.is_some() {
             watchers.push(Box::new(camera.clone()));
         }
-        let report = run(name, &scenario, watchers).map_err(|error| error.to_string())?;
+        let report = run(name, &scenario, watchers)?;
         Ok(Take { label: String::new(), command: self.words(), scenario, frames: camera.frames(), report })
     }
 
     /// Draws the page, if that is asked for.
-    fn page(&self, name: &str, take: &Take) -> Result<(), String> {
+    fn page(&self, name: &str, take: &Take) -> Result<(), CommandError> {
         let Some(folder) = &self.report else { return Ok(()) };
         let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
         let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
@@ -155,8 +157,8 @@ impl Run {
     }
 
     /// Prints the report as it was asked for.
-    fn tell(&self, title: &str, report: &Report) -> Result<(), String> {
-        let text = if self.json { json(report)? } else { summary(title, report) };
+    fn tell(&self, title: &str, report: &Report) -> Result<(), CommandError> {
+        let text = if self.json { json("the report", report)? } else { summary(title, report) };
         print(&text);
         Ok(())
     }
@@ -193,9 +195,7 @@ impl Run {
 
     fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
         let sink = match &self.connect {
-            Some(viewer) => {
-                Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok).map_err(RecordError::Broken)?))
-            }
+            Some(viewer) => Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok)?)),
             None => self.recording(name).map(Sink::File),
         };
         let Some(sink) = sink else { return Ok(Vec::new()) };
@@ -205,9 +205,14 @@ impl Run {
     }
 }
 
+/// A text that is no seed.
+#[derive(Debug, Error)]
+#[error("a seed is a whole number from 0 to {}", u64::MAX)]
+struct SeedError;
+
 /// A seed as it is written on the command line.
-fn seed(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+fn seed(text: &str) -> Result<u64, SeedError> {
+    text.parse().map_err(|_| SeedError)
 }
 
 #[cfg(test)]

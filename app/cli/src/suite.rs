@@ -12,6 +12,7 @@ use interplay_simulation::run::run;
 use rayon::prelude::*;
 
 use crate::ending::Ending;
+use crate::error::CommandError;
 use crate::files::{self, Found};
 use crate::output::{complain, complain_about, json, print};
 use crate::progress::Progress;
@@ -47,7 +48,7 @@ impl Suite {
         let cases = match self.run(&scenarios) {
             Ok(cases) => cases,
             Err(error) => {
-                complain(&error);
+                complain(&error.to_string());
                 return Ending::Unfinished;
             }
         };
@@ -57,7 +58,7 @@ impl Suite {
         match self.tell(&cases, began.elapsed().as_secs_f64()) {
             Ok(()) => ending(&cases),
             Err(error) => {
-                complain(&error);
+                complain(&error.to_string());
                 Ending::Unfinished
             }
         }
@@ -89,7 +90,7 @@ impl Suite {
             match files::find(path) {
                 Ok(more) => found.extend(more),
                 Err(error) => {
-                    complain(&error);
+                    complain(&error.to_string());
                     *sound = false;
                 }
             }
@@ -98,13 +99,13 @@ impl Suite {
     }
 
     /// Runs every scenario in a world of its own; the cases come in the order of the scenarios.
-    fn run(&self, scenarios: &[(String, Scenario)]) -> Result<Vec<Case>, String> {
+    fn run(&self, scenarios: &[(String, Scenario)]) -> Result<Vec<Case>, CommandError> {
         let jobs = self.jobs.map_or(0, NonZeroUsize::get);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
-        let pool = pool.map_err(|error| format!("cannot start {jobs} threads: {error}"))?;
+        let pool = pool.map_err(|reason| CommandError::Threads { jobs, reason })?;
         let progress = Progress::of(scenarios.len());
         let case = |(name, scenario): &(String, Scenario)| {
-            let outcome = run(name, scenario, Vec::new()).map_err(|error| error.to_string());
+            let outcome = run(name, scenario, Vec::new());
             progress.advance();
             Case { name: name.clone(), outcome }
         };
@@ -114,15 +115,17 @@ impl Suite {
     }
 
     /// Prints and writes the results as it was asked for.
-    fn tell(&self, cases: &[Case], wall_s: f64) -> Result<(), String> {
+    fn tell(&self, cases: &[Case], wall_s: f64) -> Result<(), CommandError> {
         let reports: Vec<&Report> = cases.iter().filter_map(|case| case.outcome.as_ref().ok()).collect();
-        print(&if self.json { json(&reports)? } else { table(cases, wall_s) });
-        self.junit.as_deref().map_or(Ok(()), |path| write(path, &junit(cases, wall_s)))
+        print(&if self.json { json("the reports", &reports)? } else { table(cases, wall_s) });
+        let Some(path) = &self.junit else { return Ok(()) };
+        let xml = junit(cases, wall_s).map_err(|error| CommandError::Xml(Box::new(error)))?;
+        write(path, &xml)
     }
 }
 
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    std::fs::write(path, text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))
+fn write(path: &Path, text: &str) -> Result<(), CommandError> {
+    std::fs::write(path, text).map_err(|reason| CommandError::Unwritable { path: path.to_owned(), reason })
 }
 
 /// A run that could not be finished weighs more than an expectation that failed.
@@ -140,6 +143,8 @@ fn ending(cases: &[Case]) -> Ending {
 
 #[cfg(test)]
 mod tests {
+    use interplay_simulation::run::RunError;
+
     use super::*;
 
     fn case(outcome: Result<bool, &str>) -> Case {
@@ -147,7 +152,7 @@ mod tests {
         scenario.duration_s = scenario.step_s;
         let report = || run("short", &scenario, Vec::new()).expect("one tick");
         let outcome = outcome.map(|passed| Report { passed, ..report() });
-        Case { name: "short".to_owned(), outcome: outcome.map_err(str::to_owned) }
+        Case { name: "short".to_owned(), outcome: outcome.map_err(|error| RunError::Watch(error.into())) }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use interplay_building::comfort::Setpoints;
 
 use super::entry::{Entry, Exhibit, Kind};
+use super::error::FigureError;
 use super::take::{Shot, Take};
 use super::{climate, theory};
 
@@ -28,7 +29,7 @@ const SAME: &str = "With an exact prediction, feedback has nothing left to do: i
     no forecast, which is what is drawn here.";
 
 /// The first two rooms, as the source draws them.
-fn two_rooms(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
+fn two_rooms(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, FigureError> {
     Ok(climate::temperatures(entry.title, takes[0], &[0, 1]).sketch().into())
 }
 

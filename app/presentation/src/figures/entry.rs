@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::error::FigureError;
 use super::take::{Ran, Shot, Take};
 use crate::plot::{Sheet, Sketch};
 
@@ -36,7 +37,7 @@ pub struct Entry {
 }
 
 /// How an entry is drawn from its takes.
-pub type Draw = fn(&Entry, &[&Take]) -> Result<Exhibit, String>;
+pub type Draw = fn(&Entry, &[&Take]) -> Result<Exhibit, FigureError>;
 
 /// What came of an entry, or of a run: pictures, and tables of what was measured.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,12 +78,12 @@ impl fmt::Display for Entry {
 }
 
 /// What became of an entry.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Made {
     /// The entry.
     pub entry: &'static Entry,
     /// What was drawn and measured, or why not.
-    pub outcome: Result<Exhibit, String>,
+    pub outcome: Result<Exhibit, FigureError>,
     /// How each run went that was asked of it and could be finished.
     pub runs: Vec<Ran>,
 }

@@ -19,6 +19,7 @@ mod climate;
 mod drawings;
 mod driving;
 mod entry;
+mod error;
 mod find;
 mod measures;
 mod save;
@@ -32,10 +33,12 @@ mod words;
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 pub use entry::{Draw, Entry, Exhibit, Kind, Made};
+pub use error::FigureError;
 pub use find::{UnknownFigure, find};
 use save::save;
 pub use section::{own_page, section};
@@ -64,11 +67,11 @@ pub fn steps(entries: &[&'static Entry]) -> usize {
 /// They come in the order in which they were asked for.
 pub fn make(entries: &[&'static Entry], folder: &Path, advance: &(dyn Fn() + Sync)) -> Vec<Made> {
     let run = |shot: &Shot| {
-        let take = shot.take();
+        let take = shot.take().map_err(Arc::new);
         advance();
         (*shot, take)
     };
-    let takes: BTreeMap<Shot, Result<Take, String>> = shots(entries).par_iter().with_max_len(1).map(run).collect();
+    let takes: Takes = shots(entries).par_iter().with_max_len(1).map(run).collect();
     let draw = |entry: &&'static Entry| {
         let made = make_one(entry, &takes, folder);
         advance();
@@ -76,6 +79,9 @@ pub fn make(entries: &[&'static Entry], folder: &Path, advance: &(dyn Fn() + Syn
     };
     entries.par_iter().with_max_len(1).map(draw).collect()
 }
+
+/// The runs of several figures, or why there is none.
+type Takes = BTreeMap<Shot, Result<Take, Arc<FigureError>>>;
 
 /// What has to be run, each once.
 fn shots(entries: &[&'static Entry]) -> Vec<Shot> {
@@ -86,19 +92,19 @@ fn shots(entries: &[&'static Entry]) -> Vec<Shot> {
     shots
 }
 
-fn make_one(entry: &'static Entry, takes: &BTreeMap<Shot, Result<Take, String>>, folder: &Path) -> Made {
-    let of = |shots: &[Shot]| -> Vec<Result<&Take, String>> {
+fn make_one(entry: &'static Entry, takes: &Takes, folder: &Path) -> Made {
+    let of = |shots: &[Shot]| -> Vec<Result<&Take, FigureError>> {
         let taken = |shot: &Shot| match takes.get(shot) {
             Some(Ok(take)) => Ok(take),
-            Some(Err(error)) => Err(format!("{}: {error}", shot.scenario)),
-            None => Err(format!("{} was not run", shot.scenario)),
+            Some(Err(reason)) => Err(FigureError::Shared { scenario: shot.scenario, reason: Arc::clone(reason) }),
+            None => Err(FigureError::NotRun(shot.scenario)),
         };
         shots.iter().map(taken).collect()
     };
     let (drawn, beside) = (of(entry.shots), of(entry.beside));
     let ran: Vec<Ran> =
         drawn.iter().chain(&beside).filter_map(|take| take.as_ref().ok()).map(|take| take.ran()).collect();
-    let outcome = drawn.into_iter().collect::<Result<Vec<&Take>, String>>().and_then(|drawn| {
+    let outcome = drawn.into_iter().collect::<Result<Vec<&Take>, FigureError>>().and_then(|drawn| {
         let mut exhibit = (entry.draw)(entry, &drawn)?;
         let beside: Vec<&Take> = beside.into_iter().flatten().collect();
         if entry.kind == Kind::Figure {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::entry::{Exhibit, Made};
+use super::error::FigureError;
 use super::save::save;
 use super::show::show;
 use super::take::{Ran, Take};
@@ -28,7 +29,7 @@ pub fn section(made: &Made) -> Section {
     section.commands = std::iter::once(again).chain(commands).collect();
     match &made.outcome {
         Ok(exhibit) => fill(&mut section, exhibit),
-        Err(reason) => section.verdict = Verdict::Broken(reason.clone()),
+        Err(reason) => section.verdict = Verdict::Broken(reason.to_string()),
     }
     section
 }
@@ -37,8 +38,8 @@ pub fn section(made: &Made) -> Section {
 /// `files` are already there, each with what it is. Says where the page is.
 ///
 /// # Errors
-/// In words, if a picture cannot be drawn or the disk refuses a file.
-pub fn own_page(take: &Take, folder: &Path, files: Vec<(String, String)>) -> Result<PathBuf, String> {
+/// [`FigureError`], if a picture cannot be drawn or the disk refuses a file.
+pub fn own_page(take: &Take, folder: &Path, files: Vec<(String, String)>) -> Result<PathBuf, FigureError> {
     let exhibit = show(take);
     save(&exhibit.pictures, folder, "picture")?;
     let page = Page {
@@ -47,9 +48,10 @@ pub fn own_page(take: &Take, folder: &Path, files: Vec<(String, String)>) -> Res
         sections: vec![own_section(take, &exhibit, files)],
     };
     let path = folder.join("index.html");
-    let written = std::fs::write(&path, page.html());
-    written.map_err(|error| format!("cannot write {}: {error}; name another folder with --report", path.display()))?;
-    Ok(path)
+    match std::fs::write(&path, page.html()) {
+        Ok(()) => Ok(path),
+        Err(reason) => Err(FigureError::Page { path, reason }),
+    }
 }
 
 /// The part of the page that shows a run of its own; `files` lie beside the page.

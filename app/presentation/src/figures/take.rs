@@ -6,7 +6,9 @@ use interplay_scenarios::{Override, Scenario, load};
 use interplay_simulation::frame::Frame;
 use interplay_simulation::report::Report;
 use interplay_simulation::run::{RunError, run};
-use interplay_simulation::watch::Watcher;
+use interplay_simulation::watch::{WatchError, Watcher};
+
+use super::error::FigureError;
 
 /// A run that a figure needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -47,16 +49,13 @@ impl Shot {
     /// Runs it.
     ///
     /// # Errors
-    /// In words, if the scenario cannot be loaded or its run cannot be finished.
-    pub fn take(&self) -> Result<Take, String> {
+    /// [`FigureError`], if the scenario cannot be loaded or its run cannot be finished.
+    pub fn take(&self) -> Result<Take, FigureError> {
         let changes: Vec<Override> = self.sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
-        let scenario = load(self.scenario, &changes).map_err(|error| {
-            let problems = error.problems().iter().map(ToString::to_string).collect::<Vec<_>>();
-            format!("{error}: {}", problems.join("; "))
-        })?;
+        let scenario = load(self.scenario, &changes)?;
         let sets = self.sets.iter().flat_map(|set| ["--set", set]);
         let command = ["interplay", "run", self.scenario].into_iter().chain(sets).map(str::to_owned).collect();
-        Take::of(self.scenario, scenario, command, self.label).map_err(|error| error.to_string())
+        Ok(Take::of(self.scenario, scenario, command, self.label)?)
     }
 }
 
@@ -97,12 +96,12 @@ impl Camera {
 }
 
 impl Watcher for Camera {
-    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(frame.clone());
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), String> {
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
         Ok(())
     }
 }

@@ -14,6 +14,7 @@ use interplay_planners::{Body, SafetyEllipse};
 use interplay_scenarios::load;
 
 use super::entry::Exhibit;
+use super::error::FigureError;
 use crate::plot::ink::{BLACK, BLUE, Dash, GREY, Ink, ORANGE};
 use crate::plot::{Curve, Panel, Panels, Sheet};
 
@@ -21,15 +22,15 @@ use crate::plot::{Curve, Panel, Panels, Sheet};
 const TRAIN_DAYS: f64 = 9.0;
 
 /// The identified classroom over the rows trained on, or over the others (Figs. 2.5 and 2.6).
-pub fn identification(title: &str, test: bool) -> Result<Exhibit, String> {
+pub fn identification(title: &str, test: bool) -> Result<Exhibit, FigureError> {
     let telemetry = Classroom::default().simulate();
     let identified = |method: Method| {
         let settings = Settings { method, train_days: Some(TRAIN_DAYS), ..Settings::default() };
-        identify(&telemetry, &settings).map_err(|error| error.to_string())
+        identify(&telemetry, &settings)
     };
     let (found, source) = (identified(Method::PredictionError)?, identified(Method::Semiparametric)?);
     let (Some(zone), Some(other)) = (found.report.zones.first(), source.report.zones.first()) else {
-        return Err("the classroom has no zone".to_owned());
+        return Err(FigureError::NoZone);
     };
     let errors = if test { zone.test.as_ref() } else { Some(&zone.train) };
     let sheets = errors.map(fit_errors).into_iter().chain([parameters_found(zone, other)]).collect();
@@ -100,9 +101,9 @@ fn parameters_found(zone: &ZoneReport, other: &ZoneReport) -> Sheet {
 }
 
 /// Table 2.1 in the unit that makes sense of it, and what each reading of the printed unit leads to.
-pub fn thermal_parameters(title: &str) -> Result<Exhibit, String> {
+pub fn thermal_parameters(title: &str) -> Result<Exhibit, FigureError> {
     let network = Network::testbed();
-    let found = Model::euler(&network, 1800.0).map_err(|error| error.to_string())?;
+    let found = Model::euler(&network, 1800.0)?;
     let constants = network.time_constants_s();
     let row = |name: &str, printed: &str, value: String, unit: &str| {
         [name.to_owned(), printed.to_owned(), value, unit.to_owned()]
@@ -171,8 +172,8 @@ pub fn dimensions(title: &str) -> Exhibit {
 }
 
 /// How plans are optimised (Table 6.2).
-pub fn configuration(title: &str) -> Result<Exhibit, String> {
-    let scenario = load("lane-change/front-nice", &[]).map_err(|error| error.to_string())?;
+pub fn configuration(title: &str) -> Result<Exhibit, FigureError> {
+    let scenario = load("lane-change/front-nice", &[])?;
     let (limits, ellipse) = (Limits::default(), SafetyEllipse::default());
     let row = |symbol: &str, name: &str, value: String| [symbol.to_owned(), name.to_owned(), value];
     let third = std::f64::consts::PI / 3.0;

@@ -44,7 +44,7 @@ use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
-pub use error::RecordError;
+pub use error::{RecordError, ViewerAddressError};
 pub use live::Viewer;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
@@ -52,7 +52,7 @@ pub use timelines::{SIM_TIME, TICK};
 use vehicles::Cast;
 
 use interplay_simulation::frame::Frame;
-use interplay_simulation::watch::Watcher;
+use interplay_simulation::watch::{WatchError, Watcher};
 
 /// The first bytes of every recording in a file.
 pub const MAGIC: [u8; 3] = *b"RRF";
@@ -179,12 +179,13 @@ impl Recorder {
     pub fn finish(self) -> Result<(), RecordError> {
         let road_m = self.driven_m.map(|[from, to]| [from - margin(&self.scenario), to + margin(&self.scenario)]);
         self.arrange(road_m.unwrap_or_else(|| expected_road(&self.scenario)))?;
-        let broken = |error: &dyn std::fmt::Display| RecordError::Broken(error.to_string());
         match &self.output {
             Output::File { path, content } => {
-                file::write(path, &content.drain_as_bytes().map_err(|error| broken(&error))?)
+                file::write(path, &content.drain_as_bytes().map_err(|error| RecordError::Broken(Box::new(error)))?)
             }
-            Output::Live { .. } => self.stream.flush_with_timeout(PATIENCE).map_err(|error| broken(&error)),
+            Output::Live { .. } => {
+                self.stream.flush_with_timeout(PATIENCE).map_err(|error| RecordError::Broken(Box::new(error)))
+            }
         }
     }
 
@@ -212,12 +213,12 @@ impl Recorder {
 }
 
 impl Watcher for Recorder {
-    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
-        Recorder::tick(self, frame).map_err(|error| error.to_string())
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
+        Ok(Recorder::tick(self, frame)?)
     }
 
-    fn finish(self: Box<Self>) -> Result<(), String> {
-        Recorder::finish(*self).map_err(|error| error.to_string())
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
+        Ok(Recorder::finish(*self)?)
     }
 }
 

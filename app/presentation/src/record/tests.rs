@@ -177,13 +177,13 @@ fn a_panel_is_there_only_if_it_has_something_to_show() {
 struct Listener(std::sync::Arc<std::sync::Mutex<std::collections::BTreeSet<&'static str>>>);
 
 impl Watcher for Listener {
-    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
         let mut heard = self.0.lock().map_err(|error| error.to_string())?;
         heard.extend(frame.vehicles[0].plan.diagnostics.iter().map(|(name, _)| *name));
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), String> {
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
         Ok(())
     }
 }
