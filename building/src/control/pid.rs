@@ -11,7 +11,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::setting::{SettingError, check_not_negative};
 
 /// Gains of a PID controller. They are per hour, not per step, so that they mean the same at every step.
@@ -87,7 +87,7 @@ impl Pid {
 }
 
 impl Control for Pid {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 

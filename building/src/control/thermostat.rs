@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::setting::{check_not_negative, check_within};
 
 /// A two-sided thermostat with a dead band.
@@ -43,7 +43,7 @@ impl Thermostat {
 }
 
 impl Control for Thermostat {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 

@@ -131,13 +131,13 @@ impl Uncertainty {
     }
 
     /// Learns from what a day's prediction missed \[kW\], stacked. Says whether anything changed.
-    pub fn learn(&mut self, surprise_kw: &[f64], targets: &Targets) -> bool {
+    pub fn learn(&mut self, error_kw: &[f64], targets: &Targets) -> bool {
         if !self.settings.reestimate {
             return false;
         }
         let n = targets.zones as f64;
         let mut sums = [(0.0, 0.0_f64); 3];
-        for (step_kw, busy) in surprise_kw.chunks_exact(targets.zones).zip(busy(targets)) {
+        for (step_kw, busy) in error_kw.chunks_exact(targets.zones).zip(busy(targets)) {
             let mean = step_kw.iter().sum::<f64>() / n;
             let place = if busy { 1 } else { 2 };
             // A single zone cannot tell its own part from the common one.

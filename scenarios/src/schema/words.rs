@@ -64,9 +64,9 @@ pub(super) const UNITS: &[(&str, &str, &str)] = &[
     ("BuildingExpect", "above_centralised_at_most", "dimensionless"),
     ("dynamic", "friction", "dimensionless"),
     ("dynamic", "restitution", "dimensionless"),
-    ("Belief", "capacity_factor", "dimensionless"),
-    ("Belief", "inner_resistance_factor", "dimensionless"),
-    ("Belief", "outer_resistance_factor", "dimensionless"),
+    ("ModelMismatch", "capacity_factor", "dimensionless"),
+    ("ModelMismatch", "inner_resistance_factor", "dimensionless"),
+    ("ModelMismatch", "outer_resistance_factor", "dimensionless"),
 ];
 
 /// Examples for keys without a default: table (nothing for the file itself), key, value.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::control::BandPenalty;
-use crate::control::experience::Prediction;
+use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// How the zones' proposals of a round become a step.
@@ -37,7 +37,7 @@ pub struct DistributedSettings {
     /// λ of the learned bias.
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
     /// Share of the messages that are lost, drawn from a generator with a seed of its own.
     pub loss: f64,
     /// Rounds by which messages are late.
@@ -58,7 +58,7 @@ impl Default for DistributedSettings {
             discomfort_quadratic: 50.0,
             gain_kw_per_k: 0.2,
             learning_rate: 0.5,
-            prediction: Prediction::default(),
+            prediction: DisturbancePrediction::default(),
             loss: 0.0,
             delay_rounds: 0,
             silent_zone: None,
@@ -94,7 +94,7 @@ pub struct CentralisedSettings {
     /// λ of the learned bias.
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
 }
 
 impl Default for CentralisedSettings {
