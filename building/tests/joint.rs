@@ -1,4 +1,4 @@
-//! StaticFeedback and plan that share the limits: against the cone programme itself, and against the two-stage design.
+//! Feedback and plan that share the limits: against the cone programme itself, and against the two-stage design.
 
 mod common;
 

@@ -3,7 +3,7 @@
 //! Choose x*, and for every row a complementary pair s* ∈ K, z* ∈ K*, s*ᵀz* = 0. With b = Ax* + s* and
 //! q = −Px* − Aᵀz*, the pair (x*, z*) satisfies the optimality conditions of the problem (P, q, A, b, K).
 
-use interplay_convex::{Block, ConicSolution, Program, SolveError, Solver, SolverSettings, Variables, kkt};
+use interplay_convex::{Block, ConicSolution, Program, SolveError, Solver, SolverSettings, Variables, residuals};
 use proptest::prelude::*;
 
 const VARIABLES: usize = 6;
@@ -167,7 +167,7 @@ proptest! {
         let want = known.objective(&known.x);
         prop_assert!((solution.objective - want).abs() < 1e-5 * (1.0 + want.abs()));
         prop_assert!(solution.residuals.largest() < 1e-6, "{:?}", solution.residuals);
-        let recomputed = kkt::residuals(&program, &solution).expect("well-formed");
+        let recomputed = residuals(&program, &solution).expect("well-formed");
         prop_assert_eq!(recomputed, solution.residuals);
     }
 
@@ -194,11 +194,11 @@ proptest! {
         let solution = solve(&program(&known)).expect("solvable by construction");
         let mut other = known.clone();
         other.q[which] += 0.5;
-        let residuals = kkt::residuals(&program(&other), &solution).expect("well-formed");
+        let residuals = residuals(&program(&other), &solution).expect("well-formed");
         prop_assert!(residuals.stationarity > 1e-3);
         other.q[which] -= 0.5;
         other.b[0] += 0.5;
-        let residuals = kkt::residuals(&program(&other), &solution).expect("well-formed");
+        let residuals = residuals(&program(&other), &solution).expect("well-formed");
         prop_assert!(residuals.primal > 1e-3);
     }
 }

@@ -1,6 +1,6 @@
 //! How zones come to a common plan (Algorithm 1, with two faster ways to step).
 //!
-//! In each round every zone learns the gradient of the common cost from its neighbours ([`super::mail`]), finds its best
+//! In each round every zone learns the gradient of the common cost from its neighbours ([`super::messages`]), finds its best
 //! inputs with those of the others as they are ([`super::zone`], side by side), and the proposals become a step:
 //!
 //! | scheme | step | sums over all zones in a round |

@@ -1,7 +1,7 @@
 //! Zones that plan together (chapter 5), and the same day in one problem.
 //!
 //! Both plan the inputs of least cost with a soft comfort band, and follow them with a feedback of each zone on its own
-//! error. The distributed design does it by messages between neighbours: `mail` has the messages, `zone` the problem of
+//! error. The distributed design does it by messages between neighbours: [`messages`] has the messages, `zone` the problem of
 //! one zone, `agreement` the rounds, [`cooperative`] what is learned from neighbours and when that converges.
 //!
 //! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the source's

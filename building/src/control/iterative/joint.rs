@@ -1,4 +1,4 @@
-//! StaticFeedback and plan that share the limits of the inputs, found together.
+//! Feedback and plan that share the limits of the inputs, found together.
 //!
 //! ```text
 //! minimise    J(û) + tr(W_e G Y Σ Yᵀ Gᵀ) + tr(W_u (I − Y) Σ (I − Y)ᵀ)
@@ -33,7 +33,7 @@ const SETTLED: f64 = 1e-7;
 /// Deviations below this are as good as none, and have no price \[kW\].
 const LEAST_DEVIATION_KW: f64 = 1e-9;
 
-/// StaticFeedback and plan.
+/// Feedback and plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// What is added to W_u for each input in the design of the feedback, stacked.

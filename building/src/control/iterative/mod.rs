@@ -154,7 +154,7 @@ impl Iterative {
         Ok(feedback)
     }
 
-    /// StaticFeedback and plan together, as if the optimal causal feedback were used.
+    /// Feedback and plan together, as if the optimal causal feedback were used.
     fn joint(&self, targets: &Targets, free_c: &[f64]) -> Result<Joint, ControlError> {
         let lifted = self.estimator.lifted();
         check_size(lifted)?;

@@ -14,7 +14,7 @@ pub enum Objective {
     /// The expectation of J, which gives feedback a value.
     #[default]
     Expected,
-    /// J of the expected disturbance, as printed. StaticFeedback does not matter then; Y = I, none, is as good as any.
+    /// J of the expected disturbance, as printed. Feedback does not matter then; Y = I, none, is as good as any.
     Nominal,
 }
 
