@@ -88,7 +88,7 @@ static BROKEN: Entry = Entry {
     erratum: None,
     shots: &[],
     beside: &[],
-    draw: |_, _| Err("nothing there".to_owned()),
+    draw: |_, _| Err(FigureError::NotRun("nothing")),
 };
 static MISSING: Entry = Entry {
     number: "0.2",
@@ -108,14 +108,14 @@ fn a_figure_that_fails_does_not_stop_the_others() {
     let folder = folder("failing");
     let made = make(&entries, &folder, &advance);
     std::fs::remove_dir_all(folder).expect("it was made above");
-    let outcomes: Vec<Result<(), &str>> =
-        made.iter().map(|made| made.outcome.as_ref().map(|_| ()).map_err(String::as_str)).collect();
-    assert_eq!(outcomes[0], Err("nothing there"));
-    assert!(outcomes[1].is_err_and(|error| error.contains("no/such-scenario")), "{outcomes:?}");
+    let outcomes: Vec<Result<(), String>> =
+        made.iter().map(|made| made.outcome.as_ref().map(|_| ()).map_err(ToString::to_string)).collect();
+    assert_eq!(outcomes[0], Err("nothing was not run".to_owned()));
+    assert!(outcomes[1].as_ref().is_err_and(|error| error.contains("no/such-scenario")), "{outcomes:?}");
     assert_eq!(outcomes[2], Ok(()));
     assert_eq!(steps.into_inner(), super::steps(&entries));
     let parts: Vec<crate::page::Verdict> = made.iter().map(|made| section(made).verdict).collect();
-    assert_eq!(parts[0], crate::page::Verdict::Broken("nothing there".to_owned()));
+    assert_eq!(parts[0], crate::page::Verdict::Broken("nothing was not run".to_owned()));
     assert_eq!(parts[2], crate::page::Verdict::Shown);
 }
 

@@ -66,7 +66,7 @@ mod tests {
         assert_eq!(here.to_string(), "rerun+http://127.0.0.1:9876/proxy");
         assert_eq!(here.to_string().parse(), Ok(here));
         for wrong in ["", "nowhere", "http://127.0.0.1:9876", "rerun+http://127.0.0.1:9876/catalog"] {
-            let error = wrong.parse::<Viewer>().expect_err(wrong);
+            let error = wrong.parse::<Viewer>().expect_err(wrong).to_string();
             assert!(error.contains("rerun+http://127.0.0.1:9876/proxy"), "{error}");
         }
     }
