@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// A scenario to be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Found {
+pub(crate) struct ScenarioArgument {
     /// What its run is called: see [`short_name`]; in a folder, its path below that folder, without the extension.
     pub name: String,
     /// Name of the embedded scenario, or path of the file.
@@ -28,9 +28,9 @@ pub(crate) enum FolderError {
 ///
 /// # Errors
 /// [`FolderError`], if a folder cannot be read or has no such file in it. Whether the others exist shows when they are loaded.
-pub(crate) fn find(argument: &str) -> Result<Vec<Found>, FolderError> {
+pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError> {
     if !Path::new(argument).is_dir() {
-        return Ok(vec![Found { name: short_name(argument), scenario: argument.to_owned() }]);
+        return Ok(vec![ScenarioArgument { name: short_name(argument), scenario: argument.to_owned() }]);
     }
     let found =
         below(Path::new(argument)).map_err(|reason| FolderError::Unreadable { folder: argument.to_owned(), reason })?;
@@ -39,7 +39,7 @@ pub(crate) fn find(argument: &str) -> Result<Vec<Found>, FolderError> {
     }
     let named = |path: PathBuf| {
         let name = path.strip_prefix(argument).unwrap_or(&path).with_extension("");
-        Found { name: name.to_string_lossy().into_owned(), scenario: path.to_string_lossy().into_owned() }
+        ScenarioArgument { name: name.to_string_lossy().into_owned(), scenario: path.to_string_lossy().into_owned() }
     };
     Ok(found.into_iter().map(named).collect())
 }

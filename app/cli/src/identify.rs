@@ -8,9 +8,9 @@ use interplay_building::identify::{Identification, IdentifyError, Mapping, Telem
 use interplay_presentation::{plot, report};
 use thiserror::Error;
 
-use crate::ending::Ending;
 use crate::error::CommandError;
-use crate::output::{complain, json, print};
+use crate::exit_status::ExitStatus;
+use crate::output::{json, print, print_error};
 
 /// Find thermal parameters in telemetry, with uncertainty and residual diagnostics.
 ///
@@ -44,20 +44,20 @@ pub(crate) struct Identify {
 }
 
 impl Identify {
-    pub(crate) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> ExitStatus {
         let found = match self.identify() {
             Ok(found) => found,
             Err(error) => {
-                complain(&format!("Error: {error}"));
-                return Ending::BadInput;
+                print_error(&format!("Error: {error}"));
+                return ExitStatus::BadInput;
             }
         };
         let told = self.tell(&found);
         if let Err(error) = told {
-            complain(&format!("Error: {error}"));
-            return Ending::Unfinished;
+            print_error(&format!("Error: {error}"));
+            return ExitStatus::Unfinished;
         }
-        Ending::Well
+        ExitStatus::Well
     }
 
     fn identify(&self) -> Result<Identification, InputError> {
@@ -78,7 +78,7 @@ impl Identify {
     fn tell(&self, found: &Identification) -> Result<(), CommandError> {
         if let Some(folder) = &self.out {
             let written = plot::identification(folder, found)?;
-            complain(&format!("{} plots in {}", written.len(), folder.display()));
+            print_error(&format!("{} plots in {}", written.len(), folder.display()));
         }
         let text = if self.json {
             json("the findings", &found.report)?

@@ -13,13 +13,13 @@ pub(crate) fn print(text: &str) {
 }
 
 /// Says what went wrong.
-pub(crate) fn complain(text: &str) {
+pub(crate) fn print_error(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
 /// Says what is wrong with a file, with the place underlined.
-pub(crate) fn complain_about(error: interplay_scenarios::LoadError) {
-    complain(format!("{:?}", miette::Report::new(error)).trim_end());
+pub(crate) fn print_load_error(error: interplay_scenarios::LoadError) {
+    print_error(format!("{:?}", miette::Report::new(error)).trim_end());
 }
 
 /// One JSON document; an error calls it `what`.

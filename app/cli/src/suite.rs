@@ -11,10 +11,10 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use rayon::prelude::*;
 
-use crate::ending::Ending;
 use crate::error::CommandError;
-use crate::files::{self, Found};
-use crate::output::{complain, complain_about, json, print};
+use crate::exit_status::ExitStatus;
+use crate::files::{self, ScenarioArgument};
+use crate::output::{json, print, print_error, print_load_error};
 use crate::progress::Progress;
 
 /// Run many scenarios side by side and say which of them do what they should.
@@ -42,24 +42,24 @@ pub(crate) struct Suite {
 }
 
 impl Suite {
-    pub(crate) fn execute(self) -> Ending {
-        let Some(scenarios) = self.load() else { return Ending::BadInput };
+    pub(crate) fn execute(self) -> ExitStatus {
+        let Some(scenarios) = self.load() else { return ExitStatus::BadInput };
         let began = Instant::now();
         let cases = match self.run(&scenarios) {
             Ok(cases) => cases,
             Err(error) => {
-                complain(&error.to_string());
-                return Ending::Unfinished;
+                print_error(&error.to_string());
+                return ExitStatus::Unfinished;
             }
         };
         for (name, error) in cases.iter().filter_map(|case| Some((&case.name, case.outcome.as_ref().err()?))) {
-            complain(&format!("{name} could not be finished: {error}"));
+            print_error(&format!("{name} could not be finished: {error}"));
         }
         match self.tell(&cases, began.elapsed().as_secs_f64()) {
             Ok(()) => ending(&cases),
             Err(error) => {
-                complain(&error.to_string());
-                Ending::Unfinished
+                print_error(&error.to_string());
+                ExitStatus::Unfinished
             }
         }
     }
@@ -68,11 +68,11 @@ impl Suite {
     fn load(&self) -> Option<Vec<(String, Scenario)>> {
         let mut sound = true;
         let mut scenarios = Vec::new();
-        for Found { name, scenario } in self.find(&mut sound) {
+        for ScenarioArgument { name, scenario } in self.find(&mut sound) {
             match load(&scenario, &[]) {
                 Ok(scenario) => scenarios.push((name, scenario)),
                 Err(error) => {
-                    complain_about(error);
+                    print_load_error(error);
                     sound = false;
                 }
             }
@@ -80,9 +80,9 @@ impl Suite {
         sound.then_some(scenarios)
     }
 
-    fn find(&self, sound: &mut bool) -> Vec<Found> {
+    fn find(&self, sound: &mut bool) -> Vec<ScenarioArgument> {
         if self.paths.is_empty() {
-            let name = |name: &str| Found { name: name.to_owned(), scenario: name.to_owned() };
+            let name = |name: &str| ScenarioArgument { name: name.to_owned(), scenario: name.to_owned() };
             return embedded().iter().map(|file| name(file.name)).collect();
         }
         let mut found = Vec::new();
@@ -90,7 +90,7 @@ impl Suite {
             match files::find(path) {
                 Ok(more) => found.extend(more),
                 Err(error) => {
-                    complain(&error.to_string());
+                    print_error(&error.to_string());
                     *sound = false;
                 }
             }
@@ -129,12 +129,12 @@ fn write(path: &Path, text: &str) -> Result<(), CommandError> {
 }
 
 /// A run that could not be finished weighs more than an expectation that failed.
-fn ending(cases: &[Case]) -> Ending {
-    let mut ending = Ending::Well;
+fn ending(cases: &[Case]) -> ExitStatus {
+    let mut ending = ExitStatus::Well;
     for case in cases {
         match &case.outcome {
-            Err(_) => return Ending::Unfinished,
-            Ok(report) if !report.passed => ending = Ending::Failed,
+            Err(_) => return ExitStatus::Unfinished,
+            Ok(report) if !report.passed => ending = ExitStatus::Failed,
             Ok(_) => {}
         }
     }
@@ -159,9 +159,9 @@ mod tests {
     fn the_worst_case_decides_how_the_suite_ends() {
         let ending =
             |outcomes: &[Result<bool, &str>]| ending(&outcomes.iter().map(|one| case(*one)).collect::<Vec<_>>());
-        assert_eq!(ending(&[]), Ending::Well);
-        assert_eq!(ending(&[Ok(true), Ok(true)]), Ending::Well);
-        assert_eq!(ending(&[Ok(true), Ok(false), Ok(true)]), Ending::Failed);
-        assert_eq!(ending(&[Ok(false), Err("broken"), Ok(true)]), Ending::Unfinished);
+        assert_eq!(ending(&[]), ExitStatus::Well);
+        assert_eq!(ending(&[Ok(true), Ok(true)]), ExitStatus::Well);
+        assert_eq!(ending(&[Ok(true), Ok(false), Ok(true)]), ExitStatus::Failed);
+        assert_eq!(ending(&[Ok(false), Err("broken"), Ok(true)]), ExitStatus::Unfinished);
     }
 }

@@ -2,8 +2,8 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::contents::{Page, Section, Verdict};
-use crate::plot::Sheet;
+use super::contents::{Page, Section, SectionStatus};
+use crate::plot::TextTable;
 
 const STYLE: &str = "\
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 0 auto; max-width: 1120px; padding: 1rem 1.5rem 4rem; }
@@ -63,12 +63,12 @@ fn contents(sections: &[Section]) -> Markup {
     }
 }
 
-fn class(verdict: &Verdict) -> &'static str {
+fn class(verdict: &SectionStatus) -> &'static str {
     match verdict {
-        Verdict::Shown => "shown",
-        Verdict::Held => "held",
-        Verdict::Missed => "missed",
-        Verdict::Broken(_) => "broken",
+        SectionStatus::Shown => "shown",
+        SectionStatus::Held => "held",
+        SectionStatus::Missed => "missed",
+        SectionStatus::Broken(_) => "broken",
     }
 }
 
@@ -77,7 +77,7 @@ fn part(section: &Section) -> Markup {
     html! {
         section id=(id) {
             h2 { (heading) " " span class={ "mark " (class(verdict)) } { (verdict.word()) } }
-            @if let Verdict::Broken(reason) = verdict { p { (reason) } }
+            @if let SectionStatus::Broken(reason) = verdict { p { (reason) } }
             @for (index, (alt, svg)) in section.pictures.iter().enumerate() {
                 figure { (inline(svg, alt, &format!("{id}-picture-{}", index + 1))) }
             }
@@ -86,7 +86,7 @@ fn part(section: &Section) -> Markup {
                     @for (name, words) in &section.words { dt { (name) } dd { (words) } }
                 }
             }
-            @for sheet in &section.tables { (table(sheet)) }
+            @for table in &section.tables { (table_markup(table)) }
             @if !section.commands.is_empty() { pre { (section.commands.join("\n")) } }
             @for (file, what) in &section.files {
                 p { a href=(file) { (file) } ": " (what) }
@@ -95,13 +95,13 @@ fn part(section: &Section) -> Markup {
     }
 }
 
-fn table(sheet: &Sheet) -> Markup {
+fn table_markup(table: &TextTable) -> Markup {
     html! {
         table {
-            caption { (sheet.title) }
-            thead { tr { @for word in &sheet.header { th { (word) } } } }
+            caption { (table.title) }
+            thead { tr { @for word in &table.header { th { (word) } } } }
             tbody {
-                @for words in &sheet.rows { tr { @for word in words { td { (word) } } } }
+                @for words in &table.rows { tr { @for word in words { td { (word) } } } }
             }
         }
     }
