@@ -14,7 +14,7 @@ mod sparse;
 mod structured;
 
 pub(super) use adjoint::costates;
-pub use qp::{Interval, Reach, Row, RowBlock, StageQp, StateCost, TrajectoryRow, VehicleStages};
+pub use qp::{Hessian, Interval, Reach, Row, RowBlock, StageQp, StateCost, TrajectoryRow, VehicleStages};
 pub use robust::Robust;
 pub use solution::StageSolution;
 pub use solver::{StageError, StageSolver};
