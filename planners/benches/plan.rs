@@ -43,7 +43,7 @@ fn plans(criterion: &mut Criterion) {
     }
 }
 
-fn plan<S: StageSolver>(group: &mut BenchmarkGroup<WallTime>, name: &str, posed: &[Posed], solver: S) {
+fn plan<S: StageSolver + Default>(group: &mut BenchmarkGroup<WallTime>, name: &str, posed: &[Posed], solver: S) {
     let mut optimiser = Optimiser::new(solver);
     let failed = posed.iter().filter(|(problem, guess)| optimiser.descend(problem, guess).is_err()).count();
     let name = if failed == 0 { name.to_owned() } else { format!("{name} ({failed} of {} unsolved)", posed.len()) };

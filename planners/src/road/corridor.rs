@@ -65,13 +65,15 @@ impl Corridor {
     pub fn clearances(&self, body: &Body, state: &State) -> [PoseExpansion; 4] {
         let (sin_road, cos_road) = libm::sincos(self.heading_rad);
         let (sin, cos) = libm::sincos(state.heading_rad - self.heading_rad);
-        let lateral = self.across(state.position());
-        let [edge, edge_slope, edge_bend] = self.right_edge(self.along(state.position()) + body.front_m);
-        body.local_corners().map(|[ahead, left]| {
+        let [x, y] = state.position();
+        let (along, lateral) = (cos_road * x + sin_road * y, -sin_road * x + cos_road * y);
+        let [edge, edge_slope, edge_bend] = self.right_edge(along + body.front_m);
+        let mut clearances = [PoseExpansion::default(); 4];
+        for (clearance, [ahead, left]) in clearances.iter_mut().zip(body.local_corners()) {
             let corner = lateral + ahead * sin + left * cos;
             let turn = ahead * cos - left * sin;
             let bend = -(ahead * sin + left * cos);
-            if left < 0.0 {
+            *clearance = if left < 0.0 {
                 PoseExpansion {
                     value: corner - edge,
                     gradient: [-sin_road - edge_slope * cos_road, cos_road - edge_slope * sin_road, turn],
@@ -88,8 +90,9 @@ impl Corridor {
                     gradient: [sin_road, -cos_road, -turn],
                     hessian: [0.0, 0.0, 0.0, -bend],
                 }
-            }
-        })
+            };
+        }
+        clearances
     }
 
     /// Whether the whole footprint is on the road, to within `tolerance_m`.

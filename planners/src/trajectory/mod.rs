@@ -21,7 +21,7 @@ pub use penalty::Penalty;
 pub use problem::Problem;
 pub use sqp::{Bar, DescentError, Exploration, Optimiser, Optimum, Statistics, StepProblem, Tolerances, WarmStart};
 pub use stage::{
-    Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,
+    Costates, Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,
     StateCost, Structured, TrajectoryRow, VehicleStages, kkt,
 };
 pub use terms::Term;

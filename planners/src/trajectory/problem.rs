@@ -51,16 +51,16 @@ impl Problem {
 
     /// The cost of an iterate whose states were rolled out.
     pub fn cost(&self, iterate: &Iterate) -> Cost {
-        let mut cost = Cost::default();
+        let (mut cost, mut rows_at_stage) = (Cost::default(), StageRows::default());
         for vehicle in 0..self.participants.len() {
-            for stage in 0..self.horizon {
-                self.add_vehicle_cost(vehicle, stage, iterate, &mut cost);
-            }
+            self.add_vehicle_cost(vehicle, iterate, &mut rows_at_stage, &mut cost);
         }
         for term in &self.terms {
             match term.shape() {
                 Shape::Rows(rows) if rows.subject().other.is_some() => {
-                    (0..self.horizon).for_each(|stage| self.add_rows(rows, stage, iterate, &mut cost));
+                    for stage in self.first_stage(rows.subject())..self.horizon {
+                        add_rows(rows, stage, iterate, &mut rows_at_stage, &mut cost);
+                    }
                 }
                 Shape::Trajectory(row) => add_trajectory_row(row, iterate, &mut cost),
                 _ => {}
@@ -72,7 +72,7 @@ impl Problem {
     /// What one vehicle's own terms cost, without those that couple it to another deciding vehicle.
     pub fn own_cost(&self, vehicle: usize, iterate: &Iterate) -> f64 {
         let mut cost = Cost::default();
-        (0..self.horizon).for_each(|stage| self.add_vehicle_cost(vehicle, stage, iterate, &mut cost));
+        self.add_vehicle_cost(vehicle, iterate, &mut StageRows::default(), &mut cost);
         for term in &self.terms {
             match term.shape() {
                 Shape::Trajectory(row) if row.vehicle() == vehicle => add_trajectory_row(row, iterate, &mut cost),
@@ -88,35 +88,24 @@ impl Problem {
         subject.other.map_or(first(subject.vehicle), |other| first(subject.vehicle).min(first(other)))
     }
 
-    /// What one vehicle's own terms cost at a stage.
-    fn add_vehicle_cost(&self, vehicle: usize, stage: usize, iterate: &Iterate, cost: &mut Cost) {
-        let own = Subject { vehicle, other: None };
-        for term in &self.terms {
-            match term.shape() {
-                Shape::InputChange(comfort) if comfort.vehicle == vehicle => {
-                    if stage >= self.participants[vehicle].first() {
+    /// What one vehicle's own terms of every stage cost.
+    fn add_vehicle_cost(&self, vehicle: usize, iterate: &Iterate, rows_at_stage: &mut StageRows, cost: &mut Cost) {
+        let (own, first) = (Subject { vehicle, other: None }, self.participants[vehicle].first());
+        for stage in 0..self.horizon {
+            for term in &self.terms {
+                match term.shape() {
+                    Shape::InputChange(comfort) if comfort.vehicle == vehicle && stage >= first => {
                         comfort.add_value(self.input_change(vehicle, stage, iterate), &mut cost.total);
                     }
+                    Shape::StateCost(term) if term.vehicle() == vehicle => {
+                        term.add_value(stage, &iterate.states[vehicle][stage + 1], &mut cost.total);
+                    }
+                    Shape::Rows(rows) if stage >= first && rows.subject() == own => {
+                        add_rows(rows, stage, iterate, rows_at_stage, cost);
+                    }
+                    _ => {}
                 }
-                Shape::StateCost(term) if term.vehicle() == vehicle => {
-                    term.add_value(stage, &iterate.states[vehicle][stage + 1], &mut cost.total);
-                }
-                Shape::Rows(rows) if rows.subject() == own => self.add_rows(rows, stage, iterate, cost),
-                _ => {}
             }
-        }
-    }
-
-    fn add_rows(&self, rows: &dyn RowTerm, stage: usize, iterate: &Iterate, cost: &mut Cost) {
-        if stage < self.first_stage(rows.subject()) {
-            return;
-        }
-        let (penalty, violation) = (rows.penalty(), rows.violation());
-        let mut expansions = [PoseExpansion::default(); MAX_ROWS_PER_STAGE];
-        let expansions = &mut expansions[..rows.rows_per_stage()];
-        rows.expand(stage, iterate, expansions);
-        for row in expansions {
-            cost.add_row(&penalty, violation, row.value);
         }
     }
 
@@ -126,6 +115,18 @@ impl Problem {
         let before = if stage == 0 { &self.participants[vehicle].previous_input } else { &inputs[stage - 1] };
         let (now, before) = (inputs[stage].to_array(), before.to_array());
         [now[0] - before[0], now[1] - before[1]]
+    }
+}
+
+/// Room for the rows of one term at one stage.
+type StageRows = [PoseExpansion; MAX_ROWS_PER_STAGE];
+
+fn add_rows(rows: &dyn RowTerm, stage: usize, iterate: &Iterate, room: &mut StageRows, cost: &mut Cost) {
+    let (penalty, violation) = (rows.penalty(), rows.violation());
+    let expansions = &mut room[..rows.rows_per_stage()];
+    rows.expand(stage, iterate, expansions);
+    for row in expansions {
+        cost.add_row(&penalty, violation, row.value);
     }
 }
 

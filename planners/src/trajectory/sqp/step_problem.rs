@@ -9,7 +9,8 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::participant::Participant;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{
-    Hessian, Interval, RowBlock, StageQp, StageSolution, StateCost, TrajectoryRow, VehicleStages, costates,
+    Costates, Hessian, Interval, RowBlock, StageQp, StageSolution, StateCost, TrajectoryRow, VehicleStages,
+    fill_costates, kkt,
 };
 use crate::trajectory::terms::{MAX_ROWS_PER_STAGE, RowTerm, Shape, Subject, TrajectoryTerm};
 use crate::vehicle::{DynamicsCurvature, PoseExpansion};
@@ -27,6 +28,7 @@ pub struct StepProblem {
     row_hessians: Vec<Vec<[f64; 4]>>,
     /// Per vehicle and stage, the concave part of the costs' Hessian over `(xx, xy, yy)`.
     concave_costs: Vec<Vec<[f64; 3]>>,
+    costates: Costates,
 }
 
 impl StepProblem {
@@ -53,12 +55,12 @@ impl StepProblem {
     pub fn use_lagrangian(&mut self, problem: &Problem, iterate: &Iterate, multipliers: &mut StageSolution) {
         let qp = &mut self.qp;
         multipliers.rest();
-        let costates = costates(qp, multipliers);
+        fill_costates(qp, multipliers, &mut self.costates);
         for (i, participant) in problem.participants.iter().enumerate() {
             let stages = &mut qp.vehicles[i];
             for k in stages.first..qp.horizon {
                 let (state, input) = (&iterate.states[i][k], &iterate.inputs[i][k]);
-                stages.curvatures[k] = participant.model.curvature(state, input, &costates[i][k]);
+                stages.curvatures[k] = participant.model.curvature(state, input, &self.costates[i][k]);
             }
             for (cost, concave) in stages.state_costs.iter_mut().zip(&self.concave_costs[i]) {
                 cost.curvature = *concave;
@@ -103,18 +105,25 @@ impl StepProblem {
         qp.hessian = Hessian::GaussNewton;
     }
 
+    /// The KKT residual of a step and its multipliers.
+    pub(super) fn residual(&mut self, step: &StageSolution) -> f64 {
+        kkt::residual_in(&self.qp, step, &mut self.costates).largest()
+    }
+
     /// Moves the rows so that at the step's deviations they have the values they really have at `trial`: the second-order
     /// correction. Gradients and costs stay those of the iterate.
     pub(super) fn move_rows(&mut self, problem: &Problem, trial: &Iterate, step: &StageSolution) {
-        let mut at = 0;
+        let (mut at, mut room) = (0, [PoseExpansion::default(); MAX_ROWS_PER_STAGE]);
         for rows in row_terms(problem) {
             let group = at..at + rows.rows_per_stage();
             at = group.end;
             let Subject { vehicle, other } = rows.subject();
+            let expansions = &mut room[..rows.rows_per_stage()];
             for stage in 0..problem.horizon {
                 let own = step.states[vehicle][stage];
                 let origin = other.map_or([0.0; 4], |other| step.states[other][stage]);
-                for (block, there) in self.qp.blocks[group.clone()].iter_mut().zip(expand(rows, stage, trial)) {
+                rows.expand(stage, trial, expansions);
+                for (block, there) in self.qp.blocks[group.clone()].iter_mut().zip(&*expansions) {
                     let row = &mut block.rows[stage];
                     let [x, y, turn] = row.gradient;
                     row.value = there.value - (x * (own[0] - origin[0]) + y * (own[1] - origin[1]) + turn * own[2]);
@@ -145,13 +154,6 @@ pub(super) fn row_terms(problem: &Problem) -> impl Iterator<Item = &dyn RowTerm>
     })
 }
 
-/// The rows of a term at a stage.
-fn expand(rows: &dyn RowTerm, stage: usize, iterate: &Iterate) -> [PoseExpansion; MAX_ROWS_PER_STAGE] {
-    let mut expansions = [PoseExpansion::default(); MAX_ROWS_PER_STAGE];
-    rows.expand(stage, iterate, &mut expansions[..rows.rows_per_stage()]);
-    expansions
-}
-
 fn expand_term(
     problem: &Problem,
     rows: &dyn RowTerm,
@@ -166,9 +168,11 @@ fn expand_term(
         block.rows.resize_with(horizon, Default::default);
         hessians.resize(horizon, [0.0; 4]);
     }
+    let mut room = [PoseExpansion::default(); MAX_ROWS_PER_STAGE];
+    let expansions = &mut room[..blocks.len()];
     for stage in 0..horizon {
-        let expansions = expand(rows, stage, iterate);
-        for ((block, hessians), expansion) in blocks.iter_mut().zip(hessians.iter_mut()).zip(&expansions) {
+        rows.expand(stage, iterate, expansions);
+        for ((block, hessians), expansion) in blocks.iter_mut().zip(hessians.iter_mut()).zip(&*expansions) {
             let row = &mut block.rows[stage];
             row.active = stage >= first && expansion.value < far_value;
             (row.value, row.gradient, row.curvature) = (expansion.value, expansion.gradient, [0.0; 4]);

@@ -4,7 +4,7 @@ use super::optimum::{DescentError, Optimum};
 use super::step_problem::StepProblem;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
-use crate::trajectory::stage::{StageError, StageSolution, StageSolver, kkt};
+use crate::trajectory::stage::{StageError, StageSolution, StageSolver};
 
 /// Share of a curvature that is not convex which is tried before none.
 const SOFTENED_CURVATURE: f64 = 0.3;
@@ -63,7 +63,7 @@ impl<S: StageSolver> StepSolver<S> {
     }
 
     /// The KKT residual of step and multipliers in the step problem.
-    pub fn residual(&self) -> f64 {
-        kkt::residual(&self.problem.qp, &self.step).largest()
+    pub fn residual(&mut self) -> f64 {
+        self.problem.residual(&self.step)
     }
 }
