@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::random::Random;
-use crate::weather::Series;
+use crate::weather::TimeSeries;
 
 /// How zones are occupied on a working day, and how far from it reality strays.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,22 +22,22 @@ pub struct Occupancy {
     #[schemars(range(min = 0, max = 24))]
     pub to_h: f64,
     /// How long it takes until all have come, or gone \[h\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub ramp_h: f64,
     /// When most are at lunch \[h\].
     #[schemars(range(min = 0, max = 24))]
     pub lunch_h: f64,
     /// Share of the heat that is missing then.
-    #[schemars(range(min = 0, max = 1))]
+    #[schemars(range(min = 0, max = 1), extend("x-unit" = "dimensionless"))]
     pub lunch_dip: f64,
     /// Least peak of a zone \[kW\]; each zone's is drawn between the two.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub least_peak_kw: f64,
     /// Greatest peak of a zone \[kW\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub greatest_peak_kw: f64,
     /// Heat at all times \[kW\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub base_kw: f64,
     /// How reality deviates.
     pub deviation: Deviation,
@@ -48,22 +48,22 @@ pub struct Occupancy {
 #[serde(deny_unknown_fields, default)]
 pub struct Deviation {
     /// Least share by which a zone's schedule is wrong every day, up or down.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub least_bias: f64,
     /// Greatest share by which a zone's schedule is wrong every day, up or down.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub greatest_bias: f64,
     /// Standard deviation of the share by which a day differs from the others.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub scatter: f64,
     /// Standard deviation of when people come and go \[h\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub shift_h: f64,
     /// Probability that a zone has an extra meeting, or a cancelled one, on a day.
-    #[schemars(range(min = 0, max = 1))]
+    #[schemars(range(min = 0, max = 1), extend("x-unit" = "dimensionless"))]
     pub meeting_probability: f64,
     /// Standard deviation of what switches on and off by itself, during work \[kW\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub noise_kw: f64,
 }
 
@@ -126,7 +126,7 @@ struct Day {
     from_h: f64,
     to_h: f64,
     meeting: Option<Meeting>,
-    noise_kw: Series,
+    noise_kw: TimeSeries,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -215,7 +215,7 @@ impl Day {
 }
 
 /// A day of AR(1) noise by the half hour.
-fn noise(deviation_kw: f64, random: &mut Random) -> Series {
+fn noise(deviation_kw: f64, random: &mut Random) -> TimeSeries {
     const CORRELATION: f64 = 0.6;
     let fresh = libm::sqrt(1.0 - CORRELATION * CORRELATION);
     let mut value_kw = random.normal(0.0, deviation_kw);
@@ -225,7 +225,7 @@ fn noise(deviation_kw: f64, random: &mut Random) -> Series {
             value_kw
         })
         .collect();
-    Series { first_s: 0.0, interval_s: 1800.0, cyclic: false, values }
+    TimeSeries { first_s: 0.0, interval_s: 1800.0, cyclic: false, values }
 }
 
 /// Hour of the day in the middle of each step.

@@ -1,6 +1,6 @@
 //! Tables are read as the mapping says, and what cannot be read is located: file, line, column, what was wrong, what would work.
 
-use interplay_building::identify::classroom::Classroom;
+use interplay_building::identify::synthetic_classroom::Classroom;
 use interplay_building::identify::{Mapping, Neighbour, Telemetry, TelemetryError, TelemetryProblem};
 
 const MAPPING: &str = r#"
@@ -98,6 +98,18 @@ fn simulated_telemetry_survives_the_way_through_a_table() {
     let mapping = toml::to_string(&telemetry.mapping()).expect("a mapping is TOML");
     let mapping = Mapping::parse("classroom.toml", &mapping).expect("as written");
     assert_eq!(Telemetry::read("classroom.csv", &telemetry.to_csv(), &mapping).expect("as written"), telemetry);
+}
+
+#[test]
+fn any_name_survives_the_way_through_a_table() {
+    for name in ["a, b", "the \"blue\" room", " lobby ", "line\nbreak", "1.5", "Küche; Bad"] {
+        let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
+        telemetry.zones[0].name = name.to_owned();
+        telemetry.boundaries[1].name = format!("beside {name}");
+        let table = telemetry.to_csv();
+        let read = Telemetry::read("classroom.csv", &table, &telemetry.mapping());
+        assert_eq!(read.as_ref(), Ok(&telemetry), "{name:?} in {:?}", table.lines().next());
+    }
 }
 
 #[test]

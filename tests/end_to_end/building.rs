@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use interplay_building::identify::classroom::{CAPACITY_KJ_PER_K, Classroom, OUTDOOR_K_PER_KW, ROOM_K_PER_KW};
+use interplay_building::identify::synthetic_classroom::{
+    CAPACITY_KJ_PER_K, Classroom, OUTDOOR_K_PER_KW, ROOM_K_PER_KW,
+};
 use interplay_scenarios::embedded;
 use serde_json::{Value, json};
 
@@ -135,7 +137,9 @@ fn golden_digests_of_buildings() {
     for file in embedded().iter().filter(|file| file.name.starts_with("building/")) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{}.json", file.name));
         let [one, other] = [(); 2].map(|()| film(file.name, authored(file.name, &[])).report);
-        let digests = |report: &interplay::report::Report| json!(report.building.as_ref().expect("a building").digests);
+        let digests = |report: &interplay_simulation::report::Report| {
+            json!(report.building.as_ref().expect("a building").digests)
+        };
         assert_eq!(digests(&one), digests(&other), "{} is not the same twice", file.name);
         assert_eq!(json!(one.digest), digests(&one)["balance"]);
         if env::var_os("INTERPLAY_BLESS").is_some_and(|value| value == "1") {
@@ -289,7 +293,7 @@ fn classroom(test: &str) -> PathBuf {
     let telemetry = Classroom::default().simulate();
     fs::write(folder.join("room.csv"), telemetry.to_csv()).expect("written");
     let mut mapping = telemetry.mapping();
-    mapping.identify.discretisation = interplay_building::discretise::Method::Euler;
+    mapping.identify.discretisation = interplay_building::discretise::Discretisation::Euler;
     let mapping = toml::to_string(&mapping).expect("plain data");
     fs::write(folder.join("room.toml"), mapping).expect("written");
     folder

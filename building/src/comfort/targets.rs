@@ -3,26 +3,36 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::setting::{SettingError, SettingKey, check_within};
+
 /// Wanted temperatures and what it costs to miss them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Setpoints {
     /// Wanted temperature of each zone while it is occupied \[°C\], in the order of the zones; one for all if there is only
     /// one.
+    #[schemars(inner(range(min = -50.0, max = 100.0)), length(min = 1))]
     pub occupied_c: Vec<f64>,
     /// When occupation begins \[h\].
+    #[schemars(range(min = 0.0, max = 24.0))]
     pub from_h: f64,
     /// When occupation ends \[h\].
+    #[schemars(range(min = 0.0, max = 24.0))]
     pub to_h: f64,
     /// Wanted temperature at other times \[°C\]. Without it, or with `other_weight` 0, the temperature is then free.
+    #[schemars(range(min = -50.0, max = 100.0), example = 28.0)]
     pub other_c: Option<f64>,
     /// W_e while occupied: cost of a squared kelvin for a step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub occupied_weight: f64,
     /// W_e at other times.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub other_weight: f64,
     /// W_u: cost of a squared kilowatt for a step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/kW²"))]
     pub input_weight: f64,
     /// Deviations up to this are comfortable \[K\].
+    #[schemars(range(min = 0.0))]
     pub band_k: f64,
 }
 
@@ -53,16 +63,9 @@ pub enum SetpointsError {
         /// How many zones there are.
         zones: usize,
     },
-    /// A number is out of range.
-    #[error("{quantity} is {value}; it must be {wanted}")]
-    OutOfRange {
-        /// The field.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// What would work.
-        wanted: &'static str,
-    },
+    /// A setting is out of range.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
 }
 
 /// [`Setpoints`] for the steps of a day. Stacked quantities belong to the temperatures T(1) … T(N) at the ends of the
@@ -81,6 +84,16 @@ pub struct Targets {
     pub input_weight: f64,
     /// Deviations up to this are comfortable while occupied \[K\].
     pub band_k: f64,
+}
+
+impl SetpointsError {
+    /// The key of the setting at fault, in the table of the setpoints.
+    pub fn key(&self) -> SettingKey {
+        match self {
+            Self::Count { .. } => "occupied_c".into(),
+            Self::Setting(error) => error.key.clone(),
+        }
+    }
 }
 
 impl Setpoints {
@@ -120,22 +133,22 @@ impl Setpoints {
         if found == 0 || (found != 1 && found != zones) {
             return Err(SetpointsError::Count { found, zones });
         }
-        let in_range = |quantity, value: f64, low: f64, high: f64, wanted| {
-            let fine = (low..=high).contains(&value);
-            if fine { Ok(()) } else { Err(SetpointsError::OutOfRange { quantity, value, wanted }) }
-        };
-        for &value in self.occupied_c.iter().chain(&self.other_c) {
-            in_range("a wanted temperature", value, -50.0, 100.0, "between -50 and 100 °C")?;
+        let wanted = "between -50 and 100 °C";
+        for (zone, &value) in self.occupied_c.iter().enumerate() {
+            check_within(SettingKey::from("occupied_c").entry(zone), value, -50.0..=100.0, wanted)?;
         }
-        in_range("from_h", self.from_h, 0.0, 24.0, "an hour of the day, 0 to 24")?;
-        in_range("to_h", self.to_h, self.from_h, 24.0, "an hour of the day, after from_h")?;
-        for (quantity, value) in [
+        if let Some(value) = self.other_c {
+            check_within("other_c", value, -50.0..=100.0, wanted)?;
+        }
+        check_within("from_h", self.from_h, 0.0..=24.0, "an hour of the day, 0 to 24")?;
+        check_within("to_h", self.to_h, self.from_h..=24.0, "an hour of the day, after from_h")?;
+        for (key, value) in [
             ("occupied_weight", self.occupied_weight),
             ("other_weight", self.other_weight),
             ("input_weight", self.input_weight),
             ("band_k", self.band_k),
         ] {
-            in_range(quantity, value, 0.0, 1e9, "at least 0")?;
+            check_within(key, value, 0.0..=1e9, "at least 0")?;
         }
         Ok(())
     }

@@ -1,9 +1,9 @@
-//! The controller that knows the day before it comes: what the others are measured against.
+//! A controller that knows the disturbances of the day in advance. The cost of the other controllers is compared with its.
 
-use super::{Control, ControlError, DayRecord, Morning, Observation, optimum};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
 use crate::lifted::Lifted;
 
-/// Plays the day's optimum under its actual disturbances.
+/// Applies the optimum of the day under its actual disturbances.
 #[derive(Clone, Debug)]
 pub struct Clairvoyant {
     lifted: Lifted,
@@ -11,7 +11,7 @@ pub struct Clairvoyant {
 }
 
 impl Clairvoyant {
-    /// A clairvoyant whose model of a day is `lifted`.
+    /// A clairvoyant controller whose model of a day is `lifted`.
     pub fn new(lifted: Lifted) -> Self {
         let planned_kw = vec![0.0; lifted.size()];
         Self { lifted, planned_kw }
@@ -19,9 +19,9 @@ impl Clairvoyant {
 }
 
 impl Control for Clairvoyant {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let actual = morning.actual.ok_or(ControlError::NotClairvoyant)?;
-        self.planned_kw = optimum(&self.lifted, morning.initial_c, morning.targets, actual, None)?.heat_kw;
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        let actual = day_ahead.actual.ok_or(ControlError::NotClairvoyant)?;
+        self.planned_kw = optimum(&self.lifted, day_ahead.initial_c, day_ahead.targets, actual, None)?.heat_kw;
         Ok(())
     }
 

@@ -4,24 +4,28 @@
 //! u(t) = k_p e(t) + k_i ∫e − k_d dT/dt,        e = r − T,   |u| ≤ limit
 //! ```
 //!
-//! The derivative is that of the temperature, so that a step of the reference gives no kick. Anti-windup by conditional
+//! The derivative is that of the temperature, so that a step of the reference causes no peak. Anti-windup by conditional
 //! integration: while the output is at a limit, an error that would push it further is not integrated. Where the
-//! temperature is free the controller rests and forgets.
+//! temperature is free, the output is zero and the integral is reset.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use crate::setting::{SettingError, check_not_negative};
 
-/// Gains of a PID controller. They are per hour, not per step, so that they mean the same at every step.
+/// Gains of a PID controller. They are per hour, not per step, so that they do not depend on the step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PidSettings {
     /// k_p \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub proportional_kw_per_k: f64,
     /// k_i \[kW/(K·h)\].
+    #[schemars(range(min = 0.0))]
     pub integral_kw_per_k_h: f64,
     /// k_d \[kW·h/K\].
+    #[schemars(range(min = 0.0))]
     pub derivative_kw_h_per_k: f64,
 }
 
@@ -32,7 +36,7 @@ impl Default for PidSettings {
     }
 }
 
-/// PID controllers at work, one per zone.
+/// PID controllers with their states, one per zone.
 #[derive(Clone, Debug)]
 pub struct Pid {
     settings: PidSettings,
@@ -47,9 +51,9 @@ impl Pid {
     /// A controller in each zone.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
-    pub fn new(settings: PidSettings, limits_kw: &[f64], step_s: f64) -> Result<Self, ControlError> {
-        ControlError::check_not_negative(&[
+    /// [`SettingError`] if a gain is negative.
+    pub fn new(settings: PidSettings, limits_kw: &[f64], step_s: f64) -> Result<Self, SettingError> {
+        check_not_negative(&[
             ("proportional_kw_per_k", settings.proportional_kw_per_k),
             ("integral_kw_per_k_h", settings.integral_kw_per_k_h),
             ("derivative_kw_h_per_k", settings.derivative_kw_h_per_k),
@@ -86,7 +90,7 @@ impl Pid {
 }
 
 impl Control for Pid {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 

@@ -1,17 +1,20 @@
-//! The oldest controller: full power when it is too cold or too warm, nothing otherwise.
+//! An on-off controller: full power when it is too cold or too warm, none otherwise.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use crate::setting::{check_not_negative, check_within};
 
 /// A two-sided thermostat with a dead band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ThermostatSettings {
     /// Equipment starts when the temperature is this far off \[K\], and stops when it has come back to what is wanted.
+    #[schemars(range(min = 0.0))]
     pub dead_band_k: f64,
     /// Power while it runs, as a share of the limit.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub power: f64,
 }
 
@@ -21,7 +24,7 @@ impl Default for ThermostatSettings {
     }
 }
 
-/// A thermostat at work: for each zone whether it heats (1), cools (−1) or rests (0).
+/// A thermostat with its state: for each zone whether it heats (1), cools (−1) or is off (0).
 #[derive(Clone, Debug)]
 pub struct Thermostat {
     settings: ThermostatSettings,
@@ -33,19 +36,16 @@ impl Thermostat {
     /// A thermostat in each zone.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
+    /// [`ControlError::Setting`] if the dead band is negative, or the power not a share.
     pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
-        ControlError::check_not_negative(&[("dead_band_k", settings.dead_band_k), ("power", settings.power)])?;
-        if settings.power > 1.0 {
-            let wanted = "a share of the limit, at most 1";
-            return Err(ControlError::Setting { setting: "power", value: settings.power, wanted });
-        }
+        check_not_negative(&[("dead_band_k", settings.dead_band_k)])?;
+        check_within("power", settings.power, 0.0..=1.0, "a share of the limit, 0 to 1")?;
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
     }
 }
 
 impl Control for Thermostat {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 

@@ -4,19 +4,20 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::discretise;
+use crate::setting::SettingError;
 
 /// How to identify. Every field has a default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Settings {
+pub struct IdentifySettings {
     /// The estimator.
-    pub method: Method,
+    pub method: Estimator,
     /// Bandwidth of the kernel smoother \[h\]; only `semiparametric` uses it. Wider ones let slow disturbances bias the
     /// conductances, narrower ones leave only sensor noise.
     pub bandwidth_h: f64,
     /// How a step is understood when rates become capacities and time constants: `exact` for measured buildings, which do
     /// not live in steps; `euler` for data simulated by eq. 2.3 itself.
-    pub discretisation: discretise::Method,
+    pub discretisation: discretise::Discretisation,
     /// r, the autoregressive order of the residual model.
     pub autoregressive_order: usize,
     /// How many daily harmonics the residual model and `prediction-error` hold.
@@ -27,12 +28,12 @@ pub struct Settings {
     pub train_days: Option<f64>,
 }
 
-impl Default for Settings {
+impl Default for IdentifySettings {
     fn default() -> Self {
         Self {
-            method: Method::PredictionError,
+            method: Estimator::PredictionError,
             bandwidth_h: 1.25,
-            discretisation: discretise::Method::Exact,
+            discretisation: discretise::Discretisation::Exact,
             autoregressive_order: 2,
             harmonics: 3,
             horizon_h: 24.0,
@@ -44,7 +45,7 @@ impl Default for Settings {
 /// An estimator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum Estimator {
     /// The source's: kernel smoothing takes out the non-parametric term, least squares finds the parameters, and an ARMA
     /// model is fitted to what is left.
     Semiparametric,
@@ -54,11 +55,11 @@ pub enum Method {
     PredictionError,
 }
 
-impl Settings {
+impl IdentifySettings {
     /// # Errors
     /// [`SettingError`] for the first field that makes no sense with this sampling time.
     pub(super) fn check(&self, step_s: f64) -> Result<(), SettingError> {
-        let error = |field, value: f64, wanted| Err(SettingError { field, value, wanted });
+        let error = |key: &str, value: f64, wanted| Err(SettingError { key: key.into(), value, wanted });
         let within = |value: f64, low: f64, high: f64| value.is_finite() && low <= value && value <= high;
         if !within(self.bandwidth_h * 3600.0, step_s, 7.0 * 86_400.0) {
             return error("bandwidth_h", self.bandwidth_h, "from one sampling time to a week");
@@ -82,16 +83,4 @@ impl Settings {
             _ => Ok(()),
         }
     }
-}
-
-/// A setting that makes no sense.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("setting `{field}` is {value}; it must be {wanted}")]
-pub struct SettingError {
-    /// The field of [`Settings`].
-    pub field: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// What would work.
-    pub wanted: &'static str,
 }

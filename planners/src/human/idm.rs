@@ -33,7 +33,7 @@ pub struct Settings {
     #[schemars(range(min = 0.001))]
     pub braking_mps2: f64,
     /// How sharply acceleration ends at the wanted speed, `δ`.
-    #[schemars(range(min = 0.1))]
+    #[schemars(range(min = 0.1), extend("x-unit" = "dimensionless"))]
     pub exponent: f64,
     /// When to change lanes.
     pub mobil: Mobil,

@@ -24,7 +24,7 @@ pub struct Mobil {
     #[schemars(range(min = 0.001))]
     pub lane_width_m: f64,
     /// What others' accelerations count against the own, `p`.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub politeness: f64,
     /// Least advantage that a change must bring \[m/s²\].
     #[schemars(range(min = 0.0))]

@@ -4,31 +4,26 @@
 
 use interplay_building::control::ControlError;
 use interplay_building::discretise::{Model, ModelError};
-use interplay_building::network::{Network, NetworkError};
+use interplay_building::network::{Network, NetworkError, Part};
 
 use super::{Building, DAY_S};
 use crate::Scenario;
 use crate::error::{Problem, quoted};
+use crate::schema::{self, Concern, SchemaNode};
 use crate::tree::Node;
 
 /// The most steps that a building may take.
 const MOST_STEPS: usize = 100_000;
 /// The most zones.
 const MOST_ZONES: usize = 1000;
-/// What makes sense only with a building.
-const PARTS: [&str; 6] = ["weather", "occupancy", "setpoints", "controller", "iterations", "expect.building"];
-/// What can only be expected of vehicles.
-const DRIVING: [&str; 4] = ["expect.no_collision", "expect.min_gap_m", "expect.order", "expect.plan_failures_at_most"];
-
 /// Everything that does not fit together.
 pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
     let mut problems = Vec::new();
     if scenario.vehicles.is_empty() {
-        let stated = scenario.stated_clock().chain(DRIVING.into_iter().filter(|key| tree.has(key)));
-        problems.extend(stated.map(|key| {
-            let message = format!("{} is stated, but there are no vehicles", quoted(key));
+        problems.extend(stated(Concern::Vehicles, tree).map(|key| {
+            let message = format!("{} is stated, but there are no vehicles", quoted(&key));
             let help = "a building takes its step from `building.step_s` and its days from `iterations`";
-            Problem::at(tree.place_of(key), "for vehicles only", message).help(help)
+            Problem::at(tree.place_of(&key), "for vehicles only", message).help(help)
         }));
     }
     let Some(building) = &scenario.building else {
@@ -37,9 +32,9 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
             let help = "state vehicles, a building, or both; or start with `extends = \"lane-change/front-nice\"`";
             problems.push(Problem::at(&tree.place, "in this file", message).help(help));
         }
-        problems.extend(PARTS.iter().filter(|key| tree.has(key)).map(|key| {
-            let message = format!("{} is stated, but there is no building", quoted(key));
-            Problem::at(tree.place_of(key), "for a building only", message).help("add a `[building]`")
+        problems.extend(stated(Concern::Building, tree).map(|key| {
+            let message = format!("{} is stated, but there is no building", quoted(&key));
+            Problem::at(tree.place_of(&key), "for a building only", message).help("add a `[building]`")
         }));
         return problems;
     };
@@ -48,10 +43,23 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
     if checker.sources(building) {
         match building.network() {
             Ok(network) => checker.controlled(building, &network),
-            Err(error) => checker.network(building, &error),
+            Err(error) => checker.network(&error),
         }
     }
     checker.problems
+}
+
+/// The keys of the file and of its expectations that have this concern and do not state what is so by default.
+fn stated(concern: Concern, tree: &Node) -> impl Iterator<Item = String> {
+    let root = schema::complete();
+    let of_file = root.properties().map(|(key, property)| (key.clone(), property));
+    let expectations = root.property("expect").into_iter().flat_map(SchemaNode::properties);
+    let all = of_file.chain(expectations.map(|(key, property)| (format!("expect.{key}"), property)));
+    all.filter(move |(key, property)| {
+        let stated = tree.at(key).filter(|node| !node.is_empty_list());
+        property.concerns() == Some(concern) && stated.is_some_and(|node| !property.is_default(&node.to_json()))
+    })
+    .map(|(key, _)| key)
 }
 
 struct Checker<'a> {
@@ -85,16 +93,6 @@ impl Checker<'_> {
     /// Whether it is clear of which zones the building consists.
     fn sources(&mut self, building: &Building) -> bool {
         let before = self.problems.len();
-        let stated = [
-            ("preset", building.preset.is_some()),
-            ("grid", building.grid.is_some()),
-            ("zone", !building.zones.is_empty()),
-        ];
-        let stated: Vec<&str> = stated.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key).collect();
-        if let [first, second, ..] = stated.as_slice() {
-            let message = format!("`building` states both `{first}` and `{second}`");
-            self.refuse(&format!("building.{second}"), "one too many", message, "state the one or the other");
-        }
         if building.zones.is_empty() && !building.walls.is_empty() {
             let message = "`building` has walls but no zones".to_owned();
             self.refuse(
@@ -111,24 +109,12 @@ impl Checker<'_> {
         self.problems.len() == before
     }
 
-    fn network(&mut self, building: &Building, error: &NetworkError) {
-        let named = |name: &str| building.zones.iter().rposition(|zone| zone.name == name).unwrap_or(0);
-        // A wall is called `wall 3 (…)`, counted from one.
-        let wall = |words: &str| {
-            let number = words.strip_prefix("wall ").and_then(|rest| rest.split(' ').next()?.parse::<usize>().ok());
-            number.map(|number| format!("building.wall.{}", number.saturating_sub(1)))
-        };
-        let path = match error {
-            NetworkError::NoZones => "building".to_owned(),
-            NetworkError::BadName { number, .. } => format!("building.zone.{}.name", number.saturating_sub(1)),
-            NetworkError::DuplicateZone { name } => format!("building.zone.{}.name", named(name)),
-            NetworkError::UnknownZone { wall: words, .. } | NetworkError::SamePlace { wall: words, .. } => {
-                wall(words).unwrap_or_default() + ".between"
-            }
-            NetworkError::OutOfRange { place, quantity, .. } => {
-                let zone = || format!("building.zone.{}", named(place.trim_start_matches("zone ").trim_matches('`')));
-                format!("{}.{quantity}", wall(place).unwrap_or_else(zone))
-            }
+    fn network(&mut self, error: &NetworkError) {
+        let key = error.key().map_or(String::new(), |key| format!(".{key}"));
+        let path = match error.part() {
+            Some(Part::Zone(zone)) => format!("building.zone.{zone}{key}"),
+            Some(Part::Wall(wall)) => format!("building.wall.{wall}{key}"),
+            None => "building".to_owned(),
         };
         self.refuse(&path, "here", error.to_string(), "");
     }
@@ -138,10 +124,7 @@ impl Checker<'_> {
         let steps = building.steps_per_day();
         let setpoints = self.scenario.setpoints.clone().unwrap_or_default();
         if let Err(error) = setpoints.targets(network.zone_count(), building.step_s, steps) {
-            let message = format!("`setpoints`: {error}");
-            let key = ["occupied_c", "from_h", "to_h", "occupied_weight", "other_weight", "input_weight", "band_k"];
-            let key = key.iter().find(|key| error.to_string().starts_with(**key)).unwrap_or(&"occupied_c");
-            self.refuse(&format!("setpoints.{key}"), "here", message, "");
+            self.refuse(&format!("setpoints.{}", error.key()), "here", format!("`setpoints`: {error}"), "");
         }
         match Model::new(network, building.method, building.step_s) {
             Err(error @ ModelError::BadStep { .. }) => {
@@ -156,15 +139,20 @@ impl Checker<'_> {
 
     /// Whether the controller can work with what it takes the building for.
     fn believed(&mut self, building: &Building, steps: usize) {
-        let model =
-            match building.believed_network().map(|network| Model::new(&network, building.method, building.step_s)) {
-                Ok(Ok(model)) => model,
-                Ok(Err(error)) => return self.refuse("building.believed", "here", error.to_string(), ""),
-                Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
-            };
+        let network = match building.believed_network() {
+            Ok(network) => network,
+            Err(error) => {
+                let key = error.key().map_or(String::new(), |key| format!(".{key}"));
+                return self.refuse(&format!("building.believed{key}"), "here", error.to_string(), "");
+            }
+        };
+        let model = match Model::new(&network, building.method, building.step_s) {
+            Ok(model) => model,
+            Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
+        };
         if let Err(error) = self.scenario.controller().regulator(&model, steps) {
             let key = match &error {
-                ControlError::Setting { setting, .. } => setting.split(' ').next().unwrap_or_default(),
+                ControlError::Setting(error) => error.key.as_str(),
                 _ => "kind",
             };
             self.refuse(&format!("controller.{key}"), "here", format!("`controller`: {error}"), "");

@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use interplay_building::weather::{Climate, Epw, Forecast, Series};
+use interplay_building::weather::{Climate, Epw, Forecast, TimeSeries};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -55,14 +55,15 @@ pub struct Synthetic {
 #[serde(deny_unknown_fields)]
 pub struct EpwFile {
     /// The file, relative to the scenario file; or the name of one in the binary: `tropical-july.epw`.
+    #[schemars(example = &"tropical-july.epw")]
     pub file: String,
     /// The month in which the first day lies; without month and day, the first day of the file.
     #[serde(default)]
-    #[schemars(range(min = 1, max = 12))]
+    #[schemars(range(min = 1, max = 12), example = 7)]
     pub month: Option<u32>,
     /// The first day, in its month.
     #[serde(default)]
-    #[schemars(range(min = 1, max = 31))]
+    #[schemars(range(min = 1, max = 31), example = 8)]
     pub day: Option<u32>,
     /// How a day's temperatures are forecast at its start; by default without error.
     #[serde(default)]
@@ -99,7 +100,7 @@ impl Weather {
             Weather::Epw(file) => {
                 let epw = file.content.as_ref()?;
                 let start_s = file.start_s(epw)?;
-                let shifted = |series: Series| Series { first_s: series.first_s - start_s, ..series };
+                let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - start_s, ..series };
                 let interplay_building::weather::Weather { ambient_c, sun_w_per_m2 } = epw.weather();
                 Some(interplay_building::weather::Weather {
                     ambient_c: shifted(ambient_c),

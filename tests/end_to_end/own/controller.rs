@@ -1,7 +1,7 @@
 //! A controller: proportional feedback that starts before people come.
 
 // shown from here
-use interplay_building::control::{Control, ControlError, DayRecord, Morning, Observation};
+use interplay_building::control::{Control, ControlError, DayAhead, DayRecord, Observation};
 
 /// Heat in proportion to what is missing, for what will be wanted some steps ahead.
 struct Early {
@@ -10,7 +10,7 @@ struct Early {
 }
 
 impl Control for Early {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 
@@ -30,8 +30,9 @@ impl Control for Early {
 }
 // shown until here
 
-use interplay_building::comfort::{KeyFigures, Setpoints};
-use interplay_building::control::{Disturbance, run_day};
+use interplay_building::comfort::Setpoints;
+use interplay_building::control::Disturbance;
+use interplay_building::day::{KeyFigures, run_day};
 use interplay_building::discretise::Model;
 use interplay_building::network::Network;
 

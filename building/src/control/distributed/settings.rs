@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::control::experience::Prediction;
-use crate::control::{BandPenalty, ControlError};
+use crate::control::BandPenalty;
+use crate::control::disturbance_estimate::DisturbancePrediction;
+use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// How the zones' proposals of a round become a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -25,24 +26,30 @@ pub enum Scheme {
 pub struct DistributedSettings {
     /// How proposals become a step. Where messages get lost or come late it is always Jacobi's.
     pub scheme: Scheme,
-    /// ε: the zones agree when no input of a day moves by more than this \[kW, Euclidean\].
+    /// ε: the zones agree when no input of a day moves by more than this, in the Euclidean norm \[kW\].
+    #[schemars(range(min = 0.0))]
     pub tolerance_kw: f64,
     /// k^c_max: rounds after which they stop.
     pub rounds: usize,
     /// Cost of a squared kelvin beyond the comfort band, per step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub discomfort_quadratic: f64,
     /// Feedback of each zone on its own error \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub gain_kw_per_k: f64,
     /// λ of the learned bias.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
     /// Share of the messages that are lost, drawn from a generator with a seed of its own.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub loss: f64,
     /// Rounds by which messages are late.
     pub delay_rounds: usize,
     /// A zone that has stopped answering: it goes on with its last inputs, and its neighbours with the last they heard.
     /// Zones are numbered from 0.
+    #[schemars(example = 0)]
     pub silent_zone: Option<usize>,
     /// Whether the centralised optimum is found too, to compare with.
     pub compare: bool,
@@ -57,7 +64,7 @@ impl Default for DistributedSettings {
             discomfort_quadratic: 50.0,
             gain_kw_per_k: 0.2,
             learning_rate: 0.5,
-            prediction: Prediction::default(),
+            prediction: DisturbancePrediction::default(),
             loss: 0.0,
             delay_rounds: 0,
             silent_zone: None,
@@ -68,13 +75,13 @@ impl Default for DistributedSettings {
 
 impl DistributedSettings {
     /// Refuses settings that are out of range.
-    pub(super) fn check(&self, zones: usize) -> Result<(), ControlError> {
-        ControlError::check_within("loss", self.loss, 0.0..=1.0, "a share, between 0 and 1")?;
+    pub(super) fn check(&self, zones: usize) -> Result<(), SettingError> {
+        check_within("loss", self.loss, 0.0..=1.0, "a share, between 0 and 1")?;
         if let Some(zone) = self.silent_zone {
             let wanted = "the number of a zone, from 0";
-            ControlError::check_within("silent_zone", zone as f64, 0.0..=zones.max(1) as f64 - 1.0, wanted)?;
+            check_within("silent_zone", zone as f64, 0.0..=zones.max(1) as f64 - 1.0, wanted)?;
         }
-        ControlError::check_not_negative(&[
+        check_not_negative(&[
             ("tolerance_kw", self.tolerance_kw),
             ("discomfort_quadratic", self.discomfort_quadratic),
             ("gain_kw_per_k", self.gain_kw_per_k),
@@ -87,13 +94,16 @@ impl DistributedSettings {
 #[serde(deny_unknown_fields, default)]
 pub struct CentralisedSettings {
     /// Cost of a squared kelvin beyond the comfort band, per step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub discomfort_quadratic: f64,
     /// Feedback of each zone on its own error \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub gain_kw_per_k: f64,
     /// λ of the learned bias.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
 }
 
 impl Default for CentralisedSettings {
@@ -106,8 +116,8 @@ impl Default for CentralisedSettings {
 
 impl CentralisedSettings {
     /// Refuses settings that are out of range.
-    pub(super) fn check(&self) -> Result<(), ControlError> {
-        ControlError::check_not_negative(&[
+    pub(super) fn check(&self) -> Result<(), SettingError> {
+        check_not_negative(&[
             ("discomfort_quadratic", self.discomfort_quadratic),
             ("gain_kw_per_k", self.gain_kw_per_k),
         ])

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::control::ControlError;
-use crate::control::experience::Prediction;
+use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
+use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// What is minimised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -48,7 +48,7 @@ pub enum Coordination {
 /// What (3.8), that errors do not grow from day to day, means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Convergence {
+pub enum ErrorGrowth {
     /// Growth costs much.
     #[default]
     Soft,
@@ -80,19 +80,23 @@ pub struct IterativeSettings {
     /// How the feedback is made stabilising.
     pub stability: Stability,
     /// Decay rate r of the closed loop that is certified.
+    #[schemars(range(min = 0.001, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub decay: f64,
     /// K of the first day, and of all days with `stability = "fixed"`, as a multiple of the identity \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub initial_gain_kw_per_k: f64,
     /// η: how likely inputs stay within their limits.
+    #[schemars(range(min = 0.5, max = 0.999999), extend("x-unit" = "dimensionless"))]
     pub confidence: f64,
     /// What the confidence is meant of.
     pub chance: Chance,
     /// What (3.8) means.
-    pub convergence: Convergence,
+    pub convergence: ErrorGrowth,
     /// λ of the learned bias.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
     /// How uncertain the prediction is.
     pub uncertainty: UncertaintySettings,
 }
@@ -107,9 +111,9 @@ impl Default for IterativeSettings {
             initial_gain_kw_per_k: 0.1,
             confidence: 0.95,
             chance: Chance::default(),
-            convergence: Convergence::default(),
+            convergence: ErrorGrowth::default(),
             learning_rate: 0.5,
-            prediction: Prediction::default(),
+            prediction: DisturbancePrediction::default(),
             uncertainty: UncertaintySettings::default(),
         }
     }
@@ -117,9 +121,9 @@ impl Default for IterativeSettings {
 
 impl IterativeSettings {
     /// Refuses settings that are out of range.
-    pub(super) fn check(&self) -> Result<(), ControlError> {
-        ControlError::check_within("decay", self.decay, 1e-3..=1.0, "a rate, above 0 and at most 1")?;
-        ControlError::check_within("confidence", self.confidence, 0.5..=0.999_999, "a probability, 0.5 to 0.999999")?;
-        ControlError::check_not_negative(&[("initial_gain_kw_per_k", self.initial_gain_kw_per_k)])
+    pub(super) fn check(&self) -> Result<(), SettingError> {
+        check_within("decay", self.decay, 1e-3..=1.0, "a rate, above 0 and at most 1")?;
+        check_within("confidence", self.confidence, 0.5..=0.999_999, "a probability, 0.5 to 0.999999")?;
+        check_not_negative(&[("initial_gain_kw_per_k", self.initial_gain_kw_per_k)])
     }
 }

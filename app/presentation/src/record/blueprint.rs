@@ -1,0 +1,175 @@
+//! A layout of the viewer as a tree of panels, written into a Rerun blueprint.
+//!
+//! The viewer reads a blueprint as a recording of its own, in which every container and view is an entity named by a
+//! UUID. The builder in the SDK cannot set bounds or axes of the views used here, so the tree is written directly;
+//! and it counts the UUIDs, so that the same layout is the same blueprint.
+
+use super::re_sdk_types::blueprint::archetypes::{
+    ContainerBlueprint, PanelBlueprint, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
+};
+use super::re_sdk_types::blueprint::components::{
+    ColumnShare, ContainerKind, IncludedContent, LoopMode, PanelState, PlayState, RootContainer, RowShare,
+};
+use super::re_sdk_types::datatypes::Uuid;
+use super::timelines::SIM_TIME;
+use rerun::external::re_log_types::BlueprintActivationCommand;
+use rerun::log::LogMsg;
+use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
+use xxhash_rust::xxh3::xxh3_128;
+
+/// A part of the window.
+pub enum Panel {
+    /// Side by side, with shares of the width.
+    Row(Vec<(f32, Panel)>),
+    /// One below the other, with shares of the height.
+    Column(Vec<(f32, Panel)>),
+    /// A view.
+    View(View),
+}
+
+/// A view of some entities.
+pub struct View {
+    class: &'static str,
+    title: String,
+    origin: String,
+    contents: Vec<String>,
+    properties: Vec<(String, Box<dyn AsComponents>)>,
+}
+
+impl View {
+    /// A view of one of the viewer's classes (`2D`, `TimeSeries`, `TextLog`, `TextDocument`), of the entities that
+    /// `contents` matches.
+    pub fn new(class: &'static str, title: &str, contents: Vec<String>) -> View {
+        View { class, title: title.to_owned(), origin: "/".to_owned(), contents, properties: Vec::new() }
+    }
+
+    /// What is written above it.
+    #[cfg(test)]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The same view without that entity.
+    pub fn without(mut self, entity: &str) -> View {
+        self.contents.push(format!("- {entity}"));
+        self
+    }
+
+    /// The same view, in the coordinates of that entity.
+    pub fn from(mut self, origin: &str) -> View {
+        self.origin = origin.to_owned();
+        self
+    }
+
+    /// The same view with a property, which is known by the name of its archetype.
+    pub fn with(mut self, property: &str, value: impl AsComponents + 'static) -> View {
+        self.properties.push((property.to_owned(), Box::new(value)));
+        self
+    }
+
+    /// The same view with a rule for one of its entities.
+    pub fn with_rule(self, entity: &str, rule: impl AsComponents + 'static) -> View {
+        self.with(&format!("ViewContents/overrides/{entity}/visualizers"), rule)
+    }
+}
+
+/// Sends the layout to the viewer or the file behind `stream`, to be shown at once with its clock in the state `play`, so much
+/// faster than real time.
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn send(
+    stream: &RecordingStream,
+    application: &'static str,
+    root: &Panel,
+    (play, speed): (PlayState, f64),
+) -> RecordingStreamResult<()> {
+    let (blueprint, messages) =
+        RecordingStreamBuilder::new(application).recording_id("layout").blueprint().enabled(true).memory()?;
+    blueprint.set_time_sequence("blueprint", 0);
+    blueprint.set_log_time_enabled(false);
+    blueprint.set_log_tick_enabled(false);
+    let mut writer = Writer { stream: &blueprint, names: 0 };
+    let (root, _) = writer.panel(root)?;
+    blueprint.log(
+        "viewport",
+        &ViewportBlueprint::new()
+            .with_root_container(RootContainer(root))
+            .with_auto_layout(false)
+            .with_auto_views(false),
+    )?;
+    blueprint.log("blueprint_panel", &PanelBlueprint::new().with_state(PanelState::Collapsed))?;
+    blueprint.log("selection_panel", &PanelBlueprint::new().with_state(PanelState::Collapsed))?;
+    blueprint.log(
+        "time_panel",
+        &TimePanelBlueprint::new()
+            .with_state(PanelState::Collapsed)
+            .with_timeline(SIM_TIME)
+            .with_play_state(play)
+            .with_playback_speed(speed)
+            .with_loop_mode(LoopMode::All),
+    )?;
+    let messages = messages.take();
+    let named = messages.iter().find_map(|message| match message {
+        LogMsg::SetStoreInfo(info) => Some(info.info.store_id.clone()),
+        _ => None,
+    });
+    if let Some(blueprint_id) = named {
+        let show = BlueprintActivationCommand { blueprint_id, make_active: true, make_default: true };
+        stream.send_blueprint(messages, show);
+    }
+    Ok(())
+}
+
+struct Writer<'a> {
+    stream: &'a RecordingStream,
+    names: usize,
+}
+
+impl Writer<'_> {
+    /// Writes a panel and everything in it; returns its name and its path.
+    fn panel(&mut self, panel: &Panel) -> RecordingStreamResult<(Uuid, String)> {
+        self.names += 1;
+        let (sort, class) = match panel {
+            Panel::View(view) => ("view", view.class),
+            Panel::Row(_) => ("container", "row"),
+            Panel::Column(_) => ("container", "column"),
+        };
+        // The viewer remembers what it knows of a view by its name, also when it goes over to another recording's layout: a
+        // name must never stand for a view of another class.
+        let name = Uuid { bytes: xxh3_128(format!("{class} {}", self.names).as_bytes()).to_be_bytes() };
+        let path = format!("{sort}/{name}");
+        match panel {
+            Panel::View(view) => self.view(&path, view)?,
+            Panel::Row(parts) => {
+                let contents = self.contents(parts)?;
+                let shares = parts.iter().map(|(share, _)| ColumnShare((*share).into()));
+                let row = ContainerBlueprint::new(ContainerKind::Horizontal);
+                self.stream.log(path.as_str(), &row.with_contents(contents).with_col_shares(shares))?;
+            }
+            Panel::Column(parts) => {
+                let contents = self.contents(parts)?;
+                let shares = parts.iter().map(|(share, _)| RowShare((*share).into()));
+                let column = ContainerBlueprint::new(ContainerKind::Vertical);
+                self.stream.log(path.as_str(), &column.with_contents(contents).with_row_shares(shares))?;
+            }
+        }
+        Ok((name, path))
+    }
+
+    fn contents(&mut self, parts: &[(f32, Panel)]) -> RecordingStreamResult<Vec<IncludedContent>> {
+        parts.iter().map(|(_, part)| Ok(IncludedContent(self.panel(part)?.1.into()))).collect()
+    }
+
+    fn view(&self, path: &str, view: &View) -> RecordingStreamResult<()> {
+        let contents = ViewContents::new(view.contents.iter().map(String::as_str));
+        self.stream.log(format!("{path}/ViewContents"), &contents)?;
+        let header = ViewBlueprint::new(view.class);
+        let header = header.with_display_name(view.title.as_str()).with_space_origin(view.origin.as_str());
+        self.stream.log(path, &header)?;
+        for (name, value) in &view.properties {
+            self.stream.log(format!("{path}/{name}"), value.as_ref())?;
+        }
+        Ok(())
+    }
+}

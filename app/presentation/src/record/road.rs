@@ -1,0 +1,180 @@
+//! The road: what stands still.
+
+use super::re_sdk_types::archetypes::{LineStrips2D, Transform3D};
+use super::re_sdk_types::components::Radius;
+use interplay_planners::{Corridor, LaneEnd};
+use interplay_scenarios::{Branch, Road, Scenario};
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::palette::{ASPHALT, MARKING};
+
+/// Length of a lane marking and of the space behind it, in lane widths.
+const DASH_LANES: f64 = 0.8;
+/// In how many pieces the end of a lane is drawn.
+const TAPER_SLICES: usize = 60;
+
+/// Logs the roads, the main one between two longitudinal coordinates \[m\].
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn road(stream: &RecordingStream, scenario: &Scenario, [from_m, to_m]: [f64; 2]) -> RecordingStreamResult<()> {
+    // The viewer's y axis points down; the road's points to the left of who drives along it.
+    stream.log_static("world", &Transform3D::from_scale([1.0, -1.0, 1.0]))?;
+    let road = &scenario.road;
+    let strip = Strip { road, branch: Branch::Main, from_m, to_m };
+    strip.log(stream, "world/road")?;
+    if let Some(zone) = road.conflict_zone_m(Branch::Cross) {
+        let reach_m = (to_m - from_m).max(zone[1] - zone[0]);
+        let strip = Strip { road, branch: Branch::Cross, from_m: zone[0] - reach_m, to_m: zone[1] + reach_m };
+        strip.log(stream, "world/road/cross")?;
+    }
+    Ok(())
+}
+
+/// One road between two longitudinal coordinates \[m\].
+struct Strip<'a> {
+    road: &'a Road,
+    branch: Branch,
+    from_m: f64,
+    to_m: f64,
+}
+
+/// Points in the frame of a road: longitudinal, lateral.
+type Line = Vec<[f32; 2]>;
+
+impl Strip<'_> {
+    fn log(&self, stream: &RecordingStream, path: &str) -> RecordingStreamResult<()> {
+        let corridor = self.road.corridor(self.branch);
+        if self.branch == Branch::Main {
+            stream.log_static(path, &Transform3D::from_mat3x3(turn(corridor.heading_rad)))?;
+        } else {
+            let turned = turn(corridor.heading_rad - self.road.heading_rad(Branch::Main));
+            stream.log_static(path, &Transform3D::from_mat3x3(turned))?;
+        }
+        let (lines, radii) = self.surface(&corridor);
+        stream.log_static(
+            format!("{path}/surface"),
+            &LineStrips2D::new(lines).with_radii(radii).with_colors([ASPHALT.solid()]).with_draw_order(-3.0),
+        )?;
+        let line = |points: f32| LineStrips2D::update_fields().with_radii([Radius::new_ui_points(points)]);
+        let edges = line(1.2).with_strips(self.edges(&corridor));
+        let edges = edges.with_colors([MARKING.solid()]).with_draw_order(-2.0);
+        stream.log_static(format!("{path}/edges"), &edges)?;
+        let markings = line(0.8).with_strips(self.markings(&corridor));
+        let markings = markings.with_colors([MARKING.solid()]).with_draw_order(-2.0);
+        stream.log_static(format!("{path}/markings"), &markings)
+    }
+
+    /// Thick lines that cover the road; where its right edge moves, one across for every slice.
+    fn surface(&self, corridor: &Corridor) -> (Vec<Line>, Vec<Radius>) {
+        let covering = |right_m: f64, [from_m, to_m]: [f64; 2]| {
+            let middle = 0.5 * (right_m + corridor.left_m);
+            (along(middle, from_m, to_m), Radius::new_scene_units(0.5 * (corridor.left_m - right_m) as f32))
+        };
+        let Some(end) = corridor.end else {
+            return [covering(corridor.right_m, [self.from_m, self.to_m])].into_iter().unzip();
+        };
+        let [begin_m, end_m] = taper_m(end);
+        let slice_m = (end_m - begin_m) / TAPER_SLICES as f64;
+        let slices = (0..TAPER_SLICES).map(|slice| {
+            let at_m = begin_m + (slice as f64 + 0.5) * slice_m;
+            let right = corridor.right_edge_m(at_m) + 0.5 * slice_m;
+            let line = vec![[at_m as f32, right as f32], [at_m as f32, (corridor.left_m - 0.5 * slice_m) as f32]];
+            (line, Radius::new_scene_units(0.7 * slice_m as f32))
+        });
+        let before = covering(corridor.right_m, [self.from_m, begin_m.max(self.from_m)]);
+        let behind = covering(corridor.right_m + end.height_m, [begin_m.max(self.from_m), self.to_m]);
+        [before, behind].into_iter().chain(slices).unzip()
+    }
+
+    /// The edges, without the part that lies on the other road.
+    fn edges(&self, corridor: &Corridor) -> Vec<Line> {
+        let pieces = |lateral_m: f64| match self.road.crossed_m(self.branch, lateral_m) {
+            Some([enters_m, leaves_m]) => vec![[self.from_m, enters_m], [leaves_m, self.to_m]],
+            None => vec![[self.from_m, self.to_m]],
+        };
+        let [begin_m, end_m] = corridor.end.map_or([self.from_m; 2], taper_m);
+        let right = |[from_m, to_m]: [f64; 2]| -> Line {
+            let bend = (0..=TAPER_SLICES).map(|i| begin_m + (end_m - begin_m) * i as f64 / TAPER_SLICES as f64);
+            let inside = bend.filter(|at_m| from_m < *at_m && *at_m < to_m);
+            let all = [from_m].into_iter().chain(inside).chain([to_m]);
+            all.map(|at_m| [at_m as f32, corridor.right_edge_m(at_m) as f32]).collect()
+        };
+        let left = |[from_m, to_m]: [f64; 2]| along(corridor.left_m, from_m, to_m);
+        let (rights, lefts) = (pieces(corridor.right_m), pieces(corridor.left_m));
+        rights.into_iter().map(right).chain(lefts.into_iter().map(left)).collect()
+    }
+
+    /// Dashes between lanes, as far as there are two of them and no other road.
+    fn markings(&self, corridor: &Corridor) -> Vec<Line> {
+        let lane = self.road.lane_width_m();
+        let period = 2.0 * DASH_LANES * lane;
+        let dashes = ((self.to_m - self.from_m) / period).ceil() as usize;
+        let lateral_m = |between: usize| corridor.right_m + between as f64 * lane;
+        let is_free = |between: usize, start: f64| {
+            let ramp = corridor.end.filter(|_| between == 1).is_some_and(|end| start > taper_m(end)[0]);
+            let zone = self.road.crossed_m(self.branch, lateral_m(between));
+            let crossing = zone.is_some_and(|[from, to]| start + 0.5 * period > from && start < to);
+            !ramp && !crossing
+        };
+        let marking = |between: usize| {
+            let starts = (0..dashes).map(|dash| self.from_m + dash as f64 * period);
+            let free = starts.filter(|start| is_free(between, *start));
+            free.map(|start| along(lateral_m(between), start, start + 0.5 * period)).collect::<Vec<_>>()
+        };
+        (1..self.road.lane_count()).flat_map(marking).collect()
+    }
+}
+
+fn along(lateral_m: f64, from_m: f64, to_m: f64) -> Line {
+    vec![[from_m as f32, lateral_m as f32], [to_m as f32, lateral_m as f32]]
+}
+
+/// Between which longitudinal coordinates the edge of a lane that ends visibly moves.
+fn taper_m(end: LaneEnd) -> [f64; 2] {
+    [end.end_m - 4.5 * end.taper_m, end.end_m + 0.5 * end.taper_m]
+}
+
+/// Columns of the matrix that turns by an angle about z.
+pub fn turn(angle_rad: f64) -> [[f32; 3]; 3] {
+    let (sin, cos) = (angle_rad.sin() as f32, angle_rad.cos() as f32);
+    [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::{RampMerge, load};
+
+    use super::{Branch, Line, Road, Strip};
+
+    /// The lines of a road from −5 m to 10 m.
+    fn lines(road: &Road, branch: Branch, draw: impl Fn(&Strip) -> Vec<Line>) -> Vec<Line> {
+        draw(&Strip { road, branch, from_m: -5.0, to_m: 10.0 })
+    }
+
+    #[test]
+    fn the_edge_of_a_ramp_bends_to_the_next_lane_and_stays_there() {
+        let road = Road::RampMerge(RampMerge::default());
+        let edges = lines(&road, Branch::Main, |strip| strip.edges(&road.corridor(Branch::Main)));
+        let [right, left] = edges.as_slice() else { panic!("two edges: {edges:?}") };
+        assert!(right.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] <= pair[1][1]));
+        assert!(right[0][1] < 1e-6 && (right[right.len() - 1][1] - 0.37).abs() < 1e-6);
+        assert!(left.iter().all(|point| point[1] == 0.74));
+        let markings = lines(&road, Branch::Main, |strip| strip.markings(&road.corridor(Branch::Main)));
+        assert!(markings.iter().flatten().all(|point| point[0] < 3.5), "nothing divides a single lane");
+    }
+
+    #[test]
+    fn nothing_is_drawn_across_the_other_road() {
+        let road = load("intersection/nice", &[]).expect("embedded").road;
+        for branch in [Branch::Main, Branch::Cross] {
+            let [from, to] = road.conflict_zone_m(branch).expect("they cross");
+            let edges = lines(&road, branch, |strip| strip.edges(&road.corridor(branch)));
+            assert_eq!(edges.len(), 4);
+            for edge in edges {
+                let (begin, end) = (f64::from(edge[0][0]), f64::from(edge[edge.len() - 1][0]));
+                assert!(end <= from + 1e-6 || begin >= to - 1e-6, "{branch:?}: {begin} to {end}");
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! An identification as a readable table.
+
+use std::fmt::{self, Write};
+
+use interplay_building::identify::{
+    Confidence, ErrorReport, Identification, IdentificationReport, Quantity, ResidualForecast, ZoneReport,
+};
+
+/// The findings for a person: parameters with uncertainty and verdict, residuals, errors, and what to beware of.
+pub fn identification(file: &str, found: &Identification) -> String {
+    let mut text = String::new();
+    // Writing to a String cannot fail.
+    let _ = write_report(&mut text, file, &found.report);
+    text
+}
+
+fn write_report(text: &mut String, file: &str, report: &IdentificationReport) -> fmt::Result {
+    let method = serde_json::to_value(report.method).ok();
+    let method = method.as_ref().and_then(|word| word.as_str()).unwrap_or_default();
+    writeln!(text, "Thermal parameters from {file}, by {method}")?;
+    writeln!(
+        text,
+        "  {} rows every {} s in {} pieces, {} trained on, {} left out",
+        report.rows, report.step_s, report.segments, report.train_rows, report.left_out_rows
+    )?;
+    for zone in &report.zones {
+        write_zone(text, zone)?;
+    }
+    if !report.walls.is_empty() {
+        writeln!(text, "\nwalls between two zones, seen from both sides [kW/K]")?;
+    }
+    for wall in &report.walls {
+        let side = |side: Option<(f64, f64)>| {
+            side.map_or_else(|| "?".to_owned(), |(value, error)| format!("{} ± {}", number(value), number(error)))
+        };
+        let (one, other) = &wall.between;
+        let (first, second) = (side(wall.from_first), side(wall.from_second));
+        writeln!(text, "  {one} - {other}: {first} and {second}: {}", wall.words)?;
+    }
+    if !report.warnings.is_empty() {
+        writeln!(text, "\nbeware")?;
+    }
+    report.warnings.iter().try_for_each(|warning| writeln!(text, "  - {warning}"))
+}
+
+fn write_zone(text: &mut String, zone: &ZoneReport) -> fmt::Result {
+    writeln!(text, "\nzone {}", zone.name)?;
+    let all = || zone.coefficients.iter().chain(&zone.physical);
+    let width = all().map(|quantity| quantity.name.chars().count()).max().unwrap_or(0);
+    let unit = all().map(|quantity| quantity.unit.chars().count()).max().unwrap_or(0).max("unit".len());
+    writeln!(
+        text,
+        "  {:width$}  {:>10}  {:>10}  {:unit$}  {:>24}  verdict",
+        "parameter", "estimate", "std error", "unit", "95 % interval"
+    )?;
+    for quantity in all() {
+        write_quantity(text, quantity, (width, unit))?;
+    }
+    let white = &zone.whiteness;
+    writeln!(
+        text,
+        "  residuals: {}; Ljung-Box Q = {:.1} on {} degrees, p = {:.3}",
+        white.words, white.ljung_box.statistic, white.ljung_box.degrees, white.ljung_box.p_value
+    )?;
+    write_errors(text, "trained on", &zone.train)?;
+    zone.test.iter().try_for_each(|test| write_errors(text, "tested on", test))
+}
+
+fn write_quantity(text: &mut String, quantity: &Quantity, (width, unit): (usize, usize)) -> fmt::Result {
+    let known = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
+    let (low, high) = quantity.interval;
+    let interval = match (low, high) {
+        (None, None) => "-".to_owned(),
+        (low, high) => {
+            format!("{} … {}", low.map_or_else(|| "-∞".to_owned(), number), high.map_or_else(|| "∞".to_owned(), number))
+        }
+    };
+    writeln!(
+        text,
+        "  {:width$}  {:>10}  {:>10}  {:unit$}  {interval:>24}  {}",
+        quantity.name,
+        known(quantity.value),
+        known(quantity.standard_error),
+        quantity.unit,
+        word(quantity.verdict.confidence)
+    )
+}
+
+fn write_errors(text: &mut String, rows: &str, errors: &ErrorReport) -> fmt::Result {
+    let free = &errors.free_run;
+    let of = |wanted: ResidualForecast| {
+        let found = free.errors_k.iter().find(|(forecast, _)| *forecast == wanted).and_then(|(_, error)| *error);
+        found.map_or_else(|| "-".to_owned(), |error| format!("{error:.3} K"))
+    };
+    writeln!(
+        text,
+        "  {rows}: one step ahead {:.4} K, with residual model {:.4} K; {} free runs of {} h: network alone {}, with \
+         daily profile and ARMA {}",
+        errors.one_step_k,
+        errors.one_step_with_residual_model_k,
+        free.runs,
+        free.horizon_h,
+        of(ResidualForecast::None),
+        of(ResidualForecast::ProfileArma)
+    )
+}
+
+/// A verdict in a word; the warnings below the tables say more.
+fn word(confidence: Confidence) -> &'static str {
+    match confidence {
+        Confidence::Identified => "identified",
+        Confidence::Weak => "weak",
+        Confidence::NotDistinguishableFromZero => "may be zero",
+        Confidence::Disputed => "disputed",
+        Confidence::WrongSign => "wrong sign",
+        Confidence::NotIdentifiable => "not identifiable",
+    }
+}
+
+/// Four significant digits, without an exponent where it can be avoided.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&size) {
+        let digits = (3 - libm::floor(libm::log10(size)) as i64).clamp(0, 6);
+        format!("{value:.*}", digits as usize)
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_have_four_significant_digits() {
+        let cases = [(0.0, "0"), (31.25, "31.25"), (1000.4, "1000"), (-0.0123456, "-0.01235"), (1.5e-7, "1.500e-7")];
+        for (value, text) in cases {
+            assert_eq!(number(value), text);
+        }
+        assert_eq!(number(123_456.0), "123456");
+        assert_eq!(number(2.5e9), "2.500e9");
+    }
+}

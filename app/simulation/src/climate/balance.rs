@@ -1,0 +1,58 @@
+//! Balance: heat flows, and the temperatures move on by a step.
+
+use bevy::ecs::prelude::*;
+use interplay_building::day::Heat;
+
+use super::{Building, Equipment, Gains, Node, Temperature};
+use crate::components::Present;
+use crate::frame::{BuildingFrame, ZoneFrame};
+
+/// Moves every temperature by a step, and writes down what led there. Nothing moves when the controller has failed.
+pub fn balance(
+    mut nodes: Query<(&Node, &mut Temperature)>,
+    zones: Query<(&Node, &Equipment, &Gains)>,
+    mut building: ResMut<Building>,
+    mut present: ResMut<Present>,
+) {
+    if building.failure.is_some() {
+        return;
+    }
+    let count = building.targets.zones;
+    let mut temperatures_c = vec![0.0; building.model.network().node_count()];
+    for (node, temperature) in &nodes {
+        temperatures_c[node.index] = temperature.0;
+    }
+    let (mut applied_kw, mut requested_kw, mut gains_kw) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
+    for (node, equipment, gains) in &zones {
+        applied_kw[node.index] = equipment.heat_kw;
+        requested_kw[node.index] = equipment.requested_kw;
+        gains_kw[node.index] = gains.0;
+    }
+    let (day, step) = building.date();
+    let ambient_c = building.today.actual.ambient_c[step];
+    let before_c = temperatures_c[..count].to_vec();
+    let heat = Heat { requested_kw, applied_kw };
+    let Building { model, today, .. } = &mut *building;
+    today.balance(model, step, &mut temperatures_c, &heat);
+    for (node, mut temperature) in &mut nodes {
+        temperature.0 = temperatures_c[node.index];
+    }
+    let (reference_c, weight) = (building.targets.reference_at(step), building.targets.weight_at(step));
+    let zone = |index: usize| ZoneFrame {
+        temperature_c: before_c[index],
+        next_c: temperatures_c[index],
+        reference_c: (weight[index] > 0.0).then_some(reference_c[index]),
+        requested_kw: heat.requested_kw[index],
+        heat_kw: heat.applied_kw[index],
+        gains_kw: gains_kw[index],
+    };
+    present.0.building = Some(BuildingFrame {
+        day,
+        step,
+        zones: (0..count).map(zone).collect(),
+        ambient_c,
+        forecast_c: building.today.forecast.ambient_c[step],
+        design: (step == 0).then(|| Box::new(building.today.record.design.clone())),
+        figures: None,
+    });
+}

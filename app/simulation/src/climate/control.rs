@@ -1,0 +1,52 @@
+//! Control: the controller plans at midnight and decides at every step; equipment gives what it can. A day without a plan
+//! of its own is an event.
+
+use std::time::Instant;
+
+use bevy::ecs::prelude::*;
+use interplay_building::control::ControlError;
+use interplay_building::day::{Day, Heat};
+
+use super::{Building, Equipment, Node, Temperature};
+use crate::components::Present;
+use crate::frame::{Event, Level};
+
+/// Who speaks in the log.
+const SPEAKER: &str = "controller";
+
+/// Asks the controller for the heat of every zone.
+pub fn control(
+    mut zones: Query<(&Node, &Temperature, &mut Equipment)>,
+    mut building: ResMut<Building>,
+    mut present: ResMut<Present>,
+) {
+    let (_, step) = building.date();
+    let mut temperatures_c = vec![0.0; building.targets.zones];
+    for (node, temperature, _) in &zones {
+        temperatures_c[node.index] = temperature.0;
+    }
+    match heat(&mut building, step, &temperatures_c) {
+        Ok(heat) => {
+            for (node, _, mut equipment) in &mut zones {
+                equipment.requested_kw = heat.requested_kw[node.index];
+                equipment.heat_kw = heat.applied_kw[node.index];
+            }
+        }
+        Err(error) => building.failure = Some(error),
+    }
+    if let (0, Some(why)) = (step, &building.today.record.design.fallback) {
+        let text = format!("no plan for this day, which repeats the one before: {why}");
+        present.0.events.push(Event { vehicle: SPEAKER.to_owned(), level: Level::Warning, text });
+    }
+}
+
+/// Plans at midnight, and asks for the heat of the step.
+fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<Heat, ControlError> {
+    let Building { model, regulator, targets, today, design_s, .. } = building;
+    if step == 0 {
+        let began = Instant::now();
+        today.plan(regulator, targets)?;
+        *design_s += began.elapsed().as_secs_f64();
+    }
+    Ok(Day::control(model, regulator, targets, step, temperatures_c))
+}

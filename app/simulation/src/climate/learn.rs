@@ -1,0 +1,21 @@
+//! Learn: at the day's end the controller is shown what happened.
+
+use std::time::Instant;
+
+use bevy::ecs::prelude::*;
+
+use super::Building;
+
+/// Lets the controller learn when the day is over, and turns the clock on.
+pub fn learn(mut building: ResMut<Building>) {
+    let (_, step) = building.date();
+    if step + 1 == building.steps_per_day() {
+        let began = Instant::now();
+        let Building { regulator, today, design_s, failure, .. } = &mut *building;
+        if let Err(error) = today.learn(regulator) {
+            failure.get_or_insert(error);
+        }
+        *design_s += began.elapsed().as_secs_f64();
+    }
+    building.step += 1;
+}

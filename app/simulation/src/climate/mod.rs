@@ -1,0 +1,85 @@
+//! Climate: the building's part of the loop. Zones are entities; an iteration is a day.
+//!
+//! ```text
+//! disturb -> control -> balance -> learn
+//! ```
+//!
+//! The systems copy temperatures and heat between the entities and [`interplay_building::day`], which defines the order of
+//! a day. When the day is over, it is handed on to be measured.
+
+mod balance;
+mod control;
+mod disturbance;
+mod learn;
+mod spawn;
+
+use bevy::ecs::prelude::*;
+use interplay_building::comfort::Targets;
+use interplay_building::control::{ControlError, Regulator};
+use interplay_building::day::{Day, Surroundings};
+use interplay_building::discretise::Model;
+
+pub use balance::balance;
+pub use control::control;
+pub use disturbance::disturb;
+pub use learn::learn;
+pub use spawn::{BuildingError, people, spawn};
+
+/// A temperature of the building: a zone, or a wall that stores heat. Zones come first.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Node {
+    /// Its number in the network.
+    pub index: usize,
+}
+
+/// How warm a node is \[°C\].
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Temperature(pub f64);
+
+/// What heats and cools a zone.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Equipment {
+    /// Its largest power \[kW\].
+    pub limit_kw: f64,
+    /// What the controller asked for \[kW\].
+    pub requested_kw: f64,
+    /// What it gives \[kW\].
+    pub heat_kw: f64,
+}
+
+/// Heat from people, sun and machines in a zone \[kW\].
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Gains(pub f64);
+
+/// The building beside its zones: its physics, its surroundings, its controller.
+#[derive(Resource, Debug)]
+pub struct Building {
+    /// The network with its step.
+    pub model: Model,
+    /// What is wanted.
+    pub targets: Targets,
+    /// The weather and the people.
+    pub surroundings: Surroundings,
+    /// The controller at work.
+    pub regulator: Regulator,
+    /// Steps done.
+    pub step: usize,
+    /// The day in progress.
+    pub today: Day,
+    /// Wall time of planning and learning today \[s\]; never part of a digest.
+    pub design_s: f64,
+    /// Why the controller gave up, if it did.
+    pub failure: Option<ControlError>,
+}
+
+impl Building {
+    /// Steps of a day.
+    pub fn steps_per_day(&self) -> usize {
+        self.targets.steps()
+    }
+
+    /// The day, from 0, and the step within it.
+    pub fn date(&self) -> (usize, usize) {
+        (self.step / self.steps_per_day(), self.step % self.steps_per_day())
+    }
+}

@@ -1,0 +1,151 @@
+//! How a building does, day by day.
+
+use bevy::ecs::prelude::*;
+use interplay_building::comfort::Targets;
+use interplay_building::control::{Controller, DayRecord, optimum};
+use interplay_building::day::KeyFigures;
+use interplay_building::lifted::Lifted;
+use serde::Serialize;
+use xxhash_rust::xxh3::Xxh3;
+
+use super::milestones::Today;
+use crate::climate::Building;
+use crate::components::Present;
+use crate::day::{DayFigures, ExchangeFigures};
+use crate::frame::{BuildingFrame, Frame};
+
+/// Up to so many inputs a day (zones times steps) the day's optimum and the convergence of learning are worked out: they
+/// take time in the cube of it.
+const MOST_INPUTS: usize = 500;
+
+/// Why a day had no plan of its own.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Fallback {
+    /// The day, from 1.
+    pub day: usize,
+    /// What its controller said.
+    pub reason: String,
+}
+
+/// Digests of what each part of the phase Climate produced.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct BuildingDigests {
+    /// Of the weather, its forecasts, and the heat of people and sun.
+    pub disturbance: String,
+    /// Of what the controller asked for.
+    pub control: String,
+    /// Of the heat that was given and all temperatures of zones.
+    pub balance: String,
+}
+
+/// Everything that is measured of a building.
+#[derive(Resource, Clone)]
+pub struct BuildingMeasures {
+    /// Every day.
+    pub days: Vec<DayFigures>,
+    /// The days without a plan of their own.
+    pub fallbacks: Vec<Fallback>,
+    /// How many zones there are.
+    pub zones: usize,
+    /// What is allowed and may not have been meant, in words.
+    pub remarks: Vec<String>,
+    /// The model of a day, if it is small enough for what takes long.
+    lifted: Option<Lifted>,
+    spectral_radius: Option<f64>,
+    today: Today,
+    disturbance: Xxh3,
+    control: Xxh3,
+    balance: Xxh3,
+}
+
+impl BuildingMeasures {
+    /// Nothing measured yet.
+    pub fn new(building: &Building, controller: &Controller) -> Self {
+        let small = building.targets.reference_c.len() <= MOST_INPUTS;
+        let lifted = small.then(|| Lifted::new(&building.model, building.steps_per_day()));
+        let spectral_radius = match (controller, &lifted) {
+            (Controller::IterativeLearning(learning), Some(lifted)) => {
+                Some(learning.convergence(lifted).spectral_radius)
+            }
+            _ => None,
+        };
+        BuildingMeasures {
+            days: Vec::new(),
+            fallbacks: Vec::new(),
+            zones: building.targets.zones,
+            remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
+            lifted,
+            spectral_radius,
+            today: Today::default(),
+            disturbance: Xxh3::new(),
+            control: Xxh3::new(),
+            balance: Xxh3::new(),
+        }
+    }
+
+    /// The digests so far.
+    pub fn digests(&self) -> BuildingDigests {
+        let hex = |hasher: &Xxh3| format!("{:032x}", hasher.digest128());
+        BuildingDigests {
+            disturbance: hex(&self.disturbance),
+            control: hex(&self.control),
+            balance: hex(&self.balance),
+        }
+    }
+
+    fn digest(&mut self, frame: &BuildingFrame) {
+        let number = |hasher: &mut Xxh3, value: f64| hasher.update(&value.to_bits().to_le_bytes());
+        number(&mut self.disturbance, frame.ambient_c);
+        number(&mut self.disturbance, frame.forecast_c);
+        for zone in &frame.zones {
+            number(&mut self.disturbance, zone.gains_kw);
+            number(&mut self.control, zone.requested_kw);
+            number(&mut self.balance, zone.heat_kw);
+            number(&mut self.balance, zone.temperature_c);
+            number(&mut self.balance, zone.next_c);
+        }
+    }
+
+    /// The figures of the day that has ended.
+    fn day(&self, building: &Building) -> DayFigures {
+        let Building { model, targets, today, design_s, .. } = building;
+        let figures = KeyFigures::of(&today.record, targets, model.network().limits_kw(), model.step_s());
+        // An optimum that is not found is no reason to give up the run: the regret is then unknown.
+        let cheapest = |lifted| optimum(lifted, &today.initial_c, targets, &today.actual, None).ok();
+        let regret = self.lifted.as_ref().and_then(cheapest).map(|cheapest| figures.cost - cheapest.cost);
+        let design = &today.record.design;
+        DayFigures {
+            figures,
+            regret,
+            early_kwh: early_kwh(&today.record, targets, model.step_s()),
+            spectral_radius: design.spectral_radius.or(self.spectral_radius),
+            fallback: design.fallback.is_some(),
+            exchange: design.exchange.as_ref().and_then(ExchangeFigures::of),
+            design_s: *design_s,
+        }
+    }
+}
+
+/// Heat brought in and taken out before the first occupied time; 0 on a day without one \[kWh\].
+fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
+    // Occupation belongs to the ends of steps: the step that ends with it is the last of the early ones.
+    let steps = targets.occupied.iter().position(|&occupied| occupied).map_or(0, |first| first + 1);
+    let early_kw: f64 = record.heat_kw[..steps * targets.zones].iter().map(|kw| kw.abs()).sum();
+    early_kw * step_s / 3600.0
+}
+
+/// Feeds the step into the digests, and measures the day when it is over.
+pub fn measure_building(building: Res<Building>, mut present: ResMut<Present>, mut measures: ResMut<BuildingMeasures>) {
+    let Frame { building: Some(frame), events, .. } = &mut present.0 else { return };
+    measures.digest(frame);
+    events.extend(measures.today.observe(frame, &building));
+    if frame.step + 1 == building.steps_per_day() {
+        let day = measures.day(&building);
+        measures.days.push(day);
+        if let Some(why) = &building.today.record.design.fallback {
+            let day = measures.days.len();
+            measures.fallbacks.push(Fallback { day, reason: why.to_string() });
+        }
+        frame.figures = Some(day);
+    }
+}

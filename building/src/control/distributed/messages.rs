@@ -1,0 +1,260 @@
+//! Who speaks with whom, and what was heard.
+//!
+//! Every zone simulates itself (and the walls it owns) by forward Euler, which needs the temperatures of its neighbours
+//! only, step by step; and backwards the sensitivity λ of J to its temperatures, which needs theirs only:
+//!
+//! ```text
+//! T_p(t+1) = T_p(t) + h/c_p (Σ_q g_pq (T_q(t) − T_p(t)) + k_p (T₀(t) − T_p(t)) + w_p(t) + u_p(t))
+//! λ_p(t)   = ∂J/∂T_p(t) + λ_p(t+1) − h/c_p (Σ_q g_pq + k_p) λ_p(t+1) + Σ_q h/c_q g_qp λ_q(t+1)
+//! ∂J/∂u_p(t) = h/c_p λ_p(t+1) + 2 W_u u_p(t)
+//! ```
+//!
+//! So the exact gradient of the common cost comes from messages between neighbours alone. A message is a zone's series
+//! over the day, one number for each step. Whoever does not hear goes on with what it heard last.
+
+use std::collections::VecDeque;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+
+use crate::lifted::Lifted;
+
+/// What a message is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Subject {
+    Temperature,
+    Sensitivity,
+    /// How temperatures would move with the proposals; it is of this round or of no use.
+    Direction,
+}
+
+/// What one node's owner knows of a node of another zone.
+#[derive(Clone, Debug)]
+struct Edge {
+    /// The node that is spoken of.
+    from: usize,
+    /// The node next to it, of another zone.
+    to: usize,
+    conductance_kw_per_k: f64,
+    /// Last heard, temperature and sensitivity.
+    heard: [Vec<f64>; 2],
+    /// On their way.
+    late: [VecDeque<Vec<f64>>; 2],
+    /// Whether this round's message arrives.
+    live: bool,
+}
+
+/// The zones' network of messages over days.
+#[derive(Clone, Debug)]
+pub(super) struct Messages {
+    steps: usize,
+    /// h/c of each node.
+    gain: Vec<f64>,
+    /// Conductance of each node to outdoors and all its neighbours.
+    leaving_kw_per_k: Vec<f64>,
+    /// Links between nodes of one zone.
+    inner: Vec<(usize, usize, f64)>,
+    edges: Vec<Edge>,
+    /// The zone of each node.
+    owner: Vec<usize>,
+    loss: f64,
+    delay: usize,
+    silent: Option<usize>,
+    generator: ChaCha8Rng,
+    /// Counted since the last [`Messages::start`].
+    pub sent: Vec<usize>,
+    /// Counted likewise.
+    pub undelivered: usize,
+}
+
+impl Messages {
+    /// The network of messages of a building whose model is forward Euler.
+    pub fn new(lifted: &Lifted, loss: f64, delay: usize, silent: Option<usize>) -> Self {
+        let network = lifted.model().network();
+        let (zones, nodes) = (network.zone_count(), network.node_count());
+        let mut owner: Vec<usize> = (0..nodes).collect();
+        let mut leaving_kw_per_k = network.ambient_kw_per_k().to_vec();
+        for link in network.links() {
+            leaving_kw_per_k[link.from] += link.conductance_kw_per_k;
+            leaving_kw_per_k[link.to] += link.conductance_kw_per_k;
+            // A wall belongs to the first zone beside it.
+            let (wall, zone) = (link.from.max(link.to), link.from.min(link.to));
+            if wall >= zones && (owner[wall] == wall || zone < owner[wall]) {
+                owner[wall] = zone;
+            }
+        }
+        let (mut inner, mut edges) = (Vec::new(), Vec::new());
+        for link in network.links() {
+            for (from, to) in [(link.from, link.to), (link.to, link.from)] {
+                if owner[from] == owner[to] {
+                    inner.push((from, to, link.conductance_kw_per_k));
+                } else {
+                    edges.push(Edge {
+                        from,
+                        to,
+                        conductance_kw_per_k: link.conductance_kw_per_k,
+                        heard: [Vec::new(), Vec::new()],
+                        late: Default::default(),
+                        live: true,
+                    });
+                }
+            }
+        }
+        Self {
+            steps: lifted.steps(),
+            gain: network.capacities_kj_per_k().iter().map(|c| lifted.model().step_s() / c).collect(),
+            leaving_kw_per_k,
+            inner,
+            edges,
+            owner,
+            loss,
+            delay,
+            silent,
+            generator: ChaCha8Rng::seed_from_u64(0),
+            sent: vec![0; zones],
+            undelivered: 0,
+        }
+    }
+
+    /// A new day: everybody knows the temperatures of its neighbours now, and nothing of their plans.
+    pub fn start(&mut self, initial_c: &[f64]) {
+        for edge in &mut self.edges {
+            let sound = |series: &Vec<f64>| !series.is_empty() && series.iter().all(|value| value.is_finite());
+            if !edge.heard.iter().all(sound) {
+                edge.heard[0] = vec![initial_c[edge.from]; self.steps];
+                edge.heard[1] = vec![0.0; self.steps];
+            }
+            edge.late = Default::default();
+        }
+        self.sent.fill(0);
+        self.undelivered = 0;
+    }
+
+    /// Whose neighbours' temperatures a zone has heard: (zone, series at the ends of the steps but the last).
+    pub fn neighbours(&self, zone: usize) -> impl Iterator<Item = usize> + '_ {
+        self.edges.iter().filter(move |edge| self.owner[edge.to] == zone).map(|edge| self.owner[edge.from])
+    }
+
+    /// Draws which messages of a series arrive.
+    fn draw(&mut self, subject: Subject) {
+        for edge in &mut self.edges {
+            let (from, to) = (self.owner[edge.from], self.owner[edge.to]);
+            let silent = self.silent == Some(from) || self.silent == Some(to);
+            let lost = self.loss > 0.0 && f64::from(self.generator.next_u32()) < self.loss * 4_294_967_296.0;
+            let late = self.delay > 0;
+            edge.live = !silent && !lost && !late;
+            if self.silent != Some(from) {
+                self.sent[from] += 1;
+            }
+            if !edge.live {
+                self.undelivered += 1;
+            }
+            if late && !silent && !lost && subject != Subject::Direction {
+                edge.late[subject as usize].push_back(Vec::new());
+            }
+        }
+    }
+
+    /// Puts the series of a round on its way, and delivers what is due.
+    fn dispatch(&mut self, subject: Subject, series: &[Vec<f64>]) {
+        if self.delay == 0 || subject == Subject::Direction {
+            return;
+        }
+        for edge in &mut self.edges {
+            let queue = &mut edge.late[subject as usize];
+            if let Some(last) = queue.back_mut()
+                && last.is_empty()
+            {
+                last.clone_from(&series[edge.from]);
+            }
+            if queue.len() >= self.delay
+                && let Some(due) = queue.pop_front()
+            {
+                edge.heard[subject as usize] = due;
+            }
+        }
+    }
+
+    /// Temperatures of the nodes at the starts of the steps and the end, N + 1 each, as their owners know them. `driving`
+    /// is all other heat into each node, nodes of a step together; at most zones of it come from `heat_kw`, stacked.
+    pub fn temperatures(&mut self, initial_c: &[f64], heat_kw: &[f64], driving: &[f64]) -> Vec<Vec<f64>> {
+        self.draw(Subject::Temperature);
+        let series = self.forwards(initial_c, heat_kw, Some(driving));
+        self.dispatch(Subject::Temperature, &series);
+        series
+    }
+
+    /// How temperatures move with inputs, by the messages that arrive.
+    pub fn directions(&mut self, heat_kw: &[f64]) -> Vec<Vec<f64>> {
+        self.draw(Subject::Direction);
+        self.forwards(&vec![0.0; self.gain.len()], heat_kw, None)
+    }
+
+    fn forwards(&mut self, initial: &[f64], heat_kw: &[f64], driving: Option<&[f64]>) -> Vec<Vec<f64>> {
+        let (nodes, zones) = (self.gain.len(), self.sent.len());
+        let mut series: Vec<Vec<f64>> = initial.iter().map(|value| vec![*value]).collect();
+        for t in 0..self.steps {
+            let mut net: Vec<f64> = (0..nodes).map(|p| -self.leaving_kw_per_k[p] * series[p][t]).collect();
+            for &(from, to, conductance) in &self.inner {
+                net[to] += conductance * series[from][t];
+            }
+            for edge in &mut self.edges {
+                let value = match (edge.live, driving) {
+                    (true, Some(_)) => {
+                        edge.heard[0][t] = series[edge.from][t];
+                        series[edge.from][t]
+                    }
+                    (true, None) => series[edge.from][t],
+                    (false, Some(_)) => edge.heard[0][t],
+                    (false, None) => 0.0,
+                };
+                net[edge.to] += edge.conductance_kw_per_k * value;
+            }
+            for p in 0..nodes {
+                let own = if p < zones { heat_kw[t * zones + p] } else { 0.0 };
+                let other = driving.map_or(0.0, |driving| driving[t * nodes + p]);
+                let next = series[p][t] + self.gain[p] * (net[p] + own + other);
+                series[p].push(next);
+            }
+        }
+        series
+    }
+
+    /// ∂J/∂u without the inputs' own cost, stacked, from ∂J/∂T of the zones, stacked.
+    pub fn sensitivities(&mut self, slope: &[f64]) -> Vec<f64> {
+        self.draw(Subject::Sensitivity);
+        let (nodes, zones) = (self.gain.len(), self.sent.len());
+        let mut gradient = vec![0.0; zones * self.steps];
+        // λ(t + 1) times h/c: heat's worth to the node at step t.
+        let mut series: Vec<Vec<f64>> = vec![vec![0.0; self.steps]; nodes];
+        let mut lambda = vec![0.0; nodes];
+        for t in (0..self.steps).rev() {
+            if t + 1 < self.steps {
+                let worth = |p: usize, series: &[Vec<f64>]| series[p][t + 1];
+                let mut next: Vec<f64> =
+                    (0..nodes).map(|p| lambda[p] - self.leaving_kw_per_k[p] * worth(p, &series)).collect();
+                for &(from, to, conductance) in &self.inner {
+                    next[to] += conductance * worth(from, &series);
+                }
+                for edge in &mut self.edges {
+                    if edge.live {
+                        edge.heard[1][t + 1] = worth(edge.from, &series);
+                    }
+                    next[edge.to] += edge.conductance_kw_per_k * edge.heard[1][t + 1];
+                }
+                lambda = next;
+            }
+            for (zone, lambda) in lambda.iter_mut().take(zones).enumerate() {
+                *lambda += slope[t * zones + zone];
+            }
+            for p in 0..nodes {
+                series[p][t] = self.gain[p] * lambda[p];
+            }
+            for zone in 0..zones {
+                gradient[t * zones + zone] = series[zone][t];
+            }
+        }
+        self.dispatch(Subject::Sensitivity, &series);
+        gradient
+    }
+}

@@ -1,0 +1,161 @@
+//! From estimates and residual models to a report.
+
+use std::ops::Range;
+
+use super::continuous::{continuous, decay};
+use super::cross_checks::CheckedEstimate;
+use super::diagnostics::{Confidence, whiteness};
+use super::estimate::Estimate;
+use super::free_run::{self, ResidualForecast, RunZone};
+use super::physical::{Physical, correlation};
+use super::regression::Coefficient;
+use super::report::{ErrorReport, FreeRunReport, IdentificationReport, ResidualReport, WallReport, ZoneReport};
+use super::residual::steps;
+use super::shared_walls::{SideEstimate, compare};
+use super::telemetry::{Neighbour, Telemetry};
+use super::{IdentifySettings, Parts, horizon};
+use crate::discretise;
+
+/// Everything that a report is made from.
+pub(super) struct Findings<'a> {
+    pub telemetry: &'a Telemetry,
+    pub settings: &'a IdentifySettings,
+    pub parts: &'a Parts,
+    /// One a zone.
+    pub estimates: &'a [CheckedEstimate],
+    /// One a zone.
+    pub zones: &'a [RunZone],
+}
+
+impl Findings<'_> {
+    /// The report on all zones.
+    pub fn report(&self) -> IdentificationReport {
+        let physical = match self.settings.discretisation {
+            discretise::Discretisation::Exact => continuous(self.telemetry, self.zones, self.estimates),
+            discretise::Discretisation::Euler => {
+                self.estimates.iter().map(|checked| checked.estimate.clone()).collect()
+            }
+        };
+        let train = self.errors(&self.parts.train);
+        let test = (!self.parts.test.is_empty()).then(|| self.errors(&self.parts.test));
+        let zone = |zone: usize| {
+            let test = test.as_ref().map(|test| test[zone].clone());
+            self.zone(zone, &physical[zone], train[zone].clone(), test)
+        };
+        let zones: Vec<ZoneReport> = (0..self.zones.len()).map(zone).collect();
+        IdentificationReport {
+            method: self.settings.method,
+            step_s: self.telemetry.step_s,
+            rows: self.telemetry.rows(),
+            train_rows: self.parts.train.iter().map(Range::len).sum(),
+            left_out_rows: self.telemetry.left_out_rows,
+            segments: self.telemetry.segments.len(),
+            warnings: self.warnings(&zones),
+            walls: self.walls(&physical),
+            zones,
+        }
+    }
+
+    /// The report on one zone; `continuous` is its estimate as rates of the continuous network.
+    fn zone(&self, zone: usize, continuous: &Estimate, train: ErrorReport, test: Option<ErrorReport>) -> ZoneReport {
+        let run = &self.zones[zone];
+        let estimate = &self.estimates[zone].estimate;
+        let coefficients = run.model.coefficients(self.telemetry);
+        let count = coefficients.len();
+        let order = self.settings.autoregressive_order;
+        // The first r innovations of a segment are zeros, on which the others are conditioned.
+        let long_enough = steps(&self.parts.train).into_iter().filter(|rows| rows.len() > order);
+        let judged: Vec<_> = long_enough.map(|rows| rows.start + order..rows.end).collect();
+        ZoneReport {
+            name: self.telemetry.zones[zone].name.clone(),
+            coefficients: self.physical(zone, estimate, &coefficients).coefficients(),
+            physical: self.physical(zone, continuous, &coefficients).quantities(),
+            correlations: (0..count)
+                .map(|i| (0..count).map(|j| correlation(&estimate.covariance, i, j)).collect())
+                .collect(),
+            condition_number: Some(estimate.condition_number).filter(|condition| condition.is_finite()),
+            residual_model: ResidualReport {
+                psi: run.constant.0.psi(),
+                constant: run.constant.0.arma.clone(),
+                profile: run.daily.0.arma.clone(),
+            },
+            whiteness: whiteness(&run.daily.1.innovations, &judged, order + 1),
+            train,
+            test,
+        }
+    }
+
+    fn physical<'b>(&'b self, zone: usize, estimate: &'b Estimate, coefficients: &'b [Coefficient]) -> Physical<'b> {
+        let heat_has_unit = self.telemetry.zones[zone].power_has_unit;
+        Physical { coefficients, estimate, checked: &self.estimates[zone], heat_has_unit }
+    }
+
+    /// Errors of every zone on some segments.
+    fn errors(&self, segments: &[Range<usize>]) -> Vec<ErrorReport> {
+        let order = self.settings.autoregressive_order;
+        let rows: Vec<usize> = steps(segments).into_iter().flat_map(|rows| rows.skip(order)).collect();
+        let root_mean_square = |series: &[f64]| {
+            let sum: f64 = rows.iter().map(|&row| series[row] * series[row]).sum();
+            (sum / rows.len().max(1) as f64).sqrt()
+        };
+        let horizon = horizon(self.telemetry, self.settings);
+        let runs = ResidualForecast::ALL
+            .map(|how| (how, free_run::errors(self.telemetry, self.zones, how, segments, horizon)));
+        let zone_errors = |(index, zone): (usize, &RunZone)| ErrorReport {
+            one_step_k: root_mean_square(&zone.daily.1.q),
+            one_step_with_residual_model_k: root_mean_square(&zone.daily.1.innovations),
+            free_run: FreeRunReport {
+                horizon_h: horizon as f64 * self.telemetry.step_s / 3600.0,
+                runs: runs[0].1.runs,
+                errors_k: runs.iter().map(|(how, errors)| (*how, errors.of_zone(index))).collect(),
+            },
+        };
+        self.zones.iter().enumerate().map(zone_errors).collect()
+    }
+
+    /// Walls between zones, by the side_estimate of both sides.
+    fn walls(&self, physical: &[Estimate]) -> Vec<WallReport> {
+        let side_estimate = |zone: usize, other: usize| {
+            let coefficients = self.zones[zone].model.coefficients(self.telemetry);
+            let to = &self.telemetry.zones[other].name;
+            let index = coefficients.iter().position(|kind| *kind == Coefficient::Wall { to: to.clone() });
+            let conductance =
+                index.map(|index| self.physical(zone, &physical[zone], &coefficients).conductance(index, to));
+            SideEstimate::new(&self.telemetry.zones[zone].name, conductance.as_ref())
+        };
+        let pairs = self.telemetry.walls.iter().filter_map(|wall| match wall.other {
+            Neighbour::Zone(other) => Some((wall.zone, other)),
+            Neighbour::Boundary(_) => None,
+        });
+        pairs.map(|(one, other)| compare(&side_estimate(one, other), &side_estimate(other, one))).collect()
+    }
+
+    /// Everything that a reader must know before using a number.
+    fn warnings(&self, reports: &[ZoneReport]) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.telemetry.left_out_rows > 0 {
+            warnings.push(format!("{} rows were left out because a value is missing", self.telemetry.left_out_rows));
+        }
+        for (zone, report) in reports.iter().enumerate() {
+            let mut warn = |words: &str| warnings.push(format!("{}: {words}", report.name));
+            let doubtful = report.coefficients.iter().filter(|it| it.verdict.confidence != Confidence::Identified);
+            doubtful.for_each(|quantity| warn(&quantity.verdict.words));
+            let capacity = report.physical.iter().find(|quantity| quantity.symbol == "c" && quantity.value.is_none());
+            capacity.iter().for_each(|quantity| warn(&quantity.verdict.words));
+            if report.whiteness.ljung_box.p_value < 0.05 {
+                warn(&format!("residuals are {}", report.whiteness.words));
+            }
+            if decay(self.telemetry, zone, &self.zones[zone]) >= 1.0 {
+                warn(
+                    "the model settles within one sampling time: sample faster, or expect capacities that mean little",
+                );
+            }
+        }
+        if reports.iter().any(|report| report.train.free_run.runs == 0) {
+            let horizon_h = self.settings.horizon_h;
+            let words = "no stretch without a gap is long enough for a free run";
+            warnings.push(format!("{words} of {horizon_h} h: lower `horizon_h`"));
+        }
+        warnings
+    }
+}
