@@ -5,7 +5,7 @@ use crate::setting::SettingError;
 /// Why an identification is not possible.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IdentifyError {
-    /// A setting makes no sense.
+    /// A setting is out of range.
     #[error("setting {0}")]
     Setting(#[from] SettingError),
     /// A zone has neither walls nor heat nor sun.
@@ -23,7 +23,7 @@ pub enum IdentifyError {
         rows: usize,
         /// Parameters to fit.
         parameters: usize,
-        /// How many would do.
+        /// The number of rows that is needed.
         wanted: usize,
     },
     /// A fit has no finite error.

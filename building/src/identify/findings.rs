@@ -114,7 +114,7 @@ impl Findings<'_> {
         self.zones.iter().enumerate().map(zone_errors).collect()
     }
 
-    /// Walls between zones, by the side_estimate of both sides.
+    /// Walls between zones, as estimated from both sides.
     fn walls(&self, physical: &[Estimate]) -> Vec<WallReport> {
         let side_estimate = |zone: usize, other: usize| {
             let coefficients = self.zones[zone].model.coefficients(self.telemetry);
@@ -131,7 +131,7 @@ impl Findings<'_> {
         pairs.map(|(one, other)| compare(&side_estimate(one, other), &side_estimate(other, one))).collect()
     }
 
-    /// Everything that a reader must know before using a number.
+    /// Warnings about numbers that must not be used without a second look.
     fn warnings(&self, reports: &[ZoneReport]) -> Vec<String> {
         let mut warnings = Vec::new();
         if self.telemetry.left_out_rows > 0 {

@@ -1,14 +1,14 @@
 //! Thermal parameters from telemetry (chapter 2).
 //!
-//! Each zone follows its neighbours, warms with known heat, and does something else besides, the non-parametric term q:
+//! The temperature of each zone follows its neighbours and the known heat; the rest is the non-parametric term q:
 //!
 //! ```text
 //! T_i(t+1) = T_i(t) + T_s Σ_k b_ik (T_k(t) − T_i(t)) + T_s a_i (u_i(t) + w_i(t)) + q_i(t) + ε(t)      (2.4, corrected)
 //! ```
 //!
-//! [`identify`] estimates b and a by one of two [`Estimator`]s, turns them into capacities and resistances, models q, and says
-//! how far each number can be trusted: standard errors, correlations, whether residuals are white, how a free run errs, and
-//! where the data cannot tell. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
+//! [`identify`] estimates b and a by one of two [`Estimator`]s, turns them into capacities and resistances, and models q. It
+//! reports how certain each number is: standard errors, correlations, whiteness of the residuals, errors of free runs, and
+//! which parameters the data do not determine. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
 
 mod arma;
 mod continuous;
@@ -58,8 +58,8 @@ use train_test_split::TrainTestSplit;
 /// Identifies every zone of the telemetry.
 ///
 /// # Errors
-/// [`IdentifyError`] for a setting that makes no sense, a zone without anything to identify, or too few rows. That the data
-/// do not determine a parameter is no error: its [`ParameterVerdict`] says so.
+/// [`IdentifyError`] for a setting out of range, a zone without anything to identify, or too few rows. A parameter that the
+/// data do not determine is no error: its [`ParameterVerdict`] says so.
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
     let split = TrainTestSplit::new(telemetry, settings);
@@ -72,7 +72,7 @@ pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Id
     Ok(Identification { report, series: series(telemetry, settings, &zones, split.test_start) })
 }
 
-/// Estimates a zone's coefficients and models what they leave.
+/// Estimates a zone's coefficients and models the residuals.
 fn fit_zone(
     telemetry: &Telemetry,
     zone: usize,

@@ -1,4 +1,4 @@
-//! How to identify.
+//! Settings of an identification.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
