@@ -36,6 +36,6 @@ pub mod vehicle;
 
 pub use driver::{Driver, Planner};
 pub use plan::{Diagnostic, Plan, PlanError, Proposal};
-pub use road::{Axes, Clearance, Corridor, LaneEnd};
+pub use road::{Axes, Corridor, LaneEnd};
 pub use scene::{Agent, Goal, Scene};
 pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

@@ -1,6 +1,7 @@
 //! The problems of the planners that state all they decided on, rebuilt from their statements.
 
-use interplay_planners::trajectory::{Iterate, MeanSpeed, Penalty, Problem};
+use interplay_planners::trajectory::terms::MeanSpeed;
+use interplay_planners::trajectory::{Iterate, Penalty, Problem};
 use interplay_planners::{Agent, Input, Plan, Trajectory, bayesian, cooperative, game};
 
 use crate::closed_loop::Decision;

@@ -25,7 +25,7 @@ use crate::conservative;
 use crate::encounter::{Choice, Partner};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A Bayesian planner with what it remembers.
@@ -90,7 +90,8 @@ impl Bayesian {
     fn diagnostics(&self, problem: &Problem, optimum: &Optimum) -> Vec<Diagnostic> {
         let Belief { alpha, beta_m, variance, w_1, .. } = self.belief;
         let mut diagnostics = Vec::new();
-        for impression in &problem.participants[0].distance_costs {
+        for term in &problem.terms {
+            let Term::DistanceCost(impression) = term else { continue };
             let states = optimum.iterate.states[0].iter().skip(1).enumerate();
             let nearest = states.map(|(k, state)| impression.omega(k, state.position())).fold(f64::INFINITY, f64::min);
             diagnostics.extend([
@@ -102,7 +103,7 @@ impl Bayesian {
                 ("other's change beta", beta_m),
             ]);
         }
-        diagnostics.extend([("cost", optimum.cost.total), ("safety slack", optimum.cost.safety_slack)]);
+        diagnostics.extend([("cost", optimum.cost.total), ("safety slack", optimum.cost.violation(Violation::Safety))]);
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
     }

@@ -24,7 +24,7 @@ pub use settings::Settings;
 use crate::conservative;
 use crate::predict::steady;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Iterate, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 
 /// A cooperating planner with the joint plan it made last.
@@ -104,24 +104,12 @@ impl Cooperative {
         };
         let mut diagnostics: Vec<Diagnostic> = vec![
             ("cooperating vehicles", self.last.len() as f64),
-            ("own cost", own_cost(problem, optimum, own)),
+            ("own cost", problem.own_cost(own, &optimum.iterate)),
             ("cost", optimum.cost.total),
-            ("safety slack", optimum.cost.safety_slack),
+            ("safety slack", optimum.cost.violation(Violation::Safety)),
         ];
         diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
         Plan { trajectory, proposal, diagnostics, events: Vec::new(), statistics: optimum.statistics }
     }
-}
-
-/// What one vehicle's part costs it.
-fn own_cost(problem: &Problem, optimum: &Optimum, own: usize) -> f64 {
-    let alone = Problem {
-        horizon: problem.horizon,
-        participants: vec![problem.participants[own].clone()],
-        separations: Vec::new(),
-        leaning: None,
-    };
-    let (inputs, states) = (optimum.iterate.inputs[own].clone(), optimum.iterate.states[own].clone());
-    alone.cost(&Iterate { inputs: vec![inputs], states: vec![states] }).total
 }

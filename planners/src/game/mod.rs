@@ -24,7 +24,8 @@ pub use settings::{Method, Settings};
 use crate::encounter::{Choice, Partner};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::terms::MeanSpeed;
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use equilibrium::{Solution, leader_follower, nash};
 use intention::forget;
@@ -103,7 +104,8 @@ impl Game {
         let every = self.settings.look_around_every;
         let Solved { problem, optimum, event } =
             conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
-        let diagnostics = self.diagnostics(scene, round.as_ref(), &problem, &optimum);
+        let expressed = expressed.filter(|_| event.is_none());
+        let diagnostics = self.diagnostics(scene, round.as_ref(), expressed.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
         let events = choice.event("plays with", "to play with").into_iter().chain(event).collect();
@@ -150,6 +152,7 @@ impl Game {
         &self,
         scene: &Scene,
         round: Option<&Round>,
+        expressed: Option<&MeanSpeed>,
         problem: &Problem,
         optimum: &Optimum,
     ) -> Vec<Diagnostic> {
@@ -172,18 +175,18 @@ impl Game {
                 ("payoff: accident", ego.payoffs()[1][1]),
             ]);
         }
-        if let Some(bound) = &problem.participants[0].mean_speed {
+        if let Some(bound) = expressed {
             let limits = &scene.ego.limits;
             diagnostics.extend([
                 ("expressed speed from", bound.lower_mps.unwrap_or(limits.speed_min_mps)),
                 ("expressed speed to", bound.upper_mps.unwrap_or(limits.speed_max_mps)),
-                ("expression slack", optimum.cost.mean_speed_slack_mps),
+                ("expression slack", optimum.cost.violation(Violation::MeanSpeed)),
             ]);
         }
         diagnostics.extend([
             ("mean speed", MeanSpeed::of(&optimum.iterate.states[0])),
             ("cost", optimum.cost.total),
-            ("safety slack", optimum.cost.safety_slack),
+            ("safety slack", optimum.cost.violation(Violation::Safety)),
         ]);
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
@@ -194,8 +197,6 @@ impl Game {
 pub fn problem(scene: &Scene, expressed: Option<MeanSpeed>) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
-    for ego in &mut problem.participants {
-        ego.mean_speed = expressed;
-    }
+    problem.terms.extend(expressed.iter().flat_map(|bounds| bounds.terms(0)));
     problem
 }

@@ -6,7 +6,7 @@
 //! 2. chooses whom to ask (`interlocutor`);
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`acceptance`], eq. 6.19);
 //! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
-//! 5. leans towards its last proposal and away from its retreat, the more the better it was received (`persuasion`,
+//! 5. stays nearer to its last proposal than to its retreat, the more the better it was received (`persuasion`,
 //!    eq. 6.20-6.23);
 //! 6. solves for its own plan and a proposal to the other at once (`proposal`, eq. 6.24);
 //! 7. applies the first input only if a conservative plan still exists after it (`filter`).
@@ -27,7 +27,8 @@ pub use settings::Settings;
 use crate::conservative::{self, Conservative};
 use crate::solo::{Solved, extremes};
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Leaning, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::terms::Persuasion;
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use filter::Filter;
 use interlocutor::Interlocutor;
@@ -89,8 +90,8 @@ impl Negotiation {
             return Ok(Plan { events, ..conservative::answer(&retreat?) });
         };
         let accepted = self.listen(partner);
-        let leaning = persuasion::leaning(&self.settings, self.talk.last.as_ref(), accepted);
-        let outcome = self.propose(scene, partner, leaning.clone());
+        let persuasion = persuasion::constraint(&self.settings, self.talk.last.as_ref(), accepted);
+        let outcome = self.propose(scene, partner, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
             Err(error) => {
@@ -99,7 +100,7 @@ impl Negotiation {
             }
         };
         self.remember(&optimum, &retreat, partner);
-        let mut plan = self.speak(&optimum, partner, accepted, leaning.as_ref());
+        let mut plan = self.speak(&optimum, partner, accepted, persuasion.as_ref());
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         self.filter(scene, &retreat, &optimum, &mut plan);
@@ -134,8 +135,8 @@ impl Negotiation {
         accepted.unwrap_or(1.0)
     }
 
-    fn propose(&mut self, scene: &Scene, partner: &Agent, leaning: Option<Leaning>) -> Result<Solved, PlanError> {
-        let problem = problem(scene, partner, self.talk.concession.weight(), leaning, &self.settings);
+    fn propose(&mut self, scene: &Scene, partner: &Agent, persuasion: Option<Persuasion>) -> Result<Solved, PlanError> {
+        let problem = problem(scene, partner, self.talk.concession.weight(), persuasion, &self.settings);
         let keep = self.guess(&problem, partner);
         let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
         let every = self.settings.look_around_every;
@@ -164,19 +165,19 @@ impl Negotiation {
         });
     }
 
-    fn speak(&self, optimum: &Optimum, partner: &Agent, accepted: f64, leaning: Option<&Leaning>) -> Plan {
+    fn speak(&self, optimum: &Optimum, partner: &Agent, accepted: f64, persuasion: Option<&Persuasion>) -> Plan {
         let trajectory = optimum.trajectory(0);
-        let active = leaning.is_some_and(|leaning| persuasion::is_active(leaning, &trajectory));
+        let active = persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory));
         Plan {
             trajectory,
             proposal: Some(Proposal { to: partner.name.clone(), trajectory: optimum.trajectory(1) }),
             diagnostics: vec![
                 ("acceptance", accepted),
                 ("concession weight", self.talk.concession.weight()),
-                ("persuasion strength", leaning.map_or(0.0, |leaning| leaning.strength)),
+                ("persuasion strength", persuasion.map_or(0.0, |persuasion| persuasion.strength)),
                 ("persuasion active", f64::from(u8::from(active))),
                 ("cost", optimum.cost.total),
-                ("safety slack", optimum.cost.safety_slack),
+                ("safety slack", optimum.cost.violation(Violation::Safety)),
             ],
             events: Vec::new(),
             statistics: optimum.statistics,

@@ -1,10 +1,12 @@
 //! What the others will do, and simple motions to start a search from.
 
+use std::borrow::Cow;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Limits;
-use crate::{Agent, Input, State, Trajectory};
+use crate::{Agent, Input, Scene, State, Trajectory};
 
 /// How a driver predicts the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -24,6 +26,22 @@ impl Prediction {
         match self {
             Prediction::Plan => agent.prediction.clone(),
             Prediction::ConstantVelocity => constant_velocity(&agent.state, horizon, step_s),
+        }
+    }
+}
+
+impl Scene {
+    /// The same moment with the others expected to do what `prediction` says.
+    pub fn expecting(&self, prediction: Prediction) -> Cow<'_, Scene> {
+        match prediction {
+            Prediction::Plan => Cow::Borrowed(self),
+            Prediction::ConstantVelocity => {
+                let mut scene = self.clone();
+                for other in &mut scene.others {
+                    other.prediction = prediction.of(other, self.horizon, self.step_s);
+                }
+                Cow::Owned(scene)
+            }
         }
     }
 }
