@@ -84,7 +84,7 @@ fn zones_and_walls() {
     );
     refusal(all, "wall_to_itself", ("[\"office\", \"store\"]", "[\"store\", \"store\"]"), &["bad.toml:16:11", "store"]);
     refusal(all, "three_sides", ("[\"office\", \"store\"]", "[\"office\", \"store\", \"ambient\"]"), &["at most 2"]);
-    refusal(all, "negative_resistance", ("31.25", "-31.25"), &["bad.toml:21:23", "above 0"]);
+    refusal(all, "negative_resistance", ("31.25", "-31.25"), &["bad.toml:21:23", "at least 0.000001"]);
     refusal(
         all,
         "preset_and_zones",

@@ -1,6 +1,6 @@
 //! The controller that knows the day before it comes: what the others are measured against.
 
-use super::{Control, ControlError, DayRecord, Morning, Observation, optimum};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
 use crate::lifted::Lifted;
 
 /// Plays the day's optimum under its actual disturbances.
@@ -19,9 +19,9 @@ impl Clairvoyant {
 }
 
 impl Control for Clairvoyant {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let actual = morning.actual.ok_or(ControlError::NotClairvoyant)?;
-        self.planned_kw = optimum(&self.lifted, morning.initial_c, morning.targets, actual, None)?.heat_kw;
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        let actual = day_ahead.actual.ok_or(ControlError::NotClairvoyant)?;
+        self.planned_kw = optimum(&self.lifted, day_ahead.initial_c, day_ahead.targets, actual, None)?.heat_kw;
         Ok(())
     }
 

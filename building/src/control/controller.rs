@@ -10,7 +10,7 @@ use super::iterative::{Iterative, IterativeSettings};
 use super::learning::{Learning, LearningSettings};
 use super::pid::{Pid, PidSettings};
 use super::thermostat::{Thermostat, ThermostatSettings};
-use super::{Control, ControlError, DayRecord, Design, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Design, Observation};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 
@@ -124,8 +124,8 @@ impl Regulator {
 }
 
 impl Control for Regulator {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        self.control().start_of_day(morning)
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        self.control().start_of_day(day_ahead)
     }
 
     fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {

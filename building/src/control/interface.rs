@@ -13,9 +13,9 @@ pub struct Disturbance {
     pub gains_kw: Vec<f64>,
 }
 
-/// What a controller knows in the morning.
+/// What a controller knows in the day_ahead.
 #[derive(Clone, Copy, Debug)]
-pub struct Morning<'a> {
+pub struct DayAhead<'a> {
     /// Temperatures of the nodes at midnight \[°C\], zones first.
     pub initial_c: &'a [f64],
     /// What is wanted.
@@ -70,7 +70,7 @@ pub trait Control {
     ///
     /// # Errors
     /// [`ControlError`] if there is no plan.
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError>;
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError>;
 
     /// The heat that each zone shall get until the next step \[kW\], negative for cooling. It is asked at every step of
     /// the day, in order.

@@ -19,9 +19,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::pid::{Pid, PidSettings};
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::lifted::Lifted;
-use crate::setting::check_not_negative;
+use crate::setting;
 
 /// Iterative learning of P- or PD-type on top of a PID controller.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -49,7 +49,7 @@ impl Default for LearningSettings {
 
 /// How errors would go from day to day if all days were the same and all errors counted, without feedback.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Convergence {
+pub struct LearningConvergence {
     /// Spectral radius of I − GL: below 1 the errors vanish in the end.
     pub spectral_radius: f64,
     /// Largest singular value of I − GL: at most 1, the errors never grow.
@@ -69,7 +69,7 @@ impl LearningSettings {
     }
 
     /// What I − GL does. It takes time in the cube of n·N.
-    pub fn convergence(&self, lifted: &Lifted) -> Convergence {
+    pub fn convergence(&self, lifted: &Lifted) -> LearningConvergence {
         let (n, size) = (lifted.zones(), lifted.size());
         let mut unit = vec![0.0; size];
         let mut map = nalgebra::DMatrix::identity(size, size);
@@ -83,7 +83,7 @@ impl LearningSettings {
         // similar to a symmetric matrix because L is a multiple of the identity there and h₁ is symmetric.
         let first = map.view((0, 0), (n.min(size), n.min(size))).into_owned();
         let gram = map.tr_mul(&map);
-        Convergence {
+        LearningConvergence {
             spectral_radius: first.symmetric_eigenvalues().iter().fold(0.0, |radius, e| f64::max(radius, e.abs())),
             largest_singular_value: gram.symmetric_eigenvalues().iter().fold(0.0, |s, e| f64::max(s, *e)).sqrt(),
         }
@@ -112,31 +112,27 @@ impl Learning {
     /// # Errors
     /// [`ControlError::Setting`].
     pub fn new(settings: LearningSettings, lifted: Lifted) -> Result<Self, ControlError> {
-        check_not_negative(&[
-            ("proportional_kw_per_k", settings.proportional_kw_per_k),
-            ("derivative_kw_per_k", settings.derivative_kw_per_k),
-        ])?;
+        setting::check(&settings)?;
         let model = lifted.model();
-        let feedback = Pid::new(settings.feedback, model.network().limits_kw(), model.step_s())
-            .map_err(|error| error.within("feedback"))?;
+        let feedback = Pid::new(settings.feedback, model.network().limits_kw(), model.step_s())?;
         let planned_kw = vec![0.0; lifted.size()];
         let wanted = vec![None; lifted.size()];
         Ok(Self { settings, lifted, feedback, planned_kw, learned_kw: None, expected_kw: None, wanted })
     }
 
     /// D̂ = G⁻¹ T_free from rest at 0 °C: zone heat with the effect of the expected weather and occupancy.
-    fn expected_kw(&self, morning: &Morning<'_>) -> Vec<f64> {
+    fn expected_kw(&self, day_ahead: &DayAhead<'_>) -> Vec<f64> {
         let at_rest_c = vec![0.0; self.lifted.model().network().node_count()];
-        let forecast = morning.forecast;
+        let forecast = day_ahead.forecast;
         self.lifted.solve(&self.lifted.free_response(&at_rest_c, &forecast.ambient_c, &forecast.gains_kw))
     }
 }
 
 impl Control for Learning {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let targets = morning.targets;
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        let targets = day_ahead.targets;
         ControlError::check_length("the day", targets.reference_c.len(), self.lifted.size())?;
-        morning.forecast.check(targets)?;
+        day_ahead.forecast.check(targets)?;
         self.wanted = (targets.reference_c.iter().zip(&targets.error_weight))
             .map(|(&reference_c, &weight)| (weight > 0.0).then_some(reference_c))
             .collect();
@@ -144,7 +140,7 @@ impl Control for Learning {
             self.planned_kw.clone_from(learned_kw);
         }
         if self.settings.forecast {
-            let today_kw = self.expected_kw(morning);
+            let today_kw = self.expected_kw(day_ahead);
             if let Some(yesterday_kw) = self.expected_kw.replace(today_kw.clone()) {
                 for (i, planned_kw) in self.planned_kw.iter_mut().enumerate() {
                     *planned_kw -= today_kw[i] - yesterday_kw[i];

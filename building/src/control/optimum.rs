@@ -11,11 +11,11 @@
 //! amount to as printed. The states are variables (those of y, so that the rows have no constants), which keeps the
 //! problem sparse: eliminated, it would be a dense one in G.
 
-use interplay_convex::{Block, Program, Settings, Solver, Variable, Variables};
+use interplay_convex::{Block, Program, Solver, SolverSettings, Variable, Variables};
 
 use super::{ControlError, Disturbance};
 use crate::comfort::Targets;
-use crate::discretise::{DENSE_NODES, Method, Model};
+use crate::discretise::{DENSE_NODES, Discretisation, Model};
 use crate::lifted::Lifted;
 
 /// Tighter than the solver's usual one: inputs near a limit are known to about its square root only.
@@ -32,7 +32,7 @@ pub struct BandPenalty {
 
 /// The cheapest day.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Optimum {
+pub struct DayOptimum {
     /// Inputs u(0) … u(N−1) \[kW\], stacked.
     pub heat_kw: Vec<f64>,
     /// Temperatures of the zones T(1) … T(N) under them \[°C\], stacked.
@@ -56,13 +56,13 @@ pub fn optimum(
     targets: &Targets,
     disturbance: &Disturbance,
     penalty: Option<BandPenalty>,
-) -> Result<Optimum, ControlError> {
+) -> Result<DayOptimum, ControlError> {
     let nodes = lifted.model().network().node_count();
     ControlError::check_length("the targets", targets.reference_c.len(), lifted.size())?;
     ControlError::check_length("the temperatures at midnight", initial_c.len(), nodes)?;
     disturbance.check(targets)?;
     let free_c = lifted.free_response(initial_c, &disturbance.ambient_c, &disturbance.gains_kw);
-    plan(lifted, &free_c, targets, penalty, &Caution::default())
+    plan(lifted, &free_c, targets, penalty, &ConstraintTightening::default())
 }
 
 /// The margin of an input is at most this share of its limit: something must be left to plan with.
@@ -70,7 +70,7 @@ const LARGEST_MARGIN: f64 = 0.95;
 
 /// What a plan keeps away from, beyond the limits of the day.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Caution {
+pub(super) struct ConstraintTightening {
     /// How far inputs stay within their limits \[kW\], stacked; none if empty.
     pub input_margin_kw: Vec<f64>,
     /// How far temperatures stay within the comfort band \[K\], stacked; none if empty.
@@ -102,15 +102,15 @@ pub(super) fn plan(
     free_c: &[f64],
     targets: &Targets,
     penalty: Option<BandPenalty>,
-    caution: &Caution,
-) -> Result<Optimum, ControlError> {
+    tightening: &ConstraintTightening,
+) -> Result<DayOptimum, ControlError> {
     let model = lifted.model();
     let nodes = model.network().node_count();
-    if model.method() == Method::Exact && nodes > DENSE_NODES {
+    if model.method() == Discretisation::Exact && nodes > DENSE_NODES {
         return Err(ControlError::TooLarge { nodes, most: DENSE_NODES });
     }
-    let posed = Posed::new(model, targets, free_c, penalty, caution);
-    let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
+    let posed = Posed::new(model, targets, free_c, penalty, tightening);
+    let settings = SolverSettings { tolerance: TOLERANCE, ..SolverSettings::default() };
     let solution = Solver::new(&posed.program, &settings)?.solve()?;
 
     let mut heat_kw = solution.value(posed.input).to_vec();
@@ -125,7 +125,7 @@ pub(super) fn plan(
     let objective = cost + penalty.map_or(0.0, |penalty| penalty.of(targets, &temperatures_c));
     let [most, least] = posed.limits.map(|block| solution.dual(block));
     let limit_price = most.iter().zip(least).map(|(most, least)| most + least).collect();
-    Ok(Optimum { heat_kw, temperatures_c, cost, objective, limit_price })
+    Ok(DayOptimum { heat_kw, temperatures_c, cost, objective, limit_price })
 }
 
 impl BandPenalty {
@@ -152,7 +152,13 @@ struct Posed {
 }
 
 impl Posed {
-    fn new(model: &Model, targets: &Targets, free_c: &[f64], penalty: Option<BandPenalty>, caution: &Caution) -> Self {
+    fn new(
+        model: &Model,
+        targets: &Targets,
+        free_c: &[f64],
+        penalty: Option<BandPenalty>,
+        tightening: &ConstraintTightening,
+    ) -> Self {
         let mut program = Program::new();
         let input = program.variables("heat", free_c.len());
         let state = program.variables("state", model.network().node_count() * targets.steps());
@@ -160,11 +166,11 @@ impl Posed {
         let mut posed = Self { program, input, state, limits };
         posed.costs(model, targets, free_c);
         posed.dynamics(model, targets.steps());
-        posed.limits(model.network().limits_kw(), &caution.input_margin_kw);
+        posed.limits(model.network().limits_kw(), &tightening.input_margin_kw);
         if let Some(penalty) = penalty {
-            posed.band(model, targets, free_c, penalty, &caution.band_margin_k);
+            posed.band(model, targets, free_c, penalty, &tightening.band_margin_k);
         }
-        if let Some(bound) = caution.error_bound {
+        if let Some(bound) = tightening.error_bound {
             posed.error_bound(model, targets, free_c, bound);
         }
         posed

@@ -19,7 +19,7 @@
 //!
 //! is linear in f and M = K diag f, and so scales to hundreds of zones ([`positive_decay`]).
 
-use interplay_convex::{Block, Program, Settings, Solver, Variable, Variables, triangle};
+use interplay_convex::{Block, Program, Solver, SolverSettings, Variable, Variables, triangle};
 use nalgebra::DMatrix;
 
 use super::ControlError;
@@ -100,7 +100,7 @@ pub fn lmi_margin(lmi: Lmi, closed: &DMatrix<f64>) -> Result<f64, ControlError> 
         Lmi::Printed => certificate.positive(&mut program, 0.0),
         Lmi::Corrected { .. } => certificate.unit_trace(&mut program),
     }
-    let solution = Solver::new(&program, &Settings::default())?.solve()?;
+    let solution = Solver::new(&program, &SolverSettings::default())?.solve()?;
     Ok(solution.at(margin))
 }
 

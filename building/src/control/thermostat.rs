@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Control, ControlError, DayRecord, Morning, Observation};
-use crate::setting::{check_not_negative, check_within};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use crate::setting;
 
 /// A two-sided thermostat with a dead band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -38,14 +38,13 @@ impl Thermostat {
     /// # Errors
     /// [`ControlError::Setting`].
     pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
-        check_not_negative(&[("dead_band_k", settings.dead_band_k)])?;
-        check_within("power", settings.power, 0.0..=1.0, "a share of the limit, 0 to 1")?;
+        setting::check(&settings)?;
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
     }
 }
 
 impl Control for Thermostat {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 

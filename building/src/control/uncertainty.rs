@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ControlError;
 use crate::comfort::Targets;
-use crate::setting::{SettingError, check_not_negative, check_within};
+use crate::setting::{self, SettingError};
 
 /// Variance that every entry has besides \[kW²\].
 const NUGGET_KW2: f64 = 1e-8;
@@ -74,15 +74,7 @@ impl Uncertainty {
     /// # Errors
     /// [`SettingError`] if a deviation is negative, or a correlation not between -1 and 1.
     pub fn new(settings: UncertaintySettings) -> Result<Self, SettingError> {
-        check_not_negative(&[
-            ("common_kw", settings.common_kw),
-            ("zone_kw", settings.zone_kw),
-            ("zone_other_kw", settings.zone_other_kw),
-            ("prior_days", settings.prior_days),
-        ])?;
-        let wanted = "a correlation, between -1 and 1";
-        check_within("common_correlation", settings.common_correlation, -1.0..=1.0, wanted)?;
-        check_within("zone_correlation", settings.zone_correlation, -1.0..=1.0, wanted)?;
+        setting::check(&settings)?;
         Ok(Self { settings, seen: [(0.0, 0.0); 3] })
     }
 
@@ -137,13 +129,13 @@ impl Uncertainty {
     }
 
     /// Learns from what a day's prediction missed \[kW\], stacked. Says whether anything changed.
-    pub fn learn(&mut self, surprise_kw: &[f64], targets: &Targets) -> bool {
+    pub fn learn(&mut self, error_kw: &[f64], targets: &Targets) -> bool {
         if !self.settings.reestimate {
             return false;
         }
         let n = targets.zones as f64;
         let mut sums = [(0.0, 0.0_f64); 3];
-        for (step_kw, busy) in surprise_kw.chunks_exact(targets.zones).zip(busy(targets)) {
+        for (step_kw, busy) in error_kw.chunks_exact(targets.zones).zip(busy(targets)) {
             let mean = step_kw.iter().sum::<f64>() / n;
             let place = if busy { 1 } else { 2 };
             // A single zone cannot tell its own part from the common one.

@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bounds::Bound;
 use crate::control::BandPenalty;
-use crate::control::experience::Prediction;
-use crate::setting::{SettingError, check_not_negative, check_within};
+use crate::control::disturbance_estimate::DisturbancePrediction;
+use crate::setting::{self, SettingError, check_bound};
 
 /// How the zones' proposals of a round become a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -41,7 +42,7 @@ pub struct DistributedSettings {
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
     /// Share of the messages that are lost, drawn from a generator with a seed of its own.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub loss: f64,
@@ -64,7 +65,7 @@ impl Default for DistributedSettings {
             discomfort_quadratic: 50.0,
             gain_kw_per_k: 0.2,
             learning_rate: 0.5,
-            prediction: Prediction::default(),
+            prediction: DisturbancePrediction::default(),
             loss: 0.0,
             delay_rounds: 0,
             silent_zone: None,
@@ -76,16 +77,9 @@ impl Default for DistributedSettings {
 impl DistributedSettings {
     /// Refuses settings that are out of range.
     pub(super) fn check(&self, zones: usize) -> Result<(), SettingError> {
-        check_within("loss", self.loss, 0.0..=1.0, "a share, between 0 and 1")?;
-        if let Some(zone) = self.silent_zone {
-            let wanted = "the number of a zone, from 0";
-            check_within("silent_zone", zone as f64, 0.0..=zones.max(1) as f64 - 1.0, wanted)?;
-        }
-        check_not_negative(&[
-            ("tolerance_kw", self.tolerance_kw),
-            ("discomfort_quadratic", self.discomfort_quadratic),
-            ("gain_kw_per_k", self.gain_kw_per_k),
-        ])
+        setting::check(self)?;
+        let last_zone = zones.max(1) as f64 - 1.0;
+        self.silent_zone.map_or(Ok(()), |zone| check_bound("silent_zone", zone as f64, Bound::AtMost(last_zone)))
     }
 }
 
@@ -103,7 +97,7 @@ pub struct CentralisedSettings {
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
 }
 
 impl Default for CentralisedSettings {
@@ -117,10 +111,7 @@ impl Default for CentralisedSettings {
 impl CentralisedSettings {
     /// Refuses settings that are out of range.
     pub(super) fn check(&self) -> Result<(), SettingError> {
-        check_not_negative(&[
-            ("discomfort_quadratic", self.discomfort_quadratic),
-            ("gain_kw_per_k", self.gain_kw_per_k),
-        ])
+        setting::check(self)
     }
 }
 

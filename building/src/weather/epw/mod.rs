@@ -21,7 +21,7 @@ pub use field::Field;
 use field::{COLUMNS, FIELDS, Specification};
 use header::Header;
 
-use super::{Series, Weather};
+use super::{TimeSeries, Weather};
 
 const HOUR_S: f64 = 3600.0;
 const DAY_S: f64 = 86_400.0;
@@ -124,7 +124,7 @@ impl Epw {
 
     /// Temperature and sunshine as functions of time; without radiation in the file the sun does not shine.
     pub fn weather(&self) -> Weather {
-        let series = |first_s: f64, values: Vec<f64>| Series {
+        let series = |first_s: f64, values: Vec<f64>| TimeSeries {
             first_s,
             interval_s: self.interval_s,
             cyclic: self.whole_year,

@@ -1,24 +1,24 @@
 //! A plan, and what becomes of it when the day's design fails.
 
-use super::experience::{Experience, Lesson};
-use super::{Control, ControlError, DayRecord, Design, Morning, Observation, Optimum};
+use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
+use super::{Control, ControlError, DayAhead, DayOptimum, DayRecord, Design, Observation};
 
 /// Inputs and the temperatures they are meant to lead to.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Plan {
+pub(super) struct DayPlan {
     /// Stacked \[kW\].
     pub heat_kw: Vec<f64>,
     /// Stacked \[°C\].
     pub temperatures_c: Vec<f64>,
 }
 
-impl From<&Optimum> for Plan {
-    fn from(optimum: &Optimum) -> Self {
+impl From<&DayOptimum> for DayPlan {
+    fn from(optimum: &DayOptimum) -> Self {
         Self { heat_kw: optimum.heat_kw.clone(), temperatures_c: optimum.temperatures_c.clone() }
     }
 }
 
-impl Plan {
+impl DayPlan {
     /// û(t).
     pub fn heat_at(&self, step: usize, zones: usize) -> &[f64] {
         &self.heat_kw[step * zones..(step + 1) * zones]
@@ -35,20 +35,20 @@ impl Plan {
 
 /// Today's plan, the day before, and how often there was none.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Diary {
-    plan: Option<Plan>,
-    yesterday: Option<Plan>,
+pub(super) struct PlanHistory {
+    plan: Option<DayPlan>,
+    yesterday: Option<DayPlan>,
     design: Design,
 }
 
-impl Diary {
+impl PlanHistory {
     /// What is followed today; nothing before there was a day.
-    pub fn plan(&self) -> Option<&Plan> {
+    pub fn plan(&self) -> Option<&DayPlan> {
         self.plan.as_ref()
     }
 
     /// The day before, as it was.
-    pub fn yesterday(&self) -> Option<&Plan> {
+    pub fn yesterday(&self) -> Option<&DayPlan> {
         self.yesterday.as_ref()
     }
 
@@ -58,7 +58,7 @@ impl Diary {
     }
 
     /// Takes the outcome of a design: its plan, or the day before in its place (Remark 1 of chapter 3).
-    pub fn open(&mut self, outcome: Result<(Option<Plan>, Design), ControlError>) {
+    pub fn open(&mut self, outcome: Result<(Option<DayPlan>, Design), ControlError>) {
         let fallbacks = self.design.fallbacks;
         match outcome {
             Ok((plan, design)) => {
@@ -82,45 +82,45 @@ impl Diary {
     pub fn close(&mut self, record: &DayRecord) {
         if record.temperatures_c.iter().chain(&record.heat_kw).all(|value| value.is_finite()) {
             let (heat_kw, temperatures_c) = (record.heat_kw.clone(), record.temperatures_c.clone());
-            self.yesterday = Some(Plan { heat_kw, temperatures_c });
+            self.yesterday = Some(DayPlan { heat_kw, temperatures_c });
         }
     }
 }
 
 /// Refuses a morning of another building or day.
-fn check_shapes(morning: &Morning<'_>, nodes: usize, size: usize) -> Result<(), ControlError> {
-    ControlError::check_length("the day", morning.targets.reference_c.len(), size)?;
-    ControlError::check_length("the temperatures at midnight", morning.initial_c.len(), nodes)?;
-    morning.forecast.check(morning.targets)
+fn check_shapes(day_ahead: &DayAhead<'_>, nodes: usize, size: usize) -> Result<(), ControlError> {
+    ControlError::check_length("the day", day_ahead.targets.reference_c.len(), size)?;
+    ControlError::check_length("the temperatures at midnight", day_ahead.initial_c.len(), nodes)?;
+    day_ahead.forecast.check(day_ahead.targets)
 }
 
 /// A design that plans every day with what earlier days taught, and follows the plan.
-pub(super) trait Learner {
+pub(super) trait PlanningDesign {
     /// What earlier days taught, and what is planned.
-    fn books(&mut self) -> (&mut Experience, &mut Diary);
+    fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory);
 
     /// What is planned.
-    fn diary(&self) -> &Diary;
+    fn history(&self) -> &PlanHistory;
 
     /// Today's plan, none before there was a day to learn from, and what there is to say of it.
     ///
     /// # Errors
     /// [`ControlError`] if the design fails.
-    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError>;
+    fn plan(&mut self, day_ahead: &DayAhead<'_>) -> Result<(Option<DayPlan>, Design), ControlError>;
 
     /// The heat of each zone \[kW\].
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64>;
 
     /// Takes note of what a day was like.
-    fn note(&mut self, _lesson: &Lesson) {}
+    fn note(&mut self, _lesson: &PredictionError) {}
 }
 
-impl<L: Learner> Control for L {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let lifted = self.books().0.lifted();
-        check_shapes(morning, lifted.model().network().node_count(), lifted.size())?;
-        let outcome = self.plan(morning);
-        self.books().1.open(outcome);
+impl<L: PlanningDesign> Control for L {
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        let lifted = self.parts().0.lifted();
+        check_shapes(day_ahead, lifted.model().network().node_count(), lifted.size())?;
+        let outcome = self.plan(day_ahead);
+        self.parts().1.open(outcome);
         Ok(())
     }
 
@@ -129,16 +129,16 @@ impl<L: Learner> Control for L {
     }
 
     fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
-        let (experience, diary) = self.books();
-        let lesson = experience.learn(record)?;
-        diary.close(record);
-        if let Some(lesson) = &lesson {
-            self.note(lesson);
+        let (estimator, history) = self.parts();
+        let prediction_error = estimator.learn(record)?;
+        history.close(record);
+        if let Some(prediction_error) = &prediction_error {
+            self.note(prediction_error);
         }
         Ok(())
     }
 
     fn design(&self) -> Design {
-        self.diary().design().clone()
+        self.history().design().clone()
     }
 }

@@ -13,14 +13,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ControlError, DayRecord, Morning};
+use super::{ControlError, DayAhead, DayRecord};
 use crate::lifted::Lifted;
-use crate::setting::check_within;
 
 /// What the disturbance of a day is predicted from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Prediction {
+pub enum DisturbancePrediction {
     /// The forecast, corrected by the bias of earlier days.
     #[default]
     Forecast,
@@ -30,9 +29,9 @@ pub enum Prediction {
 
 /// Memory of disturbances.
 #[derive(Clone, Debug)]
-pub struct Experience {
+pub struct DisturbanceEstimator {
     lifted: Lifted,
-    prediction: Prediction,
+    prediction: DisturbancePrediction,
     rate: f64,
     bias_kw: Vec<f64>,
     /// D_k of the day before.
@@ -50,20 +49,16 @@ struct Today {
 
 /// What a day was like.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lesson {
+pub struct PredictionError {
     /// D_k − (D̂_k + bias): what the best prediction missed \[kW\], stacked.
-    pub surprise_kw: Vec<f64>,
+    pub error_kw: Vec<f64>,
 }
 
-impl Experience {
-    /// No experience. `rate` is λ.
-    ///
-    /// # Errors
-    /// [`ControlError::Setting`] if the rate is not between 0 and 1.
-    pub fn new(lifted: Lifted, prediction: Prediction, rate: f64) -> Result<Self, ControlError> {
-        check_within("learning_rate", rate, 0.0..=1.0, "between 0 and 1")?;
+impl DisturbanceEstimator {
+    /// No experience. `rate` is λ, between 0 and 1.
+    pub fn new(lifted: Lifted, prediction: DisturbancePrediction, rate: f64) -> Self {
         let bias_kw = vec![0.0; lifted.size()];
-        Ok(Self { lifted, prediction, rate, bias_kw, measured_kw: None, today: None })
+        Self { lifted, prediction, rate, bias_kw, measured_kw: None, today: None }
     }
 
     /// The model of a day.
@@ -85,16 +80,18 @@ impl Experience {
     ///
     /// # Errors
     /// [`ControlError::NotFinite`] if the forecast or a temperature is no number; nothing is learned from such a day.
-    pub fn expect(&mut self, morning: &Morning<'_>) -> Result<Vec<f64>, ControlError> {
+    pub fn expect(&mut self, day_ahead: &DayAhead<'_>) -> Result<Vec<f64>, ControlError> {
         self.today = None;
-        ControlError::check_finite("the temperatures at midnight", morning.initial_c)?;
-        morning.forecast.check_finite()?;
+        ControlError::check_finite("the temperatures at midnight", day_ahead.initial_c)?;
+        day_ahead.forecast.check_finite()?;
         let (steps, size) = (self.lifted.steps(), self.lifted.size());
-        let undisturbed_c = self.lifted.free_response(morning.initial_c, &vec![0.0; steps], &vec![0.0; size]);
-        let forecast = morning.forecast;
-        let forecast_c = self.lifted.free_response(morning.initial_c, &forecast.ambient_c, &forecast.gains_kw);
+        let undisturbed_c = self.lifted.free_response(day_ahead.initial_c, &vec![0.0; steps], &vec![0.0; size]);
+        let forecast = day_ahead.forecast;
+        let forecast_c = self.lifted.free_response(day_ahead.initial_c, &forecast.ambient_c, &forecast.gains_kw);
         let expected_c = match (self.prediction, &self.measured_kw) {
-            (Prediction::Yesterday, Some(measured_kw)) => add(&undisturbed_c, &self.lifted.product(measured_kw)),
+            (DisturbancePrediction::Yesterday, Some(measured_kw)) => {
+                add(&undisturbed_c, &self.lifted.product(measured_kw))
+            }
             _ => add(&forecast_c, &self.lifted.product(&self.bias_kw)),
         };
         self.today = Some(Today { undisturbed_c, forecast_c });
@@ -106,7 +103,7 @@ impl Experience {
     ///
     /// # Errors
     /// [`ControlError::Shape`] if the record is of another day or building.
-    pub fn learn(&mut self, record: &DayRecord) -> Result<Option<Lesson>, ControlError> {
+    pub fn learn(&mut self, record: &DayRecord) -> Result<Option<PredictionError>, ControlError> {
         let size = self.lifted.size();
         ControlError::check_length("the day's temperatures", record.temperatures_c.len(), size)?;
         ControlError::check_length("the day's inputs", record.heat_kw.len(), size)?;
@@ -118,12 +115,12 @@ impl Experience {
         };
         let measured_kw = explained(&today.undisturbed_c);
         let missed_kw = explained(&today.forecast_c);
-        let surprise_kw = missed_kw.iter().zip(&self.bias_kw).map(|(missed, bias)| missed - bias).collect();
+        let error_kw = missed_kw.iter().zip(&self.bias_kw).map(|(missed, bias)| missed - bias).collect();
         for (bias_kw, missed_kw) in self.bias_kw.iter_mut().zip(&missed_kw) {
             *bias_kw = (1.0 - self.rate) * *bias_kw + self.rate * missed_kw;
         }
         self.measured_kw = Some(measured_kw);
-        Ok(Some(Lesson { surprise_kw }))
+        Ok(Some(PredictionError { error_kw }))
     }
 }
 
