@@ -194,11 +194,11 @@ proptest! {
         let solution = solve(&program(&known)).expect("solvable by construction");
         let mut other = known.clone();
         other.q[which] += 0.5;
-        let residuals = residuals(&program(&other), &solution).expect("well-formed");
-        prop_assert!(residuals.stationarity > 1e-3);
+        let found = residuals(&program(&other), &solution).expect("well-formed");
+        prop_assert!(found.stationarity > 1e-3);
         other.q[which] -= 0.5;
         other.b[0] += 0.5;
-        let residuals = residuals(&program(&other), &solution).expect("well-formed");
-        prop_assert!(residuals.primal > 1e-3);
+        let found = residuals(&program(&other), &solution).expect("well-formed");
+        prop_assert!(found.primal > 1e-3);
     }
 }

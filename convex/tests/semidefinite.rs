@@ -1,6 +1,6 @@
 //! The semidefinite cone on problems whose answers are known.
 
-use interplay_convex::{Program, SolveError, Solver, SolverSettings, kkt, triangle};
+use interplay_convex::{Program, SolveError, Solver, SolverSettings, residuals, triangle};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
@@ -32,7 +32,7 @@ proptest! {
         let mut solver = Solver::new(&program, &SolverSettings::default()).expect("well-formed");
         let solution = solver.solve().expect("solvable");
         prop_assert!((solution.objective - c.symmetric_eigenvalues().max()).abs() < 1e-6);
-        prop_assert!(kkt::residuals(&program, &solution).expect("well-formed").largest() < 1e-6);
+        prop_assert!(residuals(&program, &solution).expect("well-formed").largest() < 1e-6);
     }
 
     #[test]

@@ -1,9 +1,9 @@
-//! The controller that knows the day before it comes: what the others are measured against.
+//! A controller that knows the disturbances of the day in advance. The cost of the other controllers is compared with its.
 
 use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
 use crate::lifted::Lifted;
 
-/// Plays the day's optimum under its actual disturbances.
+/// Applies the optimum of the day under its actual disturbances.
 #[derive(Clone, Debug)]
 pub struct Clairvoyant {
     lifted: Lifted,
@@ -11,7 +11,7 @@ pub struct Clairvoyant {
 }
 
 impl Clairvoyant {
-    /// A clairvoyant whose model of a day is `lifted`.
+    /// A clairvoyant controller whose model of a day is `lifted`.
     pub fn new(lifted: Lifted) -> Self {
         let planned_kw = vec![0.0; lifted.size()];
         Self { lifted, planned_kw }

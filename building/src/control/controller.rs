@@ -1,4 +1,4 @@
-//! Every controller a building may have, by the word that a scenario file uses.
+//! The list of all controllers, with the word that a scenario file uses for each.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -36,7 +36,7 @@ pub enum Controller {
     Centralised(CentralisedSettings),
 }
 
-/// A controller at work: its settings and all that it remembers.
+/// A controller with its settings and its state.
 #[derive(Clone, Debug)]
 pub enum Regulator {
     /// See [`Thermostat`].
@@ -58,8 +58,8 @@ pub enum Regulator {
 }
 
 impl Controller {
-    /// A controller of this kind without experience. `model` is what it believes of the building, and a day has so many
-    /// steps.
+    /// A controller of this kind before its first day. `model` is the controller's model of the building, `steps` the number
+    /// of steps of a day.
     ///
     /// # Errors
     /// [`ControlError::Setting`] if a setting is out of range.
@@ -85,7 +85,7 @@ impl Controller {
         })
     }
 
-    /// Whether this kind of controller plans its days and says how ([`Design`]).
+    /// Whether this kind of controller plans each day, and describes the plan in a [`Design`].
     pub fn plans(&self) -> bool {
         match self {
             Self::Thermostat(_) | Self::Pid(_) | Self::IterativeLearning(_) | Self::Clairvoyant => false,

@@ -1,14 +1,14 @@
-//! What earlier days taught of the disturbance.
+//! The disturbance that is expected, corrected by what was measured on earlier days.
 //!
-//! After day k the temperatures tell what acted besides the equipment, as zone heat:
+//! After day k, the temperatures T_k and inputs U_k determine the disturbance D_k, expressed as zone heat:
 //!
 //! ```text
 //! D_k = G⁻¹ (T_k − T_in) − U_k            bias ← (1 − λ) bias + λ (D_k − D̂_k)
-//! D̂_k+1 + bias                            is what day k + 1 is planned with
+//! D̂_k+1 + bias                            the prediction for day k + 1
 //! ```
 //!
-//! The source plans with D̂_k+1 alone and so learns nothing. The forecast is not turned into zone heat: its effect is
-//! simulated, and D_k − D̂_k = G⁻¹ (T_k − T_free) − U_k with T_free under the forecast.
+//! The source plans with D̂_k+1 alone and so learns nothing. The forecast itself need not be expressed as zone heat: its
+//! effect is simulated, and D_k − D̂_k = G⁻¹ (T_k − T_free) − U_k with T_free under the forecast.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,7 +27,7 @@ pub enum DisturbancePrediction {
     Yesterday,
 }
 
-/// Memory of disturbances.
+/// Estimates the disturbance of the next day from the forecast and from earlier days.
 #[derive(Clone, Debug)]
 pub struct DisturbanceEstimator {
     lifted: Lifted,
@@ -47,15 +47,15 @@ struct Today {
     forecast_c: Vec<f64>,
 }
 
-/// What a day was like.
+/// By how much a prediction was wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictionError {
-    /// D_k − (D̂_k + bias): what the best prediction missed \[kW\], stacked.
+    /// D_k − (D̂_k + bias) \[kW\], stacked.
     pub error_kw: Vec<f64>,
 }
 
 impl DisturbanceEstimator {
-    /// No experience. `rate` is λ, between 0 and 1.
+    /// An estimator before the first day. `rate` is λ, between 0 and 1.
     pub fn new(lifted: Lifted, prediction: DisturbancePrediction, rate: f64) -> Self {
         let bias_kw = vec![0.0; lifted.size()];
         Self { lifted, prediction, rate, bias_kw, measured_kw: None, today: None }
@@ -66,20 +66,20 @@ impl DisturbanceEstimator {
         &self.lifted
     }
 
-    /// Heat beyond the forecast that is believed to return \[kW\], stacked.
+    /// The bias of the forecast \[kW\], stacked.
     pub fn bias_kw(&self) -> &[f64] {
         &self.bias_kw
     }
 
-    /// Whether there was a day to learn from.
+    /// Whether no day has been learned from yet.
     pub fn is_empty(&self) -> bool {
         self.measured_kw.is_none()
     }
 
-    /// Temperatures without equipment to plan with \[°C\], stacked.
+    /// The zone temperatures that are predicted for a day without equipment \[°C\], stacked.
     ///
     /// # Errors
-    /// [`ControlError::NotFinite`] if the forecast or a temperature is no number; nothing is learned from such a day.
+    /// [`ControlError::NotFinite`] if the forecast or a temperature is not finite; nothing is learned from such a day.
     pub fn expect(&mut self, day_ahead: &DayAhead<'_>) -> Result<Vec<f64>, ControlError> {
         self.today = None;
         ControlError::check_finite("the temperatures at midnight", day_ahead.initial_c)?;
@@ -98,8 +98,8 @@ impl DisturbanceEstimator {
         Ok(expected_c)
     }
 
-    /// Learns from a day. Nothing is learned, and nothing returned, if the day had no forecast or the record has a number
-    /// that is none.
+    /// Updates the bias after a day, and returns the error of its prediction. Nothing is learned, and `None` returned, if
+    /// the day had no forecast or the record holds a number that is not finite.
     ///
     /// # Errors
     /// [`ControlError::Shape`] if the record is of another day or building.

@@ -7,13 +7,13 @@
 //! U_k      = U_ff,k + C E_k                         C a PID controller per zone
 //! ```
 //!
-//! P-type is l_d = 0. The error e(t+1) is the first that u(t) acts upon. With a forecast, what is expected to change from
+//! P-type is l_d = 0. The error e(t+1) is the first that u(t) influences. With a forecast, the expected change from
 //! yesterday to today is compensated; D̂ is the zone heat that has the effect of the forecast, G⁻¹ T_free. Where the
-//! temperature is free nothing is learned.
+//! temperature is free, nothing is learned.
 //!
 //! If every day were the same, the errors would follow E_k+1 = (I + GC)⁻¹(I − GL) E_k. [`LearningSettings::convergence`]
-//! says what I − GL does: its spectral radius decides the end, its largest singular value whether errors may grow on the
-//! way there, and they differ by orders of magnitude for P-type learning.
+//! analyses I − GL: its spectral radius decides whether the errors vanish in the end, its largest singular value whether
+//! they may grow before. The two differ by orders of magnitude for P-type learning.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -47,7 +47,7 @@ impl Default for LearningSettings {
     }
 }
 
-/// How errors would go from day to day if all days were the same and all errors counted, without feedback.
+/// How errors would change from day to day if all days were equal, all errors had a weight and there were no feedback.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LearningConvergence {
     /// Spectral radius of I − GL: below 1 the errors vanish in the end.
@@ -68,7 +68,7 @@ impl LearningSettings {
             .collect()
     }
 
-    /// What I − GL does. It takes time in the cube of n·N.
+    /// Analyses I − GL. It takes time in the cube of n·N.
     pub fn convergence(&self, lifted: &Lifted) -> LearningConvergence {
         let (n, size) = (lifted.zones(), lifted.size());
         let mut unit = vec![0.0; size];
@@ -90,7 +90,7 @@ impl LearningSettings {
     }
 }
 
-/// Iterative learning at work.
+/// A controller that learns iteratively.
 #[derive(Clone, Debug)]
 pub struct Learning {
     settings: LearningSettings,
@@ -98,16 +98,16 @@ pub struct Learning {
     feedback: Pid,
     /// U_ff of the day, stacked \[kW\].
     planned_kw: Vec<f64>,
-    /// U_k + L E_k, once there was a day.
+    /// U_k + L E_k; none before the first day.
     learned_kw: Option<Vec<f64>>,
     /// D̂ of the day before, stacked \[kW\].
     expected_kw: Option<Vec<f64>>,
-    /// What is wanted today: reference and whether it counts.
+    /// The reference temperatures of today, where they have a weight \[°C\], stacked.
     wanted: Vec<Option<f64>>,
 }
 
 impl Learning {
-    /// A learner that has no experience. `lifted` is its model of a day.
+    /// The controller before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
     /// [`ControlError::Setting`].

@@ -6,8 +6,8 @@
 //!             |u| ≤ limit,   |r − T| ≤ band + s while occupied,   s ≥ 0
 //! ```
 //!
-//! With the actual disturbances this is the clairvoyant plan: no controller can be cheaper over the same day, and how much
-//! dearer it was is its regret. With forecast ones it is the day-ahead plan, which is what the designs of chapters 3 to 5
+//! With the actual disturbances this is the clairvoyant plan: no controller can be cheaper over the same day. The cost of a
+//! controller beyond it is its regret. With forecast ones it is the day-ahead plan, which is what the designs of chapters 3 to 5
 //! amount to as printed. The states are variables (those of y, so that the rows have no constants), which keeps the
 //! problem sparse: eliminated, it would be a dense one in G.
 
@@ -18,7 +18,7 @@ use crate::comfort::Targets;
 use crate::discretise::{DENSE_NODES, Discretisation, Model};
 use crate::lifted::Lifted;
 
-/// Tighter than the solver's usual one: inputs near a limit are known to about its square root only.
+/// Tolerance of the solver, tighter than its default: inputs near a limit are accurate to about its square root only.
 const TOLERANCE: f64 = 1e-10;
 
 /// Cost of a kelvin beyond the comfort band while occupied.
@@ -30,7 +30,7 @@ pub struct BandPenalty {
     pub quadratic: f64,
 }
 
-/// The cheapest day.
+/// The optimum of a day.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DayOptimum {
     /// Inputs u(0) … u(N−1) \[kW\], stacked.
@@ -39,9 +39,9 @@ pub struct DayOptimum {
     pub temperatures_c: Vec<f64>,
     /// J (eq. 3.2) without the penalty of the comfort band.
     pub cost: f64,
-    /// What is minimised: J with the penalty.
+    /// The objective: J with the penalty.
     pub objective: f64,
-    /// By how much the objective would fall for each kilowatt by which the limits of an input were wider, stacked.
+    /// Multipliers of the input limits: decrease of the objective per kilowatt of wider limits, stacked.
     pub limit_price: Vec<f64>,
 }
 
@@ -65,21 +65,21 @@ pub fn optimum(
     plan(lifted, &free_c, targets, penalty, &ConstraintTightening::default())
 }
 
-/// The margin of an input is at most this share of its limit: something must be left to plan with.
+/// The margin of an input is at most this share of its limit, so that the plan keeps some power.
 const LARGEST_MARGIN: f64 = 0.95;
 
-/// What a plan keeps away from, beyond the limits of the day.
+/// By how much a plan keeps within the limits of the day.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ConstraintTightening {
-    /// How far inputs stay within their limits \[kW\], stacked; none if empty.
+    /// Margin of the inputs to their limits \[kW\], stacked; none if empty.
     pub input_margin_kw: Vec<f64>,
-    /// How far temperatures stay within the comfort band \[K\], stacked; none if empty.
+    /// Margin of the temperatures to the comfort band \[K\], stacked; none if empty.
     pub band_margin_k: Vec<f64>,
-    /// A bound for the length of the errors that count (eq. 3.8).
+    /// A bound on the norm of the errors that have a weight (eq. 3.8).
     pub error_bound: Option<ErrorBound>,
 }
 
-/// How far a plan stays within its limits \[kW\], for inputs with these deviations.
+/// Margins of the inputs to their limits \[kW\], for inputs with these standard deviations.
 pub(super) fn margins_kw(lifted: &Lifted, input_deviation_kw: &[f64], quantile: f64) -> Vec<f64> {
     let limits_kw = lifted.model().network().limits_kw();
     (input_deviation_kw.iter().enumerate())
@@ -129,7 +129,7 @@ pub(super) fn plan(
 }
 
 impl BandPenalty {
-    /// What temperatures cost beyond the band while occupied.
+    /// The cost of temperatures beyond the band while occupied.
     pub fn of(self, targets: &Targets, temperatures_c: &[f64]) -> f64 {
         let beyond_k = |(i, temperature_c): (usize, &f64)| {
             let occupied = targets.occupied[i / targets.zones];

@@ -1,9 +1,9 @@
-//! A plan, and what becomes of it when the day's design fails.
+//! The loop of the designs that plan each day, and their fallback when no plan is found.
 
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
 use super::{Control, ControlError, DayAhead, DayOptimum, DayRecord, Design, Observation};
 
-/// Inputs and the temperatures they are meant to lead to.
+/// Planned inputs, and the temperatures that are expected under them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DayPlan {
     /// Stacked \[kW\].
@@ -24,7 +24,7 @@ impl DayPlan {
         &self.heat_kw[step * zones..(step + 1) * zones]
     }
 
-    /// T̂(t) − T(t), which is e(t) − ê(t); nothing is known of it at t = 0.
+    /// T̂(t) − T(t), which is e(t) − ê(t); none at t = 0.
     pub fn deviation_k(&self, step: usize, temperatures_c: &[f64]) -> Option<Vec<f64>> {
         let n = temperatures_c.len();
         let before = step.checked_sub(1)?;
@@ -33,7 +33,7 @@ impl DayPlan {
     }
 }
 
-/// Today's plan, the day before, and how often there was none.
+/// The plan of today and the record of yesterday.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PlanHistory {
     plan: Option<DayPlan>,
@@ -42,23 +42,23 @@ pub(super) struct PlanHistory {
 }
 
 impl PlanHistory {
-    /// What is followed today; nothing before there was a day.
+    /// The plan of today; none before the first day has ended.
     pub fn plan(&self) -> Option<&DayPlan> {
         self.plan.as_ref()
     }
 
-    /// The day before, as it was.
+    /// Inputs and temperatures of yesterday, as they were.
     pub fn yesterday(&self) -> Option<&DayPlan> {
         self.yesterday.as_ref()
     }
 
-    /// What there is to say.
+    /// Describes the plan of today.
     pub fn design(&self) -> &Design {
         &self.design
     }
 
-    /// Takes the outcome of a design: its plan, or the day before in its place (Remark 1 of chapter 3).
-    pub fn open(&mut self, outcome: Result<(Option<DayPlan>, Design), ControlError>) {
+    /// Adopts the plan of a design; if it failed, the inputs and temperatures of yesterday (Remark 1 of chapter 3).
+    pub fn start_day(&mut self, outcome: Result<(Option<DayPlan>, Design), ControlError>) {
         let fallbacks = self.design.fallbacks;
         match outcome {
             Ok((plan, design)) => {
@@ -78,8 +78,8 @@ impl PlanHistory {
         self.design.planned_c = plan.map_or(Vec::new(), |plan| plan.temperatures_c.clone());
     }
 
-    /// Keeps the day, unless it has a number that is none.
-    pub fn close(&mut self, record: &DayRecord) {
+    /// Keeps the record of the day, unless it holds a number that is not finite.
+    pub fn end_day(&mut self, record: &DayRecord) {
         if record.temperatures_c.iter().chain(&record.heat_kw).all(|value| value.is_finite()) {
             let (heat_kw, temperatures_c) = (record.heat_kw.clone(), record.temperatures_c.clone());
             self.yesterday = Some(DayPlan { heat_kw, temperatures_c });
@@ -87,22 +87,22 @@ impl PlanHistory {
     }
 }
 
-/// Refuses a morning of another building or day.
+/// Refuses series of another building or day.
 fn check_shapes(day_ahead: &DayAhead<'_>, nodes: usize, size: usize) -> Result<(), ControlError> {
     ControlError::check_length("the day", day_ahead.targets.reference_c.len(), size)?;
     ControlError::check_length("the temperatures at midnight", day_ahead.initial_c.len(), nodes)?;
     day_ahead.forecast.check(day_ahead.targets)
 }
 
-/// A design that plans every day with what earlier days taught, and follows the plan.
+/// A design that plans each day from the estimated disturbance, and follows the plan with feedback.
 pub(super) trait PlanningDesign {
-    /// What earlier days taught, and what is planned.
+    /// The estimator of the disturbance, and the plans.
     fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory);
 
-    /// What is planned.
+    /// The plans.
     fn history(&self) -> &PlanHistory;
 
-    /// Today's plan, none before there was a day to learn from, and what there is to say of it.
+    /// Plans the day. There is no plan before the first day has ended.
     ///
     /// # Errors
     /// [`ControlError`] if the design fails.
@@ -111,8 +111,8 @@ pub(super) trait PlanningDesign {
     /// The heat of each zone \[kW\].
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64>;
 
-    /// Takes note of what a day was like.
-    fn note(&mut self, _lesson: &PredictionError) {}
+    /// Updates the uncertainty of the disturbance with the error of a day's prediction.
+    fn update_uncertainty(&mut self, _lesson: &PredictionError) {}
 }
 
 impl<L: PlanningDesign> Control for L {
@@ -120,7 +120,7 @@ impl<L: PlanningDesign> Control for L {
         let lifted = self.parts().0.lifted();
         check_shapes(day_ahead, lifted.model().network().node_count(), lifted.size())?;
         let outcome = self.plan(day_ahead);
-        self.parts().1.open(outcome);
+        self.parts().1.start_day(outcome);
         Ok(())
     }
 
@@ -131,9 +131,9 @@ impl<L: PlanningDesign> Control for L {
     fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
         let (estimator, history) = self.parts();
         let prediction_error = estimator.learn(record)?;
-        history.close(record);
+        history.end_day(record);
         if let Some(prediction_error) = &prediction_error {
-            self.note(prediction_error);
+            self.update_uncertainty(prediction_error);
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! The oldest controller: full power when it is too cold or too warm, nothing otherwise.
+//! An on-off controller: full power when it is too cold or too warm, none otherwise.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ impl Default for ThermostatSettings {
     }
 }
 
-/// A thermostat at work: for each zone whether it heats (1), cools (−1) or rests (0).
+/// A thermostat with its state: for each zone whether it heats (1), cools (−1) or is off (0).
 #[derive(Clone, Debug)]
 pub struct Thermostat {
     settings: ThermostatSettings,
@@ -36,7 +36,7 @@ impl Thermostat {
     /// A thermostat in each zone.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
+    /// [`ControlError::Setting`] if the dead band is negative, or the power not a share.
     pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
         setting::check(&settings)?;
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })

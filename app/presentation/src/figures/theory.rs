@@ -13,7 +13,7 @@ use interplay_planners::game::prospect::{ProspectTheory, weighting};
 use interplay_planners::{Body, SafetyEllipse};
 use interplay_scenarios::load;
 
-use super::Exhibit;
+use super::entry::Exhibit;
 use crate::plot::ink::{BLACK, BLUE, Dash, GREY, Ink, ORANGE};
 use crate::plot::{Curve, Panel, Panels, Sheet};
 

@@ -151,7 +151,7 @@ impl PlanningDesign for Concurrent {
         heat_kw
     }
 
-    fn note(&mut self, prediction_error: &PredictionError) {
+    fn update_uncertainty(&mut self, prediction_error: &PredictionError) {
         if let Some(targets) = &self.targets
             && self.uncertainty.learn(&prediction_error.error_kw, targets)
         {

@@ -14,10 +14,8 @@
 
 use std::collections::VecDeque;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
-
 use crate::lifted::Lifted;
+use crate::random::Random;
 
 /// What a message is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +58,7 @@ pub(super) struct Messages {
     loss: f64,
     delay: usize,
     silent: Option<usize>,
-    generator: ChaCha8Rng,
+    random: Random,
     /// Counted since the last [`Messages::start`].
     pub sent: Vec<usize>,
     /// Counted likewise.
@@ -110,7 +108,7 @@ impl Messages {
             loss,
             delay,
             silent,
-            generator: ChaCha8Rng::seed_from_u64(0),
+            random: Random::new(0, 0),
             sent: vec![0; zones],
             undelivered: 0,
         }
@@ -140,7 +138,7 @@ impl Messages {
         for edge in &mut self.edges {
             let (from, to) = (self.owner[edge.from], self.owner[edge.to]);
             let silent = self.silent == Some(from) || self.silent == Some(to);
-            let lost = self.loss > 0.0 && f64::from(self.generator.next_u32()) < self.loss * 4_294_967_296.0;
+            let lost = self.loss > 0.0 && self.random.chance_of_32_bits(self.loss);
             let late = self.delay > 0;
             edge.live = !silent && !lost && !late;
             if self.silent != Some(from) {

@@ -133,7 +133,6 @@ impl Iterative {
         })
     }
 
-    /// The day's plan, and what there is to say of it; no plan before there was a day.
     /// The feedback for the targets, designed anew when something has changed; with the joint design, every day.
     fn feedback(&mut self, targets: &Targets, free_c: &[f64]) -> Result<StaticFeedback, ControlError> {
         let price = match self.settings.coordination {
@@ -265,7 +264,7 @@ impl PlanningDesign for Iterative {
         heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
     }
 
-    fn note(&mut self, prediction_error: &PredictionError) {
+    fn update_uncertainty(&mut self, prediction_error: &PredictionError) {
         if let Some(targets) = &self.targets
             && self.uncertainty.learn(&prediction_error.error_kw, targets)
         {
