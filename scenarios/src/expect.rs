@@ -29,7 +29,7 @@ pub struct Expect {
     pub completes: Vec<Completes>,
     /// Bounds on the extremes of speeds over the run, one `[[expect.speed]]` each.
     #[schemars(extend("x-concerns" = "vehicles"))]
-    pub speed: Vec<SpeedRange>,
+    pub speed: Vec<ExpectedSpeed>,
     /// What the building must achieve.
     #[schemars(example = json!({ "after_iterations": 2 }), extend("x-concerns" = "building"))]
     pub building: Option<BuildingExpect>,
@@ -100,7 +100,7 @@ pub struct Completes {
 /// Bounds on the smallest and the largest speed of a vehicle over the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SpeedRange {
+pub struct ExpectedSpeed {
     /// Name of the vehicle.
     #[schemars(example = &"ego")]
     pub vehicle: String,

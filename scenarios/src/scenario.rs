@@ -5,14 +5,20 @@
 
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::Controller;
+use interplay_building::control::pid::PidSettings;
 use interplay_building::occupancy::Occupancy;
+use interplay_building::random::SplitMix64;
 use interplay_planners::{Body, Driver, Limits, SafetyEllipse, State, human};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::building::{Building, Weather};
-use crate::{Branch, Expect, Plant, Road, jitter};
+use crate::building::BuildingConfig;
+use crate::expect::Expect;
+use crate::plant::Plant;
+use crate::road::{Branch, Road};
+use crate::start_jitter::StartJitter;
+use crate::weather::WeatherConfig;
 
 /// One scenario: agents, their world, and what is expected of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,11 +68,11 @@ pub struct Scenario {
     /// The building; without the table there is none.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "preset": "testbed" }))]
-    pub building: Option<Building>,
+    pub building: Option<BuildingConfig>,
     /// The weather around the building; by default a synthetic tropical climate, forecast without error.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "kind": "synthetic" }))]
-    pub weather: Option<Weather>,
+    pub weather: Option<WeatherConfig>,
     /// The people in the building; by default office hours with real deviations.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({}))]
@@ -87,6 +93,9 @@ pub struct Scenario {
     #[serde(default)]
     pub expect: Expect,
 }
+
+/// How many days are simulated unless the scenario says so.
+const ITERATIONS: usize = 10;
 
 mod defaults {
     pub fn duration_s() -> f64 {
@@ -127,10 +136,22 @@ impl Scenario {
         (self.duration_s / self.step_s).round() as usize
     }
 
+    /// How many days of the building are simulated; 0 without a building.
+    pub fn days(&self) -> usize {
+        if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
+    }
+
+    /// Who controls the building; a PID controller in each zone unless the scenario says so.
+    pub fn controller(&self) -> Controller {
+        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
+    }
+
     /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
     /// same seed gives the same starts.
     pub fn starts(&self) -> Vec<State> {
-        jitter::starts(self)
+        let mut random = SplitMix64::new(self.seed);
+        let jitter = self.start_jitter;
+        self.vehicles.iter().map(|vehicle| jitter.changed(vehicle.start, &vehicle.limits, &mut random)).collect()
     }
 }
 
@@ -139,18 +160,6 @@ pub(crate) const NAME_PATTERN: &str = "^[a-z0-9_-]{1,64}$";
 
 /// The name that makes a vehicle the ego.
 pub(crate) const EGO: &str = "ego";
-
-/// A random change of every start, uniform over `±` the stated amounts and drawn from the seed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct StartJitter {
-    /// Largest shift along the vehicle's own heading \[m\].
-    #[schemars(range(min = 0.0))]
-    pub position_m: f64,
-    /// Largest change of the speed, which stays within the vehicle's limits \[m/s\].
-    #[schemars(range(min = 0.0))]
-    pub speed_mps: f64,
-}
 
 /// One vehicle: where it starts, what it wants, what it is like and who drives it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -167,7 +176,7 @@ pub struct Vehicle {
     pub start: State,
     /// What it wants; by default to carry on as it starts.
     #[serde(default)]
-    pub goal: Goal,
+    pub goal: GoalConfig,
     /// What deviations from its goal and what changes of its inputs cost it.
     #[serde(default)]
     pub weights: Weights,
@@ -209,7 +218,7 @@ impl Vehicle {
 /// What a vehicle wants. Whatever is not said stays as it is at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Goal {
+pub struct GoalConfig {
     /// The lane whose centre it wants, counted from the right; 0 is the rightmost.
     #[schemars(example = 1, extend("x-excludes" = ["y_m"]))]
     pub lane: Option<usize>,

@@ -33,7 +33,6 @@ const KNOWN_CIRCLES: &[(&str, &str, &str)] = &[
     ("building", "identify::telemetry", "the table and its reader and writer name one another"),
     ("building", "network", "the network and its checks name one another"),
     ("building", "weather::epw", "the file and its header name one another"),
-    ("scenarios", "", "scenario, building, jitter and schema name one another"),
 ];
 
 /// The path of a module within its crate; the root's is empty.
