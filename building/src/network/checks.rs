@@ -1,0 +1,70 @@
+//! Checks of described zones and walls.
+
+use super::error::{NetworkError, Part};
+use super::settings::{AMBIENT, Wall, Zone};
+use crate::setting;
+
+pub(super) fn check_zones(zones: &[Zone]) -> Result<(), NetworkError> {
+    if zones.is_empty() {
+        return Err(NetworkError::NoZones);
+    }
+    for (index, zone) in zones.iter().enumerate() {
+        let name = zone.name.clone();
+        if name.trim().is_empty() || name == AMBIENT {
+            return Err(NetworkError::BadName { zone: index, name });
+        }
+    }
+    setting::check_each(zones).map_err(|(index, error)| {
+        let called = format!("zone `{}`", zones[index].name);
+        NetworkError::Setting { part: Part::Zone(index), called, error }
+    })?;
+    let mut names: Vec<(&str, usize)> = zones.iter().enumerate().map(|(i, zone)| (zone.name.as_str(), i)).collect();
+    names.sort_unstable();
+    match names.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        Some(pair) => Err(NetworkError::DuplicateZone { zone: pair[1].1, name: pair[1].0.to_owned() }),
+        None => Ok(()),
+    }
+}
+
+/// The nodes at the two ends of each wall; `None` is the air outside.
+pub(super) fn check_walls(zones: &[Zone], walls: &[Wall]) -> Result<Vec<[Option<usize>; 2]>, NetworkError> {
+    let mut places: Vec<(&str, usize)> = zones.iter().enumerate().map(|(i, zone)| (zone.name.as_str(), i)).collect();
+    places.sort_unstable();
+    let find = |wall: usize, name: &str| {
+        if name == AMBIENT {
+            return Ok(None);
+        }
+        match places.binary_search_by_key(&name, |&(known, _)| known) {
+            Ok(position) => Ok(Some(places[position].1)),
+            Err(_) => Err(unknown(zones, (wall, &walls[wall]), name)),
+        }
+    };
+    let mut ends = Vec::with_capacity(walls.len());
+    for (index, wall) in walls.iter().enumerate() {
+        let [one, other] = &wall.between;
+        if one == other {
+            return Err(NetworkError::SamePlace { wall: index, called: wall_name(index, wall), name: one.clone() });
+        }
+        ends.push([find(index, one)?, find(index, other)?]);
+    }
+    setting::check_each(walls).map_err(|(index, error)| {
+        let called = wall_name(index, &walls[index]);
+        NetworkError::Setting { part: Part::Wall(index), called, error }
+    })?;
+    Ok(ends)
+}
+
+/// A wall in words, by its position from zero.
+pub(super) fn wall_name(index: usize, wall: &Wall) -> String {
+    format!("wall {} (`{}` - `{}`)", index + 1, wall.between[0], wall.between[1])
+}
+
+fn unknown(zones: &[Zone], (index, wall): (usize, &Wall), name: &str) -> NetworkError {
+    let nearest = zones.iter().min_by_key(|zone| strsim::damerau_levenshtein(&zone.name, name));
+    NetworkError::UnknownZone {
+        wall: index,
+        called: wall_name(index, wall),
+        name: name.to_owned(),
+        nearest: nearest.map_or_else(String::new, |zone| zone.name.clone()),
+    }
+}
