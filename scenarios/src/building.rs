@@ -15,7 +15,7 @@ pub(crate) const DAY_S: f64 = 86_400.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BuildingConfig {
-    /// A building that is known by name.
+    /// A building with a name of its own.
     #[schemars(example = &"testbed", extend("x-excludes" = ["grid", "zone"]))]
     pub preset: Option<Preset>,
     /// Rooms in rows and columns, on one floor or several, each like those of the testbed.
@@ -37,7 +37,7 @@ pub struct BuildingConfig {
     /// Temperature of everything at the start \[°C\].
     #[schemars(range(min = -50.0, max = 100.0))]
     pub initial_c: f64,
-    /// What the controller takes the building for, where it is wrong.
+    /// Factors between the model that the controller uses and the building.
     pub believed: ModelMismatch,
 }
 
@@ -56,7 +56,7 @@ impl Default for BuildingConfig {
     }
 }
 
-/// A building that is known by name.
+/// A building with a name of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Preset {
@@ -91,7 +91,7 @@ impl Grid {
     }
 }
 
-/// How rooms are drawn: floors side by side, rooms of a floor by rows.
+/// The drawing of rooms: floors side by side, rooms of a floor by rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FloorPlan {
     /// Rooms in a row.

@@ -7,7 +7,7 @@
 use crate::schema::SchemaNode;
 use crate::tree::{Table, TomlEntry, TomlNode, TomlValue};
 
-/// Lays one table over another; `schema` is what the format says of the table, if it knows it.
+/// Merges `over` into `under`, key by key; `schema` is what the format says of the table, if it knows it.
 pub(crate) fn merge_tables(schema: Option<SchemaNode>, mut under: Table, over: Table) -> Table {
     if let Some(new) = kind(&over).filter(|new| kind(&under) != Some(new)) {
         let table = schema.and_then(|table| table.of_kind(new));
@@ -47,7 +47,7 @@ fn merge_nodes(schema: Option<SchemaNode>, under: TomlNode, over: TomlNode) -> T
     TomlNode { place: over.place, value }
 }
 
-/// Lays lists of tables over each other, entries with the same value of `key` together. A second such entry is kept, for the
+/// Merges two lists of tables, entries with the same value of `key` together. A second such entry is kept, for the
 /// check to refuse.
 fn merge_entries(schema: Option<SchemaNode>, key: &str, under: Vec<TomlNode>, over: Vec<TomlNode>) -> Vec<TomlNode> {
     let name = |node: &TomlNode| Some(node.table()?.get(key)?.node.text()?.to_owned());

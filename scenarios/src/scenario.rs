@@ -20,7 +20,7 @@ use crate::road::{Branch, Road};
 use crate::start_jitter::StartJitter;
 use crate::weather::WeatherConfig;
 
-/// One scenario: agents, their world, and what is expected of the run.
+/// One scenario: agents, their world, and the expectations of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
@@ -38,15 +38,15 @@ pub struct Scenario {
     #[serde(default = "defaults::duration_s")]
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"))]
     pub duration_s: f64,
-    /// Time from one tick to the next: everybody plans and moves once a tick \[s\].
+    /// Time from one tick to the next; all vehicles plan and move once a tick \[s\].
     #[serde(default = "defaults::step_s")]
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"))]
     pub step_s: f64,
-    /// How many ticks every plan looks ahead.
+    /// Horizon of every plan, in ticks.
     #[serde(default = "defaults::horizon_steps")]
     #[schemars(range(min = 2, max = 200), extend("x-concerns" = "vehicles"))]
     pub horizon_steps: usize,
-    /// From which all random numbers are drawn.
+    /// Seed of all random numbers.
     #[serde(default = "defaults::seed")]
     pub seed: u64,
     /// What moves the vehicles, `kind` choosing; by default exactly the model that planners use.
@@ -81,7 +81,7 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "occupied_c": [24.0] }))]
     pub setpoints: Option<Setpoints>,
-    /// Who controls the building; by default a PID controller in each zone.
+    /// The controller of the building; by default PID control in each zone.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "kind": "pid" }))]
     pub controller: Option<Controller>,
@@ -89,7 +89,7 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(range(min = 1, max = 10000), extend("x-concerns" = "building"), example = 10)]
     pub iterations: Option<usize>,
-    /// What makes the run pass; nothing by default.
+    /// The conditions under which the run passes; none by default.
     #[serde(default)]
     pub expect: Expect,
 }
@@ -161,7 +161,7 @@ pub(crate) const NAME_PATTERN: &str = "^[a-z0-9_-]{1,64}$";
 /// The name that makes a vehicle the ego.
 pub(crate) const EGO: &str = "ego";
 
-/// One vehicle: where it starts, what it wants, what it is like and who drives it.
+/// One vehicle: start, goal, body, limits and driver.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Vehicle {
@@ -174,10 +174,10 @@ pub struct Vehicle {
     /// Where it starts: mass centre, heading and speed.
     #[schemars(example = json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 }))]
     pub start: State,
-    /// What it wants; by default to carry on as it starts.
+    /// Its goal; by default to keep its lateral position and its speed.
     #[serde(default)]
     pub goal: GoalConfig,
-    /// What deviations from its goal and what changes of its inputs cost it.
+    /// Weights of deviations from its goal and of changes of its inputs.
     #[serde(default)]
     pub weights: Weights,
     /// Its size and axles; by default Table 6.1.
@@ -189,7 +189,7 @@ pub struct Vehicle {
     /// The ellipse around each other vehicle that it keeps out of; by default Table 6.2.
     #[serde(default)]
     pub safety: SafetyEllipse,
-    /// Who drives it, `kind` choosing; by default a nice human.
+    /// Its driver, `kind` choosing; by default a nice human.
     #[serde(default = "default_driver")]
     pub driver: Driver,
 }
@@ -215,17 +215,17 @@ impl Vehicle {
     }
 }
 
-/// What a vehicle wants. Whatever is not said stays as it is at the start.
+/// The goal of a vehicle. What is not stated stays as at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GoalConfig {
-    /// The lane whose centre it wants, counted from the right; 0 is the rightmost.
+    /// The lane whose centre it aims at, counted from the right; 0 is the rightmost.
     #[schemars(example = 1, extend("x-excludes" = ["y_m"]))]
     pub lane: Option<usize>,
-    /// The lateral position that it wants, on the road along x \[m\].
+    /// The lateral position that it aims at, on the road along x \[m\].
     #[schemars(example = 0.555)]
     pub y_m: Option<f64>,
-    /// The speed that it wants \[m/s\].
+    /// The speed that it aims at \[m/s\].
     #[schemars(example = 1.0)]
     pub speed_mps: Option<f64>,
 }
@@ -234,7 +234,7 @@ pub struct GoalConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Weights {
-    /// Of the position along the vehicle's road: 0, since nobody wants to stay at one place.
+    /// Of the position along the vehicle's road: must be 0, since goals have no longitudinal position.
     #[schemars(range(min = 0.0), extend("x-unit" = "1/m²"))]
     pub x: f64,
     /// Of the position across the vehicle's road, which is y where the road runs along x \[1/m²\].

@@ -6,7 +6,7 @@ use interplay_building::weather::{Climate, Epw, Forecast, TimeSeries, Weather};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The weather outside and how well it is known beforehand; `kind` chooses.
+/// The weather outside and its forecast; `kind` chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum WeatherConfig {

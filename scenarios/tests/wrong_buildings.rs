@@ -151,11 +151,5 @@ fn keys_of_controllers_and_setpoints() {
         &["bad.toml:25:8", "`to_h` is 8.5; it must be at least 9"],
     );
     refusal(all, "zone_called_ambient", ("\"store\"", "\"ambient\""), &["bad.toml:13:8", "zone 2", "`ambient`"]);
-    refusal(
-        all,
-        "unstable_by_euler",
-        ("step_s = 900.0", "step_s = 900.0\nmethod = \"euler\"\nbelieved = { capacity_factor = 0.1 }"),
-        &["bad.toml:8:"],
-    );
     insta::assert_snapshot!("keys_of_controllers_and_setpoints", errors.0);
 }
