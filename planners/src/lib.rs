@@ -7,8 +7,10 @@
 //! - [`dynamics`]: vehicle models with derivatives
 //! - [`predict`]: what the others will do
 //! - [`mpc`]: one trajectory optimiser
-//! - drivers, one folder each: [`human`], [`conservative`], [`cooperative`], [`negotiation`], [`bayesian`], [`game`];
+//! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`conservative`], [`cooperative`], [`negotiation`],
+//!   [`bayesian`], [`game`];
 //!   [`Driver`] lists them
+//! - [`traffic`]: the closed loop of all vehicles on a road
 //!
 //! Sines, exponentials and the like come from `libm`, so that results are the same bit for bit on every machine.
 //!
@@ -20,6 +22,7 @@ mod axes;
 pub mod bayesian;
 pub mod conservative;
 pub mod cooperative;
+pub mod diagnostic;
 mod driver;
 pub mod dynamics;
 mod encounter;
@@ -28,19 +31,24 @@ mod fixture;
 mod footprint;
 pub mod game;
 pub mod human;
+pub mod idm;
 pub mod mpc;
 pub mod negotiation;
 mod plan;
 pub mod predict;
 mod road;
 mod scene;
+pub mod scripted;
 mod solo;
 mod state;
+mod steering;
+pub mod traffic;
 
 pub use axes::Axes;
+pub use diagnostic::Diagnostic;
 pub use driver::{Driver, Planner};
 pub use footprint::{Body, EllipticalDistance, SafetyEllipse};
-pub use plan::{Diagnostic, Plan, PlanError, Proposal};
+pub use plan::{Plan, PlanError, Proposal};
 pub use road::{Clearance, Corridor, LaneEnd};
 pub use scene::{Agent, Goal, Scene};
 pub use state::{Input, State, Trajectory};

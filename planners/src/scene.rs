@@ -1,10 +1,7 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
-use std::borrow::Cow;
-
 use crate::dynamics::Bicycle;
 use crate::mpc::{KeepOut, Limits, Participant, Penalty, Tracking};
-use crate::predict::Prediction;
 use crate::{Axes, Body, Corridor, Input, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as anyone sees it.
@@ -125,19 +122,5 @@ impl Scene {
         let last = prediction.states.last().copied().unwrap_or_default();
         let centre = |t: usize| prediction.states.get(t).unwrap_or(&last).position();
         (1..=self.horizon).map(centre).collect()
-    }
-
-    /// The same moment with the others expected to do what `prediction` says.
-    pub fn expecting(&self, prediction: Prediction) -> Cow<'_, Scene> {
-        match prediction {
-            Prediction::Plan => Cow::Borrowed(self),
-            Prediction::ConstantVelocity => {
-                let mut scene = self.clone();
-                for other in &mut scene.others {
-                    other.prediction = prediction.of(other, self.horizon, self.step_s);
-                }
-                Cow::Owned(scene)
-            }
-        }
     }
 }

@@ -1,5 +1,6 @@
 //! The conservative baseline (eq. 6.13): the others' predictions are constraints, whoever has the right of way.
 
+pub mod diagnostics;
 mod retreat;
 mod settings;
 
@@ -7,6 +8,7 @@ pub(crate) use retreat::{retreat, solve_or_retreat};
 pub use settings::Settings;
 
 use crate::activity::Activity;
+use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::mpc::{Cost, DescentError, Optimiser, Penalty, Problem, Robust};
 use crate::solo::{self, Solved};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
@@ -49,7 +51,7 @@ impl Conservative {
 
     /// The same as [`Conservative::plan`], with the problem that it solves.
     pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Solved, DescentError> {
-        let scene = &scene.expecting(self.settings.prediction);
+        let scene = &self.settings.prediction.applied_to(scene);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let problem = problem(scene, &others);
         let every = self.settings.look_around_every;
@@ -62,7 +64,7 @@ impl Conservative {
 /// A conservative plan with its cost and with what holds it back.
 pub(crate) fn answer(Solved { problem, optimum, event }: &Solved) -> Plan {
     let Cost { total, safety_slack, .. } = optimum.cost;
-    let mut diagnostics: Vec<Diagnostic> = vec![("cost", total), ("safety slack", safety_slack)];
+    let mut diagnostics: Vec<Diagnostic> = vec![COST.is(total), SAFETY_SLACK.is(safety_slack)];
     diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),

@@ -1,87 +1,21 @@
-//! The field's baseline: the intelligent driver model along the road (Treiber, Hennecke and Helbing, 2000), MOBIL across it
-//! ([`super::mobil`]).
+//! The field's baseline of a human driver: the intelligent driver model along the road (`car_following`), and MOBIL for lane
+//! changes (`mobil`).
 //!
-//! ```text
-//! a = a_max (1 − (v/v₀)^δ − (s*/s)²),   s* = s₀ + max(0, v T + v Δv / (2 √(a_max b)))
-//! ```
-//!
-//! `s` is the gap between bumpers to the vehicle ahead and `Δv` the speed at which it closes. Who is partly in a lane is in
-//! it; a lane that ends is a standing vehicle at its end. The model knows one road: whoever crosses it is ignored.
+//! The model knows one road: whoever crosses it is ignored.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+mod car_following;
+pub mod diagnostics;
+mod lanes;
+mod mobil;
+mod settings;
 
-use super::mobil::{self, Mobil, leader};
-use super::steering::{admissible, roll_out, steer};
-use crate::predict::Prediction;
+pub use settings::{Mobil, Settings};
+
+use crate::steering::{admissible, roll_out, steer};
 use crate::{Input, Plan, PlanError, Scene};
-
-/// The intelligent driver model with MOBIL; the defaults suit 1/10 scale cars.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Settings {
-    /// Time gap to the vehicle ahead, `T` \[s\].
-    #[schemars(range(min = 0.0))]
-    pub headway_s: f64,
-    /// Gap at standstill, `s₀` \[m\].
-    #[schemars(range(min = 0.001))]
-    pub gap_m: f64,
-    /// Acceleration on a free road, `a_max` \[m/s²\].
-    #[schemars(range(min = 0.001))]
-    pub acceleration_mps2: f64,
-    /// Comfortable braking, `b`, positive \[m/s²\].
-    #[schemars(range(min = 0.001))]
-    pub braking_mps2: f64,
-    /// How sharply acceleration ends at the wanted speed, `δ`.
-    #[schemars(range(min = 0.1))]
-    pub exponent: f64,
-    /// When to change lanes.
-    pub mobil: Mobil,
-    /// What the others are expected to do.
-    pub prediction: Prediction,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Settings {
-            headway_s: 0.8,
-            gap_m: 0.2,
-            acceleration_mps2: 0.5,
-            braking_mps2: 0.6,
-            exponent: 4.0,
-            mobil: Mobil::default(),
-            prediction: Prediction::ConstantVelocity,
-        }
-    }
-}
-
-/// A vehicle ahead, or what is as good as one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Leader {
-    /// Gap between bumpers \[m\].
-    pub gap_m: f64,
-    /// Its speed \[m/s\].
-    pub speed_mps: f64,
-}
-
-/// A gap that is closed counts as this \[m\].
-const NO_GAP_M: f64 = 1e-3;
-
-impl Settings {
-    /// The model's acceleration \[m/s²\].
-    pub(super) fn acceleration(&self, speed_mps: f64, wanted_mps: f64, leader: Option<Leader>) -> f64 {
-        let free = libm::pow(speed_mps.max(0.0) / wanted_mps.max(NO_GAP_M), self.exponent);
-        let close = leader.map_or(0.0, |leader| {
-            let closing = speed_mps * (speed_mps - leader.speed_mps);
-            let dynamic =
-                speed_mps * self.headway_s + closing / (2.0 * (self.acceleration_mps2 * self.braking_mps2).sqrt());
-            let wanted_gap = self.gap_m + dynamic.max(0.0);
-            let share = wanted_gap / leader.gap_m.max(NO_GAP_M);
-            share * share
-        });
-        self.acceleration_mps2 * (1.0 - free - close)
-    }
-}
+use car_following::Leader;
+use diagnostics::{GAP, INCENTIVE, LANE};
+use lanes::{Lanes, leader};
 
 /// A driver after the model.
 #[derive(Clone, Debug)]
@@ -102,8 +36,8 @@ impl Idm {
     /// # Errors
     /// Never; the signature is that of all planners.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let scene = &scene.expecting(self.settings.prediction);
-        let lanes = self.settings.mobil.lanes(scene);
+        let scene = &self.settings.prediction.applied_to(scene);
+        let lanes = Lanes::of_road(scene, &self.settings.mobil);
         let now = self.lane.unwrap_or_else(|| lanes.at(scene.ego.corridor.across(scene.ego.state.position())));
         let choice = mobil::choose(scene, &self.settings, now);
         self.lane = Some(choice.lane);
@@ -119,8 +53,8 @@ impl Idm {
             }
         });
         let ahead = leader(scene, &lanes, choice.lane, &own.state, 0);
-        let mut diagnostics = vec![("lane", choice.lane as f64), ("incentive", choice.incentive_mps2)];
-        diagnostics.extend(ahead.map(|leader| ("gap", leader.gap_m)));
+        let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
+        diagnostics.extend(ahead.map(|leader| GAP.is(leader.gap_m)));
         let events = (choice.lane != now).then(|| format!("changes to lane {}", choice.lane)).into_iter().collect();
         Ok(Plan { trajectory, diagnostics, events, ..Plan::default() })
     }
@@ -134,28 +68,6 @@ fn nearest(leaders: [Option<Leader>; 2]) -> Option<Leader> {
 mod tests {
     use super::*;
     use crate::fixture::{agent, scene};
-
-    /// In equilibrium at the leader's speed the gap is `s*/√(1 − (v/v₀)^δ)`.
-    #[test]
-    fn followers_settle_at_the_equilibrium_gap() {
-        let settings = Settings::default();
-        let (mut gap, mut speed, leader_mps, wanted) = (2.0, 1.0, 0.8, 1.2);
-        for _ in 0..20_000 {
-            let acceleration = settings.acceleration(speed, wanted, Some(Leader { gap_m: gap, speed_mps: leader_mps }));
-            gap += 0.01 * (leader_mps - speed);
-            speed += 0.01 * acceleration;
-        }
-        let share = libm::pow(leader_mps / wanted, settings.exponent);
-        let equilibrium = (settings.gap_m + leader_mps * settings.headway_s) / (1.0 - share).sqrt();
-        assert!((speed - leader_mps).abs() < 1e-6 && (gap - equilibrium).abs() < 1e-4, "{speed} {gap} {equilibrium}");
-    }
-
-    #[test]
-    fn on_a_free_road_the_wanted_speed_is_kept() {
-        let settings = Settings::default();
-        assert_eq!(settings.acceleration(1.2, 1.2, None), 0.0);
-        assert!((settings.acceleration(0.0, 1.2, None) - settings.acceleration_mps2).abs() < 1e-12);
-    }
 
     fn in_lanes(mut ego: crate::Agent, others: Vec<crate::Agent>, lane_m: f64, wanted_mps: f64) -> Scene {
         (ego.corridor.right_m, ego.corridor.left_m) = (0.0, 0.74);
@@ -180,7 +92,7 @@ mod tests {
             let follower = agent(behind_m, 0.555, 0.0, 1.2);
             let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![follower], 0.555, 1.0);
             let plan = Idm::new(Settings::default()).plan(&scene).expect("a plan");
-            assert_eq!(plan.diagnostics[0], ("lane", lane), "follower at {behind_m}");
+            assert_eq!(plan.value_of(&LANE), Some(lane), "follower at {behind_m}");
         }
     }
 
@@ -190,9 +102,9 @@ mod tests {
         let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![leader], 0.185, 1.2);
         let lane = |bias_mps2: f64| {
             let mobil = Mobil { bias_mps2, ..Mobil::default() };
-            Idm::new(Settings { mobil, ..Settings::default() }).plan(&scene).expect("a plan").diagnostics[0].1
+            Idm::new(Settings { mobil, ..Settings::default() }).plan(&scene).expect("a plan").value_of(&LANE)
         };
-        assert_eq!((lane(0.0), lane(100.0)), (1.0, 0.0));
+        assert_eq!((lane(0.0), lane(100.0)), (Some(1.0), Some(0.0)));
     }
 
     #[test]
