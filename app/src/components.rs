@@ -1,7 +1,7 @@
 //! What the entities carry: components of vehicles, and the resources of a world.
 
 use bevy::ecs::prelude::*;
-use interplay_planners::{Agent, Body, Corridor, Goal, Input, Planner, State, Trajectory, mpc::Limits};
+use interplay_planners::{Agent, Body, Corridor, Goal, Input, Limits, Planner, State, Trajectory};
 
 use crate::frame::Frame;
 

@@ -9,7 +9,7 @@
 use std::time::Instant;
 
 use bevy::ecs::prelude::*;
-use interplay_planners::dynamics::Bicycle;
+use interplay_planners::Bicycle;
 use interplay_planners::predict::steady;
 use interplay_planners::{Agent, Input, Plan, PlanError, Scene, Trajectory};
 

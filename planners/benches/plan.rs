@@ -17,7 +17,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, criterion_group, criterion_main, measurement::WallTime};
 use interplay_planners::Input;
-use interplay_planners::mpc::{
+use interplay_planners::trajectory::{
     Iterate, Optimiser, Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, linearise,
 };
 

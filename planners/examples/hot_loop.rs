@@ -8,7 +8,7 @@ use std::error::Error;
 use std::hint::black_box;
 use std::io::Write;
 
-use interplay_planners::mpc::{StageQp, StageSolution, StageSolver, Structured, drop_curvature, linearise};
+use interplay_planners::trajectory::{StageQp, StageSolution, StageSolver, Structured, drop_curvature, linearise};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let kind = std::env::args().nth(1).ok_or("usage: hot_loop KIND")?;

@@ -20,7 +20,7 @@ use std::io::Write;
 use std::time::Instant;
 
 use interplay_planners::Input;
-use interplay_planners::mpc::{
+use interplay_planners::trajectory::{
     DescentError, Iterate, Optimiser, Optimum, Problem, Robust, Sparse, StageSolver, Structured,
 };
 use recorded::Recorded;

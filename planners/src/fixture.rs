@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::mpc::Limits;
+use crate::Limits;
 use crate::predict::constant_velocity;
 use crate::{Agent, Body, Corridor, Goal, Input, SafetyEllipse, Scene, State};
 

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::Trajectory;
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
-use crate::mpc::{DescentError, Optimum, StageError, Statistics};
+use crate::trajectory::{DescentError, Optimum, StageError, Statistics};
 
 /// What a vehicle will do, what it asks of another, and why.
 #[derive(Clone, Debug, Default, PartialEq)]

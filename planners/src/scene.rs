@@ -1,8 +1,8 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
-use crate::dynamics::Bicycle;
-use crate::mpc::{KeepOut, Limits, Participant, Penalty, Tracking};
-use crate::{Axes, Body, Corridor, Input, SafetyEllipse, State, Trajectory};
+use crate::trajectory::{KeepOut, Participant, Penalty, Tracking};
+use crate::vehicle::Bicycle;
+use crate::{Axes, Body, Corridor, Input, Limits, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as anyone sees it.
 #[derive(Clone, Debug, PartialEq)]

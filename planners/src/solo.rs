@@ -1,8 +1,8 @@
 //! How a vehicle that decides alone finds its plan: from the last one, and where that leads nowhere, from full braking and
 //! full acceleration.
 
-use crate::mpc::{DescentError, Optimiser, Optimum, Problem, Robust};
 use crate::predict::steady;
+use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust};
 use crate::{Input, Scene, Trajectory};
 
 /// A plan with the problem that it solves.

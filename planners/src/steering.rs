@@ -9,7 +9,7 @@
 //! makes `e″ = −2/τ e′ − e/τ²`: critically damped, without overshoot. The bicycle turns at `θ′ = v sin β/L_r`, from which
 //! follow the slip angle `β` and the steering angle `tan δ = L/L_r tan β`.
 
-use crate::dynamics::Bicycle;
+use crate::vehicle::Bicycle;
 use crate::{Agent, Input, Scene, State, Trajectory};
 
 /// Time constant `τ` \[s\].

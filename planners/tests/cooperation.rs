@@ -7,7 +7,7 @@ use interplay_planners::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COS
 use interplay_planners::cooperative::{self, Cooperator, cooperators, problem};
 use interplay_planners::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
 use interplay_planners::human::Style;
-use interplay_planners::mpc::{Optimiser, Problem, Robust};
+use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Driver, Plan, Planner, Scene};
 
 fn cooperative(normaliser: f64) -> Driver {
@@ -80,7 +80,7 @@ fn costs(normalisers: [f64; 2], guess: &Problem) -> ([f64; 2], Problem) {
         let participants = vec![guess.participants[i].clone()];
         let alone = Problem { participants, separations: Vec::new(), ..guess.clone() };
         let (inputs, states) = (optimum.iterate.inputs[i].clone(), optimum.iterate.states[i].clone());
-        alone.cost(&interplay_planners::mpc::Iterate { inputs: vec![inputs], states: vec![states] }).total
+        alone.cost(&interplay_planners::trajectory::Iterate { inputs: vec![inputs], states: vec![states] }).total
     });
     (own, weighted)
 }

@@ -5,7 +5,7 @@ mod common;
 
 use common::{HORIZON, Random, iterate, pair};
 use interplay_planners::Input;
-use interplay_planners::mpc::{
+use interplay_planners::trajectory::{
     DistanceCost, DistancePrice, MeanSpeed, Optimiser, Penalty, Problem, Sparse, StageQp, StageSolution, StageSolver,
     Structured, drop_curvature, kkt, linearise,
 };

@@ -4,7 +4,7 @@ mod common;
 
 use common::derivatives::check;
 use common::{HORIZON, Random, follower, iterate, lane_change};
-use interplay_planners::mpc::{
+use interplay_planners::trajectory::{
     DistanceCost, DistancePrice, KeepOut, Leaning, MeanSpeed, Participant, Penalty, Problem, Separation, Tracking,
 };
 use interplay_planners::{Axes, Corridor, LaneEnd, SafetyEllipse, State};

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Random, alone, iterate, pair};
 use interplay_planners::Input;
-use interplay_planners::mpc::{Optimiser, Problem, Sparse, Structured};
+use interplay_planners::trajectory::{Optimiser, Problem, Sparse, Structured};
 
 const SEEDS: u64 = 60;
 

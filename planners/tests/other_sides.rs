@@ -3,9 +3,9 @@
 mod common;
 
 use common::{HORIZON, Random, alone, iterate, pair};
-use interplay_planners::dynamics::Bicycle;
-use interplay_planners::mpc::{KeepOut, Limits, Optimiser, Participant, Penalty, Problem, Robust, Tracking};
-use interplay_planners::{Axes, Body, Corridor, Input, SafetyEllipse, State};
+use interplay_planners::Bicycle;
+use interplay_planners::trajectory::{KeepOut, Optimiser, Participant, Penalty, Problem, Robust, Tracking};
+use interplay_planners::{Axes, Body, Corridor, Input, Limits, SafetyEllipse, State};
 
 /// Somebody stands ahead on a wide road, a little to the left of the way.
 fn somebody_ahead(left_m: f64) -> Problem {

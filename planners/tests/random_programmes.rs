@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Random, alone, iterate, pair};
-use interplay_planners::mpc::{
+use interplay_planners::trajectory::{
     Interval, Problem, Robust, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver, Structured,
     drop_curvature, kkt, linearise,
 };

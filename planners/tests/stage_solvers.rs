@@ -3,12 +3,14 @@
 mod common;
 
 use common::{Random, alone, iterate, pair};
-use interplay_planners::mpc::{Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt, linearise};
+use interplay_planners::trajectory::{
+    Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt, linearise,
+};
 
 fn step_problem(problem: &Problem, seed: u64) -> StageQp {
     let mut qp = StageQp::default();
     linearise(problem, &iterate(problem, &mut Random(seed)), &mut qp);
-    interplay_planners::mpc::drop_curvature(&mut qp);
+    interplay_planners::trajectory::drop_curvature(&mut qp);
     qp
 }
 

@@ -6,7 +6,7 @@
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::Controller;
 use interplay_building::occupancy::Occupancy;
-use interplay_planners::{Body, Driver, SafetyEllipse, State, human, mpc::Limits};
+use interplay_planners::{Body, Driver, Limits, SafetyEllipse, State, human};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

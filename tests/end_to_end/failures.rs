@@ -6,7 +6,7 @@ use interplay::components::{Identity, Wish};
 use interplay::frame::{Frame, Level, Origin};
 use interplay::measure::Measures;
 use interplay::{phases, spawn};
-use interplay_planners::mpc::Limits;
+use interplay_planners::Limits;
 use interplay_planners::predict::steady;
 
 use crate::film::{Camera, authored, film};

@@ -1,8 +1,8 @@
 //! What holds at every tick of every run.
 
 use interplay::frame::Origin;
+use interplay_planners::Bicycle;
 use interplay_planners::State;
-use interplay_planners::dynamics::Bicycle;
 
 use crate::film::{FILMS, kinematic};
 

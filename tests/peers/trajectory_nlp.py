@@ -1,4 +1,4 @@
-"""The trajectory problem of `planners/src/mpc/problem.rs` for CasADi and IPOPT.
+"""The trajectory problem of `planners/src/trajectory/problem.rs` for CasADi and IPOPT.
 
 Multiple shooting: states at t = 1...N and the inputs that are decided are unknowns, the bicycle is an equality between
 them. A soft row c >= 0 gets a slack s >= 0 with c + s >= 0 and the cost linear*s + quadratic*s^2.

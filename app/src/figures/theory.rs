@@ -7,9 +7,9 @@ use interplay_building::identify::{
     ErrorReport, Forecast, Identification, Method, Quantity, Settings, ZoneReport, identify,
 };
 use interplay_building::network::Network;
+use interplay_planners::Limits;
 use interplay_planners::game::payoff::Stakes;
 use interplay_planners::game::prospect::{ProspectTheory, weighting};
-use interplay_planners::mpc::Limits;
 use interplay_planners::{Body, SafetyEllipse};
 use interplay_scenarios::load;
 

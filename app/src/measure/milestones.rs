@@ -3,7 +3,7 @@
 //!
 //! Each is told when it begins, and again only after it has ended.
 
-use interplay_planners::mpc::Limits;
+use interplay_planners::Limits;
 use interplay_scenarios::Scenario;
 
 use crate::climate::Building;

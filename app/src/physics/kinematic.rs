@@ -1,7 +1,7 @@
 //! The kinematic plant: every vehicle follows the bicycle model exactly, and Rapier only says who touches whom.
 
+use interplay_planners::Bicycle;
 use interplay_planners::State;
-use interplay_planners::dynamics::Bicycle;
 use rapier2d::prelude::{PhysicsWorld, RigidBodyBuilder};
 
 use super::Gap;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use interplay_planners::mpc::{Memory, Optimiser, Robust};
+use interplay_planners::trajectory::{Memory, Optimiser, Robust};
 
 use crate::Result;
 use crate::negotiation_view::Posed;

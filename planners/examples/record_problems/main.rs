@@ -27,7 +27,7 @@ use std::error::Error;
 use std::io::Write;
 
 use interplay_planners::diagnostic::{COST, DiagnosticQuantity};
-use interplay_planners::mpc::{Iterate, Optimiser, Problem, Robust};
+use interplay_planners::trajectory::{Iterate, Optimiser, Problem, Robust};
 use interplay_planners::{Agent, Driver, Plan, Trajectory, conservative, human, negotiation};
 
 use closed_loop::{Decision, SCENARIOS};

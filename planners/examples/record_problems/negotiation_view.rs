@@ -2,9 +2,9 @@
 
 use interplay_planners::conservative::{self, Conservative};
 use interplay_planners::diagnostic::COST;
-use interplay_planners::mpc::{Leaning, Optimiser, Penalty, Problem, Robust};
 use interplay_planners::negotiation::{self, Concession, Settings, acceptance};
 use interplay_planners::predict::steady;
+use interplay_planners::trajectory::{Leaning, Optimiser, Penalty, Problem, Robust};
 use interplay_planners::{Agent, Input, Plan, Scene, Trajectory};
 
 use crate::{Result, stated};

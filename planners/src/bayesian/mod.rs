@@ -22,12 +22,12 @@ pub use settings::{Settings, Value};
 pub use signal::problem;
 pub use value::attraction;
 
-use crate::activity::Activity;
 use crate::conservative;
 use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::{Choice, Partner};
-use crate::mpc::{Optimiser, Optimum, Problem, Robust};
 use crate::solo::Solved;
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
 use diagnostics::{ATTRACTION, BELIEF_VARIANCE, CONSERVATIVENESS, LOYALTY, OTHER_CHANGE, OWN_CHANGE};
 

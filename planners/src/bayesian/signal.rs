@@ -15,7 +15,7 @@
 
 use super::belief::Belief;
 use super::{Settings, value};
-use crate::mpc::{DistanceCost, Problem};
+use crate::trajectory::{DistanceCost, Problem};
 use crate::{Agent, Scene, conservative};
 
 /// Largest `2ΣW_2`.
@@ -59,7 +59,7 @@ fn impression(
         ])
     };
     // The curvature of a squared distance is twice its metric.
-    let metric = scene.goal.safety.curvature(partner.corridor.heading_rad).map(|bend| 0.5 * bend);
+    let metric = scene.goal.safety.oriented(partner.corridor.heading_rad).hessian().map(|bend| 0.5 * bend);
     let [along, mixed, across] = axes.entries(metric);
     let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
     DistanceCost {

@@ -7,10 +7,10 @@ mod settings;
 pub(crate) use retreat::{retreat, solve_or_retreat};
 pub use settings::Settings;
 
-use crate::activity::Activity;
 use crate::diagnostic::{COST, SAFETY_SLACK};
-use crate::mpc::{Cost, DescentError, Optimiser, Penalty, Problem, Robust};
 use crate::solo::{self, Solved};
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{Cost, DescentError, Optimiser, Penalty, Problem, Robust};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A conservative planner with the plan it made last.

@@ -1,8 +1,8 @@
 //! What other planners do when their own problem leads nowhere: they ask nothing of anybody.
 
 use super::problem;
-use crate::mpc::{DescentError, Optimiser, Problem, Robust};
 use crate::solo::{self, Solved};
+use crate::trajectory::{DescentError, Optimiser, Problem, Robust};
 use crate::{Agent, Scene, Trajectory};
 
 /// The optimum of a problem ([`solo::solve`]), or if there is none, that of the conservative problem.

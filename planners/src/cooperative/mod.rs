@@ -22,11 +22,11 @@ mod settings;
 pub use problem::{Cooperator, cooperators, problem};
 pub use settings::Settings;
 
-use crate::activity::Activity;
 use crate::conservative;
 use crate::diagnostic::{COST, SAFETY_SLACK};
-use crate::mpc::{Iterate, Optimiser, Optimum, Problem, Robust};
 use crate::predict::steady;
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{Iterate, Optimiser, Optimum, Problem, Robust};
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 

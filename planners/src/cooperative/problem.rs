@@ -1,6 +1,6 @@
 //! The joint trajectory problem of the vehicles that share it (eq. 6.6-6.12).
 
-use crate::mpc::{Penalty, Problem, Separation};
+use crate::trajectory::{Penalty, Problem, Separation};
 use crate::{Agent, Goal, Scene};
 
 /// A vehicle that shares the problem, with what it wants; `Q` and `R` are divided by its `Z_i`.

@@ -22,11 +22,11 @@ mod settings;
 
 pub use settings::{Method, Settings};
 
-use crate::activity::Activity;
 use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::{Choice, Partner};
-use crate::mpc::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
 use crate::solo::Solved;
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use diagnostics as reported;
 use equilibrium::{Solution, leader_follower, nash};

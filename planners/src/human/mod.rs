@@ -24,8 +24,8 @@ mod settings;
 
 pub use settings::{Settings, Style};
 
-use crate::mpc::{DescentError, KeepOut, Optimiser, Optimum, Penalty, Problem, Robust};
 use crate::predict::steady;
+use crate::trajectory::{DescentError, KeepOut, Optimiser, Optimum, Penalty, Problem, Robust};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
@@ -81,7 +81,7 @@ impl Human {
         problem: &Problem,
         minded: &[KeepOut],
         scene: &Scene,
-    ) -> Result<(Optimum, crate::mpc::Statistics), DescentError> {
+    ) -> Result<(Optimum, crate::trajectory::Statistics), DescentError> {
         let steady = |share| steadily(scene, share);
         let keep = guess(scene, self.last.as_ref());
         let mut best = self.optimiser.descend(problem, &[keep]);

@@ -5,8 +5,8 @@
 //! intervention is recorded.
 
 use crate::conservative::problem;
-use crate::mpc::{Optimiser, Optimum, Robust};
 use crate::solo::extremes;
+use crate::trajectory::{Optimiser, Optimum, Robust};
 use crate::{Agent, Scene};
 
 /// Slack that a conservative plan may need after the step.

@@ -25,11 +25,11 @@ pub use concession::Concession;
 pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
-use crate::activity::Activity;
 use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, SAFETY_SLACK};
-use crate::mpc::{Leaning, Optimiser, Optimum, Problem, Robust};
 use crate::solo::{Solved, extremes};
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{Leaning, Optimiser, Optimum, Problem, Robust};
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;

@@ -2,7 +2,7 @@
 
 use super::{Round, Settings};
 use crate::Trajectory;
-use crate::mpc::{Leaning, Penalty};
+use crate::trajectory::{Leaning, Penalty};
 
 /// Below this squared distance of cooperative and conservative plan the ball has collapsed \[m²\].
 const INDISTINCT: f64 = 1e-3;

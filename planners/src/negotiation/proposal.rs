@@ -13,8 +13,8 @@
 //! That the other follows its prediction until `T_n` is imposed exactly: those inputs are no unknowns.
 
 use super::Settings;
-use crate::dynamics::Bicycle;
-use crate::mpc::{Leaning, Optimiser, Participant, Penalty, Problem, Robust, Separation, Tracking};
+use crate::trajectory::{Leaning, Optimiser, Participant, Penalty, Problem, Robust, Separation, Tracking};
+use crate::vehicle::Bicycle;
 use crate::{Agent, Axes, Scene};
 
 /// Diagonal of `D` on (x, y, θ, v).

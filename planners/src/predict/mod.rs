@@ -5,8 +5,7 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::mpc::Limits;
-use crate::{Agent, Input, Scene, State, Trajectory};
+use crate::{Agent, Input, Limits, Scene, State, Trajectory};
 
 /// How a driver predicts the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -71,7 +70,7 @@ pub fn steady(state: &State, acceleration_mps2: f64, limits: &Limits, horizon: u
 mod tests {
     use super::*;
     use crate::Body;
-    use crate::dynamics::Bicycle;
+    use crate::vehicle::Bicycle;
 
     #[test]
     fn constant_velocity_is_the_bicycle_without_input() {

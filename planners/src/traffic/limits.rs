@@ -1,7 +1,6 @@
 //! What a vehicle applies of what its plan asks for.
 
-use crate::mpc::Limits;
-use crate::{Input, State};
+use crate::{Input, Limits, State};
 
 /// The input nearest to `wanted` within the limits of the vehicle.
 ///

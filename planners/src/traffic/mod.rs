@@ -28,8 +28,7 @@ mod tests;
 pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
 
-use crate::dynamics::Bicycle;
-use crate::{Agent, Goal, Input, Plan, PlanError, Scene, Trajectory};
+use crate::{Agent, Bicycle, Goal, Input, Plan, PlanError, Scene, Trajectory};
 
 /// Everybody on the road at the start of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,7 +10,7 @@
 //! ```
 
 use interplay_planners::Input;
-use interplay_planners::mpc::{
+use interplay_planners::trajectory::{
     Iterate, Penalty, Problem, StageQp, StageSolution, add_curvature, drop_curvature, linearise,
 };
 

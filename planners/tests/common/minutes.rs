@@ -1,6 +1,6 @@
 //! What the plan of the step before leaves to a descent, as text.
 
-use interplay_planners::mpc::{Memory, Reach, StageSolution};
+use interplay_planners::trajectory::{Memory, Reach, StageSolution};
 use serde::{Deserialize, Serialize};
 
 /// A [`Memory`], rounded to six digits: multipliers as pairs of index and value, those that hardly differ from zero left out.

@@ -4,9 +4,9 @@
 pub mod derivatives;
 pub mod world;
 
-use interplay_planners::dynamics::Bicycle;
-use interplay_planners::mpc::{Iterate, KeepOut, Leaning, Limits, Participant, Penalty, Problem, Separation, Tracking};
-use interplay_planners::{Axes, Body, Corridor, Input, SafetyEllipse, State};
+use interplay_planners::Bicycle;
+use interplay_planners::trajectory::{Iterate, KeepOut, Leaning, Participant, Penalty, Problem, Separation, Tracking};
+use interplay_planners::{Axes, Body, Corridor, Input, Limits, SafetyEllipse, State};
 
 /// SplitMix64: small, seeded, the same everywhere.
 pub struct Random(pub u64);

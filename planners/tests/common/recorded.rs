@@ -7,12 +7,12 @@ mod minutes;
 
 use std::path::{Path, PathBuf};
 
-use interplay_planners::dynamics::Bicycle;
-use interplay_planners::mpc::{
-    DistanceCost, DistancePrice, KeepOut, Leaning, Limits, MeanSpeed, Memory, Optimiser, Participant, Penalty, Problem,
-    Robust, Separation, Tracking,
+use interplay_planners::Bicycle;
+use interplay_planners::trajectory::{
+    DistanceCost, DistancePrice, KeepOut, Leaning, MeanSpeed, Memory, Optimiser, Participant, Penalty, Problem, Robust,
+    Separation, Tracking,
 };
-use interplay_planners::{Axes, Body, Corridor, Input, LaneEnd, SafetyEllipse, State, negotiation};
+use interplay_planners::{Axes, Body, Corridor, Input, LaneEnd, Limits, SafetyEllipse, State, negotiation};
 use serde::{Deserialize, Serialize};
 
 use minutes::Minutes;

@@ -5,11 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
 
 use interplay_planners::human::{self, Style};
-use interplay_planners::mpc::Limits;
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::traffic::{Decision, RoadUser, Traffic};
 use interplay_planners::{
-    Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Plan, PlanError, Planner, SafetyEllipse, State,
+    Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Limits, Plan, PlanError, Planner, SafetyEllipse, State,
 };
 
 pub const STEP_S: f64 = 0.1;
@@ -169,7 +168,7 @@ impl Run {
         let ego = &users[0];
         for (i, other) in users.iter().enumerate().skip(1) {
             let (at, heading) = (other.agent.state.position(), other.agent.corridor.heading_rad);
-            let distance = ego.goal.safety.distance(ego.agent.state.position(), at, heading);
+            let distance = ego.goal.safety.oriented(heading).distance(ego.agent.state.position(), at);
             self.nearest = self.nearest.min(distance.squared.sqrt());
             for earlier in &users[..i] {
                 if self.collision.is_none() && overlap(&earlier.agent, &other.agent) {

@@ -1,7 +1,7 @@
 //! A planner: whoever keeps two seconds behind the car ahead.
 
 // shown from here
-use interplay_planners::dynamics::Bicycle;
+use interplay_planners::Bicycle;
 use interplay_planners::predict::steady;
 use interplay_planners::{Plan, PlanError, Scene, Trajectory};
 
@@ -41,7 +41,7 @@ impl Careful {
 }
 // shown until here
 
-use interplay_planners::mpc::Limits;
+use interplay_planners::Limits;
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{Agent, Body, Corridor, Goal, Input, SafetyEllipse, State};
 

@@ -1,0 +1,26 @@
+//! What the violation of a soft row costs.
+
+/// What a violation `s ≥ 0` costs: `linear·s + quadratic·s²`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penalty {
+    /// Weight of `s`.
+    pub linear: f64,
+    /// Weight of `s²`.
+    pub quadratic: f64,
+}
+
+impl Penalty {
+    /// The exact penalty of the safety and road-edge rows.
+    pub const EXACT: Penalty = Penalty { linear: 1e3, quadratic: 1e3 };
+
+    /// A hinge: no cost inside, `weight·s²` beyond (the human driver's discomfort).
+    pub fn hinge(weight: f64) -> Penalty {
+        Penalty { linear: 0.0, quadratic: weight }
+    }
+
+    /// Cost of a row of value `c`, violated by `max(0, −c)`.
+    pub fn cost(&self, value: f64) -> f64 {
+        let violation = (-value).max(0.0);
+        violation * (self.linear + self.quadratic * violation)
+    }
+}

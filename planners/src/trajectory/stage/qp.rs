@@ -1,0 +1,208 @@
+//! The quadratic programme of one step of the sequential method, in stage form, and the trait of its solvers.
+//!
+//! Unknowns are deviations from an iterate that obeys the dynamics: per vehicle `w_k = δu_k` and `d_{k+1} = δx_{k+1}`
+//! with `d_0 = 0` and
+//!
+//! ```text
+//! d_{k+1} = A_k d_k + B_k w_k                                       k = 0…N−1
+//! minimise  Σ_k  g_k·d_{k+1} + ½ d_{k+1}ᵀ H_k d_{k+1}                tracking, x_{k+1}
+//!              + ½ (d_k, w_k)ᵀ C_k (d_k, w_k)                        curvature of the dynamics
+//!              + Σ_i r_i (Δū_{k,i} + w_{k,i} − w_{k−1,i})²           comfort, w_{first−1} = 0
+//!              + ½ μ Σ_i r_i w_{k,i}²                                damping, in the comfort's own scale
+//!              + Σ_rows  linear·s + quadratic·s² + ½ pᵀ K p          soft rows, p the position they speak of
+//! such that  c + ∇c·p + s ≥ 0,  s ≥ 0                                rows
+//!            lower ≤ w_k ≤ upper,  lower ≤ δv_{k+1} ≤ upper          boxes
+//!            c₀ + Σ_k b_k·(p, v)_{k+1} + Σ_k β_k ‖p_{k+1}‖² ≤ s    rows over a whole trajectory, a few at most
+//! ```
+//!
+//! A vehicle whose inputs are known until `first` has `w_k = 0` before.
+
+use crate::trajectory::penalty::Penalty;
+use crate::vehicle::{DynamicsCurvature, Jacobian};
+
+/// Lower and upper bound of one number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Lower bound.
+    pub lower: f64,
+    /// Upper bound.
+    pub upper: f64,
+}
+
+/// Gradient and Hessian of the cost of a state at one stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StateCost {
+    /// Gradient over `(x, y, θ, v)`.
+    pub gradient: [f64; 4],
+    /// Diagonal of the Hessian over `(x, y, θ, v)`.
+    pub hessian: [f64; 4],
+    /// Its entry xy. With the diagonal it is positive semi-definite.
+    pub cross: f64,
+    /// What the Hessian lacks of the exact one over `(xx, xy, yy)` because it is not convex; zero for Gauss-Newton.
+    pub curvature: [f64; 3],
+}
+
+/// One vehicle's stages.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VehicleStages {
+    /// First stage whose input is free.
+    pub first: usize,
+    /// `A_k, B_k`; `N` long.
+    pub jacobians: Vec<Jacobian>,
+    /// `g_k, H_k` on `d_{k+1}`; `N` long.
+    pub state_costs: Vec<StateCost>,
+    /// `C_k` on `(d_k, w_k)`; `N` long, all zero for a Gauss-Newton step.
+    pub curvatures: Vec<DynamicsCurvature>,
+    /// `r` on `(a, δ)`.
+    pub change_weights: [f64; 2],
+    /// `Δū_k`; `N` long.
+    pub changes: Vec<[f64; 2]>,
+    /// Box on `w_k = (δa, δδ)`; `N` long.
+    pub input_boxes: Vec<[Interval; 2]>,
+    /// Box on `δv_{k+1}`; `N` long.
+    pub speed_boxes: Vec<Interval>,
+}
+
+/// One row at one stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Whether the row exists at this stage.
+    pub active: bool,
+    /// `c` at the iterate.
+    pub value: f64,
+    /// `∇c` over `(x, y, θ)` of the vehicle; a row of a pair depends on the difference of positions, so its gradient
+    /// over the other vehicle's `(x, y)` is the negative.
+    pub gradient: [f64; 3],
+    /// `K`: what the row adds to the Hessian of the Lagrangian over `(xx, xy, yy, θθ)`; zero for Gauss-Newton.
+    pub curvature: [f64; 4],
+}
+
+/// The same soft row at every stage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowBlock {
+    /// Whose position the row speaks of.
+    pub vehicle: usize,
+    /// For a pair: the vehicle whose position is subtracted.
+    pub other: Option<usize>,
+    /// What a violation costs; `None` for a hard row.
+    pub penalty: Option<Penalty>,
+    /// One row a stage, on `d_{k+1}`; `N` long.
+    pub rows: Vec<Row>,
+}
+
+/// A convex quadratic row over the whole trajectory of a vehicle: `value + Σ b_k·(x, y, v)_{k+1} + Σ β_k‖p_{k+1}‖² ≤ s`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrajectoryRow {
+    /// Whose trajectory.
+    pub vehicle: usize,
+    /// `c₀`.
+    pub value: f64,
+    /// `b_k` over `(x, y, v)` at stage `k`; `N` long.
+    pub gradients: Vec<[f64; 3]>,
+    /// `β ≥ 0` at stage `k`; `N` long (zero where the row says nothing).
+    pub bends: Vec<f64>,
+    /// What a violation costs.
+    pub penalty: Penalty,
+}
+
+/// A quadratic programme in stage form.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StageQp {
+    /// Number of stages `N`.
+    pub horizon: usize,
+    /// The vehicles.
+    pub vehicles: Vec<VehicleStages>,
+    /// The soft rows.
+    pub blocks: Vec<RowBlock>,
+    /// The rows over whole trajectories.
+    pub trajectory_rows: Vec<TrajectoryRow>,
+    /// Mean complementarity and largest primal residual of a solution that will do.
+    pub tolerance: f64,
+    /// `μ ≥ 0`: keeps the step short, in units of the comfort weights.
+    pub damping: f64,
+    /// How far the solution is expected to be, if anything is known about that. A solver may begin without the rows that are
+    /// farther, and must look at them in the end.
+    pub reach: Option<Reach>,
+}
+
+/// How far deviations are expected to go to either side, over all vehicles and stages.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// Of `(δx, δy, δθ, δv)`.
+    pub state: [f64; 4],
+    /// Of `(δa, δδ)`.
+    pub input: [f64; 2],
+}
+
+impl StageQp {
+    /// Whether curvature of dynamics or rows was added, so that the problem may not be convex.
+    pub fn is_curved(&self) -> bool {
+        let rows = self.blocks.iter().flat_map(|block| &block.rows);
+        let costs = self.vehicles.iter().flat_map(|stages| &stages.state_costs);
+        self.vehicles.iter().any(|stages| stages.curvatures.iter().any(|c| *c != DynamicsCurvature::default()))
+            || rows.into_iter().any(|row| row.curvature != [0.0; 4])
+            || costs.into_iter().any(|cost| cost.curvature != [0.0; 3])
+    }
+}
+
+impl Reach {
+    /// So many times as far.
+    pub(crate) fn times(self, factor: f64) -> Reach {
+        Reach { state: self.state.map(|reach| factor * reach), input: self.input.map(|reach| factor * reach) }
+    }
+}
+
+impl VehicleStages {
+    /// `μ r` of one input; not zero without a comfort weight.
+    #[inline(always)]
+    pub(crate) fn damping(&self, damping: f64, axis: usize) -> f64 {
+        damping * self.change_weights[axis].max(1e-6)
+    }
+
+    /// `Δū_k + w_k − w_{k−1}` of one input.
+    pub(crate) fn change(&self, inputs: &[[f64; 2]], k: usize, axis: usize) -> f64 {
+        let before = if k > self.first { inputs[k - 1][axis] } else { 0.0 };
+        self.changes[k][axis] + inputs[k][axis] - before
+    }
+}
+
+impl StateCost {
+    /// The whole Hessian over the position: xx, xy, yy.
+    pub(crate) fn position_hessian(&self) -> [f64; 3] {
+        let ([xx, xy, yy], [x, y, ..]) = (self.curvature, self.hessian);
+        [x + xx, self.cross + xy, y + yy]
+    }
+
+    /// The gradient where the state deviates by `d`.
+    pub(crate) fn gradient_at(&self, d: &[f64; 4]) -> [f64; 4] {
+        let [xx, xy, yy] = self.position_hessian();
+        [
+            self.gradient[0] + xx * d[0] + xy * d[1],
+            self.gradient[1] + xy * d[0] + yy * d[1],
+            self.gradient[2] + self.hessian[2] * d[2],
+            self.gradient[3] + self.hessian[3] * d[3],
+        ]
+    }
+}
+
+impl RowBlock {
+    /// Whether a violation costs anything; a block that does not may be left out.
+    pub(crate) fn costs_something(&self) -> bool {
+        self.penalty.is_none_or(|penalty| penalty.linear > 0.0 || penalty.quadratic > 0.0)
+    }
+}
+
+impl TrajectoryRow {
+    /// The left side at given deviations of the vehicle's states.
+    pub(crate) fn value_at<'a>(&self, states: impl Iterator<Item = &'a [f64; 4]>) -> f64 {
+        let terms = states.zip(&self.gradients).zip(&self.bends);
+        let terms = terms.map(|(([x, y, _, v], b), bend)| b[0] * x + b[1] * y + b[2] * v + bend * (x * x + y * y));
+        self.value + terms.sum::<f64>()
+    }
+
+    /// `b_k + 2 β_k p`: the gradient over `(x, y, v)` at stage `k`, where the state deviates by `d`.
+    pub(crate) fn slope_at(&self, k: usize, d: &[f64; 4]) -> [f64; 3] {
+        let ([x, y, speed], bend) = (self.gradients[k], 2.0 * self.bends[k]);
+        [x + bend * d[0], y + bend * d[1], speed]
+    }
+}

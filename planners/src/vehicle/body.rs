@@ -1,0 +1,62 @@
+//! The rectangle that a vehicle covers, and its axles.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::State;
+
+/// Body and axles of a vehicle, measured from its mass centre. The default is Table 6.1 (a 1/10 scale car).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Body {
+    /// Distance from the mass centre to the front bumper \[m\].
+    pub front_m: f64,
+    /// Distance from the mass centre to the rear bumper \[m\].
+    pub rear_m: f64,
+    /// Width of the body, `W` \[m\].
+    pub width_m: f64,
+    /// Distance from the mass centre to the front axle, `L_f` \[m\].
+    pub front_axle_m: f64,
+    /// Distance from the mass centre to the rear axle, `L_r` \[m\].
+    pub rear_axle_m: f64,
+}
+
+impl Default for Body {
+    fn default() -> Self {
+        Body { front_m: 0.21, rear_m: 0.19, width_m: 0.19, front_axle_m: 0.21, rear_axle_m: 0.19 }
+    }
+}
+
+impl Body {
+    /// Distance between the axles, `L = L_f + L_r` \[m\].
+    pub fn wheelbase_m(&self) -> f64 {
+        self.front_axle_m + self.rear_axle_m
+    }
+
+    /// The corners in the body's own frame (x forward, y left), in the order of eq. 6.7: front right, front left,
+    /// rear right, rear left \[m\].
+    pub fn local_corners(&self) -> [[f64; 2]; 4] {
+        let half = self.width_m / 2.0;
+        [[self.front_m, -half], [self.front_m, half], [-self.rear_m, -half], [-self.rear_m, half]]
+    }
+
+    /// The corners in the world, in the order of [`Body::local_corners`] \[m\].
+    pub fn corners(&self, state: &State) -> [[f64; 2]; 4] {
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        self.local_corners()
+            .map(|[ahead, left]| [state.x_m + cos * ahead - sin * left, state.y_m + sin * ahead + cos * left])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_turn_with_the_heading() {
+        let body = Body::default();
+        let state = State { x_m: 1.0, y_m: 2.0, heading_rad: std::f64::consts::FRAC_PI_2, speed_mps: 0.0 };
+        let [front_right, ..] = body.corners(&state);
+        assert!((front_right[0] - (1.0 + 0.095)).abs() < 1e-12 && (front_right[1] - 2.21).abs() < 1e-12);
+    }
+}

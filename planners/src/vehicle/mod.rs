@@ -1,0 +1,13 @@
+//! Facts about one vehicle: state and input, body, limits, the bicycle model.
+
+mod bicycle;
+mod body;
+mod limits;
+mod safety_ellipse;
+mod state;
+
+pub use bicycle::{Bicycle, DynamicsCurvature, Jacobian};
+pub use body::Body;
+pub use limits::Limits;
+pub use safety_ellipse::{EllipticalDistance, OrientedEllipse, SafetyEllipse};
+pub use state::{Input, State, Trajectory};
