@@ -2,6 +2,7 @@
 
 use crate::day::DayFigures;
 use interplay_building::control::Design;
+pub use interplay_planners::traffic::Origin;
 use interplay_planners::{Input, Plan, State, Trajectory};
 
 /// One tick of a run.
@@ -75,20 +76,6 @@ pub struct VehicleFrame {
     pub prediction: Trajectory,
     /// Wall time of planning \[ms\]; never part of a digest.
     pub plan_ms: f64,
-}
-
-/// Where a plan comes from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Origin {
-    /// The planner found it.
-    #[default]
-    Planned,
-    /// The planner failed: the previous plan goes on.
-    Continued,
-    /// The planner failed and there was nothing to continue: full braking.
-    Braking,
-    /// It has crashed: full braking, and nobody is asked.
-    Crashed,
 }
 
 /// Something that happened.

@@ -21,8 +21,8 @@ mod error;
 mod file;
 mod layout;
 mod live;
-mod mind;
 mod palette;
+mod planner_panels;
 mod plots;
 mod stage;
 #[cfg(test)]

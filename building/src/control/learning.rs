@@ -22,6 +22,10 @@ use super::pid::{Pid, PidSettings};
 use super::{Control, ControlError, DayRecord, Morning, Observation};
 use crate::lifted::Lifted;
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str =
+    "day by day the temperatures come closer to what is wanted when people arrive, and the cost falls";
+
 /// Iterative learning of P- or PD-type on top of a PID controller.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -127,15 +127,13 @@ impl Traffic {
         Decision { vehicle, plan, origin, failure }
     }
 
-    /// The input that each vehicle applies: the first one of its plan, within its limits; listed like the road users.
-    pub fn applied_inputs(&self, decisions: &[Decision]) -> Vec<Input> {
-        let mut inputs = vec![Input::default(); self.road_users.len()];
-        for Decision { vehicle, plan, .. } in decisions {
-            let agent = &self.road_users[*vehicle].agent;
-            let wanted = plan.trajectory.inputs.first().copied().unwrap_or_default();
-            inputs[*vehicle] = applied_input(&wanted, &agent.state, &agent.limits, self.step_s);
-        }
-        inputs
+    /// The input that each vehicle applies after planning: the first one of its plan, within its limits.
+    pub fn applied_inputs(&self) -> Vec<Input> {
+        let applied = |RoadUser { agent, committed, .. }: &RoadUser| {
+            let planned = committed.trajectory.as_ref().and_then(|plan| plan.inputs.first());
+            applied_input(&planned.copied().unwrap_or_default(), &agent.state, &agent.limits, self.step_s)
+        };
+        self.road_users.iter().map(applied).collect()
     }
 
     /// One tick with the bicycle as the plant: everybody predicts, plans, acts and moves. Returns the decisions in the order
@@ -143,7 +141,7 @@ impl Traffic {
     pub fn drive(&mut self, ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
         self.predict();
         let decisions = self.plan(ask);
-        let inputs = self.applied_inputs(&decisions);
+        let inputs = self.applied_inputs();
         self.advance(&inputs);
         decisions
     }

@@ -27,6 +27,10 @@ use crate::comfort::Targets;
 use crate::lifted::Lifted;
 use youla::StateSpace;
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str = "after one day temperatures stay within the comfort band although the forecast is wrong: the feedback is shaped for \
+     what is uncertain";
+
 /// The concurrent design at work.
 #[derive(Clone, Debug)]
 pub struct Concurrent {

@@ -28,6 +28,14 @@ use cooperative::{Conditions, LearningLaw, cooperative_error};
 use mail::Mail;
 use settings::penalty;
 
+/// What to look for in a recording of a building whose zones plan together.
+pub(super) const LOOK_FOR: &str =
+    "zones that speak with their neighbours only come to a common plan round by round, and cool before people come";
+
+/// What to look for in a recording of a building with the centralised plan.
+pub(super) const LOOK_FOR_CENTRALISED: &str =
+    "one problem for the whole building: what zones that plan together approach";
+
 /// Up to so many numbers in a day's inputs the convergence conditions are worked out each day.
 const MOST_FOR_CONDITIONS: usize = 200;
 
