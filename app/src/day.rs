@@ -1,7 +1,7 @@
 //! How a day of a building turned out: plain values, made by `measure`.
 
-use interplay_building::comfort::KeyFigures;
 use interplay_building::control::Exchange;
+use interplay_building::day::KeyFigures;
 use serde::Serialize;
 
 /// The key figures of a day; their serialisation is part of the output contract.

@@ -5,9 +5,11 @@
 //! - the building: [`network`] (zones and walls), [`discretise`] (steps of time), [`lifted`] (a day as one linear map)
 //! - what acts on it: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, as scheduled and as it
 //!   turns out)
+//! - [`comfort`]: the temperatures that are wanted
 //! - [`control`]: controllers that are compared day by day, and the day's optimum
-//! - [`comfort`]: what is wanted, and key figures of how it turned out
+//! - [`day`]: the closed loop of a building and a controller, and the key figures of a day
 //! - [`identify`]: thermal parameters from telemetry
+//! - [`setting`]: settings that are out of range
 //!
 //! Temperatures are in °C, differences in K, heat in kW (positive into a zone), energy in kWh, capacities in kJ/K,
 //! resistances in K/kW, time in seconds or hours, as the names say. A day's signals are stacked time-major: entry t·n + i
@@ -22,8 +24,9 @@
 //! # A day
 //!
 //! ```
-//! use interplay_building::comfort::{KeyFigures, Setpoints};
-//! use interplay_building::control::{Controller, Disturbance, run_day};
+//! use interplay_building::comfort::Setpoints;
+//! use interplay_building::control::Controller;
+//! use interplay_building::day::{KeyFigures, Surroundings, run_day};
 //! use interplay_building::discretise::Model;
 //! use interplay_building::network::Network;
 //! use interplay_building::occupancy::Occupancy;
@@ -33,18 +36,19 @@
 //! let (step_s, steps) = (1800.0, 48);
 //! let model = Model::exact(&Network::testbed(), step_s)?;
 //! let targets = Setpoints::default().targets(4, step_s, steps)?;
-//! let weather = Climate::default().weather(1, 5);
-//! let people = Occupancy::default().people(4, 1);
+//! let surroundings = Surroundings {
+//!     weather: Climate::default().weather(1, 5),
+//!     forecast: Forecast::Exact,
+//!     forecast_seed: 1,
+//!     people: Occupancy::default().people(4, 1),
+//! };
 //! let mut regulator = Controller::IterativeLearning(Default::default()).regulator(&model, steps)?;
 //!
 //! let mut temperatures_c = vec![28.0; 4];
 //! let mut costs = Vec::new();
 //! for day in 0..5 {
-//!     let forecast = Disturbance {
-//!         ambient_c: Forecast::Exact.ambient_steps_c(&weather, 1, day, step_s, steps),
-//!         gains_kw: people.scheduled_kw(step_s, steps),
-//!     };
-//!     let actual = Disturbance { gains_kw: people.actual_kw(day, step_s, steps), ..forecast.clone() };
+//!     let forecast = surroundings.forecast(&model, steps, day);
+//!     let actual = surroundings.actual(&model, steps, day);
 //!     let record = run_day(&model, &mut temperatures_c, &mut regulator, &targets, &forecast, &actual)?;
 //!     costs.push(KeyFigures::of(&record, &targets, model.network().limits_kw(), step_s).cost);
 //! }
@@ -55,10 +59,12 @@
 
 pub mod comfort;
 pub mod control;
+pub mod day;
 pub mod discretise;
 pub mod identify;
 pub mod lifted;
 pub mod network;
 pub mod occupancy;
 mod random;
+pub mod setting;
 pub mod weather;

@@ -3,7 +3,7 @@
 mod common;
 
 use common::reference::*;
-use interplay_building::comfort::{KeyFigures, Setpoints};
+use interplay_building::comfort::Setpoints;
 use interplay_building::control::concurrent::youla::{StateSpace, Taps};
 use interplay_building::control::concurrent::{Concurrent, ConcurrentSettings, taps};
 use interplay_building::control::iterative::feedback;
@@ -11,6 +11,7 @@ use interplay_building::control::learning::LearningSettings;
 use interplay_building::control::pid::PidSettings;
 use interplay_building::control::uncertainty::{Uncertainty, UncertaintySettings};
 use interplay_building::control::{BandPenalty, ControlError, Controller, optimum};
+use interplay_building::day::KeyFigures;
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::Network;

@@ -3,13 +3,17 @@
 mod common;
 
 use common::{distance, numbers};
-use interplay_building::comfort::{KeyFigures, Setpoints, Targets};
+use interplay_building::comfort::{Setpoints, Targets};
+use interplay_building::control::concurrent::ConcurrentSettings;
+use interplay_building::control::iterative::IterativeSettings;
 use interplay_building::control::learning::LearningSettings;
 use interplay_building::control::pid::PidSettings;
 use interplay_building::control::thermostat::ThermostatSettings;
+use interplay_building::control::uncertainty::UncertaintySettings;
 use interplay_building::control::{
-    Control, ControlError, Controller, DayRecord, Disturbance, Morning, Observation, Regulator, optimum, run_day,
+    Control, ControlError, Controller, DayRecord, Disturbance, Morning, Observation, Regulator, optimum,
 };
+use interplay_building::day::{KeyFigures, Surroundings, run_day};
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -159,32 +163,13 @@ fn p_type_learning_converges_in_the_end_and_grows_on_the_way() {
     assert!(pd_type.largest_singular_value < 1.0, "{pd_type:?}");
 }
 
-/// A day of synthetic weather and occupancy: what is forecast and what happens.
-struct World {
-    weather: interplay_building::weather::Weather,
-    people: interplay_building::occupancy::People,
-    forecast: Forecast,
-    seed: u64,
-}
+/// Days of synthetic weather and occupancy.
+struct World(Surroundings);
 
 impl World {
     fn new(seed: u64, forecast: Forecast) -> Self {
         let weather = Climate::default().weather(seed, 8);
-        Self { weather, people: Occupancy::default().people(4, seed), forecast, seed }
-    }
-
-    fn forecast(&self, day: usize) -> Disturbance {
-        Disturbance {
-            ambient_c: self.forecast.ambient_steps_c(&self.weather, self.seed, day, STEP_S, STEPS),
-            gains_kw: self.people.scheduled_kw(STEP_S, STEPS),
-        }
-    }
-
-    fn actual(&self, day: usize) -> Disturbance {
-        Disturbance {
-            ambient_c: self.weather.ambient_steps_c(86_400.0 * day as f64, STEP_S, STEPS),
-            gains_kw: self.people.actual_kw(day, STEP_S, STEPS),
-        }
+        Self(Surroundings { weather, forecast, forecast_seed: seed, people: Occupancy::default().people(4, seed) })
     }
 
     /// Cost and regret of each of five days; the building goes on from where a day left it.
@@ -196,7 +181,7 @@ impl World {
         let mut temperatures_c = vec![28.5; 4];
         (0..5)
             .map(|day| {
-                let (forecast, actual) = (self.forecast(day), self.actual(day));
+                let (forecast, actual) = (self.0.forecast(&model, STEPS, day), self.0.actual(&model, STEPS, day));
                 let initial_c = temperatures_c.clone();
                 let record = run_day(&model, &mut temperatures_c, &mut regulator, &targets, &forecast, &actual);
                 let record = record.expect("runs");
@@ -296,7 +281,7 @@ fn targets_are_wanted_at_the_ends_of_steps() {
 fn wrong_settings_are_refused() {
     let model = testbed();
     let refused = |controller: Controller| match controller.regulator(&model, STEPS) {
-        Err(ControlError::Setting { setting, .. }) => setting,
+        Err(ControlError::Setting(error)) => error.key.to_string(),
         other => panic!("{other:?}"),
     };
     let thermostat = |dead_band_k, power| Controller::Thermostat(ThermostatSettings { dead_band_k, power });
@@ -305,17 +290,27 @@ fn wrong_settings_are_refused() {
     let pid = PidSettings { integral_kw_per_k_h: f64::NAN, ..PidSettings::default() };
     assert_eq!(refused(Controller::Pid(pid)), "integral_kw_per_k_h");
     let learning = LearningSettings { proportional_kw_per_k: -1.0, ..LearningSettings::default() };
-    assert_eq!(refused(Controller::IterativeLearning(learning)), "proportional_kw_per_k of learning");
+    assert_eq!(refused(Controller::IterativeLearning(learning)), "proportional_kw_per_k");
+    let feedback = PidSettings { proportional_kw_per_k: -1.0, ..PidSettings::default() };
+    let learning = LearningSettings { feedback, ..LearningSettings::default() };
+    assert_eq!(refused(Controller::IterativeLearning(learning)), "feedback.proportional_kw_per_k");
+    let uncertainty = UncertaintySettings { zone_kw: -1.0, ..UncertaintySettings::default() };
+    let iterative = IterativeSettings { uncertainty, ..IterativeSettings::default() };
+    assert_eq!(refused(Controller::Iterative(iterative)), "uncertainty.zone_kw");
+    let concurrent = ConcurrentSettings { uncertainty, ..ConcurrentSettings::default() };
+    assert_eq!(refused(Controller::Concurrent(concurrent)), "uncertainty.zone_kw");
 
-    for wrong in [
-        Setpoints { occupied_c: vec![20.0; 3], ..Setpoints::default() },
-        Setpoints { occupied_c: vec![], ..Setpoints::default() },
-        Setpoints { from_h: 25.0, ..Setpoints::default() },
-        Setpoints { to_h: 7.0, ..Setpoints::default() },
-        Setpoints { band_k: -1.0, ..Setpoints::default() },
-        Setpoints { occupied_c: vec![f64::NAN], ..Setpoints::default() },
+    for (key, wrong) in [
+        ("occupied_c", Setpoints { occupied_c: vec![20.0; 3], ..Setpoints::default() }),
+        ("occupied_c", Setpoints { occupied_c: vec![], ..Setpoints::default() }),
+        ("occupied_c.1", Setpoints { occupied_c: vec![20.0, f64::NAN, 20.0, 20.0], ..Setpoints::default() }),
+        ("other_c", Setpoints { other_c: Some(297.0), ..Setpoints::default() }),
+        ("from_h", Setpoints { from_h: 25.0, ..Setpoints::default() }),
+        ("to_h", Setpoints { to_h: 7.0, ..Setpoints::default() }),
+        ("band_k", Setpoints { band_k: -1.0, ..Setpoints::default() }),
     ] {
-        assert!(wrong.targets(4, STEP_S, STEPS).is_err(), "{wrong:?}");
+        let error = wrong.targets(4, STEP_S, STEPS).expect_err("it makes no sense");
+        assert_eq!(error.key().as_str(), key, "{error}");
     }
 }
 

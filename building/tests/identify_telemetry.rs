@@ -101,6 +101,18 @@ fn simulated_telemetry_survives_the_way_through_a_table() {
 }
 
 #[test]
+fn any_name_survives_the_way_through_a_table() {
+    for name in ["a, b", "the \"blue\" room", " lobby ", "line\nbreak", "1.5", "Küche; Bad"] {
+        let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
+        telemetry.zones[0].name = name.to_owned();
+        telemetry.boundaries[1].name = format!("beside {name}");
+        let table = telemetry.to_csv();
+        let read = Telemetry::read("classroom.csv", &table, &telemetry.mapping());
+        assert_eq!(read.as_ref(), Ok(&telemetry), "{name:?} in {:?}", table.lines().next());
+    }
+}
+
+#[test]
 fn an_empty_table_is_named() {
     for empty in ["", "\n", "t;Ta;Ti;P;sun\n"] {
         let message = read(empty).expect_err("nothing to read").to_string();

@@ -1,6 +1,6 @@
 //! Zones and walls: what they become, what is refused, what is remarked upon.
 
-use interplay_building::network::{AMBIENT, Network, NetworkError, Remark, Wall, Zone};
+use interplay_building::network::{AMBIENT, Network, NetworkError, Part, Remark, Wall, Zone};
 
 fn zones(names: &[&str]) -> Vec<Zone> {
     names.iter().map(|name| Zone::named(*name)).collect()
@@ -52,40 +52,45 @@ fn a_wall_with_capacity_resists_like_one_without_in_the_steady_state() {
     }
 }
 
+/// The part and the key that an error names.
+fn place(error: &NetworkError) -> (Option<Part>, String) {
+    (error.part(), error.key().expect("a key").to_string())
+}
+
 #[test]
 fn what_is_no_network_is_refused_with_its_place() {
     let two = zones(&["kitchen", "bath"]);
     let refused = |zones: &[Zone], walls: &[Wall]| Network::new(zones, walls).expect_err("must be refused");
 
     assert_eq!(refused(&[], &[]), NetworkError::NoZones);
-    assert!(matches!(refused(&zones(&["a", ""]), &[]), NetworkError::BadName { number: 2, .. }));
-    assert!(matches!(refused(&zones(&[AMBIENT]), &[]), NetworkError::BadName { number: 1, .. }));
-    assert!(matches!(refused(&zones(&["a", "b", "a"]), &[]), NetworkError::DuplicateZone { name } if name == "a"));
+    assert!(matches!(refused(&zones(&["a", ""]), &[]), NetworkError::BadName { zone: 1, .. }));
+    assert!(matches!(refused(&zones(&[AMBIENT]), &[]), NetworkError::BadName { zone: 0, .. }));
+    let repeated = refused(&zones(&["a", "b", "a"]), &[]);
+    assert_eq!(repeated, NetworkError::DuplicateZone { zone: 2, name: "a".to_owned() });
 
     let unknown = refused(&two, &[Wall::new("bath", AMBIENT, 30.0), Wall::new("kitchn", "bath", 30.0)]);
     assert!(matches!(&unknown, NetworkError::UnknownZone { nearest, .. } if nearest == "kitchen"));
     assert!(unknown.to_string().starts_with("wall 2 (`kitchn` - `bath`)"), "{unknown}");
+    assert_eq!(place(&unknown), (Some(Part::Wall(1)), "between".to_owned()));
 
     assert!(matches!(refused(&two, &[Wall::new("bath", "bath", 30.0)]), NetworkError::SamePlace { .. }));
     assert!(matches!(refused(&two, &[Wall::new(AMBIENT, AMBIENT, 30.0)]), NetworkError::SamePlace { .. }));
 
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300] {
         let wall = Wall::new("kitchen", "bath", value);
-        let quantity_of = |error| match error {
-            NetworkError::OutOfRange { quantity, .. } => quantity,
-            other => panic!("{other}"),
-        };
-        assert_eq!(quantity_of(refused(&two, std::slice::from_ref(&wall))), "resistance_k_per_kw");
+        let in_wall = |key: &str| (Some(Part::Wall(0)), key.to_owned());
+        assert_eq!(place(&refused(&two, std::slice::from_ref(&wall))), in_wall("resistance_k_per_kw"));
         let storing = Wall { resistance_k_per_kw: 30.0, ..wall.with_capacity_kj_per_k(value) };
-        assert_eq!(quantity_of(refused(&two, &[storing])), "capacity_kj_per_k");
+        assert_eq!(place(&refused(&two, &[storing])), in_wall("capacity_kj_per_k"));
         let zone = Zone { capacity_kj_per_k: value, ..Zone::named("a") };
-        assert_eq!(quantity_of(refused(&[zone], &[])), "capacity_kj_per_k");
+        let second = refused(&[Zone::named("b"), zone], &[]);
+        assert_eq!(place(&second), (Some(Part::Zone(1)), "capacity_kj_per_k".to_owned()));
     }
     for limit_kw in [-1.0, f64::NAN, f64::INFINITY] {
         let zone = Zone { limit_kw, ..Zone::named("a") };
-        assert!(matches!(refused(&[zone], &[]), NetworkError::OutOfRange { quantity: "limit_kw", .. }));
+        assert_eq!(place(&refused(&[zone], &[])), (Some(Part::Zone(0)), "limit_kw".to_owned()));
         let zone = Zone { solar_aperture_m2: limit_kw, ..Zone::named("a") };
-        assert!(matches!(refused(&[zone], &[]), NetworkError::OutOfRange { quantity: "solar_aperture_m2", .. }));
+        assert_eq!(place(&refused(&[zone], &[])), (Some(Part::Zone(0)), "solar_aperture_m2".to_owned()));
     }
 }
 

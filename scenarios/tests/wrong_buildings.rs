@@ -63,7 +63,7 @@ fn wrong_units() {
         all,
         "kelvin_as_celsius",
         ("[24.0, 26.0]", "[297.0, 299.0]"),
-        &["bad.toml:24:14", "between -50 and 100 °C"],
+        &["bad.toml:24:15", "between -50 and 100 °C"],
     );
     refusal(all, "a_text_with_its_unit", ("limit_kw = 3.0", "limit_kw = \"3 kW\""), &["a number", "`3 kW`", "[kW]"]);
     let car = "title = 'a'\nshows = 'b'\nvehicle = [{ name = 'ego', start = { x_m = 0, y_m = 0.2, speed_kmh = 90 } }]";

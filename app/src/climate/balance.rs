@@ -1,33 +1,39 @@
 //! Balance: heat flows, and the temperatures move on by a step.
 
 use bevy::ecs::prelude::*;
+use interplay_building::day::Heat;
 
 use super::{Building, Equipment, Gains, Node, Temperature};
 use crate::components::Present;
 use crate::frame::{BuildingFrame, ZoneFrame};
 
-/// Moves every temperature by a step, and writes down what led there.
+/// Moves every temperature by a step, and writes down what led there. Nothing moves when the controller has failed.
 pub fn balance(
     mut nodes: Query<(&Node, &mut Temperature)>,
     zones: Query<(&Node, &Equipment, &Gains)>,
     mut building: ResMut<Building>,
     mut present: ResMut<Present>,
 ) {
+    if building.failure.is_some() {
+        return;
+    }
     let count = building.targets.zones;
     let mut temperatures_c = vec![0.0; building.model.network().node_count()];
     for (node, temperature) in &nodes {
         temperatures_c[node.index] = temperature.0;
     }
-    let (mut heat_kw, mut requested_kw, mut gains_kw) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
+    let (mut applied_kw, mut requested_kw, mut gains_kw) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
     for (node, equipment, gains) in &zones {
-        heat_kw[node.index] = equipment.heat_kw;
+        applied_kw[node.index] = equipment.heat_kw;
         requested_kw[node.index] = equipment.requested_kw;
         gains_kw[node.index] = gains.0;
     }
     let (day, step) = building.date();
     let ambient_c = building.today.actual.ambient_c[step];
     let before_c = temperatures_c[..count].to_vec();
-    building.model.step(&mut temperatures_c, &heat_kw, ambient_c, &gains_kw);
+    let heat = Heat { requested_kw, applied_kw };
+    let Building { model, today, .. } = &mut *building;
+    today.balance(model, step, &mut temperatures_c, &heat);
     for (node, mut temperature) in &mut nodes {
         temperature.0 = temperatures_c[node.index];
     }
@@ -36,8 +42,8 @@ pub fn balance(
         temperature_c: before_c[index],
         next_c: temperatures_c[index],
         reference_c: (weight[index] > 0.0).then_some(reference_c[index]),
-        requested_kw: requested_kw[index],
-        heat_kw: heat_kw[index],
+        requested_kw: heat.requested_kw[index],
+        heat_kw: heat.applied_kw[index],
         gains_kw: gains_kw[index],
     };
     present.0.building = Some(BuildingFrame {
@@ -49,8 +55,4 @@ pub fn balance(
         design: (step == 0).then(|| Box::new(building.today.record.design.clone())),
         figures: None,
     });
-    let record = &mut building.today.record;
-    record.temperatures_c.extend_from_slice(&temperatures_c[..count]);
-    record.heat_kw.extend(heat_kw);
-    record.requested_kw.extend(requested_kw);
 }

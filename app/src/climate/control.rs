@@ -4,7 +4,8 @@
 use std::time::Instant;
 
 use bevy::ecs::prelude::*;
-use interplay_building::control::{Control, ControlError, Morning, Observation};
+use interplay_building::control::ControlError;
+use interplay_building::day::{Day, Heat};
 
 use super::{Building, Equipment, Node, Temperature};
 use crate::components::Present;
@@ -24,12 +25,11 @@ pub fn control(
     for (node, temperature, _) in &zones {
         temperatures_c[node.index] = temperature.0;
     }
-    match decide(&mut building, step, &temperatures_c) {
-        Ok(requested_kw) => {
+    match heat(&mut building, step, &temperatures_c) {
+        Ok(heat) => {
             for (node, _, mut equipment) in &mut zones {
-                let Equipment { limit_kw, .. } = *equipment;
-                equipment.requested_kw = requested_kw[node.index];
-                equipment.heat_kw = equipment.requested_kw.clamp(-limit_kw, limit_kw);
+                equipment.requested_kw = heat.requested_kw[node.index];
+                equipment.heat_kw = heat.applied_kw[node.index];
             }
         }
         Err(error) => building.failure = Some(error),
@@ -40,14 +40,13 @@ pub fn control(
     }
 }
 
-fn decide(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<Vec<f64>, ControlError> {
-    let Building { regulator, targets, today, .. } = building;
+/// Plans at midnight, and asks for the heat of the step.
+fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<Heat, ControlError> {
+    let Building { model, regulator, targets, today, design_s, .. } = building;
     if step == 0 {
         let began = Instant::now();
-        let (initial_c, forecast, actual) = (&today.initial_c, &today.forecast, Some(&today.actual));
-        regulator.start_of_day(&Morning { initial_c, targets, forecast, actual })?;
-        today.design_s += began.elapsed().as_secs_f64();
-        today.record.design = regulator.design();
+        today.plan(regulator, targets)?;
+        *design_s += began.elapsed().as_secs_f64();
     }
-    Ok(regulator.act(&Observation { step, temperatures_c, targets }))
+    Ok(Day::control(model, regulator, targets, step, temperatures_c))
 }

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use bevy::ecs::prelude::*;
-use interplay_building::control::Control;
 
 use super::Building;
 
@@ -12,11 +11,11 @@ pub fn learn(mut building: ResMut<Building>) {
     let (_, step) = building.date();
     if step + 1 == building.steps_per_day() {
         let began = Instant::now();
-        let Building { regulator, today, failure, .. } = &mut *building;
-        if let Err(error) = regulator.end_of_day(&today.record) {
+        let Building { regulator, today, design_s, failure, .. } = &mut *building;
+        if let Err(error) = today.learn(regulator) {
             failure.get_or_insert(error);
         }
-        today.design_s += began.elapsed().as_secs_f64();
+        *design_s += began.elapsed().as_secs_f64();
     }
     building.step += 1;
 }

@@ -4,9 +4,8 @@
 //! disturb -> control -> balance -> learn
 //! ```
 //!
-//! At midnight the day's weather and people are drawn and forecast, and the controller plans. At every step it is asked
-//! for the heat of each zone, and the heat balance moves the temperatures on (eq. 2.15). At the day's end the controller
-//! learns, and the day is handed on to be measured.
+//! The systems copy temperatures and heat between the entities and [`interplay_building::day`], which defines the order of
+//! a day. When the day is over, it is handed on to be measured.
 
 mod balance;
 mod control;
@@ -16,10 +15,9 @@ mod spawn;
 
 use bevy::ecs::prelude::*;
 use interplay_building::comfort::Targets;
-use interplay_building::control::{ControlError, DayRecord, Disturbance, Regulator};
+use interplay_building::control::{ControlError, Regulator};
+use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::Model;
-use interplay_building::occupancy::People;
-use interplay_building::weather::{Forecast, Weather};
 
 pub use balance::balance;
 pub use control::control;
@@ -60,35 +58,18 @@ pub struct Building {
     pub model: Model,
     /// What is wanted.
     pub targets: Targets,
-    /// The weather since the first midnight.
-    pub weather: Weather,
-    /// How it is forecast, and from which seed.
-    pub forecast: (Forecast, u64),
-    /// The people.
-    pub people: People,
+    /// The weather and the people.
+    pub surroundings: Surroundings,
     /// The controller at work.
     pub regulator: Regulator,
     /// Steps done.
     pub step: usize,
-    /// The day in the making.
-    pub today: Today,
+    /// The day in progress.
+    pub today: Day,
+    /// Wall time of planning and learning today \[s\]; never part of a digest.
+    pub design_s: f64,
     /// Why the controller gave up, if it did.
     pub failure: Option<ControlError>,
-}
-
-/// A day in the making.
-#[derive(Clone, Debug)]
-pub struct Today {
-    /// Temperatures of the nodes at midnight \[°C\].
-    pub initial_c: Vec<f64>,
-    /// What was expected.
-    pub forecast: Disturbance,
-    /// What happens.
-    pub actual: Disturbance,
-    /// What happened so far.
-    pub record: DayRecord,
-    /// Wall time of planning and learning \[s\]; never part of a digest.
-    pub design_s: f64,
 }
 
 impl Building {

@@ -2,14 +2,15 @@
 
 use bevy::ecs::prelude::*;
 use interplay_building::comfort::SetpointsError;
-use interplay_building::control::{ControlError, DayRecord, Design, Disturbance};
+use interplay_building::control::{ControlError, Disturbance};
+use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::NetworkError;
 use interplay_building::occupancy::People;
 use interplay_scenarios::Scenario;
 use thiserror::Error;
 
-use super::{Building, Equipment, Gains, Node, Temperature, Today};
+use super::{Building, Equipment, Gains, Node, Temperature};
 use crate::measure::BuildingMeasures;
 
 /// Kinds of chance, so that weather, people and forecasts of one seed have nothing to do with one another.
@@ -54,21 +55,19 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
             node.insert((Equipment { limit_kw, requested_kw: 0.0, heat_kw: 0.0 }, Gains(0.0)));
         }
     }
-    let nothing = Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
-    let record = DayRecord {
-        temperatures_c: Vec::new(),
-        heat_kw: Vec::new(),
-        requested_kw: Vec::new(),
-        design: Design::default(),
-    };
+    let nothing = || Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
     let building = Building {
         targets: scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?,
-        weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
-        forecast: (weather.forecast(), scenario.seed ^ FORECAST),
-        people: people(scenario, zones),
+        surroundings: Surroundings {
+            weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
+            forecast: weather.forecast(),
+            forecast_seed: scenario.seed ^ FORECAST,
+            people: people(scenario, zones),
+        },
         regulator: scenario.controller().regulator(&believed, steps)?,
         step: 0,
-        today: Today { initial_c: Vec::new(), forecast: nothing.clone(), actual: nothing, record, design_s: 0.0 },
+        today: Day::new(Vec::new(), nothing(), nothing()),
+        design_s: 0.0,
         failure: None,
         model,
     };

@@ -1,9 +1,9 @@
 //! How a building does, day by day.
 
 use bevy::ecs::prelude::*;
-use interplay_building::comfort::KeyFigures;
 use interplay_building::comfort::Targets;
 use interplay_building::control::{Controller, DayRecord, optimum};
+use interplay_building::day::KeyFigures;
 use interplay_building::lifted::Lifted;
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
@@ -108,7 +108,7 @@ impl BuildingMeasures {
 
     /// The figures of the day that has ended.
     fn day(&self, building: &Building) -> DayFigures {
-        let Building { model, targets, today, .. } = building;
+        let Building { model, targets, today, design_s, .. } = building;
         let figures = KeyFigures::of(&today.record, targets, model.network().limits_kw(), model.step_s());
         // An optimum that is not found is no reason to give up the run: the regret is then unknown.
         let cheapest = |lifted| optimum(lifted, &today.initial_c, targets, &today.actual, None).ok();
@@ -121,7 +121,7 @@ impl BuildingMeasures {
             spectral_radius: design.spectral_radius.or(self.spectral_radius),
             fallback: design.fallback.is_some(),
             exchange: design.exchange.as_ref().and_then(ExchangeFigures::of),
-            design_s: today.design_s,
+            design_s: *design_s,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! A morning to be planned: what a design costs is measured on it.
 
 use interplay_building::comfort::{Setpoints, Targets};
-use interplay_building::control::{Control, Controller, Disturbance, Morning, Regulator, run_day};
+use interplay_building::control::{Control, Controller, Disturbance, Morning, Regulator};
+use interplay_building::day::run_day;
 use interplay_building::discretise::Model;
 use interplay_building::network::Network;
 

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::setting::{SettingError, SettingKey, check_within};
+
 /// Wanted temperatures and what it costs to miss them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -53,16 +55,9 @@ pub enum SetpointsError {
         /// How many zones there are.
         zones: usize,
     },
-    /// A number is out of range.
-    #[error("{quantity} is {value}; it must be {wanted}")]
-    OutOfRange {
-        /// The field.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// What would work.
-        wanted: &'static str,
-    },
+    /// A setting is out of range.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
 }
 
 /// [`Setpoints`] for the steps of a day. Stacked quantities belong to the temperatures T(1) … T(N) at the ends of the
@@ -81,6 +76,16 @@ pub struct Targets {
     pub input_weight: f64,
     /// Deviations up to this are comfortable while occupied \[K\].
     pub band_k: f64,
+}
+
+impl SetpointsError {
+    /// The key of the setting at fault, in the table of the setpoints.
+    pub fn key(&self) -> SettingKey {
+        match self {
+            Self::Count { .. } => "occupied_c".into(),
+            Self::Setting(error) => error.key.clone(),
+        }
+    }
 }
 
 impl Setpoints {
@@ -120,22 +125,22 @@ impl Setpoints {
         if found == 0 || (found != 1 && found != zones) {
             return Err(SetpointsError::Count { found, zones });
         }
-        let in_range = |quantity, value: f64, low: f64, high: f64, wanted| {
-            let fine = (low..=high).contains(&value);
-            if fine { Ok(()) } else { Err(SetpointsError::OutOfRange { quantity, value, wanted }) }
-        };
-        for &value in self.occupied_c.iter().chain(&self.other_c) {
-            in_range("a wanted temperature", value, -50.0, 100.0, "between -50 and 100 °C")?;
+        let wanted = "between -50 and 100 °C";
+        for (zone, &value) in self.occupied_c.iter().enumerate() {
+            check_within(SettingKey::from("occupied_c").entry(zone), value, -50.0..=100.0, wanted)?;
         }
-        in_range("from_h", self.from_h, 0.0, 24.0, "an hour of the day, 0 to 24")?;
-        in_range("to_h", self.to_h, self.from_h, 24.0, "an hour of the day, after from_h")?;
-        for (quantity, value) in [
+        if let Some(value) = self.other_c {
+            check_within("other_c", value, -50.0..=100.0, wanted)?;
+        }
+        check_within("from_h", self.from_h, 0.0..=24.0, "an hour of the day, 0 to 24")?;
+        check_within("to_h", self.to_h, self.from_h..=24.0, "an hour of the day, after from_h")?;
+        for (key, value) in [
             ("occupied_weight", self.occupied_weight),
             ("other_weight", self.other_weight),
             ("input_weight", self.input_weight),
             ("band_k", self.band_k),
         ] {
-            in_range(quantity, value, 0.0, 1e9, "at least 0")?;
+            check_within(key, value, 0.0..=1e9, "at least 0")?;
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use interplay_convex::{ProblemError, SolveError};
 
 use crate::discretise::ModelError;
+use crate::setting::SettingError;
 
 /// No temperature in °C and no heat in kW is as large.
 const BEYOND_MEASURE: f64 = 1e6;
@@ -13,15 +14,8 @@ const BEYOND_MEASURE: f64 = 1e6;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ControlError {
     /// A setting is out of range.
-    #[error("{setting} is {value}; it must be {wanted}")]
-    Setting {
-        /// The setting.
-        setting: &'static str,
-        /// Its value.
-        value: f64,
-        /// What would work.
-        wanted: &'static str,
-    },
+    #[error(transparent)]
+    Setting(#[from] SettingError),
     /// A series has another length than the day.
     #[error("{what} has {found} numbers; a day of this building needs {wanted}")]
     Shape {
@@ -114,7 +108,7 @@ pub enum ControlError {
 
 impl ControlError {
     /// Refuses a series of the wrong length.
-    pub(super) fn check_length(what: &'static str, found: usize, wanted: usize) -> Result<(), Self> {
+    pub(crate) fn check_length(what: &'static str, found: usize, wanted: usize) -> Result<(), Self> {
         if found == wanted { Ok(()) } else { Err(Self::Shape { what, found, wanted }) }
     }
 
@@ -123,24 +117,6 @@ impl ControlError {
         match series.iter().position(|value| !matches!(value.abs().partial_cmp(&BEYOND_MEASURE), Some(Ordering::Less)))
         {
             Some(index) => Err(Self::NotFinite { what, index, value: series[index] }),
-            None => Ok(()),
-        }
-    }
-
-    /// Refuses a setting outside of an interval.
-    pub(super) fn check_within(
-        setting: &'static str,
-        value: f64,
-        interval: std::ops::RangeInclusive<f64>,
-        wanted: &'static str,
-    ) -> Result<(), Self> {
-        if interval.contains(&value) { Ok(()) } else { Err(Self::Setting { setting, value, wanted }) }
-    }
-
-    /// Refuses a setting that is negative or no number.
-    pub(super) fn check_not_negative(settings: &[(&'static str, f64)]) -> Result<(), Self> {
-        match settings.iter().find(|(_, value)| !(*value >= 0.0 && value.is_finite())) {
-            Some(&(setting, value)) => Err(Self::Setting { setting, value, wanted: "a number, at least 0" }),
             None => Ok(()),
         }
     }

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{ControlError, DayRecord, Morning};
 use crate::lifted::Lifted;
+use crate::setting::check_within;
 
 /// What the disturbance of a day is predicted from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -60,7 +61,7 @@ impl Experience {
     /// # Errors
     /// [`ControlError::Setting`] if the rate is not between 0 and 1.
     pub fn new(lifted: Lifted, prediction: Prediction, rate: f64) -> Result<Self, ControlError> {
-        ControlError::check_within("learning_rate", rate, 0.0..=1.0, "between 0 and 1")?;
+        check_within("learning_rate", rate, 0.0..=1.0, "between 0 and 1")?;
         let bias_kw = vec![0.0; lifted.size()];
         Ok(Self { lifted, prediction, rate, bias_kw, measured_kw: None, today: None })
     }

@@ -1,8 +1,8 @@
-//! Controllers, and the day that they are compared on.
+//! Controllers.
 //!
-//! A controller is told in the morning what is wanted and expected ([`Morning`]), asked at each step for the heat of each
-//! zone ([`Observation`]), and shown in the evening what happened ([`DayRecord`]). [`run_day`] does this with a model for
-//! the building. A day is an iteration of the source.
+//! At midnight a controller gets the targets and the forecast of the day ([`Morning`]). At each step it gets the
+//! temperatures ([`Observation`]) and returns the heat of each zone. At the end of the day it gets what happened
+//! ([`DayRecord`]). [`crate::day`] runs days with it. A day is an iteration of the source.
 //!
 //! The baselines are [`thermostat`], [`pid`], plain iterative [`learning`], and the [`optimum()`] of a day that is known
 //! beforehand. The designs of the source are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]
@@ -20,12 +20,12 @@
 mod clairvoyant;
 pub mod concurrent;
 mod controller;
-mod day;
 mod design;
 pub mod distributed;
 mod error;
 pub mod experience;
 mod follow;
+mod interface;
 pub mod iterative;
 pub mod learning;
 mod optimum;
@@ -36,31 +36,7 @@ pub mod uncertainty;
 
 pub use clairvoyant::Clairvoyant;
 pub use controller::{Controller, Regulator};
-pub use day::{DayRecord, Disturbance, Morning, Observation, run_day};
 pub use design::{Design, Exchange};
 pub use error::ControlError;
+pub use interface::{Control, DayRecord, Disturbance, Morning, Observation};
 pub use optimum::{BandPenalty, Optimum, optimum};
-
-/// A controller at work.
-pub trait Control {
-    /// Plans the day.
-    ///
-    /// # Errors
-    /// [`ControlError`] if there is no plan.
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError>;
-
-    /// The heat that each zone shall get until the next step \[kW\], negative for cooling. It is asked at every step of
-    /// the day, in order.
-    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64>;
-
-    /// Learns from the day.
-    ///
-    /// # Errors
-    /// [`ControlError::Shape`] if the record is of another day or building.
-    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError>;
-
-    /// What there is to say of the day's plan.
-    fn design(&self) -> Design {
-        Design::default()
-    }
-}

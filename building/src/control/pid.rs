@@ -12,6 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Control, ControlError, DayRecord, Morning, Observation};
+use crate::setting::{SettingError, check_not_negative};
 
 /// What to look for in a recording of a building with this controller.
 pub(super) const LOOK_FOR: &str =
@@ -51,9 +52,9 @@ impl Pid {
     /// A controller in each zone.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
-    pub fn new(settings: PidSettings, limits_kw: &[f64], step_s: f64) -> Result<Self, ControlError> {
-        ControlError::check_not_negative(&[
+    /// [`SettingError`] if a gain is negative.
+    pub fn new(settings: PidSettings, limits_kw: &[f64], step_s: f64) -> Result<Self, SettingError> {
+        check_not_negative(&[
             ("proportional_kw_per_k", settings.proportional_kw_per_k),
             ("integral_kw_per_k_h", settings.integral_kw_per_k_h),
             ("derivative_kw_h_per_k", settings.derivative_kw_h_per_k),

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Control, ControlError, DayRecord, Morning, Observation};
+use crate::setting::{check_not_negative, check_within};
 
 /// What to look for in a recording of a building with this controller.
 pub(super) const LOOK_FOR: &str =
@@ -39,11 +40,8 @@ impl Thermostat {
     /// # Errors
     /// [`ControlError::Setting`].
     pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
-        ControlError::check_not_negative(&[("dead_band_k", settings.dead_band_k), ("power", settings.power)])?;
-        if settings.power > 1.0 {
-            let wanted = "a share of the limit, at most 1";
-            return Err(ControlError::Setting { setting: "power", value: settings.power, wanted });
-        }
+        check_not_negative(&[("dead_band_k", settings.dead_band_k)])?;
+        check_within("power", settings.power, 0.0..=1.0, "a share of the limit, 0 to 1")?;
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
     }
 }

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ControlError;
 use crate::comfort::Targets;
+use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// Variance that every entry has besides \[kW²\].
 const NUGGET_KW2: f64 = 1e-8;
@@ -65,17 +66,17 @@ impl Uncertainty {
     /// As the settings say.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
-    pub fn new(settings: UncertaintySettings) -> Result<Self, ControlError> {
-        ControlError::check_not_negative(&[
+    /// [`SettingError`] if a deviation is negative, or a correlation not between -1 and 1.
+    pub fn new(settings: UncertaintySettings) -> Result<Self, SettingError> {
+        check_not_negative(&[
             ("common_kw", settings.common_kw),
             ("zone_kw", settings.zone_kw),
             ("zone_other_kw", settings.zone_other_kw),
             ("prior_days", settings.prior_days),
         ])?;
         let wanted = "a correlation, between -1 and 1";
-        ControlError::check_within("common_correlation", settings.common_correlation, -1.0..=1.0, wanted)?;
-        ControlError::check_within("zone_correlation", settings.zone_correlation, -1.0..=1.0, wanted)?;
+        check_within("common_correlation", settings.common_correlation, -1.0..=1.0, wanted)?;
+        check_within("zone_correlation", settings.zone_correlation, -1.0..=1.0, wanted)?;
         Ok(Self { settings, seen: [(0.0, 0.0); 3] })
     }
 

@@ -35,7 +35,7 @@ pub use report::{
     Check, ErrorReport, FreeRunReport, Identification, Quantity, Report, ResidualReport, WallReport, ZoneReport,
     ZoneSeries,
 };
-pub use settings::{Method, SettingError, Settings};
+pub use settings::{Method, Settings};
 pub use smoothing::local_linear;
 pub use telemetry::{
     AirFlowUnit, Boundary, BoundaryColumns, Gaps, HeatColumns, IrradianceUnit, Mapping, Neighbour, PowerUnit,
@@ -44,6 +44,8 @@ pub use telemetry::{
 };
 
 use std::ops::Range;
+
+use crate::setting::SettingError;
 
 use checks::CheckedEstimate;
 use free_run::RunZone;
@@ -55,7 +57,7 @@ use residual::{ResidualModel, ResidualSeries, steps};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IdentifyError {
     /// A setting makes no sense.
-    #[error(transparent)]
+    #[error("setting {0}")]
     Setting(#[from] SettingError),
     /// A zone has neither walls nor heat nor sun.
     #[error("zone `{zone}` has no wall, no heat and no sun: give it at least one, or there is nothing to identify")]

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::discretise;
+use crate::setting::SettingError;
 
 /// How to identify. Every field has a default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -58,7 +59,7 @@ impl Settings {
     /// # Errors
     /// [`SettingError`] for the first field that makes no sense with this sampling time.
     pub(super) fn check(&self, step_s: f64) -> Result<(), SettingError> {
-        let error = |field, value: f64, wanted| Err(SettingError { field, value, wanted });
+        let error = |key: &str, value: f64, wanted| Err(SettingError { key: key.into(), value, wanted });
         let within = |value: f64, low: f64, high: f64| value.is_finite() && low <= value && value <= high;
         if !within(self.bandwidth_h * 3600.0, step_s, 7.0 * 86_400.0) {
             return error("bandwidth_h", self.bandwidth_h, "from one sampling time to a week");
@@ -82,16 +83,4 @@ impl Settings {
             _ => Ok(()),
         }
     }
-}
-
-/// A setting that makes no sense.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("setting `{field}` is {value}; it must be {wanted}")]
-pub struct SettingError {
-    /// The field of [`Settings`].
-    pub field: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// What would work.
-    pub wanted: &'static str,
 }

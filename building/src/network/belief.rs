@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Network, NetworkError};
+use crate::setting::check_within;
 
 /// By which factors a controller's model of a building is off. All one: not at all.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,18 +31,15 @@ impl Network {
     /// The same network as somebody believes it to be.
     ///
     /// # Errors
-    /// [`NetworkError::OutOfRange`] if a factor is not a number above zero.
+    /// [`NetworkError::Believed`] if a factor is not a number above zero.
     pub fn believed(&self, belief: &Belief) -> Result<Network, NetworkError> {
         let Belief { capacity_factor, inner_resistance_factor, outer_resistance_factor } = *belief;
-        for (quantity, value) in [
+        for (key, value) in [
             ("capacity_factor", capacity_factor),
             ("inner_resistance_factor", inner_resistance_factor),
             ("outer_resistance_factor", outer_resistance_factor),
         ] {
-            if !(value > 0.0 && value.is_finite()) {
-                let (place, wanted) = ("the believed building".to_owned(), "above 0");
-                return Err(NetworkError::OutOfRange { place, quantity, value, wanted });
-            }
+            check_within(key, value, f64::MIN_POSITIVE..=f64::MAX, "above 0").map_err(NetworkError::Believed)?;
         }
         let mut network = self.clone();
         network.capacities_kj_per_k.iter_mut().for_each(|capacity| *capacity *= capacity_factor);

@@ -2,6 +2,17 @@
 
 use std::fmt;
 
+use crate::setting::{SettingError, SettingKey};
+
+/// A zone or a wall of a described building, by its position in the description, from zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A zone.
+    Zone(usize),
+    /// A wall.
+    Wall(usize),
+}
+
 /// Zones and walls that make no network.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NetworkError {
@@ -9,49 +20,80 @@ pub enum NetworkError {
     #[error("the building has no zones: name at least one")]
     NoZones,
     /// A zone without a name, or with the name of the air outside.
-    #[error("zone {number} cannot be called `{name}`: choose a name, other than `ambient`, which is the air outside")]
+    #[error(
+        "zone {} cannot be called `{name}`: choose a name, other than `ambient`, which is the air outside", .zone + 1
+    )]
     BadName {
-        /// Position among the zones, from one.
-        number: usize,
+        /// Position of the zone, from zero.
+        zone: usize,
         /// Its name.
         name: String,
     },
-    /// Two zones bear one name.
+    /// Two zones have the same name.
     #[error("two zones are called `{name}`: a wall could not tell them apart")]
     DuplicateZone {
+        /// Position of the later one, from zero.
+        zone: usize,
         /// The repeated name.
         name: String,
     },
     /// A wall leads to a zone that does not exist.
-    #[error("{wall} leads to `{name}`, which is no zone; the nearest name is `{nearest}`, and outdoors is `ambient`")]
+    #[error("{called} leads to `{name}`, which is no zone; the nearest name is `{nearest}`, and outdoors is `ambient`")]
     UnknownZone {
-        /// The wall.
-        wall: String,
+        /// Position of the wall, from zero.
+        wall: usize,
+        /// The wall, in words.
+        called: String,
         /// The unknown name.
         name: String,
         /// The zone whose name is most like it.
         nearest: String,
     },
-    /// A wall has the same place on both sides.
-    #[error("{wall} has `{name}` on both sides: heat cannot flow from a place to itself")]
+    /// A wall has the same zone, or the air outside, on both sides.
+    #[error("{called} has `{name}` on both sides: heat cannot flow from a place to itself")]
     SamePlace {
-        /// The wall.
-        wall: String,
-        /// The place.
+        /// Position of the wall, from zero.
+        wall: usize,
+        /// The wall, in words.
+        called: String,
+        /// The name of the zone or `ambient`.
         name: String,
     },
-    /// A quantity is zero, negative, infinite or not a number where it must be a positive number.
-    #[error("{place}: {quantity} is {value}; it must be {wanted}")]
-    OutOfRange {
+    /// A setting of a zone or a wall is out of range.
+    #[error("{called}: {error}")]
+    Setting {
         /// The zone or wall.
-        place: String,
-        /// The field.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// What would work.
-        wanted: &'static str,
+        part: Part,
+        /// The zone or wall, in words.
+        called: String,
+        /// The setting.
+        error: SettingError,
     },
+    /// A factor of the believed building is out of range.
+    #[error("the believed building: {0}")]
+    Believed(SettingError),
+}
+
+impl NetworkError {
+    /// The zone or wall at fault; none if the error concerns the building as a whole.
+    pub fn part(&self) -> Option<Part> {
+        match self {
+            Self::NoZones | Self::Believed(_) => None,
+            Self::BadName { zone, .. } | Self::DuplicateZone { zone, .. } => Some(Part::Zone(*zone)),
+            Self::UnknownZone { wall, .. } | Self::SamePlace { wall, .. } => Some(Part::Wall(*wall)),
+            Self::Setting { part, .. } => Some(*part),
+        }
+    }
+
+    /// The key of the setting at fault, in the table of its zone, wall or believed building.
+    pub fn key(&self) -> Option<SettingKey> {
+        match self {
+            Self::NoZones => None,
+            Self::BadName { .. } | Self::DuplicateZone { .. } => Some("name".into()),
+            Self::UnknownZone { .. } | Self::SamePlace { .. } => Some("between".into()),
+            Self::Setting { error, .. } | Self::Believed(error) => Some(error.key.clone()),
+        }
+    }
 }
 
 /// Something that is allowed, and that the author may not have meant.

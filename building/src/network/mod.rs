@@ -25,7 +25,7 @@ mod structure;
 use nalgebra::DMatrix;
 
 pub use belief::Belief;
-pub use error::{NetworkError, Remark};
+pub use error::{NetworkError, Part, Remark};
 pub use settings::{AMBIENT, Wall, Zone};
 
 /// A conductance between two nodes.

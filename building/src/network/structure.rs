@@ -1,6 +1,7 @@
 //! Checks of zones and walls, and what the shape of the graph implies.
 
-use super::{AMBIENT, Network, NetworkError, Remark, Wall, Zone};
+use super::{AMBIENT, Network, NetworkError, Part, Remark, Wall, Zone};
+use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// A zone that settles faster than this is remarked upon \[s\].
 const FAST_S: f64 = 600.0;
@@ -11,21 +12,21 @@ pub(super) fn check_zones(zones: &[Zone]) -> Result<(), NetworkError> {
     if zones.is_empty() {
         return Err(NetworkError::NoZones);
     }
-    let mut names: Vec<&str> = Vec::with_capacity(zones.len());
     for (index, zone) in zones.iter().enumerate() {
         let name = zone.name.clone();
         if name.trim().is_empty() || name == AMBIENT {
-            return Err(NetworkError::BadName { number: index + 1, name });
+            return Err(NetworkError::BadName { zone: index, name });
         }
-        let place = format!("zone `{name}`");
-        positive(&place, "capacity_kj_per_k", zone.capacity_kj_per_k)?;
-        not_negative(&place, "limit_kw", zone.limit_kw)?;
-        not_negative(&place, "solar_aperture_m2", zone.solar_aperture_m2)?;
-        names.push(&zone.name);
+        let settings = positive("capacity_kj_per_k", zone.capacity_kj_per_k).and_then(|()| {
+            check_not_negative(&[("limit_kw", zone.limit_kw), ("solar_aperture_m2", zone.solar_aperture_m2)])
+        });
+        let called = || format!("zone `{name}`");
+        settings.map_err(|error| NetworkError::Setting { part: Part::Zone(index), called: called(), error })?;
     }
+    let mut names: Vec<(&str, usize)> = zones.iter().enumerate().map(|(i, zone)| (zone.name.as_str(), i)).collect();
     names.sort_unstable();
-    match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(NetworkError::DuplicateZone { name: pair[0].to_owned() }),
+    match names.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        Some(pair) => Err(NetworkError::DuplicateZone { zone: pair[1].1, name: pair[1].0.to_owned() }),
         None => Ok(()),
     }
 }
@@ -34,58 +35,49 @@ pub(super) fn check_zones(zones: &[Zone]) -> Result<(), NetworkError> {
 pub(super) fn check_walls(zones: &[Zone], walls: &[Wall]) -> Result<Vec<[Option<usize>; 2]>, NetworkError> {
     let mut places: Vec<(&str, usize)> = zones.iter().enumerate().map(|(i, zone)| (zone.name.as_str(), i)).collect();
     places.sort_unstable();
-    let find = |wall: &str, name: &str| {
+    let find = |wall: usize, name: &str| {
         if name == AMBIENT {
             return Ok(None);
         }
         match places.binary_search_by_key(&name, |&(known, _)| known) {
             Ok(position) => Ok(Some(places[position].1)),
-            Err(_) => Err(unknown(zones, wall, name)),
+            Err(_) => Err(unknown(zones, (wall, &walls[wall]), name)),
         }
     };
     let mut ends = Vec::with_capacity(walls.len());
-    for (number, wall) in walls.iter().enumerate() {
-        let called = wall_name(number, wall);
+    for (index, wall) in walls.iter().enumerate() {
+        let called = || wall_name(index, wall);
         let [one, other] = &wall.between;
         if one == other {
-            return Err(NetworkError::SamePlace { wall: called, name: one.clone() });
+            return Err(NetworkError::SamePlace { wall: index, called: called(), name: one.clone() });
         }
-        ends.push([find(&called, one)?, find(&called, other)?]);
-        positive(&called, "resistance_k_per_kw", wall.resistance_k_per_kw)?;
-        if let Some(capacity_kj_per_k) = wall.capacity_kj_per_k {
-            positive(&called, "capacity_kj_per_k", capacity_kj_per_k)?;
-        }
+        ends.push([find(index, one)?, find(index, other)?]);
+        let capacity = || wall.capacity_kj_per_k.map_or(Ok(()), |capacity| positive("capacity_kj_per_k", capacity));
+        positive("resistance_k_per_kw", wall.resistance_k_per_kw)
+            .and_then(|()| capacity())
+            .map_err(|error| NetworkError::Setting { part: Part::Wall(index), called: called(), error })?;
     }
     Ok(ends)
 }
 
-pub(super) fn wall_name(number: usize, wall: &Wall) -> String {
-    format!("wall {} (`{}` - `{}`)", number + 1, wall.between[0], wall.between[1])
+/// A wall in words, by its position from zero.
+pub(super) fn wall_name(index: usize, wall: &Wall) -> String {
+    format!("wall {} (`{}` - `{}`)", index + 1, wall.between[0], wall.between[1])
 }
 
-fn unknown(zones: &[Zone], wall: &str, name: &str) -> NetworkError {
+fn unknown(zones: &[Zone], (index, wall): (usize, &Wall), name: &str) -> NetworkError {
     let nearest = zones.iter().min_by_key(|zone| strsim::damerau_levenshtein(&zone.name, name));
     NetworkError::UnknownZone {
-        wall: wall.to_owned(),
+        wall: index,
+        called: wall_name(index, wall),
         name: name.to_owned(),
         nearest: nearest.map_or_else(String::new, |zone| zone.name.clone()),
     }
 }
 
 /// Refuses what is not a positive number, or so small or large that its inverse is of no use.
-fn positive(place: &str, quantity: &'static str, value: f64) -> Result<(), NetworkError> {
-    if (1e-9..=1e12).contains(&value) {
-        return Ok(());
-    }
-    let wanted = "between 1e-9 and 1e12 (leave a wall out that lets no heat through)";
-    Err(NetworkError::OutOfRange { place: place.to_owned(), quantity, value, wanted })
-}
-
-fn not_negative(place: &str, quantity: &'static str, value: f64) -> Result<(), NetworkError> {
-    if value >= 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    Err(NetworkError::OutOfRange { place: place.to_owned(), quantity, value, wanted: "a number, at least 0" })
+fn positive(key: &str, value: f64) -> Result<(), SettingError> {
+    check_within(key, value, 1e-9..=1e12, "between 1e-9 and 1e12 (leave a wall out that lets no heat through)")
 }
 
 impl Network {

@@ -1,7 +1,8 @@
 //! The reference optima and the days they belong to.
 
 use interplay_building::comfort::{Setpoints, Targets};
-use interplay_building::control::{Control, DayRecord, Disturbance, run_day};
+use interplay_building::control::{Control, DayRecord, Disturbance};
+use interplay_building::day::{Surroundings, run_day};
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -111,21 +112,15 @@ pub fn assert_close(got: f64, want: f64, relative: f64) {
 
 /// Days of a synthetic climate with a forecast of medium error, and people who deviate from their schedule.
 pub fn synthetic(seed: u64, days: usize, zones: usize) -> Vec<(Disturbance, Disturbance)> {
-    let weather = Climate::default().weather(seed, days);
-    let people = Occupancy::default().people(zones, seed);
-    let forecast = Forecast::Uncertain { level: ErrorLevel::Medium };
-    (0..days)
-        .map(|day| {
-            let of = |forecast: Forecast, gains_kw| Disturbance {
-                ambient_c: forecast.ambient_steps_c(&weather, seed, day, STEP_S, STEPS),
-                gains_kw,
-            };
-            (
-                of(forecast, people.scheduled_kw(STEP_S, STEPS)),
-                of(Forecast::Exact, people.actual_kw(day, STEP_S, STEPS)),
-            )
-        })
-        .collect()
+    let surroundings = Surroundings {
+        weather: Climate::default().weather(seed, days),
+        forecast: Forecast::Uncertain { level: ErrorLevel::Medium },
+        forecast_seed: seed,
+        people: Occupancy::default().people(zones, seed),
+    };
+    // The zones have no windows: of the model, only the step matters.
+    let model = Model::exact(&Network::grid(1, zones), STEP_S).expect("stable");
+    (0..days).map(|day| (surroundings.forecast(&model, STEPS, day), surroundings.actual(&model, STEPS, day))).collect()
 }
 
 /// Independent standard normal numbers, the same every time (Irwin and Hall's sum of twelve).

@@ -4,7 +4,7 @@
 
 use interplay_building::control::ControlError;
 use interplay_building::discretise::{Model, ModelError};
-use interplay_building::network::{Network, NetworkError};
+use interplay_building::network::{Network, NetworkError, Part};
 
 use super::{Building, DAY_S};
 use crate::Scenario;
@@ -48,7 +48,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
     if checker.sources(building) {
         match building.network() {
             Ok(network) => checker.controlled(building, &network),
-            Err(error) => checker.network(building, &error),
+            Err(error) => checker.network(&error),
         }
     }
     checker.problems
@@ -111,24 +111,12 @@ impl Checker<'_> {
         self.problems.len() == before
     }
 
-    fn network(&mut self, building: &Building, error: &NetworkError) {
-        let named = |name: &str| building.zones.iter().rposition(|zone| zone.name == name).unwrap_or(0);
-        // A wall is called `wall 3 (…)`, counted from one.
-        let wall = |words: &str| {
-            let number = words.strip_prefix("wall ").and_then(|rest| rest.split(' ').next()?.parse::<usize>().ok());
-            number.map(|number| format!("building.wall.{}", number.saturating_sub(1)))
-        };
-        let path = match error {
-            NetworkError::NoZones => "building".to_owned(),
-            NetworkError::BadName { number, .. } => format!("building.zone.{}.name", number.saturating_sub(1)),
-            NetworkError::DuplicateZone { name } => format!("building.zone.{}.name", named(name)),
-            NetworkError::UnknownZone { wall: words, .. } | NetworkError::SamePlace { wall: words, .. } => {
-                wall(words).unwrap_or_default() + ".between"
-            }
-            NetworkError::OutOfRange { place, quantity, .. } => {
-                let zone = || format!("building.zone.{}", named(place.trim_start_matches("zone ").trim_matches('`')));
-                format!("{}.{quantity}", wall(place).unwrap_or_else(zone))
-            }
+    fn network(&mut self, error: &NetworkError) {
+        let key = error.key().map_or(String::new(), |key| format!(".{key}"));
+        let path = match error.part() {
+            Some(Part::Zone(zone)) => format!("building.zone.{zone}{key}"),
+            Some(Part::Wall(wall)) => format!("building.wall.{wall}{key}"),
+            None => "building".to_owned(),
         };
         self.refuse(&path, "here", error.to_string(), "");
     }
@@ -138,10 +126,7 @@ impl Checker<'_> {
         let steps = building.steps_per_day();
         let setpoints = self.scenario.setpoints.clone().unwrap_or_default();
         if let Err(error) = setpoints.targets(network.zone_count(), building.step_s, steps) {
-            let message = format!("`setpoints`: {error}");
-            let key = ["occupied_c", "from_h", "to_h", "occupied_weight", "other_weight", "input_weight", "band_k"];
-            let key = key.iter().find(|key| error.to_string().starts_with(**key)).unwrap_or(&"occupied_c");
-            self.refuse(&format!("setpoints.{key}"), "here", message, "");
+            self.refuse(&format!("setpoints.{}", error.key()), "here", format!("`setpoints`: {error}"), "");
         }
         match Model::new(network, building.method, building.step_s) {
             Err(error @ ModelError::BadStep { .. }) => {
@@ -156,15 +141,20 @@ impl Checker<'_> {
 
     /// Whether the controller can work with what it takes the building for.
     fn believed(&mut self, building: &Building, steps: usize) {
-        let model =
-            match building.believed_network().map(|network| Model::new(&network, building.method, building.step_s)) {
-                Ok(Ok(model)) => model,
-                Ok(Err(error)) => return self.refuse("building.believed", "here", error.to_string(), ""),
-                Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
-            };
+        let network = match building.believed_network() {
+            Ok(network) => network,
+            Err(error) => {
+                let key = error.key().map_or(String::new(), |key| format!(".{key}"));
+                return self.refuse(&format!("building.believed{key}"), "here", error.to_string(), "");
+            }
+        };
+        let model = match Model::new(&network, building.method, building.step_s) {
+            Ok(model) => model,
+            Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
+        };
         if let Err(error) = self.scenario.controller().regulator(&model, steps) {
             let key = match &error {
-                ControlError::Setting { setting, .. } => setting.split(' ').next().unwrap_or_default(),
+                ControlError::Setting(error) => error.key.as_str(),
                 _ => "kind",
             };
             self.refuse(&format!("controller.{key}"), "here", format!("`controller`: {error}"), "");

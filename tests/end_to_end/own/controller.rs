@@ -30,8 +30,9 @@ impl Control for Early {
 }
 // shown until here
 
-use interplay_building::comfort::{KeyFigures, Setpoints};
-use interplay_building::control::{Disturbance, run_day};
+use interplay_building::comfort::Setpoints;
+use interplay_building::control::Disturbance;
+use interplay_building::day::{KeyFigures, run_day};
 use interplay_building::discretise::Model;
 use interplay_building::network::Network;
 

@@ -65,7 +65,7 @@ impl Concurrent {
         settings.check()?;
         Ok(Self {
             settings,
-            uncertainty: Uncertainty::new(settings.uncertainty)?,
+            uncertainty: Uncertainty::new(settings.uncertainty).map_err(|error| error.within("uncertainty"))?,
             experience: Experience::new(lifted, settings.prediction, settings.learning_rate)?,
             diary: Diary::default(),
             feedback: None,

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::control::BandPenalty;
 use crate::control::experience::Prediction;
-use crate::control::{BandPenalty, ControlError};
+use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// How the zones' proposals of a round become a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -68,13 +69,13 @@ impl Default for DistributedSettings {
 
 impl DistributedSettings {
     /// Refuses settings that are out of range.
-    pub(super) fn check(&self, zones: usize) -> Result<(), ControlError> {
-        ControlError::check_within("loss", self.loss, 0.0..=1.0, "a share, between 0 and 1")?;
+    pub(super) fn check(&self, zones: usize) -> Result<(), SettingError> {
+        check_within("loss", self.loss, 0.0..=1.0, "a share, between 0 and 1")?;
         if let Some(zone) = self.silent_zone {
             let wanted = "the number of a zone, from 0";
-            ControlError::check_within("silent_zone", zone as f64, 0.0..=zones.max(1) as f64 - 1.0, wanted)?;
+            check_within("silent_zone", zone as f64, 0.0..=zones.max(1) as f64 - 1.0, wanted)?;
         }
-        ControlError::check_not_negative(&[
+        check_not_negative(&[
             ("tolerance_kw", self.tolerance_kw),
             ("discomfort_quadratic", self.discomfort_quadratic),
             ("gain_kw_per_k", self.gain_kw_per_k),
@@ -106,8 +107,8 @@ impl Default for CentralisedSettings {
 
 impl CentralisedSettings {
     /// Refuses settings that are out of range.
-    pub(super) fn check(&self) -> Result<(), ControlError> {
-        ControlError::check_not_negative(&[
+    pub(super) fn check(&self) -> Result<(), SettingError> {
+        check_not_negative(&[
             ("discomfort_quadratic", self.discomfort_quadratic),
             ("gain_kw_per_k", self.gain_kw_per_k),
         ])

@@ -128,7 +128,7 @@ impl Iterative {
         let n = lifted.zones();
         Ok(Self {
             settings,
-            uncertainty: Uncertainty::new(settings.uncertainty)?,
+            uncertainty: Uncertainty::new(settings.uncertainty).map_err(|error| error.within("uncertainty"))?,
             experience: Experience::new(lifted, settings.prediction, settings.learning_rate)?,
             diary: Diary::default(),
             gain: DMatrix::from_diagonal_element(n, n, settings.initial_gain_kw_per_k),

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::control::ControlError;
 use crate::control::experience::Prediction;
 use crate::control::uncertainty::UncertaintySettings;
+use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// What is minimised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -117,9 +117,9 @@ impl Default for IterativeSettings {
 
 impl IterativeSettings {
     /// Refuses settings that are out of range.
-    pub(super) fn check(&self) -> Result<(), ControlError> {
-        ControlError::check_within("decay", self.decay, 1e-3..=1.0, "a rate, above 0 and at most 1")?;
-        ControlError::check_within("confidence", self.confidence, 0.5..=0.999_999, "a probability, 0.5 to 0.999999")?;
-        ControlError::check_not_negative(&[("initial_gain_kw_per_k", self.initial_gain_kw_per_k)])
+    pub(super) fn check(&self) -> Result<(), SettingError> {
+        check_within("decay", self.decay, 1e-3..=1.0, "a rate, above 0 and at most 1")?;
+        check_within("confidence", self.confidence, 0.5..=0.999_999, "a probability, 0.5 to 0.999999")?;
+        check_not_negative(&[("initial_gain_kw_per_k", self.initial_gain_kw_per_k)])
     }
 }

@@ -17,7 +17,8 @@ type Column<'a> = (String, &'a [f64]);
 pub(super) fn to_csv(telemetry: &Telemetry) -> String {
     let columns = columns(telemetry);
     let mut csv = String::from("time_s,recording");
-    columns.iter().for_each(|(title, _)| csv.extend([",", title]));
+    // Titles hold names that the user chose, which may hold separators, quotes and line breaks.
+    columns.iter().for_each(|(title, _)| csv.extend([",\"", &title.replace('"', "\"\""), "\""]));
     for (recording, segment) in telemetry.segments.iter().enumerate() {
         for row in segment.clone() {
             // Writing to a string cannot fail.

@@ -1,8 +1,8 @@
-//! A day: what is known of it, how it is run, what is left of it.
+//! What a controller is told and asked, and what it answers.
 
-use super::{Control, ControlError, Design};
+use super::design::Design;
+use super::error::ControlError;
 use crate::comfort::Targets;
-use crate::discretise::Model;
 
 /// What acts on a building besides its equipment, over the steps of a day.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +52,7 @@ pub struct DayRecord {
 
 impl Disturbance {
     /// Refuses one that does not fit the targets.
-    pub(super) fn check(&self, targets: &Targets) -> Result<(), ControlError> {
+    pub(crate) fn check(&self, targets: &Targets) -> Result<(), ControlError> {
         ControlError::check_length("the outdoor temperature", self.ambient_c.len(), targets.steps())?;
         ControlError::check_length("the heat gains", self.gains_kw.len(), targets.reference_c.len())
     }
@@ -64,44 +64,26 @@ impl Disturbance {
     }
 }
 
-/// Runs a day: the controller plans, acts at each step, and learns at the end. `temperatures_c` are those of the nodes at
-/// midnight, and become those of the next midnight.
-///
-/// # Errors
-/// [`ControlError`] if a series has a wrong length or the controller cannot plan; the temperatures are then unchanged.
-pub fn run_day(
-    plant: &Model,
-    temperatures_c: &mut [f64],
-    controller: &mut impl Control,
-    targets: &Targets,
-    forecast: &Disturbance,
-    actual: &Disturbance,
-) -> Result<DayRecord, ControlError> {
-    let network = plant.network();
-    let (n, steps) = (network.zone_count(), targets.steps());
-    ControlError::check_length("the temperatures at midnight", temperatures_c.len(), network.node_count())?;
-    ControlError::check_length("a row of targets", targets.zones, n)?;
-    forecast.check(targets)?;
-    actual.check(targets)?;
-    let initial_c: &[f64] = temperatures_c;
-    controller.start_of_day(&Morning { initial_c, targets, forecast, actual: Some(actual) })?;
-    let size = n * steps;
-    let mut record = DayRecord {
-        temperatures_c: Vec::with_capacity(size),
-        heat_kw: Vec::with_capacity(size),
-        requested_kw: Vec::with_capacity(size),
-        design: controller.design(),
-    };
-    for step in 0..steps {
-        let requested_kw = controller.act(&Observation { step, temperatures_c: &temperatures_c[..n], targets });
-        let heat_kw: Vec<f64> =
-            requested_kw.iter().zip(network.limits_kw()).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect();
-        let gains_kw = &actual.gains_kw[step * n..(step + 1) * n];
-        plant.step(temperatures_c, &heat_kw, actual.ambient_c[step], gains_kw);
-        record.temperatures_c.extend_from_slice(&temperatures_c[..n]);
-        record.heat_kw.extend(heat_kw);
-        record.requested_kw.extend(requested_kw);
+/// A controller at work.
+pub trait Control {
+    /// Plans the day.
+    ///
+    /// # Errors
+    /// [`ControlError`] if there is no plan.
+    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError>;
+
+    /// The heat that each zone shall get until the next step \[kW\], negative for cooling. It is asked at every step of
+    /// the day, in order.
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64>;
+
+    /// Learns from the day.
+    ///
+    /// # Errors
+    /// [`ControlError::Shape`] if the record is of another day or building.
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError>;
+
+    /// What there is to say of the day's plan.
+    fn design(&self) -> Design {
+        Design::default()
     }
-    controller.end_of_day(&record)?;
-    Ok(record)
 }

@@ -1,0 +1,73 @@
+//! Key figures of a day, as defined by BOPTEST.
+//!
+//! Discomfort is the time integral of the deviation beyond the comfort band, averaged over the zones \[K·h per zone\].
+//! Energy is thermal; heating and cooling both count as positive. The peak is the highest power of the whole building
+//! averaged over a quarter of an hour (or over a step, if that is longer). BOPTEST divides energy and peak by the floor
+//! area, which a thermal network does not have.
+
+use serde::Serialize;
+
+use crate::comfort::Targets;
+use crate::control::DayRecord;
+
+/// Shortest time over which a peak is averaged \[s\].
+const PEAK_WINDOW_S: f64 = 900.0;
+
+/// How a day turned out.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct KeyFigures {
+    /// J (eq. 3.2).
+    pub cost: f64,
+    /// Root of the mean squared error over zones and occupied steps \[K\]; 0 if none is occupied.
+    pub tracking_rmse_c: f64,
+    /// Deviation beyond the comfort band while occupied, integrated over time \[K·h per zone\].
+    pub discomfort_k_h: f64,
+    /// Heat brought in and taken out by the equipment \[kWh\].
+    pub energy_kwh: f64,
+    /// Heat brought in \[kWh\].
+    pub heating_kwh: f64,
+    /// Heat taken out \[kWh\].
+    pub cooling_kwh: f64,
+    /// Highest power of all zones together \[kW\].
+    pub peak_kw: f64,
+    /// Largest excess of a requested input over its limit \[kW\]; the equipment then did less than was requested.
+    pub input_violation_kw: f64,
+}
+
+impl KeyFigures {
+    /// The figures of a day.
+    ///
+    /// # Panics
+    /// When the record has not the shape of the targets.
+    pub fn of(record: &DayRecord, targets: &Targets, limits_kw: &[f64], step_s: f64) -> Self {
+        let hours = step_s / 3600.0;
+        let n = targets.zones;
+        let energy = |part: fn(f64) -> f64| hours * record.heat_kw.iter().map(|&kw| part(kw)).sum::<f64>();
+        let (heating_kwh, cooling_kwh) = (energy(|kw| kw.max(0.0)), energy(|kw| (-kw).max(0.0)));
+        let errors_k = || {
+            let steps = record.temperatures_c.chunks_exact(n).zip(targets.reference_c.chunks_exact(n));
+            let occupied = steps.zip(&targets.occupied).filter(|&(_, &occupied)| occupied);
+            occupied.flat_map(|((actual_c, wanted_c), _)| wanted_c.iter().zip(actual_c).map(|(r, t)| r - t))
+        };
+        let count = errors_k().count().max(1) as f64;
+        let beyond_k: f64 = errors_k().map(|error_k| (error_k.abs() - targets.band_k).max(0.0)).sum();
+        let excess = |(i, kw): (usize, &f64)| kw.abs() - limits_kw[i % n];
+        Self {
+            cost: targets.cost(&record.temperatures_c, &record.heat_kw),
+            tracking_rmse_c: (errors_k().map(|error_k| error_k * error_k).sum::<f64>() / count).sqrt(),
+            discomfort_k_h: hours * beyond_k / n as f64,
+            energy_kwh: heating_kwh + cooling_kwh,
+            heating_kwh,
+            cooling_kwh,
+            peak_kw: peak_kw(&record.heat_kw, n, step_s),
+            input_violation_kw: record.requested_kw.iter().enumerate().map(excess).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// The highest mean power of all zones over consecutive windows.
+fn peak_kw(heat_kw: &[f64], zones: usize, step_s: f64) -> f64 {
+    let totals_kw: Vec<f64> = heat_kw.chunks_exact(zones).map(|step| step.iter().map(|kw| kw.abs()).sum()).collect();
+    let window = ((PEAK_WINDOW_S / step_s).round() as usize).max(1);
+    totals_kw.chunks(window).map(|window| window.iter().sum::<f64>() / window.len() as f64).fold(0.0, f64::max)
+}

@@ -1,0 +1,140 @@
+//! The closed loop of a building, day by day.
+//!
+//! ```text
+//! midnight        Surroundings: forecast and actual disturbance of the day
+//!                 Day::plan     the controller gets the forecast and the targets
+//! each step       Day::control  the controller returns the heat of each zone; the equipment gives it within its limits
+//!                 Day::balance  the temperatures move on by a step (eq. 2.15), and are recorded
+//! end of the day  Day::learn    the controller gets the record
+//! ```
+//!
+//! The application calls these functions from its phases, [`run_day`] calls them in one go; there is no other loop.
+//!
+//! # When a controller fails
+//!
+//! A design that finds no plan for a day is no error: its controller repeats the day before, and says why
+//! ([`crate::control::Design::fallback`]). [`Day::plan`] and [`Day::learn`] return a [`ControlError`] when the controller
+//! cannot work with this building or this day at all. The run then ends with that error, and no temperature moves any more.
+
+mod key_figures;
+mod surroundings;
+
+pub use key_figures::KeyFigures;
+pub use surroundings::Surroundings;
+
+use crate::comfort::Targets;
+use crate::control::{Control, ControlError, DayRecord, Design, Disturbance, Morning, Observation};
+use crate::discretise::Model;
+
+/// A day in progress.
+#[derive(Clone, Debug)]
+pub struct Day {
+    /// Temperatures of the nodes at midnight \[°C\], zones first.
+    pub initial_c: Vec<f64>,
+    /// What is forecast.
+    pub forecast: Disturbance,
+    /// What happens.
+    pub actual: Disturbance,
+    /// What happened so far.
+    pub record: DayRecord,
+}
+
+/// Heat from the equipment in a step, one number per zone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heat {
+    /// What the controller asked for \[kW\].
+    pub requested_kw: Vec<f64>,
+    /// What the equipment gives: the request within its limits \[kW\].
+    pub applied_kw: Vec<f64>,
+}
+
+impl Day {
+    /// A day of which nothing has happened yet.
+    pub fn new(initial_c: Vec<f64>, forecast: Disturbance, actual: Disturbance) -> Self {
+        let empty = || Vec::with_capacity(actual.gains_kw.len());
+        let record =
+            DayRecord { temperatures_c: empty(), heat_kw: empty(), requested_kw: empty(), design: Design::default() };
+        Self { initial_c, forecast, actual, record }
+    }
+
+    /// Lets the controller plan the day at midnight.
+    ///
+    /// # Errors
+    /// [`ControlError`] if the controller cannot work on this day.
+    pub fn plan(&mut self, controller: &mut impl Control, targets: &Targets) -> Result<(), ControlError> {
+        let Self { initial_c, forecast, actual, .. } = &*self;
+        controller.start_of_day(&Morning { initial_c, targets, forecast, actual: Some(actual) })?;
+        self.record.design = controller.design();
+        Ok(())
+    }
+
+    /// Asks the controller for the heat of each zone in step `step`, counted from midnight, and limits it to what the
+    /// equipment can give. `zones_c` are the temperatures of the zones at the start of the step.
+    pub fn control(
+        plant: &Model,
+        controller: &mut impl Control,
+        targets: &Targets,
+        step: usize,
+        zones_c: &[f64],
+    ) -> Heat {
+        let requested_kw = controller.act(&Observation { step, temperatures_c: zones_c, targets });
+        let limits_kw = plant.network().limits_kw();
+        let applied_kw = requested_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect();
+        Heat { requested_kw, applied_kw }
+    }
+
+    /// Heat from people, sun and machines in step `step`, one number per zone \[kW\].
+    pub fn gains_kw(&self, plant: &Model, step: usize) -> &[f64] {
+        let zones = plant.network().zone_count();
+        &self.actual.gains_kw[step * zones..(step + 1) * zones]
+    }
+
+    /// Moves the temperatures of the nodes on by step `step`, and records it.
+    ///
+    /// # Panics
+    /// When a slice has the wrong length.
+    pub fn balance(&mut self, plant: &Model, step: usize, temperatures_c: &mut [f64], heat: &Heat) {
+        let gains_kw = self.gains_kw(plant, step);
+        plant.step(temperatures_c, &heat.applied_kw, self.actual.ambient_c[step], gains_kw);
+        let zones = plant.network().zone_count();
+        self.record.temperatures_c.extend_from_slice(&temperatures_c[..zones]);
+        self.record.heat_kw.extend_from_slice(&heat.applied_kw);
+        self.record.requested_kw.extend_from_slice(&heat.requested_kw);
+    }
+
+    /// Lets the controller learn from the day when it is over.
+    ///
+    /// # Errors
+    /// [`ControlError::Shape`] if the day is not one of the controller's building.
+    pub fn learn(&self, controller: &mut impl Control) -> Result<(), ControlError> {
+        controller.end_of_day(&self.record)
+    }
+}
+
+/// Runs a whole day. `temperatures_c` are those of the nodes at midnight, and become those of the next midnight.
+///
+/// # Errors
+/// [`ControlError`] if a series has a wrong length or the controller cannot plan (the temperatures are then unchanged), or
+/// cannot learn.
+pub fn run_day(
+    plant: &Model,
+    temperatures_c: &mut [f64],
+    controller: &mut impl Control,
+    targets: &Targets,
+    forecast: &Disturbance,
+    actual: &Disturbance,
+) -> Result<DayRecord, ControlError> {
+    let network = plant.network();
+    ControlError::check_length("the temperatures at midnight", temperatures_c.len(), network.node_count())?;
+    ControlError::check_length("a row of targets", targets.zones, network.zone_count())?;
+    forecast.check(targets)?;
+    actual.check(targets)?;
+    let mut day = Day::new(temperatures_c.to_vec(), forecast.clone(), actual.clone());
+    day.plan(controller, targets)?;
+    for step in 0..targets.steps() {
+        let heat = Day::control(plant, controller, targets, step, &temperatures_c[..network.zone_count()]);
+        day.balance(plant, step, temperatures_c, &heat);
+    }
+    day.learn(controller)?;
+    Ok(day.record)
+}

@@ -1,0 +1,54 @@
+//! Weather and people of each day, and their forecasts.
+
+use crate::control::Disturbance;
+use crate::discretise::Model;
+use crate::occupancy::People;
+use crate::weather::{Forecast, Weather};
+
+/// A day \[s\].
+const DAY_S: f64 = 86_400.0;
+
+/// What acts on a building from outside its equipment, on every day of a run.
+#[derive(Clone, Debug)]
+pub struct Surroundings {
+    /// The weather since the first midnight.
+    pub weather: Weather,
+    /// How the weather of a day is forecast.
+    pub forecast: Forecast,
+    /// Seed of the forecast's errors.
+    pub forecast_seed: u64,
+    /// The people.
+    pub people: People,
+}
+
+impl Surroundings {
+    /// What is forecast at the midnight before day `day`, counted from zero. People are forecast as scheduled. The sun is
+    /// forecast without error, except by [`Forecast::Persistence`], which repeats the day before.
+    pub fn forecast(&self, model: &Model, steps: usize, day: usize) -> Disturbance {
+        let Self { weather, forecast, forecast_seed, people } = self;
+        let step_s = model.step_s();
+        let days_back = if *forecast == Forecast::Persistence { 1.0 } else { 0.0 };
+        let sun_start_s = (day as f64 - days_back) * DAY_S;
+        Disturbance {
+            ambient_c: forecast.ambient_steps_c(weather, *forecast_seed, day, step_s, steps),
+            gains_kw: self.with_sun(people.scheduled_kw(step_s, steps), model, steps, sun_start_s),
+        }
+    }
+
+    /// What happens on day `day`, counted from zero.
+    pub fn actual(&self, model: &Model, steps: usize, day: usize) -> Disturbance {
+        let (start_s, step_s) = (day as f64 * DAY_S, model.step_s());
+        Disturbance {
+            ambient_c: self.weather.ambient_steps_c(start_s, step_s, steps),
+            gains_kw: self.with_sun(self.people.actual_kw(day, step_s, steps), model, steps, start_s),
+        }
+    }
+
+    /// Adds the solar gains of the steps from `start_s` on to stacked gains.
+    fn with_sun(&self, mut gains_kw: Vec<f64>, model: &Model, steps: usize, start_s: f64) -> Vec<f64> {
+        let sun = self.weather.sun_steps_w_per_m2(start_s, model.step_s(), steps);
+        let solar_kw = sun.iter().flat_map(|sun_w_per_m2| model.network().solar_gains_kw(*sun_w_per_m2));
+        gains_kw.iter_mut().zip(solar_kw).for_each(|(gain_kw, solar_kw)| *gain_kw += solar_kw);
+        gains_kw
+    }
+}
