@@ -57,6 +57,7 @@
 //! # }
 //! ```
 
+pub mod bounds;
 pub mod comfort;
 pub mod control;
 pub mod day;

@@ -22,22 +22,22 @@ pub struct Occupancy {
     #[schemars(range(min = 0, max = 24))]
     pub to_h: f64,
     /// How long it takes until all have come, or gone \[h\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub ramp_h: f64,
     /// When most are at lunch \[h\].
     #[schemars(range(min = 0, max = 24))]
     pub lunch_h: f64,
     /// Share of the heat that is missing then.
-    #[schemars(range(min = 0, max = 1))]
+    #[schemars(range(min = 0, max = 1), extend("x-unit" = "dimensionless"))]
     pub lunch_dip: f64,
     /// Least peak of a zone \[kW\]; each zone's is drawn between the two.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub least_peak_kw: f64,
     /// Greatest peak of a zone \[kW\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub greatest_peak_kw: f64,
     /// Heat at all times \[kW\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub base_kw: f64,
     /// How reality deviates.
     pub deviation: Deviation,
@@ -48,22 +48,22 @@ pub struct Occupancy {
 #[serde(deny_unknown_fields, default)]
 pub struct Deviation {
     /// Least share by which a zone's schedule is wrong every day, up or down.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub least_bias: f64,
     /// Greatest share by which a zone's schedule is wrong every day, up or down.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub greatest_bias: f64,
     /// Standard deviation of the share by which a day differs from the others.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub scatter: f64,
     /// Standard deviation of when people come and go \[h\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub shift_h: f64,
     /// Probability that a zone has an extra meeting, or a cancelled one, on a day.
-    #[schemars(range(min = 0, max = 1))]
+    #[schemars(range(min = 0, max = 1), extend("x-unit" = "dimensionless"))]
     pub meeting_probability: f64,
     /// Standard deviation of what switches on and off by itself, during work \[kW\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub noise_kw: f64,
 }
 

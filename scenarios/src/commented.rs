@@ -7,20 +7,18 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use interplay_building::bounds::Bound;
 use serde_json::{Map, Value as Json};
 
 use crate::building::is_embedded_weather;
 use crate::error::LoadError;
 use crate::load::{load, tree};
 use crate::nearest::listed;
-use crate::schema::{self, resolved};
+use crate::schema::{self, Concern, SchemaNode};
 use crate::tree::{Node, Value};
 
 /// Columns of a comment.
 const WIDTH: usize = 110;
-/// Keys of a file that concern vehicles, or a building: left out where there are none.
-const DRIVING: [&str; 6] = ["duration_s", "step_s", "horizon_steps", "plant", "road", "start_jitter"];
-const BUILDING: [&str; 6] = ["building", "weather", "occupancy", "setpoints", "controller", "iterations"];
 
 /// The scenario of that name or path as a commented file that means the same, for a file in `folder`: a path to a weather
 /// file that would lead elsewhere from there is made absolute. Its figure is left out, since a variant is another picture.
@@ -68,29 +66,27 @@ struct Writer {
 /// A table below another, to be written after its plain keys.
 struct Section<'a> {
     path: String,
-    property: &'static Json,
+    schema: SchemaNode,
     value: &'a Json,
     live: bool,
 }
 
 impl Writer {
     /// Writes the keys of a table, then the tables below it. Unless `live`, all of it is a comment.
-    fn table(&mut self, path: &str, property: &'static Json, value: &Map<String, Json>, live: bool) {
-        let first = self.explained.insert(identity(property, value));
+    fn table(&mut self, path: &str, schema: SchemaNode, value: &Map<String, Json>, live: bool) {
+        let first = self.explained.insert(sort_of_table(schema, value));
         let mut sections = Vec::new();
-        for (key, property) in keys(property, value) {
+        for (key, property) in keys(schema, value) {
             let below = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
             let stated = value.get(key).filter(|value| !value.is_null());
-            let spare = || property.get("default").or_else(|| property.get("examples")?.get(0));
-            let shown = stated.or_else(|| first.then(spare).flatten());
-            let Some(shown) = shown.filter(|_| self.concerns(&below)) else { continue };
+            let shown = stated.or_else(|| property.default_or_example().filter(|_| first));
+            let Some(shown) = shown.filter(|_| self.concerns(property)) else { continue };
             let live = live && stated.is_some();
-            let list = list_of_tables(property);
-            if list.is_none() && shown.is_object() && !self.explained.contains(&identity_of(property, shown))
-                || list.is_some_and(|_| first || !is_empty(shown))
-            {
-                sections.push(Section { path: below, property, value: shown, live });
-            } else if list.is_none() && (stated.is_some() || !shown.is_object()) {
+            let is_new = |table: &Map<String, Json>| !self.explained.contains(&sort_of_table(property, table));
+            let is_list = property.table_entries().is_some();
+            if !is_list && shown.as_object().is_some_and(is_new) || is_list && (first || !is_empty(shown)) {
+                sections.push(Section { path: below, schema: property, value: shown, live });
+            } else if !is_list && (stated.is_some() || !shown.is_object()) {
                 if first && key != "kind" {
                     self.explain(property);
                 }
@@ -103,57 +99,51 @@ impl Writer {
     }
 
     fn section(&mut self, section: &Section<'_>) {
-        let Section { path, property, value, live } = section;
+        let Section { path, schema, value, live } = section;
         let empty = Map::new();
-        let (header, item, tables): (_, _, Vec<&Map<String, Json>>) = match (list_of_tables(property), value) {
-            (Some(item), Json::Array(items)) if !items.is_empty() => {
-                (format!("[[{path}]]"), item, items.iter().filter_map(Json::as_object).collect())
+        let (header, table, values): (_, _, Vec<&Map<String, Json>>) = match (schema.table_entries(), value) {
+            (Some(entry), Json::Array(items)) if !items.is_empty() => {
+                (format!("[[{path}]]"), entry, items.iter().filter_map(Json::as_object).collect())
             }
-            (Some(item), _) => (format!("[[{path}]]"), item, vec![&empty]),
-            (None, value) => (format!("[{path}]"), *property, value.as_object().into_iter().collect()),
+            (Some(entry), _) => (format!("[[{path}]]"), entry, vec![&empty]),
+            (None, value) => (format!("[{path}]"), *schema, value.as_object().into_iter().collect()),
         };
-        let live = *live && (list_of_tables(property).is_none() || !is_empty(value));
-        if !live && list_of_tables(property).is_some() && self.explained.contains(&identity(item, &empty)) {
+        let is_list = schema.table_entries().is_some();
+        let live = *live && !(is_list && is_empty(value));
+        if !live && is_list && self.explained.contains(&sort_of_table(table, &empty)) {
             return;
         }
-        for (index, table) in tables.into_iter().enumerate() {
+        for (index, value) in values.into_iter().enumerate() {
             self.text.push('\n');
             if index == 0 {
-                self.explain(property);
+                self.explain(*schema);
             }
             self.line(&header, live);
-            self.table(path, item, table, live);
+            self.table(path, table, value, live);
         }
     }
 
     /// Whether a key has to do with anything in this scenario.
-    fn concerns(&self, path: &str) -> bool {
-        let building = BUILDING.contains(&path) || path.starts_with("expect.building");
-        let driving = DRIVING.contains(&path) || path == "vehicle" || path.starts_with("expect.");
-        if building { self.building } else { self.vehicles || !driving }
+    fn concerns(&self, property: SchemaNode) -> bool {
+        match property.concerns() {
+            Some(Concern::Vehicles) => self.vehicles,
+            Some(Concern::Building) => self.building,
+            None => true,
+        }
     }
 
     /// What the schema says of a key, as a comment.
-    fn explain(&mut self, property: &'static Json) {
-        let schema = resolved(schema::complete(), property);
-        let said = [property, schema].iter().find_map(|schema| schema.get("description")?.as_str());
-        let mut words = said.unwrap_or_default().to_owned();
-        let ranges = [
-            ("minimum", "at least"),
-            ("exclusiveMinimum", "above"),
-            ("maximum", "at most"),
-            ("exclusiveMaximum", "below"),
-        ];
-        let bounds = ranges.iter().filter_map(|(keyword, says)| {
-            let bound = property.get(*keyword).or_else(|| schema.get(*keyword))?.as_f64()?;
-            (bound != 0.0 || schema["type"] == "number").then(|| format!("{says} {bound}"))
-        });
-        let mut bounds = bounds.collect::<Vec<_>>().join(", ");
+    fn explain(&mut self, property: SchemaNode) {
+        let mut words = property.description().to_owned();
+        // That a count is at least 0 needs no words.
+        let is_news = |bound: &Bound| *bound != Bound::AtLeast(0.0) || property.type_name() == Some("number");
+        let bounds: Vec<String> = property.bounds().filter(is_news).map(|bound| bound.to_string()).collect();
+        let mut bounds = bounds.join(", ");
         if let Some(first) = bounds.get_mut(..1) {
             first.make_ascii_uppercase();
             words += &format!(" {bounds}.");
         }
-        let choices = choices(schema);
+        let choices = [property.words(), property.kinds()].concat();
         if !choices.is_empty() {
             words += &format!(" One of: {}.", listed(&choices));
         }
@@ -174,45 +164,23 @@ impl Writer {
 }
 
 /// The properties of a table; of a tagged one, those of its `kind`.
-fn keys(property: &'static Json, value: &Map<String, Json>) -> impl Iterator<Item = (&'static String, &'static Json)> {
-    let schema = resolved(schema::complete(), property);
-    let alternatives = schema.get("oneOf").and_then(Json::as_array).into_iter().flatten();
+fn keys(schema: SchemaNode, value: &Map<String, Json>) -> impl Iterator<Item = (&'static String, SchemaNode)> {
     let kind = value.get("kind").and_then(Json::as_str);
-    let of_kind = alternatives.filter(|one| schema::kind_of(one).is_some()).find(|one| schema::kind_of(one) == kind);
-    of_kind.unwrap_or(schema).get("properties").and_then(Json::as_object).into_iter().flatten()
+    kind.and_then(|kind| schema.of_kind(kind)).unwrap_or(schema).properties()
 }
 
 /// What makes two tables the same sort of table: definition and kind.
-fn identity(property: &Json, value: &Map<String, Json>) -> String {
-    let definition = property.get("$ref").and_then(Json::as_str).unwrap_or_default();
-    format!("{definition} {}", value.get("kind").and_then(Json::as_str).unwrap_or_default())
-}
-
-fn identity_of(property: &Json, value: &Json) -> String {
-    value.as_object().map_or_else(String::new, |value| identity(property, value))
-}
-
-/// The items of a list of tables.
-fn list_of_tables(property: &'static Json) -> Option<&'static Json> {
-    let items = property.get("items")?;
-    resolved(schema::complete(), items).get("properties").map(|_| items)
+fn sort_of_table(schema: SchemaNode, value: &Map<String, Json>) -> String {
+    let kind = value.get("kind").and_then(Json::as_str).unwrap_or_default();
+    format!("{} {kind}", schema.definition_name().unwrap_or_default())
 }
 
 fn is_empty(value: &Json) -> bool {
     value.as_array().is_some_and(Vec::is_empty)
 }
 
-/// The words, or the kinds, from which a key or a table chooses.
-fn choices(schema: &Json) -> Vec<&str> {
-    let words = schema.get("enum").and_then(Json::as_array).into_iter().flatten().filter_map(Json::as_str);
-    let alternatives = schema.get("oneOf").and_then(Json::as_array).into_iter().flatten();
-    let tagged =
-        alternatives.filter_map(|one| one.get("const").and_then(Json::as_str).or_else(|| schema::kind_of(one)));
-    words.chain(tagged).collect()
-}
-
 /// A value as TOML, on one line, a table in the order of its schema.
-fn inline(property: &'static Json, value: &Json) -> String {
+fn inline(property: SchemaNode, value: &Json) -> String {
     let Json::Object(table) = value else { return toml(value) };
     let pairs = keys(property, table).filter_map(|(key, below)| Some((key, below, table.get(key)?)));
     let pairs: Vec<String> = pairs.map(|(key, below, value)| format!("{key} = {}", inline(below, value))).collect();

@@ -2,28 +2,36 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// The expectations of a scenario.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Expect {
     /// Whether nobody may touch anybody (`true`), or a collision must happen (`false`).
+    #[schemars(example = true, extend("x-concerns" = "vehicles"))]
     pub no_collision: Option<bool>,
-    /// Who collides with whom, as pairs of names: these and nobody else. Not together with `no_collision`.
+    /// Who collides with whom, as pairs of names: these and nobody else.
+    #[schemars(example = vec![["ego", "front"]], extend("x-excludes" = ["no_collision"]), extend("x-concerns" = "vehicles"))]
     pub collisions: Option<Vec<[String; 2]>>,
     /// The vehicles from first to last: along the road at the end of the run, or through the conflict zone of an
     /// intersection. Those left out are not judged.
+    #[schemars(example = vec!["ego", "front"], extend("x-concerns" = "vehicles"))]
     pub order: Option<Vec<String>>,
     /// The footprint of the ego never comes nearer to another than this \[m\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 0.05, extend("x-concerns" = "vehicles"))]
     pub min_gap_m: Option<f64>,
     /// At most so many plans fail, all vehicles together.
+    #[schemars(example = 0, extend("x-concerns" = "vehicles"))]
     pub plan_failures_at_most: Option<usize>,
     /// Vehicles that must reach their goal, one `[[expect.completes]]` each.
+    #[schemars(extend("x-concerns" = "vehicles"))]
     pub completes: Vec<Completes>,
     /// Bounds on the extremes of speeds over the run, one `[[expect.speed]]` each.
+    #[schemars(extend("x-concerns" = "vehicles"))]
     pub speed: Vec<SpeedRange>,
     /// What the building must achieve.
+    #[schemars(example = json!({ "after_iterations": 2 }), extend("x-concerns" = "building"))]
     pub building: Option<BuildingExpect>,
 }
 
@@ -34,38 +42,41 @@ pub struct BuildingExpect {
     /// How many days are left out at the start, while a controller learns.
     pub after_iterations: usize,
     /// Whether the cost never rises from one of these days to the next.
+    #[schemars(example = true)]
     pub cost_never_rises: Option<bool>,
     /// Every cost is at most this share of the first day's.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 0.5, extend("x-unit" = "dimensionless"))]
     pub cost_at_most_share_of_first: Option<f64>,
     /// Root of the mean squared error while occupied \[K\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 0.6, extend("x-unit" = "K"))]
     pub tracking_rmse_c_at_most: Option<f64>,
     /// Deviation beyond the comfort band while occupied \[K·h per zone and day\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 1.2, extend("x-unit" = "K·h per zone and day"))]
     pub discomfort_k_h_at_most: Option<f64>,
     /// Heat brought in and taken out \[kWh a day\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 32.0, extend("x-unit" = "kWh a day"))]
     pub energy_kwh_at_most: Option<f64>,
     /// Largest excess of a requested input over its limit \[kW\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 0.0)]
     pub input_violation_kw_at_most: Option<f64>,
     /// How much dearer a day is than the cheapest one that knows everything beforehand.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 30.0, extend("x-unit" = "dimensionless"))]
     pub regret_at_most: Option<f64>,
     /// Heat brought in and taken out before the first occupied time of the day: the controller acts ahead \[kWh\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 1.0)]
     pub early_kwh_at_least: Option<f64>,
     /// Spectral radius of the controller, where it has one.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 0.9, extend("x-unit" = "dimensionless"))]
     pub spectral_radius_at_most: Option<f64>,
     /// On how many of these days the controller may have no plan of its own, all together.
+    #[schemars(example = 0)]
     pub fallbacks_at_most: Option<usize>,
     /// Whether the cost of the common plan never rises from one round of messages to the next.
+    #[schemars(example = true)]
     pub exchange_never_rises: Option<bool>,
     /// By which share the zones' common plan is dearer than the centralised one; with `compare = true` of a distributed
     /// controller.
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 0.01, extend("x-unit" = "dimensionless"))]
     pub above_centralised_at_most: Option<f64>,
 }
 
@@ -74,14 +85,15 @@ pub struct BuildingExpect {
 #[serde(deny_unknown_fields)]
 pub struct Completes {
     /// Name of the vehicle.
+    #[schemars(example = &"ego")]
     pub vehicle: String,
     /// Not before this time \[s\].
     #[serde(default)]
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 1.0)]
     pub after_s: Option<f64>,
     /// Not after this time \[s\].
     #[serde(default)]
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0), example = 6.0)]
     pub before_s: Option<f64>,
 }
 
@@ -90,17 +102,22 @@ pub struct Completes {
 #[serde(deny_unknown_fields)]
 pub struct SpeedRange {
     /// Name of the vehicle.
+    #[schemars(example = &"ego")]
     pub vehicle: String,
     /// Its smallest speed is below this: it did slow down \[m/s\].
     #[serde(default)]
+    #[schemars(example = 0.8)]
     pub min_below_mps: Option<f64>,
     /// Its smallest speed is above this: it did not slow down further \[m/s\].
     #[serde(default)]
+    #[schemars(example = 0.2)]
     pub min_above_mps: Option<f64>,
     /// Its largest speed is below this: it did not go faster \[m/s\].
     #[serde(default)]
+    #[schemars(example = 1.4)]
     pub max_below_mps: Option<f64>,
     /// Its largest speed is above this: it did go faster \[m/s\].
     #[serde(default)]
+    #[schemars(example = 1.1)]
     pub max_above_mps: Option<f64>,
 }

@@ -48,5 +48,5 @@ pub use overrides::Override;
 pub use plant::{Dynamic, Kinematic, Plant};
 pub use road::{Branch, Intersection, Lanes, RampMerge, Road};
 pub use scenario::{Goal, Scenario, StartJitter, Vehicle, Weights};
-pub use schema::schema;
+pub use schema::{driver_kinds, schema};
 pub use source::Source;

@@ -6,7 +6,7 @@ use crate::overrides::Override;
 use crate::scenario::Scenario;
 use crate::source::Source;
 use crate::tree::{self, Node, Table, Value};
-use crate::{building, meaning, shape};
+use crate::{building, meaning, schema, shape};
 
 /// How many files may extend one another.
 const LONGEST_CHAIN: usize = 16;
@@ -90,7 +90,7 @@ fn extended(source: &Source, mut node: Node, chain: &mut Vec<Source>) -> Result<
         problems.into_iter().map(moved).collect::<Vec<_>>()
     })?;
     if let (Value::Table(under), Value::Table(over)) = (below.value, &mut node.value) {
-        *over = merge_tables(inherited(under), std::mem::take(over));
+        *over = merge_tables(Some(schema::complete()), inherited(under), std::mem::take(over));
     }
     Ok(node)
 }

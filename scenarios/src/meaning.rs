@@ -131,10 +131,6 @@ impl Checker<'_> {
     fn goal(&mut self, index: usize, vehicle: &Vehicle) {
         let (name, goal, road) = (&vehicle.name, vehicle.goal, &self.scenario.road);
         let (path, lanes) = (format!("vehicle.{index}.goal"), road.lane_count());
-        if goal.lane.is_some() && goal.y_m.is_some() {
-            let message = format!("`vehicle.{name}.goal` states both `lane` and `y_m`");
-            self.refuse(&format!("{path}.y_m"), "beside `lane`", message, "state the one or the other");
-        }
         if let Some(lane) = goal.lane.filter(|lane| *lane >= lanes) {
             let message = format!(
                 "`vehicle.{name}.goal.lane` is {lane}, but the road has only {lanes} {}",
@@ -166,11 +162,6 @@ impl Checker<'_> {
     fn driver(&mut self, index: usize, vehicle: &Vehicle) {
         let (name, path) = (&vehicle.name, format!("vehicle.{index}.driver"));
         match &vehicle.driver {
-            Driver::Human(human) if human.style.is_some() && human.safety_weight.is_some() => {
-                let message = format!("`vehicle.{name}.driver` states both `style` and `safety_weight`");
-                let help = "`style` is a word for a `safety_weight`: state the one or the other";
-                self.refuse(&format!("{path}.safety_weight"), "beside `style`", message, help);
-            }
             Driver::Negotiation(negotiation) if negotiation.settled_steps >= self.scenario.horizon_steps => {
                 let (settled, horizon) = (negotiation.settled_steps, self.scenario.horizon_steps);
                 let message = format!(
@@ -251,10 +242,6 @@ impl Checker<'_> {
 
     fn collisions(&mut self) {
         let expect = &self.scenario.expect;
-        if expect.collisions.is_some() && expect.no_collision.is_some() {
-            let message = "`expect` states both `collisions` and `no_collision`".to_owned();
-            self.refuse("expect.no_collision", "beside `collisions`", message, "`collisions` says it more exactly");
-        }
         for (index, pair) in expect.collisions.iter().flatten().enumerate() {
             let path = format!("expect.collisions.{index}");
             for (end, name) in pair.iter().enumerate() {

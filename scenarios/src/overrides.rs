@@ -9,6 +9,7 @@ use crate::error::{Document, Place, Problem, quoted};
 use crate::merge::merge_tables;
 use crate::nearest::suggestion;
 use crate::scenario::EGO;
+use crate::schema::{self, SchemaNode};
 use crate::tree::{Entry, Node, Table, Value, kind_of, parse_value};
 
 /// The most words that a path may have; bounds the depth of what `--set` can make.
@@ -47,7 +48,7 @@ impl Override {
                 (steps_of(&path, &place), Node { place, value: Value::Text(kind.clone()) })
             }
         };
-        lay(root, &steps, value)
+        lay(Some(schema::complete()), root, &steps, value)
     }
 }
 
@@ -104,20 +105,21 @@ fn ego_name(root: &Table) -> String {
 }
 
 /// Lays a value over a table at the end of a path, making the tables on the way that are not there yet.
-fn lay(table: &mut Table, steps: &[Step], value: Node) -> Result<(), Problem> {
+fn lay(schema: Option<SchemaNode>, table: &mut Table, steps: &[Step], value: Node) -> Result<(), Problem> {
     let [step, rest @ ..] = steps else { return Ok(()) };
     if rest.is_empty() {
         let change = Table::from([(step.word.clone(), Entry { key: step.place.clone(), node: value })]);
-        *table = merge_tables(std::mem::take(table), change);
+        *table = merge_tables(schema, std::mem::take(table), change);
         return Ok(());
     }
+    let property = schema.and_then(|table| table.property(&step.word));
     let entry = table.entry(step.word.clone()).or_insert_with(|| Entry {
         key: step.place.clone(),
         node: Node { place: step.place.clone(), value: Value::Table(Table::new()) },
     });
     match &mut entry.node.value {
-        Value::Table(table) => lay(table, rest, value),
-        Value::Array(items) => lay_in_list(items, step, rest, value),
+        Value::Table(table) => lay(property, table, rest, value),
+        Value::Array(items) => lay_in_list(property.and_then(SchemaNode::entries), items, step, rest, value),
         other => {
             let message = format!("{} is {}, not a table", quoted(&step.word), kind_of(other));
             Err(Problem::at(&step.place, "nothing is below this", message))
@@ -125,8 +127,14 @@ fn lay(table: &mut Table, steps: &[Step], value: Node) -> Result<(), Problem> {
     }
 }
 
-/// Lays a value over the item of a list that the first step names.
-fn lay_in_list(items: &mut [Node], list: &Step, steps: &[Step], value: Node) -> Result<(), Problem> {
+/// Lays a value over the entry of a list that the first step names; `schema` is that of an entry.
+fn lay_in_list(
+    schema: Option<SchemaNode>,
+    items: &mut [Node],
+    list: &Step,
+    steps: &[Step],
+    value: Node,
+) -> Result<(), Problem> {
     let [step, rest @ ..] = steps else { return Ok(()) };
     let labels: Vec<String> = items.iter().filter_map(|item| item.label().map(str::to_owned)).collect();
     let Some(item) = items.iter_mut().find(|item| item.label() == Some(step.word.as_str())) else {
@@ -135,7 +143,7 @@ fn lay_in_list(items: &mut [Node], list: &Step, steps: &[Step], value: Node) -> 
         return Err(Problem::at(&step.place, "unknown", message).help(suggestion(&step.word, "there are", &known)));
     };
     match &mut item.value {
-        Value::Table(table) if !rest.is_empty() => lay(table, rest, value),
+        Value::Table(table) if !rest.is_empty() => lay(schema, table, rest, value),
         _ => {
             *item = value;
             Ok(())

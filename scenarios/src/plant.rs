@@ -30,7 +30,7 @@ pub struct Kinematic {}
 #[serde(deny_unknown_fields, default)]
 pub struct Dynamic {
     /// Friction coefficient between tyres and road: no axle transmits more than this share of its load.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 3.0))]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 3.0), extend("x-unit" = "dimensionless"))]
     pub friction: f64,
     /// Lateral force of the front axle per slip angle, as a share of its load \[1/rad\].
     #[schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
@@ -40,19 +40,19 @@ pub struct Dynamic {
     #[schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     pub rear_stiffness_per_rad: f64,
     /// Time constant with which the acceleration follows what is asked for; 0 for at once \[s\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub acceleration_lag_s: f64,
     /// The fastest change of the acceleration \[m/s³\].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub jerk_max_mps3: f64,
     /// Time constant with which the steering angle follows what is asked for; 0 for at once \[s\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub steering_lag_s: f64,
     /// The fastest change of the steering angle \[rad/s\].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub steering_rate_max_radps: f64,
     /// Share of the closing speed with which bodies part after a collision.
-    #[schemars(extend("minimum" = 0.0, "maximum" = 1.0))]
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub restitution: f64,
 }
 

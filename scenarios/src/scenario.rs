@@ -9,6 +9,7 @@ use interplay_building::occupancy::Occupancy;
 use interplay_planners::{Body, Driver, Limits, SafetyEllipse, State, human};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use crate::building::{Building, Weather};
 use crate::{Branch, Expect, Plant, Road, jitter};
@@ -18,60 +19,69 @@ use crate::{Branch, Expect, Plant, Road, jitter};
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// What the scenario is called, in a few words.
-    #[schemars(length(min = 1))]
+    #[schemars(length(min = 1), example = &"Lane change, front driver nice")]
     pub title: String,
     /// What it shows, in one sentence.
-    #[schemars(length(min = 1))]
+    #[schemars(length(min = 1), example = &"The ego cuts in ahead of a driver who yields")]
     pub shows: String,
     /// The figure of the dissertation that it reproduces.
     #[serde(default)]
+    #[schemars(example = &"6.1")]
     pub figure: Option<String>,
     /// Simulated time \[s\].
     #[serde(default = "defaults::duration_s")]
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"))]
     pub duration_s: f64,
     /// Time from one tick to the next: everybody plans and moves once a tick \[s\].
     #[serde(default = "defaults::step_s")]
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"))]
     pub step_s: f64,
     /// How many ticks every plan looks ahead.
     #[serde(default = "defaults::horizon_steps")]
-    #[schemars(range(min = 2, max = 200))]
+    #[schemars(range(min = 2, max = 200), extend("x-concerns" = "vehicles"))]
     pub horizon_steps: usize,
     /// From which all random numbers are drawn.
     #[serde(default = "defaults::seed")]
     pub seed: u64,
     /// What moves the vehicles, `kind` choosing; by default exactly the model that planners use.
     #[serde(default)]
+    #[schemars(extend("x-concerns" = "vehicles"))]
     pub plant: Plant,
     /// Where vehicles may drive, `kind` choosing; by default two lanes for 1/10 scale cars.
     #[serde(default)]
+    #[schemars(extend("x-concerns" = "vehicles"))]
     pub road: Road,
     /// Random change of every start, drawn from the seed; none by default.
     #[serde(default)]
+    #[schemars(extend("x-concerns" = "vehicles"))]
     pub start_jitter: StartJitter,
     /// The vehicles, one `[[vehicle]]` each.
     #[serde(rename = "vehicle", default)]
-    #[schemars(length(max = 64))]
+    #[schemars(length(max = 64), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub vehicles: Vec<Vehicle>,
     /// The building; without the table there is none.
     #[serde(default)]
+    #[schemars(extend("x-concerns" = "building"), example = json!({ "preset": "testbed" }))]
     pub building: Option<Building>,
     /// The weather around the building; by default a synthetic tropical climate, forecast without error.
     #[serde(default)]
+    #[schemars(extend("x-concerns" = "building"), example = json!({ "kind": "synthetic" }))]
     pub weather: Option<Weather>,
     /// The people in the building; by default office hours with real deviations.
     #[serde(default)]
+    #[schemars(extend("x-concerns" = "building"), example = json!({}))]
     pub occupancy: Option<Occupancy>,
     /// Wanted temperatures and what it costs to miss them; by default those of chapter 3, free at night.
     #[serde(default)]
+    #[schemars(extend("x-concerns" = "building"), example = json!({ "occupied_c": [24.0] }))]
     pub setpoints: Option<Setpoints>,
     /// Who controls the building; by default a PID controller in each zone.
     #[serde(default)]
+    #[schemars(extend("x-concerns" = "building"), example = json!({ "kind": "pid" }))]
     pub controller: Option<Controller>,
     /// How many days of the building are simulated; by default 10.
     #[serde(default)]
-    #[schemars(range(min = 1, max = 10000))]
+    #[schemars(range(min = 1, max = 10000), extend("x-concerns" = "building"), example = 10)]
     pub iterations: Option<usize>,
     /// What makes the run pass; nothing by default.
     #[serde(default)]
@@ -117,22 +127,15 @@ impl Scenario {
         (self.duration_s / self.step_s).round() as usize
     }
 
-    /// The keys of the vehicles' clock that are not as they are by default.
-    pub(crate) fn stated_clock(&self) -> impl Iterator<Item = &'static str> {
-        let stated = [
-            ("duration_s", self.duration_s != defaults::duration_s()),
-            ("step_s", self.step_s != defaults::step_s()),
-            ("horizon_steps", self.horizon_steps != defaults::horizon_steps()),
-        ];
-        stated.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key)
-    }
-
     /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
     /// same seed gives the same starts.
     pub fn starts(&self) -> Vec<State> {
         jitter::starts(self)
     }
 }
+
+/// The form of a name, which becomes part of paths.
+pub(crate) const NAME_PATTERN: &str = "^[a-z0-9_-]{1,64}$";
 
 /// The name that makes a vehicle the ego.
 pub(crate) const EGO: &str = "ego";
@@ -154,12 +157,13 @@ pub struct StartJitter {
 #[serde(deny_unknown_fields)]
 pub struct Vehicle {
     /// Its name, unique in the file; it becomes part of paths in the recording.
-    #[schemars(extend("pattern" = crate::schema::NAME_PATTERN))]
+    #[schemars(extend("pattern" = NAME_PATTERN), example = &"ego")]
     pub name: String,
     /// The road it drives on; by default the one along x, and there is another at intersections only.
     #[serde(default)]
     pub road: Branch,
     /// Where it starts: mass centre, heading and speed.
+    #[schemars(example = json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 }))]
     pub start: State,
     /// What it wants; by default to carry on as it starts.
     #[serde(default)]
@@ -206,11 +210,14 @@ impl Vehicle {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Goal {
-    /// The lane whose centre it wants, counted from the right; 0 is the rightmost. Not together with `y_m`.
+    /// The lane whose centre it wants, counted from the right; 0 is the rightmost.
+    #[schemars(example = 1, extend("x-excludes" = ["y_m"]))]
     pub lane: Option<usize>,
-    /// The lateral position that it wants, on the road along x. Not together with `lane` \[m\].
+    /// The lateral position that it wants, on the road along x \[m\].
+    #[schemars(example = 0.555)]
     pub y_m: Option<f64>,
     /// The speed that it wants \[m/s\].
+    #[schemars(example = 1.0)]
     pub speed_mps: Option<f64>,
 }
 
@@ -219,22 +226,22 @@ pub struct Goal {
 #[serde(deny_unknown_fields, default)]
 pub struct Weights {
     /// Of the position along the vehicle's road: 0, since nobody wants to stay at one place.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/m²"))]
     pub x: f64,
     /// Of the position across the vehicle's road, which is y where the road runs along x \[1/m²\].
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/m²"))]
     pub y: f64,
     /// Of the heading \[1/rad²\].
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/rad²"))]
     pub heading: f64,
     /// Of the speed \[s²/m²\].
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "s²/m²"))]
     pub speed: f64,
     /// Of the change of acceleration from one tick to the next \[s⁴/m²\].
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "s⁴/m²"))]
     pub acceleration_change: f64,
     /// Of the change of the steering angle from one tick to the next \[1/rad²\].
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/rad²"))]
     pub steering_change: f64,
 }
 

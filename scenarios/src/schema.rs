@@ -1,91 +1,51 @@
 //! The JSON Schema of a scenario file: what editors complete from, and what the loader checks against.
 //!
-//! It is generated from [`Scenario`], then tightened by [`BOUNDS`], the ranges within which the planners' own settings
-//! make sense, and given the units and examples of [`words`]. [`complete`] describes a whole scenario, all that it extends included. [`schema`] describes one file,
-//! which may leave to its parent whatever it does not state.
+//! It is generated from [`Scenario`]. Whatever is said of a setting stands on its field: description, type and default, and as
+//! `schemars` attributes its bounds, its example, and
+//!
+//! - `x-unit`: the unit of a number whose key does not end with one ([`units`]),
+//! - `x-excludes`: keys that may not stand beside it,
+//! - `x-concerns`: `vehicles` or `building`, for what means nothing without them,
+//! - `x-merge-by`: the key by which a variant's entries of a list are merged with its parent's.
+//!
+//! [`complete`] describes a whole scenario, all that it extends included. [`schema`] describes one file, which may leave to
+//! its parent whatever it does not state.
 
-mod words;
+mod node;
+mod units;
 
 use std::sync::LazyLock;
 
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json, json};
 
-use crate::Scenario;
+use crate::scenario::Scenario;
+use node::kind_of;
 
-/// What a name must look like, since it becomes part of paths.
-pub(crate) const NAME_PATTERN: &str = "^[a-z0-9_-]{1,64}$";
-
-/// Keywords of JSON Schema with their bounds.
-type Keywords = &'static [(&'static str, f64)];
-
-/// Ranges of the planners' settings: table (a definition, or the kind of a driver), key, bounds. Lengths are at least a
-/// millimetre, so that nothing is divided by almost nothing.
-const BOUNDS: &[(&str, &str, Keywords)] = &[
-    ("Body", "front_m", &[("minimum", 0.001)]),
-    ("Body", "rear_m", &[("minimum", 0.001)]),
-    ("Body", "width_m", &[("minimum", 0.001)]),
-    ("Body", "front_axle_m", &[("minimum", 0.001)]),
-    ("Body", "rear_axle_m", &[("minimum", 0.001)]),
-    ("SafetyEllipse", "along_m", &[("minimum", 0.001)]),
-    ("SafetyEllipse", "across_m", &[("minimum", 0.001)]),
-    ("Limits", "acceleration_min_mps2", &[("exclusiveMaximum", 0.0)]),
-    ("Limits", "acceleration_max_mps2", &[("exclusiveMinimum", 0.0)]),
-    ("Limits", "steering_max_rad", &[("exclusiveMinimum", 0.0), ("maximum", 1.5)]),
-    ("Limits", "speed_min_mps", &[("minimum", 0.0)]),
-    ("Limits", "speed_max_mps", &[("exclusiveMinimum", 0.0)]),
-    ("human", "safety_weight", &[("minimum", 0.0)]),
-    ("human", "following_weight", &[("minimum", 0.0)]),
-    ("negotiation", "beta", &[("exclusiveMinimum", 0.0), ("exclusiveMaximum", 1.0)]),
-    ("negotiation", "gamma", &[("minimum", 0.0)]),
-    ("negotiation", "epsilon", &[("minimum", 0.0)]),
-    ("negotiation", "patience_steps", &[("minimum", 1.0)]),
-    ("negotiation", "clear_lead_m", &[("minimum", 0.0)]),
-    ("negotiation", "settled_steps", &[("minimum", 1.0)]),
-    ("negotiation", "ego_normaliser", &[("exclusiveMinimum", 0.0)]),
-    ("negotiation", "other_normaliser", &[("exclusiveMinimum", 0.0)]),
-    ("negotiation", "weight_floor", &[("minimum", 0.0), ("maximum", 1.0)]),
-    ("Zone", "capacity_kj_per_k", &[("exclusiveMinimum", 0.0)]),
-    ("Zone", "limit_kw", &[("minimum", 0.0)]),
-    ("Zone", "solar_aperture_m2", &[("minimum", 0.0)]),
-    ("Wall", "resistance_k_per_kw", &[("exclusiveMinimum", 0.0)]),
-    ("Wall", "capacity_kj_per_k", &[("exclusiveMinimum", 0.0)]),
-];
+pub(crate) use node::{Concern, SchemaNode};
+pub(crate) use units::{quantity_of, unit_of};
 
 static COMPLETE: LazyLock<Json> = LazyLock::new(|| {
     let generator = SchemaSettings::draft2020_12().into_generator();
     let mut schema = generator.into_root_schema_for::<Scenario>().to_value();
-    for (table, key, bounds) in BOUNDS {
-        if let Some(property) = properties_of(&mut schema, table).and_then(|properties| properties.get_mut(*key)) {
-            for (keyword, bound) in *bounds {
-                property[*keyword] = json!(bound);
-            }
-        }
-    }
-    for (table, key, unit) in words::UNITS {
-        let property = properties_of(&mut schema, table).and_then(|properties| properties.get_mut(*key));
-        if let Some(Json::String(description)) = property.and_then(|property| property.get_mut("description")) {
-            *description = format!("{} [{unit}].", description.trim_end_matches('.'));
-        }
-    }
-    for (table, key, example) in words::examples() {
-        let property = properties_of(&mut schema, table).and_then(|properties| properties.get_mut(key));
-        if let Some(property) = property {
-            property["examples"] = json!([example]);
-        }
-    }
     polish(&mut schema);
     schema
 });
 
 /// The schema of a whole scenario, all that it extends included.
-pub(crate) fn complete() -> &'static Json {
-    &COMPLETE
+pub(crate) fn complete() -> SchemaNode {
+    SchemaNode::of(&COMPLETE)
+}
+
+/// The kinds of drivers that a vehicle may have.
+pub fn driver_kinds() -> Vec<&'static str> {
+    let vehicle = complete().property("vehicle").and_then(SchemaNode::entries);
+    vehicle.and_then(|vehicle| vehicle.property("driver")).map(SchemaNode::kinds).unwrap_or_default()
 }
 
 /// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat what that one states.
 pub fn schema() -> Json {
-    let whole = complete();
+    let whole = &*COMPLETE;
     let mut schema = whole.clone();
     let mut required = requirements(whole, whole).unwrap_or_else(|| json!({}));
     drop_requirements(&mut schema);
@@ -107,42 +67,14 @@ fn extends() -> Json {
     })
 }
 
-/// The properties of a definition, of the tagged table of that kind, or, without a name, of the file itself.
-fn properties_of<'a>(schema: &'a mut Json, table: &str) -> Option<&'a mut Map<String, Json>> {
-    if table.is_empty() {
-        return schema.get_mut("properties")?.as_object_mut();
-    }
-    let definitions = schema.get_mut("$defs")?.as_object_mut()?;
-    let definition = if definitions.contains_key(table) {
-        definitions.get_mut(table)?
-    } else {
-        let tagged = definitions.values_mut().filter_map(|schema| schema.get_mut("oneOf")?.as_array_mut());
-        tagged.flatten().find(|kind| kind_of(kind) == Some(table))?
-    };
-    definition.get_mut("properties")?.as_object_mut()
-}
-
-/// The `kind` that an alternative of a tagged table requires.
-pub(crate) fn kind_of(alternative: &Json) -> Option<&str> {
-    alternative.get("properties")?.get("kind")?.get("const")?.as_str()
-}
-
-/// The keys that a table of this `kind` may have.
-pub(crate) fn keys_of_kind(kind: &str) -> Option<impl Iterator<Item = &'static str>> {
-    let definitions = complete().get("$defs")?.as_object()?;
-    let mut alternatives = definitions.values().filter_map(|schema| schema.get("oneOf")?.as_array()).flatten();
-    let alternative = alternatives.find(|one| kind_of(one) == Some(kind))?;
-    Some(alternative.get("properties")?.as_object()?.keys().map(String::as_str))
-}
-
 /// What `$ref` refers to, if there is one.
-pub(crate) fn resolved<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
+fn resolved<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
     let name = schema.get("$ref").and_then(Json::as_str).and_then(|path| path.strip_prefix("#/$defs/"));
     name.and_then(|name| root.get("$defs")?.get(name)).unwrap_or(schema)
 }
 
-/// Makes the schema speak TOML: no nulls, which TOML cannot write; descriptions without the escapes of doc comments, and
-/// one for each `kind`.
+/// Adapts the schema to TOML and to readers: no nulls, which TOML cannot write; descriptions without the escapes of doc
+/// comments; one for each `kind`; and units.
 fn polish(schema: &mut Json) {
     match schema {
         Json::Object(object) => {
@@ -160,9 +92,49 @@ fn polish(schema: &mut Json) {
                 kind.entry("description").or_insert_with(|| json!("Chooses what this table describes."));
             }
             object.values_mut().for_each(polish);
+            if let Some(properties) = object.get_mut("properties").and_then(Json::as_object_mut) {
+                properties.iter_mut().for_each(|(key, property)| state_unit(key, property));
+                state_exclusions(properties);
+            }
         }
         Json::Array(items) => items.iter_mut().for_each(polish),
         _ => {}
+    }
+}
+
+/// Gives a number its unit, as `x-unit` and at the end of its description.
+fn state_unit(key: &str, property: &mut Json) {
+    let is_number = |schema: &Json| schema.get("type").is_some_and(|word| word == "number");
+    if !is_number(property) && !property.get("items").is_some_and(is_number) {
+        return;
+    }
+    let stated = property.get("x-unit").and_then(Json::as_str).or_else(|| unit_of(key));
+    let Some(unit) = stated.map(str::to_owned) else { return };
+    if let Some(Json::String(description)) = property.get_mut("description")
+        && !description.contains('[')
+    {
+        *description = format!("{} [{unit}].", description.trim_end_matches('.'));
+    }
+    property["x-unit"] = json!(unit);
+}
+
+/// Says in the description of a key which others may not stand beside it.
+fn state_exclusions(properties: &mut Map<String, Json>) {
+    let excluded = |property: &Json| property.get("x-excludes").and_then(Json::as_array).cloned().unwrap_or_default();
+    let pairs: Vec<(String, String)> = properties
+        .iter()
+        .flat_map(|(one, property)| excluded(property).into_iter().map(|other| (one.clone(), other)))
+        .filter_map(|(one, other)| Some((one, other.as_str()?.to_owned())))
+        .collect();
+    for (key, property) in properties {
+        let beside = |(one, other): &(String, String)| {
+            let other = if one == key { Some(other) } else { Some(one).filter(|_| other == key) };
+            other.map(|other| format!("`{other}`"))
+        };
+        let others: Vec<String> = pairs.iter().filter_map(beside).collect();
+        if let Some(Json::String(description)) = property.get_mut("description").filter(|_| !others.is_empty()) {
+            *description += &format!(" Not together with {}.", others.join(" or "));
+        }
     }
 }
 
@@ -235,33 +207,33 @@ fn is_tagged(schema: &Map<String, Json>) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use interplay_planners::Driver;
+
     use super::*;
 
     #[test]
-    fn every_bound_belongs_to_a_key() {
-        let mut schema = complete().clone();
-        for (table, key, bounds) in BOUNDS {
-            let properties = properties_of(&mut schema, table).unwrap_or_else(|| panic!("no table {table}"));
-            let property = properties.get(*key).unwrap_or_else(|| panic!("no key {key} in {table}"));
-            for (keyword, bound) in *bounds {
-                assert_eq!(property.get(*keyword), Some(&json!(bound)), "{table}.{key}");
-            }
+    fn the_kinds_of_drivers_are_those_of_the_planners() {
+        let kinds = driver_kinds();
+        assert!(kinds.contains(&"human") && kinds.contains(&"negotiation"), "{kinds:?}");
+        for kind in kinds {
+            let driver: Driver = serde_json::from_value(json!({ "kind": kind })).expect("every setting has a default");
+            assert_eq!(driver.kind(), kind);
         }
     }
 
     #[test]
-    fn every_unit_and_every_example_belongs_to_a_key() {
-        let mut schema = complete().clone();
-        for (table, key, unit) in words::UNITS {
-            let property = &properties_of(&mut schema, table).unwrap_or_else(|| panic!("no table {table}"))[*key];
-            let said = property["description"].as_str().unwrap_or_default();
-            assert_eq!(said.matches(&format!("[{unit}]")).count(), 1, "{table}.{key} states its unit already: {said}");
-        }
-        let units = words::UNITS.iter().map(|(table, key, _)| (*table, *key));
-        for (table, key) in units.chain(words::examples().into_iter().map(|(table, key, _)| (table, key))) {
-            let properties = properties_of(&mut schema, table).unwrap_or_else(|| panic!("no table {table}"));
-            assert!(properties.contains_key(key), "no key {key} in {table}");
-        }
+    fn a_polished_description_ends_with_the_unit_once() {
+        let mut schema = json!({ "properties": {
+            "speed_mps": { "type": "number", "description": "How fast it drives." },
+            "gap_m": { "type": "number", "description": "Gap to the next \\[m\\]; 0 is none." },
+            "weight": { "type": "number", "description": "What it costs.", "x-unit": "1/m²" },
+        } });
+        polish(&mut schema);
+        let property = |key: &str| schema["properties"][key].clone();
+        assert_eq!(property("speed_mps")["description"], "How fast it drives [m/s].");
+        assert_eq!(property("gap_m")["description"], "Gap to the next [m]; 0 is none.");
+        assert_eq!(property("weight")["description"], "What it costs [1/m²].");
+        assert_eq!((&property("gap_m")["x-unit"], &property("weight")["x-unit"]), (&json!("m"), &json!("1/m²")));
     }
 
     #[test]
@@ -272,7 +244,7 @@ mod tests {
         let [variant, whole] = file["anyOf"].as_array().expect("two cases").as_slice() else { panic!("two cases") };
         assert_eq!(variant, &json!({ "required": ["extends"] }));
         assert_eq!(whole["not"], *variant);
-        assert_eq!(whole["required"], complete()["required"]);
+        assert_eq!(whole["required"], COMPLETE["required"]);
         let vehicle = &whole["properties"]["vehicle"]["items"];
         assert_eq!(vehicle["required"], json!(["name", "start"]));
         assert_eq!(vehicle["properties"]["start"]["required"], json!(["x_m", "y_m", "speed_mps"]));

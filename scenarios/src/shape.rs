@@ -3,28 +3,23 @@
 //! It understands the part of JSON Schema that [`schema::complete`] uses (a test holds it to that), and says in the words
 //! of the format what is wrong and what would work.
 
+use interplay_building::bounds::Bound;
 use serde_json::Value as Json;
 
 use crate::error::{Place, Problem, quoted};
 use crate::nearest::{listed, suggestion};
-use crate::schema;
+use crate::schema::{self, SchemaNode, quantity_of, unit_of};
 use crate::tree::{Node, Table, Value, kind_of};
-
-/// No number is larger: beyond, squares and products of what is computed could overflow.
-const LARGEST: f64 = 1e9;
-
-/// Units at the end of keys of one word, such as `speed_mps`.
-const UNITS: [&str; 12] = ["m", "s", "h", "k", "c", "kw", "deg", "rad", "mps", "mps2", "k_per_kw", "kj_per_k"];
-
-/// A schema that says nothing.
-static NULL: Json = Json::Null;
 
 /// Everything that is wrong with the shape of the tree.
 pub(crate) fn check(tree: &Node) -> Vec<Problem> {
-    let mut checker = Checker { root: schema::complete(), problems: Vec::new() };
-    checker.node(tree, checker.root, &Path::default());
+    let mut checker = Checker { problems: Vec::new() };
+    checker.node(tree, schema::complete(), &Path::default());
     checker.problems
 }
+
+/// The largest whole number of a setting, unless its type is `u64`.
+const LARGEST_INTEGER: i128 = 1_000_000_000;
 
 /// Where the checker is, as `--set` would address it.
 #[derive(Clone, Default)]
@@ -37,7 +32,6 @@ impl Path {
 }
 
 struct Checker {
-    root: &'static Json,
     problems: Vec<Problem>,
 }
 
@@ -47,37 +41,27 @@ impl Checker {
         self.problems.push(if help.is_empty() { problem } else { problem.help(help) });
     }
 
-    fn node(&mut self, node: &Node, stated: &'static Json, path: &Path) {
-        let schema = schema::resolved(self.root, stated);
-        if let Some(alternatives) = schema.get("oneOf").and_then(Json::as_array) {
-            return self.alternatives(node, alternatives, stated, path);
-        }
-        if let Some(words) = schema.get("enum").and_then(Json::as_array) {
-            let words: Vec<&str> = words.iter().filter_map(Json::as_str).collect();
+    fn node(&mut self, node: &Node, schema: SchemaNode, path: &Path) {
+        let (words, kinds) = (schema.words(), schema.kinds());
+        if !words.is_empty() {
             return self.word(node, &words, path);
         }
-        match (schema.get("type").and_then(Json::as_str), &node.value) {
+        if !kinds.is_empty() {
+            return self.table_of_a_kind(node, &kinds, schema, path);
+        }
+        match (schema.type_name(), &node.value) {
             (Some("object"), Value::Table(table)) => self.table(node, table, schema, path),
             (Some("array"), Value::Array(items)) => self.list(node, items, schema, path),
             (Some("string"), Value::Text(text)) => self.text(node, text, schema, path),
             (Some("boolean"), Value::Bool(_)) => {}
-            (Some("integer"), Value::Integer(integer)) => {
-                let largest =
-                    if schema.get("format") == Some(&Json::from("uint64")) { u64::MAX.into() } else { 1_000_000_000 };
-                if *integer > largest {
-                    let message = format!("{} must be at most {largest}", quoted(&path.0));
-                    self.refuse(&node.place, "too large", message, described(stated, schema));
-                } else {
-                    self.range(node, *integer as f64, schema, stated, path);
-                }
-            }
-            (Some("number"), Value::Integer(integer)) => self.number(node, *integer as f64, schema, stated, path),
-            (Some("number"), Value::Float(float)) => self.number(node, *float, schema, stated, path),
-            (wanted, _) => self.wrong_type(node, wanted, stated, path),
+            (Some("integer"), Value::Integer(integer)) => self.integer(node, *integer, schema, path),
+            (Some("number"), Value::Integer(integer)) => self.number(node, *integer as f64, schema, path),
+            (Some("number"), Value::Float(float)) => self.number(node, *float, schema, path),
+            (wanted, _) => self.wrong_type(node, wanted, schema, path),
         }
     }
 
-    fn wrong_type(&mut self, node: &Node, wanted: Option<&str>, stated: &'static Json, path: &Path) {
+    fn wrong_type(&mut self, node: &Node, wanted: Option<&str>, schema: SchemaNode, path: &Path) {
         let wanted = match wanted {
             Some("object") => "a table",
             Some("array") => "a list",
@@ -93,115 +77,119 @@ impl Checker {
             other => kind_of(other).to_owned(),
         };
         let message = format!("{} must be {wanted}, not {got}", quoted(&path.0));
-        let help = described(stated, schema::resolved(self.root, stated));
-        self.refuse(&node.place, &format!("not {wanted}"), message, help);
+        self.refuse(&node.place, &format!("not {wanted}"), message, schema.description());
     }
 
-    fn table(&mut self, node: &Node, table: &Table, schema: &'static Json, path: &Path) {
-        let properties = schema.get("properties").and_then(Json::as_object);
-        let property = |key: &str| properties.and_then(|properties| properties.get(key));
+    fn table(&mut self, node: &Node, table: &Table, schema: SchemaNode, path: &Path) {
         for (key, entry) in table {
-            if let Some(schema) = property(key) {
-                self.node(&entry.node, schema, &path.join(key));
-                continue;
+            match schema.property(key) {
+                Some(property) => self.node(&entry.node, property, &path.join(key)),
+                None => self.unknown_key(key, &entry.key, schema, path),
             }
-            let known: Vec<&str> = properties.into_iter().flat_map(|all| all.keys()).map(String::as_str).collect();
-            let within = if path.0.is_empty() { String::new() } else { format!(" in {}", quoted(&path.0)) };
-            let message = format!("unknown key {}{within}", quoted(key));
-            let in_another_unit = known.iter().find(|known| differ_by_unit(key, known)).and_then(|known| {
-                let stated = property(known)?;
-                let said = described(stated, schema::resolved(self.root, stated));
-                Some(format!("it is called `{known}` here, after its unit: {said}"))
-            });
-            let help = in_another_unit.unwrap_or_else(|| suggestion(key, "the keys here are", &known));
-            self.refuse(&entry.key, "unknown key", message, help);
         }
-        let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
-        for key in required.filter_map(Json::as_str).filter(|key| !table.contains_key(*key)) {
-            let stated = property(key).unwrap_or(&NULL);
+        for key in schema.required().filter(|key| !table.contains_key(*key)) {
             let message = format!("{} is missing", quoted(&path.join(key).0));
-            let help = described(stated, schema::resolved(self.root, stated));
+            let help = schema.property(key).map(SchemaNode::description).unwrap_or_default();
             self.refuse(&node.place, &format!("has no `{key}`"), message, help);
         }
+        let stated = |key: &str| table.get(key).filter(|entry| !entry.node.is_empty_list());
+        for (one, other) in schema.exclusions() {
+            if let (Some(_), Some(second)) = (stated(one), stated(other)) {
+                let message = format!("{} states both `{one}` and `{other}`", quoted(&path.0));
+                let said = schema.property(one).map(SchemaNode::description).unwrap_or_default();
+                let help = format!("state the one or the other; of `{one}`: {said}");
+                self.refuse(&second.node.place, &format!("beside `{one}`"), message, help);
+            }
+        }
     }
 
-    fn list(&mut self, node: &Node, items: &[Node], schema: &'static Json, path: &Path) {
-        let bound = |keyword: &str| schema.get(keyword).and_then(Json::as_u64);
+    fn unknown_key(&mut self, key: &str, place: &Place, schema: SchemaNode, path: &Path) {
+        let within = if path.0.is_empty() { String::new() } else { format!(" in {}", quoted(&path.0)) };
+        let message = format!("unknown key {}{within}", quoted(key));
+        let in_another_unit =
+            schema.properties().find(|(known, _)| differ_by_unit(key, known)).map(|(known, property)| {
+                format!("it is called `{known}` here, after its unit: {}", property.description())
+            });
+        let known: Vec<&str> = schema.properties().map(|(key, _)| key.as_str()).collect();
+        let help = in_another_unit.unwrap_or_else(|| suggestion(key, "the keys here are", &known));
+        self.refuse(place, "unknown key", message, help);
+    }
+
+    fn list(&mut self, node: &Node, items: &[Node], schema: SchemaNode, path: &Path) {
+        let bound = |keyword: &str| schema.keyword(keyword).and_then(Json::as_u64);
         let count = items.len() as u64;
         if let Some(least) = bound("minItems").filter(|least| count < *least) {
             let message = format!("{} must have at least {least} {}", quoted(&path.0), entries(least));
-            self.refuse(&node.place, "too short", message, "");
+            self.refuse(&node.place, "too short", message, schema.description());
         }
         if let Some(most) = bound("maxItems").filter(|most| count > *most) {
             let message = format!("{} must have at most {most} {}, not {count}", quoted(&path.0), entries(most));
-            self.refuse(&node.place, "too long", message, "");
+            self.refuse(&node.place, "too long", message, schema.description());
         }
+        let Some(schema) = schema.entries() else { return };
         for (index, item) in items.iter().enumerate() {
             let step = item.label().map_or_else(|| index.to_string(), str::to_owned);
-            self.node(item, schema.get("items").unwrap_or(&NULL), &path.join(&step));
+            self.node(item, schema, &path.join(&step));
         }
     }
 
-    fn text(&mut self, node: &Node, text: &str, schema: &'static Json, path: &Path) {
-        if schema.get("minLength").is_some() && text.trim().is_empty() {
+    fn text(&mut self, node: &Node, text: &str, schema: SchemaNode, path: &Path) {
+        if schema.keyword("minLength").is_some() && text.trim().is_empty() {
             let message = format!("{} must not be empty", quoted(&path.0));
             self.refuse(&node.place, "empty", message, "");
         }
-        if schema.get("pattern").is_some() && !is_name(text) {
+        if schema.keyword("pattern").is_some() && !is_name(text) {
             let message = format!("{} is not a name", quoted(text));
             let help = "a name has 1 to 64 lower-case letters, digits, `_` or `-`";
             self.refuse(&node.place, "not a name", message, help);
         }
     }
 
-    fn number(&mut self, node: &Node, number: f64, schema: &'static Json, stated: &'static Json, path: &Path) {
-        if number.is_finite() && number.abs() <= LARGEST {
-            return self.range(node, number, schema, stated, path);
-        }
-        let (label, wanted) =
-            if number.is_finite() { ("too large", "between -1e9 and 1e9") } else { ("not finite", "a finite number") };
-        let message = format!("{} must be {wanted}", quoted(&path.0));
-        self.refuse(&node.place, label, message, described(stated, schema));
-    }
-
-    fn range(&mut self, node: &Node, number: f64, schema: &'static Json, stated: &'static Json, path: &Path) {
-        let bound = |keyword: &str| schema.get(keyword).or_else(|| stated.get(keyword)).and_then(Json::as_f64);
-        let broken = [
-            bound("minimum").filter(|least| number < *least).map(|least| format!("at least {least}")),
-            bound("maximum").filter(|most| number > *most).map(|most| format!("at most {most}")),
-            bound("exclusiveMinimum").filter(|low| number <= *low).map(|low| format!("above {low}")),
-            bound("exclusiveMaximum").filter(|high| number >= *high).map(|high| format!("below {high}")),
-        ];
-        for wanted in broken.into_iter().flatten() {
-            let message = format!("{} must be {wanted}, not {number}", quoted(&path.0));
-            self.refuse(&node.place, &format!("must be {wanted}"), message, described(stated, schema));
+    fn integer(&mut self, node: &Node, integer: i128, schema: SchemaNode, path: &Path) {
+        let is_long = schema.keyword("format").is_some_and(|format| format == "uint64");
+        let largest = if is_long { u64::MAX.into() } else { LARGEST_INTEGER };
+        if integer > largest {
+            let message = format!("{} must be at most {largest}", quoted(&path.0));
+            self.refuse(&node.place, "too large", message, schema.description());
+        } else {
+            self.range(node, integer as f64, schema, path);
         }
     }
 
-    /// A word of several, or a table whose `kind` says which alternative it is.
-    fn alternatives(&mut self, node: &Node, alternatives: &'static [Json], stated: &'static Json, path: &Path) {
-        let words: Vec<&str> = alternatives.iter().filter_map(|word| word.get("const")?.as_str()).collect();
-        if !words.is_empty() {
-            return self.word(node, &words, path);
+    fn number(&mut self, node: &Node, number: f64, schema: SchemaNode, path: &Path) {
+        match Bound::of_every_setting().into_iter().find(|bound| !bound.admits(number)) {
+            Some(bound) => {
+                let label = if bound == Bound::Finite { "not finite" } else { "too large" };
+                let message = format!("{} must be {bound}", quoted(&path.0));
+                self.refuse(&node.place, label, message, schema.description());
+            }
+            None => self.range(node, number, schema, path),
         }
-        let kinds: Vec<&str> = alternatives.iter().filter_map(schema::kind_of).collect();
+    }
+
+    fn range(&mut self, node: &Node, number: f64, schema: SchemaNode, path: &Path) {
+        for bound in schema.bounds().filter(|bound| !bound.admits(number)) {
+            let message = format!("{} must be {bound}, not {number}", quoted(&path.0));
+            self.refuse(&node.place, &format!("must be {bound}"), message, schema.description());
+        }
+    }
+
+    /// A table whose `kind` says which keys it has.
+    fn table_of_a_kind(&mut self, node: &Node, kinds: &[&str], schema: SchemaNode, path: &Path) {
         if let Some(word) = node.text().filter(|word| kinds.contains(word)) {
             let message = format!("{} must be a table whose `kind` is {}", quoted(&path.0), quoted(word));
             return self.refuse(&node.place, "not a table", message, format!("write `{{ kind = \"{word}\" }}`"));
         }
         let Value::Table(table) = &node.value else {
-            return self.wrong_type(node, Some("object"), stated, path);
+            return self.wrong_type(node, Some("object"), schema, path);
         };
         let Some(entry) = table.get("kind") else {
             let message = format!("{} is missing", quoted(&path.join("kind").0));
-            return self.refuse(&node.place, "has no `kind`", message, format!("choose from: {}", listed(&kinds)));
+            return self.refuse(&node.place, "has no `kind`", message, format!("choose from: {}", listed(kinds)));
         };
-        match alternatives
-            .iter()
-            .find(|one| schema::kind_of(one).is_some() && schema::kind_of(one) == entry.node.text())
-        {
+        match entry.node.text().and_then(|kind| schema.of_kind(kind)) {
             Some(schema) => self.table(node, table, schema, path),
-            None => self.word(&entry.node, &kinds, &path.join("kind")),
+            None => self.word(&entry.node, kinds, &path.join("kind")),
         }
     }
 
@@ -220,26 +208,18 @@ impl Checker {
     }
 }
 
-/// Whether two keys are the same quantity in different units, of which the first may be left out: `speed` and `speed_kmh`
-/// are `speed_mps`.
+/// Whether an unknown key names the quantity of a known one with another unit, or with none: `speed` and `speed_kmh` are
+/// `speed_mps`.
 fn differ_by_unit(key: &str, known: &str) -> bool {
-    let quantity = |word: &str| word.split_once('_').map(|(quantity, unit)| (quantity.to_owned(), unit.to_owned()));
-    let Some((quantity_known, unit)) = quantity(known) else { return false };
-    let is_unit = UNITS.contains(&unit.as_str());
-    is_unit && quantity(key).map_or(key == quantity_known, |(quantity, _)| quantity == quantity_known)
-}
-
-/// The description of a key: that beside the reference, or that of what it refers to.
-fn described(stated: &Json, schema: &Json) -> String {
-    let description = [stated, schema].iter().find_map(|schema| schema.get("description")?.as_str());
-    description.unwrap_or_default().to_owned()
+    let quantity = quantity_of(known);
+    unit_of(known).is_some() && key.strip_prefix(quantity).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
 }
 
 fn entries(count: u64) -> &'static str {
     if count == 1 { "entry" } else { "entries" }
 }
 
-/// Whether a text is what [`schema::NAME_PATTERN`] says.
+/// Whether a text is what [`NAME_PATTERN`](crate::scenario::NAME_PATTERN) says.
 fn is_name(text: &str) -> bool {
     let fits = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_' || byte == b'-';
     (1..=64).contains(&text.len()) && text.bytes().all(fits)
@@ -248,11 +228,12 @@ fn is_name(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::NAME_PATTERN;
 
     /// Keywords that the check obeys, and those that only inform.
     const UNDERSTOOD: &str = "$ref $defs oneOf const enum type properties required additionalProperties items minItems \
         maxItems minLength pattern minimum maximum exclusiveMinimum exclusiveMaximum format default description title \
-        examples $schema";
+        examples $schema x-unit x-excludes x-concerns x-merge-by";
 
     #[test]
     fn every_keyword_of_the_schema_is_understood() {
@@ -265,7 +246,7 @@ mod tests {
                     ("oneOf", Json::Array(alternatives)) => alternatives.iter().for_each(walk),
                     ("items", below) => walk(below),
                     ("additionalProperties", value) => assert_eq!(value, false),
-                    ("pattern", value) => assert_eq!(value, schema::NAME_PATTERN),
+                    ("pattern", value) => assert_eq!(value, NAME_PATTERN),
                     ("type", value) => assert!(value.is_string(), "{value}"),
                     _ => {}
                 }
@@ -273,6 +254,6 @@ mod tests {
             let closed = object.get("additionalProperties").is_some();
             assert_eq!(object.contains_key("properties"), closed, "a table that takes unknown keys: {schema}");
         }
-        walk(schema::complete());
+        walk(schema::complete().json());
     }
 }

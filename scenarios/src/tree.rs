@@ -104,6 +104,11 @@ impl Node {
         }
     }
 
+    /// Whether this is a list without entries.
+    pub fn is_empty_list(&self) -> bool {
+        matches!(&self.value, Value::Array(items) if items.is_empty())
+    }
+
     /// The node below this one under a key or, in an array, an index.
     fn child(&self, step: &str) -> Option<&Node> {
         match &self.value {
@@ -127,9 +132,9 @@ impl Node {
         parts.chain([&node.place]).min_by_key(|place| (place.document.rank, place.span.start)).unwrap_or(&node.place)
     }
 
-    /// Whether anything is written at a path.
-    pub fn has(&self, path: &str) -> bool {
-        path.split('.').try_fold(self, |node, step| node.child(step)).is_some()
+    /// What is written at a path, if anything is.
+    pub fn at(&self, path: &str) -> Option<&Node> {
+        path.split('.').try_fold(self, |node, step| node.child(step))
     }
 
     /// The word by which a table in an array is addressed: its `name`, or the `vehicle` it is about.

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use interplay_building::bounds::Bound;
 use interplay_planners::{Driver, human::Style};
 use interplay_scenarios::{Override, Road, Scenario, Source, commented, embedded, from_text, load, schema};
 use serde_json::{Map, Value as Json};
@@ -288,7 +289,7 @@ fn example_only(key: &str) -> bool {
     found
 }
 
-/// A number has a unit: in brackets in its description, where editors show it. Whole numbers count something.
+/// A number has a unit, which its description states once, where editors show it. Whole numbers count something.
 #[test]
 fn the_schema_gives_every_number_a_unit_and_every_key_a_default_or_an_example() {
     let root = schema();
@@ -297,11 +298,30 @@ fn the_schema_gives_every_number_a_unit_and_every_key_a_default_or_an_example() 
         let kind = |schema: &Json| schema.get("type").and_then(Json::as_str) == Some("number");
         if kind(property) || property.get("items").is_some_and(kind) {
             numbers += 1;
+            let unit = property.get("x-unit").and_then(Json::as_str);
+            let unit = unit.unwrap_or_else(|| panic!("{path}: name its unit at the end of the key, or as `x-unit`"));
             let description = property["description"].as_str().unwrap_or_default();
-            assert!(description.contains('['), "{path} has no unit: {description} (see `UNITS` in schema/words.rs)");
+            assert_eq!(description.matches(&format!("[{unit}]")).count(), 1, "{path} is in {unit}: {description}");
         }
         let said = ["default", "examples", "const"].iter().any(|keyword| property.get(*keyword).is_some());
-        assert!(said, "{path} has neither default nor example (see `examples` in schema/words.rs)");
+        assert!(said, "{path} has neither default nor example: `#[schemars(example = …)]` on its field");
     });
     assert!(numbers > 100, "{numbers}");
+}
+
+/// A default or an example that breaks a bound of its own key would mislead whoever copies it.
+#[test]
+fn defaults_and_examples_are_within_their_bounds() {
+    let root = schema();
+    let mut bounded = 0;
+    each_property(&root, &root, "", &mut |path, property| {
+        let examples = property.get("examples").and_then(Json::as_array).into_iter().flatten();
+        for value in examples.chain(property.get("default")).filter_map(Json::as_f64) {
+            for bound in Bound::of(property) {
+                bounded += 1;
+                assert!(bound.admits(value), "{path}: {value} is not {bound}");
+            }
+        }
+    });
+    assert!(bounded > 100, "{bounded}");
 }

@@ -63,7 +63,7 @@ fn wrong_units() {
         all,
         "kelvin_as_celsius",
         ("[24.0, 26.0]", "[297.0, 299.0]"),
-        &["bad.toml:24:15", "between -50 and 100 °C"],
+        &["bad.toml:24:15", "`setpoints.occupied_c.0` must be at most 100", "[°C]"],
     );
     refusal(all, "a_text_with_its_unit", ("limit_kw = 3.0", "limit_kw = \"3 kW\""), &["a number", "`3 kW`", "[kW]"]);
     let car = "title = 'a'\nshows = 'b'\nvehicle = [{ name = 'ego', start = { x_m = 0, y_m = 0.2, speed_kmh = 90 } }]";
@@ -85,7 +85,12 @@ fn zones_and_walls() {
     refusal(all, "wall_to_itself", ("[\"office\", \"store\"]", "[\"store\", \"store\"]"), &["bad.toml:16:11", "store"]);
     refusal(all, "three_sides", ("[\"office\", \"store\"]", "[\"office\", \"store\", \"ambient\"]"), &["at most 2"]);
     refusal(all, "negative_resistance", ("31.25", "-31.25"), &["bad.toml:21:23", "above 0"]);
-    refusal(all, "preset_and_zones", ("step_s = 900.0", "preset = \"testbed\""), &["both `preset` and `zone`"]);
+    refusal(
+        all,
+        "preset_and_zones",
+        ("step_s = 900.0", "preset = \"testbed\""),
+        &["bad.toml:8:1", "both `preset` and `zone`", "beside `preset`"],
+    );
     insta::assert_snapshot!("zones_and_walls", errors.0);
 }
 

@@ -135,7 +135,9 @@ fn golden_digests_of_buildings() {
     for file in embedded().iter().filter(|file| file.name.starts_with("building/")) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{}.json", file.name));
         let [one, other] = [(); 2].map(|()| film(file.name, authored(file.name, &[])).report);
-        let digests = |report: &interplay::report::Report| json!(report.building.as_ref().expect("a building").digests);
+        let digests = |report: &interplay_simulation::report::Report| {
+            json!(report.building.as_ref().expect("a building").digests)
+        };
         assert_eq!(digests(&one), digests(&other), "{} is not the same twice", file.name);
         assert_eq!(json!(one.digest), digests(&one)["balance"]);
         if env::var_os("INTERPLAY_BLESS").is_some_and(|value| value == "1") {

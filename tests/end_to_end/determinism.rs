@@ -10,8 +10,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, thread};
 
-use interplay::measure::Digest;
 use interplay_scenarios::embedded;
+use interplay_simulation::measure::Digest;
 use serde_json::{Value, json};
 
 use crate::command::{interplay, scratch};

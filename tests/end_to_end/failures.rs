@@ -2,12 +2,12 @@
 //!
 //! No scenario file makes a planner fail on purpose, so the goal of a vehicle is spoilt in the running world.
 
-use interplay::components::{Identity, Objective};
-use interplay::frame::{Frame, Level, Origin};
-use interplay::measure::Measures;
-use interplay::{phases, spawn};
 use interplay_planners::Limits;
 use interplay_planners::predict::steady;
+use interplay_simulation::components::{Identity, Objective};
+use interplay_simulation::frame::{Frame, Level, Origin};
+use interplay_simulation::measure::Measures;
+use interplay_simulation::{phases, spawn};
 
 use crate::film::{Camera, authored, film};
 
@@ -19,7 +19,7 @@ const SPOILT: std::ops::Range<usize> = 10..20;
 fn run_with_failures() -> (Vec<Frame>, usize) {
     let scenario = authored("lane-change/front-nice", &["horizon_steps=5", "vehicle.ego.driver.settled_steps=2"]);
     let camera = Camera::default();
-    let mut world = spawn::world(&scenario, vec![Box::new(camera.clone())]);
+    let mut world = spawn::world(&scenario, vec![Box::new(camera.clone())]).expect("no building");
     let mut schedule = phases::schedule();
     for tick in 0..SPOILT.end + 2 {
         let mut objectives = world.query::<(&Identity, &mut Objective)>();

@@ -3,12 +3,12 @@
 use std::sync::{Arc, LazyLock, Mutex};
 use std::thread;
 
-use interplay::frame::Frame;
-use interplay::report::Report;
-use interplay::run::run;
-use interplay::watch::Watcher;
 use interplay_planners::State;
 use interplay_scenarios::{Override, Plant, Scenario, embedded, load};
+use interplay_simulation::frame::Frame;
+use interplay_simulation::report::Report;
+use interplay_simulation::run::run;
+use interplay_simulation::watch::Watcher;
 
 /// A run and all that was seen of it.
 pub struct Film {

@@ -14,28 +14,31 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("planners", &["convex"]),
     ("building", &["convex"]),
     ("scenarios", &["planners", "building"]),
-    ("app", &["planners", "building", "scenarios"]),
-    ("tests", &["app", "planners", "building", "scenarios"]),
+    ("app/simulation", &["planners", "building", "scenarios"]),
+    ("app/presentation", &["planners", "building", "scenarios", "app/simulation"]),
+    ("app/cli", &["building", "scenarios", "app/simulation", "app/presentation"]),
+    ("tests", &["planners", "building", "scenarios", "app/simulation", "app/cli"]),
 ];
 
 /// Libraries that only one room may depend on.
 const OWNERS: &[(&str, &str)] = &[
     ("clarabel", "convex"),
-    ("bevy", "app"),
-    ("rapier", "app"),
-    ("parry", "app"),
-    ("rerun", "app"),
-    ("re_sdk", "app"),
-    ("plotters", "app"),
+    ("bevy", "app/simulation"),
+    ("rapier", "app/simulation"),
+    ("parry", "app/simulation"),
+    ("rerun", "app/presentation"),
+    ("re_sdk", "app/presentation"),
+    ("plotters", "app/presentation"),
+    ("clap", "app/cli"),
 ];
 
-/// Libraries that only one part of the application may name.
+/// Libraries that only one folder of their room may name. Cargo keeps them in the room; within it, only this does.
 const PARTS: &[(&str, &str)] = &[
-    ("rapier2d", "physics"),
-    ("parry2d", "physics"),
-    ("rerun", "record"),
-    ("re_sdk_types", "record"),
-    ("plotters", "plot"),
+    ("rapier2d", "app/simulation/src/physics"),
+    ("parry2d", "app/simulation/src/physics"),
+    ("rerun", "app/presentation/src/record"),
+    ("re_sdk_types", "app/presentation/src/record"),
+    ("plotters", "app/presentation/src/plot"),
 ];
 
 /// The most lines of a file, and of a function.
@@ -138,15 +141,15 @@ fn every_engine_has_one_owner() {
 }
 
 #[test]
-fn inside_the_application_only_one_part_names_an_engine() {
-    let sources = root().join("app/src");
+fn inside_a_room_only_one_folder_names_an_engine() {
     for (library, owner) in PARTS {
+        let (room, _) = owner.split_once("/src/").expect("a folder of sources");
         let mut named = false;
-        for file in rust_files(&sources) {
+        for file in rust_files(&root().join(room)) {
             let text = read(&file);
             let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
             let names = code.filter(|line| has_word(line, library)).count() > 0;
-            let owns = file.strip_prefix(&sources).expect("below the sources").starts_with(owner);
+            let owns = file.starts_with(root().join(owner));
             assert!(!names || owns, "{} names {library}, which only {owner} may", file.display());
             named |= names;
         }
@@ -198,7 +201,10 @@ fn tests_do_not_change_how_dependencies_are_built() {
     let [built, tested] =
         [&["--package", "interplay", "--edges", "no-dev"][..], &["--workspace"]].map(packages_with_features);
     let again: Vec<&String> = built.difference(&tested).collect();
-    assert!(again.is_empty(), "ask for the same features in app/Cargo.toml, or these are built twice: {again:#?}");
+    assert!(
+        again.is_empty(),
+        "ask for the same features in app/presentation/Cargo.toml, or these are built twice: {again:#?}"
+    );
 }
 
 /// Every package of a dependency tree with its features.

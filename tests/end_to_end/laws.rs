@@ -1,8 +1,7 @@
 //! What holds at every tick of every run.
 
-use interplay::frame::Origin;
-use interplay_planners::Bicycle;
-use interplay_planners::State;
+use interplay_planners::{Bicycle, State};
+use interplay_simulation::frame::Origin;
 
 use crate::film::{FILMS, kinematic};
 

@@ -3,8 +3,8 @@
 
 use std::fs;
 
-use interplay::frame::Level;
 use interplay_scenarios::embedded;
+use interplay_simulation::frame::Level;
 use serde_json::{Value, json};
 
 use crate::command::{interplay, scratch};

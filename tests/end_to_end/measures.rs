@@ -1,8 +1,8 @@
 //! Every figure of the report, worked out again from the frames.
 
-use interplay::frame::Origin;
 use interplay_planners::State;
 use interplay_scenarios::{Branch, Road};
+use interplay_simulation::frame::Origin;
 
 use crate::film::{FILMS, Film, kinematic};
 use crate::rectangles::distance;

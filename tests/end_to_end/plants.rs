@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::{env, fs, thread};
 
-use interplay::report::Report;
 use interplay_scenarios::{Plant, embedded};
+use interplay_simulation::report::Report;
 
 use crate::film::{FILMS, Film, authored, film};
 

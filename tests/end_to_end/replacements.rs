@@ -5,8 +5,8 @@
 use std::collections::BTreeSet;
 use std::thread;
 
-use interplay::run::run;
 use interplay_scenarios::{Override, embedded, load};
+use interplay_simulation::run::run;
 
 /// A scenario, who drives its ego instead, and the expectation that then breaks.
 type Replacement = (&'static str, &'static str, &'static str);

@@ -4,10 +4,10 @@
 //! (humans from the front of the road to its rear, each knowing the plans of those before; then the others, who know the
 //! humans' plans) and to the source's assumption of perfect prediction.
 
-use interplay::frame::{Frame, Origin, VehicleFrame};
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
+use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 
 use crate::film::{FILMS, Film, authored, film};
 

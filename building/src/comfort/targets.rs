@@ -11,20 +11,28 @@ use crate::setting::{SettingError, SettingKey, check_within};
 pub struct Setpoints {
     /// Wanted temperature of each zone while it is occupied \[°C\], in the order of the zones; one for all if there is only
     /// one.
+    #[schemars(inner(range(min = -50.0, max = 100.0)), length(min = 1))]
     pub occupied_c: Vec<f64>,
     /// When occupation begins \[h\].
+    #[schemars(range(min = 0.0, max = 24.0))]
     pub from_h: f64,
     /// When occupation ends \[h\].
+    #[schemars(range(min = 0.0, max = 24.0))]
     pub to_h: f64,
     /// Wanted temperature at other times \[°C\]. Without it, or with `other_weight` 0, the temperature is then free.
+    #[schemars(range(min = -50.0, max = 100.0), example = 28.0)]
     pub other_c: Option<f64>,
     /// W_e while occupied: cost of a squared kelvin for a step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub occupied_weight: f64,
     /// W_e at other times.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub other_weight: f64,
     /// W_u: cost of a squared kilowatt for a step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/kW²"))]
     pub input_weight: f64,
     /// Deviations up to this are comfortable \[K\].
+    #[schemars(range(min = 0.0))]
     pub band_k: f64,
 }
 

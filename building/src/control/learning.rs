@@ -32,8 +32,10 @@ pub(super) const LOOK_FOR: &str =
 #[serde(deny_unknown_fields, default)]
 pub struct LearningSettings {
     /// l_p \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub proportional_kw_per_k: f64,
     /// l_d \[kW/K\] per change of the error over a step; 0 for P-type. It suits one step and capacity.
+    #[schemars(range(min = 0.0))]
     pub derivative_kw_per_k: f64,
     /// Whether inputs are corrected by what the forecast expects to change.
     pub forecast: bool,

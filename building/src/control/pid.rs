@@ -23,10 +23,13 @@ pub(super) const LOOK_FOR: &str =
 #[serde(deny_unknown_fields, default)]
 pub struct PidSettings {
     /// k_p \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub proportional_kw_per_k: f64,
     /// k_i \[kW/(K·h)\].
+    #[schemars(range(min = 0.0))]
     pub integral_kw_per_k_h: f64,
     /// k_d \[kW·h/K\].
+    #[schemars(range(min = 0.0))]
     pub derivative_kw_h_per_k: f64,
 }
 

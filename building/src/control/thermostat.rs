@@ -15,8 +15,10 @@ pub(super) const LOOK_FOR: &str =
 #[serde(deny_unknown_fields, default)]
 pub struct ThermostatSettings {
     /// Equipment starts when the temperature is this far off \[K\], and stops when it has come back to what is wanted.
+    #[schemars(range(min = 0.0))]
     pub dead_band_k: f64,
     /// Power while it runs, as a share of the limit.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub power: f64,
 }
 

@@ -25,18 +25,24 @@ const NUGGET_KW2: f64 = 1e-8;
 #[serde(deny_unknown_fields, default)]
 pub struct UncertaintySettings {
     /// σ_w: standard deviation of what all zones have in common \[kW\].
+    #[schemars(range(min = 0.0))]
     pub common_kw: f64,
     /// ρ_w: correlation of the common part from one step to the next.
+    #[schemars(range(min = -1.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub common_correlation: f64,
     /// σ_o: standard deviation of a zone's own part while it is occupied, and a step before and after \[kW\].
+    #[schemars(range(min = 0.0))]
     pub zone_kw: f64,
     /// σ_o: standard deviation of a zone's own part at other times \[kW\].
+    #[schemars(range(min = 0.0))]
     pub zone_other_kw: f64,
     /// ρ_o: correlation of a zone's own part from one step to the next.
+    #[schemars(range(min = -1.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub zone_correlation: f64,
     /// Whether the σ are estimated again each evening.
     pub reestimate: bool,
     /// How many days the settings count as, against those that were seen.
+    #[schemars(range(min = 0.0))]
     pub prior_days: f64,
 }
 

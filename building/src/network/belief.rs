@@ -11,13 +11,13 @@ use crate::setting::check_within;
 #[serde(deny_unknown_fields, default)]
 pub struct Belief {
     /// Believed heat capacities, as multiples of the real ones.
-    #[schemars(range(min = 0.1, max = 10))]
+    #[schemars(range(min = 0.1, max = 10), extend("x-unit" = "dimensionless"))]
     pub capacity_factor: f64,
     /// Believed resistances between zones, as multiples of the real ones.
-    #[schemars(range(min = 0.1, max = 10))]
+    #[schemars(range(min = 0.1, max = 10), extend("x-unit" = "dimensionless"))]
     pub inner_resistance_factor: f64,
     /// Believed resistances to the air outside, as multiples of the real ones.
-    #[schemars(range(min = 0.1, max = 10))]
+    #[schemars(range(min = 0.1, max = 10), extend("x-unit" = "dimensionless"))]
     pub outer_resistance_factor: f64,
 }
 

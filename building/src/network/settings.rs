@@ -11,15 +11,19 @@ pub const AMBIENT: &str = "ambient";
 #[serde(deny_unknown_fields)]
 pub struct Zone {
     /// What walls, controllers and plots call it; not `ambient`.
+    #[schemars(example = &"office")]
     pub name: String,
     /// Heat that warms the zone by one kelvin \[kJ/K\].
     #[serde(default = "default_capacity_kj_per_k")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub capacity_kj_per_k: f64,
     /// Largest heating power, and largest cooling power \[kW\].
     #[serde(default = "default_limit_kw")]
+    #[schemars(range(min = 0.0))]
     pub limit_kw: f64,
     /// Area of the horizontal opening that would let in as much sun as the zone's windows do \[m²\].
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub solar_aperture_m2: f64,
 }
 
@@ -50,12 +54,15 @@ impl Zone {
 #[serde(deny_unknown_fields)]
 pub struct Wall {
     /// The two places that it separates: names of zones, or `ambient`.
+    #[schemars(example = vec!["office", "ambient"])]
     pub between: [String; 2],
     /// Temperature difference that drives one kilowatt through \[K/kW\]. (1 K·min/kJ is 60 K/kW.)
+    #[schemars(extend("exclusiveMinimum" = 0.0), example = 31.25)]
     pub resistance_k_per_kw: f64,
     /// Heat that the wall itself stores \[kJ/K\]. With it the wall is a temperature of its own, with half of the
     /// resistance to either side (2R1C).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0), example = 200.0)]
     pub capacity_kj_per_k: Option<f64>,
 }
 

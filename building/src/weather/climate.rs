@@ -31,22 +31,22 @@ pub struct Climate {
     /// Mean temperature \[°C\].
     pub mean_c: f64,
     /// Half of the difference between the warmest and the coldest hour, about \[K\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub daily_amplitude_k: f64,
     /// Standard deviation of a day's mean \[K\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub day_deviation_k: f64,
     /// Correlation of the means of two consecutive days.
-    #[schemars(range(min = 0, max = 1))]
+    #[schemars(range(min = 0, max = 1), extend("x-unit" = "dimensionless"))]
     pub day_correlation: f64,
     /// Standard deviation of a day's amplitude \[K\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub amplitude_deviation_k: f64,
     /// Probability of a thunderstorm in the afternoon.
-    #[schemars(range(min = 0, max = 1))]
+    #[schemars(range(min = 0, max = 1), extend("x-unit" = "dimensionless"))]
     pub storm_probability: f64,
     /// Standard deviation of the noise within a day \[K\].
-    #[schemars(extend("minimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub noise_deviation_k: f64,
 }
 

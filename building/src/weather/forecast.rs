@@ -24,6 +24,7 @@ pub enum Forecast {
     /// With an error of BOPTEST's kind.
     Uncertain {
         /// How large the error is.
+        #[schemars(example = &"low")]
         level: ErrorLevel,
     },
     /// Like yesterday.

@@ -22,26 +22,26 @@ pub enum Value {
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
     /// Smallest weight that the other is believed to put on its own plan, `w_1` of eq. 7.8.
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001), extend("x-unit" = "dimensionless"))]
     pub w_1_min: f64,
     /// Largest weight that the other is believed to put on its own plan.
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001), extend("x-unit" = "dimensionless"))]
     pub w_1_max: f64,
     /// Weight of the other's wish to keep away from the ego, `w_4` of eq. 7.8. At 0.1 the ego hardly persuades; a large one
     /// makes it chase the other.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub w_4: f64,
     /// Mean change of the other's plan at which its believed `w_1` has fallen to 1/e of its range, `β_0` \[m\].
     #[schemars(range(min = 0.000001))]
     pub beta_0_m: f64,
     /// Variance of the signal per mean change `α` of the ego's own plan (eq. 7.27).
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub variance_per_change: f64,
     /// Largest variance of the signal.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub variance_max: f64,
     /// Variance of the other's belief about `ω`, `Σ_ω`; below 0.2 for eq. 7.17. Only the exact value depends on it.
-    #[schemars(range(min = 0.0, max = 0.2))]
+    #[schemars(range(min = 0.0, max = 0.2), extend("x-unit" = "dimensionless"))]
     pub impression_variance: f64,
     /// Which value of the other's best reply enters the ego's cost.
     pub value: Value,

@@ -10,7 +10,7 @@ use crate::predict::Prediction;
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
     /// Divides this vehicle's cost in the joint one, `Z_i` of eq. 6.6: the larger, the more it gives way.
-    #[schemars(range(min = 0.000001))]
+    #[schemars(range(min = 0.000001), extend("x-unit" = "dimensionless"))]
     pub normaliser: f64,
     /// What vehicles that do not cooperate are expected to do.
     pub prediction: Prediction,

@@ -19,19 +19,19 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct ProspectTheory {
     /// Exponent of gains, `α`.
-    #[schemars(range(min = 0.1, max = 1.0))]
+    #[schemars(range(min = 0.1, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub alpha: f64,
     /// Exponent of losses, `β`.
-    #[schemars(range(min = 0.1, max = 1.0))]
+    #[schemars(range(min = 0.1, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub beta: f64,
     /// Loss aversion, `λ`.
-    #[schemars(range(min = 0.1, max = 10.0))]
+    #[schemars(range(min = 0.1, max = 10.0), extend("x-unit" = "dimensionless"))]
     pub lambda: f64,
     /// How probabilities of gains are distorted, `γ`; 1 not at all.
-    #[schemars(range(min = 0.3, max = 1.0))]
+    #[schemars(range(min = 0.3, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub gamma: f64,
     /// How probabilities of losses are distorted, `η`; 1 not at all.
-    #[schemars(range(min = 0.3, max = 1.0))]
+    #[schemars(range(min = 0.3, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub eta: f64,
 }
 

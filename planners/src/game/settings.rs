@@ -25,7 +25,7 @@ pub struct Settings {
     pub solution: Method,
     /// What the accident costs, `M` of Table 8.2. Stakes are ratios of probabilities and reach 19: 2 or 3 on one road, 1 at an
     /// intersection; from 50 on both yield.
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001), extend("x-unit" = "dimensionless"))]
     pub accident: f64,
     /// How people value uncertain outcomes.
     pub prospect: ProspectTheory,
@@ -55,14 +55,14 @@ pub struct Settings {
     #[schemars(range(min = 0.001))]
     pub arrival_max_s: f64,
     /// Share of the way to ½ that beliefs fade in a step.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub forgetting: f64,
     /// Width of the interval of intentions that the ego expresses, `ε_p` of eq. 8.11.
-    #[schemars(range(min = 0.0, max = 0.9))]
+    #[schemars(range(min = 0.0, max = 0.9), extend("x-unit" = "dimensionless"))]
     pub epsilon_p: f64,
     /// What a mean speed outside the expressed interval costs per m/s and step: 0.5 on one road, 1.5 on a ramp, 50 at an
     /// intersection.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "s/m"))]
     pub slack_weight: f64,
     /// How long the ego expresses its intention to a vehicle that is not the first one it meets \[s\].
     #[schemars(range(min = 0.0))]

@@ -29,11 +29,14 @@ impl Style {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// A word for the safety weight. Not together with `safety_weight`. Without either the driver is nice.
+    /// A word for the safety weight. Without it and without `safety_weight` the driver is nice.
+    #[schemars(example = &"nice", extend("x-excludes" = ["safety_weight"]))]
     pub style: Option<Style>,
     /// Weight of the squared intrusion of others into the safety ellipse, at constant velocity; 0 ignores them.
+    #[schemars(range(min = 0.0), example = 8.0, extend("x-unit" = "dimensionless"))]
     pub safety_weight: Option<f64>,
     /// Weight of the same kind for the vehicle ahead in the same lane, whatever the style.
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub following_weight: f64,
     /// By how much faster than it wants the driver drives while somebody from another lane is about to cut in ahead of it
     /// \[m/s\].

@@ -22,7 +22,7 @@ pub struct Settings {
     #[schemars(range(min = 0.001))]
     pub braking_mps2: f64,
     /// How sharply acceleration ends at the wanted speed, `δ`.
-    #[schemars(range(min = 0.1))]
+    #[schemars(range(min = 0.1), extend("x-unit" = "dimensionless"))]
     pub exponent: f64,
     /// When to change lanes.
     pub mobil: Mobil,
@@ -52,7 +52,7 @@ pub struct Mobil {
     #[schemars(range(min = 0.001))]
     pub lane_width_m: f64,
     /// What others' accelerations count against the own, `p`.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub politeness: f64,
     /// Least advantage that a change must bring \[m/s²\].
     #[schemars(range(min = 0.0))]

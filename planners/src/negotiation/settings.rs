@@ -10,23 +10,32 @@ use crate::predict::Prediction;
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
     /// How fast the ego concedes, `β` of eq. 6.18; below 1.
+    #[schemars(extend("exclusiveMinimum" = 0.0), extend("exclusiveMaximum" = 1.0), extend("x-unit" = "dimensionless"))]
     pub beta: f64,
     /// How much acceptance strengthens persuasion, `γ` of `α = 1 + γ p_a` (eq. 6.20); 0 or more.
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub gamma: f64,
     /// A rise of the acceptance probability of at most this much counts as no progress, `ε`.
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub epsilon: f64,
     /// Steps without progress after which the next vehicle is asked.
+    #[schemars(range(min = 1))]
     pub patience_steps: usize,
     /// A vehicle that is this far ahead in the target lane is not asked any more \[m\].
+    #[schemars(range(min = 0.0))]
     pub clear_lead_m: f64,
     /// Steps during which the other is assumed to follow the prediction, `T_n` of eq. 6.15.
+    #[schemars(range(min = 1))]
     pub settled_steps: usize,
     /// Normaliser of the ego's cost, `Z_1` of eq. 6.14.
+    #[schemars(extend("exclusiveMinimum" = 0.0), extend("x-unit" = "dimensionless"))]
     pub ego_normaliser: f64,
     /// Normaliser of the other's deviation, `Z_2` of eq. 6.14. The deviation that full braking causes over 3 s is of
     /// order 100, so 100 makes both terms of order one at the first tick; at 1 the proposal asks for nothing.
+    #[schemars(extend("exclusiveMinimum" = 0.0), extend("x-unit" = "dimensionless"))]
     pub other_normaliser: f64,
     /// Smallest weight `w` of the ego's cost (eq. 6.18 never lets it recover).
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub weight_floor: f64,
     /// Whether the persuasion constraint is imposed (eq. 6.23).
     pub persuasion: bool,

@@ -24,17 +24,19 @@ pub struct Settings {
 #[serde(deny_unknown_fields)]
 pub struct Order {
     /// When it begins, since the start of the run \[s\].
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), example = 2.0)]
     pub from_s: f64,
     /// The speed to drive at \[m/s\].
     #[serde(default)]
+    #[schemars(example = 0.5)]
     pub speed_mps: Option<f64>,
     /// How fast the speed changes; by default as fast as the vehicle can \[m/s²\].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0), example = 0.5)]
     pub acceleration_mps2: Option<f64>,
     /// The lateral position on its road to drive to: on a road along x, a `y` \[m\].
     #[serde(default)]
+    #[schemars(example = 0.555)]
     pub lateral_m: Option<f64>,
 }
 

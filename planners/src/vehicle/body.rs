@@ -10,14 +10,19 @@ use super::State;
 #[serde(deny_unknown_fields, default)]
 pub struct Body {
     /// Distance from the mass centre to the front bumper \[m\].
+    #[schemars(range(min = 0.001))]
     pub front_m: f64,
     /// Distance from the mass centre to the rear bumper \[m\].
+    #[schemars(range(min = 0.001))]
     pub rear_m: f64,
     /// Width of the body, `W` \[m\].
+    #[schemars(range(min = 0.001))]
     pub width_m: f64,
     /// Distance from the mass centre to the front axle, `L_f` \[m\].
+    #[schemars(range(min = 0.001))]
     pub front_axle_m: f64,
     /// Distance from the mass centre to the rear axle, `L_r` \[m\].
+    #[schemars(range(min = 0.001))]
     pub rear_axle_m: f64,
 }
 

@@ -8,14 +8,19 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct Limits {
     /// Smallest acceleration (the strongest braking), negative \[m/s²\].
+    #[schemars(extend("exclusiveMaximum" = 0.0))]
     pub acceleration_min_mps2: f64,
     /// Largest acceleration \[m/s²\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub acceleration_max_mps2: f64,
     /// Largest steering angle to either side \[rad\].
+    #[schemars(range(max = 1.5), extend("exclusiveMinimum" = 0.0))]
     pub steering_max_rad: f64,
     /// Smallest speed \[m/s\].
+    #[schemars(range(min = 0.0))]
     pub speed_min_mps: f64,
     /// Largest speed \[m/s\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub speed_max_mps: f64,
 }
 

@@ -9,8 +9,10 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct SafetyEllipse {
     /// Half axis along the road, `a_s` \[m\].
+    #[schemars(range(min = 0.001))]
     pub along_m: f64,
     /// Half axis across the road, `b_s` \[m\].
+    #[schemars(range(min = 0.001))]
     pub across_m: f64,
 }
 

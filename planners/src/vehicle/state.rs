@@ -10,13 +10,16 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct State {
     /// Position of the mass centre along the world's x axis \[m\].
+    #[schemars(example = 0.0)]
     pub x_m: f64,
     /// Position of the mass centre along the world's y axis \[m\].
+    #[schemars(example = 0.185)]
     pub y_m: f64,
     /// Yaw angle, counter-clockwise from the x axis \[rad\].
     #[serde(default)]
     pub heading_rad: f64,
     /// Speed of the mass centre \[m/s\].
+    #[schemars(example = 1.0)]
     pub speed_mps: f64,
 }
 

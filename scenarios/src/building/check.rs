@@ -9,26 +9,21 @@ use interplay_building::network::{Network, NetworkError, Part};
 use super::{Building, DAY_S};
 use crate::Scenario;
 use crate::error::{Problem, quoted};
+use crate::schema::{self, Concern, SchemaNode};
 use crate::tree::Node;
 
 /// The most steps that a building may take.
 const MOST_STEPS: usize = 100_000;
 /// The most zones.
 const MOST_ZONES: usize = 1000;
-/// What makes sense only with a building.
-const PARTS: [&str; 6] = ["weather", "occupancy", "setpoints", "controller", "iterations", "expect.building"];
-/// What can only be expected of vehicles.
-const DRIVING: [&str; 4] = ["expect.no_collision", "expect.min_gap_m", "expect.order", "expect.plan_failures_at_most"];
-
 /// Everything that does not fit together.
 pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
     let mut problems = Vec::new();
     if scenario.vehicles.is_empty() {
-        let stated = scenario.stated_clock().chain(DRIVING.into_iter().filter(|key| tree.has(key)));
-        problems.extend(stated.map(|key| {
-            let message = format!("{} is stated, but there are no vehicles", quoted(key));
+        problems.extend(stated(Concern::Vehicles, tree).map(|key| {
+            let message = format!("{} is stated, but there are no vehicles", quoted(&key));
             let help = "a building takes its step from `building.step_s` and its days from `iterations`";
-            Problem::at(tree.place_of(key), "for vehicles only", message).help(help)
+            Problem::at(tree.place_of(&key), "for vehicles only", message).help(help)
         }));
     }
     let Some(building) = &scenario.building else {
@@ -37,9 +32,9 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
             let help = "state vehicles, a building, or both; or start with `extends = \"lane-change/front-nice\"`";
             problems.push(Problem::at(&tree.place, "in this file", message).help(help));
         }
-        problems.extend(PARTS.iter().filter(|key| tree.has(key)).map(|key| {
-            let message = format!("{} is stated, but there is no building", quoted(key));
-            Problem::at(tree.place_of(key), "for a building only", message).help("add a `[building]`")
+        problems.extend(stated(Concern::Building, tree).map(|key| {
+            let message = format!("{} is stated, but there is no building", quoted(&key));
+            Problem::at(tree.place_of(&key), "for a building only", message).help("add a `[building]`")
         }));
         return problems;
     };
@@ -52,6 +47,19 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
         }
     }
     checker.problems
+}
+
+/// The keys of the file and of its expectations that have this concern and do not state what is so by default.
+fn stated(concern: Concern, tree: &Node) -> impl Iterator<Item = String> {
+    let root = schema::complete();
+    let of_file = root.properties().map(|(key, property)| (key.clone(), property));
+    let expectations = root.property("expect").into_iter().flat_map(SchemaNode::properties);
+    let all = of_file.chain(expectations.map(|(key, property)| (format!("expect.{key}"), property)));
+    all.filter(move |(key, property)| {
+        let stated = tree.at(key).filter(|node| !node.is_empty_list());
+        property.concerns() == Some(concern) && stated.is_some_and(|node| !property.is_default(&node.to_json()))
+    })
+    .map(|(key, _)| key)
 }
 
 struct Checker<'a> {
@@ -85,16 +93,6 @@ impl Checker<'_> {
     /// Whether it is clear of which zones the building consists.
     fn sources(&mut self, building: &Building) -> bool {
         let before = self.problems.len();
-        let stated = [
-            ("preset", building.preset.is_some()),
-            ("grid", building.grid.is_some()),
-            ("zone", !building.zones.is_empty()),
-        ];
-        let stated: Vec<&str> = stated.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key).collect();
-        if let [first, second, ..] = stated.as_slice() {
-            let message = format!("`building` states both `{first}` and `{second}`");
-            self.refuse(&format!("building.{second}"), "one too many", message, "state the one or the other");
-        }
         if building.zones.is_empty() && !building.walls.is_empty() {
             let message = "`building` has walls but no zones".to_owned();
             self.refuse(

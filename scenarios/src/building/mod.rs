@@ -11,6 +11,7 @@ use interplay_building::discretise::Method;
 use interplay_building::network::{Belief, Network, NetworkError, Wall, Zone};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use crate::Scenario;
 
@@ -27,9 +28,11 @@ const ITERATIONS: usize = 10;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Building {
-    /// A building that is known by name. Not together with `grid` or `zone`.
+    /// A building that is known by name.
+    #[schemars(example = &"testbed", extend("x-excludes" = ["grid", "zone"]))]
     pub preset: Option<Preset>,
-    /// Rooms in rows and columns, on one floor or several, each like those of the testbed. Not together with `preset` or `zone`.
+    /// Rooms in rows and columns, on one floor or several, each like those of the testbed.
+    #[schemars(example = json!({ "rows": 3, "columns": 4 }), extend("x-excludes" = ["zone"]))]
     pub grid: Option<Grid>,
     /// The zones, one `[[building.zone]]` each.
     #[serde(rename = "zone")]
@@ -79,10 +82,10 @@ pub enum Preset {
 #[serde(deny_unknown_fields)]
 pub struct Grid {
     /// How many rows of rooms there are.
-    #[schemars(range(min = 1, max = 1000))]
+    #[schemars(range(min = 1, max = 1000), example = 3)]
     pub rows: usize,
     /// How many rooms a row has.
-    #[schemars(range(min = 1, max = 1000))]
+    #[schemars(range(min = 1, max = 1000), example = 4)]
     pub columns: usize,
     /// How many floors of such rooms lie above one another.
     #[serde(default = "one")]

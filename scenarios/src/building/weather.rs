@@ -55,14 +55,15 @@ pub struct Synthetic {
 #[serde(deny_unknown_fields)]
 pub struct EpwFile {
     /// The file, relative to the scenario file; or the name of one in the binary: `tropical-july.epw`.
+    #[schemars(example = &"tropical-july.epw")]
     pub file: String,
     /// The month in which the first day lies; without month and day, the first day of the file.
     #[serde(default)]
-    #[schemars(range(min = 1, max = 12))]
+    #[schemars(range(min = 1, max = 12), example = 7)]
     pub month: Option<u32>,
     /// The first day, in its month.
     #[serde(default)]
-    #[schemars(range(min = 1, max = 31))]
+    #[schemars(range(min = 1, max = 31), example = 8)]
     pub day: Option<u32>,
     /// How a day's temperatures are forecast at its start; by default without error.
     #[serde(default)]

@@ -3,8 +3,8 @@
 // shown from here
 use std::sync::{Arc, Mutex, PoisonError};
 
-use interplay::frame::Frame;
-use interplay::watch::Watcher;
+use interplay_simulation::frame::Frame;
+use interplay_simulation::watch::Watcher;
 
 /// The shortest time headway to the vehicle ahead in the same lane [s]: the gap between the bumpers, divided by the speed.
 struct Headway {
@@ -34,7 +34,7 @@ fn shortest_headway_s(scenario: &str) -> Result<Option<f64>, Box<dyn std::error:
     let shortest_s = Arc::new(Mutex::new(None));
     let scenario = interplay_scenarios::load(scenario, &[])?;
     let headway = Headway { bumpers_m: 0.4, shortest_s: Arc::clone(&shortest_s) };
-    interplay::run::run("headway", &scenario, vec![Box::new(headway)])?;
+    interplay_simulation::run::run("headway", &scenario, vec![Box::new(headway)])?;
     let shortest_s = *shortest_s.lock().unwrap_or_else(PoisonError::into_inner);
     Ok(shortest_s)
 }

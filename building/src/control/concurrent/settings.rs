@@ -13,22 +13,30 @@ use crate::setting::{SettingError, check_not_negative, check_within};
 #[serde(deny_unknown_fields, default)]
 pub struct ConcurrentSettings {
     /// How many taps Q has.
+    #[schemars(range(min = 1, max = 48))]
     pub taps: usize,
     /// γ_q: the largest sum of magnitudes in a row of the taps \[kW/K\] (eq. 4.27).
+    #[schemars(range(min = 0.0), extend("x-unit" = "kW/K"))]
     pub gamma_q: f64,
     /// γ₂: the largest Frobenius norm of the response to an impulse of heat in each zone \[K/kW\] (eq. 4.12).
     /// Its floor, what an impulse does before anybody can answer, grows with the root of the number of zones; without a
     /// number, the bound is 1.28 times that, 4.6 for the testbed.
+    #[schemars(range(min = 0.0), example = 4.6, extend("x-unit" = "K/kW"))]
     pub gamma_2: Option<f64>,
     /// η: how likely inputs and temperatures stay within their bounds, each on its own.
+    #[schemars(range(min = 0.5, max = 0.999999), extend("x-unit" = "dimensionless"))]
     pub confidence: f64,
     /// Cost of a kelvin beyond the comfort band, per step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K"))]
     pub discomfort_linear: f64,
     /// Cost of a squared kelvin beyond the comfort band, per step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub discomfort_quadratic: f64,
     /// K of the first day, as a multiple of the identity \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub initial_gain_kw_per_k: f64,
     /// λ of the learned bias.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
     pub prediction: Prediction,

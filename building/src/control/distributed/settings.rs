@@ -26,24 +26,30 @@ pub enum Scheme {
 pub struct DistributedSettings {
     /// How proposals become a step. Where messages get lost or come late it is always Jacobi's.
     pub scheme: Scheme,
-    /// ε: the zones agree when no input of a day moves by more than this \[kW, Euclidean\].
+    /// ε: the zones agree when no input of a day moves by more than this, in the Euclidean norm \[kW\].
+    #[schemars(range(min = 0.0))]
     pub tolerance_kw: f64,
     /// k^c_max: rounds after which they stop.
     pub rounds: usize,
     /// Cost of a squared kelvin beyond the comfort band, per step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub discomfort_quadratic: f64,
     /// Feedback of each zone on its own error \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub gain_kw_per_k: f64,
     /// λ of the learned bias.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
     pub prediction: Prediction,
     /// Share of the messages that are lost, drawn from a generator with a seed of its own.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub loss: f64,
     /// Rounds by which messages are late.
     pub delay_rounds: usize,
     /// A zone that has stopped answering: it goes on with its last inputs, and its neighbours with the last they heard.
     /// Zones are numbered from 0.
+    #[schemars(example = 0)]
     pub silent_zone: Option<usize>,
     /// Whether the centralised optimum is found too, to compare with.
     pub compare: bool,
@@ -88,10 +94,13 @@ impl DistributedSettings {
 #[serde(deny_unknown_fields, default)]
 pub struct CentralisedSettings {
     /// Cost of a squared kelvin beyond the comfort band, per step.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub discomfort_quadratic: f64,
     /// Feedback of each zone on its own error \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub gain_kw_per_k: f64,
     /// λ of the learned bias.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
     pub prediction: Prediction,

@@ -80,16 +80,20 @@ pub struct IterativeSettings {
     /// How the feedback is made stabilising.
     pub stability: Stability,
     /// Decay rate r of the closed loop that is certified.
+    #[schemars(range(min = 0.001, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub decay: f64,
     /// K of the first day, and of all days with `stability = "fixed"`, as a multiple of the identity \[kW/K\].
+    #[schemars(range(min = 0.0))]
     pub initial_gain_kw_per_k: f64,
     /// η: how likely inputs stay within their limits.
+    #[schemars(range(min = 0.5, max = 0.999999), extend("x-unit" = "dimensionless"))]
     pub confidence: f64,
     /// What the confidence is meant of.
     pub chance: Chance,
     /// What (3.8) means.
     pub convergence: Convergence,
     /// λ of the learned bias.
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
     pub prediction: Prediction,

@@ -54,7 +54,8 @@ impl<'a> Table<'a> {
 
     /// Finds a column; `role` says in messages what it is wanted for. Spaces around titles and names do not count.
     pub fn column(&self, name: &str, role: &str) -> Result<Column, TelemetryError> {
-        let mut found = self.header.iter().enumerate().filter(|(_, title)| *title == name.trim()).map(|(index, _)| index);
+        let mut found =
+            self.header.iter().enumerate().filter(|(_, title)| *title == name.trim()).map(|(index, _)| index);
         let fault = match (found.next(), found.next()) {
             (Some(index), None) => return Ok(Column(index)),
             (None, _) => "not in the header",

@@ -1,0 +1,48 @@
+//! `interplay check`
+
+use clap::Args;
+use interplay_scenarios::{Scenario, load};
+
+use crate::{Ending, complain, complain_about, files, print};
+
+/// Check scenario files without running them; every error is located.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  interplay check my.toml\n  interplay check scenarios/")]
+pub(crate) struct Check {
+    /// Scenario files, names of embedded scenarios, or folders that are searched for .toml files
+    #[arg(value_name = "FILE|DIR", required = true)]
+    paths: Vec<String>,
+}
+
+impl Check {
+    pub(crate) fn execute(self) -> Ending {
+        let mut ending = Ending::Well;
+        for path in &self.paths {
+            match files::find(path) {
+                Ok(found) => {
+                    for file in found.into_iter().map(|found| found.scenario) {
+                        match load(&file, &[]) {
+                            Ok(scenario) => print(&approved(&file, &scenario)),
+                            Err(error) => {
+                                complain_about(error);
+                                ending = Ending::BadInput;
+                            }
+                        }
+                    }
+                }
+                Err(error) => {
+                    complain(&error);
+                    ending = Ending::BadInput;
+                }
+            }
+        }
+        ending
+    }
+}
+
+/// That a file is fine, and what is remarkable about its building although it is allowed.
+fn approved(file: &str, scenario: &Scenario) -> String {
+    let network = scenario.building.as_ref().and_then(|building| building.network().ok());
+    let remarks = network.iter().flat_map(|network| network.remarks());
+    remarks.fold(format!("ok  {file}\n"), |text, remark| text + &format!("    note: {remark}\n"))
+}

@@ -1,0 +1,90 @@
+//! The scenarios that an argument stands for, and what their runs are called.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use interplay_scenarios::embedded;
+
+/// A scenario to be loaded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Found {
+    /// What its run is called: see [`short_name`]; in a folder, its path below that folder, without the extension.
+    pub name: String,
+    /// Name of the embedded scenario, or path of the file.
+    pub scenario: String,
+}
+
+/// What an argument stands for: an embedded scenario, a file, or all .toml files below a folder, sorted.
+///
+/// # Errors
+/// In words, if a folder cannot be read or has no such file in it. Whether the others exist shows when they are loaded.
+pub(crate) fn find(argument: &str) -> Result<Vec<Found>, String> {
+    if !Path::new(argument).is_dir() {
+        return Ok(vec![Found { name: short_name(argument), scenario: argument.to_owned() }]);
+    }
+    let found = below(Path::new(argument)).map_err(|error| format!("cannot read folder `{argument}`: {error}"))?;
+    if found.is_empty() {
+        return Err(format!("there is no .toml file in folder `{argument}`"));
+    }
+    let named = |path: PathBuf| {
+        let name = path.strip_prefix(argument).unwrap_or(&path).with_extension("");
+        Found { name: name.to_string_lossy().into_owned(), scenario: path.to_string_lossy().into_owned() }
+    };
+    Ok(found.into_iter().map(named).collect())
+}
+
+fn below(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let (mut folders, mut found) = (vec![folder.to_owned()], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder)? {
+            let entry = entry?;
+            if entry.file_type()?.is_dir() {
+                folders.push(entry.path());
+            } else if entry.path().extension().is_some_and(|extension| extension == "toml") {
+                found.push(entry.path());
+            }
+        }
+    }
+    // By name: `distributed` before `distributed-hundred`.
+    found.sort_by_key(|path| path.with_extension(""));
+    Ok(found)
+}
+
+/// What a run is called: an authored scenario by its name, a file by its own name, without folders and extension.
+pub(crate) fn short_name(scenario: &str) -> String {
+    if embedded().iter().any(|file| file.name == scenario) {
+        return scenario.to_owned();
+    }
+    let stem = Path::new(scenario).file_stem();
+    stem.map_or_else(|| "scenario".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_is_named_after_its_scenario_and_never_leaves_its_folder() {
+        for (scenario, name) in [
+            ("lane-change/front-nice", "lane-change/front-nice"),
+            ("my.toml", "my"),
+            ("my", "my"),
+            ("../my", "my"),
+            ("../../lane-change/front-nice", "front-nice"),
+            ("/somewhere/my.v2.toml", "my.v2"),
+            ("./.hidden", ".hidden"),
+            ("..", "scenario"),
+        ] {
+            assert_eq!(short_name(scenario), name, "{scenario}");
+        }
+    }
+
+    #[test]
+    fn in_a_folder_files_keep_their_place() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/files");
+        let found = find(folder).expect("the authored files are there");
+        let names: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
+        assert_eq!(names, embedded().iter().map(|file| file.name).collect::<Vec<_>>());
+        assert!(find(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).is_err(), "no scenario lies among the sources");
+    }
+}

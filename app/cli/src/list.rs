@@ -1,0 +1,44 @@
+//! `interplay list`
+
+use clap::Args;
+use interplay_scenarios::{embedded, load};
+use serde_json::json;
+
+use crate::{Ending, complain_about, print};
+
+/// List the embedded scenarios: name, what it shows, figure reproduced.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  interplay list --json")]
+pub(crate) struct List {
+    /// Print the list as one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+impl List {
+    pub(crate) fn execute(self) -> Ending {
+        let mut rows = Vec::new();
+        for file in embedded() {
+            match load(file.name, &[]) {
+                Ok(scenario) => rows.push((file.name, scenario)),
+                Err(error) => {
+                    complain_about(error);
+                    return Ending::BadInput;
+                }
+            }
+        }
+        if self.json {
+            let rows = rows.iter().map(|(name, scenario)| {
+                json!({ "name": name, "title": scenario.title, "shows": scenario.shows, "figure": scenario.figure })
+            });
+            print(&format!("{:#}\n", serde_json::Value::Array(rows.collect())));
+            return Ending::Well;
+        }
+        let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        for (name, scenario) in &rows {
+            let figure = scenario.figure.as_ref().map(|figure| format!(" (Fig. {figure})")).unwrap_or_default();
+            print(&format!("{name:width$}  {}{figure}\n", scenario.shows));
+        }
+        Ending::Well
+    }
+}

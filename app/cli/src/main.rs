@@ -1,0 +1,5 @@
+//! The `interplay` command.
+
+fn main() -> std::process::ExitCode {
+    interplay::main()
+}

@@ -1,0 +1,111 @@
+//! `interplay reproduce`
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+use interplay_presentation::figures::{self, Entry, Kind, Made, find, make, registry, section};
+use interplay_presentation::page::Page;
+
+use crate::progress::Progress;
+use crate::{Ending, complain, print};
+
+/// Make the figures and tables of the dissertation again, as SVG and PNG, with a page that shows and explains them.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    interplay reproduce                          (all of them, into figures/)\n  \
+    interplay reproduce 6.1 table-8.2 --out mine\n  \
+    interplay reproduce 5                        (all of chapter 5)")]
+pub(crate) struct Reproduce {
+    /// Figures (6.1), tables (table-6.1), or chapters (6) [default: all]
+    #[arg(value_name = "FIGURE")]
+    figures: Vec<String>,
+
+    /// Where the pictures and index.html go
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    out: PathBuf,
+
+    /// List what there is, and make nothing
+    #[arg(long)]
+    list: bool,
+}
+
+impl Reproduce {
+    pub(crate) fn execute(self) -> Ending {
+        if self.list {
+            registry().for_each(|entry| print(&format!("{:10}  {}\n", entry.id(), entry.title)));
+            return Ending::Well;
+        }
+        let entries = match find(&self.figures) {
+            Ok(entries) => entries,
+            Err(error) => {
+                complain(&format!("Error: {error}"));
+                return Ending::BadInput;
+            }
+        };
+        if let Err(error) = std::fs::create_dir_all(&self.out) {
+            complain(&format!(
+                "Error: cannot make the folder {}: {error}; name another with --out",
+                self.out.display()
+            ));
+            return Ending::BadInput;
+        }
+        let began = Instant::now();
+        let progress = Progress::of(figures::steps(&entries));
+        let made = make(&entries, &self.out, &|| progress.advance());
+        progress.clear();
+        let page = self.out.join("index.html");
+        if let Err(error) = std::fs::write(&page, page_of(&made).html()) {
+            complain(&format!("Error: cannot write {}: {error}", page.display()));
+            return Ending::Unfinished;
+        }
+        tell(&made, &page, began.elapsed().as_secs_f64());
+        ending(&made)
+    }
+}
+
+fn page_of(made: &[Made]) -> Page {
+    let count = |kind: Kind| made.iter().filter(|made| made.entry.kind == kind).count();
+    let broken = made.iter().filter(|made| made.outcome.is_err()).count();
+    let missed = made.iter().filter(|made| made.outcome.is_ok() && !made.held()).count();
+    let tally = format!(
+        "{} figures and {} tables; {broken} could not be made, and in {missed} an expectation of a scenario failed.",
+        count(Kind::Figure),
+        count(Kind::Table)
+    );
+    Page {
+        title: "The figures and tables of the dissertation, made again".to_owned(),
+        opening: vec![
+            "C. Peng, Optimization Based Control for Multi-agent System with Interaction, Berkeley 2019. Nothing here is \
+             copied from it: every picture is drawn from runs of this program, and every table below a picture is \
+             measured from the same runs."
+                .to_owned(),
+            tally,
+        ],
+        sections: made.iter().map(section).collect(),
+    }
+}
+
+fn tell(made: &[Made], page: &Path, wall_s: f64) {
+    for made in made {
+        let entry: &Entry = made.entry;
+        match &made.outcome {
+            Err(error) => complain(&format!("{entry} could not be made: {error}")),
+            Ok(_) if !made.held() => complain(&format!("{entry}: an expectation of its scenario failed")),
+            Ok(_) => {}
+        }
+    }
+    let done = made.iter().filter(|made| made.outcome.is_ok()).count();
+    print(&format!("{done} of {} made in {wall_s:.1} s: {}\n", made.len(), page.display()));
+}
+
+/// A figure that could not be made weighs more than an expectation that failed.
+fn ending(made: &[Made]) -> Ending {
+    if made.iter().any(|made| made.outcome.is_err()) {
+        Ending::Unfinished
+    } else if made.iter().any(|made| !made.held()) {
+        Ending::Failed
+    } else {
+        Ending::Well
+    }
+}

@@ -1,0 +1,239 @@
+//! `interplay run`
+
+use std::path::PathBuf;
+
+use clap::Args;
+use interplay_presentation::figures::{Camera, Take, own_page};
+use interplay_presentation::record::{RecordError, Recorder, Sink, Viewer};
+use interplay_presentation::report::summary;
+use interplay_presentation::shell;
+use interplay_scenarios::{Override, Scenario, load};
+use interplay_simulation::report::Report;
+use interplay_simulation::run::run;
+use interplay_simulation::watch::Watcher;
+
+use crate::files::short_name;
+use crate::watch::Watched;
+use crate::{Ending, complain, complain_about, json, print};
+
+/// Run one scenario, say whether its expectations held, and record it.
+#[derive(Debug, Default, Args)]
+#[command(after_help = "Examples:\n  \
+    interplay run lane-change/front-tough\n  \
+    interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json\n  \
+    interplay run my.toml --watch                        (again at every save, until Ctrl-C)\n  \
+    interplay run intersection/nice --report my-report     (pictures and a page)")]
+pub(crate) struct Run {
+    /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
+    #[arg(value_name = "NAME|FILE", default_value = DEFAULT)]
+    scenario: Option<String>,
+
+    /// Who drives the ego instead of the scenario's choice: human, conservative, negotiation, bayesian, game, cooperative,
+    /// idm
+    #[arg(long, value_name = "KIND")]
+    planner: Option<String>,
+
+    /// Change one value of the scenario; may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    sets: Vec<String>,
+
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
+    seed: Option<u64>,
+
+    /// Where the recording goes [default: recordings/NAME.rrd]
+    #[arg(long, value_name = "FILE.rrd", conflicts_with = "no_record")]
+    record: Option<PathBuf>,
+
+    /// Do not record
+    #[arg(long)]
+    no_record: bool,
+
+    /// Stream to a viewer that is running instead of writing a file [default: the one on this machine]
+    #[arg(long, value_name = "URL", num_args = 0..=1, require_equals = true)]
+    #[arg(conflicts_with_all = ["record", "no_record"])]
+    connect: Option<Option<Viewer>>,
+
+    /// Run again whenever the scenario file, or one that it extends, is saved
+    #[arg(long)]
+    watch: bool,
+
+    /// Draw what there is to see into this folder, as SVG and PNG, with a page, index.html, that shows it; the recording
+    /// goes there too unless --record says otherwise
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+
+    /// Print the report as one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is run, and started from, unless something else is asked for.
+pub(crate) const DEFAULT: &str = "lane-change/front-nice";
+
+impl Run {
+    pub(crate) fn execute(self) -> Ending {
+        if self.watch { self.again_and_again() } else { self.once() }
+    }
+
+    /// Runs at every change of the scenario; never returns unless there is nothing to watch.
+    fn again_and_again(&self) -> Ending {
+        let mut watched = Watched::look(self.scenario());
+        if watched.is_empty() {
+            complain(&format!(
+                "--watch needs a scenario file, and `{}` is none; `interplay new my.toml --from {0}` makes one",
+                self.scenario()
+            ));
+            return Ending::BadInput;
+        }
+        loop {
+            self.once();
+            complain(&format!("watching {}; Ctrl-C ends", self.scenario()));
+            watched = watched.wait();
+        }
+    }
+
+    fn once(&self) -> Ending {
+        let scenario = match load(self.scenario(), &self.overrides()) {
+            Ok(scenario) => scenario,
+            Err(error) => {
+                complain_about(error);
+                return Ending::BadInput;
+            }
+        };
+        let name = short_name(self.scenario());
+        let watchers = match self.watchers(&scenario, &name) {
+            Ok(watchers) => watchers,
+            Err(error) => {
+                complain(&error.to_string());
+                return Ending::Unfinished;
+            }
+        };
+        let told = self.film(&name, scenario, watchers).and_then(|take| {
+            self.page(&name, &take)?;
+            self.tell(&take.scenario.title, &take.report).map(|()| take.report.passed)
+        });
+        match told {
+            Ok(passed) => {
+                if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
+                    complain(&format!("recorded to {}", path.display()));
+                }
+                if passed { Ending::Well } else { Ending::Failed }
+            }
+            Err(error) => {
+                complain(&error);
+                Ending::Unfinished
+            }
+        }
+    }
+
+    /// What is run, as it was asked for.
+    fn scenario(&self) -> &str {
+        self.scenario.as_deref().unwrap_or(DEFAULT)
+    }
+
+    /// Runs it; its frames are kept if a page is to be drawn of them.
+    fn film(&self, name: &str, scenario: Scenario, mut watchers: Vec<Box<dyn Watcher>>) -> Result<Take, String> {
+        let camera = Camera::default();
+        if self.report.is_some() {
+            watchers.push(Box::new(camera.clone()));
+        }
+        let report = run(name, &scenario, watchers).map_err(|error| error.to_string())?;
+        Ok(Take { label: String::new(), command: self.words(), scenario, frames: camera.frames(), report })
+    }
+
+    /// Draws the page, if that is asked for.
+    fn page(&self, name: &str, take: &Take) -> Result<(), String> {
+        let Some(folder) = &self.report else { return Ok(()) };
+        let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
+        let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
+        let what = |file: &String| format!("the recording; `interplay view {file}` opens it");
+        let page = own_page(take, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
+        complain(&format!("page in {}", page.display()));
+        Ok(())
+    }
+
+    /// Prints the report as it was asked for.
+    fn tell(&self, title: &str, report: &Report) -> Result<(), String> {
+        let text = if self.json { json(report)? } else { summary(title, report) };
+        print(&text);
+        Ok(())
+    }
+
+    /// The words that run the same again. What is done with the results is no part of them.
+    fn words(&self) -> Vec<String> {
+        let planner = self.planner.iter().flat_map(|kind| ["--planner".to_owned(), kind.clone()]);
+        let seed = self.seed.iter().flat_map(|seed| ["--seed".to_owned(), seed.to_string()]);
+        let sets = self.sets.iter().flat_map(|change| ["--set".to_owned(), change.clone()]);
+        let run = ["interplay", "run", self.scenario()].map(str::to_owned);
+        run.into_iter().chain(planner).chain(seed).chain(sets).collect()
+    }
+
+    /// The same as one line for a shell.
+    fn command(&self) -> String {
+        shell::line(self.words().iter().map(String::as_str))
+    }
+
+    /// Changes of the scenario, the most specific last.
+    fn overrides(&self) -> Vec<Override> {
+        let planner = self.planner.iter().cloned().map(Override::Planner);
+        let seed = self.seed.into_iter().map(Override::Seed);
+        planner.chain(seed).chain(self.sets.iter().cloned().map(Override::Set)).collect()
+    }
+
+    /// Where the recording goes, if anywhere.
+    fn recording(&self, name: &str) -> Option<PathBuf> {
+        let default = || match &self.report {
+            Some(folder) => folder.join("recording.rrd"),
+            None => PathBuf::from("recordings").join(format!("{name}.rrd")),
+        };
+        (!self.no_record).then(|| self.record.clone().unwrap_or_else(default))
+    }
+
+    fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
+        let sink = match &self.connect {
+            Some(viewer) => {
+                Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok).map_err(RecordError::Broken)?))
+            }
+            None => self.recording(name).map(Sink::File),
+        };
+        let Some(sink) = sink else { return Ok(Vec::new()) };
+        let recorder = Recorder::begin(scenario, name, &sink)?;
+        recorder.repeat_with(&self.command())?;
+        Ok(vec![Box::new(recorder)])
+    }
+}
+
+/// A seed as it is written on the command line.
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Debug, Parser)]
+    struct Alone {
+        #[command(flatten)]
+        run: Run,
+    }
+
+    fn parsed(words: &[&str]) -> Run {
+        Alone::try_parse_from([&["run"], words].concat()).expect("sound arguments").run
+    }
+
+    #[test]
+    fn the_command_that_repeats_a_run_has_its_words_and_no_others() {
+        assert_eq!(Run::default().command(), "interplay run lane-change/front-nice");
+        let words = ["my file.toml", "--json", "--set", "title=\"It's\"", "--no-record", "--seed", "7"];
+        let run = parsed(&[&words[..], &["--set", "seed=3", "--planner", "human"]].concat());
+        let expected = r#"interplay run 'my file.toml' --planner human --seed 7 --set 'title="It'\''s"' --set seed=3"#;
+        assert_eq!(run.command(), expected);
+        let again =
+            parsed(&["my file.toml", "--planner", "human", "--seed", "7", "--set", words[3], "--set", "seed=3"]);
+        assert_eq!((again.scenario(), again.overrides()), (run.scenario(), run.overrides()));
+    }
+}

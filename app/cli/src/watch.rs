@@ -1,0 +1,50 @@
+//! Running again when a scenario file is saved.
+
+use std::path::PathBuf;
+use std::thread::sleep;
+use std::time::{Duration, SystemTime};
+
+use interplay_scenarios::files;
+
+/// Time between two looks.
+const LOOK: Duration = Duration::from_millis(200);
+
+/// The files of a scenario as they were when it was last looked at.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Watched {
+    scenario: String,
+    seen: Vec<(PathBuf, Option<(SystemTime, u64)>)>,
+}
+
+impl Watched {
+    /// Looks at a scenario and all that it extends.
+    pub fn look(scenario: &str) -> Watched {
+        let state = |path: &PathBuf| {
+            let found = std::fs::metadata(path).ok()?;
+            Some((found.modified().ok()?, found.len()))
+        };
+        let seen = files(scenario).into_iter().map(|path| (path.clone(), state(&path))).collect();
+        Watched { scenario: scenario.to_owned(), seen }
+    }
+
+    /// Whether there is any file that could change.
+    pub fn is_empty(&self) -> bool {
+        self.seen.is_empty()
+    }
+
+    /// Waits until any of the files has changed and is left alone again: editors write in several steps.
+    pub fn wait(self) -> Watched {
+        loop {
+            sleep(LOOK);
+            let now = Watched::look(&self.scenario);
+            if now == self || now.is_empty() {
+                continue;
+            }
+            sleep(LOOK);
+            let later = Watched::look(&self.scenario);
+            if later == now {
+                return later;
+            }
+        }
+    }
+}

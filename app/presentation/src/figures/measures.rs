@@ -1,0 +1,119 @@
+//! What was measured of runs, as tables of words.
+
+use interplay_simulation::report::{BuildingReport, Report};
+
+use super::take::Take;
+use crate::plot::Sheet;
+
+/// The runs side by side: what tells whether they are what the source shows.
+pub fn side_by_side(takes: &[&Take]) -> Vec<Sheet> {
+    let mut sheets = Vec::new();
+    let drives: Vec<&&Take> = takes.iter().filter(|take| !take.report.vehicles.is_empty()).collect();
+    if !drives.is_empty() {
+        sheets.push(driving(&drives));
+    }
+    let houses = takes.iter().filter_map(|take| Some((*take, take.report.building.as_ref()?)));
+    let houses: Vec<(&Take, &BuildingReport)> = houses.collect();
+    if !houses.is_empty() {
+        sheets.push(building(&houses));
+    }
+    sheets
+}
+
+fn driving(takes: &[&&Take]) -> Sheet {
+    let header = [
+        "run",
+        "reaches its goal [s]",
+        "order at the end",
+        "speed of the ego [m/s]",
+        "smallest gap [m]",
+        "collisions",
+        "plans that failed",
+        "expectations",
+    ];
+    let row = |take: &&&Take| {
+        let report = &take.report;
+        let ego = report.vehicles.get(take.scenario.ego_index());
+        let completed = report
+            .vehicles
+            .iter()
+            .filter_map(|vehicle| vehicle.completed_s.map(|time_s| format!("{} {time_s:.1}", vehicle.name)));
+        let completed: Vec<String> = completed.collect();
+        let failed: usize = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
+        [
+            label(take),
+            if completed.is_empty() { "nobody".to_owned() } else { completed.join(", ") },
+            report.order.join(", "),
+            ego.map_or_else(String::new, |ego| format!("{:.2} to {:.2}", ego.min_speed_mps, ego.max_speed_mps)),
+            report.min_gap_m.map_or_else(|| "–".to_owned(), |gap_m| format!("{gap_m:.3}")),
+            report.collisions.len().to_string(),
+            failed.to_string(),
+            expectations(report, take.changed()),
+        ]
+    };
+    Sheet::new("Measured", header, takes.iter().map(row).collect())
+}
+
+fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
+    let header = [
+        "run",
+        "cost J, day by day",
+        "error, last day [K]",
+        "discomfort, last day [K·h]",
+        "above the cheapest, last day",
+        "energy, last day [kWh]",
+        "over the limit, any day [kW]",
+        "design of a day, slowest [ms]",
+        "expectations",
+    ];
+    let row = |(take, report): &(&Take, &BuildingReport)| {
+        let days = &report.iterations;
+        let costs: Vec<String> = days.iter().map(|day| format!("{:.1}", day.figures.cost)).collect();
+        let last = |value: fn(&interplay_simulation::day::DayFigures) -> f64| {
+            days.last().map_or_else(String::new, |day| format!("{:.3}", value(day)))
+        };
+        let most =
+            |value: fn(&interplay_simulation::day::DayFigures) -> f64| days.iter().map(value).fold(0.0, f64::max);
+        [
+            label(take),
+            costs.join(", "),
+            last(|day| day.figures.tracking_rmse_c),
+            last(|day| day.figures.discomfort_k_h),
+            days.last().and_then(|day| day.regret).map_or_else(|| "–".to_owned(), |regret| format!("{regret:.1}")),
+            last(|day| day.figures.energy_kwh),
+            format!("{:.3}", most(|day| day.figures.input_violation_kw)),
+            format!("{:.1}", 1e3 * most(|day| day.design_s)),
+            expectations(&take.report, take.changed()),
+        ]
+    };
+    Sheet::new("Measured", header, houses.iter().map(row).collect())
+}
+
+fn label(take: &Take) -> String {
+    if take.label.is_empty() { take.report.scenario.clone() } else { take.label.clone() }
+}
+
+/// How many expectations held; those of a scenario that was changed on purpose do not count.
+fn expectations(report: &Report, changed: bool) -> String {
+    let held = report.expectations.iter().filter(|expectation| expectation.passed).count();
+    let count = report.expectations.len();
+    match (count, changed) {
+        (0, _) => "none stated".to_owned(),
+        (_, true) => format!("{held} of the original's {count} hold"),
+        (_, false) => format!("{held} of {count} held"),
+    }
+}
+
+/// Every expectation of a run: what was wanted and what came of it.
+pub fn expected(report: &Report) -> Sheet {
+    let row = |expectation: &interplay_simulation::report::Expectation| {
+        [
+            expectation.what.clone(),
+            expectation.want.to_string(),
+            expectation.got.to_string(),
+            if expectation.passed { "held" } else { "FAILED" }.to_owned(),
+        ]
+    };
+    let rows = report.expectations.iter().map(row).collect();
+    Sheet::new("Expectations", ["what", "wanted", "measured", ""], rows)
+}

@@ -1,0 +1,176 @@
+//! What the controller says of its plans: the learned bias, its feedback, convergence, and the exchange between zones.
+//!
+//! ```text
+//! building/learned/<n>                        heat beyond the forecast that is believed to return
+//! building/feedback/gain/<n>/{own,others}     K: a zone's answer to its own error, and to those of the others in sum
+//! building/feedback/tap/<l>                   Q: a zone's answer to its own deviation, l steps later; mean of the zones
+//! building/convergence/{spectral-radius,largest-singular-value,one}
+//! building/exchange/cost                      log₁₀ J before the first round and after each, of the first exchange
+//! building/exchange/messages                  messages that each zone has sent
+//! ```
+
+use std::collections::BTreeSet;
+
+use interplay_building::control::{Design, Exchange};
+use interplay_simulation::frame::BuildingFrame;
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::super::palette::{self, FAILURE, NEUTRAL};
+use super::super::re_sdk_types::archetypes::{BarChart, Scalars};
+use super::super::re_sdk_types::components::TensorData;
+use super::super::re_sdk_types::datatypes;
+use super::series::style;
+
+/// The learned bias.
+pub const LEARNED: &str = "building/learned";
+/// K.
+pub const GAIN: &str = "building/feedback/gain";
+/// Q.
+pub const TAPS: &str = "building/feedback/tap";
+/// Spectral radius and largest singular value.
+pub const CONVERGENCE: &str = "building/convergence";
+/// J by round.
+pub const COST: &str = "building/exchange/cost";
+/// Messages by zone.
+pub const MESSAGES: &str = "building/exchange/messages";
+
+/// What is known of the controller's plans so far.
+#[derive(Default)]
+pub struct Plans {
+    /// Whether this controller plans at all.
+    learns: bool,
+    /// What was said of the day's plan.
+    design: Design,
+    /// Messages sent so far, by zone.
+    messages: Vec<usize>,
+    /// What there was something to show of.
+    seen: BTreeSet<&'static str>,
+}
+
+impl Plans {
+    /// Logs names and colours; `learns` says whether this controller plans at all.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn begin(
+        stream: &RecordingStream,
+        names: &[String],
+        shown: &[usize],
+        learns: bool,
+    ) -> RecordingStreamResult<Plans> {
+        if !learns {
+            return Ok(Plans::default());
+        }
+        for (place, &index) in shown.iter().enumerate() {
+            let (paint, name) = (palette::series(place), &names[index]);
+            style(stream, &of(LEARNED, index), name, paint.solid(), 1.5)?;
+            style(stream, &(of(GAIN, index) + "/own"), &format!("{name}: own error"), paint.solid(), 2.0)?;
+            style(stream, &(of(GAIN, index) + "/others"), &format!("{name}: others'"), paint.veiled(130), 1.5)?;
+        }
+        for (name, words, paint) in [
+            ("one", "limit of convergence", FAILURE),
+            ("spectral-radius", "spectral radius", palette::series(0)),
+            ("largest-singular-value", "largest singular value", NEUTRAL),
+        ] {
+            style(stream, &format!("{CONVERGENCE}/{name}"), words, paint.solid(), 1.5)?;
+        }
+        Ok(Plans { learns, ..Plans::default() })
+    }
+
+    /// Whether there is anything to show of `part`.
+    pub fn has(&self, part: &str) -> bool {
+        self.seen.contains(part)
+    }
+
+    /// Logs one step.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn step(
+        &mut self,
+        stream: &RecordingStream,
+        shown: &[usize],
+        frame: &BuildingFrame,
+    ) -> RecordingStreamResult<()> {
+        if !self.learns {
+            return Ok(());
+        }
+        if let Some(design) = &frame.design {
+            self.design = (**design).clone();
+            self.styled(stream)?;
+            if let Some(exchange) = &design.exchange {
+                self.exchange(stream, exchange)?;
+            }
+        }
+        for &index in shown {
+            // Before there was a day, nothing is learned.
+            let bias_kw = self.design.bias_kw.get(frame.step * frame.zones.len() + index).copied().unwrap_or(0.0);
+            stream.log(of(LEARNED, index), &Scalars::single(bias_kw))?;
+        }
+        self.feedback(stream, shown)?;
+        self.convergence(stream)
+    }
+
+    /// Notes what there is to show of a new design, and logs the names and colours of its taps.
+    fn styled(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        let Design { gain_kw_per_k, taps_kw_per_k, spectral_radius, .. } = &self.design;
+        self.seen.insert(LEARNED);
+        self.seen.extend((!gain_kw_per_k.is_empty()).then_some(GAIN));
+        self.seen.extend(spectral_radius.map(|_| CONVERGENCE));
+        if !taps_kw_per_k.is_empty() && self.seen.insert(TAPS) {
+            for delay in 0..taps_kw_per_k.len() {
+                let words = format!("after {delay} steps");
+                style(stream, &of(TAPS, delay), &words, palette::series(delay).solid(), 1.5)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn feedback(&self, stream: &RecordingStream, shown: &[usize]) -> RecordingStreamResult<()> {
+        let Design { gain_kw_per_k, taps_kw_per_k, .. } = &self.design;
+        for (index, row) in shown.iter().filter_map(|&index| Some((index, gain_kw_per_k.get(index)?))) {
+            let own = row[index];
+            let others = row.iter().sum::<f64>() - own;
+            stream.log(of(GAIN, index) + "/own", &Scalars::single(own))?;
+            stream.log(of(GAIN, index) + "/others", &Scalars::single(others))?;
+        }
+        for (delay, tap) in taps_kw_per_k.iter().enumerate() {
+            let own = tap.iter().enumerate().map(|(zone, row)| row[zone]).sum::<f64>() / tap.len() as f64;
+            stream.log(of(TAPS, delay), &Scalars::single(own))?;
+        }
+        Ok(())
+    }
+
+    fn convergence(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        let log = |name: &str, value: f64| stream.log(format!("{CONVERGENCE}/{name}"), &Scalars::single(value));
+        if let Some(radius) = self.design.spectral_radius {
+            log("one", 1.0)?;
+            log("spectral-radius", radius)?;
+        }
+        self.design.largest_singular_value.map_or(Ok(()), |value| log("largest-singular-value", value))
+    }
+
+    fn exchange(&mut self, stream: &RecordingStream, exchange: &Exchange) -> RecordingStreamResult<()> {
+        if self.seen.insert(COST) {
+            let logarithms = exchange.costs.iter().map(|cost| cost.log10()).collect();
+            stream.log_static(COST, &bars(logarithms).with_color(palette::series(1).solid()))?;
+        }
+        self.seen.insert(MESSAGES);
+        self.messages.resize(exchange.messages.len(), 0);
+        for (all, today) in self.messages.iter_mut().zip(&exchange.messages) {
+            *all += today;
+        }
+        let counts = self.messages.iter().map(|&count| count as f64).collect();
+        stream.log_static(MESSAGES, &bars(counts).with_color(palette::series(0).solid()))
+    }
+}
+
+/// Where something of a zone, or of a delay, is recorded.
+fn of(part: &str, index: usize) -> String {
+    format!("{part}/{}", index + 1)
+}
+
+fn bars(values: Vec<f64>) -> BarChart {
+    let buffer = datatypes::TensorBuffer::F64(values.clone().into());
+    BarChart::new(TensorData(datatypes::TensorData::new(vec![values.len() as u64], buffer)))
+}

@@ -1,0 +1,170 @@
+//! The floor plan: rooms coloured by temperature, floors side by side, and the air outside around them.
+
+use interplay_building::comfort::Setpoints;
+use interplay_scenarios::FloorPlan;
+use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::super::palette::NEUTRAL;
+use super::super::re_sdk_types::archetypes::{Image, Points2D};
+use super::super::re_sdk_types::components::Radius;
+
+/// Picture elements of a room from wall to wall, of a wall, and of the strip outdoors.
+const ROOM: usize = 24;
+const WALL: usize = 1;
+const OUTDOORS: usize = 8;
+/// Picture elements between floors.
+const BETWEEN_FLOORS: usize = 6;
+/// How far from the wanted temperatures the colours end \[K\].
+const REACH_K: f64 = 5.0;
+/// In more rooms than this a label has no space for a name.
+const NAMED: usize = 16;
+/// In more rooms than this there is no space for labels.
+const LABELLED: usize = 144;
+
+/// How the floor plan is drawn.
+pub struct Plan {
+    rooms: FloorPlan,
+    /// The temperature that is neither cold nor warm \[°C\].
+    middle_c: f64,
+}
+
+impl Plan {
+    /// Logs what never changes.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn begin(stream: &RecordingStream, rooms: FloorPlan, setpoints: &Setpoints) -> RecordingStreamResult<Plan> {
+        let wanted_c = &setpoints.occupied_c;
+        let middle_c = wanted_c.iter().sum::<f64>() / wanted_c.len().max(1) as f64;
+        let style = Points2D::update_fields()
+            .with_colors([NEUTRAL.solid()])
+            .with_radii([Radius::new_ui_points(0.0)])
+            .with_draw_order(1.0);
+        stream.log_static("building/plan/labels", &style)?;
+        Ok(Plan { rooms, middle_c })
+    }
+
+    /// Logs one step.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn step(&self, stream: &RecordingStream, names: &[String], frame: &BuildingFrame) -> RecordingStreamResult<()> {
+        let [width, height] = self.size();
+        let pixels = self.pixels(frame, [width, height]);
+        stream.log("building/plan/rooms", &Image::from_rgb24(pixels, [width as u32, height as u32]))?;
+        let few = names.len() <= NAMED;
+        let words = |(name, zone): (&String, &ZoneFrame)| match zone.reference_c {
+            Some(wanted_c) if few => format!("{name}\n{:.1} °C\nwanted {wanted_c:.1}", zone.temperature_c),
+            None if few => format!("{name}\n{:.1} °C", zone.temperature_c),
+            _ => format!("{:.1}", zone.temperature_c),
+        };
+        let outdoors = format!("outdoors {:.1} °C", frame.ambient_c);
+        let labelled = if names.len() <= LABELLED { names.len() } else { 0 };
+        let labels = names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]);
+        let centre = |index: usize| self.corner(index).map(|place| (place + ROOM / 2) as f32);
+        let places = (0..labelled).map(centre).chain([[0.5 * width as f32, 0.5 * OUTDOORS as f32]]);
+        let labels = Points2D::update_fields().with_positions(places).with_labels(labels).with_show_labels(true);
+        stream.log("building/plan/labels", &labels)
+    }
+
+    /// Floors beside one another, so that the picture is about as wide as high.
+    fn across(&self) -> usize {
+        let FloorPlan { columns, rows, floors } = self.rooms;
+        let square = (floors as f64 * rows as f64 / columns.max(1) as f64).sqrt();
+        (square.round() as usize).clamp(1, floors.max(1))
+    }
+
+    /// Picture elements across and down.
+    fn size(&self) -> [usize; 2] {
+        let FloorPlan { columns, rows, floors } = self.rooms;
+        let along = |blocks: usize, rooms: usize| {
+            2 * OUTDOORS + blocks * (rooms * (ROOM + WALL) - WALL) + (blocks - 1) * BETWEEN_FLOORS
+        };
+        [along(self.across(), columns), along(floors.div_ceil(self.across()), rows)]
+    }
+
+    /// The upper left corner of a room.
+    fn corner(&self, index: usize) -> [usize; 2] {
+        let FloorPlan { columns, rows, .. } = self.rooms;
+        let (floor, room) = (index / (rows * columns), index % (rows * columns));
+        let along = |block: usize, rooms: usize, room: usize| {
+            OUTDOORS + block * (rooms * (ROOM + WALL) - WALL + BETWEEN_FLOORS) + room * (ROOM + WALL)
+        };
+        [along(floor % self.across(), columns, room % columns), along(floor / self.across(), rows, room / columns)]
+    }
+
+    /// Red, green and blue of every picture element, row by row.
+    fn pixels(&self, frame: &BuildingFrame, [width, height]: [usize; 2]) -> Vec<u8> {
+        let outdoors = self.colour(frame.ambient_c).map(|part| part / 2);
+        let mut pixels: Vec<u8> = std::iter::repeat_n(outdoors, width * height).flatten().collect();
+        for (index, zone) in frame.zones.iter().enumerate() {
+            let [left, top] = self.corner(index);
+            let colour = self.colour(zone.temperature_c);
+            for row in top..top + ROOM {
+                let first = 3 * (row * width + left);
+                pixels[first..first + 3 * ROOM].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&colour));
+            }
+        }
+        pixels
+    }
+
+    /// From blue (cold) over grey to red (warm), dark enough for white letters.
+    fn colour(&self, temperature_c: f64) -> [u8; 3] {
+        const COLD: [f64; 3] = [30.0, 90.0, 190.0];
+        const MIDDLE: [f64; 3] = [95.0, 100.0, 95.0];
+        const WARM: [f64; 3] = [200.0, 60.0, 20.0];
+        let share = ((temperature_c - self.middle_c) / REACH_K).clamp(-1.0, 1.0);
+        let end = if share < 0.0 { COLD } else { WARM };
+        std::array::from_fn(|part| (MIDDLE[part] + share.abs() * (end[part] - MIDDLE[part])) as u8)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_room_has_its_place_and_its_colour() {
+        let plan = Plan { rooms: FloorPlan { columns: 2, rows: 2, floors: 1 }, middle_c: 25.0 };
+        let zone = |temperature_c| ZoneFrame {
+            temperature_c,
+            next_c: 0.0,
+            reference_c: None,
+            requested_kw: 0.0,
+            heat_kw: 0.0,
+            gains_kw: 0.0,
+        };
+        let zones: Vec<ZoneFrame> = [20.0, 25.0, 30.0].map(zone).to_vec();
+        let frame =
+            BuildingFrame { day: 0, step: 0, zones, ambient_c: 25.0, forecast_c: 25.0, design: None, figures: None };
+        let [width, height] = plan.size();
+        assert_eq!([width, height], [2 * OUTDOORS + 2 * ROOM + WALL; 2], "two columns, the second row half empty");
+        let pixels = plan.pixels(&frame, [width, height]);
+        assert_eq!(pixels.len(), 3 * width * height);
+        let at = |x: usize, y: usize| [0, 1, 2].map(|part| pixels[3 * (y * width + x) + part]);
+        let (first, second) = (OUTDOORS + 3, OUTDOORS + ROOM + WALL + 3);
+        assert_eq!(at(first, first), [30, 90, 190], "cold");
+        assert_eq!(at(second, first), [95, 100, 95], "neither");
+        assert_eq!(at(first, second), [200, 60, 20], "warm");
+        assert_eq!(at(second, second), at(0, 0), "no room");
+    }
+
+    #[test]
+    fn floors_lie_side_by_side_and_never_overlap() {
+        let plan = Plan { rooms: FloorPlan { columns: 5, rows: 5, floors: 16 }, middle_c: 25.0 };
+        assert_eq!(plan.across(), 4);
+        let [width, height] = plan.size();
+        assert_eq!(width, height);
+        let mut covered = vec![0; width * height];
+        for index in 0..400 {
+            let [left, top] = plan.corner(index);
+            for (x, y) in (0..ROOM).flat_map(|x| (0..ROOM).map(move |y| (x, y))) {
+                covered[(top + y) * width + left + x] += 1;
+            }
+        }
+        assert_eq!(covered.iter().sum::<i32>(), (400 * ROOM * ROOM) as i32);
+        assert_eq!(covered.iter().max(), Some(&1));
+        assert_eq!(plan.corner(399), [width - OUTDOORS - ROOM; 2]);
+    }
+}

@@ -1,0 +1,102 @@
+//! Numbers of a building over time.
+
+use interplay_simulation::frame::BuildingFrame;
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::super::palette::{self, FAILURE, MARKING, NEUTRAL};
+use super::super::re_sdk_types::archetypes::{Clear, Scalars, SeriesLines};
+use super::super::re_sdk_types::components::{Color, InterpolationMode};
+
+/// The series of a building.
+pub struct Series {
+    band_k: f64,
+    /// The largest power of any zone that is shown \[kW\].
+    limit_kw: f64,
+    /// Whether each shown zone had a wanted temperature at the last step.
+    wanted: Vec<bool>,
+}
+
+/// Where something of a zone is recorded.
+fn zone(index: usize, what: &str) -> String {
+    format!("building/zone/{}/{what}", index + 1)
+}
+
+impl Series {
+    /// Logs names and colours.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn begin(
+        stream: &RecordingStream,
+        names: &[String],
+        shown: &[usize],
+        limits_kw: &[f64],
+        band_k: f64,
+    ) -> RecordingStreamResult<Series> {
+        for (place, &index) in shown.iter().enumerate() {
+            let paint = palette::series(place);
+            style(stream, &zone(index, "temperature"), "temperature", paint.solid(), 2.0)?;
+            style(stream, &zone(index, "reference"), "wanted", NEUTRAL.solid(), 1.5)?;
+            style(stream, &zone(index, "band/low"), "comfort, low", MARKING.veiled(150), 1.0)?;
+            style(stream, &zone(index, "band/high"), "comfort, high", MARKING.veiled(150), 1.0)?;
+            style(stream, &zone(index, "heat"), &names[index], paint.solid(), 1.5)?;
+        }
+        for (end, name) in [("low", "limit of cooling"), ("high", "limit of heating")] {
+            style(stream, &format!("building/limit/{end}"), name, FAILURE.solid(), 1.0)?;
+        }
+        let (real, forecast) = (palette::series(1), palette::series(2));
+        style(stream, "building/outdoors/real", "real", real.solid(), 2.0)?;
+        style(stream, "building/outdoors/forecast", "forecast at midnight", forecast.solid(), 1.5)?;
+        style(stream, "building/iteration/cost", "cost of the day", palette::series(1).solid(), 2.0)?;
+        style(stream, "building/iteration/optimum", "cheapest possible", palette::series(0).solid(), 1.5)?;
+        let limit_kw = shown.iter().map(|&index| limits_kw[index]).fold(0.0, f64::max);
+        Ok(Series { band_k, limit_kw, wanted: vec![false; shown.len()] })
+    }
+
+    /// Logs one step.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn step(
+        &mut self,
+        stream: &RecordingStream,
+        shown: &[usize],
+        frame: &BuildingFrame,
+    ) -> RecordingStreamResult<()> {
+        let log = |path: &str, value: f64| stream.log(path, &Scalars::single(value));
+        for (place, &index) in shown.iter().enumerate() {
+            let now = &frame.zones[index];
+            log(&zone(index, "temperature"), now.temperature_c)?;
+            log(&zone(index, "heat"), now.heat_kw)?;
+            let lines = [("reference", 0.0), ("band/low", -self.band_k), ("band/high", self.band_k)];
+            for (what, beside_k) in lines {
+                match now.reference_c {
+                    Some(wanted_c) => log(&zone(index, what), wanted_c + beside_k)?,
+                    None if self.wanted[place] => stream.log(zone(index, what), &Clear::flat())?,
+                    None => {}
+                }
+            }
+            self.wanted[place] = now.reference_c.is_some();
+        }
+        log("building/limit/low", -self.limit_kw)?;
+        log("building/limit/high", self.limit_kw)?;
+        log("building/outdoors/real", frame.ambient_c)?;
+        log("building/outdoors/forecast", frame.forecast_c)?;
+        if let Some(day) = &frame.figures {
+            log("building/iteration/cost", day.figures.cost)?;
+            if let Some(regret) = day.regret {
+                log("building/iteration/optimum", day.figures.cost - regret)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Logs how a series of steps is called and drawn.
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, width: f32) -> RecordingStreamResult<()> {
+    let line = SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([width]);
+    stream.log_static(path, &line.with_interpolation_mode(InterpolationMode::StepAfter))
+}

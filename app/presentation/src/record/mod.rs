@@ -1,0 +1,247 @@
+//! The one room that names Rerun: a run becomes a recording that opens ready to read.
+//!
+//! A recording has two timelines, simulated time ([`SIM_TIME`]) and ticks ([`TICK`]), and no clock of the wall, so
+//! that two recordings of one run can be compared. Entities have names, never numbers:
+//!
+//! ```text
+//! world/road[/cross]/{surface,edges,markings}         static
+//! world/vehicle/<name>/{body,label,trace}             where it is and was
+//! world/vehicle/<name>/{plan,prediction,proposal}     what it will do, is expected to do, asks another to do
+//! world/vehicle/<name>/safety                         where the ego keeps out
+//! plots/{speed,acceleration,steering,planner-ms}/<name>
+//! plots/<kind of planner>/<diagnostic>[/<name>]       as letters, digits, `-`; the name if several have that planner
+//! plots/gap                                           the ego's distance to the nearest footprint
+//! log, about                                          events; what the recording shows
+//! building/…                                          see `building/mod.rs`
+//! ```
+
+mod blueprint;
+mod building;
+mod error;
+mod file;
+mod layout;
+mod live;
+mod palette;
+mod planner_panels;
+mod plots;
+mod stage;
+#[cfg(test)]
+mod tests;
+mod vehicles;
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use ::re_sdk_types;
+use blueprint::Panel;
+use building::House;
+use interplay_scenarios::{Branch, Scenario};
+use rerun::log::ChunkBatcherConfig;
+use rerun::sink::MemorySinkStorage;
+use rerun::{RecordingStream, RecordingStreamBuilder};
+
+pub use error::RecordError;
+pub use live::Viewer;
+use plots::Plots;
+use re_sdk_types::blueprint::components::PlayState;
+use vehicles::Cast;
+
+use interplay_simulation::frame::Frame;
+use interplay_simulation::watch::Watcher;
+
+/// Simulated time.
+pub const SIM_TIME: &str = "sim_time";
+/// Ticks.
+pub const TICK: &str = "tick";
+
+/// The first bytes of every recording in a file.
+pub const MAGIC: [u8; 3] = *b"RRF";
+
+/// The version of the viewer that is sure to show what is recorded here.
+pub fn viewer_version() -> String {
+    rerun::build_info().version.to_string()
+}
+
+/// What the viewer calls the sort of recording; it keeps one layout for each.
+const APPLICATION: &str = "interplay";
+/// How much faster than real time a building without vehicles is played: three hours a second.
+const DAYS: f64 = 3.0 * 3600.0;
+/// How long a viewer may take to receive the rest.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// A recording into a file is cut into pieces by size only, not by the wall's clock.
+const NEVER: Duration = Duration::from_secs(24 * 3600);
+
+/// Where a recording goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Sink {
+    /// Into a file, usually `*.rrd`, which appears when the recording is finished.
+    File(PathBuf),
+    /// To a viewer that is running.
+    Live(Viewer),
+}
+
+/// A recording in the making. Dropped unfinished, it leaves no file.
+pub struct Recorder {
+    stream: RecordingStream,
+    output: Output,
+    scenario: Scenario,
+    cast: Cast,
+    plots: Plots,
+    house: Option<House>,
+    /// Longitudinal coordinates between which somebody was \[m\].
+    driven_m: Option<[f64; 2]>,
+}
+
+enum Output {
+    /// Everything in memory, and where it goes in the end.
+    File { path: PathBuf, content: MemorySinkStorage },
+    /// To a viewer; with how many series the layout was last sent.
+    Live { series: usize },
+}
+
+impl Recorder {
+    /// Begins a recording of `scenario`, known as `name`, with all that never changes.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`] or [`RecordError::NoViewer`], before anything is simulated.
+    pub fn begin(scenario: &Scenario, name: &str, sink: &Sink) -> Result<Recorder, RecordError> {
+        let builder = RecordingStreamBuilder::new(APPLICATION).enabled(true);
+        let (stream, output) = match sink {
+            Sink::File(path) => {
+                file::check(path)?;
+                let pieces = ChunkBatcherConfig { flush_tick: NEVER, ..ChunkBatcherConfig::DEFAULT };
+                let (stream, content) =
+                    builder.recording_id(identity(scenario, name)).batcher_config(pieces).memory()?;
+                (stream, Output::File { path: path.clone(), content })
+            }
+            Sink::Live(viewer) => {
+                viewer.find()?;
+                (builder.send_properties(false).connect_grpc_opts(viewer.to_string())?, Output::Live { series: 0 })
+            }
+        };
+        stream.set_log_time_enabled(false);
+        stream.set_log_tick_enabled(false);
+        stream.send_recording_name(format!("{name}: {}", scenario.title))?;
+        let paints = palette::paints(scenario);
+        let [from_m, to_m] = expected_road(scenario);
+        let beyond_m = layout::close_up_span_m(scenario);
+        if !scenario.vehicles.is_empty() {
+            stage::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
+        }
+        stage::about(&stream, scenario, &paints, None)?;
+        let cast = Cast::enter(&stream, scenario, &paints)?;
+        let plots = Plots::begin(&stream, scenario, &paints)?;
+        let house = House::begin(&stream, scenario)?;
+        Ok(Recorder { stream, output, scenario: scenario.clone(), cast, plots, house, driven_m: None })
+    }
+
+    /// Adds to the text of the recording what a reader types to get the run again.
+    ///
+    /// # Errors
+    /// [`RecordError::Broken`] if Rerun refuses the text.
+    pub fn repeat_with(&self, command: &str) -> Result<(), RecordError> {
+        let paints = palette::paints(&self.scenario);
+        Ok(stage::about(&self.stream, &self.scenario, &paints, Some(command))?)
+    }
+
+    /// Records one tick.
+    ///
+    /// # Errors
+    /// [`RecordError::Broken`] if Rerun refuses the data.
+    pub fn tick(&mut self, frame: &Frame) -> Result<(), RecordError> {
+        self.stream.set_duration_secs(SIM_TIME, frame.time_s);
+        self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
+        self.cast.tick(&self.stream, frame)?;
+        self.plots.tick(&self.stream, frame)?;
+        if let (Some(house), Some(frame)) = (&mut self.house, &frame.building) {
+            house.step(&self.stream, frame)?;
+        }
+        let corridor = self.scenario.road.corridor(Branch::Main);
+        for vehicle in &frame.vehicles {
+            let along = corridor.along(vehicle.state.position());
+            let [from, to] = self.driven_m.unwrap_or([along, along]);
+            self.driven_m = Some([from.min(along), to.max(along)]);
+        }
+        let count = self.plots.seen().len();
+        if let Output::Live { series } = &mut self.output
+            && *series != count
+        {
+            *series = count;
+            self.arrange(expected_road(&self.scenario))?;
+        }
+        Ok(())
+    }
+
+    /// Ends the recording: only now a file appears at its place.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`] if the disk refuses the file, [`RecordError::Broken`] if the viewer went away.
+    pub fn finish(self) -> Result<(), RecordError> {
+        let road_m = self.driven_m.map(|[from, to]| [from - margin(&self.scenario), to + margin(&self.scenario)]);
+        self.arrange(road_m.unwrap_or_else(|| expected_road(&self.scenario)))?;
+        let broken = |error: &dyn std::fmt::Display| RecordError::Broken(error.to_string());
+        match &self.output {
+            Output::File { path, content } => {
+                file::write(path, &content.drain_as_bytes().map_err(|error| broken(&error))?)
+            }
+            Output::Live { .. } => self.stream.flush_with_timeout(PATIENCE).map_err(|error| broken(&error)),
+        }
+    }
+
+    /// Sends the layout.
+    fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
+        let driving = || layout::layout(&self.scenario, &self.plots, road_m);
+        let words = match self.scenario.vehicles.is_empty() {
+            false => building::Words::Elsewhere,
+            true if self.plots.has(plots::LOG) => building::Words::AboutAndEvents,
+            true => building::Words::About,
+        };
+        let house = self.house.as_ref().map(|house| building::layout(house, words));
+        let panel = match house {
+            None => driving(),
+            Some(house) if self.scenario.vehicles.is_empty() => house,
+            Some(house) => Panel::Row(vec![(1.0, driving()), (1.0, house)]),
+        };
+        let speed = if self.scenario.vehicles.is_empty() { DAYS } else { 1.0 };
+        let play = match self.output {
+            Output::File { .. } => PlayState::Playing,
+            Output::Live { .. } => PlayState::Following,
+        };
+        Ok(blueprint::send(&self.stream, APPLICATION, &panel, (play, speed))?)
+    }
+}
+
+impl Watcher for Recorder {
+    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+        Recorder::tick(self, frame).map_err(|error| error.to_string())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), String> {
+        Recorder::finish(*self).map_err(|error| error.to_string())
+    }
+}
+
+/// A name for the recording that tells runs of one scenario by different drivers apart.
+fn identity(scenario: &Scenario, name: &str) -> String {
+    let mut drivers: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect();
+    let controller = scenario.controller();
+    drivers.extend(scenario.building.is_some().then(|| controller.kind()));
+    format!("{name} ({}; seed {})", drivers.join(", "), scenario.seed)
+}
+
+/// Space on the road before the first and after the last vehicle \[m\].
+fn margin(scenario: &Scenario) -> f64 {
+    2.0 * scenario.road.lane_width_m()
+}
+
+/// The longitudinal coordinates between which the vehicles will stay if they drive as they wish \[m\].
+fn expected_road(scenario: &Scenario) -> [f64; 2] {
+    let corridor = scenario.road.corridor(Branch::Main);
+    let mut road = [f64::INFINITY, f64::NEG_INFINITY];
+    for vehicle in &scenario.vehicles {
+        let start = corridor.along(vehicle.start.position());
+        let speed = vehicle.start.speed_mps.max(vehicle.target(&scenario.road).speed_mps);
+        road = [road[0].min(start), road[1].max(start + speed * scenario.duration_s)];
+    }
+    [road[0] - margin(scenario), road[1] + margin(scenario)]
+}

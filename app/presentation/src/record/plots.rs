@@ -1,0 +1,157 @@
+//! Numbers over time: speeds and inputs, the planners' reasons, gaps and computing times; and the log of events.
+
+use std::collections::BTreeSet;
+
+use interplay_planners::Diagnostic;
+use interplay_planners::diagnostic::{DiagnosticQuantity, Explanation};
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::palette::{self, FAILURE, NEUTRAL, Paint};
+use super::planner_panels::{place, slug};
+use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
+use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
+
+/// The events of all vehicles.
+pub const LOG: &str = "log";
+/// Smallest distance of the ego to another vehicle.
+pub const GAP: &str = "plots/gap";
+/// What is plotted for every vehicle: the folder below `plots`, and the number.
+type Quantity = (&'static str, fn(&VehicleFrame) -> f64);
+const QUANTITIES: [Quantity; 4] = [
+    ("speed", |vehicle| vehicle.state.speed_mps),
+    ("acceleration", |vehicle| vehicle.input.acceleration_mps2),
+    ("steering", |vehicle| vehicle.input.steering_rad),
+    ("planner-ms", |vehicle| vehicle.plan_ms),
+];
+
+/// Where the numbers of a vehicle's planner go.
+struct PlannerPaths {
+    /// The folder of all planners of its kind.
+    folder: String,
+    /// The end of the paths: empty, or the vehicle's name where several have this kind of planner.
+    end: String,
+    explanation: &'static Explanation,
+}
+
+/// The plots of a run.
+pub struct Plots {
+    /// Where the numbers of each planner go, in the scenario's order of vehicles.
+    planners: Vec<PlannerPaths>,
+    /// Every series so far that not every run has.
+    seen: BTreeSet<String>,
+}
+
+impl Plots {
+    /// Logs the names and colours of what every vehicle has.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn begin(stream: &RecordingStream, scenario: &Scenario, paints: &[Paint]) -> RecordingStreamResult<Plots> {
+        let kind = |index: usize| scenario.vehicles[index].driver.kind();
+        let mut planners = Vec::new();
+        for (index, (vehicle, paint)) in scenario.vehicles.iter().zip(paints).enumerate() {
+            for (quantity, _) in QUANTITIES {
+                style(stream, &format!("plots/{quantity}/{}", vehicle.name), &vehicle.name, paint.solid(), false)?;
+            }
+            let alone = (0..scenario.vehicles.len()).all(|other| other == index || kind(other) != kind(index));
+            let end = if alone { String::new() } else { format!("/{}", vehicle.name) };
+            let folder = format!("plots/{}", kind(index));
+            planners.push(PlannerPaths { folder, end, explanation: vehicle.driver.explanation() });
+        }
+        style(stream, GAP, "gap", NEUTRAL.solid(), false)?;
+        Ok(Plots { planners, seen: BTreeSet::new() })
+    }
+
+    /// Whether there is anything at a path that not every run has.
+    pub fn has(&self, path: &str) -> bool {
+        self.seen.contains(path)
+    }
+
+    /// The recorded numbers of these quantities, of one kind of planner or of all.
+    pub fn among(&self, kind: Option<&str>, quantities: &[DiagnosticQuantity]) -> Vec<String> {
+        let slugs: Vec<String> = quantities.iter().map(slug).collect();
+        let mine = |path: &&String| {
+            let mut parts = path.split('/').skip(1);
+            let (folder, name) = (parts.next(), parts.next());
+            kind.is_none_or(|kind| folder == Some(kind))
+                && name.is_some_and(|name| slugs.iter().any(|slug| slug == name))
+        };
+        self.seen.iter().filter(mine).map(|path| format!("/{path}")).collect()
+    }
+
+    /// Every path so far that not every run has.
+    pub fn seen(&self) -> &BTreeSet<String> {
+        &self.seen
+    }
+
+    /// Logs one tick.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+        for vehicle in &frame.vehicles {
+            for (quantity, value) in QUANTITIES {
+                stream.log(format!("plots/{quantity}/{}", vehicle.name), &Scalars::single(value(vehicle)))?;
+            }
+        }
+        if let Some(gap) = frame.gap_m {
+            self.seen.insert(GAP.to_owned());
+            stream.log(GAP, &Scalars::single(gap))?;
+        }
+        self.reasons(stream, frame)?;
+        self.events(stream, frame)
+    }
+
+    fn reasons(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+        for (vehicle, PlannerPaths { folder, end, explanation }) in frame.vehicles.iter().zip(&self.planners) {
+            for Diagnostic { quantity, value } in &vehicle.plan.diagnostics {
+                let path = format!("{folder}/{}{end}", slug(quantity));
+                if !self.seen.contains(&path) {
+                    let name = quantity.name;
+                    let label = if end.is_empty() { name.to_owned() } else { format!("{name}, {}", vehicle.name) };
+                    let paint = palette::series(place(explanation, quantity).unwrap_or_default());
+                    style(stream, &path, &label, paint.solid(), quantity.is_switch())?;
+                    self.seen.insert(path.clone());
+                }
+                stream.log(path, &Scalars::single(*value))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn events(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+        for event in &frame.events {
+            self.say(stream, event.level, &format!("{}: {}", event.vehicle, event.text))?;
+        }
+        for vehicle in &frame.vehicles {
+            let told = frame.events.iter().any(|event| event.vehicle == vehicle.name && event.level != Level::Note);
+            let fallback = match vehicle.origin {
+                Origin::Planned | Origin::Crashed => continue,
+                Origin::Continued => "no plan: the previous one goes on",
+                Origin::Braking => "no plan: full braking",
+            };
+            if !told {
+                self.say(stream, Level::Warning, &format!("{}: {fallback}", vehicle.name))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn say(&mut self, stream: &RecordingStream, level: Level, text: &str) -> RecordingStreamResult<()> {
+        let (level, paint) = match level {
+            Level::Note => (TextLogLevel::INFO, NEUTRAL),
+            Level::Warning => (TextLogLevel::WARN, FAILURE),
+            Level::Alarm => (TextLogLevel::ERROR, FAILURE),
+        };
+        self.seen.insert(LOG.to_owned());
+        stream.log(LOG, &TextLog::new(text).with_level(level).with_color(paint.solid()))
+    }
+}
+
+fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, steps: bool) -> RecordingStreamResult<()> {
+    let how = if steps { InterpolationMode::StepAfter } else { InterpolationMode::Linear };
+    let line = SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([2.0]);
+    stream.log_static(path, &line.with_interpolation_mode(how))
+}

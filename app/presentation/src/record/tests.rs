@@ -1,0 +1,302 @@
+//! What a recording holds, and when it appears.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use interplay_planners::diagnostic::{COMMON_PANEL, COST};
+use interplay_planners::negotiation::diagnostics::CONCESSION_WEIGHT;
+use interplay_planners::{Plan, Proposal, State, Trajectory};
+use interplay_scenarios::{Override, Scenario, load};
+use interplay_simulation::frame::{Event, Level, Origin, VehicleFrame};
+use rerun::log::LogMsg;
+
+use super::*;
+
+/// A folder of a test's own, gone after it.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    pub fn new(test: &str) -> Folder {
+        let path = std::env::temp_dir().join(format!("interplay-record-{}-{test}", std::process::id()));
+        fs::create_dir_all(&path).expect("the temporary folder is writable");
+        Folder(path)
+    }
+
+    /// The names in the folder, sorted.
+    pub fn contents(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.0).expect("it exists");
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn scenario(planner: Option<&str>) -> Scenario {
+    let changes: Vec<Override> = planner.map(|kind| Override::Planner(kind.to_owned())).into_iter().collect();
+    load("lane-change/front-nice", &changes).expect("embedded")
+}
+
+/// Everybody drives on straight; the ego asks front during the first half.
+fn frame(scenario: &Scenario, tick: usize) -> Frame {
+    let vehicles = scenario.vehicles.iter().map(|vehicle| {
+        let place = |t: usize| State { x_m: vehicle.start.x_m + 0.1 * t as f64, ..vehicle.start };
+        let ahead = Trajectory { states: (0..=10).map(|t| place(tick + t)).collect(), inputs: Vec::new() };
+        let asks = vehicle.driver.kind() == "negotiation" && tick < 5;
+        let plan = Plan {
+            trajectory: ahead.clone(),
+            proposal: asks.then(|| Proposal {
+                to: "front".to_owned(),
+                trajectory: ahead.clone(),
+                acceptance: Some(1.0),
+            }),
+            diagnostics: if asks { vec![CONCESSION_WEIGHT.is(0.5)] } else { vec![COST.is(1.0)] },
+            ..Plan::default()
+        };
+        let origin = if tick == 7 { Origin::Braking } else { Origin::Planned };
+        VehicleFrame {
+            name: vehicle.name.clone(),
+            state: place(tick),
+            plan,
+            origin,
+            prediction: ahead,
+            ..Default::default()
+        }
+    });
+    let told = Event { vehicle: "ego".to_owned(), level: Level::Warning, text: "no plan".to_owned() };
+    let events = if tick == 7 { vec![told] } else { Vec::new() };
+    Frame {
+        tick,
+        time_s: 0.1 * tick as f64,
+        vehicles: vehicles.collect(),
+        events,
+        gap_m: Some(0.3),
+        ..Frame::default()
+    }
+}
+
+fn recorded(scenario: &Scenario, path: &Path) -> Recorder {
+    let sink = Sink::File(path.to_owned());
+    let mut recorder = Recorder::begin(scenario, "lane-change/front-nice", &sink).expect("writable");
+    for tick in 0..10 {
+        recorder.tick(&frame(scenario, tick)).expect("recorded");
+    }
+    recorder
+}
+
+/// How many rows each entity has, and which timelines they are on.
+fn entities(recorder: &Recorder) -> BTreeMap<String, (usize, Vec<String>)> {
+    recorder.arrange([0.0, 10.0]).expect("arranged");
+    let Output::File { content, .. } = &recorder.output else { panic!("a recording in memory") };
+    let mut entities: BTreeMap<String, (usize, Vec<String>)> = BTreeMap::new();
+    for message in content.take() {
+        let LogMsg::ArrowMsg(_, chunk) = message else { continue };
+        let schema = chunk.batch.schema();
+        let entity = schema.metadata().get("rerun:entity_path").expect("every chunk belongs to an entity");
+        let timeline = |metadata: &std::collections::HashMap<String, String>| metadata.get("rerun:index_name").cloned();
+        let timelines: Vec<String> = schema.fields().iter().filter_map(|field| timeline(field.metadata())).collect();
+        let known = entities.entry(entity.clone()).or_default();
+        known.0 += if timelines.is_empty() { 0 } else { chunk.batch.num_rows() };
+        known.1.extend(timelines);
+    }
+    entities
+}
+
+#[test]
+fn a_recording_has_the_promised_entities_at_every_tick() {
+    let folder = Folder::new("entities");
+    let recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
+    let entities = entities(&recorder);
+    let rows = |path: &str| entities.get(path).unwrap_or_else(|| panic!("{path} in {:?}", entities.keys())).0;
+    for vehicle in ["ego", "front", "rear"] {
+        for part in ["body", "label", "plan", "prediction"] {
+            assert_eq!(rows(&format!("/world/vehicle/{vehicle}/{part}")), 10);
+        }
+        assert_eq!(rows(&format!("/world/vehicle/{vehicle}/trace")), 9);
+        for quantity in ["speed", "acceleration", "steering", "planner-ms"] {
+            assert_eq!(rows(&format!("/plots/{quantity}/{vehicle}")), 10);
+        }
+    }
+    assert_eq!(rows("/world/vehicle/front/safety"), 10);
+    assert!(!entities.contains_key("/world/vehicle/ego/safety"));
+    assert_eq!(rows("/world/vehicle/ego/proposal"), 6, "five proposals, and one row that takes the last away");
+    assert_eq!(rows("/plots/negotiation/concession-weight"), 5);
+    assert_eq!(rows("/plots/human/cost/rear"), 10, "two humans: the name tells them apart");
+    assert_eq!(rows("/plots/gap"), 10);
+    assert_eq!(rows("/log"), 3, "a fallback is logged once: by the event, or else by the recorder");
+    for path in ["/about", "/world/road/surface", "/world/road/edges", "/world/road/markings"] {
+        assert_eq!(rows(path), 0, "static");
+    }
+}
+
+#[test]
+fn a_crossing_road_is_drawn_only_where_there_is_one() {
+    let folder = Folder::new("crossing");
+    let crossing = load("intersection/nice", &[]).expect("embedded");
+    let drawn = |scenario: &Scenario| {
+        let entities = entities(&recorded(scenario, &folder.0.join("run.rrd")));
+        entities.keys().filter(|path| path.starts_with("/world/road/cross/")).count()
+    };
+    assert_eq!(drawn(&crossing), 3, "surface, edges, markings");
+    assert_eq!(drawn(&scenario(None)), 0);
+}
+
+#[test]
+fn there_is_no_clock_of_the_wall() {
+    let folder = Folder::new("clock");
+    let recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
+    for (path, (_, timelines)) in entities(&recorder) {
+        assert!(
+            timelines.iter().all(|name| [SIM_TIME, TICK, building::ITERATION, "blueprint"].contains(&name.as_str())),
+            "{path}: {timelines:?}"
+        );
+    }
+}
+
+#[test]
+fn a_panel_is_there_only_if_it_has_something_to_show() {
+    let folder = Folder::new("panels");
+    let views = |planner| {
+        let recorder = recorded(&scenario(planner), &folder.0.join("run.rrd"));
+        let is_view = |path: &&String| path.starts_with("/view/") && path.ends_with("/ViewContents");
+        let panel = layout::layout(&recorder.scenario, &recorder.plots, [0.0, 10.0]);
+        (entities(&recorder).keys().filter(is_view).count(), titles(&panel))
+    };
+    let (count, shown) = views(None);
+    assert_eq!(count, shown.len());
+    assert!(shown.iter().any(|title| title.starts_with("Negotiation")), "{shown:?}");
+    let (_, shown) = views(Some("conservative"));
+    assert!(!shown.iter().any(|title| title.starts_with("Negotiation")), "{shown:?}");
+    let nothing = Recorder::begin(&scenario(None), "x", &Sink::File(folder.0.join("x.rrd"))).expect("writable");
+    let shown = titles(&layout::layout(&nothing.scenario, &nothing.plots, [0.0, 10.0]));
+    assert!(!shown.iter().any(|title| title == "Events" || title.starts_with("Gap")), "{shown:?}");
+}
+
+/// Keeps the names of the numbers that the ego's planner gives.
+struct Listener(std::sync::Arc<std::sync::Mutex<std::collections::BTreeSet<&'static str>>>);
+
+impl Watcher for Listener {
+    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+        let mut heard = self.0.lock().map_err(|error| error.to_string())?;
+        heard.extend(frame.vehicles[0].plan.diagnostics.iter().map(|diagnostic| diagnostic.quantity.name));
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// A panel for a number that its planner does not give would be missing for ever, and nobody would know.
+#[test]
+fn planners_give_every_number_that_a_panel_shows() {
+    for kind in ["negotiation", "bayesian", "game", "cooperative", "conservative"] {
+        let mut scenario = scenario(Some(kind));
+        scenario.duration_s = 0.5;
+        let heard = std::sync::Arc::default();
+        let watcher = Listener(std::sync::Arc::clone(&heard));
+        interplay_simulation::run::run(kind, &scenario, vec![Box::new(watcher)]).expect("half a second");
+        let heard = heard.lock().expect("nobody panicked");
+        let explanation = scenario.vehicles[0].driver.explanation();
+        for quantity in explanation.panels.iter().chain([&COMMON_PANEL]).flat_map(|panel| panel.quantities) {
+            assert!(heard.contains(quantity.name), "{kind} reports no `{}`: {heard:?}", quantity.name);
+        }
+    }
+}
+
+fn titles(panel: &Panel) -> Vec<String> {
+    match panel {
+        Panel::Row(parts) | Panel::Column(parts) => parts.iter().flat_map(|(_, part)| titles(part)).collect(),
+        Panel::View(view) => vec![view.title().to_owned()],
+    }
+}
+
+#[test]
+fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
+    use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
+    let folder = Folder::new("building");
+    let scenario = load("building/hundred-zones", &[]).expect("embedded");
+    let sink = Sink::File(folder.0.join("run.rrd"));
+    let mut recorder = Recorder::begin(&scenario, "building/hundred-zones", &sink).expect("writable");
+    for tick in 0..3 {
+        let zone = ZoneFrame {
+            temperature_c: 24.0 + tick as f64,
+            next_c: 25.0 + tick as f64,
+            reference_c: (tick == 1).then_some(25.0),
+            requested_kw: 0.0,
+            heat_kw: 0.0,
+            gains_kw: 0.0,
+        };
+        let (ambient_c, forecast_c) = (30.0, 31.0);
+        let building = BuildingFrame {
+            day: tick,
+            step: 0,
+            zones: vec![zone; 100],
+            ambient_c,
+            forecast_c,
+            design: None,
+            figures: None,
+        };
+        let frame = Frame { tick, time_s: 1800.0 * tick as f64, building: Some(building), ..Frame::default() };
+        recorder.tick(&frame).expect("recorded");
+    }
+    let entities = entities(&recorder);
+    let rows = |path: &str| entities.get(path).map_or(0, |(rows, _)| *rows);
+    assert_eq!((rows("/building/plan/rooms"), rows("/building/zone/100/temperature")), (3, 3));
+    assert_eq!(rows("/building/zone/1/reference"), 2, "one value, and its end");
+    assert_eq!(rows("/building/zone/2/temperature"), 0, "a plot for each of a hundred would be none");
+    let (_, timelines) = &entities["/building/outdoors/real"];
+    assert!([SIM_TIME, TICK, building::ITERATION].iter().all(|name| timelines.iter().any(|there| there == name)));
+    assert!(!entities.keys().any(|path| path.starts_with("/world")), "no road without vehicles");
+    let house = recorder.house.as_ref().expect("a building");
+    assert_eq!(
+        titles(&building::layout(house, building::Words::About)).len(),
+        1 + 4 + 4,
+        "plan, temperatures, numbers and words"
+    );
+    let beside = titles(&building::layout(house, building::Words::Elsewhere));
+    assert_eq!(beside.len(), 1 + 4 + 3, "vehicles have the words");
+}
+
+#[test]
+fn a_file_appears_when_the_recording_is_finished_and_not_before() {
+    let folder = Folder::new("finish");
+    let path = folder.0.join("deep/run.rrd");
+    drop(recorded(&scenario(None), &path));
+    assert_eq!(folder.contents(), Vec::<String>::new());
+    let recorder = recorded(&scenario(None), &path);
+    assert_eq!(folder.contents(), Vec::<String>::new());
+    recorder.finish().expect("written");
+    assert_eq!(fs::read_dir(folder.0.join("deep")).expect("made").count(), 1);
+    let content = fs::read(&path).expect("there");
+    let footer = content.len() - 12;
+    assert!(content.starts_with(b"RRF2") && content[footer..].starts_with(b"RRF2FOOT"), "begun and ended");
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_refused_before_the_run() {
+    let folder = Folder::new("refused");
+    let outcome = Recorder::begin(&scenario(None), "x", &Sink::File(folder.0.clone()));
+    assert!(matches!(outcome, Err(RecordError::Unwritable { .. })));
+    assert_eq!(folder.contents(), Vec::<String>::new());
+}
+
+#[test]
+fn every_vehicle_up_to_six_has_a_colour_of_its_own() {
+    let mut scenario = scenario(None);
+    for copy in 0..3 {
+        scenario
+            .vehicles
+            .push(interplay_scenarios::Vehicle { name: format!("more-{copy}"), ..scenario.vehicles[1].clone() });
+    }
+    let paints = palette::paints(&scenario);
+    let words: std::collections::BTreeSet<&str> = paints.iter().map(|paint| paint.word).collect();
+    assert_eq!((paints.len(), words.len(), paints[0].word), (6, 6, "orange"));
+}

@@ -1,0 +1,176 @@
+//! What moves: bodies with their labels, the paths behind them and the lines ahead of them.
+
+use interplay_planners::{Body, State, Trajectory};
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::palette::{FAILURE, NEUTRAL, Paint};
+use super::re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
+use super::re_sdk_types::components::Radius;
+use super::stage::turn;
+
+/// The entity whose frame moves along the road with the ego.
+pub const FOLLOW: &str = "follow";
+
+/// How many lines fill a body from side to side.
+const FILL_LINES: u8 = 7;
+
+/// All vehicles, in the scenario's order.
+pub struct Cast {
+    performers: Vec<Performer>,
+    ego: usize,
+}
+
+/// One vehicle as it is drawn.
+struct Performer {
+    /// `world/vehicle/<name>`.
+    path: String,
+    paint: Paint,
+    body: Body,
+    road_heading_rad: f64,
+    last: Option<State>,
+    asks: bool,
+}
+
+impl Cast {
+    /// Logs what never changes about the vehicles: shapes, colours, widths.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn enter(stream: &RecordingStream, scenario: &Scenario, paints: &[Paint]) -> RecordingStreamResult<Cast> {
+        let ego = scenario.ego_index();
+        let mut performers = Vec::new();
+        for (vehicle, paint) in scenario.vehicles.iter().zip(paints) {
+            let path = format!("world/vehicle/{}", vehicle.name);
+            let road_heading_rad = scenario.road.heading_rad(vehicle.road);
+            let (paint, body) = (*paint, vehicle.body);
+            let performer = Performer { path, paint, body, road_heading_rad, last: None, asks: false };
+            performer.dress(stream)?;
+            performers.push(performer);
+        }
+        if let Some(vehicle) = scenario.ego() {
+            let half_axes = [vehicle.safety.along_m as f32, vehicle.safety.across_m as f32];
+            for (_, other) in performers.iter().enumerate().filter(|(index, _)| *index != ego) {
+                let ellipse = Ellipses2D::from_half_sizes([half_axes])
+                    .with_colors([NEUTRAL.veiled(90)])
+                    .with_line_radii([Radius::new_ui_points(0.8)])
+                    .with_draw_order(1.0);
+                stream.log_static(format!("{}/safety", other.path), &ellipse)?;
+            }
+        }
+        Ok(Cast { performers, ego })
+    }
+
+    /// Logs one tick.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+        for (index, (performer, vehicle)) in self.performers.iter_mut().zip(&frame.vehicles).enumerate() {
+            performer.act(stream, vehicle)?;
+            if index == self.ego {
+                let (sin, cos) = performer.road_heading_rad.sin_cos();
+                let along = vehicle.state.x_m * cos + vehicle.state.y_m * sin;
+                let here = [(along * cos) as f32, (-along * sin) as f32, 0.0];
+                stream.log(FOLLOW, &Transform3D::update_fields().with_translation(here))?;
+            } else {
+                let place = pose(&State { heading_rad: performer.road_heading_rad, ..vehicle.state });
+                stream.log(format!("{}/safety", performer.path), &place)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Performer {
+    fn at(&self, part: &str) -> String {
+        format!("{}/{part}", self.path)
+    }
+
+    fn dress(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        let style = |opacity: u8, points: f32, order: f32| {
+            LineStrips2D::update_fields()
+                .with_colors([self.paint.veiled(opacity)])
+                .with_radii([Radius::new_ui_points(points)])
+                .with_draw_order(order)
+        };
+        stream.log_static(self.at("prediction"), &style(130, 1.0, 2.0))?;
+        stream.log_static(self.at("trace"), &style(110, 1.5, 3.0))?;
+        let plan = LineStrips2D::update_fields().with_radii([Radius::new_ui_points(1.8)]).with_draw_order(4.0);
+        stream.log_static(self.at("plan"), &plan)?;
+        let dots = Points2D::update_fields().with_colors([self.paint.solid()]);
+        stream.log_static(self.at("proposal"), &dots.with_radii([Radius::new_ui_points(2.6)]).with_draw_order(5.0))?;
+        let (lines, radius) = filling(&self.body);
+        let body = LineStrips2D::new(lines).with_radii([radius]).with_colors([self.paint.solid()]);
+        stream.log_static(self.at("body"), &body.with_draw_order(6.0))?;
+        let (ahead, half) = (0.45 * self.body.front_m as f32, 0.36 * self.body.width_m as f32);
+        let pane = LineStrips2D::new([[[ahead, -half], [ahead, half]]])
+            .with_radii([Radius::new_scene_units(0.12 * self.body.front_m as f32)])
+            .with_colors([self.paint.dark()])
+            .with_draw_order(7.0);
+        stream.log_static(self.at("body/windscreen"), &pane)?;
+        let label = Points2D::update_fields().with_colors([self.paint.solid()]);
+        stream.log_static(self.at("label"), &label.with_radii([Radius::new_ui_points(0.0)]).with_draw_order(8.0))
+    }
+
+    fn act(&mut self, stream: &RecordingStream, vehicle: &VehicleFrame) -> RecordingStreamResult<()> {
+        let state = &vehicle.state;
+        stream.log(self.at("body"), &pose(state))?;
+        let words = format!("{} {:.2} m/s", vehicle.name, state.speed_mps);
+        let below = [state.x_m as f32, (state.y_m - 0.5 * self.body.width_m) as f32];
+        let label = Points2D::update_fields().with_positions([below]).with_labels([words]);
+        stream.log(self.at("label"), &label)?;
+        if let Some(last) = self.last.replace(*state) {
+            stream.log(self.at("trace"), &strips([vec![point(&last), point(state)]]))?;
+        }
+        let paint = if vehicle.origin == Origin::Planned { self.paint } else { FAILURE };
+        let plan = strips([points(&vehicle.plan.trajectory)]).with_colors([paint.solid()]);
+        stream.log(self.at("plan"), &plan)?;
+        stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction)))?;
+        let asks = vehicle.plan.proposal.as_ref().map(|proposal| points(&proposal.trajectory));
+        if asks.is_some() || self.asks {
+            self.asks = asks.is_some();
+            let dots = Points2D::update_fields().with_positions(asks.unwrap_or_default());
+            stream.log(self.at("proposal"), &dots)?;
+        }
+        Ok(())
+    }
+}
+
+fn point(state: &State) -> [f32; 2] {
+    [state.x_m as f32, state.y_m as f32]
+}
+
+fn points(trajectory: &Trajectory) -> Vec<[f32; 2]> {
+    trajectory.states.iter().map(point).collect()
+}
+
+fn strips(strips: impl IntoIterator<Item = Vec<[f32; 2]>>) -> LineStrips2D {
+    LineStrips2D::update_fields().with_strips(strips)
+}
+
+/// Every second step of a motion.
+fn dashes(trajectory: &Trajectory) -> Vec<Vec<[f32; 2]>> {
+    points(trajectory).chunks_exact(2).map(<[_]>::to_vec).collect()
+}
+
+/// The frame of a vehicle in the world.
+fn pose(state: &State) -> Transform3D {
+    let place = [state.x_m as f32, state.y_m as f32, 0.0];
+    Transform3D::update_fields().with_translation(place).with_mat3x3(turn(state.heading_rad))
+}
+
+/// Lines, thick enough to cover the body with rounded corners: the viewer has no filled shapes.
+fn filling(body: &Body) -> ([Vec<[f32; 2]>; 2], Radius) {
+    let radius = body.width_m / (2.0 * f64::from(FILL_LINES));
+    let (rear, front) = ((radius - body.rear_m) as f32, (body.front_m - radius) as f32);
+    let left = |index: u8| (radius * f64::from(2 * index + 1) - 0.5 * body.width_m) as f32;
+    let across = |index: u8| {
+        let there = [[rear, left(index)], [front, left(index)]];
+        if index.is_multiple_of(2) { there } else { [there[1], there[0]] }
+    };
+    let (right, last) = (left(0), left(FILL_LINES - 1));
+    let outline = vec![[rear, right], [front, right], [front, last], [rear, last], [rear, right]];
+    ([outline, (0..FILL_LINES).flat_map(across).collect()], Radius::new_scene_units(1.05 * radius as f32))
+}

@@ -1,0 +1,12 @@
+//! Reports as texts: for a person, for a build server.
+
+mod building;
+mod identification;
+mod junit;
+mod suite;
+mod summary;
+
+pub use identification::identification;
+pub use junit::junit;
+pub use suite::{Case, table};
+pub use summary::summary;

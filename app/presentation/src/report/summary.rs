@@ -1,0 +1,90 @@
+//! A run in a few readable lines.
+
+use std::fmt::Write;
+
+use interplay_simulation::report::{Report, VehicleReport};
+
+use super::building;
+
+/// The report for a person: who merged where and when, the smallest gap, planner times, expectations.
+pub fn summary(title: &str, report: &Report) -> String {
+    let mut text = String::new();
+    // Writing to a String cannot fail.
+    let _ = write_summary(&mut text, title, report);
+    text
+}
+
+fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
+    let factor = report.simulated_s / report.wall_s.max(1e-9);
+    let simulated = match &report.building {
+        Some(building) if report.vehicles.is_empty() => format!("{} days", building.iterations.len()),
+        _ => format!("{:?} s", report.simulated_s),
+    };
+    writeln!(text, "{title}  [{}]", report.scenario)?;
+    writeln!(text, "  {simulated} simulated in {:.2} s ({factor:.0} times real time)", report.wall_s)?;
+    if !report.vehicles.is_empty() {
+        write_driving(text, report)?;
+    }
+    if let Some(building) = &report.building {
+        building::write(text, building)?;
+    }
+    write_expectations(text, report)
+}
+
+fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
+    for vehicle in &report.vehicles {
+        if let Some(time_s) = vehicle.completed_s {
+            writeln!(text, "  {} reached its goal at {time_s:?} s", vehicle.name)?;
+        }
+    }
+    writeln!(text, "  order at the end: {}", report.order.join(", "))?;
+    match report.min_gap_m {
+        Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
+        None => writeln!(text, "  the ego is alone")?,
+    }
+    for collision in &report.collisions {
+        let [a, b] = &collision.between;
+        writeln!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
+    }
+    write_vehicles(text, &report.vehicles)
+}
+
+fn write_expectations(text: &mut String, report: &Report) -> std::fmt::Result {
+    if report.expectations.is_empty() {
+        return writeln!(text, "  nothing was expected of this run");
+    }
+    for expectation in &report.expectations {
+        let mark = if expectation.passed { "ok  " } else { "FAIL" };
+        writeln!(text, "  {mark} {expectation}")?;
+    }
+    let failed = report.expectations.iter().filter(|expectation| !expectation.passed).count();
+    match failed {
+        0 => writeln!(text, "  PASSED: all {} expectations held", report.expectations.len()),
+        _ => writeln!(text, "  FAILED: {failed} of {} expectations", report.expectations.len()),
+    }
+}
+
+fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Result {
+    let width = vehicles.iter().map(|vehicle| vehicle.name.len()).max().unwrap_or(0).max("vehicle".len());
+    writeln!(
+        text,
+        "  {:width$}  {:13}  {:>11}  {:>11}  {:>7}  {:>9}  {:>6}",
+        "vehicle", "driver", "speed m/s", "|a| m/s²", "plans", "median ms", "p99 ms"
+    )?;
+    for vehicle in vehicles {
+        let plans = &vehicle.plans;
+        let failed = if plans.failed > 0 { format!(", {} FAILED", plans.failed) } else { String::new() };
+        writeln!(
+            text,
+            "  {:width$}  {:13}  {:>11}  {:>11.2}  {:>7}  {:>9.2}  {:>6.2}{failed}",
+            vehicle.name,
+            vehicle.driver,
+            format!("{:.2}-{:.2}", vehicle.min_speed_mps, vehicle.max_speed_mps),
+            vehicle.mean_abs_acceleration,
+            plans.count,
+            plans.median_ms,
+            plans.p99_ms
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,80 @@
+//! From a scenario to zones.
+
+use bevy::ecs::prelude::*;
+use interplay_building::comfort::SetpointsError;
+use interplay_building::control::{ControlError, Disturbance};
+use interplay_building::day::{Day, Surroundings};
+use interplay_building::discretise::{Model, ModelError};
+use interplay_building::network::NetworkError;
+use interplay_building::occupancy::People;
+use interplay_scenarios::Scenario;
+use thiserror::Error;
+
+use super::{Building, Equipment, Gains, Node, Temperature};
+
+/// Kinds of chance, so that weather, people and forecasts of one seed have nothing to do with one another.
+const PEOPLE: u64 = 1 << 40;
+const FORECAST: u64 = 2 << 40;
+
+/// Why a scenario gives no building. One that was loaded has been checked for all of this.
+#[derive(Debug, Error)]
+pub enum BuildingError {
+    /// Zones and walls make no network.
+    #[error(transparent)]
+    Network(#[from] NetworkError),
+    /// The network cannot be simulated at this step.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// What is wanted makes no sense.
+    #[error(transparent)]
+    Setpoints(#[from] SetpointsError),
+    /// The controller cannot be started.
+    #[error(transparent)]
+    Control(#[from] ControlError),
+    /// The weather file was not read.
+    #[error("the weather file of the scenario was not read: load the scenario from a file")]
+    NoWeather,
+}
+
+/// Adds the building of a scenario, if it has one.
+///
+/// # Errors
+/// [`BuildingError`], for a scenario that was not loaded.
+pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError> {
+    let Some(described) = &scenario.building else { return Ok(()) };
+    let (network, steps) = (described.network()?, described.steps_per_day());
+    let model = Model::new(&network, described.method, described.step_s)?;
+    let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
+    let weather = scenario.weather.clone().unwrap_or_default();
+    let zones = network.zone_count();
+    for index in 0..network.node_count() {
+        let mut node = world.spawn((Node { index }, Temperature(described.initial_c)));
+        if index < zones {
+            let limit_kw = network.limits_kw()[index];
+            node.insert((Equipment { limit_kw, requested_kw: 0.0, heat_kw: 0.0 }, Gains(0.0)));
+        }
+    }
+    let nothing = || Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
+    let building = Building {
+        targets: scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?,
+        surroundings: Surroundings {
+            weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
+            forecast: weather.forecast(),
+            forecast_seed: scenario.seed ^ FORECAST,
+            people: people(scenario, zones),
+        },
+        regulator: scenario.controller().regulator(&believed, steps)?,
+        step: 0,
+        today: Day::new(Vec::new(), nothing(), nothing()),
+        design_s: 0.0,
+        failure: None,
+        model,
+    };
+    world.insert_resource(building);
+    Ok(())
+}
+
+/// The people in so many zones of a scenario.
+pub fn people(scenario: &Scenario, zones: usize) -> People {
+    scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ PEOPLE)
+}

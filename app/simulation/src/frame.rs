@@ -1,0 +1,118 @@
+//! What one tick looked like: plain values, handed from the world to whoever watches it.
+
+use interplay_building::control::Design;
+pub use interplay_planners::traffic::Origin;
+use interplay_planners::{Input, Plan, State, Trajectory};
+use serde::Serialize;
+
+use crate::day::DayFigures;
+
+/// One tick of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Ticks before this one; of a building alone, its steps.
+    pub tick: usize,
+    /// Simulated time at which the plans were made and the states hold \[s\].
+    pub time_s: f64,
+    /// Every vehicle, in the scenario's order.
+    pub vehicles: Vec<VehicleFrame>,
+    /// What happened, in order.
+    pub events: Vec<Event>,
+    /// Who began to touch during the tick, in order.
+    pub collisions: Vec<Collision>,
+    /// Distance of the ego's footprint to the nearest other one at the beginning of the tick \[m\]; none without others.
+    pub gap_m: Option<f64>,
+    /// The smallest such distance during the tick, its end included \[m\].
+    pub smallest_gap_m: Option<f64>,
+    /// The building, if this is one of its steps.
+    pub building: Option<BuildingFrame>,
+}
+
+/// A building at one of its steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuildingFrame {
+    /// The day, from 0: the iteration.
+    pub day: usize,
+    /// The step within the day, from 0.
+    pub step: usize,
+    /// Every zone, in the scenario's order.
+    pub zones: Vec<ZoneFrame>,
+    /// Outdoor temperature during the step \[°C\].
+    pub ambient_c: f64,
+    /// What it was forecast to be at midnight \[°C\].
+    pub forecast_c: f64,
+    /// What the controller says of its plan for the day, at its first step.
+    pub design: Option<Box<Design>>,
+    /// How the day turned out, at its last step.
+    pub figures: Option<DayFigures>,
+}
+
+/// One zone at one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ZoneFrame {
+    /// Temperature at the start of the step \[°C\].
+    pub temperature_c: f64,
+    /// Temperature at its end \[°C\].
+    pub next_c: f64,
+    /// The wanted temperature at its start \[°C\]; none where it is free.
+    pub reference_c: Option<f64>,
+    /// What the controller asked for \[kW\].
+    pub requested_kw: f64,
+    /// Heat from the equipment, negative for cooling \[kW\].
+    pub heat_kw: f64,
+    /// Heat from people, sun and machines \[kW\].
+    pub gains_kw: f64,
+}
+
+/// One vehicle at one tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VehicleFrame {
+    /// Its name.
+    pub name: String,
+    /// Its state when it planned.
+    pub state: State,
+    /// The input that it applies from now on.
+    pub input: Input,
+    /// What it decided; after a failure, the fallback.
+    pub plan: Plan,
+    /// Where the plan comes from.
+    pub origin: Origin,
+    /// What the others expected of it when they planned: the plan itself if it plans first, else how its last plan goes
+    /// on. Among those who plan first, the ones ahead of it planned before it and knew its last plan only.
+    pub prediction: Trajectory,
+    /// Wall time of planning \[ms\]; never part of a digest.
+    pub plan_ms: f64,
+}
+
+/// Two vehicles that began to touch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Collision {
+    /// When \[s\].
+    pub time_s: f64,
+    /// Who, in the scenario's order.
+    pub between: [String; 2],
+    /// How hard \[N s\].
+    pub impulse_ns: f64,
+}
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// Whom it concerns: a vehicle, or `controller` for that of the building.
+    pub vehicle: String,
+    /// How serious it is.
+    pub level: Level,
+    /// What happened, in words.
+    pub text: String,
+}
+
+/// How serious an event is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Worth knowing.
+    Note,
+    /// A planner failed or a filter intervened.
+    Warning,
+    /// A collision.
+    Alarm,
+}

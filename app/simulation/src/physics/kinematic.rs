@@ -1,0 +1,55 @@
+//! The kinematic plant: every vehicle follows the bicycle model exactly, and Rapier only says who touches whom.
+
+use interplay_planners::Bicycle;
+use interplay_planners::State;
+use rapier2d::prelude::{PhysicsWorld, RigidBodyBuilder};
+
+use super::contacts::{Contacts, Touch, impulse_ns};
+use super::footprint::pose;
+use super::gap::EgoGap;
+use super::moving::{Contact, Moving};
+use super::path::{Path, next_look};
+
+/// A body that is put where the model says.
+pub(super) fn body(state: &State) -> RigidBodyBuilder {
+    RigidBodyBuilder::kinematic_position_based().pose(pose(state, [0.0; 2]))
+}
+
+/// Moves everybody by a tick; their states at its end, and who began to touch.
+pub(super) fn advance(
+    world: &mut PhysicsWorld,
+    vehicles: &[Moving],
+    step_s: f64,
+    gap: &mut EgoGap,
+) -> (Vec<State>, Vec<Contact>) {
+    let path = |vehicle: &Moving| Path {
+        body: vehicle.body,
+        from: vehicle.state,
+        to: Bicycle::new(&vehicle.body, step_s).step(&vehicle.state, &vehicle.input),
+    };
+    let paths: Vec<Path> = vehicles.iter().map(path).collect();
+    let (mut share, mut contacts) = (0.0, Vec::new());
+    while share < 1.0 {
+        share = next_look(&paths, share);
+        let states: Vec<State> = paths.iter().map(|path| path.at(share)).collect();
+        gap.observe(&states);
+        for Touch { pair: [a, b], normal } in look(world, vehicles, &states) {
+            let impulse_ns = impulse_ns((&paths[a].body, &states[a]), (&paths[b].body, &states[b]), normal);
+            contacts.push(Contact { pair: [a, b], share, impulse_ns });
+        }
+    }
+    (paths.iter().map(|path| path.to).collect(), contacts)
+}
+
+/// Puts the bodies at their places and finds who did not touch at the last ones and does now.
+fn look(world: &mut PhysicsWorld, vehicles: &[Moving], states: &[State]) -> Vec<Touch> {
+    let origin = states.first().map(State::position).unwrap_or_default();
+    for (vehicle, state) in vehicles.iter().zip(states) {
+        if let Some(body) = world.bodies.get_mut(vehicle.handle) {
+            body.set_position(pose(state, origin), true);
+        }
+    }
+    let contacts = Contacts::default();
+    world.detect_collisions(&(), &contacts);
+    contacts.into_touches()
+}

@@ -1,0 +1,143 @@
+//! Physics: the one room that names Rapier and Parry.
+//!
+//! With the kinematic plant every vehicle follows the bicycle model exactly (`kinematic`). Within a tick the bodies are looked
+//! at as often as it takes to miss no contact (`path`); each time Rapier finds who begins to touch, and Parry the distances
+//! between footprints. With the dynamic plant Rapier moves the bodies, pushed by their tyres and by one another (`dynamic`).
+//! Both libraries work in `f32` and the planners in `f64`: the conversion is here, with positions taken relative to a
+//! vehicle, so that precision does not depend on how far along the road one is.
+
+mod actuators;
+mod contacts;
+mod dynamic;
+#[cfg(test)]
+mod dynamic_tests;
+mod footprint;
+mod gap;
+mod kinematic;
+mod moving;
+mod path;
+#[cfg(test)]
+mod tests;
+mod tyres;
+
+use bevy::ecs::prelude::*;
+use interplay_planners::{Body, State};
+use interplay_scenarios::{Plant, Scenario};
+use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
+
+pub use footprint::gap_m;
+
+use crate::components::{Clock, Identity, Motion, Physique, Present};
+use crate::frame::{Collision, Event, Level};
+use dynamic::DynamicPlant;
+use footprint::{centre, length_m, shape};
+use gap::EgoGap;
+use moving::{Contact, Moving};
+
+/// From which distance on Rapier speaks of a contact, for vehicles of passenger cars' size \[m\].
+const TOUCHING_M: f32 = 1e-4;
+/// Friction coefficient between bodies that collide.
+const BODY_FRICTION: f32 = 0.3;
+
+/// The Rapier body of a vehicle.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct VehicleBody(pub RigidBodyHandle);
+
+/// Rapier's world.
+#[derive(Resource)]
+pub struct Physics {
+    world: PhysicsWorld,
+    /// The dynamic plant; without it, bodies follow the bicycle.
+    dynamic: Option<DynamicPlant>,
+    gap: EgoGap,
+}
+
+impl Physics {
+    /// An empty world at the scenario's scale.
+    pub fn new(scenario: &Scenario) -> Self {
+        let mut world = PhysicsWorld { gravity: Vector::ZERO, ..PhysicsWorld::default() };
+        // Rapier's tolerances suit metres-long bodies; a 1/10 scale world needs them ten times smaller.
+        let longest = scenario.vehicles.iter().map(|vehicle| length_m(&vehicle.body)).fold(0.0, f64::max);
+        world.integration_parameters.length_unit = (longest / 4.0).clamp(0.01, 1.0) as f32;
+        world.integration_parameters.normalized_prediction_distance = TOUCHING_M;
+        let origin = scenario.vehicles.first().map(|first| first.start.position()).unwrap_or_default();
+        let dynamic = match &scenario.plant {
+            Plant::Kinematic(_) => None,
+            Plant::Dynamic(settings) => Some(DynamicPlant::new(*settings, origin)),
+        };
+        Physics { world, dynamic, gap: EgoGap::new(scenario) }
+    }
+
+    /// Adds a vehicle.
+    pub fn add(&mut self, index: usize, body: &Body, state: &State) -> RigidBodyHandle {
+        let collider = ColliderBuilder::new(shape(body))
+            .position(centre(body))
+            .active_collision_types(ActiveCollisionTypes::all())
+            .active_events(ActiveEvents::COLLISION_EVENTS)
+            .user_data(index as u128);
+        let (rigid, collider) = match &mut self.dynamic {
+            None => (kinematic::body(state), collider),
+            Some(plant) => {
+                let restitution = plant.restitution();
+                (plant.body(body, state), collider.density(0.0).restitution(restitution).friction(BODY_FRICTION))
+            }
+        };
+        let (handle, _) = self.world.insert(rigid, collider);
+        handle
+    }
+}
+
+/// Moves every vehicle by one tick and turns contacts into collisions.
+pub fn step(
+    mut vehicles: Query<(&Identity, &Physique, &mut Motion, &VehicleBody)>,
+    mut physics: ResMut<Physics>,
+    mut clock: ResMut<Clock>,
+    mut present: ResMut<Present>,
+) {
+    let mut sorted: Vec<_> = vehicles.iter_mut().collect();
+    sorted.sort_by_key(|(identity, ..)| identity.index);
+    let moving = |(_, physique, motion, body): &(&Identity, &Physique, Mut<Motion>, &VehicleBody)| Moving {
+        handle: body.0,
+        body: physique.body,
+        state: motion.state,
+        input: motion.input,
+    };
+    let moving: Vec<Moving> = sorted.iter().map(moving).collect();
+    let frame = &mut present.0;
+    let Physics { world, dynamic, gap } = &mut *physics;
+    let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
+    frame.gap_m = gap.begin(&before);
+    let (states, contacts) = match dynamic {
+        None => kinematic::advance(world, &moving, clock.step_s, gap),
+        Some(plant) => plant.advance(world, &moving, clock.step_s, gap),
+    };
+    gap.observe(&states);
+    for Contact { pair: [a, b], share, impulse_ns } in contacts {
+        let between = [a, b].map(|index| sorted[index].0.name.clone());
+        let text = format!("collides with {} ({impulse_ns:.2} Ns)", between[1]);
+        frame.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
+        frame.collisions.push(Collision { time_s: clock.within_s(share), between, impulse_ns });
+        gap.touch([a, b]);
+        for index in [a, b] {
+            sorted[index].2.crashed |= dynamic.is_some();
+        }
+    }
+    frame.smallest_gap_m = gap.smallest_m();
+    for ((_, _, motion, _), state) in sorted.iter_mut().zip(states) {
+        motion.state = state;
+    }
+    clock.tick += 1;
+}
+
+/// Momentum of all bodies along x and y, and about the origin of Rapier's world \[kg m/s, kg m²/s\].
+#[cfg(test)]
+fn momentum(world: &World) -> [f64; 3] {
+    let bodies = &world.resource::<Physics>().world.bodies;
+    let parts = bodies.iter().map(|(_, body)| {
+        let (mass, place, velocity) = (body.mass(), body.translation(), body.linvel());
+        let spin = body.mass_properties().local_mprops.principal_inertia() * body.angvel();
+        let about = mass * (place.x * velocity.y - place.y * velocity.x) + spin;
+        [mass * velocity.x, mass * velocity.y, about].map(f64::from)
+    });
+    parts.fold([0.0; 3], |sum, part| std::array::from_fn(|i| sum[i] + part[i]))
+}

@@ -1,0 +1,21 @@
+//! What both plants take and give: vehicles at the start of a tick, and contacts that begin during it.
+
+use interplay_planners::{Body, Input, State};
+use rapier2d::prelude::RigidBodyHandle;
+
+/// One vehicle at the start of a tick.
+pub(super) struct Moving {
+    pub handle: RigidBodyHandle,
+    pub body: Body,
+    pub state: State,
+    pub input: Input,
+}
+
+/// Two vehicles, by their indices (ascending), that begin to touch.
+pub(super) struct Contact {
+    pub pair: [usize; 2],
+    /// The share of the tick that has passed.
+    pub share: f64,
+    /// How hard \[N s\].
+    pub impulse_ns: f64,
+}

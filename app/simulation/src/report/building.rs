@@ -1,0 +1,38 @@
+//! The outcome for a building.
+
+use interplay_scenarios::Scenario;
+use serde::Serialize;
+
+use crate::day::DayFigures;
+use crate::measure::{BuildingDigests, BuildingMeasures, Fallback};
+
+/// The outcome for a building.
+#[derive(Clone, Debug, Serialize)]
+pub struct BuildingReport {
+    /// The word for its controller.
+    pub controller: String,
+    /// How many zones there are.
+    pub zones: usize,
+    /// Digests of what each part of the climate produced.
+    pub digests: BuildingDigests,
+    /// What is allowed and may not have been meant, such as zones that exchange heat with nobody.
+    pub remarks: Vec<String>,
+    /// The days on which the controller had no plan of its own, and why.
+    pub fallbacks: Vec<Fallback>,
+    /// Every day.
+    pub iterations: Vec<DayFigures>,
+}
+
+impl BuildingReport {
+    /// Puts the measures together.
+    pub fn new(scenario: &Scenario, measures: &BuildingMeasures) -> Self {
+        BuildingReport {
+            controller: scenario.controller().kind().to_owned(),
+            zones: measures.zones,
+            digests: measures.digests(),
+            remarks: measures.remarks.clone(),
+            fallbacks: measures.fallbacks.clone(),
+            iterations: measures.days.clone(),
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! What a run amounts to: figures, and whether the scenario's expectations held.
+
+mod building;
+mod expectation;
+mod judge;
+mod outcome;
+
+use interplay_scenarios::{Scenario, Vehicle};
+use xxhash_rust::xxh3::xxh3_128;
+
+pub use building::BuildingReport;
+pub use expectation::Expectation;
+pub use outcome::{PlansReport, Report, VehicleReport};
+
+use crate::components::to_nanosecond;
+use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
+
+impl Report {
+    /// Puts the measures of a run together and judges them.
+    pub fn new(
+        name: &str,
+        scenario: &Scenario,
+        (measures, building): (&Measures, Option<&BuildingMeasures>),
+        wall_s: f64,
+    ) -> Self {
+        let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
+        let vehicles = vehicles
+            .map(|(vehicle, measured)| VehicleReport::new(&vehicle.name, vehicle.driver.kind(), measured))
+            .collect();
+        let phase_digests = measures.digest.phases();
+        let building = building.map(|measures| BuildingReport::new(scenario, measures));
+        let mut report = Report {
+            scenario: name.to_owned(),
+            passed: true,
+            seed: scenario.seed,
+            simulated_s: simulated_s(scenario),
+            wall_s,
+            digest: digest(scenario, &phase_digests, building.as_ref()),
+            phase_digests,
+            collisions: measures.collisions.clone(),
+            min_gap_m: measures.gap.smallest_m,
+            order: order(scenario, measures),
+            vehicles,
+            building,
+            expectations: Vec::new(),
+        };
+        report.expectations = judge::judge(&scenario.expect, &report);
+        report.passed = report.expectations.iter().all(|expectation| expectation.passed);
+        report
+    }
+}
+
+/// How long was simulated: until the slower of both clocks is done \[s\].
+fn simulated_s(scenario: &Scenario) -> f64 {
+    let last = |step_s: f64, count: usize| to_nanosecond(step_s * count as f64);
+    let building = scenario.building.as_ref();
+    let days_s = building.map_or(0.0, |house| last(house.step_s, scenario.days() * house.steps_per_day()));
+    last(scenario.step_s, scenario.tick_count()).max(days_s)
+}
+
+/// One digest of all states: that of the vehicles, of the building, or of both.
+fn digest(scenario: &Scenario, phases: &PhaseDigests, building: Option<&BuildingReport>) -> String {
+    match building.map(|building| &building.digests.balance) {
+        None => phases.physics.clone(),
+        Some(balance) if scenario.vehicles.is_empty() => balance.clone(),
+        Some(balance) => format!("{:032x}", xxh3_128(format!("{}{balance}", phases.physics).as_bytes())),
+    }
+}
+
+/// Names from the front of the road to its rear; at an intersection, in the order in which they left the conflict zone,
+/// and then by how far they still have to go.
+fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
+    let road = &scenario.road;
+    let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
+    let place = |(vehicle, measured): (&Vehicle, &VehicleMeasures)| {
+        let along = road.corridor(vehicle.road).along(measured.last.position());
+        match road.conflict_zone_m(vehicle.road) {
+            Some([_, end]) => {
+                let never = if along > end { 0.0 } else { f64::INFINITY };
+                [measured.completion.completed_s.unwrap_or(never), end - along]
+            }
+            None => [0.0, -along],
+        }
+    };
+    let mut places: Vec<([f64; 2], &str)> =
+        vehicles.map(|(one, seen)| (place((one, seen)), one.name.as_str())).collect();
+    places.sort_by(|([a, behind_a], _), ([b, behind_b], _)| a.total_cmp(b).then(behind_a.total_cmp(behind_b)));
+    places.into_iter().map(|(_, name)| name.to_owned()).collect()
+}

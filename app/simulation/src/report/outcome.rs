@@ -1,0 +1,125 @@
+//! What a run amounts to, as plain values.
+
+use interplay_planners::State;
+use serde::{Serialize, Serializer};
+
+use super::building::BuildingReport;
+use super::expectation::Expectation;
+use crate::frame::Collision;
+use crate::measure::{PhaseDigests, VehicleMeasures};
+
+/// The outcome of one run; its serialisation is the output contract of `--json`. What is about vehicles is left out of
+/// that without vehicles, and `building` without a building.
+#[derive(Clone, Debug, Serialize)]
+#[serde(remote = "Report")]
+pub struct Report {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Whether every expectation held.
+    pub passed: bool,
+    /// The seed of the run.
+    pub seed: u64,
+    /// Simulated time \[s\].
+    pub simulated_s: f64,
+    /// Wall time \[s\]; not reproducible.
+    pub wall_s: f64,
+    /// Digest of all states, bit for bit.
+    pub digest: String,
+    /// Digests of what each phase produced.
+    pub phase_digests: PhaseDigests,
+    /// Contacts.
+    pub collisions: Vec<Collision>,
+    /// Smallest distance of the ego's footprint to another \[m\].
+    pub min_gap_m: Option<f64>,
+    /// Names from the front of the road to its rear, at the end; at an intersection, in the order of crossing.
+    pub order: Vec<String>,
+    /// Every vehicle, in the scenario's order.
+    pub vehicles: Vec<VehicleReport>,
+    /// The building.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub building: Option<BuildingReport>,
+    /// What was expected.
+    pub expectations: Vec<Expectation>,
+}
+
+/// Keys of the serialisation that are about vehicles.
+const DRIVING: [&str; 5] = ["phase_digests", "collisions", "min_gap_m", "order", "vehicles"];
+
+impl Serialize for Report {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if !self.vehicles.is_empty() {
+            return Report::serialize(self, serializer);
+        }
+        let mut whole = Report::serialize(self, serde_json::value::Serializer).map_err(serde::ser::Error::custom)?;
+        if let Some(object) = whole.as_object_mut() {
+            object.retain(|key, _| !DRIVING.contains(&key.as_str()));
+        }
+        whole.serialize(serializer)
+    }
+}
+
+/// The outcome for one vehicle.
+#[derive(Clone, Debug, Serialize)]
+pub struct VehicleReport {
+    /// Its name.
+    pub name: String,
+    /// The word for its driver.
+    pub driver: String,
+    /// When it reached its goal \[s\].
+    pub completed_s: Option<f64>,
+    /// Its last state.
+    #[serde(rename = "final")]
+    pub last: State,
+    /// Slowest \[m/s\].
+    pub min_speed_mps: f64,
+    /// Fastest \[m/s\].
+    pub max_speed_mps: f64,
+    /// Mean absolute acceleration \[m/s²\].
+    pub mean_abs_acceleration: f64,
+    /// Mean absolute jerk \[m/s³\].
+    pub mean_abs_jerk: f64,
+    /// Its planner.
+    pub plans: PlansReport,
+}
+
+/// How a planner did. Times are wall times and not reproducible.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PlansReport {
+    /// Plans made.
+    pub count: usize,
+    /// Plans that failed and were replaced by a fallback.
+    pub failed: usize,
+    /// Median time \[ms\].
+    pub median_ms: f64,
+    /// 99th percentile \[ms\].
+    pub p99_ms: f64,
+}
+
+impl Report {
+    /// The outcome for the vehicle of that name.
+    pub fn vehicle(&self, name: &str) -> Option<&VehicleReport> {
+        self.vehicles.iter().find(|vehicle| vehicle.name == name)
+    }
+}
+
+impl VehicleReport {
+    /// Takes over what was measured.
+    pub(super) fn new(name: &str, driver: &str, measured: &VehicleMeasures) -> Self {
+        VehicleReport {
+            name: name.to_owned(),
+            driver: driver.to_owned(),
+            completed_s: measured.completion.completed_s,
+            last: measured.last,
+            min_speed_mps: measured.speed.min_mps,
+            max_speed_mps: measured.speed.max_mps,
+            mean_abs_acceleration: measured.comfort.mean_abs_acceleration(),
+            mean_abs_jerk: measured.comfort.mean_abs_jerk(),
+            plans: PlansReport {
+                count: measured.planning.count(),
+                failed: measured.planning.failed,
+                median_ms: measured.planning.quantile_ms(0.5),
+                p99_ms: measured.planning.quantile_ms(0.99),
+            },
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! One run: a scenario in, a report out.
+
+use std::time::Instant;
+
+use bevy::ecs::prelude::*;
+use interplay_building::control::ControlError;
+use interplay_scenarios::Scenario;
+use thiserror::Error;
+
+use crate::climate::{Building, BuildingError};
+use crate::components::Present;
+use crate::frame::Frame;
+use crate::measure::{BuildingMeasures, Measures};
+use crate::moments::moments;
+use crate::report::Report;
+use crate::watch::{Watcher, Watchers};
+use crate::{phases, spawn};
+
+/// Why a run could not be finished.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// What was to be kept of it could not be kept.
+    #[error("{0}")]
+    Watch(String),
+    /// The building cannot be built.
+    #[error("the building cannot be simulated: {0}")]
+    Building(#[from] BuildingError),
+    /// The building's controller gave up.
+    #[error("the controller of the building gave up on day {day}: {reason}")]
+    Control {
+        /// The day, from 1.
+        day: usize,
+        /// Why.
+        reason: ControlError,
+    },
+    /// The loop itself is broken.
+    #[error("the loop could not be built: {0}")]
+    Loop(String),
+}
+
+/// Runs `scenario`, called `name` in the report, in front of `watchers`.
+///
+/// The result depends on the scenario alone (its seed included): only wall times differ from run to run.
+///
+/// # Errors
+/// [`RunError`] if the schedule cannot be built or a watcher fails.
+pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Report, RunError> {
+    let began = Instant::now();
+    let mut world = spawn::world(scenario, watchers)?;
+    let mut schedule = phases::schedule();
+    let built = schedule.initialize(&mut world);
+    built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;
+    for (tick, moment) in moments(scenario).enumerate() {
+        world.resource_mut::<Present>().0 = Frame { tick, time_s: moment.time_s, ..Frame::default() };
+        world.insert_resource(moment);
+        schedule.run(&mut world);
+        if let Some(mut building) = world.get_resource_mut::<Building>()
+            && let Some(reason) = building.failure.take()
+        {
+            return Err(RunError::Control { day: (building.step - 1) / building.steps_per_day() + 1, reason });
+        }
+    }
+    let wall_s = began.elapsed().as_secs_f64();
+    let watchers = world.remove_resource::<Watchers>().unwrap_or_default();
+    watchers.finish().map_err(RunError::Watch)?;
+    let measures = (world.resource::<Measures>(), world.get_resource::<BuildingMeasures>());
+    Ok(Report::new(name, scenario, measures, wall_s))
+}

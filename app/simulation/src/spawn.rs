@@ -1,0 +1,52 @@
+//! From a scenario to entities.
+
+use bevy::ecs::prelude::*;
+use interplay_planners::{Goal, Input};
+use interplay_scenarios::Scenario;
+
+use crate::climate::{self, BuildingError};
+use crate::components::{Clock, Committed, Driving, Identity, Motion, Objective, Physique, Present, Sensed};
+use crate::measure::{BuildingMeasures, Measures};
+use crate::moments::Moment;
+use crate::physics::{Physics, VehicleBody};
+use crate::watch::{Watcher, Watchers};
+
+/// A world with everything that the scenario names, seen by `watchers`.
+///
+/// # Errors
+/// [`BuildingError`], for a building that was not checked when it was loaded.
+pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<World, BuildingError> {
+    let mut world = World::new();
+    let mut physics = Physics::new(scenario);
+    for (index, (vehicle, state)) in scenario.vehicles.iter().zip(scenario.starts()).enumerate() {
+        let handle = physics.add(index, &vehicle.body, &state);
+        let goal = Goal {
+            target: vehicle.target(&scenario.road),
+            tracking: vehicle.weights.tracking(),
+            comfort: vehicle.weights.comfort(),
+            safety: vehicle.safety,
+        };
+        world.spawn((
+            Identity { index, name: vehicle.name.clone() },
+            Motion { state, input: Input::default(), crashed: false },
+            Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor(vehicle.road) },
+            Objective { goal, shared: vehicle.driver.shared_goal(&goal) },
+            Driving { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },
+            Committed::default(),
+            VehicleBody(handle),
+        ));
+    }
+    world.insert_resource(Clock { tick: 0, step_s: scenario.step_s, horizon: scenario.horizon_steps });
+    world.insert_resource(Moment { time_s: 0.0, vehicles: true, building: false });
+    world.insert_resource(Sensed::default());
+    world.insert_resource(Present::default());
+    world.insert_resource(Measures::new(scenario));
+    world.insert_resource(physics);
+    world.insert_resource(Watchers::new(watchers));
+    climate::spawn(&mut world, scenario)?;
+    let measures = world.get_resource().map(|building| BuildingMeasures::new(building, &scenario.controller()));
+    if let Some(measures) = measures {
+        world.insert_resource(measures);
+    }
+    Ok(world)
+}

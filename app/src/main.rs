@@ -1,5 +1,0 @@
-//! The `interplay` command.
-
-fn main() -> std::process::ExitCode {
-    interplay::cli::main()
-}

@@ -1,0 +1,69 @@
+//! Bounds of settings. A bound stands on the field, as a `schemars` attribute, and nowhere else.
+
+use std::fmt;
+
+use serde_json::Value as Json;
+
+/// The largest magnitude of a setting: beyond it, squares and products of what is computed could overflow.
+pub const LARGEST_SETTING: f64 = 1e9;
+
+/// A bound of a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// Neither infinite nor NaN.
+    Finite,
+    /// Of at most this magnitude.
+    Magnitude(f64),
+    /// `minimum`.
+    AtLeast(f64),
+    /// `exclusiveMinimum`.
+    Above(f64),
+    /// `maximum`.
+    AtMost(f64),
+    /// `exclusiveMaximum`.
+    Below(f64),
+}
+
+impl Bound {
+    /// Whether a number respects the bound.
+    pub fn admits(self, value: f64) -> bool {
+        match self {
+            Self::Finite => value.is_finite(),
+            Self::Magnitude(largest) => value.abs() <= largest,
+            Self::AtLeast(bound) => value >= bound,
+            Self::Above(bound) => value > bound,
+            Self::AtMost(bound) => value <= bound,
+            Self::Below(bound) => value < bound,
+        }
+    }
+
+    /// The bounds that the schema of a number states.
+    pub fn of(schema: &Json) -> impl Iterator<Item = Bound> {
+        let bound = |keyword: &str| schema.get(keyword).and_then(Json::as_f64);
+        let stated = [
+            bound("minimum").map(Self::AtLeast),
+            bound("exclusiveMinimum").map(Self::Above),
+            bound("maximum").map(Self::AtMost),
+            bound("exclusiveMaximum").map(Self::Below),
+        ];
+        stated.into_iter().flatten()
+    }
+
+    /// The bounds of every setting.
+    pub fn of_every_setting() -> [Bound; 2] {
+        [Self::Finite, Self::Magnitude(LARGEST_SETTING)]
+    }
+}
+
+impl fmt::Display for Bound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Finite => write!(f, "a finite number"),
+            Self::Magnitude(largest) => write!(f, "between -{largest:e} and {largest:e}"),
+            Self::AtLeast(bound) => write!(f, "at least {bound}"),
+            Self::Above(bound) => write!(f, "above {bound}"),
+            Self::AtMost(bound) => write!(f, "at most {bound}"),
+            Self::Below(bound) => write!(f, "below {bound}"),
+        }
+    }
+}

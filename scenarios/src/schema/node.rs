@@ -1,0 +1,173 @@
+//! A part of the schema, with what its keywords say as Rust types.
+
+use interplay_building::bounds::Bound;
+use serde_json::Value as Json;
+
+/// What a key concerns that means nothing without it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Concern {
+    /// `x-concerns = "vehicles"`.
+    Vehicles,
+    /// `x-concerns = "building"`.
+    Building,
+}
+
+/// What the schema says of a value: beside a reference, and in the definition that it refers to.
+#[derive(Clone, Copy)]
+pub(crate) struct SchemaNode {
+    root: &'static Json,
+    stated: &'static Json,
+    /// The list of which this is an entry.
+    list: Option<&'static Json>,
+}
+
+impl SchemaNode {
+    /// The whole schema.
+    pub fn of(root: &'static Json) -> SchemaNode {
+        SchemaNode { root, stated: root, list: None }
+    }
+
+    /// The keywords as they are stated here.
+    #[cfg(test)]
+    pub fn json(self) -> &'static Json {
+        self.stated
+    }
+
+    fn at(self, stated: &'static Json) -> SchemaNode {
+        SchemaNode { stated, list: None, ..self }
+    }
+
+    /// The name of the definition that this refers to.
+    pub fn definition_name(self) -> Option<&'static str> {
+        self.stated.get("$ref")?.as_str()?.strip_prefix("#/$defs/")
+    }
+
+    fn definition(self) -> &'static Json {
+        self.definition_name().and_then(|name| self.root.get("$defs")?.get(name)).unwrap_or(self.stated)
+    }
+
+    /// What a keyword says here, or else in the definition.
+    pub fn keyword(self, keyword: &str) -> Option<&'static Json> {
+        self.stated.get(keyword).or_else(|| self.definition().get(keyword))
+    }
+
+    fn text(self, keyword: &str) -> Option<&'static str> {
+        self.keyword(keyword)?.as_str()
+    }
+
+    /// The type: `object`, `array`, `string`, `boolean`, `integer` or `number`.
+    pub fn type_name(self) -> Option<&'static str> {
+        self.text("type")
+    }
+
+    /// What the key is about, or the list of which this is an entry; empty if nothing is said.
+    pub fn description(self) -> &'static str {
+        let of_list = || self.list?.get("description")?.as_str();
+        self.text("description").or_else(of_list).unwrap_or_default()
+    }
+
+    /// The bounds of a number.
+    pub fn bounds(self) -> impl Iterator<Item = Bound> {
+        Bound::of(self.definition()).chain(Bound::of(self.stated).filter(move |_| self.definition_name().is_some()))
+    }
+
+    /// The default, or else the first example.
+    pub fn default_or_example(self) -> Option<&'static Json> {
+        self.stated.get("default").or_else(|| self.stated.get("examples")?.get(0))
+    }
+
+    /// Whether a value is the default; `1` is `1.0`.
+    pub fn is_default(self, value: &Json) -> bool {
+        self.stated.get("default").is_some_and(|default| same(default, value))
+    }
+
+    /// What the key concerns, if a scenario may have none of it.
+    pub fn concerns(self) -> Option<Concern> {
+        match self.stated.get("x-concerns")?.as_str()? {
+            "vehicles" => Some(Concern::Vehicles),
+            _ => Some(Concern::Building),
+        }
+    }
+
+    /// The key by which entries of a list are merged with those of the same name; other lists are replaced.
+    pub fn merge_key(self) -> Option<&'static str> {
+        self.stated.get("x-merge-by")?.as_str()
+    }
+
+    /// Pairs of keys of this table that may not stand side by side. Each pair is stated on the first of them.
+    pub fn exclusions(self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.properties().flat_map(|(key, property)| {
+            let others = property.stated.get("x-excludes").and_then(Json::as_array).into_iter().flatten();
+            others.filter_map(Json::as_str).map(|other| (key.as_str(), other))
+        })
+    }
+
+    /// The words from which a text is chosen.
+    pub fn words(self) -> Vec<&'static str> {
+        let plain = self.definition().get("enum").and_then(Json::as_array).into_iter().flatten();
+        let described = self.alternatives().filter_map(|one| one.get("const"));
+        plain.chain(described).filter_map(Json::as_str).collect()
+    }
+
+    /// The kinds of a table that has several.
+    pub fn kinds(self) -> Vec<&'static str> {
+        self.alternatives().filter_map(kind_of).collect()
+    }
+
+    fn alternatives(self) -> impl Iterator<Item = &'static Json> {
+        self.definition().get("oneOf").and_then(Json::as_array).into_iter().flatten()
+    }
+
+    /// The table of one kind, if there is such a kind.
+    pub fn of_kind(self, kind: &str) -> Option<SchemaNode> {
+        self.alternatives().find(|one| kind_of(one) == Some(kind)).map(|one| self.at(one))
+    }
+
+    /// The keys of a table, in the order of the fields; none if this is no table, or one of several kinds.
+    pub fn properties(self) -> impl Iterator<Item = (&'static String, SchemaNode)> {
+        let properties = self.definition().get("properties").and_then(Json::as_object);
+        properties.into_iter().flatten().map(move |(key, stated)| (key, self.at(stated)))
+    }
+
+    /// A key of a table; where the kind of the table is open, of the first kind that has it.
+    pub fn property(self, key: &str) -> Option<SchemaNode> {
+        let of = |schema: &'static Json| schema.get("properties")?.get(key);
+        of(self.definition()).or_else(|| self.alternatives().find_map(of)).map(|stated| self.at(stated))
+    }
+
+    /// The keys that a table must have.
+    pub fn required(self) -> impl Iterator<Item = &'static str> {
+        let required = self.definition().get("required").and_then(Json::as_array);
+        required.into_iter().flatten().filter_map(Json::as_str)
+    }
+
+    /// What each entry of a list is.
+    pub fn entries(self) -> Option<SchemaNode> {
+        self.keyword("items").map(|items| SchemaNode { list: Some(self.stated), ..self.at(items) })
+    }
+
+    /// What each entry of a list of tables is.
+    pub fn table_entries(self) -> Option<SchemaNode> {
+        self.entries().filter(|entry| entry.properties().next().is_some())
+    }
+}
+
+/// The `kind` that an alternative of a tagged table requires.
+pub(super) fn kind_of(alternative: &Json) -> Option<&str> {
+    alternative.get("properties")?.get("kind")?.get("const")?.as_str()
+}
+
+/// Whether two values are the same, whole numbers and others alike.
+fn same(one: &Json, other: &Json) -> bool {
+    match (one, other) {
+        (Json::Number(one), Json::Number(other)) => one.as_f64() == other.as_f64(),
+        (Json::Array(one), Json::Array(other)) => {
+            one.len() == other.len() && one.iter().zip(other).all(|(one, other)| same(one, other))
+        }
+        (Json::Object(one), Json::Object(other)) => {
+            let in_other = |(key, value): (&String, &Json)| other.get(key).is_some_and(|other| same(value, other));
+            one.len() == other.len() && one.iter().all(in_other)
+        }
+        _ => one == other,
+    }
+}
