@@ -13,7 +13,7 @@ use std::time::Duration;
 use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::{Disturbance, optimum};
-use interplay_building::discretise::{Form, Method, Model};
+use interplay_building::discretise::{Discretisation, Form, Model};
 use interplay_building::lifted::Lifted;
 use interplay_building::network::Network;
 
@@ -26,7 +26,7 @@ fn thousand() -> Network {
     Network::grid(25, 40)
 }
 
-fn model(network: &Network, method: Method, step_s: f64) -> Model {
+fn model(network: &Network, method: Discretisation, step_s: f64) -> Model {
     Model::new(network, method, step_s).expect("the testbed's rooms are slow enough for any of these steps")
 }
 
@@ -48,11 +48,11 @@ fn year(model: &Model) -> f64 {
 fn years(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("year");
     group.sample_size(10).sampling_mode(SamplingMode::Flat).measurement_time(Duration::from_secs(60));
-    for method in [Method::Exact, Method::Euler] {
+    for method in [Discretisation::Exact, Discretisation::Euler] {
         let model = model(&thousand(), method, QUARTER_S);
         group.bench_function(format!("1000 zones {method:?}"), |bencher| bencher.iter(|| black_box(year(&model))));
     }
-    let model = model(&Network::testbed(), Method::Exact, QUARTER_S);
+    let model = model(&Network::testbed(), Discretisation::Exact, QUARTER_S);
     group.bench_function("testbed Exact", |bencher| bencher.iter(|| black_box(year(&model))));
     group.finish();
 }
@@ -74,10 +74,10 @@ fn optima(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("optimum");
     group.sample_size(10);
     for (name, method, network) in [
-        ("testbed Exact", Method::Exact, Network::testbed()),
-        ("25 zones Exact", Method::Exact, Network::grid(5, 5)),
-        ("25 zones Euler", Method::Euler, Network::grid(5, 5)),
-        ("100 zones Euler", Method::Euler, Network::grid(10, 10)),
+        ("testbed Exact", Discretisation::Exact, Network::testbed()),
+        ("25 zones Exact", Discretisation::Exact, Network::grid(5, 5)),
+        ("25 zones Euler", Discretisation::Euler, Network::grid(5, 5)),
+        ("100 zones Euler", Discretisation::Euler, Network::grid(10, 10)),
     ] {
         let n = network.zone_count();
         let lifted = Lifted::new(&model(&network, method, HALF_HOUR_S), 48);
@@ -94,7 +94,7 @@ fn optima(criterion: &mut Criterion) {
 fn products(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("lifted");
     for (name, network) in [("testbed", Network::testbed()), ("1000 zones", thousand())] {
-        let lifted = Lifted::new(&model(&network, Method::Exact, HALF_HOUR_S), 48);
+        let lifted = Lifted::new(&model(&network, Discretisation::Exact, HALF_HOUR_S), 48);
         let u = vec![1.0; lifted.size()];
         group.bench_function(format!("{name} G u"), |bencher| bencher.iter(|| lifted.product(black_box(&u))));
         group.bench_function(format!("{name} Gᵀ y"), |bencher| {

@@ -9,7 +9,9 @@
 use std::error::Error;
 use std::fs;
 
-use interplay_building::identify::{ErrorReport, Mapping, Quantity, Report, Telemetry, ZoneReport, identify};
+use interplay_building::identify::{
+    ErrorReport, IdentificationReport, Mapping, Quantity, Telemetry, ZoneReport, identify,
+};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -29,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn print_report(report: &Report) {
+fn print_report(report: &IdentificationReport) {
     println!(
         "{:?}: {} rows, {} trained on, step {} s, {} segments",
         report.method, report.rows, report.train_rows, report.step_s, report.segments

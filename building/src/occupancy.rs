@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::random::Random;
-use crate::weather::Series;
+use crate::weather::TimeSeries;
 
 /// How zones are occupied on a working day, and how far from it reality strays.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -126,7 +126,7 @@ struct Day {
     from_h: f64,
     to_h: f64,
     meeting: Option<Meeting>,
-    noise_kw: Series,
+    noise_kw: TimeSeries,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -215,7 +215,7 @@ impl Day {
 }
 
 /// A day of AR(1) noise by the half hour.
-fn noise(deviation_kw: f64, random: &mut Random) -> Series {
+fn noise(deviation_kw: f64, random: &mut Random) -> TimeSeries {
     const CORRELATION: f64 = 0.6;
     let fresh = libm::sqrt(1.0 - CORRELATION * CORRELATION);
     let mut value_kw = random.normal(0.0, deviation_kw);
@@ -225,7 +225,7 @@ fn noise(deviation_kw: f64, random: &mut Random) -> Series {
             value_kw
         })
         .collect();
-    Series { first_s: 0.0, interval_s: 1800.0, cyclic: false, values }
+    TimeSeries { first_s: 0.0, interval_s: 1800.0, cyclic: false, values }
 }
 
 /// Hour of the day in the middle of each step.

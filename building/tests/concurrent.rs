@@ -4,8 +4,8 @@ mod common;
 
 use common::reference::*;
 use interplay_building::comfort::Setpoints;
-use interplay_building::control::concurrent::youla::{StateSpace, Taps};
-use interplay_building::control::concurrent::{Concurrent, ConcurrentSettings, taps};
+use interplay_building::control::concurrent::youla::{StateSpace, YoulaFilter};
+use interplay_building::control::concurrent::{Concurrent, ConcurrentSettings, filter};
 use interplay_building::control::iterative::feedback;
 use interplay_building::control::learning::LearningSettings;
 use interplay_building::control::pid::PidSettings;
@@ -21,8 +21,8 @@ fn uncertainty() -> Uncertainty {
     Uncertainty::new(UncertaintySettings::default()).expect("valid")
 }
 
-fn designed(settings: &ConcurrentSettings) -> Result<taps::Design, ControlError> {
-    taps::design(settings, &lifted(), &chapter_4(), &uncertainty())
+fn designed(settings: &ConcurrentSettings) -> Result<filter::FilterDesign, ControlError> {
+    filter::design(settings, &lifted(), &chapter_4(), &uncertainty())
 }
 
 #[test]
@@ -32,7 +32,7 @@ fn taps_and_costs_are_those_of_independent_code() {
     assert_close(found.cost, number(&wanted["H2_cost"]), 1e-4);
     assert_close(found.open_cost, number(&wanted["H2_open"]), 1e-6);
     let entries: Vec<f64> =
-        found.taps.0.iter().flat_map(|tap| tap.transpose().iter().copied().collect::<Vec<_>>()).collect();
+        found.filter.0.iter().flat_map(|tap| tap.transpose().iter().copied().collect::<Vec<_>>()).collect();
     assert!(common::distance(&entries, &floats(&wanted["Q_taps"])) < 1e-4);
     let penalty = Some(BandPenalty { linear: 50.0, quadratic: 50.0 });
     let nominal = optimum(&lifted(), &[28.5; 4], &chapter_4(), &day(1).0, penalty).expect("solvable");
@@ -42,14 +42,14 @@ fn taps_and_costs_are_those_of_independent_code() {
 #[test]
 fn youla_s_identities_hold() {
     let lifted = lifted();
-    let taps = designed(&ConcurrentSettings::default()).expect("designed").taps;
+    let filter = designed(&ConcurrentSettings::default()).expect("designed").filter;
     let size = lifted.size();
-    let (g, c) = (lifted.dense(), taps.feedback_matrix(&lifted));
+    let (g, c) = (lifted.dense(), filter.feedback_matrix(&lifted));
     let mut q = DMatrix::zeros(size, size);
     let mut unit = vec![0.0; size];
     for column in 0..size {
         unit[column] = 1.0;
-        q.column_mut(column).copy_from_slice(&taps.product(&unit));
+        q.column_mut(column).copy_from_slice(&filter.product(&unit));
         unit[column] = 0.0;
     }
     let identity = DMatrix::<f64>::identity(size, size);
@@ -61,7 +61,7 @@ fn youla_s_identities_hold() {
         assert!(c.view((t * 4, t * 4), (4, size - t * 4)).amax() == 0.0, "strictly causal");
     }
     // The responses are those of the closed loop.
-    let response = taps.response(&lifted, &identity);
+    let response = filter.response(&lifted, &identity);
     assert!((&response.temperatures_k - (&g - &g * &q * &g)).amax() < 1e-10);
     assert!((&response.inputs_kw + &q * &g).amax() < 1e-10);
 }
@@ -69,10 +69,10 @@ fn youla_s_identities_hold() {
 #[test]
 fn the_state_space_form_is_the_matrix() {
     let lifted = lifted();
-    let taps = designed(&ConcurrentSettings::default()).expect("designed").taps;
+    let filter = designed(&ConcurrentSettings::default()).expect("designed").filter;
     let errors = common::numbers(lifted.size(), 1.0);
-    let wanted = taps.feedback_matrix(&lifted) * nalgebra::DVector::from_column_slice(&errors);
-    let mut state = StateSpace::new(taps, lifted.model());
+    let wanted = filter.feedback_matrix(&lifted) * nalgebra::DVector::from_column_slice(&errors);
+    let mut state = StateSpace::new(filter, lifted.model());
     for t in 0..48 {
         let error = if t == 0 { vec![0.0; 4] } else { errors[(t - 1) * 4..t * 4].to_vec() };
         let heat = state.answer(&error);
@@ -85,7 +85,7 @@ fn the_state_space_form_is_the_matrix() {
 fn a_vector_is_blind_to_what_a_matrix_sees() {
     // Q₀ = 50 (I − 11ᵀ/4).
     let lifted = lifted();
-    let blind = Taps(vec![DMatrix::from_fn(4, 4, |i, j| 50.0 * (if i == j { 1.0 } else { 0.0 } - 0.25))]);
+    let blind = YoulaFilter(vec![DMatrix::from_fn(4, 4, |i, j| 50.0 * (if i == j { 1.0 } else { 0.0 } - 0.25))]);
     let printed: Vec<f64> = (0..lifted.size()).map(|i| if i < 4 { 1.0 } else { 0.0 }).collect();
     assert!(blind.product(&printed).iter().all(|v| v.abs() < 1e-12), "‖Qα‖₁ = 0 with the printed α");
     assert!(blind.row_norm() > 70.0 && blind.impulse_norm(&lifted) > 100.0, "{}", blind.impulse_norm(&lifted));
@@ -95,12 +95,12 @@ fn a_vector_is_blind_to_what_a_matrix_sees() {
 fn bounds_hold_cost_something_and_have_floors() {
     let lifted = lifted();
     let free = designed(&ConcurrentSettings::default()).expect("designed");
-    assert!((free.taps.row_norm() - 2.47).abs() < 0.01 && (free.taps.impulse_norm(&lifted) - 4.45).abs() < 0.01);
+    assert!((free.filter.row_norm() - 2.47).abs() < 0.01 && (free.filter.impulse_norm(&lifted) - 4.45).abs() < 0.01);
     for (gamma_q, gamma_2, dearer) in [(1.5, 4.0, 1.08), (1.0, 5.0, 1.46)] {
         let settings =
             ConcurrentSettings { taps: 24, gamma_q, gamma_2: Some(gamma_2), ..ConcurrentSettings::default() };
         let found = designed(&settings).expect("designed");
-        assert!(found.taps.row_norm() <= gamma_q + 1e-6 && found.taps.impulse_norm(&lifted) <= gamma_2 + 1e-6);
+        assert!(found.filter.row_norm() <= gamma_q + 1e-6 && found.filter.impulse_norm(&lifted) <= gamma_2 + 1e-6);
         assert!((found.cost / free.cost - dearer).abs() < 0.03, "{gamma_q} {gamma_2}: {}", found.cost / free.cost);
     }
     let error = designed(&ConcurrentSettings { gamma_q: 2.0, gamma_2: Some(3.0), ..ConcurrentSettings::default() });
@@ -117,9 +117,9 @@ fn bounds_hold_cost_something_and_have_floors() {
 fn four_taps_are_nearly_as_good_as_any_causal_feedback() {
     let (lifted, targets) = (lifted(), chapter_4());
     let factor = interplay_building::control::uncertainty::factor(uncertainty().covariance(&targets)).expect("one");
-    let taps = designed(&ConcurrentSettings::default()).expect("designed").taps;
+    let filter = designed(&ConcurrentSettings::default()).expect("designed").filter;
     let best = feedback::optimal_causal(&lifted, &targets, &factor, &[]).expect("designed").cost(&targets);
-    let ours = taps.response(&lifted, &factor).cost(&targets);
+    let ours = filter.response(&lifted, &factor).cost(&targets);
     let none = feedback::static_feedback(&lifted, &DMatrix::zeros(4, 4), &factor).cost(&targets);
     assert!(best <= ours && ours < best + 0.05 * (none - best), "{best} {ours} {none}");
 }
@@ -179,9 +179,10 @@ fn without_a_bound_it_grows_with_the_building() {
         let setpoints = Setpoints { occupied_c: vec![23.0], ..Setpoints::default() };
         let targets = setpoints.targets(zones, STEP_S, STEPS).expect("valid");
         let lifted = Lifted::new(&model, STEPS);
-        let found = taps::design(&ConcurrentSettings::default(), &lifted, &targets, &uncertainty()).expect("designed");
+        let found =
+            filter::design(&ConcurrentSettings::default(), &lifted, &targets, &uncertainty()).expect("designed");
         let floor = 1.8 * (zones as f64).sqrt();
-        let norm = found.taps.impulse_norm(&lifted);
+        let norm = found.filter.impulse_norm(&lifted);
         assert!((floor..=4.6 / 3.6 * floor + 1e-6).contains(&norm), "{zones}: {norm}");
         assert!(found.cost < 0.2 * found.open_cost);
     }

@@ -11,7 +11,7 @@ use interplay_building::control::pid::PidSettings;
 use interplay_building::control::thermostat::ThermostatSettings;
 use interplay_building::control::uncertainty::UncertaintySettings;
 use interplay_building::control::{
-    Control, ControlError, Controller, DayRecord, Disturbance, Morning, Observation, Regulator, optimum,
+    Control, ControlError, Controller, DayAhead, DayRecord, Disturbance, Observation, Regulator, optimum,
 };
 use interplay_building::day::{KeyFigures, Surroundings, run_day};
 use interplay_building::discretise::Model;
@@ -325,8 +325,8 @@ fn a_day_of_another_building_is_refused_and_changes_nothing() {
     assert!(matches!(error, ControlError::Shape { what: "the heat gains", .. }), "{error}");
     assert_eq!(temperatures_c, [25.0; 4]);
     let mut clairvoyant = start(Controller::Clairvoyant, &model);
-    let morning = Morning { initial_c: &temperatures_c, targets: &targets, forecast: &right, actual: None };
-    assert_eq!(clairvoyant.start_of_day(&morning), Err(ControlError::NotClairvoyant));
+    let day_ahead = DayAhead { initial_c: &temperatures_c, targets: &targets, forecast: &right, actual: None };
+    assert_eq!(clairvoyant.start_of_day(&day_ahead), Err(ControlError::NotClairvoyant));
 }
 
 #[test]

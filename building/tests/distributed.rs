@@ -9,7 +9,7 @@ use interplay_building::control::distributed::{
     Centralised, CentralisedSettings, Distributed, DistributedSettings, Scheme,
 };
 use interplay_building::control::{
-    Control, ControlError, Controller, DayRecord, Design, Disturbance, Exchange, Morning,
+    Control, ControlError, Controller, DayAhead, DayRecord, Design, Disturbance, Exchange,
 };
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
@@ -37,8 +37,8 @@ fn grids() -> Vec<(Model, Targets, Disturbance, f64)> {
 fn experienced(controller: &mut impl Control, model: &Model, targets: &Targets, day: &Disturbance) {
     let initial_c = vec![27.5; model.network().node_count()];
     let lifted = Lifted::new(model, STEPS);
-    let morning = Morning { initial_c: &initial_c, targets, forecast: day, actual: None };
-    controller.start_of_day(&morning).expect("a morning");
+    let day_ahead = DayAhead { initial_c: &initial_c, targets, forecast: day, actual: None };
+    controller.start_of_day(&day_ahead).expect("a morning");
     let temperatures_c = lifted.free_response(&initial_c, &day.ambient_c, &day.gains_kw);
     let still = vec![0.0; lifted.size()];
     let record = DayRecord { temperatures_c, heat_kw: still.clone(), requested_kw: still, design: Design::default() };
@@ -49,7 +49,9 @@ fn experienced(controller: &mut impl Control, model: &Model, targets: &Targets, 
 fn designed(controller: &mut impl Control, model: &Model, targets: &Targets, day: &Disturbance) -> Design {
     experienced(controller, model, targets, day);
     let initial_c = vec![27.0; model.network().node_count()];
-    controller.start_of_day(&Morning { initial_c: &initial_c, targets, forecast: day, actual: None }).expect("planned");
+    controller
+        .start_of_day(&DayAhead { initial_c: &initial_c, targets, forecast: day, actual: None })
+        .expect("planned");
     controller.design()
 }
 

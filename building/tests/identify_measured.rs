@@ -9,7 +9,7 @@
 use std::path::PathBuf;
 
 use interplay_building::identify::{
-    Confidence, Forecast, Gaps, Mapping, Method, Quantity, Report, Telemetry, identify,
+    Confidence, Estimator, Gaps, IdentificationReport, Mapping, Quantity, ResidualForecast, Telemetry, identify,
 };
 
 const DUTCH: &str = include_str!("../examples/dutch3.toml");
@@ -22,12 +22,12 @@ fn table(path: &str) -> String {
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-fn report(mapping: &Mapping, file: &str, table: &str) -> Report {
+fn report(mapping: &Mapping, file: &str, table: &str) -> IdentificationReport {
     let telemetry = Telemetry::read(file, table, mapping).expect("the mapping fits the table");
     identify(&telemetry, &mapping.identify).expect("thousands of rows").report
 }
 
-fn quantity<'a>(report: &'a Report, zone: usize, name: &str) -> &'a Quantity {
+fn quantity<'a>(report: &'a IdentificationReport, zone: usize, name: &str) -> &'a Quantity {
     let zone = &report.zones[zone];
     zone.coefficients.iter().chain(&zone.physical).find(|quantity| quantity.name == name).expect("listed")
 }
@@ -91,7 +91,9 @@ fn the_hospital_is_read_in_its_batches_and_its_disputes_are_told() {
     for zone in &report.zones {
         assert!(zone.train.one_step_with_residual_model_k < 0.14);
         let error = |wanted| zone.train.free_run.errors_k.iter().find(|(how, _)| *how == wanted).expect("listed").1;
-        assert!(error(Forecast::ProfileArma).expect("runs") < 0.85 * error(Forecast::None).expect("runs"));
+        assert!(
+            error(ResidualForecast::ProfileArma).expect("runs") < 0.85 * error(ResidualForecast::None).expect("runs")
+        );
     }
     // The heat of room 2 does not show against that of its neighbours; doors stand open.
     let capacity = quantity(&report, 1, "heat capacity");
@@ -105,7 +107,7 @@ fn both_methods_run_on_every_measured_building() {
     for (text, file) in [(DUTCH, "dutch3/blg_1.csv"), (DUTCH, "dutch3/blg_3.csv"), (RISKBR, "riskbr/riskbr_data.csv")] {
         let table = table(file);
         let mut mapping = Mapping::parse("mapping.toml", text).expect("sound");
-        mapping.identify.method = Method::Semiparametric;
+        mapping.identify.method = Estimator::Semiparametric;
         mapping.identify.train_days = Some(30.0);
         let report = report(&mapping, file, &table);
         for zone in &report.zones {

@@ -1,6 +1,6 @@
 //! Tables are read as the mapping says, and what cannot be read is located: file, line, column, what was wrong, what would work.
 
-use interplay_building::identify::classroom::Classroom;
+use interplay_building::identify::synthetic_classroom::Classroom;
 use interplay_building::identify::{Mapping, Neighbour, Telemetry, TelemetryError, TelemetryProblem};
 
 const MAPPING: &str = r#"

@@ -1,10 +1,10 @@
 //! Known truth is recovered from simulated telemetry, with errors that the standard errors own up to.
 
 use interplay_building::discretise;
-use interplay_building::identify::classroom::{
-    CAPACITY_KJ_PER_K, Classroom, Disturbance, OUTDOOR_K_PER_KW, ROOM_K_PER_KW,
+use interplay_building::identify::synthetic_classroom::{
+    CAPACITY_KJ_PER_K, Classroom, OUTDOOR_K_PER_KW, ROOM_K_PER_KW, RoomDisturbance,
 };
-use interplay_building::identify::{Forecast, Identification, Method, Settings, identify};
+use interplay_building::identify::{Estimator, Identification, IdentifySettings, ResidualForecast, identify};
 
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=12;
 
@@ -15,16 +15,21 @@ fn truth() -> [f64; 4] {
 }
 
 /// Nine days to train, as the source has them.
-fn settings(method: Method) -> Settings {
-    Settings { method, train_days: Some(9.0), discretisation: discretise::Method::Euler, ..Settings::default() }
+fn settings(method: Estimator) -> IdentifySettings {
+    IdentifySettings {
+        method,
+        train_days: Some(9.0),
+        discretisation: discretise::Discretisation::Euler,
+        ..IdentifySettings::default()
+    }
 }
 
-fn identified(classroom: &Classroom, method: Method) -> Identification {
+fn identified(classroom: &Classroom, method: Estimator) -> Identification {
     identify(&classroom.simulate(), &settings(method)).expect("the classroom can be identified")
 }
 
 /// Relative errors of the coefficients, averaged over the seeds, and how often the interval of 95 % holds the truth.
-fn mean_errors(method: Method, disturbance: Disturbance, sensor_noise_k: f64) -> ([f64; 4], usize) {
+fn mean_errors(method: Estimator, disturbance: RoomDisturbance, sensor_noise_k: f64) -> ([f64; 4], usize) {
     let (mut mean, mut covered) = ([0.0; 4], 0);
     for seed in SEEDS {
         let found = identified(&Classroom { days: 9, seed, sensor_noise_k, disturbance }, method);
@@ -39,8 +44,8 @@ fn mean_errors(method: Method, disturbance: Disturbance, sensor_noise_k: f64) ->
 }
 
 /// `limits`: of b to the outdoors, of b to a room, of a.
-fn assert_recovered(method: Method, sensor_noise_k: f64, limits: (f64, f64, f64), coverage: f64) {
-    for disturbance in [Disturbance::Smooth, Disturbance::Arma] {
+fn assert_recovered(method: Estimator, sensor_noise_k: f64, limits: (f64, f64, f64), coverage: f64) {
+    for disturbance in [RoomDisturbance::Smooth, RoomDisturbance::Arma] {
         let (mean, covered) = mean_errors(method, disturbance, sensor_noise_k);
         let place = format!("{method:?}, {disturbance:?}, {sensor_noise_k} K: {mean:.4?}, {covered} covered");
         assert!(mean[0].abs() <= limits.0, "outdoors: {place}");
@@ -52,21 +57,21 @@ fn assert_recovered(method: Method, sensor_noise_k: f64, limits: (f64, f64, f64)
 
 #[test]
 fn the_semiparametric_estimator_recovers_the_truth_with_good_sensors() {
-    assert_recovered(Method::Semiparametric, 0.0, (0.05, 0.09, 0.002), 0.75);
-    assert_recovered(Method::Semiparametric, 0.02, (0.05, 0.09, 0.002), 0.85);
+    assert_recovered(Estimator::Semiparametric, 0.0, (0.05, 0.09, 0.002), 0.75);
+    assert_recovered(Estimator::Semiparametric, 0.02, (0.05, 0.09, 0.002), 0.85);
 }
 
 #[test]
 fn the_prediction_error_estimator_recovers_the_truth_even_with_bad_sensors() {
-    assert_recovered(Method::PredictionError, 0.0, (0.03, 0.06, 0.002), 0.85);
-    assert_recovered(Method::PredictionError, 0.02, (0.03, 0.06, 0.002), 0.85);
-    assert_recovered(Method::PredictionError, 0.1, (0.03, 0.12, 0.01), 0.8);
+    assert_recovered(Estimator::PredictionError, 0.0, (0.03, 0.06, 0.002), 0.85);
+    assert_recovered(Estimator::PredictionError, 0.02, (0.03, 0.06, 0.002), 0.85);
+    assert_recovered(Estimator::PredictionError, 0.1, (0.03, 0.12, 0.01), 0.8);
 }
 
 /// Bad sensors are where the source's estimator fails, which is why it is not the default.
 #[test]
 fn smoothing_mistakes_sensor_noise_for_heat_flow() {
-    let (mean, _) = mean_errors(Method::Semiparametric, Disturbance::Arma, 0.1);
+    let (mean, _) = mean_errors(Estimator::Semiparametric, RoomDisturbance::Arma, 0.1);
     assert!(mean[..3].iter().all(|error| *error > 0.15), "{mean:.3?}");
 }
 
@@ -78,7 +83,7 @@ fn without_the_known_disturbance_conductances_come_out_wrong_by_their_own_size()
         let hour = (time_s / 3600.0) % 24.0;
         *power -= if 8.0 < hour && hour < 19.0 { 0.32 } else { 0.02 };
     }
-    let settings = Settings { bandwidth_h: 4.0, ..settings(Method::Semiparametric) };
+    let settings = IdentifySettings { bandwidth_h: 4.0, ..settings(Estimator::Semiparametric) };
     let found = identify(&telemetry, &settings).expect("it can be identified, wrongly");
     let error = found.report.zones[0].coefficients[0].value.expect("a value") / truth()[0] - 1.0;
     assert!(error > 0.7, "{error}");
@@ -87,7 +92,7 @@ fn without_the_known_disturbance_conductances_come_out_wrong_by_their_own_size()
 /// Figs. 2.5 and 2.6: nine days to train, eighteen to test, r = 2.
 #[test]
 fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
-    for method in [Method::Semiparametric, Method::PredictionError] {
+    for method in [Estimator::Semiparametric, Estimator::PredictionError] {
         let mut mean = [0.0; 5];
         for seed in SEEDS {
             let found = identified(&Classroom { seed, ..Classroom::default() }, method);
@@ -101,17 +106,17 @@ fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
             // The test is no worse than the training by much: the model is not fitted to chance.
             assert!(test.one_step_with_residual_model_k < 1.15 * zone.train.one_step_with_residual_model_k);
         }
-        let error = |forecast| mean[Forecast::ALL.iter().position(|other| *other == forecast).expect("listed")];
+        let error = |forecast| mean[ResidualForecast::ALL.iter().position(|other| *other == forecast).expect("listed")];
         let place = format!("{method:?}: {mean:.3?}");
-        assert!(error(Forecast::None) <= 0.37, "{place}");
-        assert!(error(Forecast::Arma) <= 0.95 * error(Forecast::None), "{place}");
-        assert!(error(Forecast::ProfileArma) <= 0.95 * error(Forecast::Arma), "{place}");
+        assert!(error(ResidualForecast::None) <= 0.37, "{place}");
+        assert!(error(ResidualForecast::Arma) <= 0.95 * error(ResidualForecast::None), "{place}");
+        assert!(error(ResidualForecast::ProfileArma) <= 0.95 * error(ResidualForecast::Arma), "{place}");
     }
 }
 
 #[test]
 fn series_belong_to_the_telemetry_and_agree_with_the_report() {
-    let found = identified(&Classroom::default(), Method::PredictionError);
+    let found = identified(&Classroom::default(), Estimator::PredictionError);
     let (series, zone) = (&found.series[0], &found.report.zones[0]);
     let rows = series.measured_c.len();
     assert_eq!((rows, series.test_start), (27 * 96 + 1, 9 * 96));
@@ -128,6 +133,6 @@ fn series_belong_to_the_telemetry_and_agree_with_the_report() {
 #[test]
 fn the_same_telemetry_gives_the_same_report_bit_for_bit() {
     let report =
-        || serde_json::to_string(&identified(&Classroom::default(), Method::PredictionError).report).expect("JSON");
+        || serde_json::to_string(&identified(&Classroom::default(), Estimator::PredictionError).report).expect("JSON");
     assert_eq!(report(), report());
 }

@@ -1,17 +1,18 @@
 //! What the data cannot tell, the report does not pretend to know.
 
 use interplay_building::discretise::{self, Model};
-use interplay_building::identify::classroom::Classroom;
+use interplay_building::identify::synthetic_classroom::Classroom;
 use interplay_building::identify::{
-    Boundary, Confidence, IdentifyError, Method, Neighbour, Quantity, Report, Settings, Telemetry, Wall, Zone, identify,
+    Boundary, Confidence, Estimator, IdentificationReport, IdentifyError, IdentifySettings, MeasuredWall, MeasuredZone,
+    Neighbour, Quantity, Telemetry, identify,
 };
 use interplay_building::network::Network;
 
-fn settings(method: Method) -> Settings {
-    Settings { method, ..Settings::default() }
+fn settings(method: Estimator) -> IdentifySettings {
+    IdentifySettings { method, ..IdentifySettings::default() }
 }
 
-fn quantity<'a>(report: &'a Report, zone: usize, name: &str) -> &'a Quantity {
+fn quantity<'a>(report: &'a IdentificationReport, zone: usize, name: &str) -> &'a Quantity {
     let zone = &report.zones[zone];
     let mut all = zone.coefficients.iter().chain(&zone.physical);
     all.find(|quantity| quantity.name == name).unwrap_or_else(|| panic!("no quantity `{name}`"))
@@ -46,7 +47,7 @@ fn testbed(days: usize, step_s: f64) -> Telemetry {
         let gains: Vec<f64> = (0..4).map(|_| 0.02 * (chance() - 0.5)).collect();
         model.step(&mut state, &heat, ambient, &gains);
     }
-    let zone = |(index, (temperature_c, power_kw))| Zone {
+    let zone = |(index, (temperature_c, power_kw))| MeasuredZone {
         name: format!("room {}", index + 1),
         temperature_c,
         power_kw,
@@ -54,8 +55,9 @@ fn testbed(days: usize, step_s: f64) -> Telemetry {
         supply_air: Vec::new(),
         irradiance_kw_per_m2: None,
     };
-    let pairs = (0..4).flat_map(|one| (one + 1..4).map(move |other| Wall { zone: one, other: Neighbour::Zone(other) }));
-    let outward = (0..4).map(|zone| Wall { zone, other: Neighbour::Boundary(0) });
+    let pairs =
+        (0..4).flat_map(|one| (one + 1..4).map(move |other| MeasuredWall { zone: one, other: Neighbour::Zone(other) }));
+    let outward = (0..4).map(|zone| MeasuredWall { zone, other: Neighbour::Boundary(0) });
     Telemetry {
         step_s,
         time_s: (0..rows).map(|row| row as f64 * step_s).collect(),
@@ -71,11 +73,12 @@ fn testbed(days: usize, step_s: f64) -> Telemetry {
 #[test]
 fn the_testbed_comes_back_in_physical_units_and_both_sides_of_a_wall_agree() {
     let telemetry = testbed(20, 900.0);
-    let report = identify(&telemetry, &settings(Method::PredictionError)).expect("rich data").report;
-    let euler = Settings { discretisation: discretise::Method::Euler, ..settings(Method::PredictionError) };
+    let report = identify(&telemetry, &settings(Estimator::PredictionError)).expect("rich data").report;
+    let euler =
+        IdentifySettings { discretisation: discretise::Discretisation::Euler, ..settings(Estimator::PredictionError) };
     let by_euler = identify(&telemetry, &euler).expect("rich data").report;
     for zone in 0..4 {
-        let value = |report: &Report, name| quantity(report, zone, name).value.expect("identified");
+        let value = |report: &IdentificationReport, name| quantity(report, zone, name).value.expect("identified");
         assert!((value(&report, "heat capacity") / 1000.0 - 1.0).abs() < 0.01);
         // The part of a difference that decays in 15 minutes is 5.6 %, and forward Euler errs by half of it.
         assert!((value(&by_euler, "heat capacity") / 1000.0 - 1.029).abs() < 0.01);
@@ -99,7 +102,7 @@ fn the_testbed_comes_back_in_physical_units_and_both_sides_of_a_wall_agree() {
 
 #[test]
 fn a_wall_that_is_not_there_is_not_told_apart_from_zero_and_has_no_resistance() {
-    let report = identify(&testbed(20, 900.0), &settings(Method::PredictionError)).expect("rich data").report;
+    let report = identify(&testbed(20, 900.0), &settings(Estimator::PredictionError)).expect("rich data").report;
     let rate = quantity(&report, 0, "rate towards room 4");
     assert_eq!(rate.verdict.confidence, Confidence::NotDistinguishableFromZero, "{rate:?}");
     let resistance = quantity(&report, 0, "resistance to room 4");
@@ -113,7 +116,7 @@ fn a_wall_that_is_not_there_is_not_told_apart_from_zero_and_has_no_resistance() 
 
 #[test]
 fn heat_that_never_changes_identifies_no_capacity() {
-    for method in [Method::Semiparametric, Method::PredictionError] {
+    for method in [Estimator::Semiparametric, Estimator::PredictionError] {
         let mut telemetry = Classroom { days: 9, ..Classroom::default() }.simulate();
         telemetry.zones[0].power_kw.fill(0.5);
         let report = identify(&telemetry, &settings(method)).expect("no error: the report says so").report;
@@ -122,13 +125,13 @@ fn heat_that_never_changes_identifies_no_capacity() {
             assert_eq!(quantity.value, None, "{method:?}: {quantity:?}");
             assert_eq!(quantity.verdict.confidence, Confidence::NotIdentifiable, "{method:?}: {quantity:?}");
         }
-        assert_eq!(report.zones[0].condition_number.is_none(), method == Method::Semiparametric);
+        assert_eq!(report.zones[0].condition_number.is_none(), method == Estimator::Semiparametric);
     }
 }
 
 #[test]
 fn two_neighbours_that_are_one_cannot_be_told_apart_but_the_rest_can() {
-    for method in [Method::Semiparametric, Method::PredictionError] {
+    for method in [Estimator::Semiparametric, Estimator::PredictionError] {
         let mut telemetry = Classroom { days: 9, ..Classroom::default() }.simulate();
         telemetry.boundaries[2].temperature_c = telemetry.boundaries[1].temperature_c.clone();
         let report = identify(&telemetry, &settings(method)).expect("no error: the report says so").report;
@@ -148,10 +151,10 @@ fn two_neighbours_that_are_one_cannot_be_told_apart_but_the_rest_can() {
 #[test]
 fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
     let mut telemetry = Classroom { days: 9, ..Classroom::default() }.simulate();
-    let with_unit = identify(&telemetry, &Settings::default()).expect("identifiable").report;
+    let with_unit = identify(&telemetry, &IdentifySettings::default()).expect("identifiable").report;
     telemetry.zones[0].power_has_unit = false;
     telemetry.zones[0].power_kw.iter_mut().for_each(|power| *power *= 40.0);
-    let without = identify(&telemetry, &Settings::default()).expect("identifiable").report;
+    let without = identify(&telemetry, &IdentifySettings::default()).expect("identifiable").report;
     for name in ["heat capacity", "conductance to outdoor", "resistance to outdoor"] {
         assert!(quantity(&with_unit, 0, name).value.is_some());
         let quantity = quantity(&without, 0, name);
@@ -168,7 +171,7 @@ fn a_building_that_changes_half_way_is_disputed() {
     let middle = telemetry.rows() / 2;
     // As if the meter were exchanged for one that counts half.
     telemetry.zones[0].power_kw[middle..].iter_mut().for_each(|power| *power *= 0.5);
-    let report = identify(&telemetry, &Settings::default()).expect("no error: the report says so").report;
+    let report = identify(&telemetry, &IdentifySettings::default()).expect("no error: the report says so").report;
     let heat = quantity(&report, 0, "effect of heat");
     assert_eq!(heat.verdict.confidence, Confidence::Disputed, "{heat:?}");
     assert_eq!(quantity(&report, 0, "heat capacity").verdict.confidence, Confidence::Disputed);
@@ -179,14 +182,14 @@ fn a_building_that_changes_half_way_is_disputed() {
 fn too_little_to_go_by_is_an_error_that_says_what_would_do() {
     let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
     telemetry.segments = std::iter::once(0..20).collect();
-    let error = identify(&telemetry, &Settings::default()).expect_err("20 rows are too few");
+    let error = identify(&telemetry, &IdentifySettings::default()).expect_err("20 rows are too few");
     assert!(matches!(error, IdentifyError::TooFewRows { rows: 17, parameters: 14, wanted: 42 }), "{error:?}");
     let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
     telemetry.walls.clear();
     telemetry.zones[0].power_kw.fill(0.0);
-    let error = identify(&telemetry, &Settings::default()).expect_err("nothing acts on the zone");
+    let error = identify(&telemetry, &IdentifySettings::default()).expect_err("nothing acts on the zone");
     assert!(matches!(&error, IdentifyError::NothingToIdentify { zone } if zone == "classroom"), "{error:?}");
-    let settings = Settings { autoregressive_order: 0, ..Settings::default() };
+    let settings = IdentifySettings { autoregressive_order: 0, ..IdentifySettings::default() };
     let error = identify(&telemetry, &settings).expect_err("no such order").to_string();
     assert_eq!(error, "setting `autoregressive_order` is 0; it must be from 1 to 10");
 }

@@ -5,9 +5,9 @@ mod common;
 use common::reference::*;
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::ControlError;
-use interplay_building::control::experience::Prediction;
+use interplay_building::control::disturbance_estimate::DisturbancePrediction;
 use interplay_building::control::iterative::{
-    Convergence, Feedback, Iterative, IterativeSettings, Objective, Stability, feedback,
+    ErrorGrowth, Iterative, IterativeSettings, Objective, Stability, StaticFeedback, feedback,
 };
 use interplay_building::control::stability::{Lmi, closed_loop, lmi_margin, positive_decay, spectral_radius};
 use interplay_building::control::uncertainty::{Uncertainty, UncertaintySettings, factor, normal_quantile};
@@ -36,7 +36,8 @@ fn expected_costs_are_those_of_independent_code() {
         for (stability, key) in [(Stability::LeastSquares, "exp_cost_K_ls"), (Stability::Lmi, "exp_cost_K_lmi_decay07")]
         {
             let settings = IterativeSettings { stability, ..IterativeSettings::default() };
-            let found = Feedback::design(&settings, &lifted, &targets, covariance(weight), &[]).expect("designed");
+            let found =
+                StaticFeedback::design(&settings, &lifted, &targets, covariance(weight), &[]).expect("designed");
             assert_close(found.causal_cost, number(&wanted["exp_cost_optimal_causal_Y"]), 1e-4);
             assert_close(found.cost, number(&wanted[key]), 1e-4);
         }
@@ -55,7 +56,10 @@ fn days_cost_what_independent_code_says() {
     let variants = [
         ("iter", fixed),
         ("fixed", IterativeSettings { stability: Stability::Fixed, ..fixed }),
-        ("fixed_rep", IterativeSettings { stability: Stability::Fixed, prediction: Prediction::Yesterday, ..fixed }),
+        (
+            "fixed_rep",
+            IterativeSettings { stability: Stability::Fixed, prediction: DisturbancePrediction::Yesterday, ..fixed },
+        ),
         ("printed", IterativeSettings { objective: Objective::Nominal, ..fixed }),
     ];
     for (name, weight) in NIGHTS {
@@ -144,7 +148,7 @@ fn both_certificates_give_the_decay_rate_that_was_asked_for() {
     for stability in [Stability::Lmi, Stability::Linear] {
         for decay in [0.5, 0.7, 0.9] {
             let settings = IterativeSettings { stability, decay, ..IterativeSettings::default() };
-            let found = Feedback::design(&settings, &lifted, &targets, covariance(1.0), &[]).expect("designed");
+            let found = StaticFeedback::design(&settings, &lifted, &targets, covariance(1.0), &[]).expect("designed");
             assert!(found.spectral_radius <= decay, "{stability:?} {decay}: {}", found.spectral_radius);
             assert!(found.causal_cost <= found.cost && found.cost < 18.0, "{stability:?} {decay}: {}", found.cost);
         }
@@ -166,8 +170,8 @@ fn walls_that_store_heat_are_states_without_a_sensor() {
     let uncertainty = Uncertainty::new(UncertaintySettings::default()).expect("valid");
     for stability in [Stability::Lmi, Stability::Linear] {
         let settings = IterativeSettings { stability, decay: 0.99, ..IterativeSettings::default() };
-        let found =
-            Feedback::design(&settings, &lifted, &targets, uncertainty.covariance(&targets), &[]).expect("designed");
+        let found = StaticFeedback::design(&settings, &lifted, &targets, uncertainty.covariance(&targets), &[])
+            .expect("designed");
         let closed = closed_loop(&model.state_matrix(), &model.gain_matrix(), &found.gain_kw_per_k);
         assert!((spectral_radius(&closed) - found.spectral_radius).abs() < 1e-12 && found.spectral_radius < 0.99);
         assert!(
@@ -209,7 +213,7 @@ fn inputs_stay_within_their_limits_as_often_as_promised() {
     // A day on which the limits bind; the disturbance is drawn from its covariance.
     let (lifted, targets) = (lifted(), chapter_3(1.0));
     let settings = IterativeSettings::default();
-    let found = Feedback::design(&settings, &lifted, &targets, covariance(1.0), &[]).expect("designed");
+    let found = StaticFeedback::design(&settings, &lifted, &targets, covariance(1.0), &[]).expect("designed");
     let factor = factor(covariance(1.0)).expect("a covariance");
     let response = feedback::static_feedback(&lifted, &found.gain_kw_per_k, &factor);
     let quantile = normal_quantile(0.95);
@@ -242,7 +246,7 @@ fn a_failed_design_repeats_the_day_before_and_says_why() {
     assert!(targets.cost(&records[2].temperatures_c, &records[2].heat_kw) < 300.0, "yesterday's plan still helps");
 
     // Growth of the error forbidden: a day that starts hot cannot be as good as a mild one.
-    let hard = IterativeSettings { convergence: Convergence::Hard, ..IterativeSettings::default() };
+    let hard = IterativeSettings { convergence: ErrorGrowth::Hard, ..IterativeSettings::default() };
     let mut iterative = Iterative::new(hard, lifted()).expect("valid");
     let mut hot = day(2);
     hot.0.ambient_c.iter_mut().for_each(|t| *t += 25.0);
@@ -263,7 +267,7 @@ fn a_covariance_that_is_none_is_refused() {
     assert!(matches!(factor(contradicting), Err(ControlError::Covariance { order: 3 })));
     let mut missing = covariance(1.0);
     missing[(5, 5)] = f64::NAN;
-    let error = Feedback::design(&IterativeSettings::default(), &lifted(), &chapter_3(1.0), missing, &[]);
+    let error = StaticFeedback::design(&IterativeSettings::default(), &lifted(), &chapter_3(1.0), missing, &[]);
     assert!(matches!(error, Err(ControlError::Covariance { order: 192 })), "{error:?}");
 }
 

@@ -9,7 +9,7 @@ use interplay_building::control::uncertainty::{Uncertainty, UncertaintySettings,
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::Network;
-use interplay_convex::{Program, Settings, Solver};
+use interplay_convex::{Program, Solver, SolverSettings};
 use nalgebra::{DMatrix, DVector};
 
 /// The joint problem as a second-order cone programme in all entries of (Y − I) L, dense; its optimal cost.
@@ -56,7 +56,7 @@ fn posed(lifted: &Lifted, targets: &Targets, free_c: &[f64], factor: &DMatrix<f6
             program.row(cone, [(at(i, column), -1.0)], 0.0);
         }
     }
-    let solution = Solver::new(&program, &Settings::default()).expect("posed").solve().expect("solved");
+    let solution = Solver::new(&program, &SolverSettings::default()).expect("posed").solve().expect("solved");
     solution.objective + constant
 }
 

@@ -60,7 +60,7 @@ pub enum ProblemError {
     /// A setting is out of range.
     #[error("setting `{name}` is {value}: it must be {wanted}")]
     Setting {
-        /// The field of [`Settings`](crate::Settings).
+        /// The field of [`SolverSettings`](crate::SolverSettings).
         name: &'static str,
         /// Its value.
         value: f64,

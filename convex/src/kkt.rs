@@ -14,9 +14,9 @@
 
 use std::ops::Range;
 
+use crate::Cone;
 use crate::norm::{dot, largest, magnitude};
 use crate::standard::StandardForm;
-use crate::{Cone, ProblemError, Program, Solution};
 
 /// The four residuals of the optimality conditions, relative as described in [`crate::kkt`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,20 +41,8 @@ impl Residuals {
     }
 }
 
-/// The residuals of `solution` as an answer to `program`.
-///
-/// # Errors
-/// As [`Solver::new`](crate::Solver::new), when `program` is malformed.
-///
-/// # Panics
-/// When `solution` answers a problem of other sizes.
-pub fn residuals(program: &Program, solution: &Solution) -> Result<Residuals, ProblemError> {
-    let form = StandardForm::new(program)?;
-    Ok(of(&form, solution.point(), solution.duals()).residuals)
-}
-
-/// What the conditions say about a pair (x, z), and what they computed on the way.
-pub(crate) struct Report {
+/// The residuals of a pair (x, z), with the slack and the cost that they were computed from.
+pub(crate) struct OptimalityCheck {
     pub(crate) residuals: Residuals,
     /// s = b − Ax.
     pub(crate) slack: Vec<f64>,
@@ -62,7 +50,7 @@ pub(crate) struct Report {
     pub(crate) objective: f64,
 }
 
-pub(crate) fn of(form: &StandardForm, x: &[f64], z: &[f64]) -> Report {
+pub(crate) fn of(form: &StandardForm, x: &[f64], z: &[f64]) -> OptimalityCheck {
     let px = form.p.symmetric_times(x);
     let ax = form.a.times(x);
     let atz = form.a.transposed_times(z);
@@ -79,7 +67,7 @@ pub(crate) fn of(form: &StandardForm, x: &[f64], z: &[f64]) -> Report {
         complementarity: worst(form, |cone, rows| cone.complementarity(&slack[rows.clone()], &z[rows]))
             / scale(&[&objectives]),
     };
-    Report { residuals, slack, objective: objectives[0] }
+    OptimalityCheck { residuals, slack, objective: objectives[0] }
 }
 
 /// How far z, once scaled to bᵀz = −1, is from proving that no x is feasible: the largest of ‖Aᵀz‖∞ and of

@@ -1,4 +1,4 @@
-//! Sparse convex problems, built by name and solved into a [`Result`].
+//! SparseColumns convex problems, built by name and solved into a [`Result`].
 //!
 //! # The problem
 //!
@@ -20,11 +20,11 @@
 //!
 //! # Use
 //!
-//! Write a [`Program`], give it to a [`Solver`], read the [`Solution`] by handle. The point of a disc of
+//! Write a [`Program`], give it to a [`Solver`], read the [`ConicSolution`] by handle. The point of a disc of
 //! radius 1 that is nearest to (3, 4) lies on the ray towards it:
 //!
 //! ```
-//! use interplay_convex::{Program, Settings, Solver};
+//! use interplay_convex::{Program, SolverSettings, Solver};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let mut program = Program::new();
@@ -38,7 +38,7 @@
 //! program.row(disc, [(x.at(0), -1.0)], 0.0); // s₁ = x₀
 //! program.row(disc, [(x.at(1), -1.0)], 0.0); // s₂ = x₁
 //!
-//! let mut solver = Solver::new(&program, &Settings::default())?;
+//! let mut solver = Solver::new(&program, &SolverSettings::default())?;
 //! let solution = solver.solve()?;
 //! assert!((solution.at(x.at(0)) - 0.6).abs() < 1e-6);
 //! assert!((solution.at(x.at(1)) - 0.8).abs() < 1e-6);
@@ -72,6 +72,6 @@ mod standard;
 pub use cone::{Cone, triangle};
 pub use error::{ProblemError, SolveError, Status};
 pub use program::{Block, Program, Variable, Variables};
-pub use settings::Settings;
-pub use solution::Solution;
+pub use settings::SolverSettings;
+pub use solution::{ConicSolution, residuals};
 pub use solver::Solver;

@@ -4,7 +4,7 @@ use crate::ProblemError;
 
 /// Accuracy and limits. There is deliberately no time limit: a result must not depend on the machine's load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct SolverSettings {
     /// Tolerance of the duality gap, of feasibility and of infeasibility certificates. Default 1e-8.
     pub tolerance: f64,
     /// Tolerance at which a result that the solver itself calls "almost" is still accepted, provided that
@@ -14,13 +14,13 @@ pub struct Settings {
     pub iteration_limit: u32,
 }
 
-impl Default for Settings {
+impl Default for SolverSettings {
     fn default() -> Self {
         Self { tolerance: 1e-8, accepted_tolerance: 1e-6, iteration_limit: 200 }
     }
 }
 
-impl Settings {
+impl SolverSettings {
     /// Refuses settings under which nothing can be solved.
     pub(crate) fn check(&self) -> Result<(), ProblemError> {
         let tolerances = [("tolerance", self.tolerance), ("accepted_tolerance", self.accepted_tolerance)];

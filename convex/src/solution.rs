@@ -3,14 +3,15 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::kkt::Residuals;
-use crate::{Block, Variable, Variables};
+use crate::kkt::{self, Residuals};
+use crate::standard::StandardForm;
+use crate::{Block, ProblemError, Program, Variable, Variables};
 
 /// An optimal point x with its duals z.
 ///
 /// The readers panic when given a handle of a problem with more variables or blocks, like a slice.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
+pub struct ConicSolution {
     pub(crate) x: Vec<f64>,
     pub(crate) z: Vec<f64>,
     pub(crate) slack: Vec<f64>,
@@ -21,13 +22,13 @@ pub struct Solution {
     pub iterations: u32,
     /// How well (x, z) satisfies the optimality conditions, computed from the problem's data.
     pub residuals: Residuals,
-    /// Whether the solver stopped short of [`Settings::tolerance`](crate::Settings::tolerance), and the point
+    /// Whether the solver stopped short of [`SolverSettings::tolerance`](crate::SolverSettings::tolerance), and the point
     /// was accepted because its residuals are below
-    /// [`Settings::accepted_tolerance`](crate::Settings::accepted_tolerance).
+    /// [`SolverSettings::accepted_tolerance`](crate::SolverSettings::accepted_tolerance).
     pub almost: bool,
 }
 
-impl Solution {
+impl ConicSolution {
     /// The values of a group of variables.
     #[must_use]
     pub fn value(&self, variables: Variables) -> &[f64] {
@@ -63,4 +64,16 @@ impl Solution {
     pub fn duals(&self) -> &[f64] {
         &self.z
     }
+}
+
+/// The residuals of `solution` as an answer to `program`.
+///
+/// # Errors
+/// As [`Solver::new`](crate::Solver::new), when `program` is malformed.
+///
+/// # Panics
+/// When `solution` answers a problem of other sizes.
+pub fn residuals(program: &Program, solution: &ConicSolution) -> Result<Residuals, ProblemError> {
+    let form = StandardForm::new(program)?;
+    Ok(kkt::of(&form, solution.point(), solution.duals()).residuals)
 }

@@ -12,9 +12,9 @@ use clarabel::solver::traits::ProblemData;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
 use crate::norm::dot;
-use crate::sparse::Sparse;
+use crate::sparse::SparseColumns;
 use crate::standard::StandardForm;
-use crate::{Cone, ProblemError, Program, Settings, Solution, SolveError, Status, kkt};
+use crate::{Cone, ConicSolution, ProblemError, Program, SolveError, SolverSettings, Status, kkt};
 
 /// The share of the way to the boundary of the cones that a step may go where the usual 0.99 stalls.
 const SHORT_STEP: f64 = 0.9;
@@ -32,7 +32,7 @@ impl Solver {
     ///
     /// # Errors
     /// [`ProblemError`] when the problem or the settings are malformed; the error names the place.
-    pub fn new(program: &Program, settings: &Settings) -> Result<Self, ProblemError> {
+    pub fn new(program: &Program, settings: &SolverSettings) -> Result<Self, ProblemError> {
         settings.check()?;
         let form = StandardForm::new(program)?;
         let backend_settings = backend_settings(settings);
@@ -78,13 +78,13 @@ impl Solver {
     /// The solver's verdict is believed when it was reached at full tolerance. A verdict that the solver
     /// itself calls "almost" (its limits were reached near a solution or a certificate) is accepted only if
     /// the residuals recomputed from the data are below
-    /// [`Settings::accepted_tolerance`]; those of a certificate are taken at bᵀz = −1 or qᵀx = −1.
+    /// [`SolverSettings::accepted_tolerance`]; those of a certificate are taken at bᵀz = −1 or qᵀx = −1.
     ///
     /// Where it stalls the problem is solved once more with shorter steps, which keep farther from the cones' boundaries.
     ///
     /// # Errors
     /// [`SolveError`]: infeasible or unbounded, with a certificate, or unsolved, with the reason.
-    pub fn solve(&mut self) -> Result<Solution, SolveError> {
+    pub fn solve(&mut self) -> Result<ConicSolution, SolveError> {
         let outcome = self.attempt();
         match &outcome {
             Err(SolveError::Unsolved { status, .. }) if *status != Status::IterationLimit => {
@@ -95,7 +95,7 @@ impl Solver {
     }
 
     /// Solves with steps of at most so much of the way to the boundary of the cones.
-    fn attempt_with(&mut self, step: f64) -> Result<Solution, SolveError> {
+    fn attempt_with(&mut self, step: f64) -> Result<ConicSolution, SolveError> {
         let usual = self.backend_settings.clone();
         let short = DefaultSettings { max_step_fraction: step, ..usual.clone() };
         // A step's length may be changed at any time.
@@ -106,7 +106,7 @@ impl Solver {
         outcome
     }
 
-    fn attempt(&mut self) -> Result<Solution, SolveError> {
+    fn attempt(&mut self) -> Result<ConicSolution, SolveError> {
         self.backend.solve();
         let result = &self.backend.solution;
         let form = &self.form;
@@ -160,10 +160,10 @@ impl Solver {
         self.backend.update_data(&unchanged, &unchanged, &unchanged, &unchanged).map_err(refused)
     }
 
-    fn solution(&self, almost: bool) -> Solution {
+    fn solution(&self, almost: bool) -> ConicSolution {
         let result = &self.backend.solution;
         let report = kkt::of(&self.form, &result.x, &result.z);
-        Solution {
+        ConicSolution {
             x: result.x.clone(),
             z: result.z.clone(),
             slack: report.slack,
@@ -203,7 +203,7 @@ impl std::fmt::Debug for Solver {
 }
 
 /// One thread, no clock, no output, and nothing that would change the pattern.
-fn backend_settings(settings: &Settings) -> DefaultSettings<f64> {
+fn backend_settings(settings: &SolverSettings) -> DefaultSettings<f64> {
     DefaultSettings {
         max_iter: settings.iteration_limit,
         time_limit: f64::INFINITY,
@@ -222,7 +222,7 @@ fn backend_settings(settings: &Settings) -> DefaultSettings<f64> {
     }
 }
 
-fn columns(matrix: &Sparse) -> CscMatrix<f64> {
+fn columns(matrix: &SparseColumns) -> CscMatrix<f64> {
     CscMatrix::new(matrix.rows, matrix.columns(), matrix.start.clone(), matrix.row.clone(), matrix.value.clone())
 }
 

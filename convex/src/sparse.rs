@@ -5,7 +5,7 @@
 
 /// A sparse matrix by columns: the entries of column j are `start[j]..start[j + 1]`, rows ascending.
 #[derive(Debug, Clone)]
-pub(crate) struct Sparse {
+pub(crate) struct SparseColumns {
     pub(crate) rows: usize,
     pub(crate) start: Vec<usize>,
     pub(crate) row: Vec<usize>,
@@ -14,7 +14,7 @@ pub(crate) struct Sparse {
     slot: Vec<usize>,
 }
 
-impl Sparse {
+impl SparseColumns {
     /// The zero matrix whose pattern holds every listed (row, column), all within `rows` × `columns`.
     pub(crate) fn with_pattern(rows: usize, columns: usize, entries: impl Iterator<Item = (usize, usize)>) -> Self {
         let mut order: Vec<(usize, usize, usize)> = entries.enumerate().map(|(k, (i, j))| (j, i, k)).collect();
@@ -95,9 +95,9 @@ mod tests {
     use super::*;
 
     /// [1 2 0; 0 3 0], its middle entry in two parts, plus an explicit zero at the lower right.
-    fn sample() -> Sparse {
+    fn sample() -> SparseColumns {
         let entries = [(1, 2), (1, 1), (0, 0), (0, 1), (1, 1)];
-        let mut matrix = Sparse::with_pattern(2, 3, entries.into_iter());
+        let mut matrix = SparseColumns::with_pattern(2, 3, entries.into_iter());
         matrix.fill([0.0, 1.0, 1.0, 2.0, 2.0].into_iter());
         matrix
     }
@@ -115,14 +115,14 @@ mod tests {
         let matrix = sample();
         assert_eq!(matrix.times(&[1.0, 10.0, 100.0]), [21.0, 30.0]);
         assert_eq!(matrix.transposed_times(&[1.0, 10.0]), [1.0, 32.0, 0.0]);
-        let mut upper = Sparse::with_pattern(2, 2, [(0, 0), (0, 1)].into_iter());
+        let mut upper = SparseColumns::with_pattern(2, 2, [(0, 0), (0, 1)].into_iter());
         upper.fill([4.0, 5.0].into_iter());
         assert_eq!(upper.symmetric_times(&[1.0, 2.0]), [14.0, 5.0]);
     }
 
     #[test]
     fn empty_columns_are_allowed() {
-        let matrix = Sparse::with_pattern(2, 4, [(1, 2)].into_iter());
+        let matrix = SparseColumns::with_pattern(2, 4, [(1, 2)].into_iter());
         assert_eq!(matrix.start, [0, 0, 0, 1, 1]);
     }
 }

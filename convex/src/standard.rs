@@ -5,18 +5,18 @@ use std::sync::Arc;
 
 use crate::norm::magnitude;
 use crate::program::Program;
-use crate::sparse::Sparse;
+use crate::sparse::SparseColumns;
 use crate::{Cone, ProblemError, check};
 
 /// min ½xᵀPx + qᵀx subject to b − Ax ∈ K, with the rows of the blocks stacked in their order.
 #[derive(Debug, Clone)]
 pub(crate) struct StandardForm {
     /// Upper triangle of P, n × n.
-    pub(crate) p: Sparse,
+    pub(crate) p: SparseColumns,
     /// q, n numbers.
     pub(crate) q: Vec<f64>,
     /// A, m × n.
-    pub(crate) a: Sparse,
+    pub(crate) a: SparseColumns,
     /// b, m numbers.
     pub(crate) b: Vec<f64>,
     /// K as a product of single cones, each with its rows.
@@ -49,8 +49,8 @@ impl StandardForm {
         let entries = program.blocks.iter().zip(&blocks).flat_map(|(block, range)| {
             block.entries.position.iter().map(|&(row, variable)| (range.start + row, variable))
         });
-        let a = Sparse::with_pattern(rows, variables, entries);
-        let p = Sparse::with_pattern(variables, variables, program.quadratic.position.iter().copied());
+        let a = SparseColumns::with_pattern(rows, variables, entries);
+        let p = SparseColumns::with_pattern(variables, variables, program.quadratic.position.iter().copied());
         let mut form = Self {
             p,
             q: vec![0.0; variables],

@@ -3,7 +3,7 @@
 //! Choose x*, and for every row a complementary pair s* ∈ K, z* ∈ K*, s*ᵀz* = 0. With b = Ax* + s* and
 //! q = −Px* − Aᵀz*, the pair (x*, z*) satisfies the optimality conditions of the problem (P, q, A, b, K).
 
-use interplay_convex::{Block, Program, Settings, Solution, SolveError, Solver, Variables, kkt};
+use interplay_convex::{Block, ConicSolution, Program, SolveError, Solver, SolverSettings, Variables, residuals};
 use proptest::prelude::*;
 
 const VARIABLES: usize = 6;
@@ -111,8 +111,8 @@ fn program(known: &Known) -> Program {
     program
 }
 
-fn solve(program: &Program) -> Result<Solution, SolveError> {
-    Solver::new(program, &Settings::default()).expect("well-formed").solve()
+fn solve(program: &Program) -> Result<ConicSolution, SolveError> {
+    Solver::new(program, &SolverSettings::default()).expect("well-formed").solve()
 }
 
 impl Known {
@@ -122,7 +122,7 @@ impl Known {
     }
 
     /// The four conditions from the dense data, sharing no code with the crate's own check.
-    fn assert_optimal(&self, solution: &Solution, tolerance: f64) {
+    fn assert_optimal(&self, solution: &ConicSolution, tolerance: f64) {
         let (x, z) = (solution.point(), solution.duals());
         for j in 0..VARIABLES {
             let atz: f64 = self.a.iter().zip(z).map(|(row, z)| row[j] * z).sum();
@@ -167,7 +167,7 @@ proptest! {
         let want = known.objective(&known.x);
         prop_assert!((solution.objective - want).abs() < 1e-5 * (1.0 + want.abs()));
         prop_assert!(solution.residuals.largest() < 1e-6, "{:?}", solution.residuals);
-        let recomputed = kkt::residuals(&program, &solution).expect("well-formed");
+        let recomputed = residuals(&program, &solution).expect("well-formed");
         prop_assert_eq!(recomputed, solution.residuals);
     }
 
@@ -176,7 +176,7 @@ proptest! {
         let mut program = Program::new();
         let handles = declare(&mut program);
         write(&mut program, &handles, &first);
-        let mut solver = Solver::new(&program, &Settings::default()).expect("well-formed");
+        let mut solver = Solver::new(&program, &SolverSettings::default()).expect("well-formed");
         let before = solver.solve();
         program.clear();
         write(&mut program, &handles, &second);
@@ -194,11 +194,11 @@ proptest! {
         let solution = solve(&program(&known)).expect("solvable by construction");
         let mut other = known.clone();
         other.q[which] += 0.5;
-        let residuals = kkt::residuals(&program(&other), &solution).expect("well-formed");
-        prop_assert!(residuals.stationarity > 1e-3);
+        let found = residuals(&program(&other), &solution).expect("well-formed");
+        prop_assert!(found.stationarity > 1e-3);
         other.q[which] -= 0.5;
         other.b[0] += 0.5;
-        let residuals = kkt::residuals(&program(&other), &solution).expect("well-formed");
-        prop_assert!(residuals.primal > 1e-3);
+        let found = residuals(&program(&other), &solution).expect("well-formed");
+        prop_assert!(found.primal > 1e-3);
     }
 }

@@ -1,13 +1,15 @@
 //! Every way a problem can end: solved, infeasible, unbounded, unsolved, refused.
 
-use interplay_convex::{Block, ProblemError, Program, Settings, Solution, SolveError, Solver, Status, Variables};
+use interplay_convex::{
+    Block, ConicSolution, ProblemError, Program, SolveError, Solver, SolverSettings, Status, Variables,
+};
 
 fn solver(program: &Program) -> Solver {
-    Solver::new(program, &Settings::default()).expect("well-formed")
+    Solver::new(program, &SolverSettings::default()).expect("well-formed")
 }
 
 fn refusal(program: &Program) -> ProblemError {
-    Solver::new(program, &Settings::default()).expect_err("malformed")
+    Solver::new(program, &SolverSettings::default()).expect_err("malformed")
 }
 
 /// min ½‖x − (3, 4)‖² within the disc of the given radius.
@@ -156,16 +158,16 @@ fn an_unbounded_cost_is_named_and_certified() {
 
 #[test]
 fn the_iteration_limit_leaves_a_problem_unsolved() {
-    let settings = Settings { iteration_limit: 1, ..Settings::default() };
+    let settings = SolverSettings { iteration_limit: 1, ..SolverSettings::default() };
     let outcome = Solver::new(&disc(1.0).0, &settings).expect("well-formed").solve();
     let want = SolveError::Unsolved { status: Status::IterationLimit, iterations: 1 };
     assert_eq!(outcome, Err(want));
 }
 
 /// What comes of a problem when the solver is stopped after 1, 2, … iterations, up to the last but one it needs.
-fn stopped_early(program: &Program, accepted_tolerance: f64) -> Vec<Result<Solution, SolveError>> {
+fn stopped_early(program: &Program, accepted_tolerance: f64) -> Vec<Result<ConicSolution, SolveError>> {
     let outcome = |iteration_limit| {
-        let settings = Settings { iteration_limit, accepted_tolerance, ..Settings::default() };
+        let settings = SolverSettings { iteration_limit, accepted_tolerance, ..SolverSettings::default() };
         Solver::new(program, &settings).expect("well-formed").solve()
     };
     let needed = match outcome(200) {
@@ -179,7 +181,7 @@ fn stopped_early(program: &Program, accepted_tolerance: f64) -> Vec<Result<Solut
     (1..needed).map(outcome).collect()
 }
 
-fn statuses(outcomes: &[Result<Solution, SolveError>]) -> Vec<Status> {
+fn statuses(outcomes: &[Result<ConicSolution, SolveError>]) -> Vec<Status> {
     let status = |outcome: &Result<_, _>| match outcome {
         Err(SolveError::Unsolved { status, .. }) => Some(*status),
         _ => None,
@@ -295,12 +297,12 @@ fn a_cost_that_curves_downwards_is_refused() {
 #[test]
 fn settings_out_of_range_are_refused() {
     let program = disc(1.0).0;
-    let default = Settings::default();
+    let default = SolverSettings::default();
     let bad = [
-        Settings { tolerance: 0.0, ..default },
-        Settings { tolerance: f64::NAN, ..default },
-        Settings { accepted_tolerance: 2.0, ..default },
-        Settings { iteration_limit: 0, ..default },
+        SolverSettings { tolerance: 0.0, ..default },
+        SolverSettings { tolerance: f64::NAN, ..default },
+        SolverSettings { accepted_tolerance: 2.0, ..default },
+        SolverSettings { iteration_limit: 0, ..default },
     ];
     for settings in bad {
         let error = Solver::new(&program, &settings).expect_err("out of range");

@@ -1,6 +1,6 @@
 //! The semidefinite cone on problems whose answers are known.
 
-use interplay_convex::{Program, Settings, SolveError, Solver, kkt, triangle};
+use interplay_convex::{Program, SolveError, Solver, SolverSettings, residuals, triangle};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
@@ -29,10 +29,10 @@ proptest! {
     fn the_largest_eigenvalue(order in 1..8_usize, values in proptest::collection::vec(-3.0..3.0, 49)) {
         let c = symmetric(order, &values[..order * order]);
         let program = largest_eigenvalue(&c);
-        let mut solver = Solver::new(&program, &Settings::default()).expect("well-formed");
+        let mut solver = Solver::new(&program, &SolverSettings::default()).expect("well-formed");
         let solution = solver.solve().expect("solvable");
         prop_assert!((solution.objective - c.symmetric_eigenvalues().max()).abs() < 1e-6);
-        prop_assert!(kkt::residuals(&program, &solution).expect("well-formed").largest() < 1e-6);
+        prop_assert!(residuals(&program, &solution).expect("well-formed").largest() < 1e-6);
     }
 
     #[test]
@@ -46,7 +46,7 @@ proptest! {
             program.linear(x, -weight * c[(i, j)]);
             program.row(block, [(x, -1.0)], 0.0);
         }
-        let solution = Solver::new(&program, &Settings::default()).expect("well-formed").solve().expect("solvable");
+        let solution = Solver::new(&program, &SolverSettings::default()).expect("well-formed").solve().expect("solvable");
         let eigen = c.clone().symmetric_eigen();
         let positive = DMatrix::from_diagonal(&eigen.eigenvalues.map(|v| v.max(0.0)));
         let nearest = &eigen.eigenvectors * positive * eigen.eigenvectors.transpose();
@@ -61,11 +61,11 @@ proptest! {
     #[test]
     fn an_updated_solver_answers_like_a_new_one(one in proptest::collection::vec(-3.0..3.0, 25), other in proptest::collection::vec(-3.0..3.0, 25)) {
         let (one, other) = (largest_eigenvalue(&symmetric(5, &one)), largest_eigenvalue(&symmetric(5, &other)));
-        let mut solver = Solver::new(&one, &Settings::default()).expect("well-formed");
+        let mut solver = Solver::new(&one, &SolverSettings::default()).expect("well-formed");
         solver.solve().expect("solvable");
         solver.update(&other).expect("same pattern");
         let updated = solver.solve().expect("solvable");
-        let fresh = Solver::new(&other, &Settings::default()).expect("well-formed").solve().expect("solvable");
+        let fresh = Solver::new(&other, &SolverSettings::default()).expect("well-formed").solve().expect("solvable");
         prop_assert_eq!(updated, fresh);
     }
 }
@@ -89,7 +89,7 @@ fn the_lovasz_number_of_the_pentagon() {
         }
     }
     program.row(trace, diagonal, 1.0);
-    let solution = Solver::new(&program, &Settings::default()).expect("well-formed").solve().expect("solvable");
+    let solution = Solver::new(&program, &SolverSettings::default()).expect("well-formed").solve().expect("solvable");
     assert!((solution.objective + 5.0_f64.sqrt()).abs() < 1e-6, "{}", solution.objective);
     assert!(solution.residuals.largest() < 1e-6, "{:?}", solution.residuals);
 }
@@ -121,7 +121,7 @@ fn a_lyapunov_inequality_tells_stable_from_unstable() {
         for (p, weight) in p.iter().zip([1.0, 0.0, 1.0]) {
             program.linear(p, weight);
         }
-        Solver::new(&program, &Settings::default()).expect("well-formed").solve()
+        Solver::new(&program, &SolverSettings::default()).expect("well-formed").solve()
     };
     assert!(solve([[0.9, 5.0], [0.0, 0.8]]).is_ok());
     let error = solve([[1.1, 0.0], [0.3, 0.5]]).expect_err("unstable");

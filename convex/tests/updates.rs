@@ -1,6 +1,6 @@
 //! What an update may change, and what it refuses.
 
-use interplay_convex::{Block, Cone, ProblemError, Program, Settings, Solver, Variables};
+use interplay_convex::{Block, Cone, ProblemError, Program, Solver, SolverSettings, Variables};
 
 /// min ½(x − target)² + 0·xy with y = x and x ≤ limit.
 struct Follow {
@@ -32,7 +32,7 @@ impl Follow {
     }
 
     fn solver(&self) -> Solver {
-        Solver::new(&self.program, &Settings::default()).expect("well-formed")
+        Solver::new(&self.program, &SolverSettings::default()).expect("well-formed")
     }
 }
 
@@ -116,7 +116,7 @@ fn a_changed_cone_is_refused_though_its_rows_are_the_same() {
         program
     };
     let inequality = program(Cone::Nonnegative);
-    let mut solver = Solver::new(&inequality, &Settings::default()).expect("well-formed");
+    let mut solver = Solver::new(&inequality, &SolverSettings::default()).expect("well-formed");
     let place = "block `limit`".to_owned();
     let refusal = solver.update(&program(Cone::Zero));
     assert_eq!(refusal, Err(ProblemError::PatternChanged { place }));

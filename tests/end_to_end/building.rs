@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use interplay_building::identify::classroom::{CAPACITY_KJ_PER_K, Classroom, OUTDOOR_K_PER_KW, ROOM_K_PER_KW};
+use interplay_building::identify::synthetic_classroom::{
+    CAPACITY_KJ_PER_K, Classroom, OUTDOOR_K_PER_KW, ROOM_K_PER_KW,
+};
 use interplay_scenarios::embedded;
 use serde_json::{Value, json};
 
@@ -291,7 +293,7 @@ fn classroom(test: &str) -> PathBuf {
     let telemetry = Classroom::default().simulate();
     fs::write(folder.join("room.csv"), telemetry.to_csv()).expect("written");
     let mut mapping = telemetry.mapping();
-    mapping.identify.discretisation = interplay_building::discretise::Method::Euler;
+    mapping.identify.discretisation = interplay_building::discretise::Discretisation::Euler;
     let mapping = toml::to_string(&mapping).expect("plain data");
     fs::write(folder.join("room.toml"), mapping).expect("written");
     folder

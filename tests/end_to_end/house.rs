@@ -45,7 +45,7 @@ const PARTS: &[(&str, &str)] = &[
 const FILE_LINES: usize = 400;
 const FUNCTION_LINES: usize = 60;
 
-fn root() -> &'static Path {
+pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the tests are a room of the house")
 }
 
@@ -55,7 +55,7 @@ fn manifest(folder: &Path) -> Table {
     text.parse().unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-fn members() -> Vec<String> {
+pub fn members() -> Vec<String> {
     let workspace = manifest(root());
     let members = workspace["workspace"]["members"].as_array().expect("a list");
     members.iter().map(|member| member.as_str().expect("a path").to_owned()).collect()

@@ -8,7 +8,7 @@
 //! - what scenarios demand of drivers: [`unsuited`]
 //! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
-//! - how the workspace is built: [`house`]
+//! - how the workspace is built: [`house`], [`modules`]
 
 mod authored;
 mod authoring;
@@ -26,6 +26,7 @@ mod house;
 mod laws;
 mod learning;
 mod measures;
+mod modules;
 mod output;
 mod own;
 mod plants;

@@ -3,7 +3,9 @@
 use clap::Args;
 use interplay_scenarios::{Scenario, load};
 
-use crate::{Ending, complain, complain_about, files, print};
+use crate::ending::Ending;
+use crate::files;
+use crate::output::{complain, complain_about, print};
 
 /// Check scenario files without running them; every error is located.
 #[derive(Debug, Args)]

@@ -3,7 +3,8 @@
 use clap::Args;
 use clap_complete::Shell;
 
-use crate::{Ending, print};
+use crate::ending::Ending;
+use crate::output::print;
 
 /// Print completions for a shell.
 #[derive(Debug, Args)]

@@ -7,7 +7,8 @@ use clap::Args;
 use interplay_building::identify::{Identification, Mapping, Telemetry, identify};
 use interplay_presentation::{plot, report};
 
-use crate::{Ending, complain, print};
+use crate::ending::Ending;
+use crate::output::{complain, print};
 
 /// Find thermal parameters in telemetry, with uncertainty and residual diagnostics.
 ///

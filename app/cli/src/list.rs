@@ -4,7 +4,8 @@ use clap::Args;
 use interplay_scenarios::{embedded, load};
 use serde_json::json;
 
-use crate::{Ending, complain_about, print};
+use crate::ending::Ending;
+use crate::output::{complain_about, print};
 
 /// List the embedded scenarios: name, what it shows, figure reproduced.
 #[derive(Debug, Args)]

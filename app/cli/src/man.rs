@@ -2,7 +2,8 @@
 
 use clap::Args;
 
-use crate::{Ending, complain, print};
+use crate::ending::Ending;
+use crate::output::{complain, print};
 
 /// Print a manual page: of the whole, or of one command.
 #[derive(Debug, Args)]

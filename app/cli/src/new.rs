@@ -9,7 +9,9 @@ use interplay_presentation::shell;
 use interplay_scenarios::{LoadError, commented};
 use thiserror::Error;
 
-use crate::{Ending, complain, complain_about, print, schema};
+use crate::ending::Ending;
+use crate::output::{complain, complain_about, print};
+use crate::schema;
 
 /// What editors complete from, beside the scenario.
 const SCHEMA: &str = "interplay.schema.json";

@@ -7,8 +7,9 @@ use clap::Args;
 use interplay_presentation::figures::{self, Entry, Kind, Made, find, make, registry, section};
 use interplay_presentation::page::Page;
 
+use crate::ending::Ending;
+use crate::output::{complain, print};
 use crate::progress::Progress;
-use crate::{Ending, complain, print};
 
 /// Make the figures and tables of the dissertation again, as SVG and PNG, with a page that shows and explains them.
 #[derive(Debug, Args)]

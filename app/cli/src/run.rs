@@ -12,9 +12,10 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::Watcher;
 
+use crate::ending::Ending;
 use crate::files::short_name;
+use crate::output::{complain, complain_about, json, print};
 use crate::watch::Watched;
-use crate::{Ending, complain, complain_about, json, print};
 
 /// Run one scenario, say whether its expectations held, and record it.
 #[derive(Debug, Default, Args)]

@@ -2,7 +2,8 @@
 
 use clap::Args;
 
-use crate::{Ending, print};
+use crate::ending::Ending;
+use crate::output::print;
 
 /// Print the JSON Schema of the scenario format, from which editors complete and explain keys.
 ///

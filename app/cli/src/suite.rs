@@ -11,9 +11,10 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use rayon::prelude::*;
 
+use crate::ending::Ending;
 use crate::files::{self, Found};
+use crate::output::{complain, complain_about, json, print};
 use crate::progress::Progress;
-use crate::{Ending, complain, complain_about, json, print};
 
 /// Run many scenarios side by side and say which of them do what they should.
 #[derive(Debug, Args)]

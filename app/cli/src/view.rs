@@ -9,7 +9,8 @@ use clap::Args;
 use interplay_presentation::record::{MAGIC, viewer_version};
 use thiserror::Error;
 
-use crate::{Ending, complain};
+use crate::ending::Ending;
+use crate::output::complain;
 
 /// Open recordings in the installed Rerun viewer, once its version is seen to be the right one.
 #[derive(Debug, Args)]

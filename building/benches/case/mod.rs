@@ -1,7 +1,7 @@
 //! A morning to be planned: what a design costs is measured on it.
 
 use interplay_building::comfort::{Setpoints, Targets};
-use interplay_building::control::{Control, Controller, Disturbance, Morning, Regulator};
+use interplay_building::control::{Control, Controller, DayAhead, Disturbance, Regulator};
 use interplay_building::day::run_day;
 use interplay_building::discretise::Model;
 use interplay_building::network::Network;
@@ -9,7 +9,7 @@ use interplay_building::network::Network;
 const STEP_S: f64 = 1800.0;
 const STEPS: usize = 48;
 
-/// A controller after its first day, and its second morning.
+/// A controller after its first day, and its second day_ahead.
 pub struct Case {
     /// The controller.
     pub regulator: Regulator,
@@ -38,8 +38,9 @@ impl Case {
 
     /// Plans the second day; what it is expected to cost.
     pub fn morning(&self, regulator: &mut Regulator) -> f64 {
-        let morning = Morning { initial_c: &self.initial_c, targets: &self.targets, forecast: &self.day, actual: None };
-        regulator.start_of_day(&morning).expect("shapes fit");
+        let day_ahead =
+            DayAhead { initial_c: &self.initial_c, targets: &self.targets, forecast: &self.day, actual: None };
+        regulator.start_of_day(&day_ahead).expect("shapes fit");
         let design = regulator.design();
         assert!(design.fallback.is_none(), "{:?}", design.fallback);
         design.objective.expect("planned")

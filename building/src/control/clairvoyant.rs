@@ -1,13 +1,13 @@
-//! The controller that knows the day before it comes: what the others are measured against.
+//! A controller that knows the disturbances of the day in advance. The cost of the other controllers is compared with its.
 
-use super::{Control, ControlError, DayRecord, Morning, Observation, optimum};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
 use crate::lifted::Lifted;
 
 /// What to look for in a recording of a building with this controller.
 pub(super) const LOOK_FOR: &str =
     "knowing the day beforehand, it cools before people come; no controller can be cheaper";
 
-/// Plays the day's optimum under its actual disturbances.
+/// Applies the optimum of the day under its actual disturbances.
 #[derive(Clone, Debug)]
 pub struct Clairvoyant {
     lifted: Lifted,
@@ -15,7 +15,7 @@ pub struct Clairvoyant {
 }
 
 impl Clairvoyant {
-    /// A clairvoyant whose model of a day is `lifted`.
+    /// A clairvoyant controller whose model of a day is `lifted`.
     pub fn new(lifted: Lifted) -> Self {
         let planned_kw = vec![0.0; lifted.size()];
         Self { lifted, planned_kw }
@@ -23,9 +23,9 @@ impl Clairvoyant {
 }
 
 impl Control for Clairvoyant {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let actual = morning.actual.ok_or(ControlError::NotClairvoyant)?;
-        self.planned_kw = optimum(&self.lifted, morning.initial_c, morning.targets, actual, None)?.heat_kw;
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        let actual = day_ahead.actual.ok_or(ControlError::NotClairvoyant)?;
+        self.planned_kw = optimum(&self.lifted, day_ahead.initial_c, day_ahead.targets, actual, None)?.heat_kw;
         Ok(())
     }
 

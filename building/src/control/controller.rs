@@ -1,4 +1,4 @@
-//! Every controller a building may have, by the word that a scenario file uses.
+//! The list of all controllers, with the word that a scenario file uses for each.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use super::iterative::{self, Iterative, IterativeSettings};
 use super::learning::{self, Learning, LearningSettings};
 use super::pid::{self, Pid, PidSettings};
 use super::thermostat::{self, Thermostat, ThermostatSettings};
-use super::{Control, ControlError, DayRecord, Design, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Design, Observation};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 
@@ -36,7 +36,7 @@ pub enum Controller {
     Centralised(CentralisedSettings),
 }
 
-/// A controller at work: its settings and all that it remembers.
+/// A controller with its settings and its state.
 #[derive(Clone, Debug)]
 pub enum Regulator {
     /// See [`Thermostat`].
@@ -58,8 +58,8 @@ pub enum Regulator {
 }
 
 impl Controller {
-    /// A controller of this kind without experience. `model` is what it believes of the building, and a day has so many
-    /// steps.
+    /// A controller of this kind before its first day. `model` is the controller's model of the building, `steps` the number
+    /// of steps of a day.
     ///
     /// # Errors
     /// [`ControlError::Setting`] if a setting is out of range.
@@ -85,7 +85,7 @@ impl Controller {
         })
     }
 
-    /// Whether this kind of controller plans its days and says how ([`Design`]).
+    /// Whether this kind of controller plans each day, and describes the plan in a [`Design`].
     pub fn plans(&self) -> bool {
         match self {
             Self::Thermostat(_) | Self::Pid(_) | Self::IterativeLearning(_) | Self::Clairvoyant => false,
@@ -138,8 +138,8 @@ impl Regulator {
 }
 
 impl Control for Regulator {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        self.control().start_of_day(morning)
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        self.control().start_of_day(day_ahead)
     }
 
     fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {

@@ -1,13 +1,13 @@
-//! What a controller says of its plan for a day.
+//! The description of a controller's plan for a day.
 
 use super::ControlError;
 
-/// How a day was planned. Controllers that do not plan say nothing.
+/// How a day was planned. Controllers that do not plan leave it empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Design {
-    /// Why the day has no plan of its own; it then repeats the day before (Remark 1 of chapter 3).
+    /// Why no plan was found for the day, which then repeats the inputs of the day before (Remark 1 of chapter 3).
     pub fallback: Option<ControlError>,
-    /// How many days had none so far.
+    /// For how many days so far no plan was found.
     pub fallbacks: usize,
     /// Planned inputs \[kW\], stacked; empty on a day without a plan.
     pub planned_kw: Vec<f64>,
@@ -15,21 +15,21 @@ pub struct Design {
     pub planned_c: Vec<f64>,
     /// What the plan is expected to cost, with penalties.
     pub objective: Option<f64>,
-    /// Heat that earlier days had beyond their forecasts, as far as it is believed to return \[kW\], stacked.
+    /// The learned bias of the forecast: zone heat that is expected beyond it \[kW\], stacked.
     pub bias_kw: Vec<f64>,
     /// K, by rows \[kW/K\], of a static feedback.
     pub gain_kw_per_k: Vec<Vec<f64>>,
     /// Taps of Q, each by rows \[kW/K\], of a Youla-parametrised feedback.
     pub taps_kw_per_k: Vec<Vec<Vec<f64>>>,
-    /// Of A − BK for a static feedback; of the learning law for the distributed design: below one it settles in the end.
+    /// Spectral radius of A − BK for a static feedback, of the learning law for the distributed design; below one it converges.
     pub spectral_radius: Option<f64>,
-    /// Of the learning law: at most one, errors never grow from day to day.
+    /// Largest singular value of the learning law; at most one, errors never grow from one day to the next.
     pub largest_singular_value: Option<f64>,
-    /// How the zones came to their plan.
+    /// How zones agreed on the plan, if they planned by messages.
     pub exchange: Option<Exchange>,
 }
 
-/// How zones that only speak with their neighbours came to a plan.
+/// How zones that send messages to their neighbours agreed on a plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exchange {
     /// J before the first round and after each.
@@ -40,6 +40,6 @@ pub struct Exchange {
     pub messages: Vec<usize>,
     /// Messages that did not arrive in their round.
     pub undelivered: usize,
-    /// Sums over all zones that were formed on the way, for step lengths.
+    /// How many sums over all zones were needed for step lengths.
     pub sums: usize,
 }

@@ -1,4 +1,4 @@
-//! Why a controller cannot do its work.
+//! Errors of controllers.
 
 use std::cmp::Ordering;
 
@@ -7,8 +7,8 @@ use interplay_convex::{ProblemError, SolveError};
 use crate::discretise::ModelError;
 use crate::setting::SettingError;
 
-/// No temperature in °C and no heat in kW is as large.
-const BEYOND_MEASURE: f64 = 1e6;
+/// The largest plausible magnitude of a temperature \[°C\] or of a heat flow \[kW\].
+const LARGEST_PLAUSIBLE: f64 = 1e6;
 
 /// Why a controller cannot be started, or cannot plan a day.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -26,14 +26,14 @@ pub enum ControlError {
         /// The right length.
         wanted: usize,
     },
-    /// A series has a number that is none, or beyond all measure.
+    /// A series holds a NaN, or an implausibly large number.
     #[error("{what} is {value} at place {index}; a day can only be planned with numbers of less than a million")]
     NotFinite {
         /// The series.
         what: &'static str,
-        /// Where, from zero.
+        /// Index of the number, from zero.
         index: usize,
-        /// What is there.
+        /// The number.
         value: f64,
     },
     /// A covariance is not positive definite.
@@ -61,17 +61,17 @@ pub enum ControlError {
         design: &'static str,
         /// How many it would need.
         found: usize,
-        /// Up to how many are reasonable.
+        /// The largest number that is solved in reasonable time.
         most: usize,
     },
     /// The feedback that was found is not stable.
     #[error("the feedback is not stable: its closed loop has the spectral radius {spectral_radius:.4}")]
     Unstable {
-        /// Of A − BK.
+        /// Spectral radius of A − BK.
         spectral_radius: f64,
     },
     /// The distributed design needs forward Euler, which would be unstable.
-    #[error("zones that only speak with their neighbours plan with forward Euler: {0}")]
+    #[error("zones that exchange messages with their neighbours only plan with forward Euler: {0}")]
     Model(#[from] ModelError),
     /// No zone of the distributed design can solve its own problem.
     #[error(
@@ -84,10 +84,10 @@ pub enum ControlError {
         /// The round of the exchange, from 1.
         round: usize,
     },
-    /// The clairvoyant was not told what will happen.
+    /// The clairvoyant controller did not get the actual disturbance.
     #[error("the clairvoyant controller needs to be told the day's actual weather and occupancy")]
     NotClairvoyant,
-    /// The day's optimum needs the model as matrices, which an exact model of this size has not.
+    /// The day's optimum needs the model as matrices, and an exact model of this size has none.
     #[error(
         "the day's optimum is not available for the exact model of {nodes} temperatures, at most {most}: use \
          forward Euler"
@@ -95,7 +95,7 @@ pub enum ControlError {
     TooLarge {
         /// How many temperatures the network has.
         nodes: usize,
-        /// Up to how many there are matrices.
+        /// The largest number of temperatures with matrices.
         most: usize,
     },
     /// The optimisation problem is malformed.
@@ -112,9 +112,11 @@ impl ControlError {
         if found == wanted { Ok(()) } else { Err(Self::Shape { what, found, wanted }) }
     }
 
-    /// Refuses a series with a number that is none, or so large that whoever learns from it never recovers.
+    /// Refuses a series with a number that is not finite, or so large that a bias learned from it would never decay.
     pub(super) fn check_finite(what: &'static str, series: &[f64]) -> Result<(), Self> {
-        match series.iter().position(|value| !matches!(value.abs().partial_cmp(&BEYOND_MEASURE), Some(Ordering::Less)))
+        match series
+            .iter()
+            .position(|value| !matches!(value.abs().partial_cmp(&LARGEST_PLAUSIBLE), Some(Ordering::Less)))
         {
             Some(index) => Err(Self::NotFinite { what, index, value: series[index] }),
             None => Ok(()),

@@ -7,19 +7,19 @@
 //! U_k      = U_ff,k + C E_k                         C a PID controller per zone
 //! ```
 //!
-//! P-type is l_d = 0. The error e(t+1) is the first that u(t) acts upon. With a forecast, what is expected to change from
+//! P-type is l_d = 0. The error e(t+1) is the first that u(t) influences. With a forecast, the expected change from
 //! yesterday to today is compensated; D̂ is the zone heat that has the effect of the forecast, G⁻¹ T_free. Where the
-//! temperature is free nothing is learned.
+//! temperature is free, nothing is learned.
 //!
 //! If every day were the same, the errors would follow E_k+1 = (I + GC)⁻¹(I − GL) E_k. [`LearningSettings::convergence`]
-//! says what I − GL does: its spectral radius decides the end, its largest singular value whether errors may grow on the
-//! way there, and they differ by orders of magnitude for P-type learning.
+//! analyses I − GL: its spectral radius decides whether the errors vanish in the end, its largest singular value whether
+//! they may grow before. The two differ by orders of magnitude for P-type learning.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::pid::{Pid, PidSettings};
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::lifted::Lifted;
 use crate::setting::check_not_negative;
 
@@ -51,9 +51,9 @@ impl Default for LearningSettings {
     }
 }
 
-/// How errors would go from day to day if all days were the same and all errors counted, without feedback.
+/// How errors would change from day to day if all days were equal, all errors had a weight and there were no feedback.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Convergence {
+pub struct LearningConvergence {
     /// Spectral radius of I − GL: below 1 the errors vanish in the end.
     pub spectral_radius: f64,
     /// Largest singular value of I − GL: at most 1, the errors never grow.
@@ -72,8 +72,8 @@ impl LearningSettings {
             .collect()
     }
 
-    /// What I − GL does. It takes time in the cube of n·N.
-    pub fn convergence(&self, lifted: &Lifted) -> Convergence {
+    /// Analyses I − GL. It takes time in the cube of n·N.
+    pub fn convergence(&self, lifted: &Lifted) -> LearningConvergence {
         let (n, size) = (lifted.zones(), lifted.size());
         let mut unit = vec![0.0; size];
         let mut map = nalgebra::DMatrix::identity(size, size);
@@ -87,14 +87,14 @@ impl LearningSettings {
         // similar to a symmetric matrix because L is a multiple of the identity there and h₁ is symmetric.
         let first = map.view((0, 0), (n.min(size), n.min(size))).into_owned();
         let gram = map.tr_mul(&map);
-        Convergence {
+        LearningConvergence {
             spectral_radius: first.symmetric_eigenvalues().iter().fold(0.0, |radius, e| f64::max(radius, e.abs())),
             largest_singular_value: gram.symmetric_eigenvalues().iter().fold(0.0, |s, e| f64::max(s, *e)).sqrt(),
         }
     }
 }
 
-/// Iterative learning at work.
+/// A controller that learns iteratively.
 #[derive(Clone, Debug)]
 pub struct Learning {
     settings: LearningSettings,
@@ -102,16 +102,16 @@ pub struct Learning {
     feedback: Pid,
     /// U_ff of the day, stacked \[kW\].
     planned_kw: Vec<f64>,
-    /// U_k + L E_k, once there was a day.
+    /// U_k + L E_k; none before the first day.
     learned_kw: Option<Vec<f64>>,
     /// D̂ of the day before, stacked \[kW\].
     expected_kw: Option<Vec<f64>>,
-    /// What is wanted today: reference and whether it counts.
+    /// The reference temperatures of today, where they have a weight \[°C\], stacked.
     wanted: Vec<Option<f64>>,
 }
 
 impl Learning {
-    /// A learner that has no experience. `lifted` is its model of a day.
+    /// The controller before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
     /// [`ControlError::Setting`].
@@ -129,18 +129,18 @@ impl Learning {
     }
 
     /// D̂ = G⁻¹ T_free from rest at 0 °C: zone heat with the effect of the expected weather and occupancy.
-    fn expected_kw(&self, morning: &Morning<'_>) -> Vec<f64> {
+    fn expected_kw(&self, day_ahead: &DayAhead<'_>) -> Vec<f64> {
         let at_rest_c = vec![0.0; self.lifted.model().network().node_count()];
-        let forecast = morning.forecast;
+        let forecast = day_ahead.forecast;
         self.lifted.solve(&self.lifted.free_response(&at_rest_c, &forecast.ambient_c, &forecast.gains_kw))
     }
 }
 
 impl Control for Learning {
-    fn start_of_day(&mut self, morning: &Morning<'_>) -> Result<(), ControlError> {
-        let targets = morning.targets;
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        let targets = day_ahead.targets;
         ControlError::check_length("the day", targets.reference_c.len(), self.lifted.size())?;
-        morning.forecast.check(targets)?;
+        day_ahead.forecast.check(targets)?;
         self.wanted = (targets.reference_c.iter().zip(&targets.error_weight))
             .map(|(&reference_c, &weight)| (weight > 0.0).then_some(reference_c))
             .collect();
@@ -148,7 +148,7 @@ impl Control for Learning {
             self.planned_kw.clone_from(learned_kw);
         }
         if self.settings.forecast {
-            let today_kw = self.expected_kw(morning);
+            let today_kw = self.expected_kw(day_ahead);
             if let Some(yesterday_kw) = self.expected_kw.replace(today_kw.clone()) {
                 for (i, planned_kw) in self.planned_kw.iter_mut().enumerate() {
                     *planned_kw -= today_kw[i] - yesterday_kw[i];

@@ -1,6 +1,6 @@
 //! Controllers.
 //!
-//! At midnight a controller gets the targets and the forecast of the day ([`Morning`]). At each step it gets the
+//! At midnight a controller gets the targets and the forecast of the day ([`DayAhead`]). At each step it gets the
 //! temperatures ([`Observation`]) and returns the heat of each zone. At the end of the day it gets what happened
 //! ([`DayRecord`]). [`crate::day`] runs days with it. A day is an iteration of the source.
 //!
@@ -22,14 +22,14 @@ pub mod concurrent;
 mod controller;
 mod design;
 pub mod distributed;
+pub mod disturbance_estimate;
 mod error;
-pub mod experience;
-mod follow;
 mod interface;
 pub mod iterative;
 pub mod learning;
 mod optimum;
 pub mod pid;
+mod planning;
 pub mod stability;
 pub mod thermostat;
 pub mod uncertainty;
@@ -38,5 +38,5 @@ pub use clairvoyant::Clairvoyant;
 pub use controller::{Controller, Regulator};
 pub use design::{Design, Exchange};
 pub use error::ControlError;
-pub use interface::{Control, DayRecord, Disturbance, Morning, Observation};
-pub use optimum::{BandPenalty, Optimum, optimum};
+pub use interface::{Control, DayAhead, DayRecord, Disturbance, Observation};
+pub use optimum::{BandPenalty, DayOptimum, optimum};

@@ -6,19 +6,19 @@
 //!             |u| ≤ limit,   |r − T| ≤ band + s while occupied,   s ≥ 0
 //! ```
 //!
-//! With the actual disturbances this is the clairvoyant plan: no controller can be cheaper over the same day, and how much
-//! dearer it was is its regret. With forecast ones it is the day-ahead plan, which is what the designs of chapters 3 to 5
+//! With the actual disturbances this is the clairvoyant plan: no controller can be cheaper over the same day. The cost of a
+//! controller beyond it is its regret. With forecast ones it is the day-ahead plan, which is what the designs of chapters 3 to 5
 //! amount to as printed. The states are variables (those of y, so that the rows have no constants), which keeps the
 //! problem sparse: eliminated, it would be a dense one in G.
 
-use interplay_convex::{Block, Program, Settings, Solver, Variable, Variables};
+use interplay_convex::{Block, Program, Solver, SolverSettings, Variable, Variables};
 
 use super::{ControlError, Disturbance};
 use crate::comfort::Targets;
-use crate::discretise::{DENSE_NODES, Method, Model};
+use crate::discretise::{DENSE_NODES, Discretisation, Model};
 use crate::lifted::Lifted;
 
-/// Tighter than the solver's usual one: inputs near a limit are known to about its square root only.
+/// Tolerance of the solver, tighter than its default: inputs near a limit are accurate to about its square root only.
 const TOLERANCE: f64 = 1e-10;
 
 /// Cost of a kelvin beyond the comfort band while occupied.
@@ -30,18 +30,18 @@ pub struct BandPenalty {
     pub quadratic: f64,
 }
 
-/// The cheapest day.
+/// The optimum of a day.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Optimum {
+pub struct DayOptimum {
     /// Inputs u(0) … u(N−1) \[kW\], stacked.
     pub heat_kw: Vec<f64>,
     /// Temperatures of the zones T(1) … T(N) under them \[°C\], stacked.
     pub temperatures_c: Vec<f64>,
     /// J (eq. 3.2) without the penalty of the comfort band.
     pub cost: f64,
-    /// What is minimised: J with the penalty.
+    /// The objective: J with the penalty.
     pub objective: f64,
-    /// By how much the objective would fall for each kilowatt by which the limits of an input were wider, stacked.
+    /// Multipliers of the input limits: decrease of the objective per kilowatt of wider limits, stacked.
     pub limit_price: Vec<f64>,
 }
 
@@ -56,30 +56,30 @@ pub fn optimum(
     targets: &Targets,
     disturbance: &Disturbance,
     penalty: Option<BandPenalty>,
-) -> Result<Optimum, ControlError> {
+) -> Result<DayOptimum, ControlError> {
     let nodes = lifted.model().network().node_count();
     ControlError::check_length("the targets", targets.reference_c.len(), lifted.size())?;
     ControlError::check_length("the temperatures at midnight", initial_c.len(), nodes)?;
     disturbance.check(targets)?;
     let free_c = lifted.free_response(initial_c, &disturbance.ambient_c, &disturbance.gains_kw);
-    plan(lifted, &free_c, targets, penalty, &Caution::default())
+    plan(lifted, &free_c, targets, penalty, &ConstraintTightening::default())
 }
 
-/// The margin of an input is at most this share of its limit: something must be left to plan with.
+/// The margin of an input is at most this share of its limit, so that the plan keeps some power.
 const LARGEST_MARGIN: f64 = 0.95;
 
-/// What a plan keeps away from, beyond the limits of the day.
+/// By how much a plan keeps within the limits of the day.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Caution {
-    /// How far inputs stay within their limits \[kW\], stacked; none if empty.
+pub(super) struct ConstraintTightening {
+    /// Margin of the inputs to their limits \[kW\], stacked; none if empty.
     pub input_margin_kw: Vec<f64>,
-    /// How far temperatures stay within the comfort band \[K\], stacked; none if empty.
+    /// Margin of the temperatures to the comfort band \[K\], stacked; none if empty.
     pub band_margin_k: Vec<f64>,
-    /// A bound for the length of the errors that count (eq. 3.8).
+    /// A bound on the norm of the errors that have a weight (eq. 3.8).
     pub error_bound: Option<ErrorBound>,
 }
 
-/// How far a plan stays within its limits \[kW\], for inputs with these deviations.
+/// Margins of the inputs to their limits \[kW\], for inputs with these standard deviations.
 pub(super) fn margins_kw(lifted: &Lifted, input_deviation_kw: &[f64], quantile: f64) -> Vec<f64> {
     let limits_kw = lifted.model().network().limits_kw();
     (input_deviation_kw.iter().enumerate())
@@ -102,15 +102,15 @@ pub(super) fn plan(
     free_c: &[f64],
     targets: &Targets,
     penalty: Option<BandPenalty>,
-    caution: &Caution,
-) -> Result<Optimum, ControlError> {
+    tightening: &ConstraintTightening,
+) -> Result<DayOptimum, ControlError> {
     let model = lifted.model();
     let nodes = model.network().node_count();
-    if model.method() == Method::Exact && nodes > DENSE_NODES {
+    if model.method() == Discretisation::Exact && nodes > DENSE_NODES {
         return Err(ControlError::TooLarge { nodes, most: DENSE_NODES });
     }
-    let posed = Posed::new(model, targets, free_c, penalty, caution);
-    let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
+    let posed = Posed::new(model, targets, free_c, penalty, tightening);
+    let settings = SolverSettings { tolerance: TOLERANCE, ..SolverSettings::default() };
     let solution = Solver::new(&posed.program, &settings)?.solve()?;
 
     let mut heat_kw = solution.value(posed.input).to_vec();
@@ -125,11 +125,11 @@ pub(super) fn plan(
     let objective = cost + penalty.map_or(0.0, |penalty| penalty.of(targets, &temperatures_c));
     let [most, least] = posed.limits.map(|block| solution.dual(block));
     let limit_price = most.iter().zip(least).map(|(most, least)| most + least).collect();
-    Ok(Optimum { heat_kw, temperatures_c, cost, objective, limit_price })
+    Ok(DayOptimum { heat_kw, temperatures_c, cost, objective, limit_price })
 }
 
 impl BandPenalty {
-    /// What temperatures cost beyond the band while occupied.
+    /// The cost of temperatures beyond the band while occupied.
     pub fn of(self, targets: &Targets, temperatures_c: &[f64]) -> f64 {
         let beyond_k = |(i, temperature_c): (usize, &f64)| {
             let occupied = targets.occupied[i / targets.zones];
@@ -152,7 +152,13 @@ struct Posed {
 }
 
 impl Posed {
-    fn new(model: &Model, targets: &Targets, free_c: &[f64], penalty: Option<BandPenalty>, caution: &Caution) -> Self {
+    fn new(
+        model: &Model,
+        targets: &Targets,
+        free_c: &[f64],
+        penalty: Option<BandPenalty>,
+        tightening: &ConstraintTightening,
+    ) -> Self {
         let mut program = Program::new();
         let input = program.variables("heat", free_c.len());
         let state = program.variables("state", model.network().node_count() * targets.steps());
@@ -160,11 +166,11 @@ impl Posed {
         let mut posed = Self { program, input, state, limits };
         posed.costs(model, targets, free_c);
         posed.dynamics(model, targets.steps());
-        posed.limits(model.network().limits_kw(), &caution.input_margin_kw);
+        posed.limits(model.network().limits_kw(), &tightening.input_margin_kw);
         if let Some(penalty) = penalty {
-            posed.band(model, targets, free_c, penalty, &caution.band_margin_k);
+            posed.band(model, targets, free_c, penalty, &tightening.band_margin_k);
         }
-        if let Some(bound) = caution.error_bound {
+        if let Some(bound) = tightening.error_bound {
             posed.error_bound(model, targets, free_c, bound);
         }
         posed

@@ -4,21 +4,21 @@
 //! u(t) = k_p e(t) + k_i ∫e − k_d dT/dt,        e = r − T,   |u| ≤ limit
 //! ```
 //!
-//! The derivative is that of the temperature, so that a step of the reference gives no kick. Anti-windup by conditional
+//! The derivative is that of the temperature, so that a step of the reference causes no peak. Anti-windup by conditional
 //! integration: while the output is at a limit, an error that would push it further is not integrated. Where the
-//! temperature is free the controller rests and forgets.
+//! temperature is free, the output is zero and the integral is reset.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::setting::{SettingError, check_not_negative};
 
 /// What to look for in a recording of a building with this controller.
 pub(super) const LOOK_FOR: &str =
     "the controller has no memory: it is late every morning by as much, and the cost does not fall";
 
-/// Gains of a PID controller. They are per hour, not per step, so that they mean the same at every step.
+/// Gains of a PID controller. They are per hour, not per step, so that they do not depend on the step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PidSettings {
@@ -40,7 +40,7 @@ impl Default for PidSettings {
     }
 }
 
-/// PID controllers at work, one per zone.
+/// PID controllers with their states, one per zone.
 #[derive(Clone, Debug)]
 pub struct Pid {
     settings: PidSettings,
@@ -94,7 +94,7 @@ impl Pid {
 }
 
 impl Control for Pid {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 

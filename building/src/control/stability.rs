@@ -1,4 +1,4 @@
-//! When a feedback u = K e is stable, and how to be sure (section 3.3).
+//! Stability of a feedback u = K e, and certificates of it (section 3.3).
 //!
 //! A − BK is stable exactly when its spectral radius is below one (the printed (3.7) allows one). A matrix F with M = KF
 //! and S = Sᵀ ≻ 0 proves it, with decay rate r, when (de Oliveira, Bernussou, Geromel)
@@ -11,20 +11,20 @@
 //! The source prints I in place of r² S. Then F = S = εI satisfies it for *every* K, since the off-diagonal vanishes faster
 //! than the diagonal: the printed inequality certifies nothing ([`lmi_margin`] shows it).
 //!
-//! Heat flows from warm to cold, so A is nonnegative, and for such systems a vector is proof enough: with f > 0,
+//! Heat flows from warm to cold, so A is nonnegative. For such systems a vector f > 0 is a certificate:
 //!
 //! ```text
 //! Σⱼ |(A − BK)ᵢⱼ| fⱼ ≤ r fᵢ
 //! ```
 //!
-//! is linear in f and M = K diag f, and so scales to hundreds of zones ([`positive_decay`]).
+//! It is linear in f and M = K diag f, and so scales to hundreds of zones ([`positive_decay`]).
 
-use interplay_convex::{Block, Program, Settings, Solver, Variable, Variables, triangle};
+use interplay_convex::{Block, Program, Solver, SolverSettings, Variable, Variables, triangle};
 use nalgebra::DMatrix;
 
 use super::ControlError;
 
-/// Which matrix inequality.
+/// A form of the matrix inequality.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lmi {
     /// (3.23) as printed.
@@ -36,10 +36,10 @@ pub enum Lmi {
     },
 }
 
-/// Largest magnitude of the eigenvalues of a square matrix; NaN if it has a number that is none.
+/// Largest magnitude of the eigenvalues of a square matrix; NaN if an entry is not finite.
 ///
-/// By Gelfand's formula lim ‖Mᵏ‖^(1/k), with k doubled by squaring: it ends for every matrix, which iterations for the
-/// eigenvalues themselves do not promise.
+/// By Gelfand's formula lim ‖Mᵏ‖^(1/k), with k doubled by squaring: it terminates for every matrix, which iterations for the
+/// eigenvalues do not guarantee.
 pub fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
     const DOUBLINGS: i32 = 50;
     let mut power = matrix.clone();
@@ -100,7 +100,7 @@ pub fn lmi_margin(lmi: Lmi, closed: &DMatrix<f64>) -> Result<f64, ControlError> 
         Lmi::Printed => certificate.positive(&mut program, 0.0),
         Lmi::Corrected { .. } => certificate.unit_trace(&mut program),
     }
-    let solution = Solver::new(&program, &Settings::default())?.solve()?;
+    let solution = Solver::new(&program, &SolverSettings::default())?.solve()?;
     Ok(solution.at(margin))
 }
 
@@ -118,7 +118,7 @@ pub fn positive_decay(closed: &DMatrix<f64>) -> f64 {
         if largest == 0.0 || !largest.is_finite() {
             break;
         }
-        // A little of the old keeps every entry positive and stops oscillation; any positive f gives a valid bound.
+        // The average with the old f keeps every entry positive and damps oscillation; any positive f gives a valid bound.
         for (f, moved) in f.iter_mut().zip(moved) {
             *f = 0.5 * *f + 0.5 * moved / largest;
         }
@@ -134,17 +134,17 @@ pub(super) struct Certificate {
     s: Variables,
 }
 
-/// How far inside of the cone.
+/// The margin by which the inequality holds.
 #[derive(Clone, Copy)]
 pub(super) enum Spare {
-    /// By a variable that is maximised.
+    /// A variable that is maximised.
     Maximised(Variable),
-    /// By this much.
+    /// A number.
     Fixed(f64),
 }
 
 impl Certificate {
-    /// Declares F and S, of an order; `free` says which entries of F are.
+    /// Declares F and S, of an order; `free` says which entries of F are unknowns.
     pub fn new(program: &mut Program, order: usize, free: impl Fn(usize, usize) -> bool) -> Self {
         let places = || (0..order).flat_map(|j| (0..order).map(move |i| (i, j)));
         let unknown = program.variables("F", places().filter(|&(i, j)| free(i, j)).count());

@@ -1,9 +1,9 @@
-//! The oldest controller: full power when it is too cold or too warm, nothing otherwise.
+//! An on-off controller: full power when it is too cold or too warm, none otherwise.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Control, ControlError, DayRecord, Morning, Observation};
+use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::setting::{check_not_negative, check_within};
 
 /// What to look for in a recording of a building with this controller.
@@ -28,7 +28,7 @@ impl Default for ThermostatSettings {
     }
 }
 
-/// A thermostat at work: for each zone whether it heats (1), cools (−1) or rests (0).
+/// A thermostat with its state: for each zone whether it heats (1), cools (−1) or is off (0).
 #[derive(Clone, Debug)]
 pub struct Thermostat {
     settings: ThermostatSettings,
@@ -40,7 +40,7 @@ impl Thermostat {
     /// A thermostat in each zone.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
+    /// [`ControlError::Setting`] if the dead band is negative, or the power not a share.
     pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
         check_not_negative(&[("dead_band_k", settings.dead_band_k)])?;
         check_within("power", settings.power, 0.0..=1.0, "a share of the limit, 0 to 1")?;
@@ -49,7 +49,7 @@ impl Thermostat {
 }
 
 impl Control for Thermostat {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 

@@ -1,13 +1,13 @@
-//! How uncertain the disturbance is: D ~ N(D̂, Σ) (eq. 3.19).
+//! The uncertainty of the disturbance: D ~ N(D̂, Σ) (eq. 3.19).
 //!
-//! A part that all zones share (weather) and one of each zone's own (people), both correlated over time:
+//! Σ is the sum of a part common to all zones (weather) and a part of each zone (people), both correlated over time:
 //!
 //! ```text
 //! Σ = Σ_w ⊗ 11ᵀ + Σ_o ⊗ I + 10⁻⁸ I,    Σ_w(s,t) = σ_w² ρ_w^|s−t|,    Σ_o(s,t) = σ_o(s) σ_o(t) ρ_o^|s−t|
 //! ```
 //!
-//! σ_o is larger while people are there. The σ are estimated again each evening from what the prediction missed, with the
-//! settings as a prior that counts as so many days; otherwise "iterative tuning" would only be a better constant gain.
+//! σ_o is larger while the zone is occupied. After each day, the σ are estimated again from the errors of the predictions,
+//! with the settings as a prior of `prior_days` days. With a constant Σ, the iterations would end with a constant gain.
 
 use nalgebra::{Cholesky, DMatrix};
 use schemars::JsonSchema;
@@ -17,7 +17,7 @@ use super::ControlError;
 use crate::comfort::Targets;
 use crate::setting::{SettingError, check_not_negative, check_within};
 
-/// Variance that every entry has besides \[kW²\].
+/// Variance that is added to every entry of the diagonal \[kW²\].
 const NUGGET_KW2: f64 = 1e-8;
 
 /// A priori uncertainty of the disturbance.
@@ -60,7 +60,7 @@ impl Default for UncertaintySettings {
     }
 }
 
-/// Uncertainty as it is believed now.
+/// The current estimate of the uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {
     settings: UncertaintySettings,
@@ -69,7 +69,7 @@ pub struct Uncertainty {
 }
 
 impl Uncertainty {
-    /// As the settings say.
+    /// The uncertainty before the first day.
     ///
     /// # Errors
     /// [`SettingError`] if a deviation is negative, or a correlation not between -1 and 1.
@@ -136,17 +136,17 @@ impl Uncertainty {
         responses
     }
 
-    /// Learns from what a day's prediction missed \[kW\], stacked. Says whether anything changed.
-    pub fn learn(&mut self, surprise_kw: &[f64], targets: &Targets) -> bool {
+    /// Learns from the error of a day's prediction \[kW\], stacked. Returns whether anything changed.
+    pub fn learn(&mut self, error_kw: &[f64], targets: &Targets) -> bool {
         if !self.settings.reestimate {
             return false;
         }
         let n = targets.zones as f64;
         let mut sums = [(0.0, 0.0_f64); 3];
-        for (step_kw, busy) in surprise_kw.chunks_exact(targets.zones).zip(busy(targets)) {
+        for (step_kw, busy) in error_kw.chunks_exact(targets.zones).zip(busy(targets)) {
             let mean = step_kw.iter().sum::<f64>() / n;
             let place = if busy { 1 } else { 2 };
-            // A single zone cannot tell its own part from the common one.
+            // With a single zone, its own part and the common one cannot be separated.
             let own = if n > 1.0 {
                 step_kw.iter().map(|kw| (kw - mean) * (kw - mean)).sum::<f64>() / (n - 1.0)
             } else {
@@ -166,7 +166,7 @@ impl Uncertainty {
     }
 }
 
-/// Whether people may be about in each step: it is occupied, or one of its neighbours in time is.
+/// Whether each step is occupied, or the step before or after it.
 fn busy(targets: &Targets) -> Vec<bool> {
     let at = |t: usize| t.checked_sub(1).and_then(|row| targets.occupied.get(row)).copied().unwrap_or(false);
     // Step t runs from T(t) to T(t + 1); rows of targets are T(1) … T(N).
@@ -174,7 +174,7 @@ fn busy(targets: &Targets) -> Vec<bool> {
 }
 
 impl Targets {
-    /// Steps in which people may be about: occupied, or one before or after.
+    /// Whether each step is occupied, or the step before or after it.
     pub(crate) fn busy(&self) -> Vec<bool> {
         busy(self)
     }
@@ -183,7 +183,7 @@ impl Targets {
 /// L with Σ = LLᵀ, lower triangular.
 ///
 /// # Errors
-/// [`ControlError::Covariance`] if Σ is not positive definite, or has a number that is none.
+/// [`ControlError::Covariance`] if Σ is not positive definite, or an entry is not finite.
 pub fn factor(covariance: DMatrix<f64>) -> Result<DMatrix<f64>, ControlError> {
     let order = covariance.nrows();
     let finite = covariance.iter().all(|value| value.is_finite());

@@ -23,7 +23,7 @@ pub use key_figures::KeyFigures;
 pub use surroundings::Surroundings;
 
 use crate::comfort::Targets;
-use crate::control::{Control, ControlError, DayRecord, Design, Disturbance, Morning, Observation};
+use crate::control::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::discretise::Model;
 
 /// A day in progress.
@@ -63,7 +63,7 @@ impl Day {
     /// [`ControlError`] if the controller cannot work on this day.
     pub fn plan(&mut self, controller: &mut impl Control, targets: &Targets) -> Result<(), ControlError> {
         let Self { initial_c, forecast, actual, .. } = &*self;
-        controller.start_of_day(&Morning { initial_c, targets, forecast, actual: Some(actual) })?;
+        controller.start_of_day(&DayAhead { initial_c, targets, forecast, actual: Some(actual) })?;
         self.record.design = controller.design();
         Ok(())
     }

@@ -16,7 +16,7 @@ pub(crate) enum Gain {
     /// All of it.
     Dense(DMatrix<f64>),
     /// A polynomial in the Laplacian.
-    Series(Series),
+    Series(ChebyshevSeries),
 }
 
 /// f(C⁻¹L)·C⁻¹ as a Chebyshev series in S = C^-½ L C^-½, whose spectrum lies in [0, ρ]:
@@ -25,7 +25,7 @@ pub(crate) enum Gain {
 /// C^-½ Σₖ aₖ Tₖ(2S/ρ − I) C^-½
 /// ```
 #[derive(Clone, Debug)]
-pub(crate) struct Series {
+pub(crate) struct ChebyshevSeries {
     coefficients: Vec<f64>,
     inverse_root: Vec<f64>,
     bound_per_s: f64,
@@ -42,7 +42,7 @@ impl Gain {
         // A network without any conductance has the spectrum {0}; any interval will do.
         let bound_per_s = rate_bound_per_s(network).max(f64::MIN_POSITIVE.sqrt());
         let coefficients = chebyshev(|x| f(0.5 * bound_per_s * (x + 1.0)));
-        Self::Series(Series { coefficients, inverse_root: inverse_root(network), bound_per_s })
+        Self::Series(ChebyshevSeries { coefficients, inverse_root: inverse_root(network), bound_per_s })
     }
 
     /// The product with one number per node.
@@ -61,7 +61,7 @@ impl Gain {
     }
 }
 
-impl Series {
+impl ChebyshevSeries {
     /// Clenshaw would run backwards over the coefficients with the same cost; forwards reads like the definition.
     fn product(&self, network: &Network, x: &[f64]) -> Vec<f64> {
         let mut before: Vec<f64> = x.iter().zip(&self.inverse_root).map(|(x, r)| r * x).collect();

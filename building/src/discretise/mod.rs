@@ -41,7 +41,7 @@ pub const DENSE_NODES: usize = 256;
 /// How time is cut into steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum Discretisation {
     /// Without error for inputs that are constant over a step (zero-order hold).
     #[default]
     Exact,
@@ -86,7 +86,7 @@ pub enum ModelError {
 pub struct Model {
     network: Network,
     step_s: f64,
-    method: Method,
+    method: Discretisation,
     /// B: change of the temperatures at the end of the step.
     end: Gain,
     /// Change of the mean temperatures over the step; Euler takes the temperatures at its start for their mean.
@@ -109,10 +109,10 @@ impl Model {
     ///
     /// # Errors
     /// [`ModelError`] as of [`Model::exact`] and [`Model::euler`].
-    pub fn new(network: &Network, method: Method, step_s: f64) -> Result<Self, ModelError> {
+    pub fn new(network: &Network, method: Discretisation, step_s: f64) -> Result<Self, ModelError> {
         match method {
-            Method::Exact => Self::exact(network, step_s),
-            Method::Euler => Self::euler(network, step_s),
+            Discretisation::Exact => Self::exact(network, step_s),
+            Discretisation::Euler => Self::euler(network, step_s),
         }
     }
 
@@ -140,7 +140,7 @@ impl Model {
             }
             Form::Series => (Gain::series(network, end), Gain::series(network, mean)),
         };
-        Ok(Self { network: network.clone(), step_s, method: Method::Exact, end, mean: Some(mean) })
+        Ok(Self { network: network.clone(), step_s, method: Discretisation::Exact, end, mean: Some(mean) })
     }
 
     /// Discretises by forward Euler.
@@ -158,7 +158,7 @@ impl Model {
             }
         }
         let end = Gain::Diagonal(network.capacities_kj_per_k().iter().map(|capacity| step_s / capacity).collect());
-        Ok(Self { network: network.clone(), step_s, method: Method::Euler, end, mean: None })
+        Ok(Self { network: network.clone(), step_s, method: Discretisation::Euler, end, mean: None })
     }
 
     /// The network.
@@ -172,7 +172,7 @@ impl Model {
     }
 
     /// How time is cut into steps.
-    pub fn method(&self) -> Method {
+    pub fn method(&self) -> Discretisation {
         self.method
     }
 
@@ -276,8 +276,8 @@ impl Model {
     pub fn eigenvalues(&self) -> Vec<f64> {
         let rates_per_s = spectrum::rates_per_s(&self.network);
         let eigenvalue = |rate_per_s: f64| match self.method {
-            Method::Exact => libm::exp(-rate_per_s * self.step_s),
-            Method::Euler => 1.0 - rate_per_s * self.step_s,
+            Discretisation::Exact => libm::exp(-rate_per_s * self.step_s),
+            Discretisation::Euler => 1.0 - rate_per_s * self.step_s,
         };
         rates_per_s.into_iter().rev().map(eigenvalue).collect()
     }

@@ -13,7 +13,7 @@
 
 use nalgebra::DMatrix;
 
-use super::checks::CheckedEstimate;
+use super::cross_checks::CheckedEstimate;
 use super::estimate::Estimate;
 use super::free_run::RunZone;
 use super::normal::product;

@@ -15,7 +15,7 @@ use nalgebra::DMatrix;
 use super::normal::{LogLikelihood, condition_number, robust_covariance};
 use super::regression::{Regression, ZoneModel};
 use super::telemetry::Telemetry;
-use super::{IdentifyError, Method, Settings, arma};
+use super::{Estimator, IdentifyError, IdentifySettings, arma};
 
 /// Coefficients of one zone, in the order of its model's terms.
 #[derive(Debug, Clone)]
@@ -38,11 +38,11 @@ pub(super) fn estimate(
     telemetry: &Telemetry,
     model: &ZoneModel,
     segments: &[Range<usize>],
-    settings: &Settings,
+    settings: &IdentifySettings,
 ) -> Result<Estimate, IdentifyError> {
     match settings.method {
-        Method::Semiparametric => semiparametric(telemetry, model, segments, settings),
-        Method::PredictionError => prediction_error(telemetry, model, segments, settings),
+        Estimator::Semiparametric => semiparametric(telemetry, model, segments, settings),
+        Estimator::PredictionError => prediction_error(telemetry, model, segments, settings),
     }
 }
 
@@ -50,7 +50,7 @@ fn semiparametric(
     telemetry: &Telemetry,
     model: &ZoneModel,
     segments: &[Range<usize>],
-    settings: &Settings,
+    settings: &IdentifySettings,
 ) -> Result<Estimate, IdentifyError> {
     let bandwidth = settings.bandwidth_h * 3600.0 / telemetry.step_s;
     let regression = Regression::new(telemetry, model, segments, Some(bandwidth));
@@ -72,7 +72,7 @@ fn prediction_error(
     telemetry: &Telemetry,
     model: &ZoneModel,
     segments: &[Range<usize>],
-    settings: &Settings,
+    settings: &IdentifySettings,
 ) -> Result<Estimate, IdentifyError> {
     let regression = Regression::new(telemetry, model, segments, None);
     let count = regression.columns.len();

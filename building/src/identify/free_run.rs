@@ -15,7 +15,7 @@ use super::telemetry::Telemetry;
 /// How the non-parametric term is forecast.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Forecast {
+pub enum ResidualForecast {
     /// As zero: the network alone.
     None,
     /// As constant.
@@ -28,7 +28,7 @@ pub enum Forecast {
     ProfileArma,
 }
 
-impl Forecast {
+impl ResidualForecast {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::None, Self::Constant, Self::Arma, Self::Profile, Self::ProfileArma];
 }
@@ -45,7 +45,7 @@ pub(super) struct RunZone {
 
 impl RunZone {
     /// q expected in the steps from `start` on, given the measurements of the segment before.
-    fn forecast(&self, forecast: Forecast, start: usize, segment: &Range<usize>, steps: usize) -> Vec<f64> {
+    fn forecast(&self, forecast: ResidualForecast, start: usize, segment: &Range<usize>, steps: usize) -> Vec<f64> {
         let profile = |(_, series): &(ResidualModel, ResidualSeries)| series.profile[start..start + steps].to_vec();
         let with_arma = |fitted: &(ResidualModel, ResidualSeries)| {
             let (model, series) = fitted;
@@ -57,11 +57,11 @@ impl RunZone {
             profile(fitted).iter().zip(expected).map(|(profile, error)| profile + error).collect()
         };
         match forecast {
-            Forecast::None => vec![0.0; steps],
-            Forecast::Constant => profile(&self.constant),
-            Forecast::Arma => with_arma(&self.constant),
-            Forecast::Profile => profile(&self.daily),
-            Forecast::ProfileArma => with_arma(&self.daily),
+            ResidualForecast::None => vec![0.0; steps],
+            ResidualForecast::Constant => profile(&self.constant),
+            ResidualForecast::Arma => with_arma(&self.constant),
+            ResidualForecast::Profile => profile(&self.daily),
+            ResidualForecast::ProfileArma => with_arma(&self.daily),
         }
     }
 }
@@ -70,7 +70,7 @@ impl RunZone {
 pub(super) fn run(
     telemetry: &Telemetry,
     zones: &[RunZone],
-    forecast: Forecast,
+    forecast: ResidualForecast,
     segment: &Range<usize>,
     (start, steps): (usize, usize),
 ) -> Vec<Vec<f64>> {
@@ -110,7 +110,7 @@ impl RunErrors {
 pub(super) fn errors(
     telemetry: &Telemetry,
     zones: &[RunZone],
-    forecast: Forecast,
+    forecast: ResidualForecast,
     segments: &[Range<usize>],
     horizon: usize,
 ) -> RunErrors {
@@ -135,7 +135,12 @@ pub(super) fn errors(
 }
 
 /// Temperatures of one zone \[row\] when the model runs freely, from the measured state anew every `horizon` steps.
-pub(super) fn restarted(telemetry: &Telemetry, zones: &[RunZone], forecast: Forecast, horizon: usize) -> Vec<Vec<f64>> {
+pub(super) fn restarted(
+    telemetry: &Telemetry,
+    zones: &[RunZone],
+    forecast: ResidualForecast,
+    horizon: usize,
+) -> Vec<Vec<f64>> {
     let mut series: Vec<Vec<f64>> = telemetry.zones.iter().map(|zone| zone.temperature_c.clone()).collect();
     for segment in &telemetry.segments {
         for start in segment.clone().step_by(horizon.max(1)) {

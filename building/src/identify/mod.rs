@@ -6,50 +6,50 @@
 //! T_i(t+1) = T_i(t) + T_s Σ_k b_ik (T_k(t) − T_i(t)) + T_s a_i (u_i(t) + w_i(t)) + q_i(t) + ε(t)      (2.4, corrected)
 //! ```
 //!
-//! [`identify`] estimates b and a by one of two [`Method`]s, turns them into capacities and resistances, models q, and says
+//! [`identify`] estimates b and a by one of two [`Estimator`]s, turns them into capacities and resistances, models q, and says
 //! how far each number can be trusted: standard errors, correlations, whether residuals are white, how a free run errs, and
-//! where the data cannot tell. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`classroom`].
+//! where the data cannot tell. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
 
 mod arma;
-mod checks;
-pub mod classroom;
 mod continuous;
+mod cross_checks;
 mod diagnostics;
 mod estimate;
+mod findings;
 mod free_run;
-mod judgement;
 mod normal;
 mod physical;
 mod regression;
 mod report;
 mod residual;
 mod settings;
+mod shared_walls;
 mod smoothing;
+pub mod synthetic_classroom;
 mod telemetry;
-mod walls;
 
 pub use arma::Arma;
-pub use diagnostics::{Confidence, LjungBox, Verdict, Whiteness};
-pub use free_run::Forecast;
+pub use diagnostics::{Confidence, LjungBox, ParameterVerdict, Whiteness};
+pub use free_run::ResidualForecast;
 pub use report::{
-    Check, ErrorReport, FreeRunReport, Identification, Quantity, Report, ResidualReport, WallReport, ZoneReport,
-    ZoneSeries,
+    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, ResidualReport, WallReport,
+    ZoneReport, ZoneSeries,
 };
-pub use settings::{Method, Settings};
+pub use settings::{Estimator, IdentifySettings};
 pub use smoothing::local_linear;
 pub use telemetry::{
-    AirFlowUnit, Boundary, BoundaryColumns, Gaps, HeatColumns, IrradianceUnit, Mapping, Neighbour, PowerUnit,
-    SolarColumn, SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem, TemperatureUnit, TimeAxis, Wall,
-    WaterFlowUnit, Zone, ZoneColumns,
+    AirFlowUnit, Boundary, BoundaryColumns, Gaps, HeatColumns, IrradianceUnit, Mapping, MeasuredWall, MeasuredZone,
+    Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem,
+    TemperatureUnit, TimeAxis, WaterFlowUnit, ZoneColumns,
 };
 
 use std::ops::Range;
 
 use crate::setting::SettingError;
 
-use checks::CheckedEstimate;
+use cross_checks::CheckedEstimate;
+use findings::Findings;
 use free_run::RunZone;
-use judgement::Findings;
 use regression::ZoneModel;
 use residual::{ResidualModel, ResidualSeries, steps};
 
@@ -86,8 +86,8 @@ pub enum IdentifyError {
 ///
 /// # Errors
 /// [`IdentifyError`] for a setting that makes no sense, a zone without anything to identify, or too few rows. That the data
-/// do not determine a parameter is no error: its [`Verdict`] says so.
-pub fn identify(telemetry: &Telemetry, settings: &Settings) -> Result<Identification, IdentifyError> {
+/// do not determine a parameter is no error: its [`ParameterVerdict`] says so.
+pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
     let test_start = test_start(telemetry, settings);
     let (train, test) = telemetry.split_at(test_start);
@@ -109,7 +109,7 @@ struct Parts {
 }
 
 /// The first row that is not trained on.
-fn test_start(telemetry: &Telemetry, settings: &Settings) -> usize {
+fn test_start(telemetry: &Telemetry, settings: &IdentifySettings) -> usize {
     let Some((days, first)) = settings.train_days.zip(telemetry.time_s.first()) else { return telemetry.rows() };
     let end_s = first + days * 86_400.0;
     telemetry.time_s.iter().position(|&time| time >= end_s).unwrap_or(telemetry.rows())
@@ -120,7 +120,7 @@ fn fit_zone(
     telemetry: &Telemetry,
     zone: usize,
     train: &[Range<usize>],
-    settings: &Settings,
+    settings: &IdentifySettings,
 ) -> Result<(CheckedEstimate, RunZone), IdentifyError> {
     let model = ZoneModel::new(telemetry, zone);
     if model.coefficients(telemetry).is_empty() {
@@ -139,14 +139,14 @@ fn fit_zone(
 }
 
 /// Steps of a free run.
-fn horizon(telemetry: &Telemetry, settings: &Settings) -> usize {
+fn horizon(telemetry: &Telemetry, settings: &IdentifySettings) -> usize {
     libm::round(settings.horizon_h * 3600.0 / telemetry.step_s) as usize
 }
 
-fn series(telemetry: &Telemetry, settings: &Settings, zones: &[RunZone], parts: &Parts) -> Vec<ZoneSeries> {
+fn series(telemetry: &Telemetry, settings: &IdentifySettings, zones: &[RunZone], parts: &Parts) -> Vec<ZoneSeries> {
     let horizon = horizon(telemetry, settings);
-    let free = free_run::restarted(telemetry, zones, Forecast::None, horizon);
-    let with_residual = free_run::restarted(telemetry, zones, Forecast::ProfileArma, horizon);
+    let free = free_run::restarted(telemetry, zones, ResidualForecast::None, horizon);
+    let with_residual = free_run::restarted(telemetry, zones, ResidualForecast::ProfileArma, horizon);
     let draw = |(zone, (free_run_c, free_run_with_residual_model_c)): (usize, (Vec<f64>, Vec<f64>))| {
         let measured = &telemetry.zones[zone];
         let residuals = &zones[zone].daily.1;

@@ -11,8 +11,8 @@
 
 use nalgebra::DMatrix;
 
-use super::checks::CheckedEstimate;
-use super::diagnostics::{Confidence, INTERVAL, Verdict, judge};
+use super::cross_checks::CheckedEstimate;
+use super::diagnostics::{Confidence, INTERVAL, ParameterVerdict, judge};
 use super::estimate::Estimate;
 use super::regression::Coefficient;
 use super::report::Quantity;
@@ -265,7 +265,7 @@ fn unknown(
         value: None,
         standard_error: None,
         interval,
-        verdict: Verdict { confidence, words },
+        verdict: ParameterVerdict { confidence, words },
         checks: Vec::new(),
     }
 }

@@ -3,24 +3,24 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::diagnostics::{Verdict, Whiteness};
-use super::free_run::Forecast;
-use super::{Arma, Method};
+use super::diagnostics::{ParameterVerdict, Whiteness};
+use super::free_run::ResidualForecast;
+use super::{Arma, Estimator};
 
 /// An identification: what to say, and what to draw.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identification {
     /// What to say.
-    pub report: Report,
+    pub report: IdentificationReport,
     /// What to draw, one a zone.
     pub series: Vec<ZoneSeries>,
 }
 
 /// What an identification found.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Report {
+pub struct IdentificationReport {
     /// The estimator.
-    pub method: Method,
+    pub method: Estimator,
     /// Sampling time \[s\].
     pub step_s: f64,
     /// Rows used, and of them those trained on.
@@ -78,14 +78,14 @@ pub struct Quantity {
     /// Interval of 95 %; `None` for an end that is unbounded.
     pub interval: (Option<f64>, Option<f64>),
     /// Whether the data determine it.
-    pub verdict: Verdict,
+    pub verdict: ParameterVerdict,
     /// What other ways of estimating it give; for coefficients only.
-    pub checks: Vec<Check>,
+    pub checks: Vec<CrossCheck>,
 }
 
 /// Another estimate of a coefficient.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Check {
+pub struct CrossCheck {
     /// How it was obtained, as `by semiparametric`.
     pub how: String,
     /// The estimate before the condition that it is not negative; `None` where it is not determined.
@@ -124,7 +124,7 @@ pub struct FreeRunReport {
     /// How many runs fit into the rows.
     pub runs: usize,
     /// Root mean square error by forecast of the non-parametric term \[K\]; `None` without a run.
-    pub errors_k: Vec<(Forecast, Option<f64>)>,
+    pub errors_k: Vec<(ResidualForecast, Option<f64>)>,
 }
 
 /// A wall between two zones, whose conductance both sides estimate.

@@ -9,15 +9,15 @@ use crate::setting::SettingError;
 /// How to identify. Every field has a default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Settings {
+pub struct IdentifySettings {
     /// The estimator.
-    pub method: Method,
+    pub method: Estimator,
     /// Bandwidth of the kernel smoother \[h\]; only `semiparametric` uses it. Wider ones let slow disturbances bias the
     /// conductances, narrower ones leave only sensor noise.
     pub bandwidth_h: f64,
     /// How a step is understood when rates become capacities and time constants: `exact` for measured buildings, which do
     /// not live in steps; `euler` for data simulated by eq. 2.3 itself.
-    pub discretisation: discretise::Method,
+    pub discretisation: discretise::Discretisation,
     /// r, the autoregressive order of the residual model.
     pub autoregressive_order: usize,
     /// How many daily harmonics the residual model and `prediction-error` hold.
@@ -28,12 +28,12 @@ pub struct Settings {
     pub train_days: Option<f64>,
 }
 
-impl Default for Settings {
+impl Default for IdentifySettings {
     fn default() -> Self {
         Self {
-            method: Method::PredictionError,
+            method: Estimator::PredictionError,
             bandwidth_h: 1.25,
-            discretisation: discretise::Method::Exact,
+            discretisation: discretise::Discretisation::Exact,
             autoregressive_order: 2,
             harmonics: 3,
             horizon_h: 24.0,
@@ -45,7 +45,7 @@ impl Default for Settings {
 /// An estimator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum Estimator {
     /// The source's: kernel smoothing takes out the non-parametric term, least squares finds the parameters, and an ARMA
     /// model is fitted to what is left.
     Semiparametric,
@@ -55,7 +55,7 @@ pub enum Method {
     PredictionError,
 }
 
-impl Settings {
+impl IdentifySettings {
     /// # Errors
     /// [`SettingError`] for the first field that makes no sense with this sampling time.
     pub(super) fn check(&self, step_s: f64) -> Result<(), SettingError> {

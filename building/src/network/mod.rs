@@ -16,16 +16,16 @@
 //!
 //! Table 2.1 gives resistances in kW/K; the numbers only make sense in K·min/kJ. [`Network::testbed`] has them in K/kW.
 
-mod belief;
 mod error;
+mod mismatch;
 mod presets;
 mod settings;
 mod structure;
 
 use nalgebra::DMatrix;
 
-pub use belief::Belief;
 pub use error::{NetworkError, Part, Remark};
+pub use mismatch::ModelMismatch;
 pub use settings::{AMBIENT, Wall, Zone};
 
 /// A conductance between two nodes.

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Series, Weather};
+use super::{TimeSeries, Weather};
 use crate::random::Random;
 
 /// Time between two values \[s\].
@@ -97,7 +97,7 @@ impl Climate {
                 sun_w_per_m2.push(CLEAR_SUN_W_PER_M2 * clearness * overcast * sun_height(hour));
             }
         }
-        let series = |values| Series { first_s: -86_400.0, interval_s: INTERVAL_S, cyclic: false, values };
+        let series = |values| TimeSeries { first_s: -86_400.0, interval_s: INTERVAL_S, cyclic: false, values };
         Weather { ambient_c: series(ambient_c), sun_w_per_m2: series(sun_w_per_m2) }
     }
 

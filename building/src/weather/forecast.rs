@@ -10,7 +10,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Series, Weather};
+use super::{TimeSeries, Weather};
 use crate::random::Random;
 
 /// How a day's outdoor temperatures are forecast at its start. (For the forecast of a second file, ask that file's
@@ -97,7 +97,7 @@ impl Forecast {
             Self::Uncertain { level } => {
                 let hours = (steps as f64 * step_s / 3600.0).ceil() as usize;
                 let values = level.model().errors_k(seed, day, hours);
-                let error_k = Series { first_s: 0.0, interval_s: 3600.0, cyclic: false, values };
+                let error_k = TimeSeries { first_s: 0.0, interval_s: 3600.0, cyclic: false, values };
                 let mut forecast_c = actual.ambient_steps_c(start_s, step_s, steps);
                 for (step, forecast_c) in forecast_c.iter_mut().enumerate() {
                     *forecast_c += error_k.at((step as f64 + 0.5) * step_s);

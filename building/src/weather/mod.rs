@@ -7,20 +7,20 @@
 mod climate;
 pub mod epw;
 mod forecast;
-mod series;
+mod time_series;
 
 pub use climate::Climate;
 pub use epw::{Epw, EpwError};
 pub use forecast::{ErrorLevel, ErrorModel, Forecast};
-pub use series::Series;
+pub use time_series::TimeSeries;
 
 /// Outdoor temperature and sunshine as functions of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weather {
     /// Dry-bulb temperature outdoors \[°C\].
-    pub ambient_c: Series,
+    pub ambient_c: TimeSeries,
     /// Global radiation on a horizontal plane \[W/m²\].
-    pub sun_w_per_m2: Series,
+    pub sun_w_per_m2: TimeSeries,
 }
 
 impl Weather {

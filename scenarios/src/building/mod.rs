@@ -7,8 +7,8 @@ mod weather;
 
 use interplay_building::control::Controller;
 use interplay_building::control::pid::PidSettings;
-use interplay_building::discretise::Method;
-use interplay_building::network::{Belief, Network, NetworkError, Wall, Zone};
+use interplay_building::discretise::Discretisation;
+use interplay_building::network::{ModelMismatch, Network, NetworkError, Wall, Zone};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -46,12 +46,12 @@ pub struct Building {
     #[schemars(range(min = 60.0, max = 3600.0))]
     pub step_s: f64,
     /// How time is cut into steps.
-    pub method: Method,
+    pub method: Discretisation,
     /// Temperature of everything at the start \[°C\].
     #[schemars(range(min = -50.0, max = 100.0))]
     pub initial_c: f64,
     /// What the controller takes the building for, where it is wrong.
-    pub believed: Belief,
+    pub believed: ModelMismatch,
 }
 
 impl Default for Building {
@@ -62,9 +62,9 @@ impl Default for Building {
             zones: Vec::new(),
             walls: Vec::new(),
             step_s: 1800.0,
-            method: Method::Exact,
+            method: Discretisation::Exact,
             initial_c: 28.0,
-            believed: Belief::default(),
+            believed: ModelMismatch::default(),
         }
     }
 }

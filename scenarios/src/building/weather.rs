@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use interplay_building::weather::{Climate, Epw, Forecast, Series};
+use interplay_building::weather::{Climate, Epw, Forecast, TimeSeries};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -100,7 +100,7 @@ impl Weather {
             Weather::Epw(file) => {
                 let epw = file.content.as_ref()?;
                 let start_s = file.start_s(epw)?;
-                let shifted = |series: Series| Series { first_s: series.first_s - start_s, ..series };
+                let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - start_s, ..series };
                 let interplay_building::weather::Weather { ambient_c, sun_w_per_m2 } = epw.weather();
                 Some(interplay_building::weather::Weather {
                     ambient_c: shifted(ambient_c),

@@ -1,7 +1,7 @@
 //! A controller: proportional feedback that starts before people come.
 
 // shown from here
-use interplay_building::control::{Control, ControlError, DayRecord, Morning, Observation};
+use interplay_building::control::{Control, ControlError, DayAhead, DayRecord, Observation};
 
 /// Heat in proportion to what is missing, for what will be wanted some steps ahead.
 struct Early {
@@ -10,7 +10,7 @@ struct Early {
 }
 
 impl Control for Early {
-    fn start_of_day(&mut self, _: &Morning<'_>) -> Result<(), ControlError> {
+    fn start_of_day(&mut self, _: &DayAhead<'_>) -> Result<(), ControlError> {
         Ok(())
     }
 

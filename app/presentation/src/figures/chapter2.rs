@@ -1,6 +1,7 @@
 //! Chapter 2: what the room is like, from its telemetry.
 
-use super::{Entry, Kind, theory};
+use super::entry::{Entry, Kind};
+use super::theory;
 
 /// The figures and tables of the chapter.
 pub(super) static ENTRIES: &[Entry] = &[

@@ -2,7 +2,9 @@
 
 use interplay_building::comfort::Setpoints;
 
-use super::{Entry, Kind, Shot, climate, drawings, theory};
+use super::entry::{Entry, Kind};
+use super::take::Shot;
+use super::{climate, drawings, theory};
 
 const TUNED: Shot = Shot { label: "feedback tuned every day", scenario: "building/iterative-warm-nights", sets: &[] };
 const FIXED: Shot = Shot { label: "fixed feedback, K = 0.1 kW/K", scenario: "building/fixed-warm-nights", sets: &[] };

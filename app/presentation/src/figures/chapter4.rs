@@ -2,7 +2,9 @@
 
 use interplay_building::comfort::Setpoints;
 
-use super::{Entry, Exhibit, Kind, Shot, Take, climate, theory};
+use super::entry::{Entry, Exhibit, Kind};
+use super::take::{Shot, Take};
+use super::{climate, theory};
 
 const fn shot(label: &'static str, scenario: &'static str) -> Shot {
     Shot { label, scenario, sets: &[] }

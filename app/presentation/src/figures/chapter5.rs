@@ -1,6 +1,8 @@
 //! Chapter 5: zones that plan together.
 
-use super::{Entry, Kind, Shot, climate, drawings};
+use super::entry::{Entry, Kind};
+use super::take::Shot;
+use super::{climate, drawings};
 
 const TOGETHER: Shot = Shot { label: "distributed", scenario: "building/distributed", sets: &[] };
 const CENTRAL: Shot = Shot {

@@ -1,7 +1,9 @@
 //! Chapter 6: negotiation.
 
 use super::drawings::{film, film_and_mind, speeds};
-use super::{Entry, Kind, Shot, theory};
+use super::entry::{Entry, Kind};
+use super::take::Shot;
+use super::theory;
 
 const CONSERVATIVE: &[&str] = &["vehicle.ego.driver.kind=\"conservative\""];
 

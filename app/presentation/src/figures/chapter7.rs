@@ -1,7 +1,8 @@
 //! Chapter 7: Bayesian persuasion.
 
 use super::drawings::{film, film_and_mind, speeds};
-use super::{Entry, Kind, Shot};
+use super::entry::{Entry, Kind};
+use super::take::Shot;
 
 const fn shot(scenario: &'static str) -> Shot {
     Shot { label: "Bayesian persuasion", scenario, sets: &[] }

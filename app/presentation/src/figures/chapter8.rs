@@ -1,7 +1,9 @@
 //! Chapter 8: the persuasion game.
 
 use super::drawings::{film_and_mind, speeds};
-use super::{Entry, Kind, Shot, theory};
+use super::entry::{Entry, Kind};
+use super::take::Shot;
+use super::theory;
 
 const fn shot(scenario: &'static str) -> Shot {
     Shot { label: "game", scenario, sets: &[] }

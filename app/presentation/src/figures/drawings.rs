@@ -1,7 +1,8 @@
 //! Drawings that several entries share, each of the first take.
 
+use super::entry::{Entry, Exhibit};
 use super::take::Take;
-use super::{Entry, Exhibit, climate, driving};
+use super::{climate, driving};
 
 /// Footprints.
 pub(super) fn film(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {

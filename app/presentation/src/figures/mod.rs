@@ -18,8 +18,10 @@ mod chapter8;
 mod climate;
 mod drawings;
 mod driving;
+mod entry;
 mod find;
 mod measures;
+mod save;
 mod section;
 mod show;
 mod take;
@@ -29,88 +31,15 @@ mod theory;
 mod words;
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::plot::{Sheet, Sketch};
-
+pub use entry::{Draw, Entry, Exhibit, Kind, Made};
 pub use find::{UnknownFigure, find};
+use save::save;
 pub use section::{own_page, section};
-use show::show;
-pub use take::{Camera, Shot, Take};
-
-/// What an entry is in the source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A figure.
-    Figure,
-    /// A table.
-    Table,
-}
-
-/// A figure or table of the source.
-#[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    /// Whether it is a figure or a table.
-    pub kind: Kind,
-    /// Its number, such as `6.1`.
-    pub number: &'static str,
-    /// What it shows, in a line.
-    pub title: &'static str,
-    /// What the source says of it.
-    pub says: &'static str,
-    /// What the source has wrong that concerns it, and what that does.
-    pub erratum: Option<&'static str>,
-    /// The runs that are drawn.
-    pub shots: &'static [Shot],
-    /// Runs that are measured beside them, such as another planner or the equations as printed.
-    pub beside: &'static [Shot],
-    /// How it is drawn from the takes of `shots`.
-    pub draw: Draw,
-}
-
-/// How an entry is drawn from its takes.
-pub type Draw = fn(&Entry, &[&Take]) -> Result<Exhibit, String>;
-
-/// What came of an entry, or of a run: pictures, and tables of what was measured.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Exhibit {
-    /// The pictures.
-    pub pictures: Vec<Sketch>,
-    /// What was measured.
-    pub sheets: Vec<Sheet>,
-    /// What came of it, in sentences with a word in front of each.
-    pub words: Vec<(String, String)>,
-}
-
-impl From<Sketch> for Exhibit {
-    fn from(picture: Sketch) -> Exhibit {
-        Exhibit { pictures: vec![picture], ..Exhibit::default() }
-    }
-}
-
-impl Entry {
-    /// The name of its files, and what the command line calls it: `fig-6.1`, `table-6.1`.
-    pub fn id(&self) -> String {
-        let kind = match self.kind {
-            Kind::Figure => "fig",
-            Kind::Table => "table",
-        };
-        format!("{kind}-{}", self.number)
-    }
-}
-
-impl fmt::Display for Entry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kind = match self.kind {
-            Kind::Figure => "Fig.",
-            Kind::Table => "Table",
-        };
-        write!(f, "{kind} {}", self.number)
-    }
-}
+pub use take::{Camera, Ran, Shot, Take};
 
 /// Every figure and table, by chapters, figures before tables.
 pub fn registry() -> impl Iterator<Item = &'static Entry> {
@@ -124,33 +53,6 @@ pub fn registry() -> impl Iterator<Item = &'static Entry> {
         chapter8::ENTRIES,
     ];
     chapters.into_iter().flatten()
-}
-
-/// What became of an entry.
-#[derive(Clone, Debug)]
-pub struct Made {
-    /// The entry.
-    pub entry: &'static Entry,
-    /// What was drawn and measured, or why not.
-    pub outcome: Result<Exhibit, String>,
-    /// How each run went that was asked of it and could be finished.
-    pub runs: Vec<Ran>,
-}
-
-/// How a run went.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ran {
-    /// The words of the command that runs the same.
-    pub command: Vec<String>,
-    /// Whether its expectations held; `None` if the scenario was changed or expects nothing.
-    pub held: Option<bool>,
-}
-
-impl Made {
-    /// Whether every run did what its scenario expects.
-    pub fn held(&self) -> bool {
-        self.runs.iter().all(|run| run.held != Some(false))
-    }
 }
 
 /// How many steps [`make`] takes for these entries: runs, and drawings.
@@ -218,16 +120,4 @@ fn told(drawn: &[&Take], beside: &[&Take]) -> Vec<(String, String)> {
     let mut told = vec![("Here".to_owned(), words::outcome(first))];
     told.extend((!changes.is_empty()).then(|| ("Beside it".to_owned(), changes.join(" "))));
     told
-}
-
-/// Writes pictures as `name.svg` and `name.png`; from the second on with a number.
-///
-/// # Errors
-/// In words, if one cannot be drawn or written.
-fn save(pictures: &[Sketch], folder: &Path, name: &str) -> Result<(), String> {
-    for (index, picture) in pictures.iter().enumerate() {
-        let name = if index == 0 { name.to_owned() } else { format!("{name}-{}", index + 1) };
-        picture.save(folder, &name).map_err(|error| error.to_string())?;
-    }
-    Ok(())
 }

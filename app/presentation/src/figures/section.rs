@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Exhibit, Made, Ran, Take, save, show};
+use super::entry::{Exhibit, Made};
+use super::save::save;
+use super::show::show;
+use super::take::{Ran, Take};
 use crate::page::{Page, Section, Verdict};
 use crate::report::summary;
 use crate::shell;

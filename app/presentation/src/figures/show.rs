@@ -1,7 +1,8 @@
 //! All pictures of one run, whatever it is of.
 
+use super::entry::Exhibit;
 use super::take::Take;
-use super::{Exhibit, climate, driving, measures};
+use super::{climate, driving, measures};
 
 /// Everything there is to see of a run: footprints, speeds and gaps, each planner's own numbers; for a building
 /// temperatures, inputs, costs and weather; and what was measured and expected.

@@ -8,8 +8,6 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::{RunError, run};
 use interplay_simulation::watch::Watcher;
 
-use super::Ran;
-
 /// A run that a figure needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Shot {
@@ -19,6 +17,15 @@ pub struct Shot {
     pub scenario: &'static str,
     /// What is changed in it, as `--set` has it.
     pub sets: &'static [&'static str],
+}
+
+/// How a run went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ran {
+    /// The words of the command that runs the same.
+    pub command: Vec<String>,
+    /// Whether its expectations held; `None` if the scenario was changed or expects nothing.
+    pub held: Option<bool>,
 }
 
 /// A run and all that was seen of it.

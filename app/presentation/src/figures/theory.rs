@@ -2,9 +2,9 @@
 
 use interplay_building::comfort::Setpoints;
 use interplay_building::discretise::Model;
-use interplay_building::identify::classroom::{self, Classroom};
+use interplay_building::identify::synthetic_classroom::{self, Classroom};
 use interplay_building::identify::{
-    ErrorReport, Forecast, Identification, Method, Quantity, Settings, ZoneReport, identify,
+    ErrorReport, Estimator, Identification, IdentifySettings, Quantity, ResidualForecast, ZoneReport, identify,
 };
 use interplay_building::network::Network;
 use interplay_planners::Limits;
@@ -13,7 +13,7 @@ use interplay_planners::game::prospect::{ProspectTheory, weighting};
 use interplay_planners::{Body, SafetyEllipse};
 use interplay_scenarios::load;
 
-use super::Exhibit;
+use super::entry::Exhibit;
 use crate::plot::ink::{BLACK, BLUE, Dash, GREY, Ink, ORANGE};
 use crate::plot::{Curve, Panel, Panels, Sheet};
 
@@ -23,11 +23,11 @@ const TRAIN_DAYS: f64 = 9.0;
 /// The identified classroom over the rows trained on, or over the others (Figs. 2.5 and 2.6).
 pub fn identification(title: &str, test: bool) -> Result<Exhibit, String> {
     let telemetry = Classroom::default().simulate();
-    let identified = |method: Method| {
-        let settings = Settings { method, train_days: Some(TRAIN_DAYS), ..Settings::default() };
+    let identified = |method: Estimator| {
+        let settings = IdentifySettings { method, train_days: Some(TRAIN_DAYS), ..IdentifySettings::default() };
         identify(&telemetry, &settings).map_err(|error| error.to_string())
     };
-    let (found, source) = (identified(Method::PredictionError)?, identified(Method::Semiparametric)?);
+    let (found, source) = (identified(Estimator::PredictionError)?, identified(Estimator::Semiparametric)?);
     let (Some(zone), Some(other)) = (found.report.zones.first(), source.report.zones.first()) else {
         return Err("the classroom has no zone".to_owned());
     };
@@ -70,12 +70,12 @@ fn fit_errors(errors: &ErrorReport) -> Sheet {
         ["one step ahead, network alone".to_owned(), kelvin(errors.one_step_k)],
         ["one step ahead, with residual model".to_owned(), kelvin(errors.one_step_with_residual_model_k)],
     ];
-    let words = |forecast: &Forecast| match forecast {
-        Forecast::None => "network alone",
-        Forecast::Constant => "with a constant",
-        Forecast::Arma => "with a constant and ARMA, as the source",
-        Forecast::Profile => "with a daily profile",
-        Forecast::ProfileArma => "with a daily profile and ARMA",
+    let words = |forecast: &ResidualForecast| match forecast {
+        ResidualForecast::None => "network alone",
+        ResidualForecast::Constant => "with a constant",
+        ResidualForecast::Arma => "with a constant and ARMA, as the source",
+        ResidualForecast::Profile => "with a daily profile",
+        ResidualForecast::ProfileArma => "with a daily profile and ARMA",
     };
     let runs = errors.free_run.errors_k.iter();
     rows.extend(runs.filter_map(|(how, error_k)| Some([format!("a day ahead, {}", words(how)), kelvin((*error_k)?)])));
@@ -85,9 +85,9 @@ fn fit_errors(errors: &ErrorReport) -> Sheet {
 fn parameters_found(zone: &ZoneReport, other: &ZoneReport) -> Sheet {
     let number = |value: Option<f64>| value.map_or_else(|| "undetermined".to_owned(), |value| format!("{value:.4}"));
     let truth = |name: &str| match name {
-        "heat capacity" => format!("{:.1}", classroom::CAPACITY_KJ_PER_K),
-        "resistance to outdoor" => format!("{:.2}", classroom::OUTDOOR_K_PER_KW),
-        "resistance to room-b" | "resistance to room-c" => format!("{:.2}", classroom::ROOM_K_PER_KW),
+        "heat capacity" => format!("{:.1}", synthetic_classroom::CAPACITY_KJ_PER_K),
+        "resistance to outdoor" => format!("{:.2}", synthetic_classroom::OUTDOOR_K_PER_KW),
+        "resistance to room-b" | "resistance to room-c" => format!("{:.2}", synthetic_classroom::ROOM_K_PER_KW),
         _ => String::new(),
     };
     let rows = zone.physical.iter().map(|quantity| {

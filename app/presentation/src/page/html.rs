@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Page, Section, Verdict};
+use super::contents::{Page, Section, Verdict};
 use crate::plot::Sheet;
 
 const STYLE: &str = "\

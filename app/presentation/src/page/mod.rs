@@ -2,78 +2,10 @@
 //!
 //! Pictures are SVG inside the text; there is no script. A page opens from a folder, offline, in any browser.
 
+mod contents;
 mod html;
 
-use crate::plot::Sheet;
-
-/// A page.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Page {
-    /// Its title.
-    pub title: String,
-    /// What stands below the title, a paragraph each.
-    pub opening: Vec<String>,
-    /// What it shows.
-    pub sections: Vec<Section>,
-}
-
-/// A part of a page.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Section {
-    /// Where links lead, unique on the page.
-    pub id: String,
-    /// Its heading.
-    pub heading: String,
-    /// How it turned out.
-    pub verdict: Verdict,
-    /// Paragraphs with a word in front of each.
-    pub words: Vec<(String, String)>,
-    /// Pictures as SVG, each with what it shows in words.
-    pub pictures: Vec<(String, String)>,
-    /// Tables.
-    pub tables: Vec<Sheet>,
-    /// Commands that make the same again.
-    pub commands: Vec<String>,
-    /// Files beside the page, with what each is.
-    pub files: Vec<(String, String)>,
-}
-
-/// How a part turned out.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Verdict {
-    /// Nothing was expected.
-    #[default]
-    Shown,
-    /// All that was expected came true.
-    Held,
-    /// Something that was expected did not come true.
-    Missed,
-    /// It could not be made, and why.
-    Broken(String),
-}
-
-impl Verdict {
-    /// The words for it.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Verdict::Shown => "shown",
-            Verdict::Held => "expectations held",
-            Verdict::Missed => "an expectation failed",
-            Verdict::Broken(_) => "could not be made",
-        }
-    }
-}
-
-impl Verdict {
-    /// A sign for it.
-    fn sign(&self) -> &'static str {
-        match self {
-            Verdict::Shown => "–",
-            Verdict::Held => "✓",
-            Verdict::Missed | Verdict::Broken(_) => "✗",
-        }
-    }
-}
+pub use contents::{Page, Section, Verdict};
 
 impl Page {
     /// The whole as HTML.

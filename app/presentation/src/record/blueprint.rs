@@ -11,6 +11,7 @@ use super::re_sdk_types::blueprint::components::{
     ColumnShare, ContainerKind, IncludedContent, LoopMode, PanelState, PlayState, RootContainer, RowShare,
 };
 use super::re_sdk_types::datatypes::Uuid;
+use super::timelines::SIM_TIME;
 use rerun::external::re_log_types::BlueprintActivationCommand;
 use rerun::log::LogMsg;
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
@@ -103,7 +104,7 @@ pub fn send(
         "time_panel",
         &TimePanelBlueprint::new()
             .with_state(PanelState::Collapsed)
-            .with_timeline(super::SIM_TIME)
+            .with_timeline(SIM_TIME)
             .with_play_state(play)
             .with_playback_speed(speed)
             .with_loop_mode(LoopMode::All),

@@ -3,19 +3,18 @@
 //! The close-up and the whole road lie across the window, since roads are long and narrow; below them the numbers,
 //! and at the bottom the words.
 
-use super::re_sdk_types::blueprint::archetypes::{
-    PlotLegend, ScalarAxis, TextLogColumns, TimeAxis, VisibleTimeRanges, VisualBounds2D,
-};
+use super::re_sdk_types::blueprint::archetypes::{PlotLegend, ScalarAxis, TimeAxis, VisibleTimeRanges, VisualBounds2D};
 use super::re_sdk_types::blueprint::components::{Corner2D, VisibleTimeRange};
-use super::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
 use super::re_sdk_types::components::Range1D;
 use super::re_sdk_types::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
 use super::re_sdk_types::{blueprint, datatypes};
 use interplay_scenarios::{Branch, Scenario, Vehicle};
 
 use super::blueprint::{Panel, View};
+use super::panels::{about, events};
 use super::planner_panels;
 use super::plots::{self, Plots};
+use super::timelines::{SIM_TIME, TICK};
 use super::vehicles::FOLLOW;
 
 /// Width of the close-up as a multiple of its height.
@@ -109,19 +108,6 @@ impl Plot {
     }
 }
 
-/// What the recording is, and what to look for.
-pub fn about() -> Panel {
-    Panel::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))
-}
-
-/// What happened, in words.
-pub fn events() -> Panel {
-    let column = |kind| TextLogColumn { visible: true.into(), kind };
-    let columns = [TextLogColumnKind::LogLevel, TextLogColumnKind::Body].map(column);
-    let view = View::new("TextLog", "Events", vec![format!("/{}", plots::LOG)]);
-    Panel::View(view.with("TextLogColumns", TextLogColumns::new().with_text_log_columns(columns)))
-}
-
 /// Length of road in the close-up \[m\].
 pub fn close_up_span_m(scenario: &Scenario) -> f64 {
     CLOSE_UP_ASPECT * (scenario.road.width_m() + 2.0 * BESIDE_LANES * scenario.road.lane_width_m())
@@ -167,7 +153,7 @@ fn traced(scenario: &Scenario, view: View) -> View {
         let range =
             TimeRange { start: TimeRangeBoundary::Infinite, end: TimeRangeBoundary::CursorRelative(TimeInt(0)) };
         let on = |timeline: &str| VisibleTimeRange(datatypes::VisibleTimeRange { timeline: timeline.into(), range });
-        VisibleTimeRanges::new([on(super::SIM_TIME), on(super::TICK)])
+        VisibleTimeRanges::new([on(SIM_TIME), on(TICK)])
     };
     scenario
         .vehicles

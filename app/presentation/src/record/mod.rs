@@ -15,18 +15,22 @@
 //! building/…                                          see `building/mod.rs`
 //! ```
 
+mod about;
 mod blueprint;
 mod building;
 mod error;
 mod file;
 mod layout;
 mod live;
+mod markdown;
 mod palette;
+mod panels;
 mod planner_panels;
 mod plots;
-mod stage;
+mod road;
 #[cfg(test)]
 mod tests;
+mod timelines;
 mod vehicles;
 
 use std::path::PathBuf;
@@ -44,15 +48,11 @@ pub use error::RecordError;
 pub use live::Viewer;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
+pub use timelines::{SIM_TIME, TICK};
 use vehicles::Cast;
 
 use interplay_simulation::frame::Frame;
 use interplay_simulation::watch::Watcher;
-
-/// Simulated time.
-pub const SIM_TIME: &str = "sim_time";
-/// Ticks.
-pub const TICK: &str = "tick";
 
 /// The first bytes of every recording in a file.
 pub const MAGIC: [u8; 3] = *b"RRF";
@@ -126,9 +126,9 @@ impl Recorder {
         let [from_m, to_m] = expected_road(scenario);
         let beyond_m = layout::close_up_span_m(scenario);
         if !scenario.vehicles.is_empty() {
-            stage::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
+            road::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
         }
-        stage::about(&stream, scenario, &paints, None)?;
+        about::about(&stream, scenario, &paints, None)?;
         let cast = Cast::enter(&stream, scenario, &paints)?;
         let plots = Plots::begin(&stream, scenario, &paints)?;
         let house = House::begin(&stream, scenario)?;
@@ -141,7 +141,7 @@ impl Recorder {
     /// [`RecordError::Broken`] if Rerun refuses the text.
     pub fn repeat_with(&self, command: &str) -> Result<(), RecordError> {
         let paints = palette::paints(&self.scenario);
-        Ok(stage::about(&self.stream, &self.scenario, &paints, Some(command))?)
+        Ok(about::about(&self.stream, &self.scenario, &paints, Some(command))?)
     }
 
     /// Records one tick.

@@ -8,7 +8,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 use super::palette::{FAILURE, NEUTRAL, Paint};
 use super::re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
 use super::re_sdk_types::components::Radius;
-use super::stage::turn;
+use super::road::turn;
 
 /// The entity whose frame moves along the road with the ego.
 pub const FOLLOW: &str = "follow";

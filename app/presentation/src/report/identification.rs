@@ -2,7 +2,9 @@
 
 use std::fmt::{self, Write};
 
-use interplay_building::identify::{Confidence, ErrorReport, Forecast, Identification, Quantity, Report, ZoneReport};
+use interplay_building::identify::{
+    Confidence, ErrorReport, Identification, IdentificationReport, Quantity, ResidualForecast, ZoneReport,
+};
 
 /// The findings for a person: parameters with uncertainty and verdict, residuals, errors, and what to beware of.
 pub fn identification(file: &str, found: &Identification) -> String {
@@ -12,7 +14,7 @@ pub fn identification(file: &str, found: &Identification) -> String {
     text
 }
 
-fn write_report(text: &mut String, file: &str, report: &Report) -> fmt::Result {
+fn write_report(text: &mut String, file: &str, report: &IdentificationReport) -> fmt::Result {
     let method = serde_json::to_value(report.method).ok();
     let method = method.as_ref().and_then(|word| word.as_str()).unwrap_or_default();
     writeln!(text, "Thermal parameters from {file}, by {method}")?;
@@ -86,7 +88,7 @@ fn write_quantity(text: &mut String, quantity: &Quantity, (width, unit): (usize,
 
 fn write_errors(text: &mut String, rows: &str, errors: &ErrorReport) -> fmt::Result {
     let free = &errors.free_run;
-    let of = |wanted: Forecast| {
+    let of = |wanted: ResidualForecast| {
         let found = free.errors_k.iter().find(|(forecast, _)| *forecast == wanted).and_then(|(_, error)| *error);
         found.map_or_else(|| "-".to_owned(), |error| format!("{error:.3} K"))
     };
@@ -98,8 +100,8 @@ fn write_errors(text: &mut String, rows: &str, errors: &ErrorReport) -> fmt::Res
         errors.one_step_with_residual_model_k,
         free.runs,
         free.horizon_h,
-        of(Forecast::None),
-        of(Forecast::ProfileArma)
+        of(ResidualForecast::None),
+        of(ResidualForecast::ProfileArma)
     )
 }
 

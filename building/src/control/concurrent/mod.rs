@@ -11,20 +11,21 @@
 //! With the expected cost they are coupled through the margins alone; where comfort is not at its bound, solving them in
 //! turn is optimal.
 
+pub mod filter;
 mod settings;
-pub mod taps;
 pub mod youla;
 
 pub use settings::ConcurrentSettings;
 
-use super::experience::{Experience, Lesson};
-use super::follow::{Diary, Learner, Plan};
+use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
 use super::iterative::rows;
-use super::optimum::{Caution, margins_kw, plan};
+use super::optimum::{ConstraintTightening, margins_kw, plan};
+use super::planning::{DayPlan, PlanHistory, PlanningDesign};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
-use super::{ControlError, Design, Morning, Observation};
+use super::{ControlError, DayAhead, Design, Observation};
 use crate::comfort::Targets;
 use crate::lifted::Lifted;
+use filter::FilterDesign;
 use youla::StateSpace;
 
 /// What to look for in a recording of a building with this controller.
@@ -35,11 +36,11 @@ pub(super) const LOOK_FOR: &str = "after one day temperatures stay within the co
 #[derive(Clone, Debug)]
 pub struct Concurrent {
     settings: ConcurrentSettings,
-    experience: Experience,
+    estimator: DisturbanceEstimator,
     uncertainty: Uncertainty,
-    diary: Diary,
+    history: PlanHistory,
     /// The feedback for these targets, as long as Σ stays the same.
-    feedback: Option<(Targets, Feedback)>,
+    feedback: Option<(Targets, FilterFeedback)>,
     /// The feedback at work today.
     state: Option<StateSpace>,
     targets: Option<Targets>,
@@ -47,9 +48,9 @@ pub struct Concurrent {
 
 /// A designed feedback with what it leaves uncertain.
 #[derive(Clone, Debug)]
-pub struct Feedback {
+pub struct FilterFeedback {
     /// Q and its cost.
-    pub design: taps::Design,
+    pub design: FilterDesign,
     /// Standard deviations of the inputs \[kW\], stacked.
     pub input_deviation_kw: Vec<f64>,
     /// Standard deviations of the temperatures \[K\], stacked.
@@ -66,8 +67,8 @@ impl Concurrent {
         Ok(Self {
             settings,
             uncertainty: Uncertainty::new(settings.uncertainty).map_err(|error| error.within("uncertainty"))?,
-            experience: Experience::new(lifted, settings.prediction, settings.learning_rate)?,
-            diary: Diary::default(),
+            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?,
+            history: PlanHistory::default(),
             feedback: None,
             state: None,
             targets: None,
@@ -75,16 +76,16 @@ impl Concurrent {
     }
 
     /// The feedback for the targets, designed anew when something has changed.
-    fn feedback(&mut self, targets: &Targets) -> Result<Feedback, ControlError> {
+    fn feedback(&mut self, targets: &Targets) -> Result<FilterFeedback, ControlError> {
         if let Some((known, feedback)) = &self.feedback
             && known == targets
         {
             return Ok(feedback.clone());
         }
-        let lifted = self.experience.lifted();
-        let design = taps::design(&self.settings, lifted, targets, &self.uncertainty)?;
-        let response = design.taps.response(lifted, &factor(self.uncertainty.covariance(targets))?);
-        let feedback = Feedback {
+        let lifted = self.estimator.lifted();
+        let design = filter::design(&self.settings, lifted, targets, &self.uncertainty)?;
+        let response = design.filter.response(lifted, &factor(self.uncertainty.covariance(targets))?);
+        let feedback = FilterFeedback {
             design,
             input_deviation_kw: response.input_deviation_kw(),
             temperature_deviation_k: response.temperature_deviation_k(),
@@ -94,52 +95,52 @@ impl Concurrent {
     }
 }
 
-impl Learner for Concurrent {
-    fn books(&mut self) -> (&mut Experience, &mut Diary) {
-        (&mut self.experience, &mut self.diary)
+impl PlanningDesign for Concurrent {
+    fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory) {
+        (&mut self.estimator, &mut self.history)
     }
 
-    fn diary(&self) -> &Diary {
-        &self.diary
+    fn history(&self) -> &PlanHistory {
+        &self.history
     }
 
-    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
-        self.targets = Some(morning.targets.clone());
+    fn plan(&mut self, day_ahead: &DayAhead<'_>) -> Result<(Option<DayPlan>, Design), ControlError> {
+        self.targets = Some(day_ahead.targets.clone());
         // After a failed design yesterday's plan is followed with the last feedback, from rest.
-        let last = self.feedback.as_ref().map(|(_, feedback)| feedback.design.taps.clone());
-        self.state = last.map(|taps| StateSpace::new(taps, self.experience.lifted().model()));
-        let free_c = self.experience.expect(morning)?;
-        if self.experience.is_empty() {
+        let last = self.feedback.as_ref().map(|(_, feedback)| feedback.design.filter.clone());
+        self.state = last.map(|filter| StateSpace::new(filter, self.estimator.lifted().model()));
+        let free_c = self.estimator.expect(day_ahead)?;
+        if self.estimator.is_empty() {
             return Ok((None, Design::default()));
         }
-        let targets = morning.targets;
+        let targets = day_ahead.targets;
         let feedback = self.feedback(targets)?;
         let quantile = normal_quantile(self.settings.confidence);
-        let lifted = self.experience.lifted();
-        let caution = Caution {
+        let lifted = self.estimator.lifted();
+        let tightening = ConstraintTightening {
             input_margin_kw: margins_kw(lifted, &feedback.input_deviation_kw, quantile),
             band_margin_k: feedback.temperature_deviation_k.iter().map(|deviation_k| quantile * deviation_k).collect(),
             error_bound: None,
         };
-        let optimum = plan(lifted, &free_c, targets, Some(self.settings.penalty()), &caution)?;
+        let optimum = plan(lifted, &free_c, targets, Some(self.settings.penalty()), &tightening)?;
         let design = Design {
             objective: Some(optimum.objective),
-            bias_kw: self.experience.bias_kw().to_vec(),
-            taps_kw_per_k: feedback.design.taps.0.iter().map(rows).collect(),
+            bias_kw: self.estimator.bias_kw().to_vec(),
+            taps_kw_per_k: feedback.design.filter.0.iter().map(rows).collect(),
             ..Design::default()
         };
-        self.state = Some(StateSpace::new(feedback.design.taps, lifted.model()));
-        Ok((Some(Plan::from(&optimum)), design))
+        self.state = Some(StateSpace::new(feedback.design.filter, lifted.model()));
+        Ok((Some(DayPlan::from(&optimum)), design))
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let Observation { step, temperatures_c, targets } = *observation;
         let n = temperatures_c.len();
-        let limits_kw = self.experience.lifted().model().network().limits_kw();
+        let limits_kw = self.estimator.lifted().model().network().limits_kw();
         let limited = |heat_kw: Vec<f64>| -> Vec<f64> {
             heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
         };
-        let Some(plan) = self.diary.plan() else {
+        let Some(plan) = self.history.plan() else {
             // The first day: nothing but the initial feedback.
             let wanted_c = targets.reference_at(step).iter().zip(temperatures_c);
             let gain = if step > 0 { self.settings.initial_gain_kw_per_k } else { 0.0 };
@@ -154,9 +155,9 @@ impl Learner for Concurrent {
         heat_kw
     }
 
-    fn note(&mut self, lesson: &Lesson) {
+    fn update_uncertainty(&mut self, prediction_error: &PredictionError) {
         if let Some(targets) = &self.targets
-            && self.uncertainty.learn(&lesson.surprise_kw, targets)
+            && self.uncertainty.learn(&prediction_error.error_kw, targets)
         {
             self.feedback = None;
         }

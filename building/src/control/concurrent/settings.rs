@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::control::BandPenalty;
-use crate::control::experience::Prediction;
+use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
 use crate::setting::{SettingError, check_not_negative, check_within};
 
@@ -39,7 +39,7 @@ pub struct ConcurrentSettings {
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
     /// How uncertain the prediction is.
     pub uncertainty: UncertaintySettings,
 }
@@ -55,7 +55,7 @@ impl Default for ConcurrentSettings {
             discomfort_quadratic: 50.0,
             initial_gain_kw_per_k: 0.1,
             learning_rate: 0.5,
-            prediction: Prediction::default(),
+            prediction: DisturbancePrediction::default(),
             uncertainty: UncertaintySettings::default(),
         }
     }

@@ -16,9 +16,9 @@ use crate::lifted::Lifted;
 
 /// Q as its taps, zones by zones each \[kW/K\].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Taps(pub Vec<DMatrix<f64>>);
+pub struct YoulaFilter(pub Vec<DMatrix<f64>>);
 
-impl Taps {
+impl YoulaFilter {
     /// Q y, for a stacked y.
     pub fn product(&self, y: &[f64]) -> Vec<f64> {
         let n = self.zones();
@@ -106,7 +106,7 @@ pub(super) fn impulses(lifted: &Lifted) -> DMatrix<f64> {
 /// With the feedback that was applied (after saturation) in the copy, it does not wind up.
 #[derive(Clone, Debug)]
 pub struct StateSpace {
-    taps: Taps,
+    filter: YoulaFilter,
     model: Model,
     /// x̂, over the nodes.
     state: Vec<f64>,
@@ -116,9 +116,9 @@ pub struct StateSpace {
 
 impl StateSpace {
     /// At rest.
-    pub fn new(taps: Taps, model: &Model) -> Self {
-        let (nodes, count, n) = (model.network().node_count(), taps.0.len(), taps.zones());
-        Self { taps, model: model.clone(), state: vec![0.0; nodes], past: vec![vec![0.0; n]; count] }
+    pub fn new(filter: YoulaFilter, model: &Model) -> Self {
+        let (nodes, count, n) = (model.network().node_count(), filter.0.len(), filter.zones());
+        Self { filter, model: model.clone(), state: vec![0.0; nodes], past: vec![vec![0.0; n]; count] }
     }
 
     /// u_fb(t) for the error e(t) \[K\]; at t = 0 there is none, and zeros are to be given.
@@ -127,7 +127,7 @@ impl StateSpace {
         self.past.rotate_right(1);
         self.past[0] = y;
         let mut heat_kw = vec![0.0; error_k.len()];
-        for (tap, y) in self.taps.0.iter().zip(&self.past) {
+        for (tap, y) in self.filter.0.iter().zip(&self.past) {
             for (j, y) in y.iter().enumerate() {
                 for (heat_kw, q) in heat_kw.iter_mut().zip(&tap.column(j)) {
                     *heat_kw += q * y;

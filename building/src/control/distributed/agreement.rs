@@ -1,6 +1,6 @@
 //! How zones come to a common plan (Algorithm 1, with two faster ways to step).
 //!
-//! In each round every zone learns the gradient of the common cost from its neighbours ([`super::mail`]), finds its best
+//! In each round every zone learns the gradient of the common cost from its neighbours ([`super::messages`]), finds its best
 //! inputs with those of the others as they are ([`super::zone`], side by side), and the proposals become a step:
 //!
 //! | scheme | step | sums over all zones in a round |
@@ -24,7 +24,7 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::mail::Mail;
+use super::messages::Messages;
 use super::settings::Scheme;
 use super::zone::{Bound, ZoneProblem};
 use crate::comfort::Targets;
@@ -38,7 +38,7 @@ const TRIES: usize = 8;
 
 /// What each zone knows beforehand: how a kilowatt of its own acts, and the curvature of the common cost in its inputs.
 #[derive(Clone, Debug)]
-pub(super) struct Commissioned {
+pub(super) struct ZoneModels {
     zones: Vec<Zone>,
 }
 
@@ -49,9 +49,9 @@ struct Zone {
     curvature: DMatrix<f64>,
 }
 
-impl Commissioned {
+impl ZoneModels {
     /// For the weights of `targets`.
-    pub fn new(lifted: &Lifted, targets: &Targets, mail: &Mail) -> Self {
+    pub fn new(lifted: &Lifted, targets: &Targets, messages: &Messages) -> Self {
         let (n, steps) = (lifted.zones(), lifted.steps());
         let zone = |i: usize| {
             let mut impulse = vec![0.0; lifted.size()];
@@ -73,7 +73,7 @@ impl Commissioned {
                     curvature[(s, t)] = curvature[(t, s)];
                 }
             }
-            let mut near: Vec<usize> = mail.neighbours(i).chain([i]).collect();
+            let mut near: Vec<usize> = messages.neighbours(i).chain([i]).collect();
             near.sort_unstable();
             near.dedup();
             Zone { near: near.into_iter().map(|j| (j, kernel(j))).collect(), curvature }
@@ -100,11 +100,11 @@ fn add_curvature(curvature: &mut DMatrix<f64>, kernel: &[f64], weight: impl Fn(u
 }
 
 /// A day to be planned together.
-pub(super) struct Day<'a> {
+pub(super) struct JointDay<'a> {
     pub lifted: &'a Lifted,
     pub targets: &'a Targets,
     pub penalty: BandPenalty,
-    pub commissioned: &'a Commissioned,
+    pub zone_models: &'a ZoneModels,
     /// Nodes' temperatures at midnight.
     pub initial_c: &'a [f64],
     /// All heat but that of the equipment, nodes of a step together \[kW\].
@@ -133,7 +133,7 @@ pub(super) struct Agreement {
     pub sums: usize,
 }
 
-impl Day<'_> {
+impl JointDay<'_> {
     /// J of the inputs, with penalties, by simulation.
     pub fn cost(&self, heat_kw: &[f64]) -> f64 {
         let temperatures_c: Vec<f64> =
@@ -161,17 +161,17 @@ impl Day<'_> {
     ///
     /// # Errors
     /// [`ControlError::NoZonePlans`] if no zone can solve its problem.
-    pub fn agree(&self, mail: &mut Mail, rules: Rules, first_kw: Vec<f64>) -> Result<Agreement, ControlError> {
+    pub fn agree(&self, messages: &mut Messages, rules: Rules, first_kw: Vec<f64>) -> Result<Agreement, ControlError> {
         let n = self.targets.zones;
         let mut heat_kw = first_kw;
         let mut costs = vec![self.cost(&heat_kw)];
         let mut sums = 0;
         let mut before: Option<(Vec<f64>, Vec<f64>)> = None;
         for round in 1..=rules.rounds {
-            let nodes_c = mail.temperatures(self.initial_c, &heat_kw, self.driving_kw);
+            let nodes_c = messages.temperatures(self.initial_c, &heat_kw, self.driving_kw);
             let known_c = stacked(&nodes_c, n);
             let slope: Vec<f64> = known_c.iter().enumerate().map(|(i, t)| self.slope(i, *t).0).collect();
-            let mut gradient = mail.sensitivities(&slope);
+            let mut gradient = messages.sensitivities(&slope);
             for (gradient, u) in gradient.iter_mut().zip(&heat_kw) {
                 *gradient += 2.0 * self.targets.input_weight * u;
             }
@@ -188,7 +188,7 @@ impl Day<'_> {
                 }
                 Scheme::LineSearch | Scheme::Momentum => {
                     let past = past.filter(|_| rules.scheme == Scheme::Momentum);
-                    self.best_step(mail, &heat_kw, &proposal, &known_c, past, &mut sums)
+                    self.best_step(messages, &heat_kw, &proposal, &known_c, past, &mut sums)
                 }
             };
             let step: Vec<f64> = next.iter().zip(&heat_kw).map(|(next, now)| next - now).collect();
@@ -213,7 +213,7 @@ impl Day<'_> {
             if self.silent == Some(i) {
                 return None;
             }
-            let zone = &self.commissioned.zones[i];
+            let zone = &self.zone_models.zones[i];
             let of = |series: &[f64]| -> Vec<f64> { series.iter().skip(i).step_by(n).copied().collect() };
             let u = of(heat_kw);
             let problem = ZoneProblem {
@@ -268,7 +268,7 @@ impl Day<'_> {
     /// The best combination of proposals and the step before, never worse than d/n as far as the zones know.
     fn best_step(
         &self,
-        mail: &mut Mail,
+        messages: &mut Messages,
         heat_kw: &[f64],
         d: &[f64],
         known_c: &[f64],
@@ -276,7 +276,7 @@ impl Day<'_> {
         sums: &mut usize,
     ) -> Vec<f64> {
         let n = self.targets.zones;
-        let risen = stacked(&mail.directions(d), n);
+        let risen = stacked(&messages.directions(d), n);
         let plane = Plane { day: self, heat_kw, known_c, inputs: [d, &[]], rises: [&risen, &[]] };
         let line = plane.minimum(sums)[0].clamp(1.0 / n as f64, 1.0);
         let cautious = self.moved(heat_kw, d, line, None);
@@ -286,7 +286,7 @@ impl Day<'_> {
         let bold = self.moved(heat_kw, d, w, Some((&step, beta)));
         // The limits may have bent the step: ask what it really does.
         let change: Vec<f64> = bold.iter().zip(heat_kw).map(|(next, now)| next - now).collect();
-        let bent = stacked(&mail.directions(&change), n);
+        let bent = stacked(&messages.directions(&change), n);
         let known =
             |rise: &[f64], scale: f64| -> Vec<f64> { known_c.iter().zip(rise).map(|(t, r)| t + scale * r).collect() };
         *sums += 1;
@@ -297,7 +297,7 @@ impl Day<'_> {
 
 /// J over the plane u + x₀ d + x₁ p, temperatures moving in proportion; the second direction may be missing.
 struct Plane<'a> {
-    day: &'a Day<'a>,
+    day: &'a JointDay<'a>,
     heat_kw: &'a [f64],
     known_c: &'a [f64],
     inputs: [&'a [f64]; 2],

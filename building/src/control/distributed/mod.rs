@@ -1,7 +1,7 @@
 //! Zones that plan together (chapter 5), and the same day in one problem.
 //!
 //! Both plan the inputs of least cost with a soft comfort band, and follow them with a feedback of each zone on its own
-//! error. The distributed design does it by messages between neighbours: `mail` has the messages, `zone` the problem of
+//! error. The distributed design does it by messages between neighbours: [`messages`] has the messages, `zone` the problem of
 //! one zone, `agreement` the rounds, [`cooperative`] what is learned from neighbours and when that converges.
 //!
 //! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the source's
@@ -10,22 +10,22 @@
 
 mod agreement;
 pub mod cooperative;
-mod mail;
+mod messages;
 mod settings;
 mod zone;
 
 pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
 
-use super::experience::Experience;
-use super::follow::{Diary, Learner, Plan};
-use super::optimum::{Caution, plan};
-use super::{ControlError, Design, Exchange, Morning, Observation};
+use super::disturbance_estimate::DisturbanceEstimator;
+use super::optimum::{ConstraintTightening, plan};
+use super::planning::{DayPlan, PlanHistory, PlanningDesign};
+use super::{ControlError, DayAhead, Design, Exchange, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
-use agreement::{Commissioned, Day, Rules};
+use agreement::{JointDay, Rules, ZoneModels};
 use cooperative::{Conditions, LearningLaw, cooperative_error};
-use mail::Mail;
+use messages::Messages;
 use settings::penalty;
 
 /// What to look for in a recording of a building whose zones plan together.
@@ -43,23 +43,23 @@ const MOST_FOR_CONDITIONS: usize = 200;
 #[derive(Clone, Debug)]
 pub struct Distributed {
     settings: DistributedSettings,
-    experience: Experience,
-    diary: Diary,
-    mail: Mail,
+    estimator: DisturbanceEstimator,
+    history: PlanHistory,
+    messages: Messages,
     /// For the targets that the zones know.
-    commissioned: Option<(Targets, Commissioned)>,
+    zone_models: Option<(Targets, ZoneModels)>,
 }
 
 /// The centralised design at work.
 #[derive(Clone, Debug)]
 pub struct Centralised {
     settings: CentralisedSettings,
-    experience: Experience,
-    diary: Diary,
+    estimator: DisturbanceEstimator,
+    history: PlanHistory,
 }
 
 impl Distributed {
-    /// Zones without experience, for a building that is believed to be `model`'s and a day of so many steps. They plan with
+    /// Zones without estimator, for a building that is believed to be `model`'s and a day of so many steps. They plan with
     /// forward Euler, which alone keeps each zone's step to its neighbours.
     ///
     /// # Errors
@@ -67,14 +67,14 @@ impl Distributed {
     pub fn new(settings: DistributedSettings, model: &Model, steps: usize) -> Result<Self, ControlError> {
         settings.check(model.network().zone_count())?;
         let lifted = Lifted::new(&Model::euler(model.network(), model.step_s())?, steps);
-        let mail = Mail::new(&lifted, settings.loss, settings.delay_rounds, settings.silent_zone);
-        let experience = Experience::new(lifted, settings.prediction, settings.learning_rate)?;
-        Ok(Self { settings, experience, diary: Diary::default(), mail, commissioned: None })
+        let messages = Messages::new(&lifted, settings.loss, settings.delay_rounds, settings.silent_zone);
+        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?;
+        Ok(Self { settings, estimator, history: PlanHistory::default(), messages, zone_models: None })
     }
 
     /// The convergence conditions of the learning law that leads from yesterday to the plan.
-    fn conditions(&self, lifted: &Lifted, targets: &Targets, plan: &Plan) -> Option<Conditions> {
-        let yesterday = self.diary.yesterday().filter(|_| lifted.size() <= MOST_FOR_CONDITIONS)?;
+    fn conditions(&self, lifted: &Lifted, targets: &Targets, plan: &DayPlan) -> Option<Conditions> {
+        let yesterday = self.history.yesterday().filter(|_| lifted.size() <= MOST_FOR_CONDITIONS)?;
         let (n, gain) = (lifted.zones(), self.settings.gain_kw_per_k);
         let errors_k = |temperatures_c: &[f64]| -> Vec<f64> {
             targets.reference_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect()
@@ -93,11 +93,11 @@ impl Distributed {
 
 /// All heat into the nodes but that of the equipment \[kW\], nodes of a step together: what leads to `free_c`. The learned
 /// bias is in it.
-fn driving_kw(lifted: &Lifted, morning: &Morning<'_>, free_c: &[f64]) -> Vec<f64> {
+fn driving_kw(lifted: &Lifted, day_ahead: &DayAhead<'_>, free_c: &[f64]) -> Vec<f64> {
     let network = lifted.model().network();
     let (n, nodes) = (lifted.zones(), network.node_count());
-    let forecast = morning.forecast;
-    let forecast_c = lifted.free_response(morning.initial_c, &forecast.ambient_c, &forecast.gains_kw);
+    let forecast = day_ahead.forecast;
+    let forecast_c = lifted.free_response(day_ahead.initial_c, &forecast.ambient_c, &forecast.gains_kw);
     let more_c: Vec<f64> = free_c.iter().zip(&forecast_c).map(|(all, forecast)| all - forecast).collect();
     let more_kw = lifted.solve(&more_c);
     let mut driving_kw = Vec::with_capacity(nodes * lifted.steps());
@@ -116,15 +116,15 @@ fn central(
     free_c: &[f64],
     targets: &Targets,
     discomfort_quadratic: f64,
-) -> Result<super::Optimum, ControlError> {
-    plan(lifted, free_c, targets, Some(penalty(discomfort_quadratic)), &Caution::default())
+) -> Result<super::DayOptimum, ControlError> {
+    plan(lifted, free_c, targets, Some(penalty(discomfort_quadratic)), &ConstraintTightening::default())
 }
 
 /// Each zone follows its plan with its own error; on the first day, what is wanted.
-fn follow(diary: &Diary, gain_kw_per_k: f64, limits_kw: &[f64], observation: &Observation<'_>) -> Vec<f64> {
+fn follow(history: &PlanHistory, gain_kw_per_k: f64, limits_kw: &[f64], observation: &Observation<'_>) -> Vec<f64> {
     let Observation { step, temperatures_c, targets } = *observation;
     let n = temperatures_c.len();
-    let (planned_kw, deviation_k) = match diary.plan() {
+    let (planned_kw, deviation_k) = match history.plan() {
         Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
         None => {
             let wanted_c = targets.reference_at(step);
@@ -140,33 +140,33 @@ fn follow(diary: &Diary, gain_kw_per_k: f64, limits_kw: &[f64], observation: &Ob
         .collect()
 }
 
-impl Learner for Distributed {
-    fn books(&mut self) -> (&mut Experience, &mut Diary) {
-        (&mut self.experience, &mut self.diary)
+impl PlanningDesign for Distributed {
+    fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory) {
+        (&mut self.estimator, &mut self.history)
     }
 
-    fn diary(&self) -> &Diary {
-        &self.diary
+    fn history(&self) -> &PlanHistory {
+        &self.history
     }
 
-    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
-        let free_c = self.experience.expect(morning)?;
-        if self.experience.is_empty() {
+    fn plan(&mut self, day_ahead: &DayAhead<'_>) -> Result<(Option<DayPlan>, Design), ControlError> {
+        let free_c = self.estimator.expect(day_ahead)?;
+        if self.estimator.is_empty() {
             return Ok((None, Design::default()));
         }
-        let targets = morning.targets;
-        let lifted = self.experience.lifted().clone();
-        if self.commissioned.as_ref().is_none_or(|(known, _)| known != targets) {
-            self.commissioned = Some((targets.clone(), Commissioned::new(&lifted, targets, &self.mail)));
+        let targets = day_ahead.targets;
+        let lifted = self.estimator.lifted().clone();
+        if self.zone_models.as_ref().is_none_or(|(known, _)| known != targets) {
+            self.zone_models = Some((targets.clone(), ZoneModels::new(&lifted, targets, &self.messages)));
         }
-        let Some((_, commissioned)) = &self.commissioned else { return Ok((None, Design::default())) };
-        let driving_kw = driving_kw(&lifted, morning, &free_c);
-        let day = Day {
+        let Some((_, zone_models)) = &self.zone_models else { return Ok((None, Design::default())) };
+        let driving_kw = driving_kw(&lifted, day_ahead, &free_c);
+        let day = JointDay {
             lifted: &lifted,
             targets,
             penalty: penalty(self.settings.discomfort_quadratic),
-            commissioned,
-            initial_c: morning.initial_c,
+            zone_models,
+            initial_c: day_ahead.initial_c,
             driving_kw: &driving_kw,
             free_c: &free_c,
             silent: self.settings.silent_zone,
@@ -178,11 +178,11 @@ impl Learner for Distributed {
             rounds: self.settings.rounds,
             delay: self.settings.delay_rounds,
         };
-        self.mail.start(morning.initial_c);
-        let first_kw = self.diary.yesterday().map_or(vec![0.0; lifted.size()], |yesterday| yesterday.heat_kw.clone());
-        let agreement = day.agree(&mut self.mail, rules, first_kw)?;
+        self.messages.start(day_ahead.initial_c);
+        let first_kw = self.history.yesterday().map_or(vec![0.0; lifted.size()], |yesterday| yesterday.heat_kw.clone());
+        let agreement = day.agree(&mut self.messages, rules, first_kw)?;
         let temperatures_c = free_c.iter().zip(lifted.product(&agreement.heat_kw)).map(|(free, rise)| free + rise);
-        let plan = Plan { temperatures_c: temperatures_c.collect(), heat_kw: agreement.heat_kw };
+        let plan = DayPlan { temperatures_c: temperatures_c.collect(), heat_kw: agreement.heat_kw };
         let centralised = match self.settings.compare {
             true => Some(central(&lifted, &free_c, targets, self.settings.discomfort_quadratic)?.objective),
             false => None,
@@ -190,14 +190,14 @@ impl Learner for Distributed {
         let conditions = self.conditions(&lifted, targets, &plan);
         let design = Design {
             objective: agreement.costs.last().copied(),
-            bias_kw: self.experience.bias_kw().to_vec(),
+            bias_kw: self.estimator.bias_kw().to_vec(),
             spectral_radius: conditions.map(|conditions| conditions.spectral_radius),
             largest_singular_value: conditions.map(|conditions| conditions.largest_singular_value),
             exchange: Some(Exchange {
                 costs: agreement.costs,
                 centralised,
-                messages: self.mail.sent.clone(),
-                undelivered: self.mail.undelivered,
+                messages: self.messages.sent.clone(),
+                undelivered: self.messages.undelivered,
                 sums: agreement.sums,
             }),
             ..Design::default()
@@ -206,8 +206,8 @@ impl Learner for Distributed {
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
-        let limits_kw = self.experience.lifted().model().network().limits_kw();
-        follow(&self.diary, self.settings.gain_kw_per_k, limits_kw, observation)
+        let limits_kw = self.estimator.lifted().model().network().limits_kw();
+        follow(&self.history, self.settings.gain_kw_per_k, limits_kw, observation)
     }
 }
 
@@ -218,34 +218,34 @@ impl Centralised {
     /// [`ControlError::Setting`].
     pub fn new(settings: CentralisedSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
-        let experience = Experience::new(lifted, settings.prediction, settings.learning_rate)?;
-        Ok(Self { settings, experience, diary: Diary::default() })
+        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?;
+        Ok(Self { settings, estimator, history: PlanHistory::default() })
     }
 }
 
-impl Learner for Centralised {
-    fn books(&mut self) -> (&mut Experience, &mut Diary) {
-        (&mut self.experience, &mut self.diary)
+impl PlanningDesign for Centralised {
+    fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory) {
+        (&mut self.estimator, &mut self.history)
     }
 
-    fn diary(&self) -> &Diary {
-        &self.diary
+    fn history(&self) -> &PlanHistory {
+        &self.history
     }
 
-    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
-        let free_c = self.experience.expect(morning)?;
-        if self.experience.is_empty() {
+    fn plan(&mut self, day_ahead: &DayAhead<'_>) -> Result<(Option<DayPlan>, Design), ControlError> {
+        let free_c = self.estimator.expect(day_ahead)?;
+        if self.estimator.is_empty() {
             return Ok((None, Design::default()));
         }
-        let lifted = self.experience.lifted();
-        let optimum = central(lifted, &free_c, morning.targets, self.settings.discomfort_quadratic)?;
-        let bias_kw = self.experience.bias_kw().to_vec();
+        let lifted = self.estimator.lifted();
+        let optimum = central(lifted, &free_c, day_ahead.targets, self.settings.discomfort_quadratic)?;
+        let bias_kw = self.estimator.bias_kw().to_vec();
         let design = Design { objective: Some(optimum.objective), bias_kw, ..Design::default() };
-        Ok((Some(Plan::from(&optimum)), design))
+        Ok((Some(DayPlan::from(&optimum)), design))
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
-        let limits_kw = self.experience.lifted().model().network().limits_kw();
-        follow(&self.diary, self.settings.gain_kw_per_k, limits_kw, observation)
+        let limits_kw = self.estimator.lifted().model().network().limits_kw();
+        follow(&self.history, self.settings.gain_kw_per_k, limits_kw, observation)
     }
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::control::BandPenalty;
-use crate::control::experience::Prediction;
+use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::setting::{SettingError, check_not_negative, check_within};
 
 /// How the zones' proposals of a round become a step.
@@ -41,7 +41,7 @@ pub struct DistributedSettings {
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
     /// Share of the messages that are lost, drawn from a generator with a seed of its own.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub loss: f64,
@@ -64,7 +64,7 @@ impl Default for DistributedSettings {
             discomfort_quadratic: 50.0,
             gain_kw_per_k: 0.2,
             learning_rate: 0.5,
-            prediction: Prediction::default(),
+            prediction: DisturbancePrediction::default(),
             loss: 0.0,
             delay_rounds: 0,
             silent_zone: None,
@@ -103,7 +103,7 @@ pub struct CentralisedSettings {
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
 }
 
 impl Default for CentralisedSettings {

@@ -20,8 +20,8 @@ use nalgebra::DMatrix;
 
 use super::feedback::{Response, optimal_causal};
 use crate::comfort::Targets;
-use crate::control::optimum::{Caution, margins_kw, plan};
-use crate::control::{ControlError, Optimum};
+use crate::control::optimum::{ConstraintTightening, margins_kw, plan};
+use crate::control::{ControlError, DayOptimum};
 use crate::lifted::Lifted;
 
 /// Rounds after which the best so far has to do.
@@ -41,7 +41,7 @@ pub struct Joint {
     /// What the feedback does.
     pub response: Response,
     /// The plan.
-    pub plan: Optimum,
+    pub plan: DayOptimum,
     /// The expected cost: of the plan, and of what the disturbance adds.
     pub cost: f64,
     /// The same of the two-stage design.
@@ -66,8 +66,8 @@ pub fn design(
         let response = optimal_causal(lifted, targets, factor, price)?;
         let deviation_kw = response.input_deviation_kw();
         let input_margin_kw = margins_kw(lifted, &deviation_kw, quantile);
-        let caution = Caution { input_margin_kw, ..Caution::default() };
-        let plan = plan(lifted, free_c, targets, None, &caution)?;
+        let tightening = ConstraintTightening { input_margin_kw, ..ConstraintTightening::default() };
+        let plan = plan(lifted, free_c, targets, None, &tightening)?;
         let next = plan.limit_price.iter().zip(&deviation_kw).map(|(price, deviation_kw)| {
             if *deviation_kw > LEAST_DEVIATION_KW { price * quantile / (2.0 * deviation_kw) } else { 0.0 }
         });

@@ -23,14 +23,14 @@ mod settings;
 
 use nalgebra::DMatrix;
 
-pub use settings::{Chance, Convergence, Coordination, IterativeSettings, Objective, Stability};
+pub use settings::{Chance, Coordination, ErrorGrowth, IterativeSettings, Objective, Stability};
 
-use super::experience::{Experience, Lesson};
-use super::follow::{Diary, Learner, Plan};
-use super::optimum::{Caution, ErrorBound, margins_kw, plan};
+use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
+use super::optimum::{ConstraintTightening, ErrorBound, margins_kw, plan};
+use super::planning::{DayPlan, PlanHistory, PlanningDesign};
 use super::stability::{closed_loop, spectral_radius};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
-use super::{ControlError, Design, Morning, Observation};
+use super::{ControlError, DayAhead, Design, Observation};
 use crate::comfort::Targets;
 use crate::lifted::Lifted;
 use joint::Joint;
@@ -49,19 +49,19 @@ const GROWTH_COST: f64 = 1e3;
 #[derive(Clone, Debug)]
 pub struct Iterative {
     settings: IterativeSettings,
-    experience: Experience,
+    estimator: DisturbanceEstimator,
     uncertainty: Uncertainty,
-    diary: Diary,
+    history: PlanHistory,
     gain: DMatrix<f64>,
     /// The feedback for these targets, as long as Σ stays the same.
-    feedback: Option<(Targets, Feedback)>,
+    feedback: Option<(Targets, StaticFeedback)>,
     /// Targets of the day.
     targets: Option<Targets>,
 }
 
 /// A designed feedback.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Feedback {
+pub struct StaticFeedback {
     /// K, zones by zones \[kW/K\].
     pub gain_kw_per_k: DMatrix<f64>,
     /// Of A − BK.
@@ -74,7 +74,7 @@ pub struct Feedback {
     pub input_deviation_kw: Vec<f64>,
 }
 
-impl Feedback {
+impl StaticFeedback {
     /// Steps 1 and 2 for a covariance of the disturbance; `price` as in [`feedback::optimal_causal`].
     ///
     /// # Errors
@@ -129,17 +129,16 @@ impl Iterative {
         Ok(Self {
             settings,
             uncertainty: Uncertainty::new(settings.uncertainty).map_err(|error| error.within("uncertainty"))?,
-            experience: Experience::new(lifted, settings.prediction, settings.learning_rate)?,
-            diary: Diary::default(),
+            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?,
+            history: PlanHistory::default(),
             gain: DMatrix::from_diagonal_element(n, n, settings.initial_gain_kw_per_k),
             feedback: None,
             targets: None,
         })
     }
 
-    /// The day's plan, and what there is to say of it; no plan before there was a day.
     /// The feedback for the targets, designed anew when something has changed; with the joint design, every day.
-    fn feedback(&mut self, targets: &Targets, free_c: &[f64]) -> Result<Feedback, ControlError> {
+    fn feedback(&mut self, targets: &Targets, free_c: &[f64]) -> Result<StaticFeedback, ControlError> {
         let price = match self.settings.coordination {
             Coordination::TwoStage => Vec::new(),
             Coordination::Joint => {
@@ -153,14 +152,14 @@ impl Iterative {
             return Ok(feedback.clone());
         }
         let covariance = self.uncertainty.covariance(targets);
-        let feedback = Feedback::design(&self.settings, self.experience.lifted(), targets, covariance, &price)?;
+        let feedback = StaticFeedback::design(&self.settings, self.estimator.lifted(), targets, covariance, &price)?;
         self.feedback = Some((targets.clone(), feedback.clone()));
         Ok(feedback)
     }
 
     /// Feedback and plan together, as if the optimal causal feedback were used.
     fn joint(&self, targets: &Targets, free_c: &[f64]) -> Result<Joint, ControlError> {
-        let lifted = self.experience.lifted();
+        let lifted = self.estimator.lifted();
         check_size(lifted)?;
         let factor = factor(self.uncertainty.covariance(targets))?;
         joint::design(lifted, targets, free_c, &factor, self.quantile())
@@ -168,7 +167,7 @@ impl Iterative {
 
     /// Φ⁻¹(η) of eq. 3.21.
     fn quantile(&self) -> f64 {
-        let count = self.experience.lifted().size() as f64;
+        let count = self.estimator.lifted().size() as f64;
         normal_quantile(match self.settings.chance {
             Chance::EachInput => self.settings.confidence,
             Chance::WholeDay => 1.0 - (1.0 - self.settings.confidence) / count,
@@ -176,18 +175,18 @@ impl Iterative {
     }
 
     /// Φ⁻¹(η) σ_u (eq. 3.21).
-    fn margins_kw(&self, feedback: &Feedback) -> Vec<f64> {
-        margins_kw(self.experience.lifted(), &feedback.input_deviation_kw, self.quantile())
+    fn margins_kw(&self, feedback: &StaticFeedback) -> Vec<f64> {
+        margins_kw(self.estimator.lifted(), &feedback.input_deviation_kw, self.quantile())
     }
 
     /// ‖E_k+1‖ ≤ ‖E_k‖ over the errors that count (eq. 3.8).
     fn error_bound(&self, targets: &Targets) -> Option<ErrorBound> {
         let slack_cost = match self.settings.convergence {
-            Convergence::Off => return None,
-            Convergence::Soft => Some(GROWTH_COST),
-            Convergence::Hard => None,
+            ErrorGrowth::Off => return None,
+            ErrorGrowth::Soft => Some(GROWTH_COST),
+            ErrorGrowth::Hard => None,
         };
-        let yesterday_c = &self.diary.yesterday()?.temperatures_c;
+        let yesterday_c = &self.history.yesterday()?.temperatures_c;
         let squares = (0..yesterday_c.len()).filter(|&i| targets.error_weight[i] > 0.0).map(|i| {
             let error_k = targets.reference_c[i] - yesterday_c[i];
             error_k * error_k
@@ -195,10 +194,10 @@ impl Iterative {
         Some(ErrorBound { norm_k: squares.sum::<f64>().sqrt(), slack_cost })
     }
 
-    fn describe(&self, feedback: Option<&Feedback>, objective: Option<f64>) -> Design {
+    fn describe(&self, feedback: Option<&StaticFeedback>, objective: Option<f64>) -> Design {
         Design {
             objective,
-            bias_kw: self.experience.bias_kw().to_vec(),
+            bias_kw: self.estimator.bias_kw().to_vec(),
             gain_kw_per_k: rows(&self.gain),
             spectral_radius: feedback.map(|feedback| feedback.spectral_radius),
             ..Design::default()
@@ -217,41 +216,41 @@ pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
-impl Learner for Iterative {
-    fn books(&mut self) -> (&mut Experience, &mut Diary) {
-        (&mut self.experience, &mut self.diary)
+impl PlanningDesign for Iterative {
+    fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory) {
+        (&mut self.estimator, &mut self.history)
     }
 
-    fn diary(&self) -> &Diary {
-        &self.diary
+    fn history(&self) -> &PlanHistory {
+        &self.history
     }
 
-    fn plan(&mut self, morning: &Morning<'_>) -> Result<(Option<Plan>, Design), ControlError> {
-        self.targets = Some(morning.targets.clone());
-        let free_c = self.experience.expect(morning)?;
-        if self.experience.is_empty() {
+    fn plan(&mut self, day_ahead: &DayAhead<'_>) -> Result<(Option<DayPlan>, Design), ControlError> {
+        self.targets = Some(day_ahead.targets.clone());
+        let free_c = self.estimator.expect(day_ahead)?;
+        if self.estimator.is_empty() {
             return Ok((None, self.describe(None, None)));
         }
-        let targets = morning.targets;
+        let targets = day_ahead.targets;
         let feedback = match self.settings.objective {
             Objective::Expected => Some(self.feedback(targets, &free_c)?),
             Objective::Nominal => None,
         };
-        let caution = Caution {
+        let tightening = ConstraintTightening {
             input_margin_kw: feedback.as_ref().map_or(Vec::new(), |feedback| self.margins_kw(feedback)),
             band_margin_k: Vec::new(),
             error_bound: self.error_bound(targets),
         };
-        let optimum = plan(self.experience.lifted(), &free_c, targets, None, &caution)?;
+        let optimum = plan(self.estimator.lifted(), &free_c, targets, None, &tightening)?;
         let n = targets.zones;
         self.gain = feedback.as_ref().map_or(DMatrix::zeros(n, n), |feedback| feedback.gain_kw_per_k.clone());
-        Ok((Some(Plan::from(&optimum)), self.describe(feedback.as_ref(), Some(optimum.objective))))
+        Ok((Some(DayPlan::from(&optimum)), self.describe(feedback.as_ref(), Some(optimum.objective))))
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let Observation { step, temperatures_c, targets } = *observation;
         let n = temperatures_c.len();
-        let (mut heat_kw, error_k) = match self.diary.plan() {
+        let (mut heat_kw, error_k) = match self.history.plan() {
             Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
             // The first day: nothing but the initial feedback on the error itself.
             None => {
@@ -265,13 +264,13 @@ impl Learner for Iterative {
                 *heat_kw += gain * error_k;
             }
         }
-        let limits_kw = self.experience.lifted().model().network().limits_kw();
+        let limits_kw = self.estimator.lifted().model().network().limits_kw();
         heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
     }
 
-    fn note(&mut self, lesson: &Lesson) {
+    fn update_uncertainty(&mut self, prediction_error: &PredictionError) {
         if let Some(targets) = &self.targets
-            && self.uncertainty.learn(&lesson.surprise_kw, targets)
+            && self.uncertainty.learn(&prediction_error.error_kw, targets)
         {
             self.feedback = None;
         }

@@ -13,7 +13,7 @@
 //! and not e(t + 1). Walls that store heat are states without a sensor; F then has no entries from walls to zones, so that
 //! M F⁻¹ acts on zones alone.
 
-use interplay_convex::{Program, Settings, Solver, Variable, Variables};
+use interplay_convex::{Program, Solver, SolverSettings, Variable, Variables};
 use nalgebra::{Cholesky, DMatrix};
 
 use super::feedback::Response;
@@ -97,7 +97,7 @@ impl<'a> Projection<'a> {
         certificate.unit_trace(&mut program);
         let scale: Vec<Variable> = fit.scale.iter().filter_map(|&(i, j)| certificate.f(i, j)).collect();
         fit.pose(&mut program, &m.iter().chain(scale.iter().copied()).collect::<Vec<_>>());
-        let solution = Solver::new(&program, &Settings::default())?.solve()?;
+        let solution = Solver::new(&program, &SolverSettings::default())?.solve()?;
         let m = DMatrix::from_fn(n, n, |i, j| solution.at(gain(i, j)));
         let f = DMatrix::from_fn(n, n, |i, j| certificate.f(i, j).map_or(0.0, |f| solution.at(f)));
         // K F = M, so Fᵀ Kᵀ = Mᵀ; F + Fᵀ ≻ S ≻ 0 makes F invertible.
@@ -124,7 +124,7 @@ impl<'a> Projection<'a> {
         self.positive_rows(&mut program, decay, m, &fit.gain, f);
         let size = program.equal("size of f");
         program.row(size, f.iter().map(|f| (f, 1.0)), nodes as f64);
-        let solution = Solver::new(&program, &Settings::default())?.solve()?;
+        let solution = Solver::new(&program, &SolverSettings::default())?.solve()?;
         let mut gain = DMatrix::zeros(n, n);
         for (m, &(i, j)) in m.iter().zip(&fit.gain) {
             gain[(i, j)] = solution.at(m) / solution.at(f.at(j));

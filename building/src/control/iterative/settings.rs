@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::control::experience::Prediction;
+use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
 use crate::setting::{SettingError, check_not_negative, check_within};
 
@@ -48,7 +48,7 @@ pub enum Coordination {
 /// What (3.8), that errors do not grow from day to day, means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Convergence {
+pub enum ErrorGrowth {
     /// Growth costs much.
     #[default]
     Soft,
@@ -91,12 +91,12 @@ pub struct IterativeSettings {
     /// What the confidence is meant of.
     pub chance: Chance,
     /// What (3.8) means.
-    pub convergence: Convergence,
+    pub convergence: ErrorGrowth,
     /// λ of the learned bias.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
-    pub prediction: Prediction,
+    pub prediction: DisturbancePrediction,
     /// How uncertain the prediction is.
     pub uncertainty: UncertaintySettings,
 }
@@ -111,9 +111,9 @@ impl Default for IterativeSettings {
             initial_gain_kw_per_k: 0.1,
             confidence: 0.95,
             chance: Chance::default(),
-            convergence: Convergence::default(),
+            convergence: ErrorGrowth::default(),
             learning_rate: 0.5,
-            prediction: Prediction::default(),
+            prediction: DisturbancePrediction::default(),
             uncertainty: UncertaintySettings::default(),
         }
     }

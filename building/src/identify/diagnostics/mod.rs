@@ -5,7 +5,7 @@ mod periodogram;
 mod verdict;
 mod whiteness;
 
-pub use verdict::{Confidence, Verdict};
+pub use verdict::{Confidence, ParameterVerdict};
 pub use whiteness::{LjungBox, Whiteness};
 
 pub(super) use verdict::{INTERVAL, judge};

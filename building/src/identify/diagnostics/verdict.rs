@@ -31,14 +31,14 @@ pub enum Confidence {
 
 /// Whether the data determine a coefficient, and in words.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Verdict {
+pub struct ParameterVerdict {
     /// The class.
     pub confidence: Confidence,
     /// In words.
     pub words: String,
 }
 
-impl Verdict {
+impl ParameterVerdict {
     /// The same with a dispute: a number that would otherwise count as known no longer does.
     pub(in crate::identify) fn disputed(self, dispute: Option<&str>) -> Self {
         match (self.confidence, dispute) {
@@ -53,7 +53,12 @@ impl Verdict {
 
 /// Judges a coefficient by its unconstrained value and standard error; `name` is what the words call it, and `entangled` are
 /// names of others and their correlations with it.
-pub(in crate::identify) fn judge(name: &str, value: f64, standard_error: f64, entangled: &[(String, f64)]) -> Verdict {
+pub(in crate::identify) fn judge(
+    name: &str,
+    value: f64,
+    standard_error: f64,
+    entangled: &[(String, f64)],
+) -> ParameterVerdict {
     let relative = standard_error / value.abs();
     let (confidence, words) = match () {
         () if !standard_error.is_finite() || !value.is_finite() => (
@@ -81,9 +86,9 @@ pub(in crate::identify) fn judge(name: &str, value: f64, standard_error: f64, en
     match strongest {
         Some((other, correlation)) if confidence != Confidence::NotIdentifiable => {
             let words = format!("{words}; hard to tell apart from {other} (correlation {correlation:.2})");
-            Verdict { confidence, words }
+            ParameterVerdict { confidence, words }
         }
-        _ => Verdict { confidence, words },
+        _ => ParameterVerdict { confidence, words },
     }
 }
 

@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{TelemetryError, TelemetryProblem};
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
-use crate::identify::Settings;
+use crate::identify::IdentifySettings;
 
 /// Which column is which quantity. Unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -50,7 +50,7 @@ pub struct Mapping {
     pub walls: Vec<[String; 2]>,
     /// How to identify; defaults for what is left out.
     #[serde(default)]
-    pub identify: Settings,
+    pub identify: IdentifySettings,
 }
 
 /// The form of the table.

@@ -29,16 +29,16 @@ pub struct Telemetry {
     /// How many rows of the table were left out because a value was missing.
     pub left_out_rows: usize,
     /// The zones.
-    pub zones: Vec<Zone>,
+    pub zones: Vec<MeasuredZone>,
     /// Temperatures that act on zones and are not modelled.
     pub boundaries: Vec<Boundary>,
     /// Where heat flows.
-    pub walls: Vec<Wall>,
+    pub walls: Vec<MeasuredWall>,
 }
 
 /// Measurements of a zone.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Zone {
+pub struct MeasuredZone {
     /// Its name.
     pub name: String,
     /// Its temperature T_i \[°C\].
@@ -73,7 +73,7 @@ pub struct Boundary {
 
 /// A pair between which heat flows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Wall {
+pub struct MeasuredWall {
     /// A zone, by its position in [`Telemetry::zones`].
     pub zone: usize,
     /// What is on the other side.
@@ -150,7 +150,7 @@ impl Telemetry {
     }
 }
 
-impl Zone {
+impl MeasuredZone {
     /// Known heat u_i + w_i in one row if the zone had this temperature \[kW\].
     pub fn heat_kw(&self, row: usize, temperature_c: f64) -> f64 {
         let supplied: f64 = self

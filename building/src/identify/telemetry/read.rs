@@ -6,7 +6,7 @@ use super::error::{TelemetryError, TelemetryProblem};
 use super::mapping::{Gaps, HeatColumns, Mapping, ZoneColumns};
 use super::table::{Column, Row, Table};
 use super::units::PowerUnit;
-use super::{Boundary, Neighbour, SupplyAir, Telemetry, Wall, Zone};
+use super::{Boundary, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 
 /// The lowest and highest temperature that a building or its weather can have \[°C\].
 const PLAUSIBLE_C: (f64, f64) = (-60.0, 90.0);
@@ -143,16 +143,16 @@ fn is_complete(table: &Table<'_>, row: &Row, columns: &[Column], gaps: Gaps) -> 
     Ok(complete)
 }
 
-fn walls(mapping: &Mapping) -> Vec<Wall> {
+fn walls(mapping: &Mapping) -> Vec<MeasuredWall> {
     let zone = |name: &String| mapping.zones.iter().position(|zone| zone.name == *name);
     let boundary = |name: &String| mapping.boundaries.iter().position(|boundary| boundary.name == *name);
     mapping
         .walls
         .iter()
         .filter_map(|[one, other]| match (zone(one), zone(other)) {
-            (Some(zone), Some(other)) => Some(Wall { zone, other: Neighbour::Zone(other) }),
-            (Some(zone), None) => boundary(other).map(|other| Wall { zone, other: Neighbour::Boundary(other) }),
-            (None, Some(zone)) => boundary(one).map(|other| Wall { zone, other: Neighbour::Boundary(other) }),
+            (Some(zone), Some(other)) => Some(MeasuredWall { zone, other: Neighbour::Zone(other) }),
+            (Some(zone), None) => boundary(other).map(|other| MeasuredWall { zone, other: Neighbour::Boundary(other) }),
+            (None, Some(zone)) => boundary(one).map(|other| MeasuredWall { zone, other: Neighbour::Boundary(other) }),
             (None, None) => None,
         })
         .collect()
@@ -186,8 +186,8 @@ impl Reader<'_> {
         Ok(values)
     }
 
-    fn zone(&self, columns: &ZoneColumns) -> Result<Zone, TelemetryError> {
-        let mut zone = Zone {
+    fn zone(&self, columns: &ZoneColumns) -> Result<MeasuredZone, TelemetryError> {
+        let mut zone = MeasuredZone {
             name: columns.name.clone(),
             temperature_c: self.temperature(&columns.temperature, "temperature")?,
             power_kw: vec![0.0; self.rows.len()],
@@ -205,7 +205,7 @@ impl Reader<'_> {
         Ok(zone)
     }
 
-    fn add_heat(&self, zone: &mut Zone, heat: &HeatColumns) -> Result<(), TelemetryError> {
+    fn add_heat(&self, zone: &mut MeasuredZone, heat: &HeatColumns) -> Result<(), TelemetryError> {
         match heat {
             HeatColumns::Power { column, unit, factor } => {
                 zone.power_has_unit &= *unit != PowerUnit::Unknown;

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::mapping::{BoundaryColumns, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns};
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit};
-use super::{Gaps, Telemetry, Zone};
-use crate::identify::Settings;
+use super::{Gaps, MeasuredZone, Telemetry};
+use crate::identify::IdentifySettings;
 
 /// Heat that air carries is written as a flow of this unit.
 const FLOW: AirFlowUnit = AirFlowUnit::KwPerK;
@@ -51,7 +51,7 @@ fn columns(telemetry: &Telemetry) -> Vec<Column<'_>> {
 
 /// See [`Telemetry::mapping`].
 pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
-    let zone = |zone: &Zone| {
+    let zone = |zone: &MeasuredZone| {
         let unit = if zone.power_has_unit { PowerUnit::Kw } else { PowerUnit::Unknown };
         let mut heat = Vec::new();
         if !(zone.power_kw.iter().all(|&power| power == 0.0)) {
@@ -88,26 +88,26 @@ pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
         walls: (telemetry.walls.iter())
             .map(|wall| [telemetry.zones[wall.zone].name.clone(), telemetry.name(wall.other).to_owned()])
             .collect(),
-        identify: Settings::default(),
+        identify: IdentifySettings::default(),
     }
 }
 
-fn temperature(zone: &Zone) -> String {
+fn temperature(zone: &MeasuredZone) -> String {
     format!("{} [°C]", zone.name)
 }
 
-fn power(zone: &Zone) -> String {
+fn power(zone: &MeasuredZone) -> String {
     format!("{} heat [{}]", zone.name, if zone.power_has_unit { "kW" } else { "?" })
 }
 
-fn flow(zone: &Zone, index: usize) -> String {
+fn flow(zone: &MeasuredZone, index: usize) -> String {
     format!("{} air {index} [kW/K]", zone.name)
 }
 
-fn supply(zone: &Zone, index: usize) -> String {
+fn supply(zone: &MeasuredZone, index: usize) -> String {
     format!("{} air {index} [°C]", zone.name)
 }
 
-fn sun(zone: &Zone) -> String {
+fn sun(zone: &MeasuredZone) -> String {
     format!("{} sun [kW/m²]", zone.name)
 }

@@ -5,15 +5,15 @@
 
 use std::fmt;
 
-/// Days of the months of a year without a 29th of February.
-const DAYS: [u32; 12] = [31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+use jiff::ToSpan;
+use jiff::civil::{self, date};
+
+/// The year in which all days of the year are kept: a leap year, so that each of them exists.
+const YEAR: i16 = 2000;
 
 /// A day of the year.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Date {
-    pub(super) month: u32,
-    pub(super) day: u32,
-}
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Date(civil::Date);
 
 /// The end of an interval, as a row states it: hour 1 ends at 01:00.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,31 +27,33 @@ pub struct Stamp {
 }
 
 impl Date {
+    pub(super) const FEBRUARY_29: Self = Self(date(YEAR, 2, 29));
+    pub(super) const MARCH_1: Self = Self(date(YEAR, 3, 1));
+    const JANUARY_1: Self = Self(date(YEAR, 1, 1));
+
     /// A day that exists in some year.
     pub(super) fn new(month: u32, day: u32) -> Option<Self> {
-        let days = *DAYS.get((month as usize).checked_sub(1)?)? + u32::from(month == 2);
-        (1..=days).contains(&day).then_some(Self { month, day })
+        civil::Date::new(YEAR, i8::try_from(month).ok()?, i8::try_from(day).ok()?).ok().map(Self)
     }
 
     /// The day after, in a year with or without a 29th of February.
     fn next(self, leap: bool) -> Self {
-        let days = DAYS[self.month as usize - 1] + u32::from(leap && self.month == 2);
-        match (self.day < days, self.month < 12) {
-            (true, _) => Self { day: self.day + 1, ..self },
-            (false, true) => Self { month: self.month + 1, day: 1 },
-            (false, false) => Self { month: 1, day: 1 },
+        match Self(self.0.saturating_add(1.day())) {
+            Self::FEBRUARY_29 if !leap => Self::MARCH_1,
+            Self(next) if next.year() != YEAR => Self::JANUARY_1,
+            next => next,
         }
     }
 
     /// Days from another day to this one, going forwards.
     pub(super) fn days_after(self, other: Self, leap: bool) -> u32 {
-        let mut date = other;
-        let mut days = 0;
-        while date != self && days < 366 {
-            date = date.next(leap);
-            days += 1;
-        }
-        days
+        // In a year without a 29th of February, the 1st of March takes its place.
+        let place = |Self(date): Self| match leap {
+            true => date.day_of_year(),
+            false => date.day_of_year_no_leap().unwrap_or(date.day_of_year()),
+        };
+        let days_of_year = if leap { 366 } else { 365 };
+        (place(self) - place(other)).rem_euclid(days_of_year).unsigned_abs().into()
     }
 }
 
@@ -80,7 +82,7 @@ impl Stamp {
 
 impl fmt::Display for Date {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.month, self.day)
+        write!(f, "{}/{}", self.0.month(), self.0.day())
     }
 }
 
@@ -91,5 +93,32 @@ impl fmt::Display for Stamp {
             write!(f, " interval {}", self.interval)?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_year_is_walked_through_day_by_day() {
+        for (leap, days) in [(false, 365), (true, 366)] {
+            let first = Date::new(7, 15).expect("a day");
+            let walk: Vec<Date> = std::iter::successors(Some(first), |date| Some(date.next(leap))).take(days).collect();
+            for (index, date) in walk.iter().enumerate() {
+                assert_eq!(date.days_after(first, leap) as usize, index, "{date}");
+                assert_eq!(first.days_after(*date, leap) as usize, (days - index) % days, "{date}");
+            }
+            assert_eq!(walk[days - 1].next(leap), first, "the year is cyclic");
+            assert_eq!(walk.contains(&Date::FEBRUARY_29), leap);
+        }
+    }
+
+    #[test]
+    fn days_of_no_year_are_none() {
+        for (month, day) in [(2, 30), (4, 31), (0, 1), (13, 1), (1, 0), (1, 32), (300, 1), (1, 300)] {
+            assert_eq!(Date::new(month, day), None, "{month}/{day}");
+        }
+        assert_eq!(Date::new(2, 29).map(|date| date.to_string()).as_deref(), Some("2/29"));
     }
 }

@@ -21,7 +21,7 @@ pub use field::Field;
 use field::{COLUMNS, FIELDS, Specification};
 use header::Header;
 
-use super::{Series, Weather};
+use super::{TimeSeries, Weather};
 
 const HOUR_S: f64 = 3600.0;
 const DAY_S: f64 = 86_400.0;
@@ -117,14 +117,14 @@ impl Epw {
 
     /// Midnight at the start of a day, as time after that of the first day \[s\]; `None` if there is no such day.
     pub fn midnight_s(&self, month: u32, day: u32) -> Option<f64> {
-        let date = Date::new(month, day).filter(|date| self.leap || *date != Date { month: 2, day: 29 })?;
+        let date = Date::new(month, day).filter(|date| self.leap || *date != Date::FEBRUARY_29)?;
         let start_s = f64::from(date.days_after(self.first, self.leap)) * DAY_S;
         (start_s < self.rows() as f64 * self.interval_s).then_some(start_s)
     }
 
     /// Temperature and sunshine as functions of time; without radiation in the file the sun does not shine.
     pub fn weather(&self) -> Weather {
-        let series = |first_s: f64, values: Vec<f64>| Series {
+        let series = |first_s: f64, values: Vec<f64>| TimeSeries {
             first_s,
             interval_s: self.interval_s,
             cyclic: self.whole_year,
@@ -148,8 +148,7 @@ struct Rows {
 impl Rows {
     fn parse(text: &str, header: &Header) -> Result<Self, EpwError> {
         let end = Stamp::last(header.last, header.intervals_per_hour);
-        let leap_day = Date { month: 2, day: 29 };
-        let after_february = Stamp::first(Date { month: 3, day: 1 }, header.intervals_per_hour);
+        let march = Stamp::first(Date::MARCH_1, header.intervals_per_hour);
         let mut rows = Self { columns: Default::default(), leap: false };
         let mut wanted = Stamp::first(header.first, header.intervals_per_hour);
         let mut last = None;
@@ -165,10 +164,10 @@ impl Rows {
             }
             let cells = cells(row).map_err(fail)?;
             let date = date(&cells).map_err(fail)?;
-            if date == leap_day {
+            if date == Date::FEBRUARY_29 {
                 rows.leap = true;
-                if wanted == after_february {
-                    wanted = Stamp::first(leap_day, header.intervals_per_hour);
+                if wanted == march {
+                    wanted = Stamp::first(date, header.intervals_per_hour);
                 }
             }
             let found = Stamp { date, hour: whole(&cells, 3, "hour").map_err(fail)?, ..wanted };

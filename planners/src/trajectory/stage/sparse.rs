@@ -7,7 +7,7 @@
 //! inequality rows. A row over a whole trajectory, `value + b·(p, v) + β‖p‖² ≤ s`, is the second-order cone
 //! `‖(2√β p, t − 1)‖ ≤ t + 1` with `t = s − value − b·(p, v)`; without `β` it is `−t ≤ 0`.
 
-use interplay_convex::{Block, Program, Settings, Solution, SolveError, Solver, Variable, Variables};
+use interplay_convex::{Block, ConicSolution, Program, SolveError, Solver, SolverSettings, Variable, Variables};
 
 use super::qp::{RowBlock, StageQp, TrajectoryRow};
 use super::solution::StageSolution;
@@ -95,7 +95,7 @@ impl StageSolver for Sparse {
                 let mut program = Program::new();
                 let layout = Layout::new(qp, &mut program);
                 layout.write(qp, &mut program);
-                let solver = Solver::new(&program, &Settings::default()).map_err(refused)?;
+                let solver = Solver::new(&program, &SolverSettings::default()).map_err(refused)?;
                 Kept { shape, layout, program, solver }
             }
         };
@@ -283,7 +283,7 @@ impl Layout {
         }
     }
 
-    fn read(&self, qp: &StageQp, found: &Solution, solution: &mut StageSolution) {
+    fn read(&self, qp: &StageQp, found: &ConicSolution, solution: &mut StageSolution) {
         let (bounds, rows) = (found.dual(self.bounds), found.dual(self.rows));
         let mut bounds = bounds.iter();
         for (i, stages) in qp.vehicles.iter().enumerate() {

@@ -7,6 +7,7 @@ use super::super::re_sdk_types::components::Range1D;
 use super::super::re_sdk_types::datatypes::{TimeInt, TimeRange, TimeRangeBoundary};
 
 use super::super::blueprint::{Panel, View};
+use super::super::panels::{about, events};
 use super::{House, design};
 
 /// The words that belong to a recording of a building. Beside vehicles their layout has them.
@@ -29,13 +30,13 @@ pub fn layout(house: &House, words: Words) -> Panel {
         (1.1, Panel::View(plot(house, "Cost J of each day", vec!["/building/iteration/**".to_owned()]))),
     ];
     if words != Words::Elsewhere {
-        numbers.push((1.3, super::super::layout::about()));
+        numbers.push((1.3, about()));
     }
     let top = Panel::Row(vec![(1.0, floor()), (2.3, temperatures(house))]);
     let mut rows = vec![(1.6, top), (1.0, Panel::Row(numbers))];
     let mut said = plans(house);
     if words == Words::AboutAndEvents {
-        said.push((1.1, super::super::layout::events()));
+        said.push((1.1, events()));
     }
     if !said.is_empty() {
         // A log alone needs less room than plots.

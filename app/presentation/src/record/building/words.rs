@@ -2,7 +2,7 @@
 
 use interplay_scenarios::{Scenario, Weather};
 
-use super::super::stage::code;
+use super::super::markdown::code;
 
 /// What one is looking at, and for what to look.
 pub fn about(scenario: &Scenario, command: Option<&str>) -> String {

@@ -1,26 +1,26 @@
-//! What earlier days taught of the disturbance.
+//! The disturbance that is expected, corrected by what was measured on earlier days.
 //!
-//! After day k the temperatures tell what acted besides the equipment, as zone heat:
+//! After day k, the temperatures T_k and inputs U_k determine the disturbance D_k, expressed as zone heat:
 //!
 //! ```text
 //! D_k = G⁻¹ (T_k − T_in) − U_k            bias ← (1 − λ) bias + λ (D_k − D̂_k)
-//! D̂_k+1 + bias                            is what day k + 1 is planned with
+//! D̂_k+1 + bias                            the prediction for day k + 1
 //! ```
 //!
-//! The source plans with D̂_k+1 alone and so learns nothing. The forecast is not turned into zone heat: its effect is
-//! simulated, and D_k − D̂_k = G⁻¹ (T_k − T_free) − U_k with T_free under the forecast.
+//! The source plans with D̂_k+1 alone and so learns nothing. The forecast itself need not be expressed as zone heat: its
+//! effect is simulated, and D_k − D̂_k = G⁻¹ (T_k − T_free) − U_k with T_free under the forecast.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ControlError, DayRecord, Morning};
+use super::{ControlError, DayAhead, DayRecord};
 use crate::lifted::Lifted;
 use crate::setting::check_within;
 
 /// What the disturbance of a day is predicted from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Prediction {
+pub enum DisturbancePrediction {
     /// The forecast, corrected by the bias of earlier days.
     #[default]
     Forecast,
@@ -28,11 +28,11 @@ pub enum Prediction {
     Yesterday,
 }
 
-/// Memory of disturbances.
+/// Estimates the disturbance of the next day from the forecast and from earlier days.
 #[derive(Clone, Debug)]
-pub struct Experience {
+pub struct DisturbanceEstimator {
     lifted: Lifted,
-    prediction: Prediction,
+    prediction: DisturbancePrediction,
     rate: f64,
     bias_kw: Vec<f64>,
     /// D_k of the day before.
@@ -48,19 +48,19 @@ struct Today {
     forecast_c: Vec<f64>,
 }
 
-/// What a day was like.
+/// By how much a prediction was wrong.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lesson {
-    /// D_k − (D̂_k + bias): what the best prediction missed \[kW\], stacked.
-    pub surprise_kw: Vec<f64>,
+pub struct PredictionError {
+    /// D_k − (D̂_k + bias) \[kW\], stacked.
+    pub error_kw: Vec<f64>,
 }
 
-impl Experience {
-    /// No experience. `rate` is λ.
+impl DisturbanceEstimator {
+    /// An estimator before the first day. `rate` is λ.
     ///
     /// # Errors
     /// [`ControlError::Setting`] if the rate is not between 0 and 1.
-    pub fn new(lifted: Lifted, prediction: Prediction, rate: f64) -> Result<Self, ControlError> {
+    pub fn new(lifted: Lifted, prediction: DisturbancePrediction, rate: f64) -> Result<Self, ControlError> {
         check_within("learning_rate", rate, 0.0..=1.0, "between 0 and 1")?;
         let bias_kw = vec![0.0; lifted.size()];
         Ok(Self { lifted, prediction, rate, bias_kw, measured_kw: None, today: None })
@@ -71,42 +71,44 @@ impl Experience {
         &self.lifted
     }
 
-    /// Heat beyond the forecast that is believed to return \[kW\], stacked.
+    /// The bias of the forecast \[kW\], stacked.
     pub fn bias_kw(&self) -> &[f64] {
         &self.bias_kw
     }
 
-    /// Whether there was a day to learn from.
+    /// Whether no day has been learned from yet.
     pub fn is_empty(&self) -> bool {
         self.measured_kw.is_none()
     }
 
-    /// Temperatures without equipment to plan with \[°C\], stacked.
+    /// The zone temperatures that are predicted for a day without equipment \[°C\], stacked.
     ///
     /// # Errors
-    /// [`ControlError::NotFinite`] if the forecast or a temperature is no number; nothing is learned from such a day.
-    pub fn expect(&mut self, morning: &Morning<'_>) -> Result<Vec<f64>, ControlError> {
+    /// [`ControlError::NotFinite`] if the forecast or a temperature is not finite; nothing is learned from such a day.
+    pub fn expect(&mut self, day_ahead: &DayAhead<'_>) -> Result<Vec<f64>, ControlError> {
         self.today = None;
-        ControlError::check_finite("the temperatures at midnight", morning.initial_c)?;
-        morning.forecast.check_finite()?;
+        ControlError::check_finite("the temperatures at midnight", day_ahead.initial_c)?;
+        day_ahead.forecast.check_finite()?;
         let (steps, size) = (self.lifted.steps(), self.lifted.size());
-        let undisturbed_c = self.lifted.free_response(morning.initial_c, &vec![0.0; steps], &vec![0.0; size]);
-        let forecast = morning.forecast;
-        let forecast_c = self.lifted.free_response(morning.initial_c, &forecast.ambient_c, &forecast.gains_kw);
+        let undisturbed_c = self.lifted.free_response(day_ahead.initial_c, &vec![0.0; steps], &vec![0.0; size]);
+        let forecast = day_ahead.forecast;
+        let forecast_c = self.lifted.free_response(day_ahead.initial_c, &forecast.ambient_c, &forecast.gains_kw);
         let expected_c = match (self.prediction, &self.measured_kw) {
-            (Prediction::Yesterday, Some(measured_kw)) => add(&undisturbed_c, &self.lifted.product(measured_kw)),
+            (DisturbancePrediction::Yesterday, Some(measured_kw)) => {
+                add(&undisturbed_c, &self.lifted.product(measured_kw))
+            }
             _ => add(&forecast_c, &self.lifted.product(&self.bias_kw)),
         };
         self.today = Some(Today { undisturbed_c, forecast_c });
         Ok(expected_c)
     }
 
-    /// Learns from a day. Nothing is learned, and nothing returned, if the day had no forecast or the record has a number
-    /// that is none.
+    /// Updates the bias after a day, and returns the error of its prediction. Nothing is learned, and `None` returned, if
+    /// the day had no forecast or the record holds a number that is not finite.
     ///
     /// # Errors
     /// [`ControlError::Shape`] if the record is of another day or building.
-    pub fn learn(&mut self, record: &DayRecord) -> Result<Option<Lesson>, ControlError> {
+    pub fn learn(&mut self, record: &DayRecord) -> Result<Option<PredictionError>, ControlError> {
         let size = self.lifted.size();
         ControlError::check_length("the day's temperatures", record.temperatures_c.len(), size)?;
         ControlError::check_length("the day's inputs", record.heat_kw.len(), size)?;
@@ -118,12 +120,12 @@ impl Experience {
         };
         let measured_kw = explained(&today.undisturbed_c);
         let missed_kw = explained(&today.forecast_c);
-        let surprise_kw = missed_kw.iter().zip(&self.bias_kw).map(|(missed, bias)| missed - bias).collect();
+        let error_kw = missed_kw.iter().zip(&self.bias_kw).map(|(missed, bias)| missed - bias).collect();
         for (bias_kw, missed_kw) in self.bias_kw.iter_mut().zip(&missed_kw) {
             *bias_kw = (1.0 - self.rate) * *bias_kw + self.rate * missed_kw;
         }
         self.measured_kw = Some(measured_kw);
-        Ok(Some(Lesson { surprise_kw }))
+        Ok(Some(PredictionError { error_kw }))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::setting::check_within;
 /// By which factors a controller's model of a building is off. All one: not at all.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Belief {
+pub struct ModelMismatch {
     /// Believed heat capacities, as multiples of the real ones.
     #[schemars(range(min = 0.1, max = 10), extend("x-unit" = "dimensionless"))]
     pub capacity_factor: f64,
@@ -21,7 +21,7 @@ pub struct Belief {
     pub outer_resistance_factor: f64,
 }
 
-impl Default for Belief {
+impl Default for ModelMismatch {
     fn default() -> Self {
         Self { capacity_factor: 1.0, inner_resistance_factor: 1.0, outer_resistance_factor: 1.0 }
     }
@@ -32,8 +32,8 @@ impl Network {
     ///
     /// # Errors
     /// [`NetworkError::Believed`] if a factor is not a number above zero.
-    pub fn believed(&self, belief: &Belief) -> Result<Network, NetworkError> {
-        let Belief { capacity_factor, inner_resistance_factor, outer_resistance_factor } = *belief;
+    pub fn believed(&self, mismatch: &ModelMismatch) -> Result<Network, NetworkError> {
+        let ModelMismatch { capacity_factor, inner_resistance_factor, outer_resistance_factor } = *mismatch;
         for (key, value) in [
             ("capacity_factor", capacity_factor),
             ("inner_resistance_factor", inner_resistance_factor),
@@ -56,13 +56,14 @@ mod tests {
     #[test]
     fn factors_act_on_what_they_name() {
         let real = Network::testbed();
-        assert_eq!(real.believed(&Belief::default()).expect("right"), real);
-        let belief = Belief { capacity_factor: 2.0, inner_resistance_factor: 4.0, outer_resistance_factor: 0.5 };
-        let believed = real.believed(&belief).expect("valid");
+        assert_eq!(real.believed(&ModelMismatch::default()).expect("right"), real);
+        let mismatch =
+            ModelMismatch { capacity_factor: 2.0, inner_resistance_factor: 4.0, outer_resistance_factor: 0.5 };
+        let believed = real.believed(&mismatch).expect("valid");
         assert_eq!(believed.capacities_kj_per_k(), [2000.0; 4]);
         assert_eq!(believed.links()[0].conductance_kw_per_k, 0.25 / 62.5);
         assert_eq!(believed.ambient_kw_per_k(), [2.0 / 31.25; 4]);
-        let error = real.believed(&Belief { capacity_factor: 0.0, ..belief }).expect_err("nothing");
+        let error = real.believed(&ModelMismatch { capacity_factor: 0.0, ..mismatch }).expect_err("nothing");
         assert!(error.to_string().contains("capacity_factor"), "{error}");
     }
 }

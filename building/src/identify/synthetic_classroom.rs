@@ -8,7 +8,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::telemetry::{Boundary, Neighbour, Telemetry, Wall, Zone};
+use super::telemetry::{Boundary, MeasuredWall, MeasuredZone, Neighbour, Telemetry};
 use crate::random::Random;
 
 /// Sampling time \[s\].
@@ -35,13 +35,13 @@ pub struct Classroom {
     /// Standard deviation of the noise of each temperature sensor \[K\].
     pub sensor_noise_k: f64,
     /// What disturbs the room beside the sun.
-    pub disturbance: Disturbance,
+    pub disturbance: RoomDisturbance,
 }
 
 /// The disturbance beside the sun.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Disturbance {
+pub enum RoomDisturbance {
     /// Smooth over some hours: what a kernel smoother takes out.
     Smooth,
     /// An ARMA(2,1) process, what the source's residual model describes.
@@ -51,7 +51,7 @@ pub enum Disturbance {
 
 impl Default for Classroom {
     fn default() -> Self {
-        Self { days: 27, seed: 1, sensor_noise_k: 0.02, disturbance: Disturbance::Arma }
+        Self { days: 27, seed: 1, sensor_noise_k: 0.02, disturbance: RoomDisturbance::Arma }
     }
 }
 
@@ -66,7 +66,7 @@ impl Classroom {
         let mut noise = Random::new(self.seed, 4);
         let mut measured =
             |series: &[f64]| series.iter().map(|value| value + noise.normal(0.0, self.sensor_noise_k)).collect();
-        let zone = Zone {
+        let zone = MeasuredZone {
             name: "classroom".into(),
             temperature_c: measured(&rooms.temperature_c[0]),
             power_kw: rooms.cooling_kw.iter().zip(&schedule_kw).map(|(cooling, people)| cooling + people).collect(),
@@ -87,7 +87,7 @@ impl Classroom {
             left_out_rows: 0,
             zones: vec![zone],
             boundaries,
-            walls: (0..3).map(|boundary| Wall { zone: 0, other: Neighbour::Boundary(boundary) }).collect(),
+            walls: (0..3).map(|boundary| MeasuredWall { zone: 0, other: Neighbour::Boundary(boundary) }).collect(),
         }
     }
 
@@ -95,11 +95,11 @@ impl Classroom {
     fn disturbance_k(&self, random: &mut Random, rows: usize) -> Vec<f64> {
         let sun = |row: usize| 0.03 * turn(hour(row) - 7.0, 24.0).0.max(0.0);
         let other = match self.disturbance {
-            Disturbance::Smooth => {
+            RoomDisturbance::Smooth => {
                 let white: Vec<f64> = (0..rows + 80).map(|_| random.normal(0.0, 0.06)).collect();
                 (0..rows).map(|row| gaussian_mean(&white[row..=row + 80], 10.0)).collect()
             }
-            Disturbance::Arma => arma_process(random, rows),
+            RoomDisturbance::Arma => arma_process(random, rows),
         };
         other.iter().enumerate().map(|(row, other): (usize, &f64)| other + sun(row)).collect()
     }

@@ -1,14 +1,12 @@
-//! What stands still: the road, and the text that says what one is looking at.
+//! The road: what stands still.
 
-use super::re_sdk_types::archetypes::{LineStrips2D, TextDocument, Transform3D};
-use super::re_sdk_types::components::{MediaType, Radius};
+use super::re_sdk_types::archetypes::{LineStrips2D, Transform3D};
+use super::re_sdk_types::components::Radius;
 use interplay_planners::{Corridor, LaneEnd};
-use interplay_scenarios::{Branch, Road, Scenario, Vehicle};
+use interplay_scenarios::{Branch, Road, Scenario};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::building;
-use super::palette::{ASPHALT, MARKING, Paint};
-use super::planner_panels;
+use super::palette::{ASPHALT, MARKING};
 
 /// Length of a lane marking and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;
@@ -143,63 +141,11 @@ pub fn turn(angle_rad: f64) -> [[f32; 3]; 3] {
     [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
 }
 
-/// Logs the text beside the pictures.
-///
-/// # Errors
-/// If Rerun refuses a component.
-pub fn about(
-    stream: &RecordingStream,
-    scenario: &Scenario,
-    paints: &[Paint],
-    command: Option<&str>,
-) -> RecordingStreamResult<()> {
-    let driving = (!scenario.vehicles.is_empty()).then(|| description(scenario, paints, command));
-    let command = command.filter(|_| driving.is_none());
-    let building = scenario.building.is_some().then(|| building::about(scenario, command));
-    let text = driving.into_iter().chain(building).collect::<Vec<_>>().join("\n\n");
-    stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
-}
-
-fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> String {
-    let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
-    let figure = scenario.figure.as_ref().map(|figure| format!(" (figure {figure})")).unwrap_or_default();
-    let who: String =
-        scenario.vehicles.iter().zip(paints).map(|(vehicle, paint)| row(scenario, vehicle, *paint)).collect();
-    format!(
-        "### {title}\n\n{shows}{figure}.{again}\n\n\
-         | vehicle | colour | driver | wants |\n|---|---|---|---|\n{who}\n\
-         In a vehicle's colour: pale behind it, the path it drove; solid ahead, its plan; dashed, what others expect \
-         of it; dotted, what it asks another to do. Ellipses: where the ego's centre keeps out. A plan in {failure} \
-         is a fallback, because the planner failed: the events say why.\n{guide}",
-        guide = planner_panels::guide(scenario),
-        title = scenario.title,
-        shows = scenario.shows.trim_end_matches('.'),
-        failure = super::palette::FAILURE.word,
-    )
-}
-
-/// A text to be shown as it is: between more backticks than it has in a row.
-pub fn code(text: &str) -> String {
-    let most = text.split(|character| character != '`').map(str::len).max().unwrap_or(0);
-    let fence = "`".repeat(most + 1);
-    if most == 0 { format!("{fence}{text}{fence}") } else { format!("{fence} {text} {fence}") }
-}
-
-fn row(scenario: &Scenario, vehicle: &Vehicle, paint: Paint) -> String {
-    let target = vehicle.target(&scenario.road);
-    let wish = match vehicle.goal.lane {
-        Some(lane) => format!("lane {lane} at {:.2} m/s", target.speed_mps),
-        None => format!("{:.2} m/s", target.speed_mps),
-    };
-    format!("| **{}** | {} | {} | {wish} |\n", vehicle.name, paint.word, vehicle.driver.kind())
-}
-
 #[cfg(test)]
 mod tests {
     use interplay_scenarios::{RampMerge, load};
 
-    use super::super::palette::paints;
-    use super::{Branch, Line, Road, Strip, code, description};
+    use super::{Branch, Line, Road, Strip};
 
     /// The lines of a road from −5 m to 10 m.
     fn lines(road: &Road, branch: Branch, draw: impl Fn(&Strip) -> Vec<Line>) -> Vec<Line> {
@@ -230,19 +176,5 @@ mod tests {
                 assert!(end <= from + 1e-6 || begin >= to - 1e-6, "{branch:?}: {begin} to {end}");
             }
         }
-    }
-
-    #[test]
-    fn the_text_says_how_to_repeat_the_run() {
-        let scenario = load("lane-change/front-nice", &[]).expect("embedded");
-        let text = |command| description(&scenario, &paints(&scenario), command);
-        assert!(text(Some("interplay run a --seed 2")).contains("(figure 6.1). Again: `interplay run a --seed 2`\n"));
-        assert!(!text(None).contains("Again"));
-    }
-
-    #[test]
-    fn backticks_in_a_command_do_not_end_it() {
-        assert_eq!(code("interplay run a"), "`interplay run a`");
-        assert_eq!(code("--set 'title=`a` ``b``'"), "``` --set 'title=`a` ``b``' ```");
     }
 }

@@ -46,7 +46,7 @@ struct Edge {
 
 /// The zones' network of messages over days.
 #[derive(Clone, Debug)]
-pub(super) struct Mail {
+pub(super) struct Messages {
     steps: usize,
     /// h/c of each node.
     gain: Vec<f64>,
@@ -61,13 +61,13 @@ pub(super) struct Mail {
     delay: usize,
     silent: Option<usize>,
     generator: ChaCha8Rng,
-    /// Counted since the last [`Mail::start`].
+    /// Counted since the last [`Messages::start`].
     pub sent: Vec<usize>,
     /// Counted likewise.
     pub undelivered: usize,
 }
 
-impl Mail {
+impl Messages {
     /// The network of messages of a building whose model is forward Euler.
     pub fn new(lifted: &Lifted, loss: f64, delay: usize, silent: Option<usize>) -> Self {
         let network = lifted.model().network();

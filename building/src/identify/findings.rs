@@ -2,24 +2,24 @@
 
 use std::ops::Range;
 
-use super::checks::CheckedEstimate;
 use super::continuous::{continuous, decay};
+use super::cross_checks::CheckedEstimate;
 use super::diagnostics::{Confidence, whiteness};
 use super::estimate::Estimate;
-use super::free_run::{self, Forecast, RunZone};
+use super::free_run::{self, ResidualForecast, RunZone};
 use super::physical::{Physical, correlation};
 use super::regression::Coefficient;
-use super::report::{ErrorReport, FreeRunReport, Report, ResidualReport, WallReport, ZoneReport};
+use super::report::{ErrorReport, FreeRunReport, IdentificationReport, ResidualReport, WallReport, ZoneReport};
 use super::residual::steps;
+use super::shared_walls::{SideEstimate, compare};
 use super::telemetry::{Neighbour, Telemetry};
-use super::walls::{Opinion, compare};
-use super::{Parts, Settings, horizon};
+use super::{IdentifySettings, Parts, horizon};
 use crate::discretise;
 
 /// Everything that a report is made from.
 pub(super) struct Findings<'a> {
     pub telemetry: &'a Telemetry,
-    pub settings: &'a Settings,
+    pub settings: &'a IdentifySettings,
     pub parts: &'a Parts,
     /// One a zone.
     pub estimates: &'a [CheckedEstimate],
@@ -29,10 +29,12 @@ pub(super) struct Findings<'a> {
 
 impl Findings<'_> {
     /// The report on all zones.
-    pub fn report(&self) -> Report {
+    pub fn report(&self) -> IdentificationReport {
         let physical = match self.settings.discretisation {
-            discretise::Method::Exact => continuous(self.telemetry, self.zones, self.estimates),
-            discretise::Method::Euler => self.estimates.iter().map(|checked| checked.estimate.clone()).collect(),
+            discretise::Discretisation::Exact => continuous(self.telemetry, self.zones, self.estimates),
+            discretise::Discretisation::Euler => {
+                self.estimates.iter().map(|checked| checked.estimate.clone()).collect()
+            }
         };
         let train = self.errors(&self.parts.train);
         let test = (!self.parts.test.is_empty()).then(|| self.errors(&self.parts.test));
@@ -41,7 +43,7 @@ impl Findings<'_> {
             self.zone(zone, &physical[zone], train[zone].clone(), test)
         };
         let zones: Vec<ZoneReport> = (0..self.zones.len()).map(zone).collect();
-        Report {
+        IdentificationReport {
             method: self.settings.method,
             step_s: self.telemetry.step_s,
             rows: self.telemetry.rows(),
@@ -97,7 +99,8 @@ impl Findings<'_> {
             (sum / rows.len().max(1) as f64).sqrt()
         };
         let horizon = horizon(self.telemetry, self.settings);
-        let runs = Forecast::ALL.map(|how| (how, free_run::errors(self.telemetry, self.zones, how, segments, horizon)));
+        let runs = ResidualForecast::ALL
+            .map(|how| (how, free_run::errors(self.telemetry, self.zones, how, segments, horizon)));
         let zone_errors = |(index, zone): (usize, &RunZone)| ErrorReport {
             one_step_k: root_mean_square(&zone.daily.1.q),
             one_step_with_residual_model_k: root_mean_square(&zone.daily.1.innovations),
@@ -110,21 +113,21 @@ impl Findings<'_> {
         self.zones.iter().enumerate().map(zone_errors).collect()
     }
 
-    /// Walls between zones, by the opinion of both sides.
+    /// Walls between zones, by the side_estimate of both sides.
     fn walls(&self, physical: &[Estimate]) -> Vec<WallReport> {
-        let opinion = |zone: usize, other: usize| {
+        let side_estimate = |zone: usize, other: usize| {
             let coefficients = self.zones[zone].model.coefficients(self.telemetry);
             let to = &self.telemetry.zones[other].name;
             let index = coefficients.iter().position(|kind| *kind == Coefficient::Wall { to: to.clone() });
             let conductance =
                 index.map(|index| self.physical(zone, &physical[zone], &coefficients).conductance(index, to));
-            Opinion::new(&self.telemetry.zones[zone].name, conductance.as_ref())
+            SideEstimate::new(&self.telemetry.zones[zone].name, conductance.as_ref())
         };
         let pairs = self.telemetry.walls.iter().filter_map(|wall| match wall.other {
             Neighbour::Zone(other) => Some((wall.zone, other)),
             Neighbour::Boundary(_) => None,
         });
-        pairs.map(|(one, other)| compare(&opinion(one, other), &opinion(other, one))).collect()
+        pairs.map(|(one, other)| compare(&side_estimate(one, other), &side_estimate(other, one))).collect()
     }
 
     /// Everything that a reader must know before using a number.

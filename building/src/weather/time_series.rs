@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Values at `first_s`, `first_s + interval_s`, …
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Series {
+pub struct TimeSeries {
     /// Time of the first value \[s\].
     pub first_s: f64,
     /// Time between two values \[s\].
@@ -16,7 +16,7 @@ pub struct Series {
     pub values: Vec<f64>,
 }
 
-impl Series {
+impl TimeSeries {
     /// The value at a time, interpolated linearly. Outside of a series that is not cyclic it is that at the nearer end.
     ///
     /// # Panics

@@ -5,7 +5,7 @@ use super::diagnostics::INTERVAL;
 use super::report::{Quantity, WallReport};
 
 /// What one side finds of a wall's conductance \[kW/K\].
-pub(super) struct Opinion {
+pub(super) struct SideEstimate {
     zone: String,
     /// With standard error, where it is determined.
     estimate: Option<(f64, f64)>,
@@ -13,8 +13,8 @@ pub(super) struct Opinion {
     interval: (f64, f64),
 }
 
-impl Opinion {
-    /// The opinion of a zone; without a conductance it has none.
+impl SideEstimate {
+    /// The side_estimate of a zone; without a conductance it has none.
     pub fn new(zone: &str, conductance: Option<&Quantity>) -> Self {
         let (low, high) = conductance.map_or((None, None), |quantity| quantity.interval);
         Self {
@@ -26,7 +26,7 @@ impl Opinion {
 }
 
 /// Both opinions, and what follows from them.
-pub(super) fn compare(first: &Opinion, second: &Opinion) -> WallReport {
+pub(super) fn compare(first: &SideEstimate, second: &SideEstimate) -> WallReport {
     let (combined, words) = match (first.estimate, second.estimate) {
         (Some(one), Some(other)) => combine(one, other),
         (Some(estimate), None) => alone(first, estimate, second),
@@ -55,7 +55,7 @@ fn combine(one: (f64, f64), other: (f64, f64)) -> (Option<(f64, f64)>, String) {
 }
 
 /// What one side says where the other knows at most a bound.
-fn alone(side: &Opinion, estimate: (f64, f64), other: &Opinion) -> (Option<(f64, f64)>, String) {
+fn alone(side: &SideEstimate, estimate: (f64, f64), other: &SideEstimate) -> (Option<(f64, f64)>, String) {
     if side.interval.1 < other.interval.0 {
         let words = format!(
             "{} and {} disagree: at most {:.3} kW/K, and at least {:.3}; this is not one resistance",
@@ -68,28 +68,28 @@ fn alone(side: &Opinion, estimate: (f64, f64), other: &Opinion) -> (Option<(f64,
 
 #[cfg(test)]
 mod tests {
-    use super::{Opinion, compare};
+    use super::{SideEstimate, compare};
 
-    fn opinion(zone: &str, estimate: Option<(f64, f64)>, interval: (f64, f64)) -> Opinion {
-        Opinion { zone: zone.into(), estimate, interval }
+    fn side_estimate(zone: &str, estimate: Option<(f64, f64)>, interval: (f64, f64)) -> SideEstimate {
+        SideEstimate { zone: zone.into(), estimate, interval }
     }
 
     #[test]
     fn agreement_is_the_weighted_mean_and_contradiction_has_none() {
-        let a = opinion("a", Some((1.0, 0.1)), (0.8, 1.2));
-        let b = opinion("b", Some((1.2, 0.2)), (0.8, 1.6));
+        let a = side_estimate("a", Some((1.0, 0.1)), (0.8, 1.2));
+        let b = side_estimate("b", Some((1.2, 0.2)), (0.8, 1.6));
         let (mean, error) = compare(&a, &b).combined.expect("they agree");
         assert!(
             (mean - (1.0 * 100.0 + 1.2 * 25.0) / 125.0).abs() < 1e-12 && (error - 1.0 / 125.0_f64.sqrt()).abs() < 1e-12
         );
-        let far = opinion("c", Some((3.0, 0.2)), (2.6, 3.4));
+        let far = side_estimate("c", Some((3.0, 0.2)), (2.6, 3.4));
         assert_eq!(compare(&a, &far).combined, None);
     }
 
     #[test]
     fn a_bound_can_contradict_too() {
-        let a = opinion("a", Some((1.0, 0.1)), (0.8, 1.2));
-        let above = opinion("b", None, (2.0, f64::INFINITY));
+        let a = side_estimate("a", Some((1.0, 0.1)), (0.8, 1.2));
+        let above = side_estimate("b", None, (2.0, f64::INFINITY));
         let report = compare(&above, &a);
         assert_eq!(report.combined, None);
         assert!(
@@ -97,7 +97,7 @@ mod tests {
             "{}",
             report.words
         );
-        let below = opinion("b", None, (0.5, f64::INFINITY));
+        let below = side_estimate("b", None, (0.5, f64::INFINITY));
         assert_eq!(compare(&a, &below).combined, Some((1.0, 0.1)));
         assert_eq!(compare(&below, &below).words, "neither side determines it");
     }

@@ -9,9 +9,9 @@ use std::ops::Range;
 
 use super::estimate::{Estimate, estimate};
 use super::regression::ZoneModel;
-use super::report::Check;
+use super::report::CrossCheck;
 use super::telemetry::Telemetry;
-use super::{IdentifyError, Method, Settings};
+use super::{Estimator, IdentifyError, IdentifySettings};
 
 /// How many standard errors of the difference make a dispute.
 const DISPUTE: f64 = 3.0;
@@ -39,22 +39,22 @@ impl CheckedEstimate {
         telemetry: &Telemetry,
         model: &ZoneModel,
         segments: &[Range<usize>],
-        settings: &Settings,
+        settings: &IdentifySettings,
     ) -> Result<Self, IdentifyError> {
         let (other, name) = match settings.method {
-            Method::Semiparametric => (Method::PredictionError, "by prediction-error"),
-            Method::PredictionError => (Method::Semiparametric, "by semiparametric"),
+            Estimator::Semiparametric => (Estimator::PredictionError, "by prediction-error"),
+            Estimator::PredictionError => (Estimator::Semiparametric, "by semiparametric"),
         };
-        let other = Settings { method: other, ..settings.clone() };
+        let other = IdentifySettings { method: other, ..settings.clone() };
         let (first, second) = halves(segments);
-        let ways: [(&str, &Settings, &[Range<usize>]); 3] = [
+        let ways: [(&str, &IdentifySettings, &[Range<usize>]); 3] = [
             (name, &other, segments),
             ("in the first half", settings, &first),
             ("in the second half", settings, &second),
         ];
         let main = estimate(telemetry, model, segments, settings)?;
         // Too few rows for a check are no error: there is one check less.
-        let check = |(how, settings, segments): (&str, &Settings, &[Range<usize>])| {
+        let check = |(how, settings, segments): (&str, &IdentifySettings, &[Range<usize>])| {
             let estimate = estimate(telemetry, model, segments, settings).ok()?;
             Some(OtherEstimate { how: how.into(), estimate })
         };
@@ -76,10 +76,10 @@ impl CheckedEstimate {
 
 impl OtherEstimate {
     /// What this way gives for a coefficient.
-    pub fn check(&self, index: usize) -> Check {
+    pub fn check(&self, index: usize) -> CrossCheck {
         let (value, error) = of_coefficient(&self.estimate, index);
         let known = error.is_finite();
-        Check { how: self.how.clone(), value: known.then_some(value), standard_error: known.then_some(error) }
+        CrossCheck { how: self.how.clone(), value: known.then_some(value), standard_error: known.then_some(error) }
     }
 }
 

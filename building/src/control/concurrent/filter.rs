@@ -15,11 +15,11 @@
 //!
 //! γ₂ has a floor: a disturbance acts for a step before anything can be done, and that alone is ‖h₁‖_F.
 
-use interplay_convex::{Program, Settings, Solution, SolveError, Solver, Variable, Variables};
+use interplay_convex::{ConicSolution, Program, SolveError, Solver, SolverSettings, Variable, Variables};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::settings::ConcurrentSettings;
-use super::youla::{Taps, impulses};
+use super::youla::{YoulaFilter, impulses};
 use crate::comfort::Targets;
 use crate::control::ControlError;
 use crate::control::uncertainty::Uncertainty;
@@ -34,9 +34,9 @@ const LENIENCY: f64 = 4.6 / 3.6;
 
 /// A designed Q.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Design {
-    /// The taps.
-    pub taps: Taps,
+pub struct FilterDesign {
+    /// Q.
+    pub filter: YoulaFilter,
     /// The coloured H₂ cost.
     pub cost: f64,
     /// The same without feedback.
@@ -120,7 +120,7 @@ pub fn design(
     lifted: &Lifted,
     targets: &Targets,
     uncertainty: &Uncertainty,
-) -> Result<Design, ControlError> {
+) -> Result<FilterDesign, ControlError> {
     let n = lifted.zones();
     let found = settings.taps * n * n;
     if found > MOST_UNKNOWNS {
@@ -136,23 +136,23 @@ pub fn design(
     let responses = Responses::new(lifted, &shaped, settings.taps);
     let (gram, linear, constant) = responses.cost(error_weight, targets.input_weight);
     let free = Cholesky::new(gram.clone()).ok_or(ControlError::Covariance { order: found })?.solve(&-&linear);
-    let mut taps = unstacked(free.as_slice(), n);
+    let mut filter = unstacked(free.as_slice(), n);
     let mut theta = free;
-    if taps.row_norm() > settings.gamma_q || taps.impulse_norm(lifted) > gamma_2 {
+    if filter.row_norm() > settings.gamma_q || filter.impulse_norm(lifted) > gamma_2 {
         theta = DVector::from_vec(bounded(settings, gamma_2, lifted, &gram, &linear)?);
-        taps = unstacked(theta.as_slice(), n);
+        filter = unstacked(theta.as_slice(), n);
     }
     let mut curved = DVector::zeros(found);
     for (column, theta) in gram.column_iter().zip(&theta) {
         curved.axpy(*theta, &column, 1.0);
     }
     let cost = 0.5 * theta.dot(&curved) + linear.dot(&theta) + constant - RIDGE * theta.norm_squared();
-    Ok(Design { taps, cost, open_cost: constant })
+    Ok(FilterDesign { filter, cost, open_cost: constant })
 }
 
-/// Taps from their entries.
-fn unstacked(theta: &[f64], n: usize) -> Taps {
-    Taps(theta.chunks_exact(n * n).map(|tap| DMatrix::from_row_slice(n, n, tap)).collect())
+/// Q from the stacked entries of its taps.
+fn unstacked(theta: &[f64], n: usize) -> YoulaFilter {
+    YoulaFilter(theta.chunks_exact(n * n).map(|tap| DMatrix::from_row_slice(n, n, tap)).collect())
 }
 
 /// The same cost within the bounds, or the floor of γ₂ under γ_q.
@@ -184,8 +184,8 @@ fn bounded(
     }
 }
 
-fn solved(program: &Program) -> Result<Solution, ControlError> {
-    Ok(Solver::new(program, &Settings::default())?.solve()?)
+fn solved(program: &Program) -> Result<ConicSolution, ControlError> {
+    Ok(Solver::new(program, &SolverSettings::default())?.solve()?)
 }
 
 /// Σ over a row of the magnitudes of the taps ≤ γ_q.

@@ -1,0 +1,71 @@
+//! The text that says what one is looking at.
+
+use super::re_sdk_types::archetypes::TextDocument;
+use super::re_sdk_types::components::MediaType;
+use interplay_scenarios::{Scenario, Vehicle};
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::building;
+use super::markdown::code;
+use super::palette::{FAILURE, Paint};
+use super::planner_panels;
+
+/// Logs the text beside the pictures.
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn about(
+    stream: &RecordingStream,
+    scenario: &Scenario,
+    paints: &[Paint],
+    command: Option<&str>,
+) -> RecordingStreamResult<()> {
+    let driving = (!scenario.vehicles.is_empty()).then(|| description(scenario, paints, command));
+    let command = command.filter(|_| driving.is_none());
+    let building = scenario.building.is_some().then(|| building::about(scenario, command));
+    let text = driving.into_iter().chain(building).collect::<Vec<_>>().join("\n\n");
+    stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
+}
+
+fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> String {
+    let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
+    let figure = scenario.figure.as_ref().map(|figure| format!(" (figure {figure})")).unwrap_or_default();
+    let who: String =
+        scenario.vehicles.iter().zip(paints).map(|(vehicle, paint)| row(scenario, vehicle, *paint)).collect();
+    format!(
+        "### {title}\n\n{shows}{figure}.{again}\n\n\
+         | vehicle | colour | driver | wants |\n|---|---|---|---|\n{who}\n\
+         In a vehicle's colour: pale behind it, the path it drove; solid ahead, its plan; dashed, what others expect \
+         of it; dotted, what it asks another to do. Ellipses: where the ego's centre keeps out. A plan in {failure} \
+         is a fallback, because the planner failed: the events say why.\n{guide}",
+        guide = planner_panels::guide(scenario),
+        title = scenario.title,
+        shows = scenario.shows.trim_end_matches('.'),
+        failure = FAILURE.word,
+    )
+}
+
+fn row(scenario: &Scenario, vehicle: &Vehicle, paint: Paint) -> String {
+    let target = vehicle.target(&scenario.road);
+    let wish = match vehicle.goal.lane {
+        Some(lane) => format!("lane {lane} at {:.2} m/s", target.speed_mps),
+        None => format!("{:.2} m/s", target.speed_mps),
+    };
+    format!("| **{}** | {} | {} | {wish} |\n", vehicle.name, paint.word, vehicle.driver.kind())
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::super::palette::paints;
+    use super::description;
+
+    #[test]
+    fn the_text_says_how_to_repeat_the_run() {
+        let scenario = load("lane-change/front-nice", &[]).expect("embedded");
+        let text = |command| description(&scenario, &paints(&scenario), command);
+        assert!(text(Some("interplay run a --seed 2")).contains("(figure 6.1). Again: `interplay run a --seed 2`\n"));
+        assert!(!text(None).contains("Again"));
+    }
+}
