@@ -1,10 +1,9 @@
 //! Interplay: zones that interact.
 //!
-//! Pure functions of plain values, like the planners: nothing here knows of time, files, entities or pictures.
+//! Pure functions of plain values, like the planners: no wall clock, files, entities or pictures.
 //!
 //! - the building: [`network`] (zones and walls), [`discretise`] (steps of time), [`lifted`] (a day as one linear map)
-//! - what acts on it: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, as scheduled and as it
-//!   turns out)
+//! - its disturbances: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, scheduled and actual)
 //! - [`comfort`]: the temperatures that are wanted
 //! - [`control`]: controllers that are compared day by day, and the day's optimum
 //! - [`day`]: the closed loop of a building and a controller, and the key figures of a day

@@ -1,9 +1,9 @@
 //! Heat from people and what they switch on: as scheduled, and as it turns out.
 //!
 //! A zone follows a schedule that rises around the start of work, dips at lunch and falls around its end, times the zone's
-//! peak. Reality deviates in ways that can be learned and in ways that cannot: the schedule is wrong by the same share every
-//! day (bias), people come earlier or later and are more or fewer (shift, scatter), and meetings take place that nobody
-//! announced, or are cancelled. In these buildings the error of occupancy dominates that of the weather forecast.
+//! peak. Reality deviates from it. One deviation can be learned: the schedule is wrong by the same share every day (bias).
+//! The others cannot: people come earlier or later and are more or fewer (shift, scatter), and meetings take place
+//! unannounced, or are cancelled. In these buildings the error of occupancy dominates that of the weather forecast.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

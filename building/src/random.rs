@@ -10,7 +10,7 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 pub(crate) struct Random(ChaCha8Rng);
 
 impl Random {
-    /// The stream of a seed and a label; what is drawn for one purpose must not depend on what is drawn for another.
+    /// The stream of a seed and a label; each purpose has a stream of its own, so that draws for one do not shift those for another.
     pub(crate) fn new(seed: u64, label: u64) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         generator.set_stream(label);

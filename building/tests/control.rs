@@ -194,7 +194,7 @@ impl World {
     }
 }
 
-fn all_controllers() -> [Controller; 4] {
+fn baselines() -> [Controller; 4] {
     [
         Controller::Thermostat(ThermostatSettings::default()),
         Controller::Pid(PidSettings::default()),
@@ -207,7 +207,7 @@ fn all_controllers() -> [Controller; 4] {
 fn nobody_beats_the_clairvoyant_and_the_clairvoyant_has_no_regret() {
     for seed in 1..4 {
         let world = World::new(seed, Forecast::Uncertain { level: ErrorLevel::Medium });
-        for controller in all_controllers() {
+        for controller in baselines() {
             for (cost, regret) in world.run(controller) {
                 assert!(regret > 0.0, "{} {cost} {regret}", controller.kind());
             }
@@ -332,7 +332,14 @@ fn a_day_of_another_building_is_refused_and_changes_nothing() {
 #[test]
 fn controllers_are_read_by_their_kind() {
     let read = |text: &str| toml::from_str::<Controller>(text);
-    for controller in all_controllers().into_iter().chain([Controller::Clairvoyant]) {
+    let designs = [
+        Controller::Clairvoyant,
+        Controller::Iterative(Default::default()),
+        Controller::Concurrent(Default::default()),
+        Controller::Distributed(Default::default()),
+        Controller::Centralised(Default::default()),
+    ];
+    for controller in baselines().into_iter().chain(designs) {
         let text = toml::to_string(&controller).expect("serialises");
         assert!(text.contains(&format!("kind = \"{}\"", controller.kind())));
         assert_eq!(read(&text).expect("its own text"), controller);
@@ -345,7 +352,7 @@ fn controllers_are_read_by_their_kind() {
 fn random_temperatures_never_make_a_baseline_ask_for_more_than_there_is() {
     let model = testbed();
     let targets = targets(&Setpoints::default(), 4);
-    for controller in all_controllers() {
+    for controller in baselines() {
         let mut regulator = start(controller, &model);
         for (step, temperatures_c) in numbers(4 * STEPS, 20.0).chunks_exact(4).enumerate() {
             let asked = regulator.act(&Observation { step, temperatures_c, targets: &targets });

@@ -169,7 +169,7 @@ fn days_precool_track_and_learn_on_every_seed() {
         let cost = |record: &DayRecord| targets.cost(&record.temperatures_c, &record.heat_kw);
         for record in &records[1..] {
             assert!(cost(record) < 0.5 * cost(&records[0]), "{seed}");
-            assert!(record.heat_kw.iter().all(|kw| kw.abs() <= 2.0));
+            assert!(record.requested_kw.iter().all(|kw| kw.abs() <= 2.0));
             assert!(record.heat_kw[..15 * 4].iter().any(|kw| *kw < -0.05), "precooling before 8:00");
             assert!(falls(&record.design.exchange.as_ref().expect("spoken").costs));
             assert!(record.design.spectral_radius.expect("small enough").is_finite());

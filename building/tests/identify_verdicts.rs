@@ -85,6 +85,7 @@ fn the_testbed_comes_back_in_physical_units_and_both_sides_of_a_wall_agree() {
         assert!((value(&report, "resistance to outdoor") / 31.25 - 1.0).abs() < 0.1);
         assert!((value(&report, "time constant through the walls") / 4.34 - 1.0).abs() < 0.1);
     }
+    assert_eq!(report.walls.len(), 6, "one for each pair of rooms");
     for wall in &report.walls {
         let names = (wall.between.0.as_str(), wall.between.1.as_str());
         let (conductance, error) = wall.combined.unwrap_or_else(|| panic!("{names:?}: {}", wall.words));

@@ -71,6 +71,7 @@ fn days_cost_what_independent_code_says() {
                 .map(|record| targets.cost(&record.temperatures_c, &record.heat_kw))
                 .collect();
             let wanted = floats(&optima[name]["J_days"][kind]);
+            assert_eq!(costs.len(), wanted.len());
             for (got, want) in costs.iter().zip(wanted) {
                 assert_close(*got, want, 1e-6);
             }
@@ -84,7 +85,7 @@ fn seeds(plant: &Model, settings: IterativeSettings, night_weight: f64) -> Vec<V
         .map(|seed| {
             let mut iterative = Iterative::new(settings, Lifted::new(&testbed(), STEPS)).expect("valid");
             let records = run(plant, 29.0, &mut iterative, &targets, &synthetic(seed, 5, 4));
-            assert!(records.iter().all(|record| record.heat_kw.iter().all(|kw| kw.abs() <= 2.0)), "limits hold");
+            assert!(records.iter().all(|record| record.requested_kw.iter().all(|kw| kw.abs() <= 2.0)), "limits hold");
             assert!(records.iter().all(|record| record.design.fallback.is_none()));
             records.iter().map(|record| targets.cost(&record.temperatures_c, &record.heat_kw)).collect()
         })

@@ -43,6 +43,6 @@ pub mod vehicle;
 pub use diagnostic::Diagnostic;
 pub use driver::{Driver, Planner};
 pub use plan::{Plan, PlanError, Proposal};
-pub use road::{Axes, Clearance, Corridor, LaneEnd};
+pub use road::{Axes, Corridor, LaneEnd};
 pub use scene::{Agent, Goal, Scene};
 pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

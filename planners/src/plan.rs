@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::Trajectory;
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
-use crate::trajectory::{DescentError, Optimum, StageError, Statistics};
+use crate::trajectory::{DescentError, StageError, Statistics};
 
 /// What a vehicle will do, what it asks of another, and why.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,26 +72,5 @@ impl From<DescentError> for PlanError {
             DescentError::NotBelow(_) => PlanError::Unsolved { status: error.to_string(), iterations: 0 },
             DescentError::NotFinite => PlanError::BadInput(error.to_string()),
         }
-    }
-}
-
-impl Optimum {
-    /// The motion of one participant.
-    pub fn trajectory(&self, participant: usize) -> Trajectory {
-        Trajectory {
-            states: self.iterate.states[participant].clone(),
-            inputs: self.iterate.inputs[participant].clone(),
-        }
-    }
-}
-
-impl Statistics {
-    /// Adds the work of another optimisation; the worse residual counts.
-    pub fn add(&mut self, other: &Statistics) {
-        self.starts += other.starts;
-        self.programmes += other.programmes;
-        self.inner_iterations += other.inner_iterations;
-        self.fallbacks += other.fallbacks;
-        self.residual = self.residual.max(other.residual);
     }
 }

@@ -7,7 +7,7 @@ use interplay_planners::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COS
 use interplay_planners::cooperative::{self, Cooperator, cooperators, problem};
 use interplay_planners::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
 use interplay_planners::human::Style;
-use interplay_planners::trajectory::{Optimiser, Problem, Robust};
+use interplay_planners::trajectory::{Optimiser, Problem, Robust, Term};
 use interplay_planners::{Driver, Plan, Planner, Scene};
 
 fn cooperative(normaliser: f64) -> Driver {
@@ -70,18 +70,16 @@ fn everybody_finds_the_same_solution() {
 /// The cost of each of two vehicles at the joint optimum for weights `1/Z`, all from one guess.
 fn costs(normalisers: [f64; 2], guess: &Problem) -> ([f64; 2], Problem) {
     let mut weighted = guess.clone();
-    for (participant, normaliser) in weighted.participants.iter_mut().zip(normalisers) {
-        participant.tracking.weights = participant.tracking.weights.map(|q| q / normaliser);
-        participant.comfort = participant.comfort.map(|r| r / normaliser);
+    for term in &mut weighted.terms {
+        match term {
+            Term::Tracking(term) => term.weights = term.weights.map(|q| q / normalisers[term.vehicle]),
+            Term::Comfort(term) => term.weights = term.weights.map(|r| r / normalisers[term.vehicle]),
+            _ => {}
+        }
     }
     let start = vec![Vec::new(), Vec::new()];
     let optimum = Optimiser::new(Robust::default()).descend(&weighted, &start).expect("an optimum");
-    let own = [0, 1].map(|i| {
-        let participants = vec![guess.participants[i].clone()];
-        let alone = Problem { participants, separations: Vec::new(), ..guess.clone() };
-        let (inputs, states) = (optimum.iterate.inputs[i].clone(), optimum.iterate.states[i].clone());
-        alone.cost(&interplay_planners::trajectory::Iterate { inputs: vec![inputs], states: vec![states] }).total
-    });
+    let own = [0, 1].map(|vehicle| guess.own_cost(vehicle, &optimum.iterate));
     (own, weighted)
 }
 
@@ -113,7 +111,8 @@ fn the_list_of_cooperators_is_the_same_for_all() {
     assert!(lists.windows(2).all(|pair| pair[0] == pair[1]));
     let problems: Vec<Problem> = (0..3).map(|i| problem(&scene(&vehicles, i), &lists[i])).collect();
     assert!(problems.windows(2).all(|pair| pair[0] == pair[1]));
-    assert_eq!((problems[0].participants.len(), problems[0].separations.len()), (3, 3));
+    let separations = problems[0].terms.iter().filter(|term| matches!(term, Term::Separation(_))).count();
+    assert_eq!((problems[0].participants.len(), separations), (3, 3));
 }
 
 #[test]

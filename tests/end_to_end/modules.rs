@@ -24,15 +24,9 @@ use crate::house::{members, root};
 
 /// Levels that may still have a circle: the crate, the level, the reason.
 const KNOWN_CIRCLES: &[(&str, &str, &str)] = &[
-    ("convex", "", "residuals and solution name one another"),
     ("planners", "", "scene, plan and trajectory name one another"),
-    ("planners", "human", "the intelligent driver model and MOBIL name one another"),
     ("planners", "negotiation", "the folder's own items and persuasion name one another"),
     ("planners", "trajectory::sqp", "line search and optimiser name one another"),
-    ("building", "identify", "the folder's own items and its steps name one another"),
-    ("building", "identify::telemetry", "the table and its reader and writer name one another"),
-    ("building", "network", "the network and its checks name one another"),
-    ("building", "weather::epw", "the file and its header name one another"),
     ("scenarios", "", "scenario, building, jitter and schema name one another"),
 ];
 

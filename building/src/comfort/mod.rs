@@ -1,4 +1,4 @@
-//! The temperatures that are wanted ([`Setpoints`]), and what they mean for the steps of a day ([`Targets`]).
+//! Wanted temperatures ([`Setpoints`]), and their values at the steps of a day ([`Targets`]).
 
 mod targets;
 

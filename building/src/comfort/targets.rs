@@ -1,4 +1,4 @@
-//! What zones should be like over a day.
+//! Wanted temperatures of the zones over a day.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,7 +52,7 @@ impl Default for Setpoints {
     }
 }
 
-/// Setpoints that make no sense for a building.
+/// Setpoints that are out of range, or do not fit a building.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SetpointsError {
     /// Neither one temperature for all zones nor one for each.

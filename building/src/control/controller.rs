@@ -24,7 +24,7 @@ pub enum Controller {
     Pid(PidSettings),
     /// Plain iterative learning of P- or PD-type on top of a PID controller, with or without a forecast.
     IterativeLearning(LearningSettings),
-    /// The day's optimum, known beforehand: for comparison.
+    /// The day's optimum, computed from the actual disturbances: for comparison.
     Clairvoyant,
     /// Feedforward and feedback designed in turn, with an expected cost (chapter 3).
     Iterative(IterativeSettings),
@@ -32,7 +32,7 @@ pub enum Controller {
     Concurrent(ConcurrentSettings),
     /// Zones that plan together by exchanging messages with their neighbours (chapter 5).
     Distributed(DistributedSettings),
-    /// What the distributed design approaches, in one problem (eq. 5.12).
+    /// The problem of the distributed design, solved centrally (eq. 5.12).
     Centralised(CentralisedSettings),
 }
 

@@ -24,7 +24,7 @@ pub enum DisturbancePrediction {
     /// The forecast, corrected by the bias of earlier days.
     #[default]
     Forecast,
-    /// The day before repeats itself; the forecast is not looked at.
+    /// The disturbance of the day before; the forecast is not used.
     Yesterday,
 }
 

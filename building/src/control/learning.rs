@@ -37,7 +37,7 @@ pub struct LearningSettings {
     /// l_d \[kW/K\] per change of the error over a step; 0 for P-type. It suits one step and capacity.
     #[schemars(range(min = 0.0))]
     pub derivative_kw_per_k: f64,
-    /// Whether inputs are corrected by what the forecast expects to change.
+    /// Whether inputs are corrected for the change of the forecast from yesterday to today.
     pub forecast: bool,
     /// The feedback C.
     pub feedback: PidSettings,

@@ -14,7 +14,7 @@ pub(super) const LOOK_FOR: &str =
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ThermostatSettings {
-    /// Equipment starts when the temperature is this far off \[K\], and stops when it has come back to what is wanted.
+    /// Equipment starts when the error exceeds this \[K\], and stops when the wanted temperature is reached.
     #[schemars(range(min = 0.0))]
     pub dead_band_k: f64,
     /// Power while it runs, as a share of the limit.

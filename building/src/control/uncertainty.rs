@@ -24,7 +24,7 @@ const NUGGET_KW2: f64 = 1e-8;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct UncertaintySettings {
-    /// σ_w: standard deviation of what all zones have in common \[kW\].
+    /// σ_w: standard deviation of the part that all zones have in common \[kW\].
     #[schemars(range(min = 0.0))]
     pub common_kw: f64,
     /// ρ_w: correlation of the common part from one step to the next.
@@ -39,9 +39,9 @@ pub struct UncertaintySettings {
     /// ρ_o: correlation of a zone's own part from one step to the next.
     #[schemars(range(min = -1.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub zone_correlation: f64,
-    /// Whether the σ are estimated again each evening.
+    /// Whether the σ are estimated again after each day.
     pub reestimate: bool,
-    /// How many days the settings count as, against those that were seen.
+    /// Weight of the settings in these estimates, as a number of days.
     #[schemars(range(min = 0.0))]
     pub prior_days: f64,
 }

@@ -21,7 +21,7 @@
 //!
 //! Up to [`DENSE_NODES`] nodes the exact B is a matrix, from the modes of the network (its Laplacian is symmetric, so no
 //! matrix exponential is needed). Beyond, a matrix would be slow to apply, and B is a Chebyshev series in the sparse
-//! Laplacian, summed to the last digit. Both are exact; tests compare them. There is nothing in between to tune.
+//! Laplacian, summed to the last digit. Both are exact; tests compare them.
 
 mod gain;
 mod phi;
@@ -35,7 +35,7 @@ use crate::network::Network;
 pub(crate) use gain::Gain;
 use spectrum::Spectrum;
 
-/// Up to so many nodes the exact discretisation is kept as matrices; beyond as a series.
+/// The largest number of nodes for which the exact discretisation is kept as matrices; beyond, it is a series.
 pub const DENSE_NODES: usize = 256;
 
 /// How time is cut into steps.

@@ -1,6 +1,6 @@
-//! From the coefficients of a sampled model to those of the building, which does not live in steps.
+//! From the coefficients of a sampled model to the rates of the continuous network.
 //!
-//! Let M be the matrix of what temperatures lose in a step by eq. 2.3, T(t+1) = (I − M) T(t) + …: T_s Σ_k b_ik on the diagonal
+//! Let M be the matrix of the losses in a step by eq. 2.3, T(t+1) = (I − M) T(t) + …: T_s Σ_k b_ik on the diagonal
 //! (with T_s a_i ṁ c_p of the supply air), −T_s b_ij beside it. A continuous network with rates A and inputs that are held
 //! over a step has I − M = exp(−T_s A), so
 //!
@@ -8,8 +8,8 @@
 //! T_s A = −ln(I − M) = K M,    K = I + M/2 + M²/3 + …
 //! ```
 //!
-//! and what acts through the inputs, b_i0, a_i and s_i, grows by K_ii (its effect on other zones within one step is of second
-//! order and left out). For one zone K is −ln(1 − y)/y with y the part of a difference that decays within a step.
+//! and the coefficients of the inputs, b_i0, a_i and s_i, are multiplied by K_ii (their effect on other zones within one step
+//! is of second order and neglected). For one zone K is −ln(1 − y)/y with y the share of a temperature difference that decays within a step.
 
 use nalgebra::DMatrix;
 
@@ -49,7 +49,7 @@ pub(super) fn continuous(telemetry: &Telemetry, zones: &[RunZone], estimates: &[
     sampled.enumerate().map(convert).collect()
 }
 
-/// The part of a zone's temperature difference that decays within a step, M_ii.
+/// The share of a zone's temperature difference that decays within a step, M_ii.
 pub(super) fn decay(telemetry: &Telemetry, zone: usize, run: &RunZone) -> f64 {
     let supply_kw_per_k: f64 = (telemetry.zones[zone].supply_air.iter())
         .map(|air| air.conductance_kw_per_k.iter().sum::<f64>() / air.conductance_kw_per_k.len().max(1) as f64)

@@ -1,9 +1,9 @@
-//! Does an estimate hold when it is made in another way?
+//! Checks of an estimate by another estimator and by each half of the data.
 //!
 //! Standard errors assume that the model's form is right. Where it is not (a hidden mass, doors, a sensor in the wrong
-//! place), estimators that weigh fast and slow variations differently find different numbers, and so do different weeks.
-//! So each zone is estimated also by the other method and on each half of its data; a difference of more than three standard
-//! errors is a dispute, and no number that is disputed counts as identified.
+//! place), estimators that weight fast and slow variations differently give different numbers, and so do different weeks.
+//! So each zone is also estimated by the other method and on each half of its data. Where two estimates differ by more than
+//! three standard errors, the coefficient is disputed, and does not count as identified.
 
 use std::ops::Range;
 
@@ -13,17 +13,17 @@ use super::report::CrossCheck;
 use super::telemetry::Telemetry;
 use super::{Estimator, IdentifyError, IdentifySettings};
 
-/// How many standard errors of the difference make a dispute.
+/// Estimates that differ by more than this many standard errors of the difference dispute one another.
 const DISPUTE: f64 = 3.0;
 
-/// An estimate and others of the same.
+/// An estimate with its cross-checks.
 #[derive(Debug, Clone)]
 pub(super) struct CheckedEstimate {
     pub estimate: Estimate,
     pub others: Vec<OtherEstimate>,
 }
 
-/// An estimate made in another way.
+/// An estimate by another method or from other rows.
 #[derive(Debug, Clone)]
 pub(super) struct OtherEstimate {
     how: String,
@@ -31,7 +31,7 @@ pub(super) struct OtherEstimate {
 }
 
 impl CheckedEstimate {
-    /// Estimates by the method of the settings, and in the other ways as far as the data suffice.
+    /// Estimates by the method of the settings, and for cross-checks as far as the data suffice.
     ///
     /// # Errors
     /// [`IdentifyError`] when the data do not suffice for the first.
@@ -53,7 +53,7 @@ impl CheckedEstimate {
             ("in the second half", settings, &second),
         ];
         let main = estimate(telemetry, model, segments, settings)?;
-        // Too few rows for a check are no error: there is one check less.
+        // With too few rows, a check is left out.
         let check = |(how, settings, segments): (&str, &IdentifySettings, &[Range<usize>])| {
             let estimate = estimate(telemetry, model, segments, settings).ok()?;
             Some(OtherEstimate { how: how.into(), estimate })
@@ -61,7 +61,7 @@ impl CheckedEstimate {
         Ok(Self { estimate: main, others: ways.into_iter().filter_map(check).collect() })
     }
 
-    /// In words, the first other estimate that contradicts this one of a coefficient, which the words call `name`.
+    /// Describes the first cross-check that disputes a coefficient, which is called `name`.
     pub fn dispute(&self, index: usize, name: &str) -> Option<String> {
         let (value, error) = of_coefficient(&self.estimate, index);
         self.others.iter().find_map(|other| {
@@ -75,7 +75,7 @@ impl CheckedEstimate {
 }
 
 impl OtherEstimate {
-    /// What this way gives for a coefficient.
+    /// The result for a coefficient.
     pub fn check(&self, index: usize) -> CrossCheck {
         let (value, error) = of_coefficient(&self.estimate, index);
         let known = error.is_finite();

@@ -1,11 +1,11 @@
 //! The two estimators of a zone's coefficients.
 //!
-//! **`semiparametric`** (the source, eq. 2.4 to 2.10): everything minus its kernel smooth, in which the non-parametric term
-//! has vanished; then one Newton step. What varies faster than the bandwidth must be heat that is known, or it biases the
-//! result; and sensor noise, which the smoother leaves in while it takes the signal out, biases conductances upwards.
+//! **`semiparametric`** (the source, eq. 2.4 to 2.10): every series minus its kernel smooth, which removes the
+//! non-parametric term; then one Newton step. Unknown heat that varies faster than the bandwidth biases the result. So does
+//! sensor noise, which the smoother removes less than the signal: conductances come out too large.
 //!
 //! **`prediction-error`**: the zone model with a constant, daily harmonics and ARMA(r,1) errors, all fitted at once so that
-//! the one-step prediction error is smallest. The errors' model takes the place of the smoother, and its moving average
+//! the one-step prediction error is smallest. The error model takes the place of the smoother; its moving average
 //! absorbs much of the sensor noise.
 
 use std::ops::Range;
@@ -108,7 +108,7 @@ fn column_length(column: &[f64]) -> f64 {
     super::normal::dot(column, column).sqrt()
 }
 
-/// What is known of a disturbance beforehand: a constant, and `harmonics` of the day, at the start of each step.
+/// The deterministic regressors of the disturbance: a constant, and `harmonics` of the day, at the start of each step.
 pub(super) fn known_ahead(telemetry: &Telemetry, rows: &[usize], harmonics: usize) -> Vec<Vec<f64>> {
     let angle =
         |row: usize, harmonic: usize| harmonic as f64 * 2.0 * std::f64::consts::PI * telemetry.time_s[row] / 86_400.0;

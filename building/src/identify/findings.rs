@@ -11,16 +11,17 @@ use super::physical::{Physical, correlation};
 use super::regression::Coefficient;
 use super::report::{ErrorReport, FreeRunReport, IdentificationReport, ResidualReport, WallReport, ZoneReport};
 use super::residual::steps;
+use super::settings::IdentifySettings;
 use super::shared_walls::{SideEstimate, compare};
 use super::telemetry::{Neighbour, Telemetry};
-use super::{IdentifySettings, Parts, horizon};
+use super::train_test_split::TrainTestSplit;
 use crate::discretise;
 
 /// Everything that a report is made from.
 pub(super) struct Findings<'a> {
     pub telemetry: &'a Telemetry,
     pub settings: &'a IdentifySettings,
-    pub parts: &'a Parts,
+    pub split: &'a TrainTestSplit,
     /// One a zone.
     pub estimates: &'a [CheckedEstimate],
     /// One a zone.
@@ -36,8 +37,8 @@ impl Findings<'_> {
                 self.estimates.iter().map(|checked| checked.estimate.clone()).collect()
             }
         };
-        let train = self.errors(&self.parts.train);
-        let test = (!self.parts.test.is_empty()).then(|| self.errors(&self.parts.test));
+        let train = self.errors(&self.split.train);
+        let test = (!self.split.test.is_empty()).then(|| self.errors(&self.split.test));
         let zone = |zone: usize| {
             let test = test.as_ref().map(|test| test[zone].clone());
             self.zone(zone, &physical[zone], train[zone].clone(), test)
@@ -47,7 +48,7 @@ impl Findings<'_> {
             method: self.settings.method,
             step_s: self.telemetry.step_s,
             rows: self.telemetry.rows(),
-            train_rows: self.parts.train.iter().map(Range::len).sum(),
+            train_rows: self.split.train.iter().map(Range::len).sum(),
             left_out_rows: self.telemetry.left_out_rows,
             segments: self.telemetry.segments.len(),
             warnings: self.warnings(&zones),
@@ -64,7 +65,7 @@ impl Findings<'_> {
         let count = coefficients.len();
         let order = self.settings.autoregressive_order;
         // The first r innovations of a segment are zeros, on which the others are conditioned.
-        let long_enough = steps(&self.parts.train).into_iter().filter(|rows| rows.len() > order);
+        let long_enough = steps(&self.split.train).into_iter().filter(|rows| rows.len() > order);
         let judged: Vec<_> = long_enough.map(|rows| rows.start + order..rows.end).collect();
         ZoneReport {
             name: self.telemetry.zones[zone].name.clone(),
@@ -98,7 +99,7 @@ impl Findings<'_> {
             let sum: f64 = rows.iter().map(|&row| series[row] * series[row]).sum();
             (sum / rows.len().max(1) as f64).sqrt()
         };
-        let horizon = horizon(self.telemetry, self.settings);
+        let horizon = self.settings.horizon_steps(self.telemetry.step_s);
         let runs = ResidualForecast::ALL
             .map(|how| (how, free_run::errors(self.telemetry, self.zones, how, segments, horizon)));
         let zone_errors = |(index, zone): (usize, &RunZone)| ErrorReport {
@@ -113,7 +114,7 @@ impl Findings<'_> {
         self.zones.iter().enumerate().map(zone_errors).collect()
     }
 
-    /// Walls between zones, by the side_estimate of both sides.
+    /// Walls between zones, as estimated from both sides.
     fn walls(&self, physical: &[Estimate]) -> Vec<WallReport> {
         let side_estimate = |zone: usize, other: usize| {
             let coefficients = self.zones[zone].model.coefficients(self.telemetry);
@@ -130,7 +131,7 @@ impl Findings<'_> {
         pairs.map(|(one, other)| compare(&side_estimate(one, other), &side_estimate(other, one))).collect()
     }
 
-    /// Everything that a reader must know before using a number.
+    /// Warnings about numbers that must not be used without a second look.
     fn warnings(&self, reports: &[ZoneReport]) -> Vec<String> {
         let mut warnings = Vec::new();
         if self.telemetry.left_out_rows > 0 {

@@ -1,7 +1,7 @@
-//! Free runs: the network left to itself from a measured state, all zones together, as a planner would use it.
+//! Free runs: the network simulated from a measured state, all zones together, as a planner would use it.
 //!
-//! Boundaries and heat are as measured; only the zones' temperatures are the model's. What q will be is forecast in several
-//! ways, from not at all to daily profile and ARMA, so that the report shows what each is worth.
+//! Boundaries and heat are as measured; only the zones' temperatures are the model's. The term q is forecast in
+//! several ways, from zero to daily profile and ARMA, so that the report shows how much each of them improves the prediction.
 
 use std::ops::Range;
 
@@ -33,11 +33,11 @@ impl ResidualForecast {
     pub const ALL: [Self; 5] = [Self::None, Self::Constant, Self::Arma, Self::Profile, Self::ProfileArma];
 }
 
-/// Everything known of a zone that a free run needs.
+/// The model of a zone that a free run needs.
 pub(super) struct RunZone {
     pub model: ZoneModel,
     pub coefficients: Vec<f64>,
-    /// The residual model with a constant, and what it makes of the measurements.
+    /// The residual model with a constant, applied to the measurements.
     pub constant: (ResidualModel, ResidualSeries),
     /// The same with a daily profile.
     pub daily: (ResidualModel, ResidualSeries),

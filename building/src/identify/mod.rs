@@ -1,19 +1,20 @@
 //! Thermal parameters from telemetry (chapter 2).
 //!
-//! Each zone follows its neighbours, warms with known heat, and does something else besides, the non-parametric term q:
+//! The temperature of each zone follows its neighbours and the known heat; the rest is the non-parametric term q:
 //!
 //! ```text
 //! T_i(t+1) = T_i(t) + T_s Σ_k b_ik (T_k(t) − T_i(t)) + T_s a_i (u_i(t) + w_i(t)) + q_i(t) + ε(t)      (2.4, corrected)
 //! ```
 //!
-//! [`identify`] estimates b and a by one of two [`Estimator`]s, turns them into capacities and resistances, models q, and says
-//! how far each number can be trusted: standard errors, correlations, whether residuals are white, how a free run errs, and
-//! where the data cannot tell. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
+//! [`identify`] estimates b and a by one of two [`Estimator`]s, turns them into capacities and resistances, and models q. It
+//! reports how certain each number is: standard errors, correlations, whiteness of the residuals, errors of free runs, and
+//! which parameters the data do not determine. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
 
 mod arma;
 mod continuous;
 mod cross_checks;
 mod diagnostics;
+mod error;
 mod estimate;
 mod findings;
 mod free_run;
@@ -27,9 +28,11 @@ mod shared_walls;
 mod smoothing;
 pub mod synthetic_classroom;
 mod telemetry;
+mod train_test_split;
 
 pub use arma::Arma;
 pub use diagnostics::{Confidence, LjungBox, ParameterVerdict, Whiteness};
+pub use error::IdentifyError;
 pub use free_run::ResidualForecast;
 pub use report::{
     CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, ResidualReport, WallReport,
@@ -45,77 +48,31 @@ pub use telemetry::{
 
 use std::ops::Range;
 
-use crate::setting::SettingError;
-
 use cross_checks::CheckedEstimate;
 use findings::Findings;
 use free_run::RunZone;
 use regression::ZoneModel;
 use residual::{ResidualModel, ResidualSeries, steps};
-
-/// Why an identification is not possible.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum IdentifyError {
-    /// A setting makes no sense.
-    #[error("setting {0}")]
-    Setting(#[from] SettingError),
-    /// A zone has neither walls nor heat nor sun.
-    #[error("zone `{zone}` has no wall, no heat and no sun: give it at least one, or there is nothing to identify")]
-    NothingToIdentify {
-        /// The zone.
-        zone: String,
-    },
-    /// There are too few rows.
-    #[error(
-        "{rows} usable steps are too few for {parameters} parameters: at least {wanted} are needed; add rows, raise `train_days`, or lower `harmonics` or `autoregressive_order`"
-    )]
-    TooFewRows {
-        /// Usable steps.
-        rows: usize,
-        /// Parameters to fit.
-        parameters: usize,
-        /// How many would do.
-        wanted: usize,
-    },
-    /// A fit has no finite error.
-    #[error("the residuals are not finite: check the telemetry for values that are not")]
-    NotFinite,
-}
+use train_test_split::TrainTestSplit;
 
 /// Identifies every zone of the telemetry.
 ///
 /// # Errors
-/// [`IdentifyError`] for a setting that makes no sense, a zone without anything to identify, or too few rows. That the data
-/// do not determine a parameter is no error: its [`ParameterVerdict`] says so.
+/// [`IdentifyError`] for a setting out of range, a zone without anything to identify, or too few rows. A parameter that the
+/// data do not determine is no error: its [`ParameterVerdict`] says so.
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
-    let test_start = test_start(telemetry, settings);
-    let (train, test) = telemetry.split_at(test_start);
+    let split = TrainTestSplit::new(telemetry, settings);
     let fits = (0..telemetry.zones.len())
-        .map(|zone| fit_zone(telemetry, zone, &train, settings))
+        .map(|zone| fit_zone(telemetry, zone, &split.train, settings))
         .collect::<Result<Vec<_>, _>>()?;
     let (estimates, zones): (Vec<CheckedEstimate>, Vec<RunZone>) = fits.into_iter().unzip();
-    let parts = Parts { train, test, test_start };
-    let findings = Findings { telemetry, settings, parts: &parts, estimates: &estimates, zones: &zones };
+    let findings = Findings { telemetry, settings, split: &split, estimates: &estimates, zones: &zones };
     let report = findings.report();
-    Ok(Identification { report, series: series(telemetry, settings, &zones, &parts) })
+    Ok(Identification { report, series: series(telemetry, settings, &zones, split.test_start) })
 }
 
-/// Rows to train and to test on.
-struct Parts {
-    train: Vec<Range<usize>>,
-    test: Vec<Range<usize>>,
-    test_start: usize,
-}
-
-/// The first row that is not trained on.
-fn test_start(telemetry: &Telemetry, settings: &IdentifySettings) -> usize {
-    let Some((days, first)) = settings.train_days.zip(telemetry.time_s.first()) else { return telemetry.rows() };
-    let end_s = first + days * 86_400.0;
-    telemetry.time_s.iter().position(|&time| time >= end_s).unwrap_or(telemetry.rows())
-}
-
-/// Estimates a zone's coefficients and models what they leave.
+/// Estimates a zone's coefficients and models the residuals.
 fn fit_zone(
     telemetry: &Telemetry,
     zone: usize,
@@ -138,13 +95,8 @@ fn fit_zone(
     Ok((estimate, RunZone { model, coefficients, constant, daily }))
 }
 
-/// Steps of a free run.
-fn horizon(telemetry: &Telemetry, settings: &IdentifySettings) -> usize {
-    libm::round(settings.horizon_h * 3600.0 / telemetry.step_s) as usize
-}
-
-fn series(telemetry: &Telemetry, settings: &IdentifySettings, zones: &[RunZone], parts: &Parts) -> Vec<ZoneSeries> {
-    let horizon = horizon(telemetry, settings);
+fn series(telemetry: &Telemetry, settings: &IdentifySettings, zones: &[RunZone], test_start: usize) -> Vec<ZoneSeries> {
+    let horizon = settings.horizon_steps(telemetry.step_s);
     let free = free_run::restarted(telemetry, zones, ResidualForecast::None, horizon);
     let with_residual = free_run::restarted(telemetry, zones, ResidualForecast::ProfileArma, horizon);
     let draw = |(zone, (free_run_c, free_run_with_residual_model_c)): (usize, (Vec<f64>, Vec<f64>))| {
@@ -162,7 +114,7 @@ fn series(telemetry: &Telemetry, settings: &IdentifySettings, zones: &[RunZone],
             name: measured.name.clone(),
             time_s: telemetry.time_s.clone(),
             segment_starts: telemetry.segments.iter().map(|segment| segment.start).collect(),
-            test_start: parts.test_start,
+            test_start,
             measured_c: measured.temperature_c.clone(),
             one_step_c,
             free_run_c,

@@ -9,8 +9,8 @@
 //! with it the iteration diverges. Heat flows from warm to cold, so all coefficients are at least zero, and the maximum under
 //! that condition is non-negative least squares (Lawson and Hanson's active set).
 //!
-//! Columns are scaled to length one: coefficients differ by orders of magnitude, and so the condition number speaks of the
-//! data rather than of the units.
+//! Columns are scaled to length one: coefficients differ by orders of magnitude, so that the condition number depends on
+//! the data and not on the units.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 use super::regression::Regression;
 
-/// Eigenvalues of a Gram matrix with unit diagonal below this part of the largest are rounding.
+/// Eigenvalues of a Gram matrix with unit diagonal below this share of the largest are treated as zero.
 const SINGULAR: f64 = 1e-13;
 
 /// The log-likelihood of a linear regression with unit variance, up to a constant.

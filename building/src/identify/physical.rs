@@ -1,4 +1,4 @@
-//! What coefficients mean: capacities, conductances, resistances, with intervals.
+//! Physical quantities from the coefficients: capacities, conductances, resistances, with intervals.
 //!
 //! All are ratios f = n/d of n = n₀ + νᵀθ and d = d₀ + δᵀθ. Standard errors are to first order. Intervals are Fieller's: all f
 //! for which n − f d may be zero,

@@ -1,7 +1,7 @@
 //! The model of the non-parametric term q, eq. 2.11 and 2.12, so that the network can predict.
 //!
-//! q is what the network leaves of each step, from the measured temperatures. The source takes it from the smoothed ones,
-//! but a smoother looks ahead, and a forecast cannot. Two models are fitted: a constant with ARMA(r,1), as in the source, and
+//! q is the residual of the network in each step, computed from the measured temperatures. The source uses smoothed ones,
+//! but a smoother uses future values, which a forecast does not have. Two models are fitted: a constant with ARMA(r,1), as in the source, and
 //! a daily profile (harmonics) with ARMA(r,1).
 
 use std::ops::Range;
@@ -20,7 +20,7 @@ pub(super) struct ResidualModel {
     pub arma: Arma,
 }
 
-/// What a residual model makes of a zone's measurements. Every series has one value a row of the telemetry; a row that no
+/// A residual model applied to a zone's measurements. Every series has one value a row of the telemetry; a row that no
 /// step starts from has zeros.
 #[derive(Debug, Clone)]
 pub(super) struct ResidualSeries {

@@ -1,4 +1,4 @@
-//! How to identify.
+//! Settings of an identification.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -56,6 +56,11 @@ pub enum Estimator {
 }
 
 impl IdentifySettings {
+    /// Steps of a free run, for a sampling time.
+    pub(super) fn horizon_steps(&self, step_s: f64) -> usize {
+        libm::round(self.horizon_h * 3600.0 / step_s) as usize
+    }
+
     /// # Errors
     /// [`SettingError`] for the first field that makes no sense with this sampling time.
     pub(super) fn check(&self, step_s: f64) -> Result<(), SettingError> {

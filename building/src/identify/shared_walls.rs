@@ -1,10 +1,10 @@
-//! A wall between two zones has one resistance, and each side estimates it: R_ij = a_i/b_ij = a_j/b_ji. Where the sides
-//! contradict each other, heat takes a way that the network has not: air through a door, a mass that nobody measures.
+//! A wall between two zones has one resistance, which is estimated from either side: R_ij = a_i/b_ij = a_j/b_ji. Where the two
+//! estimates disagree, the network lacks a path of heat, such as air through a door or an unmeasured mass.
 
 use super::diagnostics::INTERVAL;
 use super::report::{Quantity, WallReport};
 
-/// What one side finds of a wall's conductance \[kW/K\].
+/// The estimate of a wall's conductance from one side \[kW/K\].
 pub(super) struct SideEstimate {
     zone: String,
     /// With standard error, where it is determined.
@@ -14,7 +14,7 @@ pub(super) struct SideEstimate {
 }
 
 impl SideEstimate {
-    /// The side_estimate of a zone; without a conductance it has none.
+    /// The estimate from a zone's side; `None` without a conductance.
     pub fn new(zone: &str, conductance: Option<&Quantity>) -> Self {
         let (low, high) = conductance.map_or((None, None), |quantity| quantity.interval);
         Self {
@@ -25,7 +25,7 @@ impl SideEstimate {
     }
 }
 
-/// Both opinions, and what follows from them.
+/// Compares the estimates from both sides.
 pub(super) fn compare(first: &SideEstimate, second: &SideEstimate) -> WallReport {
     let (combined, words) = match (first.estimate, second.estimate) {
         (Some(one), Some(other)) => combine(one, other),
@@ -54,7 +54,7 @@ fn combine(one: (f64, f64), other: (f64, f64)) -> (Option<(f64, f64)>, String) {
     (None, format!("the sides disagree by {distance:.0} standard errors: this is not one resistance"))
 }
 
-/// What one side says where the other knows at most a bound.
+/// The result where one side has an estimate and the other at most a bound.
 fn alone(side: &SideEstimate, estimate: (f64, f64), other: &SideEstimate) -> (Option<(f64, f64)>, String) {
     if side.interval.1 < other.interval.0 {
         let words = format!(

@@ -1,8 +1,7 @@
 //! A synthetic classroom with known parameters, for Figs. 2.5 and 2.6 and for tests: the original measurements are not public.
 //!
-//! A classroom between two other rooms and the outdoors, cooled by an on-off thermostat whose set-point a lecturer keeps
-//! changing (that is what identifies it), occupied on a known schedule, and disturbed by what no model knows: sun, draughts,
-//! people who come and go. Parameters are those of Table 2.1 (1000 kJ/K, 31.25 K/kW outwards, 62.5 K/kW to each room), the
+//! The classroom lies between two other rooms and the outdoors. An on-off thermostat cools it, with a set-point that changes
+//! every two hours and so excites the temperatures. It is occupied on a known schedule, and disturbed by unmeasured heat. Parameters are those of Table 2.1 (1000 kJ/K, 31.25 K/kW outwards, 62.5 K/kW to each room), the
 //! step is the source's 15 minutes, and time is cut by forward Euler, as in eq. 2.3.
 
 use schemars::JsonSchema;

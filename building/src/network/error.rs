@@ -1,4 +1,4 @@
-//! Why zones and walls are no network, and what is odd about one that is.
+//! Errors of described zones and walls, and remarks on a valid network.
 
 use std::fmt;
 
@@ -96,7 +96,7 @@ impl NetworkError {
     }
 }
 
-/// Something that is allowed, and that the author may not have meant.
+/// A property of a network that is allowed, and may not be what its author meant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Remark {
     /// Heat put into these zones never leaves the building.

@@ -1,4 +1,4 @@
-//! What a controller takes a building for, where it is wrong.
+//! The mismatch between a building and a controller's model of it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Network, NetworkError};
 use crate::setting::check_within;
 
-/// By which factors a controller's model of a building is off. All one: not at all.
+/// The factors by which a controller's model of a building is wrong. With all factors 1 it is right.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ModelMismatch {
@@ -28,7 +28,7 @@ impl Default for ModelMismatch {
 }
 
 impl Network {
-    /// The same network as somebody believes it to be.
+    /// The network of a model with this mismatch.
     ///
     /// # Errors
     /// [`NetworkError::Believed`] if a factor is not a number above zero.

@@ -16,11 +16,12 @@
 //!
 //! Table 2.1 gives resistances in kW/K; the numbers only make sense in K·min/kJ. [`Network::testbed`] has them in K/kW.
 
+mod checks;
 mod error;
 mod mismatch;
 mod presets;
+mod remarks;
 mod settings;
-mod structure;
 
 use nalgebra::DMatrix;
 
@@ -62,7 +63,7 @@ impl Network {
     /// [`NetworkError`] if a name is missing, repeated or unknown, if a wall has one place on both sides, or if a
     /// quantity is out of range.
     pub fn new(zones: &[Zone], walls: &[Wall]) -> Result<Self, NetworkError> {
-        structure::check_zones(zones)?;
+        checks::check_zones(zones)?;
         let mut network = Self {
             names: zones.iter().map(|zone| zone.name.clone()).collect(),
             zone_count: zones.len(),
@@ -73,7 +74,7 @@ impl Network {
             ambient_kw_per_k: vec![0.0; zones.len()],
             adjacent: Vec::new(),
         };
-        for (number, (wall, ends)) in walls.iter().zip(structure::check_walls(zones, walls)?).enumerate() {
+        for (number, (wall, ends)) in walls.iter().zip(checks::check_walls(zones, walls)?).enumerate() {
             network.add(number, wall, ends);
         }
         network.adjacent.sort_unstable();
@@ -92,7 +93,7 @@ impl Network {
             return;
         };
         let node = self.capacities_kj_per_k.len();
-        self.names.push(structure::wall_name(number, wall));
+        self.names.push(checks::wall_name(number, wall));
         self.capacities_kj_per_k.push(capacity_kj_per_k);
         self.ambient_kw_per_k.push(0.0);
         for end in ends {

@@ -1,4 +1,4 @@
-//! A synthetic tropical climate: days that resemble one another without being the same.
+//! A synthetic tropical climate.
 //!
 //! ```text
 //! T₀(h) = m + a (cos 2π(h − 14.2)/24 + 0.18 cos 4π(h − 13.2)/24) − storm(h) + noise(h)
@@ -74,7 +74,7 @@ struct Storm {
 
 impl Climate {
     /// The weather of so many days from a seed; the same days come first, however many there are. There is a day before
-    /// the first, at negative times, for forecasts that say "like yesterday".
+    /// the first, at negative times, for forecasts by persistence.
     pub fn weather(&self, seed: u64, days: usize) -> Weather {
         let mut ambient_c = Vec::with_capacity((days + 1) * INTERVALS_PER_DAY);
         let mut sun_w_per_m2 = Vec::with_capacity(ambient_c.capacity());

@@ -1,4 +1,4 @@
-//! What is known about tomorrow's weather.
+//! Forecasts of the outdoor temperature of a day.
 //!
 //! The uncertain forecast is the true temperature plus an error that grows over the horizon, an AR(1) process by the hour,
 //! as BOPTEST defines it (Zheng et al.):

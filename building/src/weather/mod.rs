@@ -2,7 +2,7 @@
 //! known beforehand ([`Forecast`]).
 //!
 //! Time is in seconds from midnight at the start of the first day. A file states values at the end of each interval; here
-//! everything is a function of time, so that nobody needs to know.
+//! all quantities are functions of time.
 
 mod climate;
 pub mod epw;

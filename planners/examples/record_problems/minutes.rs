@@ -3,7 +3,8 @@
 use interplay_planners::bayesian::diagnostics::{BELIEF_VARIANCE, LOYALTY};
 use interplay_planners::diagnostic::COST;
 use interplay_planners::game::diagnostics::{EXPRESSED_FROM, EXPRESSED_TO};
-use interplay_planners::trajectory::{Iterate, MeanSpeed, Penalty, Problem};
+use interplay_planners::trajectory::terms::MeanSpeed;
+use interplay_planners::trajectory::{Iterate, Penalty, Problem};
 use interplay_planners::{Agent, Input, Plan, Trajectory, bayesian, cooperative, game};
 
 use crate::closed_loop::Decision;

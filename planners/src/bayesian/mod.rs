@@ -27,7 +27,7 @@ use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::{Choice, Partner};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
 use diagnostics::{ATTRACTION, BELIEF_VARIANCE, CONSERVATIVENESS, LOYALTY, OTHER_CHANGE, OWN_CHANGE};
 
@@ -93,7 +93,8 @@ impl Bayesian {
     fn diagnostics(&self, problem: &Problem, optimum: &Optimum) -> Vec<Diagnostic> {
         let Belief { alpha, beta_m, variance, w_1, .. } = self.belief;
         let mut diagnostics = Vec::new();
-        for impression in &problem.participants[0].distance_costs {
+        for term in &problem.terms {
+            let Term::DistanceCost(impression) = term else { continue };
             let states = optimum.iterate.states[0].iter().skip(1).enumerate();
             let nearest = states.map(|(k, state)| impression.omega(k, state.position())).fold(f64::INFINITY, f64::min);
             diagnostics.extend([
@@ -105,7 +106,7 @@ impl Bayesian {
                 OTHER_CHANGE.is(beta_m),
             ]);
         }
-        diagnostics.extend([COST.is(optimum.cost.total), SAFETY_SLACK.is(optimum.cost.safety_slack)]);
+        diagnostics.extend([COST.is(optimum.cost.total), SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety))]);
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
     }

@@ -10,7 +10,7 @@ pub use settings::Settings;
 use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::solo::{self, Solved};
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Cost, DescentError, Optimiser, Penalty, Problem, Robust};
+use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A conservative planner with the plan it made last.
@@ -23,16 +23,9 @@ pub struct Conservative {
 
 /// The conservative problem for the planning vehicle among given others.
 pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
-    let keep_outs = others
-        .iter()
-        .map(|other| scene.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT))
-        .collect();
-    Problem {
-        horizon: scene.horizon,
-        participants: vec![scene.participant(keep_outs)],
-        separations: Vec::new(),
-        leaning: None,
-    }
+    let mut terms = scene.own_terms(0, &scene.goal);
+    terms.extend(scene.hard_keep_outs(others.iter().copied()));
+    Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
 }
 
 impl Conservative {
@@ -63,8 +56,9 @@ impl Conservative {
 
 /// A conservative plan with its cost and with what holds it back.
 pub(crate) fn answer(Solved { problem, optimum, event }: &Solved) -> Plan {
-    let Cost { total, safety_slack, .. } = optimum.cost;
-    let mut diagnostics: Vec<Diagnostic> = vec![COST.is(total), SAFETY_SLACK.is(safety_slack)];
+    let cost = &optimum.cost;
+    let mut diagnostics: Vec<Diagnostic> =
+        vec![COST.is(cost.total), SAFETY_SLACK.is(cost.violation(Violation::Safety))];
     diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),

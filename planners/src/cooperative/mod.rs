@@ -26,7 +26,7 @@ use crate::conservative;
 use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::predict::steady;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Iterate, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 
@@ -107,24 +107,12 @@ impl Cooperative {
         };
         let mut diagnostics: Vec<Diagnostic> = vec![
             COOPERATING_VEHICLES.is(self.last.len() as f64),
-            OWN_COST.is(own_cost(problem, optimum, own)),
+            OWN_COST.is(problem.own_cost(own, &optimum.iterate)),
             COST.is(optimum.cost.total),
-            SAFETY_SLACK.is(optimum.cost.safety_slack),
+            SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ];
         diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
         Plan { trajectory, proposal, diagnostics, events: Vec::new(), statistics: optimum.statistics }
     }
-}
-
-/// What one vehicle's part costs it.
-fn own_cost(problem: &Problem, optimum: &Optimum, own: usize) -> f64 {
-    let alone = Problem {
-        horizon: problem.horizon,
-        participants: vec![problem.participants[own].clone()],
-        separations: Vec::new(),
-        leaning: None,
-    };
-    let (inputs, states) = (optimum.iterate.inputs[own].clone(), optimum.iterate.states[own].clone());
-    alone.cost(&Iterate { inputs: vec![inputs], states: vec![states] }).total
 }

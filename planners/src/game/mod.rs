@@ -26,7 +26,8 @@ use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::{Choice, Partner};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::terms::MeanSpeed;
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use diagnostics as reported;
 use equilibrium::{Solution, leader_follower, nash};
@@ -106,7 +107,8 @@ impl Game {
         let every = self.settings.look_around_every;
         let Solved { problem, optimum, event } =
             conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
-        let diagnostics = self.diagnostics(scene, round.as_ref(), &problem, &optimum);
+        let expressed = expressed.filter(|_| event.is_none());
+        let diagnostics = self.diagnostics(scene, round.as_ref(), expressed.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
         let events = choice.event("plays with", "to play with").into_iter().chain(event).collect();
@@ -153,6 +155,7 @@ impl Game {
         &self,
         scene: &Scene,
         round: Option<&Round>,
+        expressed: Option<&MeanSpeed>,
         problem: &Problem,
         optimum: &Optimum,
     ) -> Vec<Diagnostic> {
@@ -174,18 +177,18 @@ impl Game {
             }
             diagnostics.push(reported::ACCIDENT_PAYOFF.is(ego.payoffs()[1][1]));
         }
-        if let Some(bound) = &problem.participants[0].mean_speed {
+        if let Some(bound) = expressed {
             let limits = &scene.ego.limits;
             diagnostics.extend([
                 reported::EXPRESSED_FROM.is(bound.lower_mps.unwrap_or(limits.speed_min_mps)),
                 reported::EXPRESSED_TO.is(bound.upper_mps.unwrap_or(limits.speed_max_mps)),
-                reported::EXPRESSION_SLACK.is(optimum.cost.mean_speed_slack_mps),
+                reported::EXPRESSION_SLACK.is(optimum.cost.violation(Violation::MeanSpeed)),
             ]);
         }
         diagnostics.extend([
             reported::MEAN_SPEED.is(MeanSpeed::of(&optimum.iterate.states[0])),
             COST.is(optimum.cost.total),
-            SAFETY_SLACK.is(optimum.cost.safety_slack),
+            SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ]);
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
@@ -196,8 +199,6 @@ impl Game {
 pub fn problem(scene: &Scene, expressed: Option<MeanSpeed>) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
-    for ego in &mut problem.participants {
-        ego.mean_speed = expressed;
-    }
+    problem.terms.extend(expressed.iter().flat_map(|bounds| bounds.terms(0)));
     problem
 }

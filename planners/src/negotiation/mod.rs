@@ -6,7 +6,7 @@
 //! 2. chooses whom to ask (`interlocutor`);
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`acceptance`], eq. 6.19);
 //! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
-//! 5. leans towards its last proposal and away from its retreat, the more the better it was received (`persuasion`,
+//! 5. stays nearer to its last proposal than to its retreat, the more the better it was received (`persuasion`,
 //!    eq. 6.20-6.23);
 //! 6. solves for its own plan and a proposal to the other at once (`proposal`, eq. 6.24);
 //! 7. applies the first input only if a conservative plan still exists after it (`filter`).
@@ -29,7 +29,8 @@ use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::solo::{Solved, extremes};
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Leaning, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::terms::Persuasion;
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
@@ -92,8 +93,8 @@ impl Negotiation {
             return Ok(Plan { events, ..conservative::answer(&retreat?) });
         };
         let accepted = self.listen(partner);
-        let leaning = persuasion::leaning(&self.settings, self.talk.last.as_ref(), accepted);
-        let outcome = self.propose(scene, partner, leaning.clone());
+        let persuasion = persuasion::constraint(&self.settings, self.talk.last.as_ref(), accepted);
+        let outcome = self.propose(scene, partner, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
             Err(error) => {
@@ -102,7 +103,7 @@ impl Negotiation {
             }
         };
         self.remember(&optimum, &retreat, partner);
-        let mut plan = self.speak(&optimum, partner, accepted, leaning.as_ref());
+        let mut plan = self.speak(&optimum, partner, accepted, persuasion.as_ref());
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         self.filter(scene, &retreat, &optimum, &mut plan);
@@ -137,8 +138,8 @@ impl Negotiation {
         accepted.unwrap_or(1.0)
     }
 
-    fn propose(&mut self, scene: &Scene, partner: &Agent, leaning: Option<Leaning>) -> Result<Solved, PlanError> {
-        let problem = problem(scene, partner, self.talk.concession.weight(), leaning, &self.settings);
+    fn propose(&mut self, scene: &Scene, partner: &Agent, persuasion: Option<Persuasion>) -> Result<Solved, PlanError> {
+        let problem = problem(scene, partner, self.talk.concession.weight(), persuasion, &self.settings);
         let keep = self.guess(&problem, partner);
         let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
         let every = self.settings.look_around_every;
@@ -167,9 +168,9 @@ impl Negotiation {
         });
     }
 
-    fn speak(&self, optimum: &Optimum, partner: &Agent, accepted: f64, leaning: Option<&Leaning>) -> Plan {
+    fn speak(&self, optimum: &Optimum, partner: &Agent, accepted: f64, persuasion: Option<&Persuasion>) -> Plan {
         let trajectory = optimum.trajectory(0);
-        let active = leaning.is_some_and(|leaning| persuasion::is_active(leaning, &trajectory));
+        let active = persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory));
         Plan {
             trajectory,
             proposal: Some(Proposal {
@@ -180,10 +181,10 @@ impl Negotiation {
             diagnostics: vec![
                 ACCEPTANCE.is(accepted),
                 CONCESSION_WEIGHT.is(self.talk.concession.weight()),
-                PERSUASION_STRENGTH.is(leaning.map_or(0.0, |leaning| leaning.strength)),
+                PERSUASION_STRENGTH.is(persuasion.map_or(0.0, |persuasion| persuasion.strength)),
                 PERSUASION_ACTIVE.is(f64::from(u8::from(active))),
                 COST.is(optimum.cost.total),
-                SAFETY_SLACK.is(optimum.cost.safety_slack),
+                SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
             ],
             events: Vec::new(),
             statistics: optimum.statistics,

@@ -25,12 +25,12 @@ use crate::control::ControlError;
 use crate::control::uncertainty::Uncertainty;
 use crate::lifted::Lifted;
 
-/// Up to so many numbers in the taps they are designed.
+/// The largest number of entries of all taps that is designed.
 pub const MOST_UNKNOWNS: usize = 1024;
 /// Keeps the normal equations definite.
 const RIDGE: f64 = 1e-9;
-/// γ₂ without a setting, as a multiple of its floor.
-const LENIENCY: f64 = 4.6 / 3.6;
+/// The default of γ₂, as a multiple of its floor.
+const DEFAULT_GAMMA_2_RATIO: f64 = 4.6 / 3.6;
 
 /// A designed Q.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,7 +70,7 @@ impl Responses {
                     t.extend(lifted.product(&input));
                     u.extend(input);
                 }
-                // Later taps do the same, later.
+                // The response of a later tap is the same with a delay.
                 for l in 0..taps {
                     temperatures[(l * n + a) * n + c] = delayed(&t, size, l * n);
                     inputs[(l * n + a) * n + c] = delayed(&u, size, l * n);
@@ -127,7 +127,7 @@ pub fn design(
         return Err(ControlError::TooManyUnknowns { design: "concurrent", found, most: MOST_UNKNOWNS });
     }
     let step_floor = lifted.product_norm_of_a_step();
-    let gamma_2 = settings.gamma_2.unwrap_or(LENIENCY * step_floor);
+    let gamma_2 = settings.gamma_2.unwrap_or(DEFAULT_GAMMA_2_RATIO * step_floor);
     if gamma_2 < step_floor {
         return Err(ControlError::BelowFloor { bound: "gamma_2", value: gamma_2, floor: step_floor });
     }

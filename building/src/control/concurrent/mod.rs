@@ -7,9 +7,9 @@
 //! u(t) = û(t) + C (T̂ − T)(t)                                        by the state-space form (4.18), (4.19)
 //! ```
 //!
-//! As printed, the one problem (4.27) falls apart into the two lines: Q enters the bounds only, X E_k is a free vector.
-//! With the expected cost they are coupled through the margins alone; where comfort is not at its bound, solving them in
-//! turn is optimal.
+//! As printed, the problem (4.27) separates into the two lines: Q enters the bounds only, and X E_k is a free vector. With
+//! the expected cost they are coupled through the margins only. Where comfort is not at its bound, solving them in turn is
+//! optimal.
 
 pub mod filter;
 mod settings;
@@ -32,7 +32,7 @@ use youla::StateSpace;
 pub(super) const LOOK_FOR: &str = "after one day temperatures stay within the comfort band although the forecast is wrong: the feedback is shaped for \
      what is uncertain";
 
-/// The concurrent design at work.
+/// The concurrent design with its state.
 #[derive(Clone, Debug)]
 pub struct Concurrent {
     settings: ConcurrentSettings,
@@ -41,12 +41,12 @@ pub struct Concurrent {
     history: PlanHistory,
     /// The feedback for these targets, as long as Σ stays the same.
     feedback: Option<(Targets, FilterFeedback)>,
-    /// The feedback at work today.
+    /// The state of today's feedback.
     state: Option<StateSpace>,
     targets: Option<Targets>,
 }
 
-/// A designed feedback with what it leaves uncertain.
+/// A designed feedback, and the deviations that remain under it.
 #[derive(Clone, Debug)]
 pub struct FilterFeedback {
     /// Q and its cost.
@@ -58,10 +58,10 @@ pub struct FilterFeedback {
 }
 
 impl Concurrent {
-    /// A design without experience. `lifted` is its model of a day.
+    /// The design before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
+    /// [`ControlError::Setting`] if a setting is out of range.
     pub fn new(settings: ConcurrentSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
         Ok(Self {
@@ -141,7 +141,7 @@ impl PlanningDesign for Concurrent {
             heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
         };
         let Some(plan) = self.history.plan() else {
-            // The first day: nothing but the initial feedback.
+            // The first day: only the initial feedback.
             let wanted_c = targets.reference_at(step).iter().zip(temperatures_c);
             let gain = if step > 0 { self.settings.initial_gain_kw_per_k } else { 0.0 };
             return limited(wanted_c.map(|(wanted, actual)| gain * (wanted - actual)).collect());

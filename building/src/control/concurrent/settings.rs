@@ -1,4 +1,4 @@
-//! Choices of the concurrent design.
+//! Settings of the concurrent design.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

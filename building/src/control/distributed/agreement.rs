@@ -1,4 +1,4 @@
-//! How zones come to a common plan (Algorithm 1, with two faster ways to step).
+//! The rounds by which zones agree on a common plan (Algorithm 1, with two faster step rules).
 //!
 //! In each round every zone learns the gradient of the common cost from its neighbours ([`super::messages`]), finds its best
 //! inputs with those of the others as they are ([`super::zone`], side by side), and the proposals become a step:
@@ -205,7 +205,7 @@ impl JointDay<'_> {
         Ok(Agreement { heat_kw, costs, sums })
     }
 
-    /// What each zone would do, as changes of its inputs, stacked; `None` if none of those that answer can say.
+    /// The step that each zone proposes for its inputs, stacked; `None` if no zone that answers can solve its problem.
     fn proposals(&self, heat_kw: &[f64], gradient: &[f64], known_c: &[f64]) -> Option<Vec<f64>> {
         let (n, steps) = (self.targets.zones, self.targets.steps());
         let limits_kw = self.lifted.model().network().limits_kw();
@@ -265,7 +265,7 @@ impl JointDay<'_> {
             .collect()
     }
 
-    /// The best combination of proposals and the step before, never worse than d/n as far as the zones know.
+    /// The best combination of the proposals and the previous step; by the zones' knowledge never worse than d/n.
     fn best_step(
         &self,
         messages: &mut Messages,
@@ -284,7 +284,7 @@ impl JointDay<'_> {
         let plane = Plane { inputs: [d, &step], rises: [&risen, &moved], ..plane };
         let [w, beta] = plane.minimum(sums);
         let bold = self.moved(heat_kw, d, w, Some((&step, beta)));
-        // The limits may have bent the step: ask what it really does.
+        // The limits may have changed the step: compute its actual effect.
         let change: Vec<f64> = bold.iter().zip(heat_kw).map(|(next, now)| next - now).collect();
         let bent = stacked(&messages.directions(&change), n);
         let known =

@@ -1,4 +1,4 @@
-//! Who speaks with whom, and what was heard.
+//! The messages between neighbouring zones.
 //!
 //! Every zone simulates itself (and the walls it owns) by forward Euler, which needs the temperatures of its neighbours
 //! only, step by step; and backwards the sensitivity λ of J to its temperatures, which needs theirs only:
@@ -10,7 +10,8 @@
 //! ```
 //!
 //! So the exact gradient of the common cost comes from messages between neighbours alone. A message is a zone's series
-//! over the day, one number for each step. Whoever does not hear goes on with what it heard last.
+//! over the day, one number for each step. A zone whose message is lost is represented by its last
+//! message.
 
 use std::collections::VecDeque;
 
@@ -19,26 +20,26 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 use crate::lifted::Lifted;
 
-/// What a message is about.
+/// The content of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Subject {
     Temperature,
     Sensitivity,
-    /// How temperatures would move with the proposals; it is of this round or of no use.
+    /// The change of the temperatures under the proposals; only that of the current round is of use.
     Direction,
 }
 
-/// What one node's owner knows of a node of another zone.
+/// What the zone of a node knows of a neighbouring node of another zone.
 #[derive(Clone, Debug)]
 struct Edge {
-    /// The node that is spoken of.
+    /// The node that the messages describe.
     from: usize,
     /// The node next to it, of another zone.
     to: usize,
     conductance_kw_per_k: f64,
-    /// Last heard, temperature and sensitivity.
+    /// The last messages received: temperature and sensitivity.
     heard: [Vec<f64>; 2],
-    /// On their way.
+    /// Messages that are not yet delivered.
     late: [VecDeque<Vec<f64>>; 2],
     /// Whether this round's message arrives.
     live: bool,
@@ -61,9 +62,9 @@ pub(super) struct Messages {
     delay: usize,
     silent: Option<usize>,
     generator: ChaCha8Rng,
-    /// Counted since the last [`Messages::start`].
+    /// Messages that each zone sent since [`Messages::start`].
     pub sent: Vec<usize>,
-    /// Counted likewise.
+    /// Messages since then that did not arrive in their round.
     pub undelivered: usize,
 }
 
@@ -116,7 +117,7 @@ impl Messages {
         }
     }
 
-    /// A new day: everybody knows the temperatures of its neighbours now, and nothing of their plans.
+    /// Starts a day: each zone knows the temperatures of its neighbours at midnight, and none of their plans.
     pub fn start(&mut self, initial_c: &[f64]) {
         for edge in &mut self.edges {
             let sound = |series: &Vec<f64>| !series.is_empty() && series.iter().all(|value| value.is_finite());
@@ -155,7 +156,7 @@ impl Messages {
         }
     }
 
-    /// Puts the series of a round on its way, and delivers what is due.
+    /// Sends the series of a round, and delivers the messages that are due.
     fn dispatch(&mut self, subject: Subject, series: &[Vec<f64>]) {
         if self.delay == 0 || subject == Subject::Direction {
             return;
@@ -225,7 +226,7 @@ impl Messages {
         self.draw(Subject::Sensitivity);
         let (nodes, zones) = (self.gain.len(), self.sent.len());
         let mut gradient = vec![0.0; zones * self.steps];
-        // λ(t + 1) times h/c: heat's worth to the node at step t.
+        // λ(t + 1) h/c: the sensitivity of J to heat into the node in step t.
         let mut series: Vec<Vec<f64>> = vec![vec![0.0; self.steps]; nodes];
         let mut lambda = vec![0.0; nodes];
         for t in (0..self.steps).rev() {

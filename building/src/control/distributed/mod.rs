@@ -1,12 +1,12 @@
 //! Zones that plan together (chapter 5), and the same day in one problem.
 //!
 //! Both plan the inputs of least cost with a soft comfort band, and follow them with a feedback of each zone on its own
-//! error. The distributed design does it by messages between neighbours: [`messages`] has the messages, `zone` the problem of
-//! one zone, `agreement` the rounds, [`cooperative`] what is learned from neighbours and when that converges.
+//! error. The distributed design plans by messages between neighbours: `messages` has the messages, `zone` the problem of one
+//! zone, `agreement` the rounds, [`cooperative`] the learning from neighbours and its convergence.
 //!
-//! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the source's
-//! "exponential" growth belongs to the dense form. What speaks for the exchange is that no zone needs to tell anything to
-//! others than its neighbours, and that the others go on when one fails.
+//! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the "exponential"
+//! growth of the source belongs to the dense form. The advantages of the exchange are privacy and robustness: a zone informs
+//! its neighbours only, and the others continue when one fails.
 
 mod agreement;
 pub mod cooperative;
@@ -36,21 +36,21 @@ pub(super) const LOOK_FOR: &str =
 pub(super) const LOOK_FOR_CENTRALISED: &str =
     "one problem for the whole building: what zones that plan together approach";
 
-/// Up to so many numbers in a day's inputs the convergence conditions are worked out each day.
+/// The largest number of inputs of a day for which the convergence conditions are computed each day.
 const MOST_FOR_CONDITIONS: usize = 200;
 
-/// The distributed design at work.
+/// The distributed design with its state.
 #[derive(Clone, Debug)]
 pub struct Distributed {
     settings: DistributedSettings,
     estimator: DisturbanceEstimator,
     history: PlanHistory,
     messages: Messages,
-    /// For the targets that the zones know.
+    /// The zones' models, for these targets.
     zone_models: Option<(Targets, ZoneModels)>,
 }
 
-/// The centralised design at work.
+/// The centralised design with its state.
 #[derive(Clone, Debug)]
 pub struct Centralised {
     settings: CentralisedSettings,
@@ -59,11 +59,11 @@ pub struct Centralised {
 }
 
 impl Distributed {
-    /// Zones without estimator, for a building that is believed to be `model`'s and a day of so many steps. They plan with
-    /// forward Euler, which alone keeps each zone's step to its neighbours.
+    /// The design before its first day. `model` is the zones' model of the building, `steps` the number of steps of a day.
+    /// The zones plan with forward Euler, because only there a zone's step depends on its neighbours alone.
     ///
     /// # Errors
-    /// [`ControlError::Setting`]; [`ControlError::Model`] if forward Euler would be unstable.
+    /// [`ControlError::Setting`] if a setting is out of range; [`ControlError::Model`] if forward Euler would be unstable.
     pub fn new(settings: DistributedSettings, model: &Model, steps: usize) -> Result<Self, ControlError> {
         settings.check(model.network().zone_count())?;
         let lifted = Lifted::new(&Model::euler(model.network(), model.step_s())?, steps);
@@ -120,7 +120,7 @@ fn central(
     plan(lifted, free_c, targets, Some(penalty(discomfort_quadratic)), &ConstraintTightening::default())
 }
 
-/// Each zone follows its plan with its own error; on the first day, what is wanted.
+/// Each zone follows its plan with feedback on its own error; on the first day it follows the targets.
 fn follow(history: &PlanHistory, gain_kw_per_k: f64, limits_kw: &[f64], observation: &Observation<'_>) -> Vec<f64> {
     let Observation { step, temperatures_c, targets } = *observation;
     let n = temperatures_c.len();
@@ -212,10 +212,10 @@ impl PlanningDesign for Distributed {
 }
 
 impl Centralised {
-    /// A design without experience. `lifted` is its model of a day.
+    /// The design before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
+    /// [`ControlError::Setting`] if a setting is out of range.
     pub fn new(settings: CentralisedSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
         let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?;

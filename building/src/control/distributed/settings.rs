@@ -1,4 +1,4 @@
-//! Choices of the distributed design and its centralised counterpart.
+//! Settings of the distributed design and of its centralised counterpart.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ pub enum Scheme {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DistributedSettings {
-    /// How proposals become a step. Where messages get lost or come late it is always Jacobi's.
+    /// How proposals become a step. Where messages are lost or late, it is always Jacobi's.
     pub scheme: Scheme,
     /// ε: the zones agree when no input of a day moves by more than this, in the Euclidean norm \[kW\].
     #[schemars(range(min = 0.0))]
@@ -47,11 +47,11 @@ pub struct DistributedSettings {
     pub loss: f64,
     /// Rounds by which messages are late.
     pub delay_rounds: usize,
-    /// A zone that has stopped answering: it goes on with its last inputs, and its neighbours with the last they heard.
+    /// A zone that has stopped answering: it keeps its last inputs, and its neighbours keep its last messages.
     /// Zones are numbered from 0.
     #[schemars(example = 0)]
     pub silent_zone: Option<usize>,
-    /// Whether the centralised optimum is found too, to compare with.
+    /// Whether the centralised optimum is computed too, for comparison.
     pub compare: bool,
 }
 

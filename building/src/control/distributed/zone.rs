@@ -12,7 +12,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-/// Newton steps after which the best point so far has to do.
+/// The largest number of Newton steps; the best point so far is then returned.
 const STEPS: usize = 60;
 
 /// A comfort bound: v and the row a, as a kernel that was hit `time` steps after the first input, times a sign.
@@ -51,8 +51,8 @@ pub(super) struct ZoneProblem<'a> {
 }
 
 impl ZoneProblem<'_> {
-    /// The minimising d, or as near to it as rounding allows. `None` if the problem has no single solution: a number is
-    /// none, or the cost is not strictly convex in the inputs that are not at a limit.
+    /// The minimising d, up to rounding. `None` if it is not unique: a number is not finite, or the cost is not strictly
+    /// convex in the inputs that are not at a limit.
     pub fn solve(&self) -> Option<Vec<f64>> {
         let n = self.gradient.len();
         if !self.gradient.iter().all(|slope| slope.is_finite()) {

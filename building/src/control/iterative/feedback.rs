@@ -1,4 +1,4 @@
-//! The feedback that is worth most under an uncertain disturbance (step 1).
+//! The causal feedback of least expected cost under an uncertain disturbance (step 1).
 //!
 //! With the disturbance off by δ ~ N(0, Σ), inputs move by −(I − Y) δ and errors by −G Y δ, so the expectation of J exceeds
 //! its nominal value by
@@ -9,10 +9,10 @@
 //!
 //! C is causal exactly when Y is unit block lower triangular. With Σ = LLᵀ and V = (Y − I) L, which is strictly block lower,
 //! the cost is ‖W_e^½ G (L + V)‖² + ‖W_u^½ V‖², a sum over the columns of V: each of the N − 1 block columns is a small
-//! solve of its own with a trailing block of H = Gᵀ W_e G + W_u. With H = RRᵀ, R *upper* triangular, the factor of a
-//! trailing block is that of R, so one factorisation serves them all.
+//! linear system with a trailing block of H = Gᵀ W_e G + W_u. With H = RRᵀ, R *upper* triangular, the factor of a
+//! trailing block is that of R, so that one factorisation is enough.
 //!
-//! Without causality the optimum would be C* = W_u⁻¹ Gᵀ W_e, which only anticipates.
+//! Without causality the optimum would be C* = W_u⁻¹ Gᵀ W_e, which uses future errors only.
 
 use nalgebra::DMatrix;
 
@@ -20,7 +20,7 @@ use crate::comfort::Targets;
 use crate::control::ControlError;
 use crate::lifted::Lifted;
 
-/// What a disturbance of unit covariance in each of q directions does under feedback. Both n·N by q.
+/// The response to a disturbance of unit covariance in each of q directions under feedback. Both n·N by q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
     /// Temperatures G Y L \[K\]; errors are their negatives.

@@ -5,15 +5,16 @@
 //! subject to  |û_i| + q σ_i ≤ limit_i,      σ_i = ‖i-th row of (I − Y) L‖,   q = Φ⁻¹(η)      (eqs. 3.15, 3.18, 3.21)
 //! ```
 //!
-//! is a second-order cone programme in some (nN)² numbers. It is not posed: at its solution, with prices μ_i of the limits,
-//! the feedback is that of least expected cost with
+//! is a second-order cone programme in about (nN)² unknowns. It need not be posed: at its solution, with multipliers μ_i of
+//! the limits, the feedback is that of least expected cost with
 //!
 //! ```text
 //! W_u + diag(μ_i q / (2 σ_i))      in place of      W_u
 //! ```
 //!
-//! since the slope of μ_i q σ_i in the row is μ_i q / σ_i times the row. So prices are exchanged: feedback by columns
-//! ([`super::feedback`]), the plan within what it leaves, whose multipliers are the next prices, damped. The problem is
+//! since the gradient of μ_i q σ_i with respect to the row is μ_i q / σ_i times the row. So the two are solved in turn: the
+//! feedback by columns ([`super::feedback`]), then the plan within the remaining limits, whose damped multipliers are the
+//! next prices. The problem is
 //! convex, so a fixed point is its solution; the first round is the two-stage design, and the best round is kept.
 
 use nalgebra::DMatrix;
@@ -24,13 +25,13 @@ use crate::control::optimum::{ConstraintTightening, margins_kw, plan};
 use crate::control::{ControlError, DayOptimum};
 use crate::lifted::Lifted;
 
-/// Rounds after which the best so far has to do.
+/// The largest number of rounds; the best round so far is then kept.
 const ROUNDS: usize = 60;
-/// Share of the new prices that is taken over.
+/// Damping: the share of the new prices in the next ones.
 const DAMPING: f64 = 0.5;
-/// The exchange ends when the cost moves by less than this share.
+/// The rounds end when the cost changes by less than this share.
 const SETTLED: f64 = 1e-7;
-/// Deviations below this are as good as none, and have no price \[kW\].
+/// Standard deviations below this are treated as zero, and have no price \[kW\].
 const LEAST_DEVIATION_KW: f64 = 1e-9;
 
 /// Feedback and plan.
@@ -38,11 +39,11 @@ const LEAST_DEVIATION_KW: f64 = 1e-9;
 pub struct Joint {
     /// What is added to W_u for each input in the design of the feedback, stacked.
     pub price: Vec<f64>,
-    /// What the feedback does.
+    /// The response under the feedback.
     pub response: Response,
     /// The plan.
     pub plan: DayOptimum,
-    /// The expected cost: of the plan, and of what the disturbance adds.
+    /// The expected cost: that of the plan, and that added by the disturbance.
     pub cost: f64,
     /// The same of the two-stage design.
     pub two_stage_cost: f64,

@@ -3,18 +3,18 @@
 //! ```text
 //! U = U_ff + C E        minimise  E[ Eᵀ W_e E + Uᵀ W_u U ],   D ~ N(D̂ + bias, Σ)
 //! 1. the causal feedback of least expected cost                     [`feedback`]
-//! 2. the stabilising gain K that does most like it                  [`projection`]
+//! 2. the stabilising gain K that is closest to it                   [`projection`]
 //! 3. the nominal inputs Û, |Û| ≤ limit − Φ⁻¹(η) σ_u                 (eqs. 3.21, 3.29)
 //! u(t) = û(t) + K (T̂(t) − T(t))
 //! ```
 //!
 //! The source's unknowns X and Y are (nN)² each, but the nominal cost depends on X E_k + Y z alone, which is nN numbers:
-//! the nominal inputs. Those are found with temperatures as variables, sparsely. The last line is U_ff = Û − K Ê.
+//! the nominal inputs. They are found as a sparse problem with temperatures as variables. The last line is U_ff = Û − K Ê.
 //!
-//! Where limits bind, feedback and plan compete for them; [`joint`] settles that, at the price of designing both some
-//! times over. Step 3 after step 1 is dearer by a few percent then.
+//! Where limits bind, feedback and plan compete for them. [`joint`] finds both together and designs each several times.
+//! Designing them in turn costs a few percent more there.
 //!
-//! The feedback is designed again when Σ or the targets have changed; with a constant Σ it would be a constant gain.
+//! The feedback is designed again when Σ or the targets have changed; with a constant Σ it is a constant gain.
 
 pub mod feedback;
 pub mod joint;
@@ -40,12 +40,12 @@ use projection::Projection;
 pub(super) const LOOK_FOR: &str = "after one day temperatures follow their plan; what is left is what nobody could foresee, answered by a feedback gain \
      that is designed anew as the uncertainty becomes known";
 
-/// Up to so many numbers in a day's inputs the feedback is designed; its matrices have the square of that.
+/// The largest number of inputs of a day for which the feedback is designed; its matrices have the square of that many entries.
 pub const MOST_UNKNOWNS: usize = 1200;
 /// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft.
 const GROWTH_COST: f64 = 1e3;
 
-/// The iterative design at work.
+/// The iterative design with its state.
 #[derive(Clone, Debug)]
 pub struct Iterative {
     settings: IterativeSettings,
@@ -64,7 +64,7 @@ pub struct Iterative {
 pub struct StaticFeedback {
     /// K, zones by zones \[kW/K\].
     pub gain_kw_per_k: DMatrix<f64>,
-    /// Of A − BK.
+    /// Spectral radius of A − BK.
     pub spectral_radius: f64,
     /// The expected cost beyond the nominal one, under the best causal feedback.
     pub causal_cost: f64,
@@ -78,7 +78,7 @@ impl StaticFeedback {
     /// Steps 1 and 2 for a covariance of the disturbance; `price` as in [`feedback::optimal_causal`].
     ///
     /// # Errors
-    /// [`ControlError`] if the covariance is not one, no gain has the decay rate, or the solver fails.
+    /// [`ControlError`] if the covariance is not positive definite, no gain has the decay rate, or the solver fails.
     pub fn design(
         settings: &IterativeSettings,
         lifted: &Lifted,
@@ -119,10 +119,10 @@ impl StaticFeedback {
 }
 
 impl Iterative {
-    /// A design without experience. `lifted` is its model of a day.
+    /// The design before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
-    /// [`ControlError::Setting`].
+    /// [`ControlError::Setting`] if a setting is out of range.
     pub fn new(settings: IterativeSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
         let n = lifted.zones();
@@ -179,7 +179,7 @@ impl Iterative {
         margins_kw(self.estimator.lifted(), &feedback.input_deviation_kw, self.quantile())
     }
 
-    /// ‖E_k+1‖ ≤ ‖E_k‖ over the errors that count (eq. 3.8).
+    /// ‖E_k+1‖ ≤ ‖E_k‖ over the errors that have a weight (eq. 3.8).
     fn error_bound(&self, targets: &Targets) -> Option<ErrorBound> {
         let slack_cost = match self.settings.convergence {
             ErrorGrowth::Off => return None,
@@ -252,7 +252,7 @@ impl PlanningDesign for Iterative {
         let n = temperatures_c.len();
         let (mut heat_kw, error_k) = match self.history.plan() {
             Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
-            // The first day: nothing but the initial feedback on the error itself.
+            // The first day: only the initial feedback, on the error itself.
             None => {
                 let wanted_c = targets.reference_at(step);
                 let error_k = wanted_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect();

@@ -1,6 +1,6 @@
 //! From the optimal causal feedback to a gain K that stabilises (step 2, eqs. 3.31-3.33).
 //!
-//! K shall do what C* does with the errors that occur. Those have the covariance G Y Σ Yᵀ Gᵀ = PPᵀ, not the single
+//! K approximates C* on the errors that occur. These have the covariance G Y Σ Yᵀ Gᵀ = PPᵀ, not the single
 //! direction Ê of the printed (3.32), along which the fit is nearly singular (gains of 10⁴). With e = −Pw and u = Vw for
 //! white w,
 //!
@@ -9,7 +9,7 @@
 //! min_{F,M} ‖(M̄ Z − C* F̄) P‖²        K = M F⁻¹, and F, M, S as in [`crate::control::stability`]     (eq. 3.32, corrected)
 //! ```
 //!
-//! over the steps in which people may be about. Z delays by a step: bold M is block *sub*-diagonal, since u(t) knows e(t)
+//! over the steps that are occupied, or next to one that is. Z delays by a step: bold M is block *sub*-diagonal, since u(t) knows e(t)
 //! and not e(t + 1). Walls that store heat are states without a sensor; F then has no entries from walls to zones, so that
 //! M F⁻¹ acts on zones alone.
 
@@ -24,7 +24,7 @@ use crate::lifted::Lifted;
 /// A linear combination of variables.
 type Terms = Vec<(Variable, f64)>;
 
-/// How far inside of the matrix inequality a solution has to be.
+/// The margin by which a solution satisfies the matrix inequality.
 const INSIDE: f64 = 1e-4;
 /// S is at least this times the identity.
 const LEAST_S: f64 = 1e-3;
@@ -55,7 +55,7 @@ impl<'a> Projection<'a> {
     /// K by least squares.
     ///
     /// # Errors
-    /// [`ControlError::Covariance`] if errors do not tell the zones apart.
+    /// [`ControlError::Covariance`] if the errors of the zones are linearly dependent.
     pub fn least_squares(&self) -> Result<DMatrix<f64>, ControlError> {
         let n = self.lifted.zones();
         let (p, v) = (&self.response.temperatures_k, &self.response.inputs_kw);
@@ -167,7 +167,7 @@ impl<'a> Projection<'a> {
     /// ‖(M̄ Z − C* F̄) P‖² for the given entries of M and F.
     fn fit(&self, gain: Vec<(usize, usize)>, scale: Vec<(usize, usize)>) -> Result<Fit, ControlError> {
         let n = self.lifted.zones();
-        // By columns, so that a row of P is in one place.
+        // Stored by columns, so that a row of P is contiguous.
         let p = self.main_errors();
         let q = p.nrows();
         let wanted = self.optimal_feedback()?;
@@ -245,7 +245,7 @@ impl<'a> Projection<'a> {
 impl Fit {
     /// Adds the form to the cost; `unknowns` in the order of the Gram matrix.
     fn pose(&self, program: &mut Program, unknowns: &[Variable]) {
-        // A common factor does not move the minimum, and keeps the numbers moderate.
+        // Scaling does not change the minimiser, and improves the conditioning.
         let scale = 1.0 / self.gram.diagonal().max();
         for (j, &second) in unknowns.iter().enumerate() {
             for (i, &first) in unknowns[..=j].iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Choices of the iterative design.
+//! Settings of the iterative design.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ pub enum Objective {
     /// The expectation of J, which gives feedback a value.
     #[default]
     Expected,
-    /// J of the expected disturbance, as printed. Feedback does not matter then; Y = I, none, is as good as any.
+    /// J of the expected disturbance, as printed. Any feedback is then optimal, and none is used (Y = I).
     Nominal,
 }
 
@@ -41,28 +41,28 @@ pub enum Coordination {
     /// First the feedback, as if there were no limits; then a plan that leaves it room.
     #[default]
     TwoStage,
-    /// Both together, which is cheaper where limits bind and takes some times as long.
+    /// Both together: a lower cost where limits bind, for several times the computing time.
     Joint,
 }
 
-/// What (3.8), that errors do not grow from day to day, means.
+/// How the condition that errors do not grow from day to day (eq. 3.8) is enforced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ErrorGrowth {
-    /// Growth costs much.
+    /// Growth has a high cost.
     #[default]
     Soft,
     /// Growth is forbidden: on a harder day there is no plan, and the day before is repeated (Remark 1).
     Hard,
-    /// Nothing.
+    /// It is not enforced.
     Off,
 }
 
-/// What the confidence is meant of.
+/// What the confidence refers to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Chance {
-    /// Each input on its own (eq. 3.21). That all of a day hold is less likely.
+    /// Each input on its own (eq. 3.21). The probability that all inputs of a day keep their limits is smaller.
     #[default]
     EachInput,
     /// All inputs of a day together, by Bonferroni's inequality.
@@ -88,9 +88,9 @@ pub struct IterativeSettings {
     /// η: how likely inputs stay within their limits.
     #[schemars(range(min = 0.5, max = 0.999999), extend("x-unit" = "dimensionless"))]
     pub confidence: f64,
-    /// What the confidence is meant of.
+    /// What the confidence refers to.
     pub chance: Chance,
-    /// What (3.8) means.
+    /// How the condition that errors do not grow from day to day (eq. 3.8) is enforced.
     pub convergence: ErrorGrowth,
     /// λ of the learned bias.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]

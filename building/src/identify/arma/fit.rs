@@ -18,10 +18,10 @@ use super::{Arma, is_stable, moving_average_inverted, whitened};
 use crate::identify::IdentifyError;
 use crate::identify::normal::{dot, positive_definite, robust_covariance};
 
-/// How large a moving average may be: beyond, the filter that inverts it does not forget its start.
+/// The largest moving-average coefficient. Beyond it, the inverse filter does not decay.
 const MOVING_AVERAGE_LIMIT: f64 = 0.98;
 const MOST_STEPS: usize = 200;
-/// A descent ends when a step lowers the sum by less than this part.
+/// A descent ends when a step lowers the sum by less than this share.
 const TOLERANCE: f64 = 1e-12;
 /// First autoregressive coefficient and moving average at the starts.
 const STARTS: [(f64, f64); 4] = [(0.0, 0.0), (0.7, 0.0), (0.9, -0.5), (0.5, 0.5)];

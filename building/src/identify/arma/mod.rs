@@ -1,5 +1,4 @@
-//! Autoregressive moving-average models of what the network does not explain, eq. 2.12 with a coefficient on the moving
-//! average:
+//! Autoregressive moving-average models of the residuals of the network, eq. 2.12 with a coefficient on the moving average:
 //!
 //! ```text
 //! q_t = z_tᵀβ + v_t,    v_t = Σ_{k=1..r} α_k v_{t−k} + e_t + μ e_{t−1},    e_t white

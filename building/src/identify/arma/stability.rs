@@ -1,4 +1,4 @@
-//! Whether an autoregression forgets: all roots of 1 − α_1 z⁻¹ − … − α_r z⁻ʳ inside the unit circle.
+//! Stability of an autoregression: all roots of 1 − α_1 z⁻¹ − … − α_r z⁻ʳ inside the unit circle.
 
 /// The largest reflection coefficient that an autoregression may have.
 const LIMIT: f64 = 0.9999;

@@ -1,4 +1,4 @@
-//! What to think of an estimate: whether the data determine it, and whether the residuals still hold structure.
+//! Diagnostics of an estimate: whether the data determine it, and whether the residuals are white.
 
 mod chi_squared;
 mod periodogram;

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// How many standard errors make the interval of 95 %.
 pub(in crate::identify) const INTERVAL: f64 = 1.96;
-/// Standard errors above this part of the value make a coefficient weak.
+/// Standard errors above this share of the value make a coefficient weak.
 const WEAK: f64 = 0.25;
 /// Correlations above this make two coefficients hard to tell apart.
 const ENTANGLED: f64 = 0.95;

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::error::{TelemetryError, TelemetryProblem};
 use super::mapping::{Gaps, HeatColumns, Mapping, ZoneColumns};
+use super::measurements::{Boundary, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 use super::table::{Column, Row, Table};
 use super::units::PowerUnit;
-use super::{Boundary, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 
 /// The lowest and highest temperature that a building or its weather can have \[°C\].
 const PLAUSIBLE_C: (f64, f64) = (-60.0, 90.0);

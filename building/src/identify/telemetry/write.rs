@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::mapping::{BoundaryColumns, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns};
+use super::mapping::{BoundaryColumns, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns};
+use super::measurements::{Boundary, MeasuredZone, Telemetry};
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit};
-use super::{Gaps, MeasuredZone, Telemetry};
 use crate::identify::IdentifySettings;
 
 /// Heat that air carries is written as a flow of this unit.
@@ -70,7 +70,7 @@ pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
             solar: zone.irradiance_kw_per_m2.is_some().then_some(solar),
         }
     };
-    let boundary = |boundary: &super::Boundary| BoundaryColumns {
+    let boundary = |boundary: &Boundary| BoundaryColumns {
         name: boundary.name.clone(),
         temperature: format!("{} [°C]", boundary.name),
     };

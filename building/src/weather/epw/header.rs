@@ -1,7 +1,26 @@
 //! The eight lines before the rows, of which two matter.
 
 use super::calendar::Date;
-use super::{EpwError, EpwProblem, Location};
+use super::error::{EpwError, EpwProblem};
+
+/// Where the weather was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Location {
+    /// City, as the file writes it.
+    pub city: String,
+    /// Country, as the file writes it.
+    pub country: String,
+    /// Where the data come from, as the file writes it.
+    pub source: String,
+    /// Degrees north.
+    pub latitude_deg: f64,
+    /// Degrees east.
+    pub longitude_deg: f64,
+    /// Hours ahead of Greenwich.
+    pub time_zone_h: f64,
+    /// Metres above the sea.
+    pub elevation_m: f64,
+}
 
 /// What the header says.
 #[derive(Clone, Debug, PartialEq)]

@@ -20,30 +20,12 @@ pub use error::{EpwError, EpwProblem};
 pub use field::Field;
 use field::{COLUMNS, FIELDS, Specification};
 use header::Header;
+pub use header::Location;
 
 use super::{TimeSeries, Weather};
 
 const HOUR_S: f64 = 3600.0;
 const DAY_S: f64 = 86_400.0;
-
-/// Where the weather was measured.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Location {
-    /// City, as the file writes it.
-    pub city: String,
-    /// Country, as the file writes it.
-    pub country: String,
-    /// Where the data come from, as the file writes it.
-    pub source: String,
-    /// Degrees north.
-    pub latitude_deg: f64,
-    /// Degrees east.
-    pub longitude_deg: f64,
-    /// Hours ahead of Greenwich.
-    pub time_zone_h: f64,
-    /// Metres above the sea.
-    pub elevation_m: f64,
-}
 
 /// The content of an EPW file.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,32 @@
+//! Errors of an identification.
+
+use crate::setting::SettingError;
+
+/// Why an identification is not possible.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum IdentifyError {
+    /// A setting is out of range.
+    #[error("setting {0}")]
+    Setting(#[from] SettingError),
+    /// A zone has neither walls nor heat nor sun.
+    #[error("zone `{zone}` has no wall, no heat and no sun: give it at least one, or there is nothing to identify")]
+    NothingToIdentify {
+        /// The zone.
+        zone: String,
+    },
+    /// There are too few rows.
+    #[error(
+        "{rows} usable steps are too few for {parameters} parameters: at least {wanted} are needed; add rows, raise `train_days`, or lower `harmonics` or `autoregressive_order`"
+    )]
+    TooFewRows {
+        /// Usable steps.
+        rows: usize,
+        /// Parameters to fit.
+        parameters: usize,
+        /// The number of rows that is needed.
+        wanted: usize,
+    },
+    /// A fit has no finite error.
+    #[error("the residuals are not finite: check the telemetry for values that are not")]
+    NotFinite,
+}
