@@ -23,6 +23,10 @@ use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::lifted::Lifted;
 use crate::setting;
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str =
+    "day by day the temperatures come closer to what is wanted when people arrive, and the cost falls";
+
 /// Iterative learning of P- or PD-type on top of a PID controller.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -14,6 +14,10 @@ use serde::{Deserialize, Serialize};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::setting::{self, SettingError};
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str =
+    "the controller has no memory: it is late every morning by as much, and the cost does not fall";
+
 /// Gains of a PID controller. They are per hour, not per step, so that they do not depend on the step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -6,6 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::setting;
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str =
+    "equipment runs at full power or not at all, and temperatures swing about what is wanted";
+
 /// A two-sided thermostat with a dead band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -28,6 +28,10 @@ use crate::lifted::Lifted;
 use filter::FilterDesign;
 use youla::StateSpace;
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str = "after one day temperatures stay within the comfort band although the forecast is wrong: the feedback is shaped for \
+     what is uncertain";
+
 /// The concurrent design with its state.
 #[derive(Clone, Debug)]
 pub struct Concurrent {

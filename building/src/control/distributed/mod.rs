@@ -28,6 +28,14 @@ use cooperative::{Conditions, LearningLaw, cooperative_error};
 use messages::Messages;
 use settings::penalty;
 
+/// What to look for in a recording of a building whose zones plan together.
+pub(super) const LOOK_FOR: &str =
+    "zones that speak with their neighbours only come to a common plan round by round, and cool before people come";
+
+/// What to look for in a recording of a building with the centralised plan.
+pub(super) const LOOK_FOR_CENTRALISED: &str =
+    "one problem for the whole building: what zones that plan together approach";
+
 /// The largest number of inputs of a day for which the convergence conditions are computed each day.
 const MOST_FOR_CONDITIONS: usize = 200;
 
