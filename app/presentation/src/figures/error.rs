@@ -16,7 +16,7 @@ use crate::plot::PlotError;
 #[derive(Debug, Error)]
 pub enum FigureError {
     /// A scenario cannot be loaded.
-    #[error("{}", with_problems(.0))]
+    #[error("{}", with_faults(.0))]
     Load(LoadError),
     /// A run could not be finished.
     #[error(transparent)]
@@ -54,9 +54,9 @@ pub enum FigureError {
     },
 }
 
-fn with_problems(error: &LoadError) -> String {
-    let problems = error.problems().iter().map(ToString::to_string).collect::<Vec<_>>();
-    format!("{error}: {}", problems.join("; "))
+fn with_faults(error: &LoadError) -> String {
+    let faults = error.faults().iter().map(ToString::to_string).collect::<Vec<_>>();
+    format!("{error}: {}", faults.join("; "))
 }
 
 impl From<LoadError> for FigureError {

@@ -24,7 +24,7 @@ fn every_entry_says_what_the_source_shows_and_names_scenarios_that_exist() {
         for spec in entry.runs.iter().chain(entry.beside) {
             let sets: Vec<Override> = spec.sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
             if let Err(error) = load(spec.scenario, &sets) {
-                panic!("{entry}: {} with {:?}: {:?}", spec.scenario, spec.sets, error.problems());
+                panic!("{entry}: {} with {:?}: {:?}", spec.scenario, spec.sets, error.faults());
             }
         }
     }
