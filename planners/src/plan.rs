@@ -3,10 +3,8 @@
 use thiserror::Error;
 
 use crate::Trajectory;
+use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
 use crate::trajectory::{DescentError, StageError, Statistics};
-
-/// A named number that explains a plan, for plots.
-pub type Diagnostic = (&'static str, f64);
 
 /// What a vehicle will do, what it asks of another, and why.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,7 +13,7 @@ pub struct Plan {
     pub trajectory: Trajectory,
     /// What the planner asks of another vehicle.
     pub proposal: Option<Proposal>,
-    /// Named numbers, in a fixed order for one planner.
+    /// Numbers that explain it, in a fixed order for one planner.
     pub diagnostics: Vec<Diagnostic>,
     /// What happened in this step, in words.
     pub events: Vec<String>,
@@ -30,6 +28,16 @@ pub struct Proposal {
     pub to: String,
     /// The motion.
     pub trajectory: Trajectory,
+    /// How far the vehicle accepted the proposal before this one, from 0 to 1; none where the planner does not judge it.
+    pub acceptance: Option<f64>,
+}
+
+impl Plan {
+    /// The value of a quantity, if the planner reported it.
+    pub fn value_of(&self, quantity: &DiagnosticQuantity) -> Option<f64> {
+        let found = self.diagnostics.iter().find(|diagnostic| diagnostic.quantity.name == quantity.name);
+        found.map(|diagnostic| diagnostic.value)
+    }
 }
 
 /// Why there is no plan.

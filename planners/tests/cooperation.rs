@@ -3,7 +3,9 @@
 mod common;
 
 use common::world::{HORIZON, LANES, STEP_S, Vehicle, run, vehicle};
+use interplay_planners::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 use interplay_planners::cooperative::{self, Cooperator, cooperators, problem};
+use interplay_planners::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
 use interplay_planners::human::Style;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust, Term};
 use interplay_planners::{Driver, Plan, Planner, Scene};
@@ -40,8 +42,8 @@ fn scene(vehicles: &[Vehicle], index: usize) -> Scene {
     }
 }
 
-fn number(plan: &Plan, what: &str) -> f64 {
-    plan.diagnostics.iter().find(|(name, _)| *name == what).expect("stated").1
+fn number(plan: &Plan, what: DiagnosticQuantity) -> f64 {
+    plan.value_of(&what).expect("reported")
 }
 
 #[test]
@@ -54,14 +56,14 @@ fn everybody_finds_the_same_solution() {
                 planner.plan(&scene(&vehicles, index)).expect("a plan")
             })
             .collect();
-        let joint: Vec<u64> = plans.iter().map(|plan| number(plan, "cost").to_bits()).collect();
+        let joint: Vec<u64> = plans.iter().map(|plan| number(plan, COST).to_bits()).collect();
         assert!(joint.windows(2).all(|pair| pair[0] == pair[1]), "{joint:?}");
         if let [a, b] = plans.as_slice() {
             assert_eq!(a.proposal.as_ref().map(|proposal| &proposal.trajectory), Some(&b.trajectory));
             assert_eq!(b.proposal.as_ref().map(|proposal| &proposal.trajectory), Some(&a.trajectory));
         }
-        let own: f64 = plans.iter().map(|plan| number(plan, "own cost")).sum();
-        assert!((own - number(&plans[0], "cost")).abs() < 1e-6, "costs add up but for the pairs' penalties");
+        let own: f64 = plans.iter().map(|plan| number(plan, OWN_COST)).sum();
+        assert!((own - number(&plans[0], COST)).abs() < 1e-6, "costs add up but for the pairs' penalties");
     }
 }
 
@@ -130,8 +132,8 @@ fn a_merge_is_driven_as_it_was_agreed() {
 fn five_vehicles_share_a_problem() {
     let vehicles = convoy(5);
     let plan = vehicles[0].driver.planner().plan(&scene(&vehicles, 0)).expect("a plan");
-    assert_eq!(number(&plan, "cooperating vehicles"), 5.0);
-    assert!(number(&plan, "safety slack") < 1e-3);
+    assert_eq!(number(&plan, COOPERATING_VEHICLES), 5.0);
+    assert!(number(&plan, SAFETY_SLACK) < 1e-3);
 }
 
 /// A human among those who cooperate is an obstacle to both.

@@ -3,6 +3,10 @@
 use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
 use crate::lifted::Lifted;
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str =
+    "knowing the day beforehand, it cools before people come; no controller can be cheaper";
+
 /// Applies the optimum of the day under its actual disturbances.
 #[derive(Clone, Debug)]
 pub struct Clairvoyant {

@@ -3,13 +3,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::clairvoyant::Clairvoyant;
-use super::concurrent::{Concurrent, ConcurrentSettings};
-use super::distributed::{Centralised, CentralisedSettings, Distributed, DistributedSettings};
-use super::iterative::{Iterative, IterativeSettings};
-use super::learning::{Learning, LearningSettings};
-use super::pid::{Pid, PidSettings};
-use super::thermostat::{Thermostat, ThermostatSettings};
+use super::clairvoyant::{self, Clairvoyant};
+use super::concurrent::{self, Concurrent, ConcurrentSettings};
+use super::distributed::{self, Centralised, CentralisedSettings, Distributed, DistributedSettings};
+use super::iterative::{self, Iterative, IterativeSettings};
+use super::learning::{self, Learning, LearningSettings};
+use super::pid::{self, Pid, PidSettings};
+use super::thermostat::{self, Thermostat, ThermostatSettings};
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Observation};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
@@ -90,6 +90,20 @@ impl Controller {
         match self {
             Self::Thermostat(_) | Self::Pid(_) | Self::IterativeLearning(_) | Self::Clairvoyant => false,
             Self::Iterative(_) | Self::Concurrent(_) | Self::Distributed(_) | Self::Centralised(_) => true,
+        }
+    }
+
+    /// What to look for in a recording of a building with this kind of controller: a clause without a full stop.
+    pub fn look_for(&self) -> &'static str {
+        match self {
+            Self::Thermostat(_) => thermostat::LOOK_FOR,
+            Self::Pid(_) => pid::LOOK_FOR,
+            Self::IterativeLearning(_) => learning::LOOK_FOR,
+            Self::Clairvoyant => clairvoyant::LOOK_FOR,
+            Self::Iterative(_) => iterative::LOOK_FOR,
+            Self::Concurrent(_) => concurrent::LOOK_FOR,
+            Self::Distributed(_) => distributed::LOOK_FOR,
+            Self::Centralised(_) => distributed::LOOK_FOR_CENTRALISED,
         }
     }
 

@@ -4,7 +4,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
-use crate::setting::{check_not_negative, check_within};
+use crate::setting;
+
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str =
+    "equipment runs at full power or not at all, and temperatures swing about what is wanted";
 
 /// A two-sided thermostat with a dead band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -38,8 +42,7 @@ impl Thermostat {
     /// # Errors
     /// [`ControlError::Setting`] if the dead band is negative, or the power not a share.
     pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
-        check_not_negative(&[("dead_band_k", settings.dead_band_k)])?;
-        check_within("power", settings.power, 0.0..=1.0, "a share of the limit, 0 to 1")?;
+        setting::check(&settings)?;
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
     }
 }

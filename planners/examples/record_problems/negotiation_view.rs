@@ -1,6 +1,7 @@
 //! The negotiation planner's problem, rebuilt from its scene and answer by keeping the same minutes of the talk.
 
 use interplay_planners::conservative::{self, Conservative};
+use interplay_planners::diagnostic::COST;
 use interplay_planners::negotiation::{self, Concession, Settings, acceptance};
 use interplay_planners::predict::steady;
 use interplay_planners::trajectory::terms::Persuasion;
@@ -85,7 +86,7 @@ impl NegotiationView {
         let every = self.settings.look_around_every;
         let look_around = every > 0 && scene.tick.is_multiple_of(every);
         let optimum = self.optimiser.best_of(&problem, &guesses, look_around)?;
-        if optimum.cost.total != stated(plan, "cost")? {
+        if optimum.cost.total != stated(plan, &COST)? {
             return Err(format!("tick {}: the rebuilt negotiation costs {}", scene.tick, optimum.cost.total).into());
         }
         talk.last = Some(Round {

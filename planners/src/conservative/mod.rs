@@ -1,11 +1,13 @@
 //! The conservative baseline (eq. 6.13): the others' predictions are constraints, whoever has the right of way.
 
+pub mod diagnostics;
 mod retreat;
 mod settings;
 
 pub(crate) use retreat::{retreat, solve_or_retreat};
 pub use settings::Settings;
 
+use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::solo::{self, Solved};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
@@ -42,7 +44,7 @@ impl Conservative {
 
     /// The same as [`Conservative::plan`], with the problem that it solves.
     pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Solved, DescentError> {
-        let scene = &scene.expecting(self.settings.prediction);
+        let scene = &self.settings.prediction.applied_to(scene);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let problem = problem(scene, &others);
         let every = self.settings.look_around_every;
@@ -56,7 +58,7 @@ impl Conservative {
 pub(crate) fn answer(Solved { problem, optimum, event }: &Solved) -> Plan {
     let cost = &optimum.cost;
     let mut diagnostics: Vec<Diagnostic> =
-        vec![("cost", cost.total), ("safety slack", cost.violation(Violation::Safety))];
+        vec![COST.is(cost.total), SAFETY_SLACK.is(cost.violation(Violation::Safety))];
     diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),

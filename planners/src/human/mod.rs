@@ -19,11 +19,8 @@
 //! Where the last plan, improved, keeps clear of everybody there is no tie: it would be the same without them.
 
 mod closing;
-pub mod idm;
-pub mod mobil;
-pub mod scripted;
+pub mod diagnostics;
 mod settings;
-mod steering;
 
 pub use settings::{Settings, Style};
 
@@ -75,7 +72,7 @@ impl Human {
         self.last = Some(trajectory.clone());
         Ok(Plan {
             trajectory,
-            diagnostics: vec![("safety weight", self.settings.weight())],
+            diagnostics: vec![diagnostics::SAFETY_WEIGHT.is(self.settings.weight())],
             statistics,
             ..Plan::default()
         })

@@ -13,6 +13,7 @@
 
 mod acceptance;
 mod concession;
+pub mod diagnostics;
 mod filter;
 mod interlocutor;
 mod persuasion;
@@ -25,11 +26,13 @@ pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
 use crate::conservative::{self, Conservative};
+use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::solo::{Solved, extremes};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
+use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
 use interlocutor::Interlocutor;
 
@@ -83,7 +86,7 @@ impl Negotiation {
     /// # Errors
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let scene = &scene.expecting(self.settings.prediction);
+        let scene = &self.settings.prediction.applied_to(scene);
         let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
         let Some(partner) = self.choose(scene, &mut events) else {
@@ -170,14 +173,18 @@ impl Negotiation {
         let active = persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory));
         Plan {
             trajectory,
-            proposal: Some(Proposal { to: partner.name.clone(), trajectory: optimum.trajectory(1) }),
+            proposal: Some(Proposal {
+                to: partner.name.clone(),
+                trajectory: optimum.trajectory(1),
+                acceptance: Some(accepted),
+            }),
             diagnostics: vec![
-                ("acceptance", accepted),
-                ("concession weight", self.talk.concession.weight()),
-                ("persuasion strength", persuasion.map_or(0.0, |persuasion| persuasion.strength)),
-                ("persuasion active", f64::from(u8::from(active))),
-                ("cost", optimum.cost.total),
-                ("safety slack", optimum.cost.violation(Violation::Safety)),
+                ACCEPTANCE.is(accepted),
+                CONCESSION_WEIGHT.is(self.talk.concession.weight()),
+                PERSUASION_STRENGTH.is(persuasion.map_or(0.0, |persuasion| persuasion.strength)),
+                PERSUASION_ACTIVE.is(f64::from(u8::from(active))),
+                COST.is(optimum.cost.total),
+                SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
             ],
             events: Vec::new(),
             statistics: optimum.statistics,
@@ -196,6 +203,6 @@ impl Negotiation {
             plan.trajectory = retreat.trajectory(0);
             plan.events.push("safety filter: conservative input".to_owned());
         }
-        plan.diagnostics.push(("safety filter", f64::from(u8::from(refused))));
+        plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused))));
     }
 }

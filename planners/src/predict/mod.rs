@@ -5,8 +5,7 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Limits;
-use crate::{Agent, Input, Scene, State, Trajectory};
+use crate::{Agent, Input, Limits, Scene, State, Trajectory};
 
 /// How a driver predicts the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -28,17 +27,15 @@ impl Prediction {
             Prediction::ConstantVelocity => constant_velocity(&agent.state, horizon, step_s),
         }
     }
-}
 
-impl Scene {
-    /// The same moment with the others expected to do what `prediction` says.
-    pub fn expecting(&self, prediction: Prediction) -> Cow<'_, Scene> {
-        match prediction {
-            Prediction::Plan => Cow::Borrowed(self),
+    /// The same moment with the others expected to do what this prediction says.
+    pub fn applied_to(self, scene: &Scene) -> Cow<'_, Scene> {
+        match self {
+            Prediction::Plan => Cow::Borrowed(scene),
             Prediction::ConstantVelocity => {
-                let mut scene = self.clone();
+                let mut scene = scene.clone();
                 for other in &mut scene.others {
-                    other.prediction = prediction.of(other, self.horizon, self.step_s);
+                    other.prediction = self.of(other, scene.horizon, scene.step_s);
                 }
                 Cow::Owned(scene)
             }

@@ -5,7 +5,7 @@ use super::iterate::Iterate;
 use super::participant::Participant;
 use super::problem::Problem;
 use super::terms::{MAX_ROWS_PER_STAGE, RowTerm, Shape};
-use crate::Diagnostic;
+use crate::diagnostic::{Diagnostic, STEPS_AT_EDGE, STEPS_AT_ELLIPSE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND};
 use crate::vehicle::PoseExpansion;
 
 /// A bound that is closer than this is active (in the unit of what it bounds; `d²` for ellipses).
@@ -44,10 +44,10 @@ impl Activity {
     /// The numbers as diagnostics.
     pub(crate) fn diagnostics(&self) -> [Diagnostic; 4] {
         [
-            ("steps at a safety ellipse", self.safety as f64),
-            ("steps at a road edge", self.edge as f64),
-            ("steps at an input bound", self.input as f64),
-            ("steps at a speed bound", self.speed as f64),
+            STEPS_AT_ELLIPSE.is(self.safety as f64),
+            STEPS_AT_EDGE.is(self.edge as f64),
+            STEPS_AT_INPUT_BOUND.is(self.input as f64),
+            STEPS_AT_SPEED_BOUND.is(self.speed as f64),
         ]
     }
 }

@@ -28,6 +28,10 @@ use crate::lifted::Lifted;
 use filter::FilterDesign;
 use youla::StateSpace;
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str = "after one day temperatures stay within the comfort band although the forecast is wrong: the feedback is shaped for \
+     what is uncertain";
+
 /// The concurrent design with its state.
 #[derive(Clone, Debug)]
 pub struct Concurrent {
@@ -62,8 +66,8 @@ impl Concurrent {
         settings.check()?;
         Ok(Self {
             settings,
-            uncertainty: Uncertainty::new(settings.uncertainty).map_err(|error| error.within("uncertainty"))?,
-            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?,
+            uncertainty: Uncertainty::new(settings.uncertainty)?,
+            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate),
             history: PlanHistory::default(),
             feedback: None,
             state: None,

@@ -28,6 +28,14 @@ use cooperative::{Conditions, LearningLaw, cooperative_error};
 use messages::Messages;
 use settings::penalty;
 
+/// What to look for in a recording of a building whose zones plan together.
+pub(super) const LOOK_FOR: &str =
+    "zones that speak with their neighbours only come to a common plan round by round, and cool before people come";
+
+/// What to look for in a recording of a building with the centralised plan.
+pub(super) const LOOK_FOR_CENTRALISED: &str =
+    "one problem for the whole building: what zones that plan together approach";
+
 /// The largest number of inputs of a day for which the convergence conditions are computed each day.
 const MOST_FOR_CONDITIONS: usize = 200;
 
@@ -60,7 +68,7 @@ impl Distributed {
         settings.check(model.network().zone_count())?;
         let lifted = Lifted::new(&Model::euler(model.network(), model.step_s())?, steps);
         let messages = Messages::new(&lifted, settings.loss, settings.delay_rounds, settings.silent_zone);
-        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?;
+        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate);
         Ok(Self { settings, estimator, history: PlanHistory::default(), messages, zone_models: None })
     }
 
@@ -210,7 +218,7 @@ impl Centralised {
     /// [`ControlError::Setting`] if a setting is out of range.
     pub fn new(settings: CentralisedSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
-        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?;
+        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate);
         Ok(Self { settings, estimator, history: PlanHistory::default() })
     }
 }

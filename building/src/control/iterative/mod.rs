@@ -36,6 +36,10 @@ use crate::lifted::Lifted;
 use joint::Joint;
 use projection::Projection;
 
+/// What to look for in a recording of a building with this controller.
+pub(super) const LOOK_FOR: &str = "after one day temperatures follow their plan; what is left is what nobody could foresee, answered by a feedback gain \
+     that is designed anew as the uncertainty becomes known";
+
 /// The largest number of inputs of a day for which the feedback is designed; its matrices have the square of that many entries.
 pub const MOST_UNKNOWNS: usize = 1200;
 /// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft.
@@ -124,8 +128,8 @@ impl Iterative {
         let n = lifted.zones();
         Ok(Self {
             settings,
-            uncertainty: Uncertainty::new(settings.uncertainty).map_err(|error| error.within("uncertainty"))?,
-            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?,
+            uncertainty: Uncertainty::new(settings.uncertainty)?,
+            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate),
             history: PlanHistory::default(),
             gain: DMatrix::from_diagonal_element(n, n, settings.initial_gain_kw_per_k),
             feedback: None,
