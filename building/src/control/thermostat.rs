@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use crate::discretise::Model;
 use crate::setting::{check_not_negative, check_within};
 
 /// A two-sided thermostat with a dead band.
@@ -41,6 +43,20 @@ impl Thermostat {
         check_not_negative(&[("dead_band_k", settings.dead_band_k)])?;
         check_within("power", settings.power, 0.0..=1.0, "a share of the limit, 0 to 1")?;
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
+    }
+}
+
+impl ControllerKind for ThermostatSettings {
+    fn kind(&self) -> &'static str {
+        "thermostat"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "equipment runs at full power or not at all, and temperatures oscillate about the wanted ones"
+    }
+
+    fn regulator(&self, model: &Model, _: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Thermostat::new(*self, model.network().limits_kw())?))
     }
 }
 
