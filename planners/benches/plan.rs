@@ -18,7 +18,7 @@ use std::time::Duration;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, criterion_group, criterion_main, measurement::WallTime};
 use interplay_planners::Input;
 use interplay_planners::trajectory::{
-    Iterate, Optimiser, Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, linearise,
+    Optimiser, Problem, Sparse, StageQp, StageSolution, StageSolver, StepProblem, Structured,
 };
 
 /// Every how many problems the general solver, some hundred times slower, is measured on.
@@ -43,7 +43,7 @@ fn plans(criterion: &mut Criterion) {
     }
 }
 
-fn plan<S: StageSolver>(group: &mut BenchmarkGroup<WallTime>, name: &str, posed: &[Posed], solver: S) {
+fn plan<S: StageSolver + Default>(group: &mut BenchmarkGroup<WallTime>, name: &str, posed: &[Posed], solver: S) {
     let mut optimiser = Optimiser::new(solver);
     let failed = posed.iter().filter(|(problem, guess)| optimiser.descend(problem, guess).is_err()).count();
     let name = if failed == 0 { name.to_owned() } else { format!("{name} ({failed} of {} unsolved)", posed.len()) };
@@ -75,13 +75,9 @@ fn programme<S: StageSolver>(group: &mut BenchmarkGroup<WallTime>, name: &str, q
 
 /// The programme that a descent from the guess begins with.
 fn first_programme((problem, guess): &Posed) -> StageQp {
-    let vehicles = problem.participants.iter().zip(guess);
-    let inputs = vehicles.map(|(participant, guess)| participant.admissible(guess, problem.horizon)).collect();
-    let mut iterate = Iterate { inputs, states: Vec::new() };
-    problem.roll_out(&mut iterate);
-    let mut qp = StageQp::default();
-    linearise(problem, &iterate, &mut qp);
-    qp
+    let mut step = StepProblem::default();
+    step.linearize(problem, &problem.start(guess));
+    step.qp
 }
 
 fn slowly(group: &mut BenchmarkGroup<WallTime>) {

@@ -8,17 +8,16 @@ use std::error::Error;
 use std::hint::black_box;
 use std::io::Write;
 
-use interplay_planners::trajectory::{StageQp, StageSolution, StageSolver, Structured, drop_curvature, linearise};
+use interplay_planners::trajectory::{StageQp, StageSolution, StageSolver, StepProblem, Structured};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let kind = std::env::args().nth(1).ok_or("usage: hot_loop KIND")?;
     let mut programmes = Vec::new();
     for recorded in recorded::load(&kind)?.iter().step_by(10) {
         let problem = recorded.problem();
-        let mut qp = StageQp::default();
-        linearise(&problem, &problem.start(&recorded.guess()), &mut qp);
-        drop_curvature(&mut qp);
-        programmes.push(qp);
+        let mut step = StepProblem::default();
+        step.linearize(&problem, &problem.start(&recorded.guess()));
+        programmes.push(step.qp);
     }
     let iterations = solve_all(&programmes)?;
     writeln!(std::io::stdout(), "{iterations}")?;

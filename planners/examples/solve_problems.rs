@@ -21,7 +21,7 @@ use std::time::Instant;
 
 use interplay_planners::Input;
 use interplay_planners::trajectory::{
-    DescentError, Iterate, Optimiser, Optimum, Problem, Robust, Sparse, StageSolver, Structured,
+    DescentError, Iterate, Optimiser, Optimum, Problem, Robust, Sparse, StageSolver, Structured, Violation,
 };
 use recorded::Recorded;
 use serde::Serialize;
@@ -88,7 +88,7 @@ fn solve_all<S: StageSolver>(
         let problem = recorded.problem();
         let guess = starts.get(&recorded.id).map_or_else(|| recorded.guess(), inputs);
         let memory = recorded.memory();
-        let remember = |optimiser: &mut Optimiser<S>| optimiser.memory = memory.clone();
+        let remember = |optimiser: &mut Optimiser<S>| optimiser.warm_start = memory.clone();
         let (outcome, time_ms) =
             timed(repeats, &mut optimiser, remember, |it| it.best_of(&problem, std::slice::from_ref(&guess), false));
         Outcome::new(recorded.id.clone(), start_cost(&problem, &guess), outcome, time_ms)
@@ -140,7 +140,7 @@ impl Outcome {
             start_cost,
             error,
             cost: optimum.as_ref().map(|optimum| optimum.cost.total),
-            safety_slack: optimum.as_ref().map(|optimum| optimum.cost.safety_slack),
+            safety_slack: optimum.as_ref().map(|optimum| optimum.cost.violation(Violation::Safety)),
             residual: statistics.map(|statistics| statistics.residual),
             programmes: statistics.map(|statistics| statistics.programmes),
             inner_iterations: statistics.map(|statistics| statistics.inner_iterations),

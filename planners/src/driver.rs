@@ -6,11 +6,12 @@ use serde::{Deserialize, Serialize};
 use crate::bayesian::{self, Bayesian};
 use crate::conservative::{self, Conservative};
 use crate::cooperative::{self, Cooperative};
+use crate::diagnostic::Explanation;
 use crate::game::{self, Game};
-use crate::human::idm::{self, Idm};
-use crate::human::scripted::{self, Scripted};
 use crate::human::{self, Human};
+use crate::idm::{self, Idm};
 use crate::negotiation::{self, Negotiation};
+use crate::scripted::{self, Scripted};
 use crate::{Goal, Plan, PlanError, Scene};
 
 /// The driver of a vehicle with its settings; `kind` in a scenario file chooses.
@@ -82,6 +83,28 @@ impl Driver {
             Driver::Bayesian(_) => "bayesian",
             Driver::Game(_) => "game",
             Driver::Cooperative(_) => "cooperative",
+        }
+    }
+
+    /// The driver in a few words, for legends: the kind, and of a human the style.
+    pub fn description(&self) -> String {
+        match self {
+            Driver::Human(settings) => format!("{}, {}", self.kind(), settings.manner()),
+            _ => self.kind().to_owned(),
+        }
+    }
+
+    /// How this kind of driver explains its plans.
+    pub fn explanation(&self) -> &'static Explanation {
+        match self {
+            Driver::Human(_) => &human::diagnostics::EXPLANATION,
+            Driver::Idm(_) => &idm::diagnostics::EXPLANATION,
+            Driver::Scripted(_) => &Explanation::NONE,
+            Driver::Conservative(_) => &conservative::diagnostics::EXPLANATION,
+            Driver::Negotiation(_) => &negotiation::diagnostics::EXPLANATION,
+            Driver::Bayesian(_) => &bayesian::diagnostics::EXPLANATION,
+            Driver::Game(_) => &game::diagnostics::EXPLANATION,
+            Driver::Cooperative(_) => &cooperative::diagnostics::EXPLANATION,
         }
     }
 

@@ -7,9 +7,10 @@
 //! - [`vehicle`]: state, body, limits and the bicycle with its derivatives
 //! - [`road`]: where a vehicle may drive
 //! - [`predict`]: what the others will do
+//! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`conservative`], [`cooperative`], [`negotiation`],
+//!   [`bayesian`], [`game`]; [`Driver`] lists them
 //! - [`trajectory`]: one trajectory optimiser
-//! - drivers, one folder each: [`human`], [`conservative`], [`cooperative`], [`negotiation`], [`bayesian`], [`game`];
-//!   [`Driver`] lists them
+//! - [`traffic`]: the closed loop of all vehicles on a road
 //!
 //! Sines, exponentials and the like come from `libm`, so that results are the same bit for bit on every machine.
 //!
@@ -19,23 +20,29 @@
 pub mod bayesian;
 pub mod conservative;
 pub mod cooperative;
+pub mod diagnostic;
 mod driver;
 mod encounter;
 #[cfg(test)]
 mod fixture;
 pub mod game;
 pub mod human;
+pub mod idm;
 pub mod negotiation;
 mod plan;
 pub mod predict;
 pub mod road;
 mod scene;
+pub mod scripted;
 mod solo;
+mod steering;
+pub mod traffic;
 pub mod trajectory;
 pub mod vehicle;
 
+pub use diagnostic::Diagnostic;
 pub use driver::{Driver, Planner};
-pub use plan::{Diagnostic, Plan, PlanError, Proposal};
-pub use road::{Axes, Clearance, Corridor, LaneEnd};
+pub use plan::{Plan, PlanError, Proposal};
+pub use road::{Axes, Corridor, LaneEnd};
 pub use scene::{Agent, Goal, Scene};
 pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

@@ -3,10 +3,8 @@
 use thiserror::Error;
 
 use crate::Trajectory;
-use crate::trajectory::{DescentError, Optimum, StageError, Statistics};
-
-/// A named number that explains a plan, for plots.
-pub type Diagnostic = (&'static str, f64);
+use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
+use crate::trajectory::{DescentError, StageError, Statistics};
 
 /// What a vehicle will do, what it asks of another, and why.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,7 +13,7 @@ pub struct Plan {
     pub trajectory: Trajectory,
     /// What the planner asks of another vehicle.
     pub proposal: Option<Proposal>,
-    /// Named numbers, in a fixed order for one planner.
+    /// Numbers that explain it, in a fixed order for one planner.
     pub diagnostics: Vec<Diagnostic>,
     /// What happened in this step, in words.
     pub events: Vec<String>,
@@ -30,6 +28,16 @@ pub struct Proposal {
     pub to: String,
     /// The motion.
     pub trajectory: Trajectory,
+    /// How far the vehicle accepted the proposal before this one, from 0 to 1; none where the planner does not judge it.
+    pub acceptance: Option<f64>,
+}
+
+impl Plan {
+    /// The value of a quantity, if the planner reported it.
+    pub fn value_of(&self, quantity: &DiagnosticQuantity) -> Option<f64> {
+        let found = self.diagnostics.iter().find(|diagnostic| diagnostic.quantity.name == quantity.name);
+        found.map(|diagnostic| diagnostic.value)
+    }
 }
 
 /// Why there is no plan.
@@ -64,26 +72,5 @@ impl From<DescentError> for PlanError {
             DescentError::NotBelow(_) => PlanError::Unsolved { status: error.to_string(), iterations: 0 },
             DescentError::NotFinite => PlanError::BadInput(error.to_string()),
         }
-    }
-}
-
-impl Optimum {
-    /// The motion of one participant.
-    pub fn trajectory(&self, participant: usize) -> Trajectory {
-        Trajectory {
-            states: self.iterate.states[participant].clone(),
-            inputs: self.iterate.inputs[participant].clone(),
-        }
-    }
-}
-
-impl Statistics {
-    /// Adds the work of another optimisation; the worse residual counts.
-    pub fn add(&mut self, other: &Statistics) {
-        self.starts += other.starts;
-        self.programmes += other.programmes;
-        self.inner_iterations += other.inner_iterations;
-        self.fallbacks += other.fallbacks;
-        self.residual = self.residual.max(other.residual);
     }
 }

@@ -1,9 +1,7 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
-use std::borrow::Cow;
-
-use crate::predict::Prediction;
-use crate::trajectory::{KeepOut, Participant, Penalty, Tracking};
+use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, Tracking};
+use crate::trajectory::{Participant, Penalty, Term};
 use crate::vehicle::Bicycle;
 use crate::{Axes, Body, Corridor, Input, Limits, SafetyEllipse, State, Trajectory};
 
@@ -93,31 +91,39 @@ impl Scene {
         Bicycle::new(&self.ego.body, self.step_s)
     }
 
-    /// The planning vehicle as a participant of a trajectory problem that avoids `keep_outs`.
-    pub fn participant(&self, keep_outs: Vec<KeepOut>) -> Participant {
+    /// The planning vehicle as a participant of a trajectory problem.
+    pub fn participant(&self) -> Participant {
         Participant {
             model: self.model(),
-            body: self.ego.body,
             limits: self.ego.limits,
-            corridor: self.ego.corridor,
             start: self.ego.state,
             previous_input: self.ego.previous_input,
             known_inputs: Vec::new(),
-            tracking: Tracking {
-                weights: self.goal.tracking,
-                axes: self.goal.axes(),
-                targets: vec![self.goal.target; self.horizon],
-            },
-            comfort: self.goal.comfort,
-            keep_outs,
-            distance_costs: Vec::new(),
-            mean_speed: None,
         }
     }
 
-    /// An ellipse of the planning vehicle's safety distance around a predicted motion.
+    /// What a goal and the road ask of the planning vehicle as number `vehicle` of a trajectory problem: comfort, tracking
+    /// (eq. 6.6) and road edges (eq. 6.7).
+    pub fn own_terms(&self, vehicle: usize, goal: &Goal) -> Vec<Term> {
+        let targets = vec![goal.target; self.horizon];
+        vec![
+            Term::Comfort(Comfort { vehicle, weights: goal.comfort }),
+            Term::Tracking(Tracking { vehicle, weights: goal.tracking, axes: goal.axes(), targets }),
+            Term::RoadEdge(RoadEdge { vehicle, body: self.ego.body, corridor: self.ego.corridor }),
+        ]
+    }
+
+    /// An ellipse of the planning vehicle's safety distance around a predicted motion; the vehicle is number 0.
     pub fn keep_out(&self, prediction: &Trajectory, heading_rad: f64, penalty: Penalty) -> KeepOut {
-        KeepOut { centres: self.centres(prediction), heading_rad, ellipse: self.goal.safety, penalty }
+        let ellipse = self.goal.safety.oriented(heading_rad);
+        KeepOut { vehicle: 0, centres: self.centres(prediction), ellipse, penalty }
+    }
+
+    /// The ellipses around the predictions of others that must not be entered, each along its road (eq. 6.13).
+    pub fn hard_keep_outs<'a>(&self, others: impl IntoIterator<Item = &'a Agent>) -> impl Iterator<Item = Term> {
+        others
+            .into_iter()
+            .map(|other| Term::KeepOut(self.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT)))
     }
 
     /// The positions of a predicted motion at `t = 1…N` \[m\]; where it ends early it stays at its end.
@@ -125,19 +131,5 @@ impl Scene {
         let last = prediction.states.last().copied().unwrap_or_default();
         let centre = |t: usize| prediction.states.get(t).unwrap_or(&last).position();
         (1..=self.horizon).map(centre).collect()
-    }
-
-    /// The same moment with the others expected to do what `prediction` says.
-    pub fn expecting(&self, prediction: Prediction) -> Cow<'_, Scene> {
-        match prediction {
-            Prediction::Plan => Cow::Borrowed(self),
-            Prediction::ConstantVelocity => {
-                let mut scene = self.clone();
-                for other in &mut scene.others {
-                    other.prediction = prediction.of(other, self.horizon, self.step_s);
-                }
-                Cow::Owned(scene)
-            }
-        }
     }
 }

@@ -3,9 +3,11 @@
 mod common;
 
 use common::world::{HORIZON, LANES, STEP_S, Vehicle, run, vehicle};
+use interplay_planners::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 use interplay_planners::cooperative::{self, Cooperator, cooperators, problem};
+use interplay_planners::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
 use interplay_planners::human::Style;
-use interplay_planners::trajectory::{Optimiser, Problem, Robust};
+use interplay_planners::trajectory::{Optimiser, Problem, Robust, Term};
 use interplay_planners::{Driver, Plan, Planner, Scene};
 
 fn cooperative(normaliser: f64) -> Driver {
@@ -40,8 +42,8 @@ fn scene(vehicles: &[Vehicle], index: usize) -> Scene {
     }
 }
 
-fn number(plan: &Plan, what: &str) -> f64 {
-    plan.diagnostics.iter().find(|(name, _)| *name == what).expect("stated").1
+fn number(plan: &Plan, what: DiagnosticQuantity) -> f64 {
+    plan.value_of(&what).expect("reported")
 }
 
 #[test]
@@ -54,32 +56,30 @@ fn everybody_finds_the_same_solution() {
                 planner.plan(&scene(&vehicles, index)).expect("a plan")
             })
             .collect();
-        let joint: Vec<u64> = plans.iter().map(|plan| number(plan, "cost").to_bits()).collect();
+        let joint: Vec<u64> = plans.iter().map(|plan| number(plan, COST).to_bits()).collect();
         assert!(joint.windows(2).all(|pair| pair[0] == pair[1]), "{joint:?}");
         if let [a, b] = plans.as_slice() {
             assert_eq!(a.proposal.as_ref().map(|proposal| &proposal.trajectory), Some(&b.trajectory));
             assert_eq!(b.proposal.as_ref().map(|proposal| &proposal.trajectory), Some(&a.trajectory));
         }
-        let own: f64 = plans.iter().map(|plan| number(plan, "own cost")).sum();
-        assert!((own - number(&plans[0], "cost")).abs() < 1e-6, "costs add up but for the pairs' penalties");
+        let own: f64 = plans.iter().map(|plan| number(plan, OWN_COST)).sum();
+        assert!((own - number(&plans[0], COST)).abs() < 1e-6, "costs add up but for the pairs' penalties");
     }
 }
 
 /// The cost of each of two vehicles at the joint optimum for weights `1/Z`, all from one guess.
 fn costs(normalisers: [f64; 2], guess: &Problem) -> ([f64; 2], Problem) {
     let mut weighted = guess.clone();
-    for (participant, normaliser) in weighted.participants.iter_mut().zip(normalisers) {
-        participant.tracking.weights = participant.tracking.weights.map(|q| q / normaliser);
-        participant.comfort = participant.comfort.map(|r| r / normaliser);
+    for term in &mut weighted.terms {
+        match term {
+            Term::Tracking(term) => term.weights = term.weights.map(|q| q / normalisers[term.vehicle]),
+            Term::Comfort(term) => term.weights = term.weights.map(|r| r / normalisers[term.vehicle]),
+            _ => {}
+        }
     }
     let start = vec![Vec::new(), Vec::new()];
     let optimum = Optimiser::new(Robust::default()).descend(&weighted, &start).expect("an optimum");
-    let own = [0, 1].map(|i| {
-        let participants = vec![guess.participants[i].clone()];
-        let alone = Problem { participants, separations: Vec::new(), ..guess.clone() };
-        let (inputs, states) = (optimum.iterate.inputs[i].clone(), optimum.iterate.states[i].clone());
-        alone.cost(&interplay_planners::trajectory::Iterate { inputs: vec![inputs], states: vec![states] }).total
-    });
+    let own = [0, 1].map(|vehicle| guess.own_cost(vehicle, &optimum.iterate));
     (own, weighted)
 }
 
@@ -111,7 +111,8 @@ fn the_list_of_cooperators_is_the_same_for_all() {
     assert!(lists.windows(2).all(|pair| pair[0] == pair[1]));
     let problems: Vec<Problem> = (0..3).map(|i| problem(&scene(&vehicles, i), &lists[i])).collect();
     assert!(problems.windows(2).all(|pair| pair[0] == pair[1]));
-    assert_eq!((problems[0].participants.len(), problems[0].separations.len()), (3, 3));
+    let separations = problems[0].terms.iter().filter(|term| matches!(term, Term::Separation(_))).count();
+    assert_eq!((problems[0].participants.len(), separations), (3, 3));
 }
 
 #[test]
@@ -131,8 +132,8 @@ fn a_merge_is_driven_as_it_was_agreed() {
 fn five_vehicles_share_a_problem() {
     let vehicles = convoy(5);
     let plan = vehicles[0].driver.planner().plan(&scene(&vehicles, 0)).expect("a plan");
-    assert_eq!(number(&plan, "cooperating vehicles"), 5.0);
-    assert!(number(&plan, "safety slack") < 1e-3);
+    assert_eq!(number(&plan, COOPERATING_VEHICLES), 5.0);
+    assert!(number(&plan, SAFETY_SLACK) < 1e-3);
 }
 
 /// A human among those who cooperate is an obstacle to both.

@@ -3,11 +3,11 @@
 
 mod common;
 
-use common::{HORIZON, Random, iterate, pair};
+use common::{HORIZON, Random, iterate, pair, step_problem};
 use interplay_planners::Input;
+use interplay_planners::trajectory::terms::{DistanceCost, DistancePrice, MeanSpeed};
 use interplay_planners::trajectory::{
-    DistanceCost, DistancePrice, MeanSpeed, Optimiser, Penalty, Problem, Sparse, StageQp, StageSolution, StageSolver,
-    Structured, drop_curvature, kkt, linearise,
+    Optimiser, Penalty, Problem, Sparse, StageSolution, StageSolver, Structured, Term, Violation, kkt,
 };
 
 const SEEDS: u64 = 60;
@@ -19,11 +19,11 @@ fn problem(seed: u64) -> Problem {
     let mut problem = pair(seed, 1.0 + 0.01 * seed as f64);
     let centres = (1..=HORIZON).map(|t| [0.1 + 0.1 * t as f64, 0.555]).collect();
     let price = DistancePrice::Linear { weight: random.between(0.02, 0.9) };
-    problem.participants[0].distance_costs = vec![DistanceCost { centres, metric: [1.8, 0.3, 8.2], price }];
+    problem.terms.push(Term::DistanceCost(DistanceCost { vehicle: 0, centres, metric: [1.8, 0.3, 8.2], price }));
     let lower = random.between(0.6, 1.4);
-    for (participant, width) in problem.participants.iter_mut().zip([0.05, 0.0]) {
+    for (vehicle, width) in [0.05, 0.0].into_iter().enumerate() {
         let (lower_mps, upper_mps) = (Some(lower), Some(lower + width));
-        participant.mean_speed = Some(MeanSpeed { lower_mps, upper_mps, penalty: PENALTY });
+        problem.terms.extend(MeanSpeed { lower_mps, upper_mps, penalty: PENALTY }.terms(vehicle));
     }
     problem
 }
@@ -32,9 +32,7 @@ fn problem(seed: u64) -> Problem {
 fn the_solvers_agree_on_step_problems() {
     for seed in 0..SEEDS {
         let problem = problem(seed);
-        let mut qp = StageQp::default();
-        linearise(&problem, &iterate(&problem, &mut Random(seed)), &mut qp);
-        drop_curvature(&mut qp);
+        let qp = step_problem(&problem, &iterate(&problem, &mut Random(seed)));
         assert_eq!(qp.trajectory_rows.len(), 5);
         let (mut structured, mut sparse) = (StageSolution::default(), StageSolution::default());
         Structured::default().solve(&qp, &mut structured, false).expect("structured");
@@ -71,14 +69,14 @@ fn descents_end_at_optima() {
 #[test]
 fn a_mean_speed_is_as_binding_as_its_price() {
     let mut free = common::alone(3);
-    free.participants[0].keep_outs.clear();
+    free.terms.retain(|term| !matches!(term, Term::KeepOut(_)));
     let guess = vec![vec![Input::default(); HORIZON]];
     let mean = |weight: f64| {
         let mut problem = free.clone();
         let penalty = Penalty { linear: weight, quadratic: 0.0 };
-        problem.participants[0].mean_speed = Some(MeanSpeed { lower_mps: Some(1.25), upper_mps: Some(1.3), penalty });
+        problem.terms.extend(MeanSpeed { lower_mps: Some(1.25), upper_mps: Some(1.3), penalty }.terms(0));
         let optimum = Optimiser::new(Structured::default()).descend(&problem, &guess).expect("an optimum");
-        (MeanSpeed::of(&optimum.iterate.states[0]), optimum.cost.mean_speed_slack_mps)
+        (MeanSpeed::of(&optimum.iterate.states[0]), optimum.cost.violation(Violation::MeanSpeed))
     };
     let (dear, cheap) = (mean(1e3), mean(1e-3));
     assert!((1.25 - 1e-6..=1.3 + 1e-6).contains(&dear.0) && dear.1 < 1e-6, "{dear:?}");

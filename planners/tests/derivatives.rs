@@ -3,28 +3,28 @@
 mod common;
 
 use common::derivatives::check;
-use common::{HORIZON, Random, follower, iterate, lane_change};
-use interplay_planners::trajectory::{
-    DistanceCost, DistancePrice, KeepOut, Leaning, MeanSpeed, Participant, Penalty, Problem, Separation, Tracking,
-};
+use common::{HORIZON, Random, Vehicle, follower, iterate, lane_change, problem};
+use interplay_planners::trajectory::terms::{DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, Separation};
+use interplay_planners::trajectory::{Participant, Penalty, Problem, Term};
+use interplay_planners::vehicle::OrientedEllipse;
 use interplay_planners::{Axes, Corridor, LaneEnd, SafetyEllipse, State};
 
 const SEEDS: u64 = 20;
 
 /// A vehicle on a wide road that nothing costs anything.
-fn indifferent(random: &mut Random) -> Participant {
-    let free = lane_change(random);
-    Participant {
-        tracking: Tracking { weights: [0.0; 4], axes: Axes::WORLD, targets: vec![State::default(); HORIZON] },
+fn indifferent(random: &mut Random) -> Vehicle {
+    Vehicle {
+        tracking: [0.0; 4],
+        targets: vec![State::default(); HORIZON],
         comfort: [0.0; 2],
         corridor: Corridor { heading_rad: 0.0, right_m: -9.0, left_m: 9.0, end: None },
         keep_outs: Vec::new(),
-        ..free
+        ..lane_change(random)
     }
 }
 
-fn alone(participant: Participant) -> Problem {
-    Problem { horizon: HORIZON, participants: vec![participant], separations: Vec::new(), leaning: None }
+fn alone(vehicle: Vehicle) -> Problem {
+    problem(&[vehicle], [])
 }
 
 /// Checks what `pose` makes of random numbers, and that it was there to be checked.
@@ -45,9 +45,9 @@ fn beside(random: &mut Random) -> Vec<[f64; 2]> {
     (1..=HORIZON).map(|t| [x + 0.1 * speed * t as f64, 0.25]).collect()
 }
 
-fn ellipse() -> SafetyEllipse {
+fn ellipse(heading_rad: f64) -> OrientedEllipse {
     // Large enough that no stage is near its edge, where the penalty has a kink.
-    SafetyEllipse { along_m: 4.0, across_m: 2.0 }
+    SafetyEllipse { along_m: 4.0, across_m: 2.0 }.oriented(heading_rad)
 }
 
 #[test]
@@ -55,14 +55,14 @@ fn tracking() {
     check_all(|random| {
         let target = State { x_m: 1.0, y_m: 0.5, heading_rad: 0.2, speed_mps: 1.3 };
         let axes = Axes::along(random.between(-3.0, 3.0));
-        let tracking = Tracking { weights: [0.3, 1.0, 0.7, 2.0], axes, targets: vec![target; HORIZON] };
-        alone(Participant { tracking, ..indifferent(random) })
+        let tracking = [0.3, 1.0, 0.7, 2.0];
+        alone(Vehicle { tracking, axes, targets: vec![target; HORIZON], ..indifferent(random) })
     });
 }
 
 #[test]
 fn comfort() {
-    check_all(|random| alone(Participant { comfort: [0.2, 0.5], ..indifferent(random) }));
+    check_all(|random| alone(Vehicle { comfort: [0.2, 0.5], ..indifferent(random) }));
 }
 
 #[test]
@@ -70,15 +70,15 @@ fn road_edges() {
     // Every right corner is beyond its edge and every left one is inside.
     let end = LaneEnd { end_m: 2.0, height_m: 0.5, taper_m: 0.6 };
     let corridor = Corridor { heading_rad: 0.1, right_m: 1.0, left_m: 9.0, end: Some(end) };
-    check_all(|random| alone(Participant { corridor, ..indifferent(random) }));
+    check_all(|random| alone(Vehicle { corridor, ..indifferent(random) }));
 }
 
 #[test]
 fn keeping_out_of_ellipses() {
     for penalty in [Penalty::EXACT, Penalty::hinge(50.0)] {
         check_all(|random| {
-            let keep_out = KeepOut { centres: beside(random), heading_rad: 0.4, ellipse: ellipse(), penalty };
-            alone(Participant { keep_outs: vec![keep_out], ..indifferent(random) })
+            let keep_out = KeepOut { vehicle: 0, centres: beside(random), ellipse: ellipse(0.4), penalty };
+            alone(Vehicle { keep_outs: vec![keep_out], ..indifferent(random) })
         });
     }
 }
@@ -86,23 +86,24 @@ fn keeping_out_of_ellipses() {
 #[test]
 fn keeping_apart() {
     check_all(|random| {
-        let other = Participant { known_inputs: follower(random, 6).known_inputs, ..indifferent(random) };
-        let separation = Separation { of: 0, from: 1, heading_rad: 0.3, ellipse: ellipse(), penalty: Penalty::EXACT };
-        let participants = vec![indifferent(random), other];
-        Problem { horizon: HORIZON, participants, separations: vec![separation], leaning: None }
+        let known_inputs = follower(random, 6).participant.known_inputs;
+        let free = indifferent(random);
+        let other = Vehicle { participant: Participant { known_inputs, ..free.participant.clone() }, ..free };
+        let separation = Separation { vehicle: 0, from: 1, ellipse: ellipse(0.3), penalty: Penalty::EXACT };
+        problem(&[indifferent(random), other], [Term::Separation(separation)])
     });
 }
 
 #[test]
-fn leaning() {
+fn persuasion() {
     for strength in [1.0, 1.6] {
         check_all(|random| {
-            // Nearer to what it should lean away from.
+            // Nearer to the reference that it should leave.
             let toward = (0..HORIZON).map(|t| [0.2 * t as f64, 0.9]).collect();
             let away = (0..HORIZON).map(|t| [0.1 * t as f64, 0.185]).collect();
             let penalty = Penalty { linear: 100.0, quadratic: 3.0 };
-            let leaning = Some(Leaning { toward, away, strength, penalty });
-            Problem { leaning, ..alone(indifferent(random)) }
+            let persuasion = Persuasion { vehicle: 0, toward, away, strength, penalty };
+            problem(&[indifferent(random)], [Term::Persuasion(persuasion)])
         });
     }
 }
@@ -112,8 +113,8 @@ fn mean_speed() {
     for (lower_mps, upper_mps) in [(Some(1.6), None), (None, Some(0.1)), (Some(1.6), Some(0.1))] {
         check_all(|random| {
             let penalty = Penalty { linear: 75.0, quadratic: 2.0 };
-            let mean_speed = Some(MeanSpeed { lower_mps, upper_mps, penalty });
-            alone(Participant { mean_speed, ..indifferent(random) })
+            let mean_speed = MeanSpeed { lower_mps, upper_mps, penalty };
+            problem(&[indifferent(random)], mean_speed.terms(0))
         });
     }
 }
@@ -128,8 +129,8 @@ fn distances() {
     for price in prices {
         check_all(|random| {
             let centres = beside(random).into_iter().map(|[x, y]| [x + 0.4, y + 0.3]).collect();
-            let cost = DistanceCost { centres, metric: [1.9, 0.4, 8.0], price };
-            alone(Participant { distance_costs: vec![cost], ..indifferent(random) })
+            let cost = DistanceCost { vehicle: 0, centres, metric: [1.9, 0.4, 8.0], price };
+            problem(&[indifferent(random)], [Term::DistanceCost(cost)])
         });
     }
 }

@@ -2,9 +2,11 @@
 
 mod common;
 
-use common::world::{Run, intersection, lane_change, ramp_merge, run};
+use common::world::{Run, human, intersection, lane_change, ramp_merge, run};
+use interplay_planners::diagnostic::{COMMON_QUANTITIES, DiagnosticQuantity, Explanation};
+use interplay_planners::game::diagnostics::{EGO_TEMPTATION, OTHER_TEMPTATION};
 use interplay_planners::human::Style::{self, Nice, Tough};
-use interplay_planners::{Driver, bayesian, conservative, game, negotiation};
+use interplay_planners::{Diagnostic, Driver, bayesian, conservative, cooperative, game, idm, negotiation};
 
 const AHEAD: usize = 0;
 const BETWEEN: usize = 1;
@@ -20,6 +22,14 @@ fn bayesian() -> Driver {
 
 fn game() -> Driver {
     Driver::Game(game::Settings::default())
+}
+
+fn negotiator() -> Driver {
+    Driver::Negotiation(negotiation::Settings::default())
+}
+
+fn idm() -> Driver {
+    Driver::Idm(idm::Settings::default())
 }
 
 /// The game with what the recommended settings say about intersections.
@@ -109,17 +119,19 @@ fn a_mixed_equilibrium_drives_too() {
     let nash = || Driver::Game(game::Settings { solution: game::Method::Nash, ..game::Settings::default() });
     for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
         let run = sound(run(lane_change(nash(), styles), 100));
+        let mut played = 0;
         for plan in &run.plans {
-            let tempted = plan.diagnostics.iter().filter(|(name, _)| name.starts_with("temptation"));
-            assert!(tempted.into_iter().all(|(_, gain)| *gain < 1e-8), "{:?}", plan.diagnostics);
+            let gains = [EGO_TEMPTATION, OTHER_TEMPTATION].map(|temptation| plan.value_of(&temptation));
+            assert!(gains.iter().flatten().all(|gain| *gain < 1e-8), "{:?}", plan.diagnostics);
+            played += gains.iter().flatten().count();
         }
+        assert!(played > 20, "the ego hardly plays: {played}");
     }
 }
 
 /// Any vehicle may have any driver.
 #[test]
 fn two_who_persuade_may_meet() {
-    let negotiator = || Driver::Negotiation(negotiation::Settings::default());
     for (ego, front) in [(bayesian(), game()), (game(), bayesian()), (bayesian(), negotiator()), (game(), game())] {
         let mut vehicles = lane_change(ego.clone(), [Nice, Nice]);
         vehicles[1].drive(front.clone());
@@ -129,18 +141,51 @@ fn two_who_persuade_may_meet() {
     }
 }
 
+/// Every planner reports what it declares, nothing else, and values that are possible.
 #[test]
 fn plans_explain_themselves() {
-    let explains = |driver: Driver, names: &[&str]| {
-        let run = run(lane_change(driver, [Nice, Nice]), 5);
-        let plan = run.plans.last().expect("a plan");
-        for name in names {
-            assert!(plan.diagnostics.iter().any(|(held, value)| held == name && value.is_finite()), "{name}");
+    let cooperative = Driver::Cooperative(cooperative::Settings::default());
+    for driver in [conservative(), negotiator(), bayesian(), game(), cooperative, idm(), human(Nice)] {
+        let (kind, explanation) = (driver.kind(), driver.explanation());
+        let mut vehicles = lane_change(driver.clone(), [Nice, Nice]);
+        if kind == "cooperative" {
+            vehicles[1].drive(driver);
         }
-    };
-    let common = ["cost", "safety slack", "steps at a safety ellipse", "steps at a road edge"];
-    explains(bayesian(), &common);
-    explains(bayesian(), &["conservativeness", "belief variance", "other's loyalty w_1", "attraction k_1"]);
-    explains(game(), &common);
-    explains(game(), &["posterior of the other", "intention p_e", "payoff: accident", "expressed speed from"]);
+        // Long enough for a driver after the model to meet somebody ahead.
+        let run = sound(run(vehicles, if kind == "idm" { 100 } else { 40 }));
+        for Diagnostic { quantity, value } in run.plans.iter().flat_map(|plan| &plan.diagnostics) {
+            let declared = explanation.quantities.contains(quantity) || COMMON_QUANTITIES.contains(quantity);
+            assert!(declared, "{kind} does not declare {quantity:?}");
+            assert!(quantity.values.contains(*value), "{kind}: {value} of {quantity:?}");
+        }
+        let unseen: Vec<&str> =
+            explanation.quantities.iter().filter(|of| !is_reported(&run, of)).map(|of| of.name).collect();
+        assert!(unseen.is_empty(), "{kind} never reports {unseen:?}");
+        let optimises = !["idm", "human"].contains(&kind);
+        assert!(COMMON_QUANTITIES.iter().all(|of| is_reported(&run, of) == optimises), "{kind}");
+    }
+}
+
+fn is_reported(run: &Run, quantity: &DiagnosticQuantity) -> bool {
+    run.plans.iter().any(|plan| plan.value_of(quantity).is_some())
+}
+
+/// What a declaration of diagnostics must keep to, so that recordings and figures can show them.
+#[test]
+fn declarations_of_diagnostics_are_sound() {
+    let human = human(Nice);
+    for driver in [conservative(), negotiator(), bayesian(), game(), idm(), human] {
+        let (kind, Explanation { quantities, panels, plots, .. }) = (driver.kind(), driver.explanation());
+        let mut names: Vec<&str> = quantities.iter().chain(COMMON_QUANTITIES).map(|quantity| quantity.name).collect();
+        names.sort_unstable();
+        assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{kind}: {names:?}");
+        for quantity in panels.iter().chain(*plots).flat_map(|panel| panel.quantities) {
+            assert!(quantities.contains(quantity), "{kind} shows {} and does not declare it", quantity.name);
+        }
+        for plot in *plots {
+            let mut units = plot.quantities.iter().map(|quantity| quantity.unit);
+            let first = units.next().expect("a plot has a curve");
+            assert!(units.all(|unit| unit == first), "{kind}: units of {}", plot.title);
+        }
+    }
 }

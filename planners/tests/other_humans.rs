@@ -4,9 +4,8 @@ mod common;
 
 use common::world::{LANES, lane_change, run, vehicle};
 use interplay_planners::human::Style::Nice;
-use interplay_planners::human::idm;
-use interplay_planners::human::scripted::{self, Order};
-use interplay_planners::{Driver, bayesian, conservative, cooperative, game, negotiation};
+use interplay_planners::scripted::Order;
+use interplay_planners::{Driver, bayesian, conservative, cooperative, game, idm, negotiation, scripted};
 
 fn planners() -> [Driver; 5] {
     [

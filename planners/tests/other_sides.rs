@@ -2,35 +2,30 @@
 
 mod common;
 
-use common::{HORIZON, Random, alone, iterate, pair};
-use interplay_planners::Bicycle;
-use interplay_planners::trajectory::{KeepOut, Optimiser, Participant, Penalty, Problem, Robust, Tracking};
-use interplay_planners::{Axes, Body, Corridor, Input, Limits, SafetyEllipse, State};
+use common::{HORIZON, Random, Vehicle, alone, iterate, lane_change, pair, problem};
+use interplay_planners::trajectory::terms::KeepOut;
+use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust};
+use interplay_planners::{Corridor, Input, SafetyEllipse, State};
 
 /// Somebody stands ahead on a wide road, a little to the left of the way.
 fn somebody_ahead(left_m: f64) -> Problem {
-    let body = Body::default();
     let wanted = State { x_m: 0.0, y_m: 0.0, heading_rad: 0.0, speed_mps: 1.2 };
-    let vehicle = Participant {
-        model: Bicycle::new(&body, 0.1),
-        body,
-        limits: Limits::default(),
-        corridor: Corridor { heading_rad: 0.0, right_m: -2.0, left_m: 2.0, end: None },
-        start: wanted,
-        previous_input: Input::default(),
-        known_inputs: Vec::new(),
-        tracking: Tracking { weights: [0.0, 1.0, 0.5, 1.0], axes: Axes::WORLD, targets: vec![wanted; HORIZON] },
-        comfort: [0.1; 2],
-        keep_outs: vec![KeepOut {
-            centres: vec![[1.8, left_m]; HORIZON],
-            heading_rad: 0.0,
-            ellipse: SafetyEllipse::default(),
-            penalty: Penalty::EXACT,
-        }],
-        distance_costs: Vec::new(),
-        mean_speed: None,
+    let keep_out = KeepOut {
+        vehicle: 0,
+        centres: vec![[1.8, left_m]; HORIZON],
+        ellipse: SafetyEllipse::default().oriented(0.0),
+        penalty: Penalty::EXACT,
     };
-    Problem { horizon: HORIZON, participants: vec![vehicle], separations: Vec::new(), leaning: None }
+    let free = lane_change(&mut Random(0));
+    let vehicle = Vehicle {
+        participant: Participant { start: wanted, previous_input: Input::default(), ..free.participant },
+        corridor: Corridor { heading_rad: 0.0, right_m: -2.0, left_m: 2.0, end: None },
+        tracking: [0.0, 1.0, 0.5, 1.0],
+        targets: vec![wanted; HORIZON],
+        keep_outs: vec![keep_out],
+        ..free
+    };
+    problem(&[vehicle], [])
 }
 
 /// To one side (1 left, −1 right) and straight on.
@@ -43,13 +38,13 @@ fn swerve(side: f64) -> Vec<Vec<Input>> {
 fn optima(problem: &Problem, guess: &[Vec<Input>]) -> Option<[f64; 2]> {
     let mut optimiser = Optimiser::new(Robust::default());
     let alone = optimiser.best_of(problem, &[guess.to_vec()], false).ok()?;
-    optimiser.looks_across = true;
+    optimiser.looks_to_other_sides = true;
     let across = optimiser.best_of(problem, &[guess.to_vec()], false).ok()?;
     Some([alone.cost.total, across.cost.total])
 }
 
 #[test]
-fn whoever_looks_across_passes_on_the_cheaper_side_wherever_the_guess_begins() {
+fn whoever_looks_to_other_sides_passes_on_the_cheaper_side_wherever_the_guess_begins() {
     for left_m in [-0.12, -0.08, -0.04, -0.02, 0.02, 0.04, 0.08, 0.12] {
         let problem = somebody_ahead(left_m);
         let far = -left_m.signum();

@@ -3,10 +3,9 @@
 
 mod common;
 
-use common::{Random, alone, iterate, pair};
+use common::{Random, alone, iterate, pair, step_problem};
 use interplay_planners::trajectory::{
-    Interval, Problem, Robust, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver, Structured,
-    drop_curvature, kkt, linearise,
+    Interval, Problem, Robust, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver, Structured, Term, kkt,
 };
 
 const COUNT: u64 = 10_000;
@@ -38,22 +37,18 @@ const HARMS: [Harm; 7] = [
 impl Harm {
     fn on_problem(self, problem: &mut Problem, random: &mut Random) {
         let scales = |random: &mut Random| 10.0_f64.powf(random.between(-4.0, 4.0));
-        for participant in &mut problem.participants {
-            match self {
-                Harm::BadlyScaled => {
-                    participant.tracking.weights = participant.tracking.weights.map(|weight| weight * scales(random));
-                    participant.comfort = participant.comfort.map(|weight| weight * scales(random));
+        let starts: Vec<[f64; 2]> = problem.participants.iter().map(|of| of.start.position()).collect();
+        for term in &mut problem.terms {
+            match (self, term) {
+                (Harm::BadlyScaled, Term::Tracking(term)) => {
+                    term.weights = term.weights.map(|weight| weight * scales(random));
                 }
-                Harm::ObstacleOnTop => {
-                    let start = participant.start.position();
-                    for keep_out in &mut participant.keep_outs {
-                        keep_out.centres.fill(start);
-                    }
+                (Harm::BadlyScaled, Term::Comfort(term)) => {
+                    term.weights = term.weights.map(|weight| weight * scales(random));
                 }
-                Harm::NoWeights => {
-                    participant.tracking.weights = [0.0; 4];
-                    participant.comfort = [0.0; 2];
-                }
+                (Harm::ObstacleOnTop, Term::KeepOut(term)) => term.centres.fill(starts[term.vehicle]),
+                (Harm::NoWeights, Term::Tracking(term)) => term.weights = [0.0; 4],
+                (Harm::NoWeights, Term::Comfort(term)) => term.weights = [0.0; 2],
                 _ => {}
             }
         }
@@ -100,9 +95,7 @@ fn programme(seed: u64) -> (Harm, StageQp) {
     let harm = HARMS[(seed % HARMS.len() as u64) as usize];
     let mut problem = if seed.is_multiple_of(5) { pair(seed, random.between(1.0, 2.0)) } else { alone(seed) };
     harm.on_problem(&mut problem, random);
-    let mut qp = StageQp::default();
-    linearise(&problem, &iterate(&problem, random), &mut qp);
-    drop_curvature(&mut qp);
+    let mut qp = step_problem(&problem, &iterate(&problem, random));
     harm.on_programme(&mut qp, random);
     (harm, qp)
 }

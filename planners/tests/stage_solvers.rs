@@ -3,15 +3,10 @@
 mod common;
 
 use common::{Random, alone, iterate, pair};
-use interplay_planners::trajectory::{
-    Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt, linearise,
-};
+use interplay_planners::trajectory::{Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt};
 
 fn step_problem(problem: &Problem, seed: u64) -> StageQp {
-    let mut qp = StageQp::default();
-    linearise(problem, &iterate(problem, &mut Random(seed)), &mut qp);
-    interplay_planners::trajectory::drop_curvature(&mut qp);
-    qp
+    common::step_problem(problem, &iterate(problem, &mut Random(seed)))
 }
 
 fn compare(problem: &Problem, seed: u64) {

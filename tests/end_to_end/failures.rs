@@ -4,7 +4,7 @@
 
 use interplay_planners::Limits;
 use interplay_planners::predict::steady;
-use interplay_simulation::components::{Identity, Wish};
+use interplay_simulation::components::{Identity, Objective};
 use interplay_simulation::frame::{Frame, Level, Origin};
 use interplay_simulation::measure::Measures;
 use interplay_simulation::{phases, spawn};
@@ -22,10 +22,10 @@ fn run_with_failures() -> (Vec<Frame>, usize) {
     let mut world = spawn::world(&scenario, vec![Box::new(camera.clone())]).expect("no building");
     let mut schedule = phases::schedule();
     for tick in 0..SPOILT.end + 2 {
-        let mut wishes = world.query::<(&Identity, &mut Wish)>();
-        for (identity, mut wish) in wishes.iter_mut(&mut world) {
+        let mut objectives = world.query::<(&Identity, &mut Objective)>();
+        for (identity, mut objective) in objectives.iter_mut(&mut world) {
             if identity.name == "front" {
-                wish.goal.target.speed_mps = if SPOILT.contains(&tick) { f64::NAN } else { 1.4 };
+                objective.goal.target.speed_mps = if SPOILT.contains(&tick) { f64::NAN } else { 1.4 };
             }
         }
         schedule.run(&mut world);

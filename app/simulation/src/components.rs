@@ -1,7 +1,8 @@
 //! What the entities carry: components of vehicles, and the resources of a world.
 
 use bevy::ecs::prelude::*;
-use interplay_planners::{Agent, Body, Corridor, Goal, Input, Limits, Planner, State, Trajectory};
+use interplay_planners::traffic::{CommittedPlan, Traffic};
+use interplay_planners::{Body, Corridor, Goal, Input, Limits, Planner, State};
 
 use crate::frame::Frame;
 
@@ -38,7 +39,7 @@ pub struct Physique {
 
 /// What a vehicle wants.
 #[derive(Component, Clone, Copy, Debug)]
-pub struct Wish {
+pub struct Objective {
     /// Its goal.
     pub goal: Goal,
     /// What it tells the others of it, if anything.
@@ -47,7 +48,7 @@ pub struct Wish {
 
 /// Who drives a vehicle, with all that the planner remembers.
 #[derive(Component, Clone, Debug)]
-pub struct Mind {
+pub struct Driving {
     /// The planner.
     pub planner: Planner,
     /// Whether it plans before those who rely on knowing its plan.
@@ -56,12 +57,7 @@ pub struct Mind {
 
 /// What a vehicle decided last, to be expected by others and continued if its planner fails.
 #[derive(Component, Clone, Debug, Default)]
-pub struct Intention {
-    /// The plan as it was decided, or the fallback since.
-    pub plan: Option<Trajectory>,
-    /// How many inputs of the planner's last plan are still to come.
-    pub remaining: usize,
-}
+pub struct Committed(pub CommittedPlan);
 
 /// Simulated time.
 #[derive(Resource, Clone, Copy, Debug)]
@@ -94,7 +90,7 @@ pub fn to_nanosecond(time_s: f64) -> f64 {
 
 /// All vehicles as plain values, in the scenario's order; sensed anew every tick.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Agents(pub Vec<Agent>);
+pub struct Sensed(pub Traffic);
 
 /// The tick in the making.
 #[derive(Resource, Clone, Debug, Default)]

@@ -1,6 +1,7 @@
 //! What one tick looked like: plain values, handed from the world to whoever watches it.
 
 use interplay_building::control::Design;
+pub use interplay_planners::traffic::Origin;
 use interplay_planners::{Input, Plan, State, Trajectory};
 use serde::Serialize;
 
@@ -92,20 +93,6 @@ pub struct Collision {
     pub between: [String; 2],
     /// How hard \[N s\].
     pub impulse_ns: f64,
-}
-
-/// Where a plan comes from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Origin {
-    /// The planner found it.
-    #[default]
-    Planned,
-    /// The planner failed: the previous plan goes on.
-    Continued,
-    /// The planner failed and there was nothing to continue: full braking.
-    Braking,
-    /// It has crashed: full braking, and nobody is asked.
-    Crashed,
 }
 
 /// Something that happened.

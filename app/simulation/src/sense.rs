@@ -1,23 +1,23 @@
 //! Sense: components become plain values, in the scenario's order.
 
 use bevy::ecs::prelude::*;
+use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
 
-use crate::components::{Agents, Clock, Identity, Motion, Physique, Present, Wish};
+use crate::components::{Clock, Committed, Driving, Identity, Motion, Objective, Physique, Present, Sensed};
 use crate::frame::{Frame, VehicleFrame};
 
-/// Fills [`Agents`] and opens the tick's [`Frame`].
+/// Fills [`Sensed`] and opens the tick's [`Frame`].
 pub fn sense(
-    vehicles: Query<(&Identity, &Motion, &Physique, &Wish)>,
+    vehicles: Query<(&Identity, &Motion, &Physique, &Objective, &Driving, &Committed)>,
     clock: Res<Clock>,
-    mut agents: ResMut<Agents>,
+    mut sensed: ResMut<Sensed>,
     mut present: ResMut<Present>,
 ) {
     let mut sorted: Vec<_> = vehicles.iter().collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
-    agents.0 = sorted
-        .iter()
-        .map(|(identity, motion, physique, wish)| Agent {
+    let road_users = sorted.iter().map(|(identity, motion, physique, objective, driving, committed)| RoadUser {
+        agent: Agent {
             name: identity.name.clone(),
             state: motion.state,
             previous_input: motion.input,
@@ -25,9 +25,15 @@ pub fn sense(
             limits: physique.limits,
             corridor: physique.corridor,
             prediction: Trajectory::default(),
-            shared_goal: wish.shared,
-        })
-        .collect();
+            shared_goal: objective.shared,
+        },
+        goal: objective.goal,
+        goes_first: driving.goes_first,
+        is_crashed: motion.crashed,
+        committed: committed.0.clone(),
+    });
+    let road_users = road_users.collect();
+    sensed.0 = Traffic { tick: clock.tick, step_s: clock.step_s, horizon: clock.horizon, road_users };
     let frames = sorted.iter().map(|(identity, motion, ..)| VehicleFrame {
         name: identity.name.clone(),
         state: motion.state,

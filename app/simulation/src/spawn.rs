@@ -5,7 +5,7 @@ use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 
 use crate::climate::{self, BuildingError};
-use crate::components::{Agents, Clock, Identity, Intention, Mind, Motion, Physique, Present, Wish};
+use crate::components::{Clock, Committed, Driving, Identity, Motion, Objective, Physique, Present, Sensed};
 use crate::measure::{BuildingMeasures, Measures};
 use crate::moments::Moment;
 use crate::physics::{Physics, VehicleBody};
@@ -30,15 +30,15 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
             Identity { index, name: vehicle.name.clone() },
             Motion { state, input: Input::default(), crashed: false },
             Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor(vehicle.road) },
-            Wish { goal, shared: vehicle.driver.shared_goal(&goal) },
-            Mind { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },
-            Intention::default(),
+            Objective { goal, shared: vehicle.driver.shared_goal(&goal) },
+            Driving { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },
+            Committed::default(),
             VehicleBody(handle),
         ));
     }
     world.insert_resource(Clock { tick: 0, step_s: scenario.step_s, horizon: scenario.horizon_steps });
     world.insert_resource(Moment { time_s: 0.0, vehicles: true, building: false });
-    world.insert_resource(Agents::default());
+    world.insert_resource(Sensed::default());
     world.insert_resource(Present::default());
     world.insert_resource(Measures::new(scenario));
     world.insert_resource(physics);

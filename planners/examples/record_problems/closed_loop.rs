@@ -1,17 +1,11 @@
-//! The embedded lane changes in a tiny closed loop: no physics, every vehicle moves as the bicycle says.
+//! The embedded lane changes in the loop of the application, with the bicycle as the plant.
 
-use interplay_planners::Bicycle;
-use interplay_planners::Limits;
-use interplay_planners::human::{self, Style};
-use interplay_planners::predict::constant_velocity;
-use interplay_planners::{
-    Agent, Body, Corridor, Driver, Goal, Input, Plan, Planner, SafetyEllipse, Scene, State, Trajectory,
-};
+use interplay_planners::human::Style;
+use interplay_planners::{Driver, Plan, Scene, Trajectory};
 
 use crate::Result;
+use crate::world::{LANES, Vehicle, begin, human, vehicle};
 
-const STEP_S: f64 = 0.1;
-const HORIZON: usize = 30;
 const TICKS: usize = 120;
 
 /// What sets the lane changes apart.
@@ -46,80 +40,44 @@ pub struct Decision<'a> {
     pub plan: &'a Plan,
 }
 
-struct Vehicle {
-    agent: Agent,
-    goal: Goal,
-    driver: Driver,
-    planner: Planner,
-    last: Option<Trajectory>,
-}
-
-fn vehicle(name: &str, [x_m, y_m, speed_mps]: [f64; 3], tracking: [f64; 4], driver: Driver) -> Vehicle {
-    let state = State { x_m, y_m, heading_rad: 0.0, speed_mps };
-    let agent = Agent {
-        name: name.to_owned(),
-        state,
-        previous_input: Input::default(),
-        body: Body::default(),
-        limits: Limits::default(),
-        corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
-        prediction: constant_velocity(&state, HORIZON, STEP_S),
-        shared_goal: None,
+/// The vehicles of a scenario with `ego` as the ego's driver. A cooperative ego needs somebody to cooperate with: then it
+/// drives the front car too.
+fn vehicles(scenario: &Scenario, ego: &Driver) -> Vec<Vehicle> {
+    let front = if matches!(ego, Driver::Cooperative(_)) { ego.clone() } else { human(scenario.front) };
+    let (steady, wants) = ([0.0, 4.0, 1.0, 1.0], [LANES[1], scenario.speed_mps]);
+    let driving = |name: &str, x_m: f64, driver: Driver| {
+        vehicle(name, [x_m, LANES[1], scenario.speed_mps], wants, steady, driver)
     };
-    let target = State { x_m: 0.0, y_m: 0.555, heading_rad: 0.0, speed_mps };
-    let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };
-    Vehicle { agent, goal, planner: driver.planner(), driver, last: None }
+    vec![
+        driving("front", scenario.front_x_m, front),
+        driving("rear", scenario.front_x_m - 1.3, human(scenario.rear)),
+        vehicle("ego", [0.0, LANES[0], 1.0], [LANES[1], 1.0], [0.0, 1.0, 0.5, 1.0], ego.clone()),
+    ]
 }
 
-/// Drives a scenario with `ego` as the ego's driver and shows every decision to `watch`. The humans plan first, from the
-/// front of the road to its rear. A cooperative ego needs somebody to cooperate with: then it drives the front car too.
+/// Drives a scenario with `ego` as the ego's driver and shows every decision to `watch`.
 ///
 /// # Errors
-/// A planner's, or that of `watch`.
+/// A planner's, or the first one of `watch`.
 pub fn run(scenario: &Scenario, ego: &Driver, mut watch: impl FnMut(&Decision) -> Result<()>) -> Result<()> {
-    let human = |style| Driver::Human(human::Settings { style: Some(style), ..Default::default() });
-    let front = if matches!(ego, Driver::Cooperative(_)) { ego.clone() } else { human(scenario.front) };
-    let mut vehicles = [
-        vehicle("front", [scenario.front_x_m, 0.555, scenario.speed_mps], [0.0, 4.0, 1.0, 1.0], front),
-        vehicle(
-            "rear",
-            [scenario.front_x_m - 1.3, 0.555, scenario.speed_mps],
-            [0.0, 4.0, 1.0, 1.0],
-            human(scenario.rear),
-        ),
-        vehicle("ego", [0.0, 0.185, 1.0], [0.0, 1.0, 0.5, 1.0], ego.clone()),
-    ];
-    for Vehicle { agent, goal, driver, .. } in &mut vehicles {
-        agent.shared_goal = driver.shared_goal(goal);
-    }
-    for tick in 0..TICKS {
-        for index in 0..vehicles.len() {
-            let scene = scene(tick, &vehicles, index);
-            let Vehicle { agent, driver, planner, last, .. } = &mut vehicles[index];
-            let plan = planner.plan(&scene)?;
-            watch(&Decision { driver, scene: &scene, last: last.as_ref(), plan: &plan })?;
-            agent.prediction = plan.trajectory.clone();
-            *last = Some(plan.trajectory);
-        }
-        for Vehicle { agent, .. } in &mut vehicles {
-            let input = agent.prediction.inputs[0];
-            agent.state = Bicycle::new(&agent.body, STEP_S).step(&agent.state, &input);
-            agent.previous_input = input;
-            agent.prediction = agent.prediction.shifted();
+    let vehicles = vehicles(scenario, ego);
+    let (mut traffic, mut planners) = begin(&vehicles);
+    let mut last: Vec<Option<Trajectory>> = vec![None; vehicles.len()];
+    for _ in 0..TICKS {
+        let mut watched = Ok(());
+        let decisions = traffic.drive(|index, scene| {
+            let plan = planners[index].plan(scene)?;
+            let decision = Decision { driver: &vehicles[index].driver, scene, last: last[index].as_ref(), plan: &plan };
+            if watched.is_ok() {
+                watched = watch(&decision);
+            }
+            last[index] = Some(plan.trajectory.clone());
+            Ok(plan)
+        });
+        watched?;
+        if let Some(error) = decisions.into_iter().find_map(|decision| decision.failure) {
+            return Err(error.into());
         }
     }
     Ok(())
-}
-
-/// The moment as one vehicle sees it.
-fn scene(tick: usize, vehicles: &[Vehicle], index: usize) -> Scene {
-    let others = vehicles.iter().enumerate().filter(|(other, _)| *other != index);
-    Scene {
-        tick,
-        step_s: STEP_S,
-        horizon: HORIZON,
-        ego: vehicles[index].agent.clone(),
-        goal: vehicles[index].goal,
-        others: others.map(|(_, vehicle)| vehicle.agent.clone()).collect(),
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use interplay_planners::trajectory::{Memory, Optimiser, Robust};
+use interplay_planners::trajectory::{Optimiser, Robust, WarmStart};
 
 use crate::Result;
 use crate::negotiation_view::Posed;
@@ -19,14 +19,14 @@ impl Echo {
     ///
     /// # Errors
     /// A descent that the planner found possible is not.
-    pub fn memory(&mut self, kind: &str, tick: usize, name: &str, (problem, guess): &Posed) -> Result<Memory> {
+    pub fn memory(&mut self, kind: &str, tick: usize, name: &str, (problem, guess): &Posed) -> Result<WarmStart> {
         let anew = || (tick, optimiser(kind));
         let (last, optimiser) = self.optimisers.entry(name.to_owned()).or_insert_with(anew);
         if *last + 1 != tick {
-            optimiser.memory = Memory::default();
+            optimiser.warm_start = WarmStart::default();
         }
         *last = tick;
-        let memory = optimiser.memory.clone();
+        let memory = optimiser.warm_start.clone();
         // One that fails leaves nothing to the next.
         let _ = optimiser.best_of(problem, std::slice::from_ref(guess), false);
         Ok(memory)

@@ -20,10 +20,13 @@ mod minutes;
 mod negotiation_view;
 #[path = "../../tests/common/recorded.rs"]
 mod recorded;
+#[path = "../../tests/common/world.rs"]
+mod world;
 
 use std::error::Error;
 use std::io::Write;
 
+use interplay_planners::diagnostic::{COST, DiagnosticQuantity};
 use interplay_planners::trajectory::{Iterate, Optimiser, Problem, Robust};
 use interplay_planners::{Agent, Driver, Plan, Trajectory, conservative, human, negotiation};
 
@@ -121,7 +124,7 @@ fn posed_by_human(decision: &Decision, settings: &human::Settings) -> Result<Pos
 fn posed_by_conservative(decision: &Decision) -> Result<Posed> {
     let others: Vec<&Agent> = decision.scene.others.iter().collect();
     let problem = conservative::problem(decision.scene, &others);
-    let (cost, stated) = (cost_of_plan(&problem, decision.plan), stated(decision.plan, "cost")?);
+    let (cost, stated) = (cost_of_plan(&problem, decision.plan), stated(decision.plan, &COST)?);
     if cost != stated {
         return Err(format!("tick {}: the rebuilt problem costs {cost}, not {stated}", decision.scene.tick).into());
     }
@@ -134,10 +137,9 @@ fn cost_of_plan(problem: &Problem, plan: &Plan) -> f64 {
     problem.cost(&Iterate { inputs: vec![inputs], states: vec![states] }).total
 }
 
-/// A number that a plan states about itself.
-fn stated(plan: &Plan, what: &str) -> Result<f64> {
-    let found = plan.diagnostics.iter().find(|(name, _)| *name == what);
-    found.map(|(_, value)| *value).ok_or_else(|| format!("the plan states no {what}").into())
+/// What a plan reports of a quantity.
+fn stated(plan: &Plan, quantity: &DiagnosticQuantity) -> Result<f64> {
+    plan.value_of(quantity).ok_or_else(|| format!("the plan reports no {}", quantity.name).into())
 }
 
 /// The first ticks of every run, and an even choice of the rest.

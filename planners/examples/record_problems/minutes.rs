@@ -1,6 +1,10 @@
 //! The problems of the planners that state all they decided on, rebuilt from their statements.
 
-use interplay_planners::trajectory::{Iterate, MeanSpeed, Penalty, Problem};
+use interplay_planners::bayesian::diagnostics::{BELIEF_VARIANCE, LOYALTY};
+use interplay_planners::diagnostic::COST;
+use interplay_planners::game::diagnostics::{EXPRESSED_FROM, EXPRESSED_TO};
+use interplay_planners::trajectory::terms::MeanSpeed;
+use interplay_planners::trajectory::{Iterate, Penalty, Problem};
 use interplay_planners::{Agent, Input, Plan, Trajectory, bayesian, cooperative, game};
 
 use crate::closed_loop::Decision;
@@ -30,7 +34,7 @@ impl Minutes {
         if retreats(plan) || partner.is_none() {
             return Ok(None);
         }
-        let (variance, w_1) = (stated(plan, "belief variance")?, stated(plan, "other's loyalty w_1")?);
+        let (variance, w_1) = (stated(plan, &BELIEF_VARIANCE)?, stated(plan, &LOYALTY)?);
         let belief = bayesian::Belief { variance, w_1, ..bayesian::Belief::initial(settings) };
         let problem = bayesian::problem(scene, partner, &belief, settings);
         agrees(decision, cost_of_plan(&problem, plan))?;
@@ -43,7 +47,7 @@ impl Minutes {
     /// The rebuilt problem does not cost what the plan states.
     pub fn game(&mut self, decision: &Decision, settings: &game::Settings) -> Result<Option<Posed>> {
         let (scene, plan) = (decision.scene, decision.plan);
-        let (Ok(lower), Ok(upper)) = (stated(plan, "expressed speed from"), stated(plan, "expressed speed to")) else {
+        let (Ok(lower), Ok(upper)) = (stated(plan, &EXPRESSED_FROM), stated(plan, &EXPRESSED_TO)) else {
             return Ok(None);
         };
         let limits = &scene.ego.limits;
@@ -102,7 +106,7 @@ fn joint_cost(
 }
 
 fn agrees(decision: &Decision, cost: f64) -> Result<()> {
-    let stated = stated(decision.plan, "cost")?;
+    let stated = stated(decision.plan, &COST)?;
     if cost != stated {
         let (tick, kind) = (decision.scene.tick, decision.driver.kind());
         return Err(format!("tick {tick}: the rebuilt {kind} problem costs {cost}, not {stated}").into());

@@ -1,9 +1,11 @@
 //! The negotiation planner's problem, rebuilt from its scene and answer by keeping the same minutes of the talk.
 
 use interplay_planners::conservative::{self, Conservative};
+use interplay_planners::diagnostic::COST;
 use interplay_planners::negotiation::{self, Concession, Settings, acceptance};
 use interplay_planners::predict::steady;
-use interplay_planners::trajectory::{Leaning, Optimiser, Penalty, Problem, Robust};
+use interplay_planners::trajectory::terms::Persuasion;
+use interplay_planners::trajectory::{Optimiser, Penalty, Problem, Robust};
 use interplay_planners::{Agent, Input, Plan, Scene, Trajectory};
 
 use crate::{Result, stated};
@@ -84,7 +86,7 @@ impl NegotiationView {
         let every = self.settings.look_around_every;
         let look_around = every > 0 && scene.tick.is_multiple_of(every);
         let optimum = self.optimiser.best_of(&problem, &guesses, look_around)?;
-        if optimum.cost.total != stated(plan, "cost")? {
+        if optimum.cost.total != stated(plan, &COST)? {
             return Err(format!("tick {}: the rebuilt negotiation costs {}", scene.tick, optimum.cost.total).into());
         }
         talk.last = Some(Round {
@@ -106,10 +108,11 @@ fn listen(talk: &mut Talk, partner: &Agent, settings: &Settings) -> f64 {
     accepted
 }
 
-fn leaning(round: &Round, strength: f64) -> Option<Leaning> {
+fn leaning(round: &Round, strength: f64) -> Option<Persuasion> {
     let (toward, away) = (round.cooperative.shifted(), round.conservative.shifted());
     let positions = |of: &Trajectory| of.states.iter().take(of.horizon()).map(|state| state.position()).collect();
-    (away.squared_distance(&toward) >= INDISTINCT).then(|| Leaning {
+    (away.squared_distance(&toward) >= INDISTINCT).then(|| Persuasion {
+        vehicle: 0,
         toward: positions(&toward),
         away: positions(&away),
         strength,

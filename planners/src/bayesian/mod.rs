@@ -12,6 +12,7 @@
 //! The other's plan is a hard obstacle, as for the conservative planner: persuasion is in the cost.
 
 mod belief;
+pub mod diagnostics;
 mod settings;
 mod signal;
 mod value;
@@ -22,11 +23,13 @@ pub use signal::problem;
 pub use value::attraction;
 
 use crate::conservative;
+use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::{Choice, Partner};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
+use diagnostics::{ATTRACTION, BELIEF_VARIANCE, CONSERVATIVENESS, LOYALTY, OTHER_CHANGE, OWN_CHANGE};
 
 /// A Bayesian planner with what it remembers.
 #[derive(Clone, Debug)]
@@ -58,7 +61,7 @@ impl Bayesian {
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let scene = &scene.expecting(self.settings.prediction);
+        let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
         self.watch(&choice);
         let problem = problem(scene, choice.partner, &self.belief, &self.settings);
@@ -90,19 +93,20 @@ impl Bayesian {
     fn diagnostics(&self, problem: &Problem, optimum: &Optimum) -> Vec<Diagnostic> {
         let Belief { alpha, beta_m, variance, w_1, .. } = self.belief;
         let mut diagnostics = Vec::new();
-        for impression in &problem.participants[0].distance_costs {
+        for term in &problem.terms {
+            let Term::DistanceCost(impression) = term else { continue };
             let states = optimum.iterate.states[0].iter().skip(1).enumerate();
             let nearest = states.map(|(k, state)| impression.omega(k, state.position())).fold(f64::INFINITY, f64::min);
             diagnostics.extend([
-                ("conservativeness", nearest),
-                ("belief variance", variance),
-                ("other's loyalty w_1", w_1),
-                ("attraction k_1", attraction(w_1, self.settings.w_4)),
-                ("own change alpha", alpha),
-                ("other's change beta", beta_m),
+                CONSERVATIVENESS.is(nearest),
+                BELIEF_VARIANCE.is(variance),
+                LOYALTY.is(w_1),
+                ATTRACTION.is(attraction(w_1, self.settings.w_4)),
+                OWN_CHANGE.is(alpha),
+                OTHER_CHANGE.is(beta_m),
             ]);
         }
-        diagnostics.extend([("cost", optimum.cost.total), ("safety slack", optimum.cost.safety_slack)]);
+        diagnostics.extend([COST.is(optimum.cost.total), SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety))]);
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
     }

@@ -15,7 +15,8 @@
 
 use super::belief::Belief;
 use super::{Settings, value};
-use crate::trajectory::{DistanceCost, Problem};
+use crate::trajectory::terms::{DistanceCost, Tracking};
+use crate::trajectory::{Problem, Term};
 use crate::{Agent, Scene, conservative};
 
 /// Largest `2ΣW_2`.
@@ -26,12 +27,14 @@ const MOST_DOUBT: f64 = 0.9;
 pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &Belief, settings: &Settings) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
-    if let (Some(partner), [ego]) = (partner, problem.participants.as_mut_slice()) {
+    if let Some(partner) = partner {
         let doubts = doubts(scene, belief);
-        for (weight, doubt) in ego.tracking.weights.iter_mut().zip(doubts) {
-            *weight /= 1.0 - doubt;
+        for term in &mut problem.terms {
+            if let Term::Tracking(Tracking { weights, .. }) = term {
+                weights.iter_mut().zip(doubts).for_each(|(weight, doubt)| *weight /= 1.0 - doubt);
+            }
         }
-        ego.distance_costs.push(impression(scene, partner, belief, doubts, settings));
+        problem.terms.push(Term::DistanceCost(impression(scene, partner, belief, doubts, settings)));
     }
     problem
 }
@@ -63,6 +66,7 @@ fn impression(
     let [along, mixed, across] = axes.entries(metric);
     let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
     DistanceCost {
+        vehicle: 0,
         centres: scene.centres(&partner.prediction).into_iter().map(moved).collect(),
         metric: axes.matrix([stretch * stretch * along, stretch * widen * mixed, widen * widen * across]),
         price: value::price(settings, belief.w_1, belief.deviation),

@@ -25,7 +25,7 @@
 
 use super::Settings;
 use super::settings::Value;
-use crate::trajectory::DistancePrice;
+use crate::trajectory::terms::DistancePrice;
 
 /// `k_1` of eq. 7.19.
 pub fn attraction(w_1: f64, w_4: f64) -> f64 {

@@ -1,14 +1,16 @@
 //! The conservative baseline (eq. 6.13): the others' predictions are constraints, whoever has the right of way.
 
+pub mod diagnostics;
 mod retreat;
 mod settings;
 
 pub(crate) use retreat::{retreat, solve_or_retreat};
 pub use settings::Settings;
 
+use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::solo::{self, Solved};
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Cost, DescentError, Optimiser, Penalty, Problem, Robust};
+use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
 
 /// A conservative planner with the plan it made last.
@@ -21,16 +23,9 @@ pub struct Conservative {
 
 /// The conservative problem for the planning vehicle among given others.
 pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
-    let keep_outs = others
-        .iter()
-        .map(|other| scene.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT))
-        .collect();
-    Problem {
-        horizon: scene.horizon,
-        participants: vec![scene.participant(keep_outs)],
-        separations: Vec::new(),
-        leaning: None,
-    }
+    let mut terms = scene.own_terms(0, &scene.goal);
+    terms.extend(scene.hard_keep_outs(others.iter().copied()));
+    Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
 }
 
 impl Conservative {
@@ -49,7 +44,7 @@ impl Conservative {
 
     /// The same as [`Conservative::plan`], with the problem that it solves.
     pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Solved, DescentError> {
-        let scene = &scene.expecting(self.settings.prediction);
+        let scene = &self.settings.prediction.applied_to(scene);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let problem = problem(scene, &others);
         let every = self.settings.look_around_every;
@@ -61,8 +56,9 @@ impl Conservative {
 
 /// A conservative plan with its cost and with what holds it back.
 pub(crate) fn answer(Solved { problem, optimum, event }: &Solved) -> Plan {
-    let Cost { total, safety_slack, .. } = optimum.cost;
-    let mut diagnostics: Vec<Diagnostic> = vec![("cost", total), ("safety slack", safety_slack)];
+    let cost = &optimum.cost;
+    let mut diagnostics: Vec<Diagnostic> =
+        vec![COST.is(cost.total), SAFETY_SLACK.is(cost.violation(Violation::Safety))];
     diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),

@@ -15,6 +15,7 @@
 //! Who goes first is decided by the starting guess, so at the first step every order of "one accelerates, the others brake"
 //! is tried.
 
+pub mod diagnostics;
 mod problem;
 mod settings;
 
@@ -22,10 +23,12 @@ pub use problem::{Cooperator, cooperators, problem};
 pub use settings::Settings;
 
 use crate::conservative;
+use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::predict::steady;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Iterate, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
+use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 
 /// A cooperating planner with the joint plan it made last.
 #[derive(Clone, Debug)]
@@ -56,7 +59,7 @@ impl Cooperative {
     /// # Errors
     /// [`PlanError`] if neither the joint problem nor the conservative one can be solved.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let scene = &scene.expecting(self.settings.prediction);
+        let scene = &self.settings.prediction.applied_to(scene);
         let cooperators = cooperators(scene, self.settings.shared_goal(&scene.goal));
         let names = cooperators.iter().map(|cooperator| cooperator.agent.name.as_str());
         let own = names.clone().position(|name| name == scene.ego.name).unwrap_or_default();
@@ -99,29 +102,17 @@ impl Cooperative {
     fn answer(&self, problem: &Problem, optimum: &Optimum, own: usize) -> Plan {
         let mut others = self.last.iter().enumerate().filter(|(index, _)| *index != own).map(|(_, part)| part.clone());
         let proposal = match (others.next(), others.next()) {
-            (Some((to, trajectory)), None) => Some(Proposal { to, trajectory }),
+            (Some((to, trajectory)), None) => Some(Proposal { to, trajectory, acceptance: None }),
             _ => None,
         };
         let mut diagnostics: Vec<Diagnostic> = vec![
-            ("cooperating vehicles", self.last.len() as f64),
-            ("own cost", own_cost(problem, optimum, own)),
-            ("cost", optimum.cost.total),
-            ("safety slack", optimum.cost.safety_slack),
+            COOPERATING_VEHICLES.is(self.last.len() as f64),
+            OWN_COST.is(problem.own_cost(own, &optimum.iterate)),
+            COST.is(optimum.cost.total),
+            SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ];
         diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
         Plan { trajectory, proposal, diagnostics, events: Vec::new(), statistics: optimum.statistics }
     }
-}
-
-/// What one vehicle's part costs it.
-fn own_cost(problem: &Problem, optimum: &Optimum, own: usize) -> f64 {
-    let alone = Problem {
-        horizon: problem.horizon,
-        participants: vec![problem.participants[own].clone()],
-        separations: Vec::new(),
-        leaning: None,
-    };
-    let (inputs, states) = (optimum.iterate.inputs[own].clone(), optimum.iterate.states[own].clone());
-    alone.cost(&Iterate { inputs: vec![inputs], states: vec![states] }).total
 }

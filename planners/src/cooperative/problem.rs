@@ -1,6 +1,7 @@
 //! The joint trajectory problem of the vehicles that share it (eq. 6.6-6.12).
 
-use crate::trajectory::{Penalty, Problem, Separation};
+use crate::trajectory::terms::{KeepOut, Separation};
+use crate::trajectory::{Penalty, Problem, Term};
 use crate::{Agent, Goal, Scene};
 
 /// A vehicle that shares the problem, with what it wants; `Q` and `R` are divided by its `Z_i`.
@@ -29,26 +30,26 @@ pub fn cooperators(scene: &Scene, own: Goal) -> Vec<Cooperator> {
 pub fn problem(scene: &Scene, cooperators: &[Cooperator]) -> Problem {
     let mut strangers: Vec<&Agent> = scene.others.iter().filter(|agent| agent.shared_goal.is_none()).collect();
     strangers.sort_by(|a, b| a.name.cmp(&b.name));
-    let participants = cooperators.iter().map(|Cooperator { agent, goal }| {
+    let (mut participants, mut terms) = (Vec::new(), Vec::new());
+    for (vehicle, Cooperator { agent, goal }) in cooperators.iter().enumerate() {
         let view = Scene { ego: agent.clone(), goal: *goal, others: Vec::new(), ..*scene };
-        let keep_outs = strangers
-            .iter()
-            .map(|other| view.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT))
-            .collect();
-        view.participant(keep_outs)
-    });
-    let participants = participants.collect();
-    let mut separations = Vec::new();
+        participants.push(view.participant());
+        terms.extend(view.own_terms(vehicle, goal));
+        terms.extend(strangers.iter().map(|other| {
+            let keep_out = view.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT);
+            Term::KeepOut(KeepOut { vehicle, ..keep_out })
+        }));
+    }
     for i in 0..cooperators.len() {
         for j in 0..i {
             let ([first, second], mutual) = ([j, i], is_mutual(&cooperators[i], &cooperators[j]));
-            separations.push(separation(cooperators, first, second));
+            terms.push(separation(cooperators, first, second));
             if !mutual {
-                separations.push(separation(cooperators, second, first));
+                terms.push(separation(cooperators, second, first));
             }
         }
     }
-    Problem { horizon: scene.horizon, participants, separations, leaning: None }
+    Problem { horizon: scene.horizon, participants, terms }
 }
 
 /// Whether two vehicles' ellipses are the same seen from either.
@@ -56,12 +57,7 @@ fn is_mutual(a: &Cooperator, b: &Cooperator) -> bool {
     a.goal.safety == b.goal.safety && a.agent.corridor.heading_rad == b.agent.corridor.heading_rad
 }
 
-fn separation(cooperators: &[Cooperator], of: usize, from: usize) -> Separation {
-    Separation {
-        of,
-        from,
-        heading_rad: cooperators[from].agent.corridor.heading_rad,
-        ellipse: cooperators[of].goal.safety,
-        penalty: Penalty::EXACT,
-    }
+fn separation(cooperators: &[Cooperator], vehicle: usize, from: usize) -> Term {
+    let ellipse = cooperators[vehicle].goal.safety.oriented(cooperators[from].agent.corridor.heading_rad);
+    Term::Separation(Separation { vehicle, from, ellipse, penalty: Penalty::EXACT })
 }

@@ -4,7 +4,8 @@ use super::Settings;
 use super::meeting::{Meeting, Sight};
 use super::reply::{HIGHEST, LOWEST};
 use crate::Scene;
-use crate::trajectory::{MeanSpeed, Penalty};
+use crate::trajectory::Penalty;
+use crate::trajectory::terms::MeanSpeed;
 
 /// An intention this close to a bound means "or more": with both at 0.95, eq. 8.14 would force the neutral speed.
 const EXTREME: f64 = 0.005;

@@ -10,6 +10,7 @@
 //! 4. drives such that the other reads this intention: bounds on the mean speed ([`expression`], eq. 8.11-8.15) in the
 //!    conservative problem (eq. 8.10). They give way at a price, never safety.
 
+pub mod diagnostics;
 pub mod equilibrium;
 pub mod expression;
 pub mod intention;
@@ -21,11 +22,14 @@ mod settings;
 
 pub use settings::{Method, Settings};
 
+use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::{Choice, Partner};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{MeanSpeed, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::terms::MeanSpeed;
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
+use diagnostics as reported;
 use equilibrium::{Solution, leader_follower, nash};
 use intention::forget;
 use meeting::{Meeting, Sight};
@@ -85,7 +89,7 @@ impl Game {
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let scene = &scene.expecting(self.settings.prediction);
+        let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
         if choice.is_new {
             self.intentions = Intentions::default();
@@ -103,7 +107,8 @@ impl Game {
         let every = self.settings.look_around_every;
         let Solved { problem, optimum, event } =
             conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
-        let diagnostics = self.diagnostics(scene, round.as_ref(), &problem, &optimum);
+        let expressed = expressed.filter(|_| event.is_none());
+        let diagnostics = self.diagnostics(scene, round.as_ref(), expressed.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
         let events = choice.event("plays with", "to play with").into_iter().chain(event).collect();
@@ -150,6 +155,7 @@ impl Game {
         &self,
         scene: &Scene,
         round: Option<&Round>,
+        expressed: Option<&MeanSpeed>,
         problem: &Problem,
         optimum: &Optimum,
     ) -> Vec<Diagnostic> {
@@ -157,33 +163,32 @@ impl Game {
         if let Some(Round { stakes: [ego, other], solution }) = round {
             let Intentions { other: posterior, seen, .. } = self.intentions;
             diagnostics.extend([
-                ("posterior of the other", posterior),
-                ("posterior of the ego", seen),
-                ("intention p_e", solution.ego),
-                ("other's intention p_s", solution.other),
-                ("temptation of the ego", solution.temptation[0]),
-                ("temptation of the other", solution.temptation[1]),
-                ("payoff ego: both yield", ego.payoffs()[0][0]),
-                ("payoff ego: yields alone", ego.payoffs()[0][1]),
-                ("payoff ego: passes alone", ego.payoffs()[1][0]),
-                ("payoff other: both yield", other.payoffs()[0][0]),
-                ("payoff other: yields alone", other.payoffs()[0][1]),
-                ("payoff other: passes alone", other.payoffs()[1][0]),
-                ("payoff: accident", ego.payoffs()[1][1]),
+                reported::OTHER_POSTERIOR.is(posterior),
+                reported::EGO_POSTERIOR.is(seen),
+                reported::EGO_INTENTION.is(solution.ego),
+                reported::OTHER_INTENTION.is(solution.other),
+                reported::EGO_TEMPTATION.is(solution.temptation[0]),
+                reported::OTHER_TEMPTATION.is(solution.temptation[1]),
             ]);
+            for (quantities, stakes) in [(reported::EGO_PAYOFFS, ego), (reported::OTHER_PAYOFFS, other)] {
+                let [[stalemate, wait], [turn, _]] = stakes.payoffs();
+                let payoffs = quantities.iter().zip([stalemate, wait, turn]);
+                diagnostics.extend(payoffs.map(|(quantity, payoff)| quantity.is(payoff)));
+            }
+            diagnostics.push(reported::ACCIDENT_PAYOFF.is(ego.payoffs()[1][1]));
         }
-        if let Some(bound) = &problem.participants[0].mean_speed {
+        if let Some(bound) = expressed {
             let limits = &scene.ego.limits;
             diagnostics.extend([
-                ("expressed speed from", bound.lower_mps.unwrap_or(limits.speed_min_mps)),
-                ("expressed speed to", bound.upper_mps.unwrap_or(limits.speed_max_mps)),
-                ("expression slack", optimum.cost.mean_speed_slack_mps),
+                reported::EXPRESSED_FROM.is(bound.lower_mps.unwrap_or(limits.speed_min_mps)),
+                reported::EXPRESSED_TO.is(bound.upper_mps.unwrap_or(limits.speed_max_mps)),
+                reported::EXPRESSION_SLACK.is(optimum.cost.violation(Violation::MeanSpeed)),
             ]);
         }
         diagnostics.extend([
-            ("mean speed", MeanSpeed::of(&optimum.iterate.states[0])),
-            ("cost", optimum.cost.total),
-            ("safety slack", optimum.cost.safety_slack),
+            reported::MEAN_SPEED.is(MeanSpeed::of(&optimum.iterate.states[0])),
+            COST.is(optimum.cost.total),
+            SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ]);
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
@@ -194,8 +199,6 @@ impl Game {
 pub fn problem(scene: &Scene, expressed: Option<MeanSpeed>) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
-    for ego in &mut problem.participants {
-        ego.mean_speed = expressed;
-    }
+    problem.terms.extend(expressed.iter().flat_map(|bounds| bounds.terms(0)));
     problem
 }

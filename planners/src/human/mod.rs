@@ -19,16 +19,16 @@
 //! Where the last plan, improved, keeps clear of everybody there is no tie: it would be the same without them.
 
 mod closing;
-pub mod idm;
-pub mod mobil;
-pub mod scripted;
+pub mod diagnostics;
 mod settings;
-mod steering;
 
 pub use settings::{Settings, Style};
 
 use crate::predict::steady;
-use crate::trajectory::{DescentError, KeepOut, Optimiser, Optimum, Penalty, Problem, Robust};
+use crate::trajectory::terms::KeepOut;
+use crate::trajectory::{
+    Bar, DescentError, Exploration, Optimiser, Optimum, Penalty, Problem, Robust, Statistics, Term,
+};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
@@ -72,7 +72,7 @@ impl Human {
         self.last = Some(trajectory.clone());
         Ok(Plan {
             trajectory,
-            diagnostics: vec![("safety weight", self.settings.weight())],
+            diagnostics: vec![diagnostics::SAFETY_WEIGHT.is(self.settings.weight())],
             statistics,
             ..Plan::default()
         })
@@ -84,7 +84,7 @@ impl Human {
         problem: &Problem,
         minded: &[KeepOut],
         scene: &Scene,
-    ) -> Result<(Optimum, crate::trajectory::Statistics), DescentError> {
+    ) -> Result<(Optimum, Statistics), DescentError> {
         let steady = |share| steadily(scene, share);
         let keep = guess(scene, self.last.as_ref());
         let mut best = self.optimiser.descend(problem, &[keep]);
@@ -100,14 +100,12 @@ impl Human {
             }
             for guess in guesses {
                 let margin = |held: &Optimum| held.cost.total - HYSTERESIS * (1.0 + held.cost.total);
-                let below = best.as_ref().map_or(f64::INFINITY, margin);
                 // In trouble nothing is given up early.
-                let goal = if trusted { below } else { f64::INFINITY };
-                let Ok(other) = self.optimiser.explore(problem, &[guess], goal) else { continue };
-                statistics.add(&other.statistics);
-                if other.cost.total < below {
-                    best = Ok(other);
-                    self.optimiser.adopt();
+                let bar = Bar { cost: best.as_ref().map_or(f64::INFINITY, margin), gives_up: trusted };
+                let Ok(found) = self.optimiser.explore(problem, &[guess], bar) else { continue };
+                statistics.add(found.statistics());
+                if let Exploration::Cheaper(optimum) = found {
+                    best = Ok(optimum);
                 }
             }
         }
@@ -117,13 +115,9 @@ impl Human {
 
 /// The problem that a driver poses.
 pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
-    let keep_outs = followed(scene, settings).into_iter().chain(minded(scene, settings)).collect();
-    Problem {
-        horizon: scene.horizon,
-        participants: vec![scene.participant(keep_outs)],
-        separations: Vec::new(),
-        leaning: None,
-    }
+    let mut terms = scene.own_terms(0, &scene.goal);
+    terms.extend(followed(scene, settings).into_iter().chain(minded(scene, settings)).map(Term::KeepOut));
+    Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
 }
 
 /// The guess of keeping on: the last plan one step later, or at first a little braking.
@@ -143,9 +137,13 @@ fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     let Some(leader) = leader(scene) else { return Vec::new() };
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
     let comfortable = scene.keep_out(&leader.prediction, scene.ego.corridor.heading_rad, penalty);
-    let SafetyEllipse { along_m, across_m } = comfortable.ellipse;
+    let SafetyEllipse { along_m, across_m } = comfortable.ellipse.shape();
     let ellipse = SafetyEllipse { along_m: TAILGATING * along_m, across_m: WHOLE_LANE * across_m };
-    let firm = KeepOut { ellipse, penalty: Penalty::EXACT, ..comfortable.clone() };
+    let firm = KeepOut {
+        ellipse: ellipse.oriented(comfortable.ellipse.heading_rad()),
+        penalty: Penalty::EXACT,
+        ..comfortable.clone()
+    };
     vec![comfortable, firm]
 }
 

@@ -63,6 +63,16 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The style whose weight the driver has, in a word, or else the weight.
+    pub(crate) fn manner(&self) -> String {
+        let weight = self.weight();
+        match [Style::Nice, Style::Tough].into_iter().find(|style| style.safety_weight() == weight) {
+            Some(Style::Nice) => "nice".to_owned(),
+            Some(Style::Tough) => "tough".to_owned(),
+            None => format!("safety weight {weight}"),
+        }
+    }
+
     /// The safety weight: stated, or that of the style, or a nice driver's.
     pub fn weight(&self) -> f64 {
         self.safety_weight.unwrap_or_else(|| self.style.unwrap_or(Style::Nice).safety_weight())

@@ -6,7 +6,7 @@
 
 use crate::conservative::problem;
 use crate::solo::extremes;
-use crate::trajectory::{Optimiser, Optimum, Robust};
+use crate::trajectory::{Optimiser, Optimum, Robust, Violation};
 use crate::{Agent, Scene};
 
 /// Slack that a conservative plan may need after the step.
@@ -30,17 +30,17 @@ impl Default for Filter {
 impl Filter {
     /// Whether the first input of `optimum` may be applied.
     pub(super) fn admits(&mut self, scene: &Scene, optimum: &Optimum, retreat: &Optimum) -> bool {
-        if optimum.cost.safety_slack > OWN_SLACK {
+        if optimum.cost.violation(Violation::Safety) > OWN_SLACK {
             return false;
         }
         let next = successor(scene, optimum);
         let others: Vec<&Agent> = next.others.iter().collect();
         let [brake, accelerate] = extremes(&next);
         let guesses = [vec![retreat.trajectory(0).shifted().inputs], vec![brake], vec![accelerate]];
-        let allowed = SLACK.max(GROWTH * retreat.cost.safety_slack);
+        let allowed = SLACK.max(GROWTH * retreat.cost.violation(Violation::Safety));
         self.optimiser
             .best_of(&problem(&next, &others), &guesses, false)
-            .is_ok_and(|optimum| optimum.cost.safety_slack <= allowed)
+            .is_ok_and(|optimum| optimum.cost.violation(Violation::Safety) <= allowed)
     }
 }
 

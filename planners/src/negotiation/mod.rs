@@ -6,13 +6,14 @@
 //! 2. chooses whom to ask (`interlocutor`);
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`acceptance`], eq. 6.19);
 //! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
-//! 5. leans towards its last proposal and away from its retreat, the more the better it was received (`persuasion`,
+//! 5. stays nearer to its last proposal than to its retreat, the more the better it was received (`persuasion`,
 //!    eq. 6.20-6.23);
 //! 6. solves for its own plan and a proposal to the other at once (`proposal`, eq. 6.24);
 //! 7. applies the first input only if a conservative plan still exists after it (`filter`).
 
 mod acceptance;
 mod concession;
+pub mod diagnostics;
 mod filter;
 mod interlocutor;
 mod persuasion;
@@ -25,10 +26,13 @@ pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
 use crate::conservative::{self, Conservative};
+use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::solo::{Solved, extremes};
 use crate::trajectory::activity::Activity;
-use crate::trajectory::{Leaning, Optimiser, Optimum, Problem, Robust};
+use crate::trajectory::terms::Persuasion;
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
+use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
 use interlocutor::Interlocutor;
 
@@ -82,15 +86,15 @@ impl Negotiation {
     /// # Errors
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let scene = &scene.expecting(self.settings.prediction);
+        let scene = &self.settings.prediction.applied_to(scene);
         let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
         let Some(partner) = self.choose(scene, &mut events) else {
             return Ok(Plan { events, ..conservative::answer(&retreat?) });
         };
         let accepted = self.listen(partner);
-        let leaning = persuasion::leaning(&self.settings, self.talk.last.as_ref(), accepted);
-        let outcome = self.propose(scene, partner, leaning.clone());
+        let persuasion = persuasion::constraint(&self.settings, self.talk.last.as_ref(), accepted);
+        let outcome = self.propose(scene, partner, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
             Err(error) => {
@@ -99,7 +103,7 @@ impl Negotiation {
             }
         };
         self.remember(&optimum, &retreat, partner);
-        let mut plan = self.speak(&optimum, partner, accepted, leaning.as_ref());
+        let mut plan = self.speak(&optimum, partner, accepted, persuasion.as_ref());
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         self.filter(scene, &retreat, &optimum, &mut plan);
@@ -134,8 +138,8 @@ impl Negotiation {
         accepted.unwrap_or(1.0)
     }
 
-    fn propose(&mut self, scene: &Scene, partner: &Agent, leaning: Option<Leaning>) -> Result<Solved, PlanError> {
-        let problem = problem(scene, partner, self.talk.concession.weight(), leaning, &self.settings);
+    fn propose(&mut self, scene: &Scene, partner: &Agent, persuasion: Option<Persuasion>) -> Result<Solved, PlanError> {
+        let problem = problem(scene, partner, self.talk.concession.weight(), persuasion, &self.settings);
         let keep = self.guess(&problem, partner);
         let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
         let every = self.settings.look_around_every;
@@ -164,19 +168,23 @@ impl Negotiation {
         });
     }
 
-    fn speak(&self, optimum: &Optimum, partner: &Agent, accepted: f64, leaning: Option<&Leaning>) -> Plan {
+    fn speak(&self, optimum: &Optimum, partner: &Agent, accepted: f64, persuasion: Option<&Persuasion>) -> Plan {
         let trajectory = optimum.trajectory(0);
-        let active = leaning.is_some_and(|leaning| persuasion::is_active(leaning, &trajectory));
+        let active = persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory));
         Plan {
             trajectory,
-            proposal: Some(Proposal { to: partner.name.clone(), trajectory: optimum.trajectory(1) }),
+            proposal: Some(Proposal {
+                to: partner.name.clone(),
+                trajectory: optimum.trajectory(1),
+                acceptance: Some(accepted),
+            }),
             diagnostics: vec![
-                ("acceptance", accepted),
-                ("concession weight", self.talk.concession.weight()),
-                ("persuasion strength", leaning.map_or(0.0, |leaning| leaning.strength)),
-                ("persuasion active", f64::from(u8::from(active))),
-                ("cost", optimum.cost.total),
-                ("safety slack", optimum.cost.safety_slack),
+                ACCEPTANCE.is(accepted),
+                CONCESSION_WEIGHT.is(self.talk.concession.weight()),
+                PERSUASION_STRENGTH.is(persuasion.map_or(0.0, |persuasion| persuasion.strength)),
+                PERSUASION_ACTIVE.is(f64::from(u8::from(active))),
+                COST.is(optimum.cost.total),
+                SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
             ],
             events: Vec::new(),
             statistics: optimum.statistics,
@@ -195,6 +203,6 @@ impl Negotiation {
             plan.trajectory = retreat.trajectory(0);
             plan.events.push("safety filter: conservative input".to_owned());
         }
-        plan.diagnostics.push(("safety filter", f64::from(u8::from(refused))));
+        plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused))));
     }
 }

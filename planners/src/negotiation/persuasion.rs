@@ -1,8 +1,9 @@
-//! Leaning towards cooperation (eq. 6.20-6.23).
+//! Persuasion: a constraint that keeps the plan nearer to cooperation than to retreat (eq. 6.20-6.23).
 
 use super::{Round, Settings};
 use crate::Trajectory;
-use crate::trajectory::{Leaning, Penalty};
+use crate::trajectory::Penalty;
+use crate::trajectory::terms::Persuasion;
 
 /// Below this squared distance of cooperative and conservative plan the ball has collapsed \[m²\].
 const INDISTINCT: f64 = 1e-3;
@@ -11,14 +12,15 @@ const PENALTY: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
 
 /// The persuasion constraint `‖trj − con‖² ≥ α ‖trj − coop‖²`, `α = 1 + γ p_a` (eq. 6.23, corrected: as printed the right
 /// norm is not squared). It starts with the second round, and is left out where the two references nearly coincide.
-pub(super) fn leaning(settings: &Settings, last: Option<&Round>, accepted: f64) -> Option<Leaning> {
+pub(super) fn constraint(settings: &Settings, last: Option<&Round>, accepted: f64) -> Option<Persuasion> {
     let round = last.filter(|_| settings.persuasion)?;
     let conservative = round.conservative.as_ref()?.shifted();
     let cooperative = round.cooperative.shifted();
     if conservative.squared_distance(&cooperative) < INDISTINCT {
         return None;
     }
-    Some(Leaning {
+    Some(Persuasion {
+        vehicle: 0,
         toward: positions(&cooperative),
         away: positions(&conservative),
         strength: 1.0 + settings.gamma * accepted,
@@ -27,10 +29,14 @@ pub(super) fn leaning(settings: &Settings, last: Option<&Round>, accepted: f64) 
 }
 
 /// Whether the constraint holds with equality (or falls short).
-pub(super) fn is_active(leaning: &Leaning, trajectory: &Trajectory) -> bool {
-    let apart: f64 =
-        leaning.toward.iter().zip(&leaning.away).map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sum();
-    leaning.value(&trajectory.states) > -1e-4 * apart.max(1.0)
+pub(super) fn is_active(constraint: &Persuasion, trajectory: &Trajectory) -> bool {
+    let apart: f64 = constraint
+        .toward
+        .iter()
+        .zip(&constraint.away)
+        .map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2))
+        .sum();
+    constraint.value(&trajectory.states) > -1e-4 * apart.max(1.0)
 }
 
 /// Positions at `t = 0…N−1`.
@@ -47,14 +53,14 @@ mod tests {
     #[test]
     fn the_boundary_is_the_apollonius_ball() {
         let (toward, away, strength) = ([0.3, -0.1], [1.0, 0.4], 1.7);
-        let leaning = Leaning { toward: vec![toward], away: vec![away], strength, penalty: PENALTY };
+        let constraint = Persuasion { vehicle: 0, toward: vec![toward], away: vec![away], strength, penalty: PENALTY };
         let centre: [f64; 2] = std::array::from_fn(|i| (strength * toward[i] - away[i]) / (strength - 1.0));
         let apart = ((toward[0] - away[0]).powi(2) + (toward[1] - away[1]).powi(2)).sqrt();
         let radius = strength.sqrt() * apart / (strength - 1.0);
         for angle in 0..12 {
             let (sin, cos) = libm::sincos(0.5 * f64::from(angle));
             let state = State { x_m: centre[0] + radius * cos, y_m: centre[1] + radius * sin, ..State::default() };
-            assert!(leaning.value(&[state]).abs() < 1e-12);
+            assert!(constraint.value(&[state]).abs() < 1e-12);
         }
     }
 }

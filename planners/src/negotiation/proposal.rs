@@ -13,9 +13,9 @@
 //! That the other follows its prediction until `T_n` is imposed exactly: those inputs are no unknowns.
 
 use super::Settings;
-use crate::trajectory::{Leaning, Optimiser, Participant, Penalty, Problem, Robust, Separation, Tracking};
-use crate::vehicle::Bicycle;
-use crate::{Agent, Axes, Scene};
+use crate::trajectory::terms::{Comfort, Persuasion, RoadEdge, Separation, Tracking};
+use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, Term};
+use crate::{Agent, Axes, Bicycle, Goal, Scene};
 
 /// Diagonal of `D` on (x, y, θ, v).
 const DEVIATION: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
@@ -25,52 +25,53 @@ const OTHER_COMFORT: f64 = 1e-2;
 /// What solves the negotiation problem.
 pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
     let mut optimiser = Optimiser::resuming(Robust::default());
-    optimiser.looks_across = settings.look_across;
+    optimiser.looks_to_other_sides = settings.look_across;
     optimiser
 }
 
 /// The negotiation problem: participant 0 is the ego, participant 1 the `partner`; `weight` is the concession weight `w`.
-pub fn problem(scene: &Scene, partner: &Agent, weight: f64, leaning: Option<Leaning>, settings: &Settings) -> Problem {
-    let others = scene.others.iter().filter(|other| other.name != partner.name);
-    let keep_outs =
-        others.map(|other| scene.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT)).collect();
-    let mut ego = scene.participant(keep_outs);
+pub fn problem(
+    scene: &Scene,
+    partner: &Agent,
+    weight: f64,
+    persuasion: Option<Persuasion>,
+    settings: &Settings,
+) -> Problem {
     let share = weight / settings.ego_normaliser;
-    ego.tracking.weights = ego.tracking.weights.map(|q| share * q);
-    ego.comfort = ego.comfort.map(|r| share * r);
-    let separation = Separation {
-        of: 0,
-        from: 1,
-        heading_rad: partner.corridor.heading_rad,
-        ellipse: scene.goal.safety,
-        penalty: Penalty::EXACT,
-    };
-    let other = asked(scene, partner, (1.0 - weight) / settings.other_normaliser, settings);
-    Problem { horizon: scene.horizon, participants: vec![ego, other], separations: vec![separation], leaning }
+    let Goal { tracking, comfort, .. } = scene.goal;
+    let goal = Goal { tracking: tracking.map(|q| share * q), comfort: comfort.map(|r| share * r), ..scene.goal };
+    let mut terms = scene.own_terms(0, &goal);
+    terms.extend(scene.hard_keep_outs(scene.others.iter().filter(|other| other.name != partner.name)));
+    terms.extend(partner_terms(scene, partner, (1.0 - weight) / settings.other_normaliser));
+    let ellipse = scene.goal.safety.oriented(partner.corridor.heading_rad);
+    terms.push(Term::Separation(Separation { vehicle: 0, from: 1, ellipse, penalty: Penalty::EXACT }));
+    terms.extend(persuasion.map(Term::Persuasion));
+    let participants = vec![scene.participant(), asked(scene, partner, settings)];
+    Problem { horizon: scene.horizon, participants, terms }
 }
 
-/// The partner as a participant that prefers its own prediction.
-fn asked(scene: &Scene, partner: &Agent, share: f64, settings: &Settings) -> Participant {
-    let prediction = &partner.prediction;
+/// The partner as a participant that follows its prediction until `T_n`.
+fn asked(scene: &Scene, partner: &Agent, settings: &Settings) -> Participant {
     let settled = settings.settled_steps.min(scene.horizon - 1);
-    let last = prediction.states.last().copied().unwrap_or(partner.state);
-    let target = |t: usize| prediction.states.get(t).copied().unwrap_or(last);
+    let inputs = &partner.prediction.inputs;
     Participant {
         model: Bicycle::new(&partner.body, scene.step_s),
-        body: partner.body,
         limits: partner.limits,
-        corridor: partner.corridor,
         start: partner.state,
         previous_input: partner.previous_input,
-        known_inputs: (0..settled).map(|t| prediction.inputs.get(t).copied().unwrap_or_default()).collect(),
-        tracking: Tracking {
-            weights: DEVIATION.map(|d| share * d),
-            axes: Axes::WORLD,
-            targets: (1..=scene.horizon).map(target).collect(),
-        },
-        comfort: [OTHER_COMFORT; 2],
-        keep_outs: Vec::new(),
-        distance_costs: Vec::new(),
-        mean_speed: None,
+        known_inputs: (0..settled).map(|t| inputs.get(t).copied().unwrap_or_default()).collect(),
     }
+}
+
+/// What the partner prefers: its own prediction.
+fn partner_terms(scene: &Scene, partner: &Agent, share: f64) -> [Term; 3] {
+    let states = &partner.prediction.states;
+    let last = states.last().copied().unwrap_or(partner.state);
+    let targets = (1..=scene.horizon).map(|t| states.get(t).copied().unwrap_or(last)).collect();
+    let weights = DEVIATION.map(|d| share * d);
+    [
+        Term::Comfort(Comfort { vehicle: 1, weights: [OTHER_COMFORT; 2] }),
+        Term::Tracking(Tracking { vehicle: 1, weights, axes: Axes::WORLD, targets }),
+        Term::RoadEdge(RoadEdge { vehicle: 1, body: partner.body, corridor: partner.corridor }),
+    ]
 }

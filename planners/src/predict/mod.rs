@@ -1,10 +1,11 @@
 //! What the others will do, and simple motions to start a search from.
 
+use std::borrow::Cow;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Limits;
-use crate::{Agent, Input, State, Trajectory};
+use crate::{Agent, Input, Limits, Scene, State, Trajectory};
 
 /// How a driver predicts the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -24,6 +25,20 @@ impl Prediction {
         match self {
             Prediction::Plan => agent.prediction.clone(),
             Prediction::ConstantVelocity => constant_velocity(&agent.state, horizon, step_s),
+        }
+    }
+
+    /// The same moment with the others expected to do what this prediction says.
+    pub fn applied_to(self, scene: &Scene) -> Cow<'_, Scene> {
+        match self {
+            Prediction::Plan => Cow::Borrowed(scene),
+            Prediction::ConstantVelocity => {
+                let mut scene = scene.clone();
+                for other in &mut scene.others {
+                    other.prediction = self.of(other, scene.horizon, scene.step_s);
+                }
+                Cow::Owned(scene)
+            }
         }
     }
 }

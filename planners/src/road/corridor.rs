@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::vehicle::{Body, State};
+use crate::vehicle::{Body, PoseExpansion, State};
 
 /// A straight strip of road, bounded on both sides; with heading 0 it is eq. 6.7 as printed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,17 +32,6 @@ pub struct LaneEnd {
     pub height_m: f64,
     /// Length scale of the taper, `w` \[m\].
     pub taper_m: f64,
-}
-
-/// A value with its gradient over `(x, y, θ)` and its second derivatives over `(xx, xy, yy, θθ)`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Clearance {
-    /// How far inside the edge the corner is; negative outside \[m\].
-    pub value: f64,
-    /// Derivatives with respect to x, y \[-\] and heading \[m/rad\].
-    pub gradient: [f64; 3],
-    /// Second derivatives xx, xy, yy \[1/m\] and heading twice \[m/rad²\].
-    pub curvature: [f64; 4],
 }
 
 impl Corridor {
@@ -72,21 +61,23 @@ impl Corridor {
     }
 
     /// How far each of the four corners is inside its edge (eq. 6.7 in the road's frame): the two right corners from
-    /// the right edge, the two left ones from the left edge, in the order of [`Body::local_corners`].
-    pub fn clearances(&self, body: &Body, state: &State) -> [Clearance; 4] {
+    /// the right edge, the two left ones from the left edge, in the order of [`Body::local_corners`]; negative outside \[m\].
+    pub fn clearances(&self, body: &Body, state: &State) -> [PoseExpansion; 4] {
         let (sin_road, cos_road) = libm::sincos(self.heading_rad);
         let (sin, cos) = libm::sincos(state.heading_rad - self.heading_rad);
-        let lateral = self.across(state.position());
-        let [edge, edge_slope, edge_bend] = self.right_edge(self.along(state.position()) + body.front_m);
-        body.local_corners().map(|[ahead, left]| {
+        let [x, y] = state.position();
+        let (along, lateral) = (cos_road * x + sin_road * y, -sin_road * x + cos_road * y);
+        let [edge, edge_slope, edge_bend] = self.right_edge(along + body.front_m);
+        let mut clearances = [PoseExpansion::default(); 4];
+        for (clearance, [ahead, left]) in clearances.iter_mut().zip(body.local_corners()) {
             let corner = lateral + ahead * sin + left * cos;
             let turn = ahead * cos - left * sin;
             let bend = -(ahead * sin + left * cos);
-            if left < 0.0 {
-                Clearance {
+            *clearance = if left < 0.0 {
+                PoseExpansion {
                     value: corner - edge,
                     gradient: [-sin_road - edge_slope * cos_road, cos_road - edge_slope * sin_road, turn],
-                    curvature: [
+                    hessian: [
                         -edge_bend * cos_road * cos_road,
                         -edge_bend * cos_road * sin_road,
                         -edge_bend * sin_road * sin_road,
@@ -94,13 +85,14 @@ impl Corridor {
                     ],
                 }
             } else {
-                Clearance {
+                PoseExpansion {
                     value: self.left_m - corner,
                     gradient: [sin_road, -cos_road, -turn],
-                    curvature: [0.0, 0.0, 0.0, -bend],
+                    hessian: [0.0, 0.0, 0.0, -bend],
                 }
-            }
-        })
+            };
+        }
+        clearances
     }
 
     /// Whether the whole footprint is on the road, to within `tolerance_m`.
@@ -134,8 +126,8 @@ mod tests {
                 let second = [[0, 1], [1, 2], [3, 3]][axis];
                 let bend = |i: usize| (above.gradient[i] - below.gradient[i]) / (2.0 * step);
                 let (first, other) = if axis == 2 { (bend(2), bend(2)) } else { (bend(0), bend(1)) };
-                assert!((first - here[corner].curvature[second[0]]).abs() < 1e-7);
-                assert!((other - here[corner].curvature[second[1]]).abs() < 1e-7);
+                assert!((first - here[corner].hessian[second[0]]).abs() < 1e-7);
+                assert!((other - here[corner].hessian[second[1]]).abs() < 1e-7);
             }
         }
     }

@@ -4,4 +4,4 @@ mod axes;
 mod corridor;
 
 pub use axes::Axes;
-pub use corridor::{Clearance, Corridor, LaneEnd};
+pub use corridor::{Corridor, LaneEnd};

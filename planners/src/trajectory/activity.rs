@@ -1,7 +1,12 @@
 //! Which constraints hold a plan back: at how many of its steps each kind is active.
 
-use crate::Diagnostic;
-use crate::trajectory::{Iterate, Participant, Problem};
+use super::cost::Violation;
+use super::iterate::Iterate;
+use super::participant::Participant;
+use super::problem::Problem;
+use super::terms::{MAX_ROWS_PER_STAGE, RowTerm, Shape};
+use crate::diagnostic::{Diagnostic, STEPS_AT_EDGE, STEPS_AT_ELLIPSE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND};
+use crate::vehicle::PoseExpansion;
 
 /// A bound that is closer than this is active (in the unit of what it bounds; `d²` for ellipses).
 const TOUCHING: f64 = 1e-4;
@@ -24,14 +29,14 @@ impl Activity {
     pub(crate) fn of(problem: &Problem, iterate: &Iterate, participant: usize) -> Activity {
         let own = &problem.participants[participant];
         let mut activity = Activity::default();
-        for t in 1..=problem.horizon {
-            activity.safety += usize::from(touches_ellipse(problem, iterate, participant, t));
-            let state = &iterate.states[participant][t];
-            let mut corners = own.corridor.clearances(&own.body, state).into_iter();
-            activity.edge += usize::from(corners.any(|corner| corner.value < TOUCHING));
-            let [slowest, fastest] = own.speed_bounds(t);
-            activity.speed += usize::from(at_bound(state.speed_mps, slowest, fastest));
-            activity.input += usize::from(at_input_bound(own, iterate, participant, t - 1));
+        for stage in 0..problem.horizon {
+            let touches = |violation| touches(problem, iterate, participant, stage, violation);
+            activity.safety += usize::from(touches(Violation::Safety));
+            activity.edge += usize::from(touches(Violation::RoadEdge));
+            let [slowest, fastest] = own.speed_bounds(stage + 1);
+            let speed = iterate.states[participant][stage + 1].speed_mps;
+            activity.speed += usize::from(is_at_bound(speed, slowest, fastest));
+            activity.input += usize::from(is_at_input_bound(own, iterate, participant, stage));
         }
         activity
     }
@@ -39,31 +44,37 @@ impl Activity {
     /// The numbers as diagnostics.
     pub(crate) fn diagnostics(&self) -> [Diagnostic; 4] {
         [
-            ("steps at a safety ellipse", self.safety as f64),
-            ("steps at a road edge", self.edge as f64),
-            ("steps at an input bound", self.input as f64),
-            ("steps at a speed bound", self.speed as f64),
+            STEPS_AT_ELLIPSE.is(self.safety as f64),
+            STEPS_AT_EDGE.is(self.edge as f64),
+            STEPS_AT_INPUT_BOUND.is(self.input as f64),
+            STEPS_AT_SPEED_BOUND.is(self.speed as f64),
         ]
     }
 }
 
-fn touches_ellipse(problem: &Problem, iterate: &Iterate, participant: usize, t: usize) -> bool {
-    let position = |index: usize| iterate.states[index][t].position();
-    let hard = problem.participants[participant].keep_outs.iter().filter(|keep_out| keep_out.penalty.linear > 0.0);
-    let mut centres =
-        hard.map(|out| out.ellipse.oriented(out.heading_rad).distance(position(participant), out.centres[t - 1]));
-    let pairs = problem.separations.iter().filter(|pair| [pair.of, pair.from].contains(&participant));
-    let mut pairs =
-        pairs.map(|pair| pair.ellipse.oriented(pair.heading_rad).distance(position(pair.of), position(pair.from)));
-    centres.any(|distance| distance.squared < 1.0 + TOUCHING) || pairs.any(|distance| distance.squared < 1.0 + TOUCHING)
+/// Whether a row of a kind that speaks of a vehicle is active at a stage.
+fn touches(problem: &Problem, iterate: &Iterate, vehicle: usize, stage: usize, kind: Violation) -> bool {
+    let speaks_of = |rows: &dyn RowTerm| {
+        let subject = rows.subject();
+        rows.violation() == Some(kind) && (subject.vehicle == vehicle || subject.other == Some(vehicle))
+    };
+    problem.terms.iter().any(|term| match term.shape() {
+        Shape::Rows(rows) if speaks_of(rows) => {
+            let mut expansions = [PoseExpansion::default(); MAX_ROWS_PER_STAGE];
+            let expansions = &mut expansions[..rows.rows_per_stage()];
+            rows.expand(stage, iterate, expansions);
+            expansions.iter().any(|row| row.value < TOUCHING)
+        }
+        _ => false,
+    })
 }
 
-fn at_input_bound(own: &Participant, iterate: &Iterate, participant: usize, k: usize) -> bool {
-    let (input, limits) = (&iterate.inputs[participant][k], &own.limits);
-    at_bound(input.acceleration_mps2, limits.acceleration_min_mps2, limits.acceleration_max_mps2)
-        || at_bound(input.steering_rad, -limits.steering_max_rad, limits.steering_max_rad)
+fn is_at_input_bound(own: &Participant, iterate: &Iterate, participant: usize, stage: usize) -> bool {
+    let (input, limits) = (&iterate.inputs[participant][stage], &own.limits);
+    is_at_bound(input.acceleration_mps2, limits.acceleration_min_mps2, limits.acceleration_max_mps2)
+        || is_at_bound(input.steering_rad, -limits.steering_max_rad, limits.steering_max_rad)
 }
 
-fn at_bound(value: f64, low: f64, high: f64) -> bool {
+fn is_at_bound(value: f64, low: f64, high: f64) -> bool {
     value < low + TOUCHING || value > high - TOUCHING
 }

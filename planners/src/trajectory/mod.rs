@@ -1,22 +1,27 @@
-//! One trajectory optimiser for every planner: costs, constraints and a sequential convex programme.
+//! One trajectory optimiser for every planner.
 //!
-//! A planner poses a [`Problem`]; an [`Optimiser`] descends to a local optimum of it by a sequence of quadratic
-//! programmes in stage form ([`StageQp`]), each solved by a [`StageSolver`]. [`kkt`] checks optimality independently.
+//! A planner poses a [`Problem`]: deciding vehicles and a list of [`Term`]s ([`terms`], one a file). An [`Optimiser`] descends
+//! to a local optimum of it (`sqp`) by a sequence of quadratic programmes in stage form ([`StageQp`], `stage`), each solved
+//! by a [`StageSolver`]. [`kkt`] checks optimality independently.
 
 pub(crate) mod activity;
+mod cost;
+mod iterate;
+mod participant;
 mod penalty;
 mod problem;
 mod sqp;
 mod stage;
-mod terms;
+pub mod terms;
 
+pub use cost::{Cost, Violation};
+pub use iterate::Iterate;
+pub use participant::Participant;
 pub use penalty::Penalty;
-pub use problem::{Cost, Iterate, KeepOut, Leaning, Participant, Problem, Separation, Tracking};
-pub use sqp::{
-    DescentError, Memory, Optimiser, Optimum, Statistics, Tolerances, add_curvature, drop_curvature, linearise,
-};
+pub use problem::Problem;
+pub use sqp::{Bar, DescentError, Exploration, Optimiser, Optimum, Statistics, StepProblem, Tolerances, WarmStart};
 pub use stage::{
-    Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver, StateCost,
-    Structured, TrajectoryRow, VehicleStages, kkt,
+    Costates, Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,
+    StateCost, Structured, TrajectoryRow, VehicleStages, kkt,
 };
-pub use terms::{DistanceCost, DistancePrice, MeanSpeed};
+pub use terms::Term;

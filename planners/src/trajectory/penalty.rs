@@ -1,7 +1,7 @@
 //! What the violation of a soft row costs.
 
 /// What a violation `s ≥ 0` costs: `linear·s + quadratic·s²`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Penalty {
     /// Weight of `s`.
     pub linear: f64,

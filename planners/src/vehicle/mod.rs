@@ -3,11 +3,13 @@
 mod bicycle;
 mod body;
 mod limits;
+mod pose_expansion;
 mod safety_ellipse;
 mod state;
 
 pub use bicycle::{Bicycle, DynamicsCurvature, Jacobian};
 pub use body::Body;
 pub use limits::Limits;
+pub use pose_expansion::PoseExpansion;
 pub use safety_ellipse::{EllipticalDistance, OrientedEllipse, SafetyEllipse};
 pub use state::{Input, State, Trajectory};

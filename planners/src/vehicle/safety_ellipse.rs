@@ -38,13 +38,20 @@ pub struct OrientedEllipse {
     heading_rad: f64,
     sin: f64,
     cos: f64,
+    hessian: [f64; 3],
 }
 
 impl SafetyEllipse {
     /// This ellipse with its long axis along `heading_rad`.
     pub fn oriented(self, heading_rad: f64) -> OrientedEllipse {
         let (sin, cos) = libm::sincos(heading_rad);
-        OrientedEllipse { shape: self, heading_rad, sin, cos }
+        let (along, across) = (1.0 / (self.along_m * self.along_m), 1.0 / (self.across_m * self.across_m));
+        let hessian = [
+            2.0 * (cos * cos * along + sin * sin * across),
+            2.0 * cos * sin * (along - across),
+            2.0 * (sin * sin * along + cos * cos * across),
+        ];
+        OrientedEllipse { shape: self, heading_rad, sin, cos, hessian }
     }
 }
 
@@ -75,13 +82,7 @@ impl OrientedEllipse {
 
     /// Second derivatives `(∂²/∂x², ∂²/∂x∂y, ∂²/∂y²)` of the squared elliptical distance; the same everywhere \[1/m²\].
     pub fn hessian(&self) -> [f64; 3] {
-        let OrientedEllipse { shape, sin, cos, .. } = *self;
-        let (along, across) = (1.0 / (shape.along_m * shape.along_m), 1.0 / (shape.across_m * shape.across_m));
-        [
-            2.0 * (cos * cos * along + sin * sin * across),
-            2.0 * cos * sin * (along - across),
-            2.0 * (sin * sin * along + cos * cos * across),
-        ]
+        self.hessian
     }
 }
 

@@ -1,6 +1,6 @@
 //! One checker of derivatives for every cost and constraint.
 //!
-//! It compares the cost of a trajectory problem with the model that [`linearise`] and [`add_curvature`] make of it, along a
+//! It compares the cost of a trajectory problem with the model that [`StepProblem`] makes of it, along a
 //! direction `w` of the inputs. With the rows' multipliers set to the slopes of their penalties, the model's odd and even parts
 //! must be the first and second derivatives of the cost:
 //!
@@ -10,9 +10,7 @@
 //! ```
 
 use interplay_planners::Input;
-use interplay_planners::trajectory::{
-    Iterate, Penalty, Problem, StageQp, StageSolution, add_curvature, drop_curvature, linearise,
-};
+use interplay_planners::trajectory::{Iterate, Penalty, Problem, StageQp, StageSolution, StepProblem};
 
 use super::Random;
 
@@ -56,24 +54,23 @@ fn close(what: &str, numeric: f64, analytic: f64, tolerance: f64) {
 
 /// The step problem at an iterate, with the exact Hessian or the Gauss-Newton one.
 fn model(problem: &Problem, iterate: &Iterate, exact: bool) -> StageQp {
-    let mut qp = StageQp::default();
-    linearise(problem, iterate, &mut qp);
+    let mut step = StepProblem::default();
+    step.linearize(problem, iterate);
     if !exact {
-        drop_curvature(&mut qp);
-        return qp;
+        return step.qp;
     }
     let mut multipliers = StageSolution::default();
-    multipliers.shape_like(&qp);
-    for (multipliers, block) in multipliers.row_multipliers.iter_mut().zip(&qp.blocks) {
+    multipliers.shape_like(&step.qp);
+    for (multipliers, block) in multipliers.row_multipliers.iter_mut().zip(&step.qp.blocks) {
         for (multiplier, row) in multipliers.iter_mut().zip(&block.rows) {
             *multiplier = block.penalty.map_or(0.0, |penalty| slope(penalty, -row.value));
         }
     }
-    for (multiplier, row) in multipliers.trajectory_multipliers.iter_mut().zip(&qp.trajectory_rows) {
+    for (multiplier, row) in multipliers.trajectory_multipliers.iter_mut().zip(&step.qp.trajectory_rows) {
         *multiplier = slope(row.penalty, row.value);
     }
-    add_curvature(problem, iterate, &mut multipliers, &mut qp);
-    qp
+    step.use_lagrangian(problem, iterate, &mut multipliers);
+    step.qp
 }
 
 /// What one more unit of a violation costs.

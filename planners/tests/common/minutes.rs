@@ -1,9 +1,9 @@
 //! What the plan of the step before leaves to a descent, as text.
 
-use interplay_planners::trajectory::{Memory, Reach, StageSolution};
+use interplay_planners::trajectory::{Reach, StageSolution, WarmStart};
 use serde::{Deserialize, Serialize};
 
-/// A [`Memory`], rounded to six digits: multipliers as pairs of index and value, those that hardly differ from zero left out.
+/// A [`WarmStart`], rounded to six digits: multipliers as pairs of index and value, those that hardly differ from zero left out.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Minutes {
     /// Per vehicle, of the bounds.
@@ -18,7 +18,7 @@ pub struct Minutes {
 
 impl Minutes {
     /// What is worth keeping of a memory; nothing if it is empty.
-    pub fn new(of: &Memory) -> Option<Self> {
+    pub fn new(of: &WarmStart) -> Option<Self> {
         let sparse = |values: &[f64]| {
             let kept = values.iter().enumerate().filter(|(_, value)| **value > 1e-6);
             kept.map(|(index, value)| (index, rounded(*value))).collect()
@@ -33,7 +33,7 @@ impl Minutes {
     }
 
     /// The memory, for a problem of `horizon` steps.
-    pub fn memory(&self, horizon: usize) -> Memory {
+    pub fn memory(&self, horizon: usize) -> WarmStart {
         let fill = |values: &mut [f64], sparse: &[(usize, f64)]| {
             for (index, value) in sparse {
                 values[*index] = *value;
@@ -55,7 +55,7 @@ impl Minutes {
             fill(values, sparse);
         }
         let reach = self.reach.map(|[x, y, t, v, a, d]| Reach { state: [x, y, t, v], input: [a, d] });
-        Memory { multipliers, reach, ..Memory::default() }
+        WarmStart { multipliers, reach, ..WarmStart::default() }
     }
 }
 

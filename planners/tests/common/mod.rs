@@ -4,9 +4,9 @@
 pub mod derivatives;
 pub mod world;
 
-use interplay_planners::Bicycle;
-use interplay_planners::trajectory::{Iterate, KeepOut, Leaning, Participant, Penalty, Problem, Separation, Tracking};
-use interplay_planners::{Axes, Body, Corridor, Input, Limits, SafetyEllipse, State};
+use interplay_planners::trajectory::terms::{Comfort, KeepOut, Persuasion, RoadEdge, Separation, Tracking};
+use interplay_planners::trajectory::{Iterate, Participant, Penalty, Problem, StageQp, StepProblem, Term};
+use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, Limits, SafetyEllipse, State};
 
 /// SplitMix64: small, seeded, the same everywhere.
 pub struct Random(pub u64);
@@ -27,16 +27,51 @@ impl Random {
 
 pub const HORIZON: usize = 30;
 
+/// A deciding vehicle with what it wants and avoids.
+#[derive(Clone, Debug)]
+pub struct Vehicle {
+    pub participant: Participant,
+    pub body: Body,
+    pub corridor: Corridor,
+    pub tracking: [f64; 4],
+    pub axes: Axes,
+    pub targets: Vec<State>,
+    pub comfort: [f64; 2],
+    pub keep_outs: Vec<KeepOut>,
+}
+
+impl Vehicle {
+    /// Its terms as number `vehicle` of a problem.
+    pub fn terms(&self, vehicle: usize) -> Vec<Term> {
+        let tracking = Tracking { vehicle, weights: self.tracking, axes: self.axes, targets: self.targets.clone() };
+        let mut terms = vec![
+            Term::Comfort(Comfort { vehicle, weights: self.comfort }),
+            Term::Tracking(tracking),
+            Term::RoadEdge(RoadEdge { vehicle, body: self.body, corridor: self.corridor }),
+        ];
+        terms.extend(self.keep_outs.iter().map(|keep_out| Term::KeepOut(KeepOut { vehicle, ..keep_out.clone() })));
+        terms
+    }
+}
+
+/// The problem of some vehicles, with terms besides their own.
+pub fn problem(vehicles: &[Vehicle], besides: impl IntoIterator<Item = Term>) -> Problem {
+    let own = vehicles.iter().enumerate().flat_map(|(index, vehicle)| vehicle.terms(index));
+    Problem {
+        horizon: HORIZON,
+        participants: vehicles.iter().map(|vehicle| vehicle.participant.clone()).collect(),
+        terms: own.chain(besides).collect(),
+    }
+}
+
 /// A lane-changing vehicle among one or two others that drive straight on.
-pub fn lane_change(random: &mut Random) -> Participant {
+pub fn lane_change(random: &mut Random) -> Vehicle {
     let wanted = State { x_m: 0.0, y_m: 0.555, heading_rad: 0.0, speed_mps: random.between(0.8, 1.3) };
     let centre = |x: f64, speed: f64| (1..=HORIZON).map(|t| [x + speed * 0.1 * t as f64, 0.555]).collect();
-    let keep_outs = [(random.between(0.2, 0.9), random.between(0.8, 1.4)), (random.between(-1.8, -0.8), 1.2)];
-    Participant {
+    let others = [(random.between(0.2, 0.9), random.between(0.8, 1.4)), (random.between(-1.8, -0.8), 1.2)];
+    let participant = Participant {
         model: Bicycle::new(&Body::default(), 0.1),
-        body: Body::default(),
         limits: Limits::default(),
-        corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
         start: State {
             x_m: 0.0,
             y_m: 0.185 + random.between(-0.05, 0.05),
@@ -45,44 +80,45 @@ pub fn lane_change(random: &mut Random) -> Participant {
         },
         previous_input: Input { acceleration_mps2: random.between(-0.3, 0.3), steering_rad: random.between(-0.1, 0.1) },
         known_inputs: Vec::new(),
-        tracking: Tracking {
-            weights: [0.0, random.between(0.5, 4.0), random.between(0.5, 1.0), 1.0],
-            axes: Axes::WORLD,
-            targets: vec![wanted; HORIZON],
-        },
+    };
+    let ellipse = SafetyEllipse::default().oriented(0.0);
+    Vehicle {
+        participant,
+        body: Body::default(),
+        corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
+        tracking: [0.0, random.between(0.5, 4.0), random.between(0.5, 1.0), 1.0],
+        axes: Axes::WORLD,
+        targets: vec![wanted; HORIZON],
         comfort: [0.1, 0.1],
-        keep_outs: keep_outs
-            .map(|(x, speed)| KeepOut {
-                centres: centre(x, speed),
-                heading_rad: 0.0,
-                ellipse: SafetyEllipse::default(),
-                penalty: Penalty::EXACT,
-            })
+        keep_outs: others
+            .map(|(x, speed)| KeepOut { vehicle: 0, centres: centre(x, speed), ellipse, penalty: Penalty::EXACT })
             .into(),
-        distance_costs: Vec::new(),
-        mean_speed: None,
     }
 }
 
 /// A vehicle that follows its plan until `first` and may then be asked to deviate.
-pub fn follower(random: &mut Random, first: usize) -> Participant {
+pub fn follower(random: &mut Random, first: usize) -> Vehicle {
     let start = State { x_m: random.between(-0.6, 0.1), y_m: 0.555, heading_rad: 0.0, speed_mps: 1.2 };
     let targets = (1..=HORIZON).map(|t| State { x_m: start.x_m + 0.12 * t as f64, ..start }).collect();
-    Participant {
-        start,
-        previous_input: Input::default(),
-        known_inputs: vec![Input::default(); first],
-        tracking: Tracking { weights: [0.005, 0.005, 0.0005, 0.0025], axes: Axes::WORLD, targets },
+    let free = lane_change(random);
+    Vehicle {
+        participant: Participant {
+            start,
+            previous_input: Input::default(),
+            known_inputs: vec![Input::default(); first],
+            ..free.participant
+        },
+        tracking: [0.005, 0.005, 0.0005, 0.0025],
+        targets,
         comfort: [0.01, 0.01],
         keep_outs: Vec::new(),
-        ..lane_change(random)
+        ..free
     }
 }
 
 /// One vehicle among others.
 pub fn alone(seed: u64) -> Problem {
-    let participant = lane_change(&mut Random(seed));
-    Problem { horizon: HORIZON, participants: vec![participant], separations: Vec::new(), leaning: None }
+    problem(&[lane_change(&mut Random(seed))], [])
 }
 
 /// Two deciding vehicles, the second from step 6 on, with a persuasion constraint of strength `alpha`.
@@ -92,18 +128,11 @@ pub fn pair(seed: u64, alpha: f64) -> Problem {
     ego.keep_outs.truncate(1);
     let away = (0..HORIZON).map(|t| [0.1 * t as f64, 0.185]).collect();
     let toward = (0..HORIZON).map(|t| [0.105 * t as f64, 0.185 + 0.3 * (t as f64 / 29.0)]).collect();
-    Problem {
-        horizon: HORIZON,
-        participants: vec![ego, follower(random, 6)],
-        separations: vec![Separation {
-            of: 0,
-            from: 1,
-            heading_rad: 0.0,
-            ellipse: SafetyEllipse::default(),
-            penalty: Penalty::EXACT,
-        }],
-        leaning: Some(Leaning { toward, away, strength: alpha, penalty: Penalty { linear: 100.0, quadratic: 0.0 } }),
-    }
+    let ellipse = SafetyEllipse::default().oriented(0.0);
+    let separation = Separation { vehicle: 0, from: 1, ellipse, penalty: Penalty::EXACT };
+    let penalty = Penalty { linear: 100.0, quadratic: 0.0 };
+    let persuasion = Persuasion { vehicle: 0, toward, away, strength: alpha, penalty };
+    problem(&[ego, follower(random, 6)], [Term::Separation(separation), Term::Persuasion(persuasion)])
 }
 
 /// An iterate of `problem` with small random inputs.
@@ -120,4 +149,11 @@ pub fn iterate(problem: &Problem, random: &mut Random) -> Iterate {
     let mut iterate = Iterate { inputs: inputs.collect(), states: Vec::new() };
     problem.roll_out(&mut iterate);
     iterate
+}
+
+/// The Gauss-Newton step problem at an iterate.
+pub fn step_problem(problem: &Problem, iterate: &Iterate) -> StageQp {
+    let mut step = StepProblem::default();
+    step.linearize(problem, iterate);
+    step.qp
 }

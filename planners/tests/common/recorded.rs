@@ -7,12 +7,12 @@ mod minutes;
 
 use std::path::{Path, PathBuf};
 
-use interplay_planners::Bicycle;
-use interplay_planners::trajectory::{
-    DistanceCost, DistancePrice, KeepOut, Leaning, MeanSpeed, Memory, Optimiser, Participant, Penalty, Problem, Robust,
-    Separation, Tracking,
+use interplay_planners::trajectory::terms::{
+    Comfort, DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, RoadEdge, Separation, Tracking,
 };
-use interplay_planners::{Axes, Body, Corridor, Input, LaneEnd, Limits, SafetyEllipse, State, negotiation};
+use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, Term, WarmStart};
+use interplay_planners::vehicle::OrientedEllipse;
+use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, SafetyEllipse, State, negotiation};
 use serde::{Deserialize, Serialize};
 
 use minutes::Minutes;
@@ -53,7 +53,7 @@ pub struct Recorded {
 }
 
 /// One deciding vehicle.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Vehicle {
     /// Front, rear, width, front axle, rear axle \[m\].
     pub body: [f64; 5],
@@ -155,14 +155,18 @@ pub struct Lean {
 
 impl Recorded {
     /// The record of a problem with the guess that was used and the memory of the step before.
-    pub fn new(id: String, problem: &Problem, guess: &[Vec<Input>], memory: &Memory) -> Self {
+    pub fn new(id: String, problem: &Problem, guess: &[Vec<Input>], memory: &WarmStart) -> Self {
         Recorded {
             id,
             horizon: problem.horizon,
             step_s: problem.participants[0].model.step_s(),
-            vehicles: problem.participants.iter().map(Vehicle::new).collect(),
-            separations: problem.separations.iter().map(Apart::new).collect(),
-            leaning: problem.leaning.as_ref().map(Lean::new),
+            vehicles: (0..problem.participants.len()).map(|vehicle| Vehicle::new(problem, vehicle)).collect(),
+            separations: find(
+                problem,
+                |term| if let Term::Separation(term) = term { Some(Apart::new(term)) } else { None },
+            ),
+            leaning: find(problem, |term| if let Term::Persuasion(term) = term { Some(Lean::new(term)) } else { None })
+                .pop(),
             guess: guess.iter().map(|inputs| inputs.iter().map(|input| input.to_array()).collect()).collect(),
             memory: Minutes::new(memory),
         }
@@ -170,16 +174,18 @@ impl Recorded {
 
     /// The problem, equal to the recorded one in every bit.
     pub fn problem(&self) -> Problem {
+        let own = self.vehicles.iter().enumerate().flat_map(|(index, vehicle)| vehicle.terms(index, self.horizon));
+        let pairs = self.separations.iter().map(|pair| Term::Separation(pair.separation()));
+        let persuasion = self.leaning.iter().map(|leaning| Term::Persuasion(leaning.persuasion()));
         Problem {
             horizon: self.horizon,
-            participants: self.vehicles.iter().map(|vehicle| vehicle.participant(self.horizon, self.step_s)).collect(),
-            separations: self.separations.iter().map(Apart::separation).collect(),
-            leaning: self.leaning.as_ref().map(Lean::leaning),
+            participants: self.vehicles.iter().map(|vehicle| vehicle.participant(self.step_s)).collect(),
+            terms: own.chain(pairs).chain(persuasion).collect(),
         }
     }
 
     /// The memory; empty if there is none.
-    pub fn memory(&self) -> Memory {
+    pub fn memory(&self) -> WarmStart {
         self.memory.as_ref().map(|minutes| minutes.memory(self.horizon)).unwrap_or_default()
     }
 
@@ -189,48 +195,71 @@ impl Recorded {
     }
 }
 
+/// What of the terms of a problem is to be kept.
+fn find<T>(problem: &Problem, keep: impl Fn(&Term) -> Option<T>) -> Vec<T> {
+    problem.terms.iter().filter_map(keep).collect()
+}
+
 impl Vehicle {
-    fn new(of: &Participant) -> Self {
-        let (body, limits) = (&of.body, &of.limits);
-        assert_eq!(of.tracking.axes, Axes::WORLD, "problems on slanted roads are not recorded");
-        let mut targets: Vec<[f64; 4]> = of.tracking.targets.iter().map(|state| state.to_array()).collect();
-        if targets.windows(2).all(|pair| pair[0] == pair[1]) {
-            targets.truncate(1);
-        }
-        Vehicle {
-            body: [body.front_m, body.rear_m, body.width_m, body.front_axle_m, body.rear_axle_m],
+    /// The record of one vehicle with its own terms.
+    fn new(problem: &Problem, vehicle: usize) -> Self {
+        let of = &problem.participants[vehicle];
+        let mut record = Vehicle {
             limits: [
-                limits.acceleration_min_mps2,
-                limits.acceleration_max_mps2,
-                limits.steering_max_rad,
-                limits.speed_min_mps,
-                limits.speed_max_mps,
+                of.limits.acceleration_min_mps2,
+                of.limits.acceleration_max_mps2,
+                of.limits.steering_max_rad,
+                of.limits.speed_min_mps,
+                of.limits.speed_max_mps,
             ],
-            road: [of.corridor.heading_rad, of.corridor.right_m, of.corridor.left_m],
-            lane_end: of.corridor.end.map(|end| [end.end_m, end.height_m, end.taper_m]),
             start: of.start.to_array(),
             previous_input: of.previous_input.to_array(),
             known_inputs: of.known_inputs.iter().map(|input| input.to_array()).collect(),
-            weights: of.tracking.weights,
-            targets,
-            comfort: of.comfort,
-            keep_outs: of.keep_outs.iter().map(Ellipse::new).collect(),
-            distance_costs: of.distance_costs.iter().map(Distance::new).collect(),
-            mean_speed: of.mean_speed.as_ref().map(Mean::new),
+            ..Vehicle::default()
+        };
+        problem.terms.iter().for_each(|term| record.note(term, vehicle));
+        record
+    }
+
+    /// Notes a term if it is the vehicle's own.
+    fn note(&mut self, term: &Term, vehicle: usize) {
+        match term {
+            Term::Comfort(of) if of.vehicle == vehicle => self.comfort = of.weights,
+            Term::Tracking(of) if of.vehicle == vehicle => {
+                assert_eq!(of.axes, Axes::WORLD, "problems on slanted roads are not recorded");
+                self.weights = of.weights;
+                self.targets = of.targets.iter().map(|state| state.to_array()).collect();
+                if self.targets.windows(2).all(|pair| pair[0] == pair[1]) {
+                    self.targets.truncate(1);
+                }
+            }
+            Term::RoadEdge(of) if of.vehicle == vehicle => {
+                let (body, road) = (&of.body, &of.corridor);
+                self.body = [body.front_m, body.rear_m, body.width_m, body.front_axle_m, body.rear_axle_m];
+                self.road = [road.heading_rad, road.right_m, road.left_m];
+                self.lane_end = road.end.map(|end| [end.end_m, end.height_m, end.taper_m]);
+            }
+            Term::KeepOut(of) if of.vehicle == vehicle => self.keep_outs.push(Ellipse::new(of)),
+            Term::DistanceCost(of) if of.vehicle == vehicle => self.distance_costs.push(Distance::new(of)),
+            Term::MeanSpeed(of) if of.vehicle == vehicle => {
+                let penalty = [of.penalty.linear, of.penalty.quadratic];
+                let mean = self.mean_speed.get_or_insert(Mean { bounds: [None; 2], penalty });
+                mean.bounds[usize::from(of.is_upper)] = Some(of.speed_mps);
+            }
+            _ => {}
         }
     }
 
-    fn participant(&self, horizon: usize, step_s: f64) -> Participant {
+    fn body(&self) -> Body {
         let [front_m, rear_m, width_m, front_axle_m, rear_axle_m] = self.body;
-        let body = Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m };
+        Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m }
+    }
+
+    fn participant(&self, step_s: f64) -> Participant {
         let [acceleration_min_mps2, acceleration_max_mps2, steering_max_rad, speed_min_mps, speed_max_mps] =
             self.limits;
-        let [heading_rad, right_m, left_m] = self.road;
-        let end = self.lane_end.map(|[end_m, height_m, taper_m]| LaneEnd { end_m, height_m, taper_m });
-        let target = |t: usize| State::from_array(self.targets[t.min(self.targets.len() - 1)]);
         Participant {
-            model: Bicycle::new(&body, step_s),
-            body,
+            model: Bicycle::new(&self.body(), step_s),
             limits: Limits {
                 acceleration_min_mps2,
                 acceleration_max_mps2,
@@ -238,29 +267,37 @@ impl Vehicle {
                 speed_min_mps,
                 speed_max_mps,
             },
-            corridor: Corridor { heading_rad, right_m, left_m, end },
             start: State::from_array(self.start),
             previous_input: Input::from_array(self.previous_input),
             known_inputs: self.known_inputs.iter().copied().map(Input::from_array).collect(),
-            tracking: Tracking {
-                weights: self.weights,
-                axes: Axes::WORLD,
-                targets: (0..horizon).map(target).collect(),
-            },
-            comfort: self.comfort,
-            keep_outs: self.keep_outs.iter().map(Ellipse::keep_out).collect(),
-            distance_costs: self.distance_costs.iter().map(Distance::distance_cost).collect(),
-            mean_speed: self.mean_speed.as_ref().map(Mean::mean_speed),
         }
+    }
+
+    /// Its own terms, in the order in which planners pose them.
+    fn terms(&self, vehicle: usize, horizon: usize) -> Vec<Term> {
+        let [heading_rad, right_m, left_m] = self.road;
+        let end = self.lane_end.map(|[end_m, height_m, taper_m]| LaneEnd { end_m, height_m, taper_m });
+        let corridor = Corridor { heading_rad, right_m, left_m, end };
+        let target = |t: usize| State::from_array(self.targets[t.min(self.targets.len() - 1)]);
+        let targets = (0..horizon).map(target).collect();
+        let mut terms = vec![
+            Term::Comfort(Comfort { vehicle, weights: self.comfort }),
+            Term::Tracking(Tracking { vehicle, weights: self.weights, axes: Axes::WORLD, targets }),
+            Term::RoadEdge(RoadEdge { vehicle, body: self.body(), corridor }),
+        ];
+        terms.extend(self.keep_outs.iter().map(|of| Term::KeepOut(of.keep_out(vehicle))));
+        terms.extend(self.distance_costs.iter().map(|of| Term::DistanceCost(of.distance_cost(vehicle))));
+        terms.extend(self.mean_speed.iter().flat_map(|of| of.mean_speed().terms(vehicle)));
+        terms
     }
 }
 
-fn shape(heading_rad: f64, ellipse: SafetyEllipse) -> [f64; 3] {
-    [heading_rad, ellipse.along_m, ellipse.across_m]
+fn shape(of: &OrientedEllipse) -> [f64; 3] {
+    [of.heading_rad(), of.shape().along_m, of.shape().across_m]
 }
 
-fn ellipse([_, along_m, across_m]: [f64; 3]) -> SafetyEllipse {
-    SafetyEllipse { along_m, across_m }
+fn ellipse([heading_rad, along_m, across_m]: [f64; 3]) -> OrientedEllipse {
+    SafetyEllipse { along_m, across_m }.oriented(heading_rad)
 }
 
 fn penalty([linear, quadratic]: [f64; 2]) -> Penalty {
@@ -270,16 +307,11 @@ fn penalty([linear, quadratic]: [f64; 2]) -> Penalty {
 impl Ellipse {
     fn new(of: &KeepOut) -> Self {
         let penalty = [of.penalty.linear, of.penalty.quadratic];
-        Ellipse { centres: of.centres.clone(), shape: shape(of.heading_rad, of.ellipse), penalty }
+        Ellipse { centres: of.centres.clone(), shape: shape(&of.ellipse), penalty }
     }
 
-    fn keep_out(&self) -> KeepOut {
-        KeepOut {
-            centres: self.centres.clone(),
-            heading_rad: self.shape[0],
-            ellipse: ellipse(self.shape),
-            penalty: penalty(self.penalty),
-        }
+    fn keep_out(&self, vehicle: usize) -> KeepOut {
+        KeepOut { vehicle, centres: self.centres.clone(), ellipse: ellipse(self.shape), penalty: penalty(self.penalty) }
     }
 }
 
@@ -292,20 +324,16 @@ impl Distance {
         Distance { centres: of.centres.clone(), metric: of.metric, price }
     }
 
-    fn distance_cost(&self) -> DistanceCost {
+    fn distance_cost(&self, vehicle: usize) -> DistanceCost {
         let price = match self.price {
             Price::Linear(weight) => DistancePrice::Linear { weight },
             Price::Exact([base, loyalty, aversion]) => DistancePrice::Exact { base, loyalty, aversion },
         };
-        DistanceCost { centres: self.centres.clone(), metric: self.metric, price }
+        DistanceCost { vehicle, centres: self.centres.clone(), metric: self.metric, price }
     }
 }
 
 impl Mean {
-    fn new(of: &MeanSpeed) -> Self {
-        Mean { bounds: [of.lower_mps, of.upper_mps], penalty: [of.penalty.linear, of.penalty.quadratic] }
-    }
-
     fn mean_speed(&self) -> MeanSpeed {
         MeanSpeed { lower_mps: self.bounds[0], upper_mps: self.bounds[1], penalty: penalty(self.penalty) }
     }
@@ -314,14 +342,13 @@ impl Mean {
 impl Apart {
     fn new(of: &Separation) -> Self {
         let penalty = [of.penalty.linear, of.penalty.quadratic];
-        Apart { pair: [of.of, of.from], shape: shape(of.heading_rad, of.ellipse), penalty }
+        Apart { pair: [of.vehicle, of.from], shape: shape(&of.ellipse), penalty }
     }
 
     fn separation(&self) -> Separation {
         Separation {
-            of: self.pair[0],
+            vehicle: self.pair[0],
             from: self.pair[1],
-            heading_rad: self.shape[0],
             ellipse: ellipse(self.shape),
             penalty: penalty(self.penalty),
         }
@@ -329,7 +356,7 @@ impl Apart {
 }
 
 impl Lean {
-    fn new(of: &Leaning) -> Self {
+    fn new(of: &Persuasion) -> Self {
         Lean {
             toward: of.toward.clone(),
             away: of.away.clone(),
@@ -338,8 +365,9 @@ impl Lean {
         }
     }
 
-    fn leaning(&self) -> Leaning {
-        Leaning {
+    fn persuasion(&self) -> Persuasion {
+        Persuasion {
+            vehicle: 0,
             toward: self.toward.clone(),
             away: self.away.clone(),
             strength: self.strength,

@@ -4,12 +4,11 @@
 use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
 
-use interplay_planners::Bicycle;
-use interplay_planners::Limits;
 use interplay_planners::human::{self, Style};
 use interplay_planners::predict::constant_velocity;
+use interplay_planners::traffic::{Decision, RoadUser, Traffic};
 use interplay_planners::{
-    Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Plan, PlanError, Planner, SafetyEllipse, Scene, State,
+    Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Limits, Plan, PlanError, Planner, SafetyEllipse, State,
 };
 
 pub const STEP_S: f64 = 0.1;
@@ -22,7 +21,6 @@ pub struct Vehicle {
     pub agent: Agent,
     pub goal: Goal,
     pub driver: Driver,
-    planner: Planner,
 }
 
 /// What happened.
@@ -65,7 +63,7 @@ pub fn vehicle(
     };
     let target = State { x_m: 0.0, y_m: wants[0], heading_rad: 0.0, speed_mps: wants[1] };
     let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };
-    Vehicle { agent, goal, planner: driver.planner(), driver }
+    Vehicle { agent, goal, driver }
 }
 
 pub fn human(style: Style) -> Driver {
@@ -111,71 +109,68 @@ pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
     vec![ego, human]
 }
 
-/// Humans plan first, in the order given, then the others; everybody goes on with its old plan where none is found.
-pub fn run(mut vehicles: Vec<Vehicle>, ticks: usize) -> Run {
-    let states = |vehicles: &[Vehicle]| vehicles.iter().map(|vehicle| vehicle.agent.state).collect();
+/// The vehicles as road users that have not planned yet, and their planners.
+pub fn begin(vehicles: &[Vehicle]) -> (Traffic, Vec<Planner>) {
+    let road_user = |Vehicle { agent, goal, driver }: &Vehicle| {
+        let agent = Agent { shared_goal: driver.shared_goal(goal), ..agent.clone() };
+        RoadUser::new(agent, *goal, driver.goes_first())
+    };
+    let road_users = vehicles.iter().map(road_user).collect();
+    let planners = vehicles.iter().map(|vehicle| vehicle.driver.planner()).collect();
+    (Traffic { tick: 0, step_s: STEP_S, horizon: HORIZON, road_users }, planners)
+}
+
+/// Drives the vehicles through the loop of the application, with the bicycle as the plant.
+pub fn run(vehicles: Vec<Vehicle>, ticks: usize) -> Run {
+    let (mut traffic, mut planners) = begin(&vehicles);
     let names = vehicles.iter().map(|vehicle| vehicle.agent.name.clone()).collect();
-    let mut run = Run { names, states: vec![states(&vehicles)], nearest: f64::INFINITY, ..Run::default() };
-    let mut order: Vec<usize> = (0..vehicles.len()).collect();
-    order.sort_by_key(|index| (!vehicles[*index].driver.goes_first(), *index));
+    let mut run = Run { names, states: vec![states(&traffic)], nearest: f64::INFINITY, ..Run::default() };
     for tick in 0..ticks {
-        for vehicle in &mut vehicles {
-            vehicle.agent.shared_goal = vehicle.driver.shared_goal(&vehicle.goal);
-        }
-        for index in &order {
-            decide(&mut vehicles, *index, tick, &mut run);
-        }
-        for vehicle in &mut vehicles {
-            let agent = &mut vehicle.agent;
-            let input = agent.prediction.inputs[0];
-            agent.state = Bicycle::new(&agent.body, STEP_S).step(&agent.state, &input);
-            agent.previous_input = input;
-            agent.prediction = agent.prediction.shifted();
-            agent.prediction.states[0] = agent.state;
-        }
-        run.states.push(states(&vehicles));
-        run.note(&vehicles, tick);
+        let decisions = traffic.drive(|index, scene| {
+            let began = Instant::now();
+            let outcome = planners[index].plan(scene);
+            if index == 0 {
+                run.plan_ms.push(1e3 * began.elapsed().as_secs_f64());
+            }
+            outcome
+        });
+        run.note_decisions(decisions, tick);
+        run.states.push(states(&traffic));
+        run.note_distances(&traffic, tick);
     }
     run
 }
 
-fn decide(vehicles: &mut [Vehicle], index: usize, tick: usize, run: &mut Run) {
-    let others = vehicles.iter().enumerate().filter(|(other, _)| *other != index);
-    let others = others.map(|(_, other)| other.agent.clone()).collect();
-    let Vehicle { agent, goal, planner, .. } = &mut vehicles[index];
-    let scene = Scene { tick, step_s: STEP_S, horizon: HORIZON, ego: agent.clone(), goal: *goal, others };
-    let began = Instant::now();
-    let outcome = planner.plan(&scene);
-    if index == 0 {
-        run.plan_ms.push(1e3 * began.elapsed().as_secs_f64());
-    }
-    match outcome {
-        Ok(plan) => {
-            agent.prediction = plan.trajectory.clone();
-            if index == 0 {
-                run.plans.push(plan);
-            }
-        }
-        Err(error) => run.failures.push((tick, agent.name.clone(), error)),
-    }
+fn states(traffic: &Traffic) -> Vec<State> {
+    traffic.road_users.iter().map(|user| user.agent.state).collect()
 }
 
 impl Vehicle {
     /// Gives the vehicle another driver.
     pub fn drive(&mut self, driver: Driver) {
-        self.planner = driver.planner();
         self.driver = driver;
     }
 }
 
 impl Run {
-    fn note(&mut self, vehicles: &[Vehicle], tick: usize) {
-        let ego = &vehicles[0];
-        for (i, other) in vehicles.iter().enumerate().skip(1) {
+    fn note_decisions(&mut self, decisions: Vec<Decision>, tick: usize) {
+        for Decision { vehicle, plan, failure, .. } in decisions {
+            match failure {
+                Some(error) => self.failures.push((tick, self.names[vehicle].clone(), error)),
+                None if vehicle == 0 => self.plans.push(plan),
+                None => {}
+            }
+        }
+    }
+
+    fn note_distances(&mut self, traffic: &Traffic, tick: usize) {
+        let users = &traffic.road_users;
+        let ego = &users[0];
+        for (i, other) in users.iter().enumerate().skip(1) {
             let (at, heading) = (other.agent.state.position(), other.agent.corridor.heading_rad);
             let distance = ego.goal.safety.oriented(heading).distance(ego.agent.state.position(), at);
             self.nearest = self.nearest.min(distance.squared.sqrt());
-            for earlier in &vehicles[..i] {
+            for earlier in &users[..i] {
                 if self.collision.is_none() && overlap(&earlier.agent, &other.agent) {
                     self.collision = Some((tick + 1, earlier.agent.name.clone(), other.agent.name.clone()));
                 }

@@ -1,9 +1,12 @@
 //! A planner: whoever keeps two seconds behind the car ahead.
 
 // shown from here
-use interplay_planners::Bicycle;
+use interplay_planners::diagnostic::{DiagnosticQuantity, ValueSet};
 use interplay_planners::predict::steady;
-use interplay_planners::{Plan, PlanError, Scene, Trajectory};
+use interplay_planners::{Bicycle, Plan, PlanError, Scene, Trajectory};
+
+/// The speed at which the time headway is kept.
+const ALLOWED_SPEED: DiagnosticQuantity = DiagnosticQuantity::new("allowed speed", "m/s", ValueSet::NonNegative);
 
 /// Straight on; brakes as hard as it must to keep a time headway to the vehicle ahead.
 struct Careful {
@@ -34,7 +37,7 @@ impl Careful {
         }));
         Ok(Plan {
             trajectory: Trajectory { states, inputs },
-            diagnostics: vec![("allowed speed", allowed_mps.min(99.0))],
+            diagnostics: vec![ALLOWED_SPEED.is(allowed_mps.min(99.0))],
             ..Plan::default()
         })
     }

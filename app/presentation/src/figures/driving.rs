@@ -1,7 +1,6 @@
 //! Pictures of a run with vehicles.
 
-use interplay_planners::human::Style;
-use interplay_planners::{Driver, State};
+use interplay_planners::State;
 use interplay_scenarios::{Road, Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
 
@@ -76,13 +75,7 @@ fn state(take: &Take, tick: usize, index: usize) -> State {
 
 /// Name and driver of a vehicle.
 fn who(vehicle: &Vehicle) -> String {
-    let Driver::Human(settings) = &vehicle.driver else {
-        return format!("{}: {}", vehicle.name, vehicle.driver.kind());
-    };
-    let weight = settings.weight();
-    let style = [(Style::Nice, "nice"), (Style::Tough, "tough")].into_iter().find(|(s, _)| s.safety_weight() == weight);
-    let style = style.map_or_else(|| format!("safety weight {weight}"), |(_, word)| word.to_owned());
-    format!("{}: human, {style}", vehicle.name)
+    format!("{}: {}", vehicle.name, vehicle.driver.description())
 }
 
 /// Every road that somebody drives on.
@@ -166,36 +159,20 @@ fn each_vehicle(take: &Take, name: &str, value: fn(&State, f64) -> f64) -> Panel
     panel
 }
 
-/// Numbers of planners that belong into one plot: its name, and theirs.
-const REASONS: [(&str, &[&str]); 8] = [
-    ("probability [–]", &["acceptance", "posterior of the other", "posterior of the ego"]),
-    ("intention to pass [–]", &["intention p_e", "other's intention p_s"]),
-    ("weight [–]", &["concession weight", "persuasion strength", "other's loyalty w_1", "attraction k_1"]),
-    ("conservativeness ω [m]", &["conservativeness"]),
-    ("belief variance [–]", &["belief variance"]),
-    ("change of plans [m]", &["own change alpha", "other's change beta"]),
-    ("payoff of the ego [–]", &["payoff ego: both yield", "payoff ego: yields alone", "payoff ego: passes alone"]),
-    ("mean speed [m/s]", &["expressed speed from", "expressed speed to", "mean speed"]),
-];
-
 /// What a planner was thinking: its own numbers over time; none if it says nothing.
 pub fn reasons(title: &str, take: &Take, index: usize) -> Option<Panels> {
-    let value = |frame: &Frame, name: &str| {
-        let diagnostics = &frame.vehicles[index].plan.diagnostics;
-        diagnostics.iter().find(|(known, _)| *known == name).map_or(f64::NAN, |(_, value)| *value)
-    };
     let mut panels = Vec::new();
-    for (name, members) in REASONS {
+    for plot in take.scenario.vehicles[index].driver.explanation().plots {
         let mut curves = Vec::new();
-        for (member, ink) in members.iter().zip(ink::inks()) {
-            let points: Vec<[f64; 2]> =
-                vehicle_frames(take).map(|frame| [frame.time_s, value(frame, member)]).collect();
+        for (quantity, ink) in plot.quantities.iter().zip(ink::inks()) {
+            let value = |frame: &Frame| frame.vehicles[index].plan.value_of(quantity).unwrap_or(f64::NAN);
+            let points: Vec<[f64; 2]> = vehicle_frames(take).map(|frame| [frame.time_s, value(frame)]).collect();
             if points.iter().any(|point| point[1].is_finite()) {
-                curves.push(Curve::new(*member, ink, points));
+                curves.push(Curve::new(quantity.name, ink, points));
             }
         }
         if !curves.is_empty() {
-            panels.push(Panel { name: name.to_owned(), curves, ..Panel::default() });
+            panels.push(Panel { name: plot.title_with_unit(), curves, ..Panel::default() });
         }
     }
     let refused = refusals(take, index);

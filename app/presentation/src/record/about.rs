@@ -7,8 +7,8 @@ use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::building;
 use super::markdown::code;
-use super::mind;
 use super::palette::{FAILURE, Paint};
+use super::planner_panels;
 
 /// Logs the text beside the pictures.
 ///
@@ -38,7 +38,7 @@ fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> 
          In a vehicle's colour: pale behind it, the path it drove; solid ahead, its plan; dashed, what others expect \
          of it; dotted, what it asks another to do. Ellipses: where the ego's centre keeps out. A plan in {failure} \
          is a fallback, because the planner failed: the events say why.\n{guide}",
-        guide = mind::guide(scenario),
+        guide = planner_panels::guide(scenario),
         title = scenario.title,
         shows = scenario.shows.trim_end_matches('.'),
         failure = FAILURE.word,

@@ -11,8 +11,8 @@ use super::re_sdk_types::{blueprint, datatypes};
 use interplay_scenarios::{Branch, Scenario, Vehicle};
 
 use super::blueprint::{Panel, View};
-use super::mind::THOUGHTS;
 use super::panels::{about, events};
+use super::planner_panels;
 use super::plots::{self, Plots};
 use super::timelines::{SIM_TIME, TICK};
 use super::vehicles::FOLLOW;
@@ -55,11 +55,11 @@ fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
     let fastest = scenario.vehicles.iter().map(|vehicle| vehicle.limits.speed_max_mps).fold(0.0, f64::max);
     let speeds = Plot::new(scenario, "Speeds [m/s]", vec!["/plots/speed/**".to_owned()]);
     let mut panels = vec![(1.0, speeds.between(0.0, 1.05 * fastest).legend_at(Corner2D::RightBottom))];
-    for thought in &THOUGHTS {
-        let series = plots.among(thought.kind, thought.names);
+    for panel in planner_panels::panels(scenario) {
+        let series = plots.among(panel.kind, panel.content.quantities);
         if !series.is_empty() {
-            let mut plot = Plot::new(scenario, thought.title, series);
-            if let Some([low, high]) = thought.range {
+            let mut plot = Plot::new(scenario, panel.content.title, series);
+            if let Some([low, high]) = panel.axis() {
                 plot = plot.between(low, high);
             }
             panels.push((1.0, plot.legend_at(Corner2D::RightTop)));

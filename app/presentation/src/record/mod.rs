@@ -23,9 +23,9 @@ mod file;
 mod layout;
 mod live;
 mod markdown;
-mod mind;
 mod palette;
 mod panels;
+mod planner_panels;
 mod plots;
 mod road;
 #[cfg(test)]

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeSet;
 
+use interplay_planners::Diagnostic;
+use interplay_planners::diagnostic::{DiagnosticQuantity, Explanation};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::mind::{place, slug};
 use super::palette::{self, FAILURE, NEUTRAL, Paint};
+use super::planner_panels::{place, slug};
 use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
 use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
 
@@ -24,10 +26,19 @@ const QUANTITIES: [Quantity; 4] = [
     ("planner-ms", |vehicle| vehicle.plan_ms),
 ];
 
+/// Where the numbers of a vehicle's planner go.
+struct PlannerPaths {
+    /// The folder of all planners of its kind.
+    folder: String,
+    /// The end of the paths: empty, or the vehicle's name where several have this kind of planner.
+    end: String,
+    explanation: &'static Explanation,
+}
+
 /// The plots of a run.
 pub struct Plots {
-    /// The folder of each vehicle's own numbers and the end of their paths, in the scenario's order.
-    voices: Vec<(String, String)>,
+    /// Where the numbers of each planner go, in the scenario's order of vehicles.
+    planners: Vec<PlannerPaths>,
     /// Every series so far that not every run has.
     seen: BTreeSet<String>,
 }
@@ -39,17 +50,18 @@ impl Plots {
     /// If Rerun refuses a component.
     pub fn begin(stream: &RecordingStream, scenario: &Scenario, paints: &[Paint]) -> RecordingStreamResult<Plots> {
         let kind = |index: usize| scenario.vehicles[index].driver.kind();
-        let mut voices = Vec::new();
+        let mut planners = Vec::new();
         for (index, (vehicle, paint)) in scenario.vehicles.iter().zip(paints).enumerate() {
             for (quantity, _) in QUANTITIES {
                 style(stream, &format!("plots/{quantity}/{}", vehicle.name), &vehicle.name, paint.solid(), false)?;
             }
             let alone = (0..scenario.vehicles.len()).all(|other| other == index || kind(other) != kind(index));
             let end = if alone { String::new() } else { format!("/{}", vehicle.name) };
-            voices.push((format!("plots/{}", kind(index)), end));
+            let folder = format!("plots/{}", kind(index));
+            planners.push(PlannerPaths { folder, end, explanation: vehicle.driver.explanation() });
         }
         style(stream, GAP, "gap", NEUTRAL.solid(), false)?;
-        Ok(Plots { voices, seen: BTreeSet::new() })
+        Ok(Plots { planners, seen: BTreeSet::new() })
     }
 
     /// Whether there is anything at a path that not every run has.
@@ -57,9 +69,9 @@ impl Plots {
         self.seen.contains(path)
     }
 
-    /// The recorded numbers of these names, of one kind of planner or of all.
-    pub fn among(&self, kind: Option<&str>, names: &[&str]) -> Vec<String> {
-        let slugs: Vec<String> = names.iter().map(|name| slug(name)).collect();
+    /// The recorded numbers of these quantities, of one kind of planner or of all.
+    pub fn among(&self, kind: Option<&str>, quantities: &[DiagnosticQuantity]) -> Vec<String> {
+        let slugs: Vec<String> = quantities.iter().map(slug).collect();
         let mine = |path: &&String| {
             let mut parts = path.split('/').skip(1);
             let (folder, name) = (parts.next(), parts.next());
@@ -93,13 +105,14 @@ impl Plots {
     }
 
     fn reasons(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
-        for (vehicle, (folder, end)) in frame.vehicles.iter().zip(&self.voices) {
-            for (name, value) in &vehicle.plan.diagnostics {
-                let path = format!("{folder}/{}{end}", slug(name));
+        for (vehicle, PlannerPaths { folder, end, explanation }) in frame.vehicles.iter().zip(&self.planners) {
+            for Diagnostic { quantity, value } in &vehicle.plan.diagnostics {
+                let path = format!("{folder}/{}{end}", slug(quantity));
                 if !self.seen.contains(&path) {
-                    let label = if end.is_empty() { (*name).to_owned() } else { format!("{name}, {}", vehicle.name) };
-                    let paint = palette::series(place(name).unwrap_or_default());
-                    style(stream, &path, &label, paint.solid(), is_switch(name))?;
+                    let name = quantity.name;
+                    let label = if end.is_empty() { name.to_owned() } else { format!("{name}, {}", vehicle.name) };
+                    let paint = palette::series(place(explanation, quantity).unwrap_or_default());
+                    style(stream, &path, &label, paint.solid(), quantity.is_switch())?;
                     self.seen.insert(path.clone());
                 }
                 stream.log(path, &Scalars::single(*value))?;
@@ -135,11 +148,6 @@ impl Plots {
         self.seen.insert(LOG.to_owned());
         stream.log(LOG, &TextLog::new(text).with_level(level).with_color(paint.solid()))
     }
-}
-
-/// Whether a number of a planner is only ever 0 or 1.
-fn is_switch(name: &str) -> bool {
-    ["persuasion active", "safety filter"].contains(&name)
 }
 
 fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, steps: bool) -> RecordingStreamResult<()> {

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use interplay_planners::diagnostic::{COMMON_PANEL, COST};
+use interplay_planners::negotiation::diagnostics::CONCESSION_WEIGHT;
 use interplay_planners::{Plan, Proposal, State, Trajectory};
 use interplay_scenarios::{Override, Scenario, load};
 use interplay_simulation::frame::{Event, Level, Origin, VehicleFrame};
@@ -50,8 +52,12 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
         let asks = vehicle.driver.kind() == "negotiation" && tick < 5;
         let plan = Plan {
             trajectory: ahead.clone(),
-            proposal: asks.then(|| Proposal { to: "front".to_owned(), trajectory: ahead.clone() }),
-            diagnostics: if asks { vec![("concession weight", 0.5)] } else { vec![("cost", 1.0)] },
+            proposal: asks.then(|| Proposal {
+                to: "front".to_owned(),
+                trajectory: ahead.clone(),
+                acceptance: Some(1.0),
+            }),
+            diagnostics: if asks { vec![CONCESSION_WEIGHT.is(0.5)] } else { vec![COST.is(1.0)] },
             ..Plan::default()
         };
         let origin = if tick == 7 { Origin::Braking } else { Origin::Planned };
@@ -179,7 +185,7 @@ struct Listener(std::sync::Arc<std::sync::Mutex<std::collections::BTreeSet<&'sta
 impl Watcher for Listener {
     fn tick(&mut self, frame: &Frame) -> Result<(), String> {
         let mut heard = self.0.lock().map_err(|error| error.to_string())?;
-        heard.extend(frame.vehicles[0].plan.diagnostics.iter().map(|(name, _)| *name));
+        heard.extend(frame.vehicles[0].plan.diagnostics.iter().map(|diagnostic| diagnostic.quantity.name));
         Ok(())
     }
 
@@ -198,10 +204,9 @@ fn planners_give_every_number_that_a_panel_shows() {
         let watcher = Listener(std::sync::Arc::clone(&heard));
         interplay_simulation::run::run(kind, &scenario, vec![Box::new(watcher)]).expect("half a second");
         let heard = heard.lock().expect("nobody panicked");
-        for thought in mind::THOUGHTS.iter().filter(|thought| thought.kind.is_none_or(|one| one == kind)) {
-            for name in thought.names {
-                assert!(heard.contains(name), "{kind} gives no `{name}`: {heard:?}");
-            }
+        let explanation = scenario.vehicles[0].driver.explanation();
+        for quantity in explanation.panels.iter().chain([&COMMON_PANEL]).flat_map(|panel| panel.quantities) {
+            assert!(heard.contains(quantity.name), "{kind} reports no `{}`: {heard:?}", quantity.name);
         }
     }
 }

@@ -16,8 +16,6 @@ const COASTS: f64 = 0.1;
 /// An acceptance probability from which on a proposal is accepted, and one below which it is refused.
 const ACCEPTED: f64 = 0.8;
 const REFUSED: f64 = 0.2;
-/// The name under which planners tell it.
-const ACCEPTANCE: &str = "acceptance";
 /// So many zones are named; the others are counted.
 const NAMED: usize = 3;
 /// Who speaks for the building in the log.
@@ -61,7 +59,7 @@ impl Milestones {
             self.accepted[index] = None;
             return None;
         };
-        let acceptance = vehicle.plan.diagnostics.iter().find(|(name, _)| *name == ACCEPTANCE)?.1;
+        let acceptance = proposal.acceptance?;
         let now = if acceptance >= ACCEPTED {
             true
         } else if acceptance <= REFUSED {
@@ -154,12 +152,12 @@ mod tests {
     use super::*;
 
     fn tick(acceleration_mps2: f64, acceptance: Option<f64>) -> Frame {
-        let proposal = acceptance.map(|_| Proposal { to: "front".to_owned(), trajectory: Trajectory::default() });
-        let diagnostics = acceptance.map(|value| (ACCEPTANCE, value)).into_iter().collect();
+        let proposal = |_| Proposal { to: "front".to_owned(), trajectory: Trajectory::default(), acceptance };
+        let proposal = acceptance.map(proposal);
         let vehicle = VehicleFrame {
             name: "ego".to_owned(),
             input: Input { acceleration_mps2, steering_rad: 0.0 },
-            plan: Plan { proposal, diagnostics, ..Plan::default() },
+            plan: Plan { proposal, ..Plan::default() },
             ..VehicleFrame::default()
         };
         Frame { vehicles: vec![vehicle], ..Frame::default() }

@@ -16,59 +16,97 @@
 //! The tangent keeps out of the whole ellipse, so the promise is rather too dear than too cheap. A plan that begins abreast cannot
 //! be on the other side at once: it crosses where it is nearest to the axis.
 
-use super::linearize::{drop_curvature, ellipses, linearise};
-use super::optimiser::{Optimiser, Optimum};
+use super::exploration::Bar;
+use super::optimiser::Optimiser;
+use super::optimum::Optimum;
+use super::step_problem::row_terms;
 use crate::Axes;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{Row, RowBlock, StageSolver};
+use crate::vehicle::OrientedEllipse;
 
 /// A multiplier above this makes a row active.
-const ACTIVE: f64 = 1e-6;
+const ACTIVE_MULTIPLIER: f64 = 1e-6;
 /// A promise counts if it is below so many times the optimum at hand: tangents make it too dear.
-const CHEAP: f64 = 1.01;
-/// Above so many times it the other side is out of reach, …
-const HOPELESS: f64 = 2.0;
-/// … and will be for so many plans.
-const REST: usize = 4;
+const MAX_PROMISED_COST_RATIO: f64 = 1.01;
+/// Above so many times it the other side is out of reach.
+const UNREACHABLE_COST_RATIO: f64 = 2.0;
+/// For how many plans a side that was out of reach is not looked at.
+const PLANS_WITHOUT_LOOK: usize = 4;
 
-impl<S: StageSolver> Optimiser<S> {
-    /// The cheapest of an optimum, whose descent is the last that was remembered, and those on the other side of each
-    /// ellipse that it touches.
-    pub(super) fn look_across(&mut self, problem: &Problem, mut best: Optimum) -> Optimum {
-        self.memory.rests.resize(self.memory.multipliers.row_multipliers.len(), 0);
-        for (block, axes) in ellipses(problem) {
-            let rest = &mut self.memory.rests[block];
-            if *rest > 0 {
-                *rest -= 1;
-            } else if self.memory.multipliers.row_multipliers[block].iter().any(|multiplier| *multiplier > ACTIVE) {
-                match self.step_across(problem, &mut best, block, &axes) {
-                    Some(promise) if promise < CHEAP * best.cost.total => self.follow(problem, &mut best),
-                    Some(promise) if promise > HOPELESS * best.cost.total => self.memory.rests[block] = REST,
-                    _ => {}
-                }
-            }
+/// The cheapest of an optimum, whose descent is the last that was kept, and those on the other side of each ellipse that it
+/// touches.
+pub(super) fn look_to_other_sides<S: StageSolver>(
+    optimiser: &mut Optimiser<S>,
+    problem: &Problem,
+    mut best: Optimum,
+) -> Optimum {
+    let blocks = optimiser.warm_start.multipliers.row_multipliers.len();
+    optimiser.warm_start.plans_without_look.resize(blocks, 0);
+    let mut block = 0;
+    for rows in row_terms(problem) {
+        if let Some(ellipse) = rows.ellipse() {
+            look(optimiser, problem, &mut best, block, ellipse);
         }
-        best
+        block += rows.rows_per_stage();
     }
+    best
+}
 
-    /// The step to the other side of one ellipse, and the cost that it promises there; nothing if no side was taken.
-    fn step_across(&mut self, problem: &Problem, best: &mut Optimum, block: usize, axes: &Axes) -> Option<f64> {
-        linearise(problem, &best.iterate, &mut self.qp);
-        let before = penalties(&self.qp.blocks[block]);
-        if !cross(&mut self.qp.blocks[block].rows, axes) {
-            return None;
+/// Looks to the other side of the ellipse of one block, if the optimum touches it and the side is worth a look.
+fn look<S: StageSolver>(
+    optimiser: &mut Optimiser<S>,
+    problem: &Problem,
+    best: &mut Optimum,
+    block: usize,
+    ellipse: &OrientedEllipse,
+) {
+    let start = &mut optimiser.warm_start;
+    let plans_without_look = &mut start.plans_without_look[block];
+    if *plans_without_look > 0 {
+        *plans_without_look -= 1;
+        return;
+    }
+    if !start.multipliers.row_multipliers[block].iter().any(|multiplier| *multiplier > ACTIVE_MULTIPLIER) {
+        return;
+    }
+    match promised_cost(optimiser, problem, best, block, ellipse) {
+        Some(promise) if promise < MAX_PROMISED_COST_RATIO * best.cost.total => follow(optimiser, problem, best),
+        Some(promise) if promise > UNREACHABLE_COST_RATIO * best.cost.total => {
+            optimiser.warm_start.plans_without_look[block] = PLANS_WITHOUT_LOOK;
         }
-        drop_curvature(&mut self.qp);
-        let posed = best.cost.total + penalties(&self.qp.blocks[block]) - before;
-        let solved = self.solve_step(best, false).is_ok();
-        Some(if solved { posed + self.qp.change(&self.step) } else { f64::INFINITY })
+        _ => {}
     }
+}
 
-    /// Descends from where the step leads, and stays there if it is cheaper.
-    fn follow(&mut self, problem: &Problem, best: &mut Optimum) {
-        self.try_step(problem, &best.iterate, 1.0);
-        let found = self.descend_on(problem, self.search.trial.clone(), best.below());
-        self.keep_cheaper(best, found);
+/// Solves for the step to the other side of one ellipse; returns the cost that it promises there, or nothing if the optimum
+/// is on no side.
+fn promised_cost<S: StageSolver>(
+    optimiser: &mut Optimiser<S>,
+    problem: &Problem,
+    best: &mut Optimum,
+    block: usize,
+    ellipse: &OrientedEllipse,
+) -> Option<f64> {
+    let steps = &mut optimiser.descent.steps;
+    steps.problem.linearize(problem, &best.iterate);
+    let rows = &mut steps.problem.qp.blocks[block];
+    let before = penalties(rows);
+    if !move_to_other_side(&mut rows.rows, ellipse) {
+        return None;
+    }
+    let posed = best.cost.total + penalties(rows) - before;
+    let solved = steps.solve(best, false).is_ok();
+    Some(if solved { posed + steps.problem.qp.change(&steps.step) } else { f64::INFINITY })
+}
+
+/// Descends from where the step leads, and stays there if it is cheaper.
+fn follow<S: StageSolver>(optimiser: &mut Optimiser<S>, problem: &Problem, best: &mut Optimum) {
+    let descent = &mut optimiser.descent;
+    descent.search.try_step(&descent.steps.step, problem, &best.iterate, 1.0);
+    let from = descent.search.trial.clone();
+    if let Ok(found) = optimiser.explore_on(problem, from, Bar { cost: best.bar(), gives_up: true }) {
+        found.improve(best);
     }
 }
 
@@ -85,11 +123,10 @@ struct Abreast {
 }
 
 impl Abreast {
-    fn of(row: &Row, axes: &Axes) -> Option<Abreast> {
+    fn of(row: &Row, ellipse: &OrientedEllipse, axes: &Axes) -> Option<Abreast> {
         let [x, y, _] = row.gradient;
-        let [xx, xy, yy, _] = row.curvature;
         let [along, across] = axes.components([x, y]);
-        let [long, _, short] = axes.entries([xx, xy, yy]);
+        let [long, _, short] = axes.entries(ellipse.hessian());
         let relative = [along / long, across / short];
         (row.active && 0.5 * long * relative[0].powi(2) < 1.0).then_some(Abreast { relative, bend: [long, short] })
     }
@@ -104,9 +141,10 @@ impl Abreast {
     }
 }
 
-/// Puts rows to the other side of their ellipse; whether there were any.
-fn cross(rows: &mut [Row], axes: &Axes) -> bool {
-    let seen: Vec<Option<Abreast>> = rows.iter().map(|row| Abreast::of(row, axes)).collect();
+/// Replaces rows by tangents on the other side of their ellipse; returns whether there were any to replace.
+fn move_to_other_side(rows: &mut [Row], ellipse: &OrientedEllipse) -> bool {
+    let axes = &Axes::along(ellipse.heading_rad());
+    let seen: Vec<Option<Abreast>> = rows.iter().map(|row| Abreast::of(row, ellipse, axes)).collect();
     let Some(side) = seen.iter().rev().flatten().next().map(|last| -last.relative[1].signum()) else { return false };
     let off_axis = |k: &usize| seen[*k].as_ref().map_or(f64::INFINITY, |at| at.relative[1].abs());
     let begins_abreast = seen.first().is_some_and(Option::is_some);
@@ -131,9 +169,8 @@ mod tests {
 
     fn row_at(relative: [f64; 2], heading_rad: f64) -> Row {
         let distance = ELLIPSE.oriented(heading_rad).distance(relative, [0.0; 2]);
-        let [xx, xy, yy] = ELLIPSE.oriented(heading_rad).hessian();
         let [x, y] = distance.gradient;
-        Row { active: true, value: distance.squared - 1.0, gradient: [x, y, 0.0], curvature: [xx, xy, yy, 0.0] }
+        Row { active: true, value: distance.squared - 1.0, gradient: [x, y, 0.0], curvature: [0.0; 4] }
     }
 
     proptest! {
@@ -146,7 +183,7 @@ mod tests {
             let (axes, side) = (Axes::along(heading), if left { 1.0 } else { -1.0 });
             let here = axes.vector([along, across]);
             let mut row = row_at(here, heading);
-            let abreast = Abreast::of(&row, &axes).expect("abreast");
+            let abreast = Abreast::of(&row, &ELLIPSE.oriented(heading), &axes).expect("abreast");
             abreast.tangent(side, &axes, &mut row);
             let value = |p: [f64; 2]| row.value + row.gradient[0] * (p[0] - here[0]) + row.gradient[1] * (p[1] - here[1]);
             let edge = side * ELLIPSE.across_m * (1.0 - (along / ELLIPSE.along_m).powi(2)).sqrt();
@@ -162,7 +199,7 @@ mod tests {
         let plan = [[0.3, -0.4], [0.4, -0.3], [0.5, -0.1], [0.6, -0.2], [0.8, -0.2]];
         let mut rows = plan.map(|relative| row_at(relative, 0.0));
         let before = rows;
-        assert!(cross(&mut rows, &Axes::WORLD));
+        assert!(move_to_other_side(&mut rows, &ELLIPSE.oriented(0.0)));
         let moved: Vec<bool> = rows.iter().zip(&before).map(|(row, was)| row != was).collect();
         assert_eq!(moved, [false, false, true, true, false]);
         assert!(rows[2..4].iter().all(|row| row.gradient[1] > 0.0), "the left side");

@@ -1,6 +1,9 @@
-//! Which optimum: descents from several guesses, and to the other sides of ellipses ([`super::other_side`]). The cheapest wins.
+//! Which optimum: descents from several guesses, and to the other sides of ellipses. The cheapest wins.
 
-use super::optimiser::{DescentError, Optimiser, Optimum, Statistics};
+use super::exploration::{Bar, Exploration};
+use super::optimiser::Optimiser;
+use super::optimum::{DescentError, Optimum};
+use super::other_side::look_to_other_sides;
 use crate::Input;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::StageSolver;
@@ -19,49 +22,29 @@ impl<S: StageSolver> Optimiser<S> {
     ) -> Result<Optimum, DescentError> {
         let Some((first, others)) = guesses.split_first() else { return Err(DescentError::NotFinite) };
         let mut best = self.descend(problem, first);
-        if self.looks_across {
-            best = best.map(|optimum| self.look_across(problem, optimum));
+        if self.looks_to_other_sides {
+            best = best.map(|optimum| look_to_other_sides(self, problem, optimum));
         }
         if self.tolerances.trust(&best) && !look_around {
             return best;
         }
         for guess in others {
             // In trouble nothing is given up early.
-            let goal = match &best {
-                Ok(held) if self.tolerances.trust(&best) => held.below(),
-                _ => f64::INFINITY,
-            };
-            let found = self.explore(problem, guess, goal);
-            match (&mut best, found) {
-                (Ok(best), found) => self.keep_cheaper(best, found),
-                (Err(_), Ok(found)) => {
-                    best = Ok(found);
-                    self.adopt();
+            let gives_up = self.tolerances.trust(&best);
+            match &mut best {
+                Ok(held) => {
+                    if let Ok(found) = self.explore(problem, guess, Bar { cost: held.bar(), gives_up }) {
+                        found.improve(held);
+                    }
                 }
-                (Err(_), Err(_)) => {}
+                Err(_) => {
+                    let found = self.explore(problem, guess, Bar { cost: f64::INFINITY, gives_up: false });
+                    if let Ok(Exploration::Cheaper(found)) = found {
+                        best = Ok(found);
+                    }
+                }
             }
         }
         best
-    }
-
-    /// Takes what was found after another optimum if it is cheaper; the work is counted either way.
-    pub(super) fn keep_cheaper(&mut self, best: &mut Optimum, found: Result<Optimum, DescentError>) {
-        let Ok(found) = found else { return };
-        let mut work = best.statistics;
-        work.add(&found.statistics);
-        if found.cost.total < best.below() {
-            let residual = found.statistics.residual;
-            *best = Optimum { statistics: Statistics { residual, ..work }, ..found };
-            self.adopt();
-        } else {
-            best.statistics = Statistics { residual: best.statistics.residual, ..work };
-        }
-    }
-}
-
-impl Optimum {
-    /// What another optimum has to cost less than.
-    pub(super) fn below(&self) -> f64 {
-        self.cost.total - 1e-9 * (1.0 + self.cost.total.abs())
     }
 }

@@ -7,17 +7,17 @@ use crate::trajectory::stage::{Reach, StageQp, StageSolution};
 
 /// Multipliers and reach of an earlier descent; empty before the first.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Memory {
+pub struct WarmStart {
     /// The optimum's multipliers; deviations are zero.
     pub multipliers: StageSolution,
     /// How far the descent's first step was expected to go from where it began.
     pub reach: Option<Reach>,
-    /// Per block of rows, for how many more times the other side of its ellipse is not looked at.
-    pub rests: Vec<usize>,
+    /// Per block of rows, for how many more plans the other side of its ellipse is not looked at.
+    pub plans_without_look: Vec<usize>,
 }
 
-impl Memory {
-    /// Whether there is something to remember for a problem of this shape.
+impl WarmStart {
+    /// Whether there is something to start from for a problem of this shape.
     pub(super) fn fits(&self, qp: &StageQp) -> bool {
         self.multipliers.fits(qp)
     }
@@ -25,13 +25,13 @@ impl Memory {
 
 impl StageSolution {
     /// Moves every stage's multipliers to the stage before; the last one keeps its own.
-    pub(super) fn pass_a_stage(&mut self) {
-        self.bound_multipliers.iter_mut().for_each(|bounds| pass(bounds));
-        self.row_multipliers.iter_mut().for_each(|rows| pass(rows));
+    pub(super) fn shift_stages(&mut self) {
+        self.bound_multipliers.iter_mut().for_each(|bounds| shift(bounds));
+        self.row_multipliers.iter_mut().for_each(|rows| shift(rows));
     }
 }
 
-fn pass<T: Copy>(stages: &mut [T]) {
+fn shift<T: Copy>(stages: &mut [T]) {
     if !stages.is_empty() {
         stages.copy_within(1.., 0);
     }

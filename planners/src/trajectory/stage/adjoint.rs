@@ -37,24 +37,29 @@ pub(crate) fn curvature_gradient(c: &DynamicsCurvature, d: &[f64; 4], w: &[f64; 
     )
 }
 
-/// The costates `n_k` of every vehicle (`N` of them each) at the solution's deviations and multipliers.
-pub fn costates(qp: &StageQp, at: &StageSolution) -> Vec<Vec<[f64; 4]>> {
-    let mut gradients = state_gradients(qp, at);
+/// Costates `n_k` of every vehicle, `N` of them each.
+pub type Costates = Vec<Vec<[f64; 4]>>;
+
+/// Writes the costates at the solution's deviations and multipliers; `costates` keeps its allocations.
+pub fn fill_costates(qp: &StageQp, at: &StageSolution, costates: &mut Costates) {
+    fill_state_gradients(qp, at, costates);
     for (i, stages) in qp.vehicles.iter().enumerate() {
         for k in (0..qp.horizon.saturating_sub(1)).rev() {
-            let (from_next, _) = stages.jacobians[k + 1].apply_transposed(&gradients[i][k + 1]);
-            for (value, carried) in gradients[i][k].iter_mut().zip(from_next) {
+            let (from_next, _) = stages.jacobians[k + 1].apply_transposed(&costates[i][k + 1]);
+            for (value, carried) in costates[i][k].iter_mut().zip(from_next) {
                 *value += carried;
             }
         }
     }
-    gradients
 }
 
-/// Derivative of the Lagrangian over `d_{k+1}` without the dynamics.
-fn state_gradients(qp: &StageQp, at: &StageSolution) -> Vec<Vec<[f64; 4]>> {
-    let mut gradients: Vec<Vec<[f64; 4]>> =
-        (0..qp.vehicles.len()).map(|i| (0..qp.horizon).map(|k| vehicle_gradient(qp, at, i, k)).collect()).collect();
+/// Writes the derivative of the Lagrangian over `d_{k+1}` without the dynamics.
+fn fill_state_gradients(qp: &StageQp, at: &StageSolution, gradients: &mut Costates) {
+    gradients.resize_with(qp.vehicles.len(), Vec::new);
+    for (vehicle, gradients) in gradients.iter_mut().enumerate() {
+        gradients.clear();
+        gradients.extend((0..qp.horizon).map(|k| vehicle_gradient(qp, at, vehicle, k)));
+    }
     for (block, multipliers) in qp.blocks.iter().zip(&at.row_multipliers) {
         for (k, (row, multiplier)) in block.rows.iter().zip(multipliers).enumerate() {
             if !row.active {
@@ -87,10 +92,9 @@ fn state_gradients(qp: &StageQp, at: &StageSolution) -> Vec<Vec<[f64; 4]>> {
             gradient[3] += multiplier * speed;
         }
     }
-    gradients
 }
 
-/// The part of [`state_gradients`] that comes from the vehicle's own cost and speed box.
+/// The part of [`fill_state_gradients`] that comes from the vehicle's own cost and speed box.
 fn vehicle_gradient(qp: &StageQp, at: &StageSolution, vehicle: usize, k: usize) -> [f64; 4] {
     let stages = &qp.vehicles[vehicle];
     let (cost, d) = (&stages.state_costs[k], at.states[vehicle][k]);

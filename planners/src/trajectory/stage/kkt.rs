@@ -3,7 +3,7 @@
 //!
 //! At deviations of zero it is the residual of the nonlinear problem at the iterate.
 
-use super::adjoint::{costates, curvature_gradient};
+use super::adjoint::{Costates, curvature_gradient, fill_costates};
 use super::qp::{Row, RowBlock, StageQp};
 use super::solution::StageSolution;
 use crate::trajectory::penalty::Penalty;
@@ -56,8 +56,13 @@ impl Residual {
 
 /// The residual of `solution` in `qp`.
 pub fn residual(qp: &StageQp, solution: &StageSolution) -> Residual {
+    residual_in(qp, solution, &mut Costates::new())
+}
+
+/// The residual of `solution` in `qp`, with memory for the costates.
+pub fn residual_in(qp: &StageQp, solution: &StageSolution, costates: &mut Costates) -> Residual {
     let mut residual = Residual::default();
-    let costates = costates(qp, solution);
+    fill_costates(qp, solution, costates);
     for (vehicle, costates) in costates.iter().enumerate() {
         vehicle_residual(qp, solution, vehicle, costates, &mut residual);
     }

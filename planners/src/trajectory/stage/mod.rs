@@ -13,8 +13,9 @@ mod solver;
 mod sparse;
 mod structured;
 
-pub(super) use adjoint::costates;
-pub use qp::{Interval, Reach, Row, RowBlock, StageQp, StateCost, TrajectoryRow, VehicleStages};
+pub use adjoint::Costates;
+pub(super) use adjoint::fill_costates;
+pub use qp::{Hessian, Interval, Reach, Row, RowBlock, StageQp, StateCost, TrajectoryRow, VehicleStages};
 pub use robust::Robust;
 pub use solution::StageSolution;
 pub use solver::{StageError, StageSolver};

@@ -20,11 +20,11 @@ impl StageQp {
     }
 
     /// `Σ linear·s` after the step, as the rows' linear model has it, and the largest `λ/linear` of its multipliers.
-    pub(crate) fn steep(&self, solution: &StageSolution) -> (f64, f64) {
-        let (mut steep, mut share) = (0.0, 0.0_f64);
+    pub(crate) fn linear_penalties(&self, solution: &StageSolution) -> (f64, f64) {
+        let (mut penalties, mut share) = (0.0, 0.0_f64);
         let mut add = |penalty: Penalty, value: f64, multiplier: f64| {
             if penalty.linear > 0.0 {
-                steep += penalty.linear * (-value).max(0.0);
+                penalties += penalty.linear * (-value).max(0.0);
                 share = share.max(multiplier / penalty.linear);
             }
         };
@@ -36,7 +36,7 @@ impl StageQp {
                 add(penalty, row_value(block, row, solution, k), *multiplier);
             }
         }
-        (steep, share)
+        (penalties, share)
     }
 
     fn vehicle_change(&self, solution: &StageSolution, vehicle: usize) -> f64 {

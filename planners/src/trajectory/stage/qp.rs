@@ -38,7 +38,7 @@ pub struct StateCost {
     pub hessian: [f64; 4],
     /// Its entry xy. With the diagonal it is positive semi-definite.
     pub cross: f64,
-    /// What the Hessian lacks of the exact one over `(xx, xy, yy)` because it is not convex; zero for Gauss-Newton.
+    /// What an exact Hessian adds over `(xx, xy, yy)` although it is not convex; zero for Gauss-Newton.
     pub curvature: [f64; 3],
 }
 
@@ -78,7 +78,7 @@ pub struct Row {
 }
 
 /// The same soft row at every stage.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RowBlock {
     /// Whose position the row speaks of.
     pub vehicle: usize,
@@ -91,7 +91,7 @@ pub struct RowBlock {
 }
 
 /// A convex quadratic row over the whole trajectory of a vehicle: `value + Σ b_k·(x, y, v)_{k+1} + Σ β_k‖p_{k+1}‖² ≤ s`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrajectoryRow {
     /// Whose trajectory.
     pub vehicle: usize,
@@ -103,6 +103,16 @@ pub struct TrajectoryRow {
     pub bends: Vec<f64>,
     /// What a violation costs.
     pub penalty: Penalty,
+}
+
+/// Which second derivatives a step problem has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hessian {
+    /// Those of the convex part of the cost only: every `curvature` is zero, and the problem is convex.
+    #[default]
+    GaussNewton,
+    /// Those of the Lagrangian, or a share of what they add: the problem may not be convex.
+    Lagrangian,
 }
 
 /// A quadratic programme in stage form.
@@ -123,6 +133,8 @@ pub struct StageQp {
     /// How far the solution is expected to be, if anything is known about that. A solver may begin without the rows that are
     /// farther, and must look at them in the end.
     pub reach: Option<Reach>,
+    /// Whether the curvatures of dynamics, rows and costs are in it.
+    pub hessian: Hessian,
 }
 
 /// How far deviations are expected to go to either side, over all vehicles and stages.
@@ -132,17 +144,6 @@ pub struct Reach {
     pub state: [f64; 4],
     /// Of `(δa, δδ)`.
     pub input: [f64; 2],
-}
-
-impl StageQp {
-    /// Whether curvature of dynamics or rows was added, so that the problem may not be convex.
-    pub fn is_curved(&self) -> bool {
-        let rows = self.blocks.iter().flat_map(|block| &block.rows);
-        let costs = self.vehicles.iter().flat_map(|stages| &stages.state_costs);
-        self.vehicles.iter().any(|stages| stages.curvatures.iter().any(|c| *c != DynamicsCurvature::default()))
-            || rows.into_iter().any(|row| row.curvature != [0.0; 4])
-            || costs.into_iter().any(|cost| cost.curvature != [0.0; 3])
-    }
 }
 
 impl Reach {

@@ -1,6 +1,6 @@
 //! The stage solver that planners use: the structured one, and the general one where that gives up.
 
-use super::qp::StageQp;
+use super::qp::{Hessian, StageQp};
 use super::solution::StageSolution;
 use super::solver::{StageError, StageSolver};
 use super::sparse::Sparse;
@@ -20,7 +20,9 @@ impl StageSolver for Robust {
 
     fn solve(&mut self, problem: &StageQp, solution: &mut StageSolution, warm: bool) -> Result<(), StageError> {
         match self.structured.solve(problem, solution, warm) {
-            Err(StageError::Unsolved { .. }) if !problem.is_curved() => self.sparse.solve(problem, solution, false),
+            Err(StageError::Unsolved { .. }) if problem.hessian == Hessian::GaussNewton => {
+                self.sparse.solve(problem, solution, false)
+            }
             other => other,
         }
     }

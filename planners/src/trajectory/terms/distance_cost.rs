@@ -10,6 +10,8 @@
 //! `M − n nᵀ` is positive semi-definite (Cauchy and Schwarz). So the Hessian splits into a convex part, where `φ′` or `φ″`
 //! is positive, and a concave one: the first is in every step problem, the second in exact ones only.
 
+use super::shape::StateCostTerm;
+use crate::State;
 use crate::trajectory::stage::StateCost;
 
 /// Smooths the tip of the cone at `d = 0`, `ε`.
@@ -18,6 +20,8 @@ const TIP: f64 = 1e-4;
 /// The cost of a trajectory's distances from a moving centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceCost {
+    /// Whose distance.
+    pub vehicle: usize,
     /// Centres at `t = 1…N` \[m\].
     pub centres: Vec<[f64; 2]>,
     /// `M` over (xx, xy, yy) \[1/m²\].
@@ -47,7 +51,7 @@ pub enum DistancePrice {
 
 /// A value of one variable with its first two derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Jet {
+struct Jet {
     value: f64,
     slope: f64,
     bend: f64,
@@ -58,7 +62,7 @@ impl DistancePrice {
     ///
     /// For the exact price, with `s = A − w_4`, division gives
     /// `φ = −w_4 (ω² + w_4 ω²/s) ` and `ω²/s = (ω − m/w_1)/w_1 + (m/w_1)²/s`, `m = base·w_1 − w_4`.
-    pub(crate) fn at(&self, omega: f64) -> Jet {
+    fn at(&self, omega: f64) -> Jet {
         match *self {
             DistancePrice::Linear { weight } => Jet { value: weight * omega, slope: weight, bend: 0.0 },
             DistancePrice::Exact { base, loyalty, aversion } => {
@@ -93,15 +97,19 @@ impl DistanceCost {
     pub fn omega(&self, k: usize, position: [f64; 2]) -> f64 {
         self.distance(k, position).0
     }
+}
 
-    /// `φ` at stage `k` (`t = k + 1`).
-    pub fn value(&self, k: usize, position: [f64; 2]) -> f64 {
-        self.price.at(self.distance(k, position).0).value
+impl StateCostTerm for DistanceCost {
+    fn vehicle(&self) -> usize {
+        self.vehicle
     }
 
-    /// Adds gradient and Hessian at stage `k` to a stage's cost.
-    pub(crate) fn add_to(&self, k: usize, position: [f64; 2], cost: &mut StateCost) {
-        let (omega, n) = self.distance(k, position);
+    fn add_value(&self, stage: usize, state: &State, total: &mut f64) {
+        *total += self.price.at(self.distance(stage, state.position()).0).value;
+    }
+
+    fn add_expansion(&self, stage: usize, state: &State, cost: &mut StateCost, concave: &mut [f64; 3]) {
+        let (omega, n) = self.distance(stage, state.position());
         let Jet { slope, bend, .. } = self.price.at(omega);
         cost.gradient[0] += slope * n[0];
         cost.gradient[1] += slope * n[1];
@@ -112,8 +120,9 @@ impl DistanceCost {
         cost.hessian[0] += xx;
         cost.cross += xy;
         cost.hessian[1] += yy;
-        let concave = part(slope.min(0.0), bend.min(0.0));
-        cost.curvature = std::array::from_fn(|i| cost.curvature[i] + concave[i]);
+        for (sum, entry) in concave.iter_mut().zip(part(slope.min(0.0), bend.min(0.0))) {
+            *sum += entry;
+        }
     }
 }
 
@@ -142,8 +151,14 @@ mod tests {
     #[test]
     fn along_a_straight_line_the_linear_price_is_straight() {
         let centres = vec![[1.0, 2.0]];
-        let cost = DistanceCost { centres, metric: [1.5, 0.2, 4.0], price: DistancePrice::Linear { weight: 2.0 } };
-        let value = |share: f64| cost.value(0, [1.0 + 0.5 * share, 2.0 - 0.3 * share]);
+        let price = DistancePrice::Linear { weight: 2.0 };
+        let cost = DistanceCost { vehicle: 0, centres, metric: [1.5, 0.2, 4.0], price };
+        let value = |share: f64| {
+            let (mut total, state) =
+                (0.0, State { x_m: 1.0 + 0.5 * share, y_m: 2.0 - 0.3 * share, ..State::default() });
+            cost.add_value(0, &state, &mut total);
+            total
+        };
         assert!((value(1.0) + value(3.0) - 2.0 * value(2.0)).abs() < 1e-7);
     }
 }

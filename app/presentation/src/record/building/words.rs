@@ -18,8 +18,8 @@ pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
          power; *cheapest possible* is what the same day would have cost had everything been known. The timeline \
          `iteration` counts days.\n",
         title = scenario.title,
-        shows = scenario.shows.trim_end_matches('.'),
         look = scenario.controller().look_for(),
+        shows = scenario.shows.trim_end_matches('.'),
         kind = scenario.controller().kind(),
         days = scenario.days(),
     )

@@ -4,7 +4,7 @@ use super::along::Along;
 use super::columns::{Columns, Start, larger};
 use super::riccati::{PairHessian, Riccati, VehicleHessian};
 use super::rows::{Inequalities, Point};
-use crate::trajectory::stage::qp::{Reach, StageQp};
+use crate::trajectory::stage::qp::{Hessian, Reach, StageQp};
 use crate::trajectory::stage::solution::StageSolution;
 use crate::trajectory::stage::solver::{StageError, StageSolver};
 
@@ -97,7 +97,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         if let Err(StageError::Unsolved { .. }) = outcome {
             outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
         }
-        if matches!(outcome, Err(StageError::Unsolved { .. })) && !qp.is_curved() {
+        if matches!(outcome, Err(StageError::Unsolved { .. })) && qp.hessian == Hessian::GaussNewton {
             self.firmness = FIRM;
             outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
             self.firmness = 0.0;
@@ -124,7 +124,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 unsolved("the solution is farther than expected".to_owned(), *iterations)
             }
             // Without curvature every problem is convex: it was rounding.
-            Err(StageError::NotConvex { stage }) if !qp.is_curved() => {
+            Err(StageError::NotConvex { stage }) if qp.hessian == Hessian::GaussNewton => {
                 unsolved(format!("the factorisation broke down at stage {stage}"), *iterations)
             }
             outcome => outcome,

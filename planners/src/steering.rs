@@ -22,7 +22,7 @@ const CRAWL_MPS: f64 = 0.1;
 const SHARPEST: f64 = 0.9;
 
 /// The steering angle that leads to a lateral position on the agent's road \[rad\].
-pub(super) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
+pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
     let speed = state.speed_mps.max(CRAWL_MPS);
     let error = agent.corridor.across(state.position()) - lateral_m;
     let heading = state.heading_rad - agent.corridor.heading_rad;
@@ -36,7 +36,7 @@ pub(super) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
 }
 
 /// The acceleration nearest to a wanted one that keeps acceleration and speed within their limits \[m/s²\].
-pub(super) fn admissible(agent: &Agent, state: &State, wanted_mps2: f64, step_s: f64) -> f64 {
+pub(crate) fn admissible(agent: &Agent, state: &State, wanted_mps2: f64, step_s: f64) -> f64 {
     let limits = &agent.limits;
     let low = limits.acceleration_min_mps2.max((limits.speed_min_mps - state.speed_mps) / step_s);
     let high = limits.acceleration_max_mps2.min((limits.speed_max_mps - state.speed_mps) / step_s);
@@ -44,7 +44,7 @@ pub(super) fn admissible(agent: &Agent, state: &State, wanted_mps2: f64, step_s:
 }
 
 /// The motion that a rule `(t, state) ↦ input` leads to over the scene's horizon.
-pub(super) fn roll_out(scene: &Scene, mut rule: impl FnMut(usize, &State) -> Input) -> Trajectory {
+pub(crate) fn roll_out(scene: &Scene, mut rule: impl FnMut(usize, &State) -> Input) -> Trajectory {
     let model = Bicycle::new(&scene.ego.body, scene.step_s);
     let mut trajectory = Trajectory { states: vec![scene.ego.state], inputs: Vec::with_capacity(scene.horizon) };
     let mut state = scene.ego.state;

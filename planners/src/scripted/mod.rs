@@ -8,7 +8,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::steering::{admissible, roll_out, steer};
+use crate::steering::{admissible, roll_out, steer};
 use crate::{Input, Plan, PlanError, Scene};
 
 /// What to do, and when.

@@ -1,0 +1,93 @@
+//! Panels for the numbers that planners report. The planners declare what they report and what of it belongs together
+//! ([`interplay_planners::diagnostic`]); here that becomes paths, panels and a text.
+
+use interplay_planners::diagnostic::{COMMON_PANEL, DiagnosticPanel, DiagnosticQuantity, Explanation};
+use interplay_scenarios::{Scenario, Vehicle};
+
+/// Space above and below a curve that runs along its bound, as a share of the range.
+const MARGIN: f64 = 0.05;
+
+/// A panel of a recording.
+pub struct PlannerPanel {
+    /// The word for the kind of planner whose numbers it shows; `None` for all kinds.
+    pub kind: Option<&'static str>,
+    /// The numbers.
+    pub content: &'static DiagnosticPanel,
+}
+
+impl PlannerPanel {
+    /// The ends of the vertical axis, where the range of the numbers is known.
+    pub fn axis(&self) -> Option<[f64; 2]> {
+        let [low, high] = self.content.bounds()?;
+        let margin = MARGIN * (high - low);
+        Some([low - margin, high + margin])
+    }
+}
+
+/// The panels of the planners of a scenario, the ego's first, and in the end the one that all planners share.
+pub fn panels(scenario: &Scenario) -> Vec<PlannerPanel> {
+    let own = explanations(scenario).into_iter().flat_map(|(kind, explanation)| {
+        explanation.panels.iter().map(move |content| PlannerPanel { kind: Some(kind), content })
+    });
+    own.chain([PlannerPanel { kind: None, content: &COMMON_PANEL }]).collect()
+}
+
+/// What to look for in the panels of the planners of a scenario, as Markdown.
+pub fn guide(scenario: &Scenario) -> String {
+    let guides = explanations(scenario).into_iter().map(|(_, explanation)| explanation.guide);
+    guides.filter(|guide| !guide.is_empty()).map(|guide| format!("\n{guide}\n")).collect()
+}
+
+/// Every kind of planner in a scenario once, the ego's first.
+fn explanations(scenario: &Scenario) -> Vec<(&'static str, &'static Explanation)> {
+    let mut found: Vec<(&str, &Explanation)> = Vec::new();
+    for Vehicle { driver, .. } in scenario.ego().into_iter().chain(&scenario.vehicles) {
+        if found.iter().all(|(kind, _)| *kind != driver.kind()) {
+            found.push((driver.kind(), driver.explanation()));
+        }
+    }
+    found
+}
+
+/// The place of a quantity among those that share its panel.
+pub fn place(explanation: &Explanation, quantity: &DiagnosticQuantity) -> Option<usize> {
+    let mut panels = explanation.panels.iter().chain([&COMMON_PANEL]);
+    panels.find_map(|panel| panel.quantities.iter().position(|other| other.name == quantity.name))
+}
+
+/// The part of a path that stands for a quantity: its name in letters, digits, `_` and `-`.
+pub fn slug(quantity: &DiagnosticQuantity) -> String {
+    let allowed = |character: &char| character.is_ascii_alphanumeric() || "_- ".contains(*character);
+    let letters = quantity.name.chars().filter(allowed);
+    letters.map(|character| if character == ' ' { '-' } else { character }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use interplay_planners::diagnostic::{COMMON_QUANTITIES, ValueSet};
+    use interplay_scenarios::{Override, load};
+
+    use super::*;
+
+    #[test]
+    fn a_slug_is_plain() {
+        let named = |name| slug(&DiagnosticQuantity::new(name, "", ValueSet::Real));
+        assert_eq!(named("other's loyalty w_1"), "others-loyalty-w_1");
+        assert_eq!(named("payoff ego: both yield"), "payoff-ego-both-yield");
+    }
+
+    /// Two curves of one planner would end up at one path.
+    #[test]
+    fn slugs_tell_the_quantities_of_a_planner_apart() {
+        for kind in ["negotiation", "bayesian", "game", "cooperative", "conservative", "human", "idm", "scripted"] {
+            let scenario =
+                load("lane-change/front-nice", &[Override::Planner(kind.to_owned())]).expect("every kind may drive");
+            let (_, explanation) = explanations(&scenario)[0];
+            let quantities = || explanation.quantities.iter().chain(COMMON_QUANTITIES);
+            let slugs: BTreeSet<String> = quantities().map(slug).collect();
+            assert_eq!(slugs.len(), quantities().count(), "{kind}");
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! The lanes of the ego's road, and who is ahead and behind in each of them.
+//!
+//! A vehicle that is partly in a lane counts as being in it; a lane that ends counts as a standing vehicle at its end.
+
+use super::Mobil;
+use super::car_following::Leader;
+use crate::{Agent, Scene, State};
+
+/// The lanes of a road.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Lanes {
+    right_m: f64,
+    pub(super) width_m: f64,
+    pub(super) count: usize,
+}
+
+impl Lanes {
+    /// The lanes of the ego's road; at least one.
+    pub(super) fn of_road(scene: &Scene, mobil: &Mobil) -> Lanes {
+        let road = &scene.ego.corridor;
+        let count = ((road.left_m - road.right_m) / mobil.lane_width_m).round().max(1.0) as usize;
+        Lanes { right_m: road.right_m, width_m: mobil.lane_width_m, count }
+    }
+
+    /// The lane in which a lateral position lies; beside the road, the nearest.
+    pub(super) fn at(&self, lateral_m: f64) -> usize {
+        let lane = ((lateral_m - self.right_m) / self.width_m).floor().max(0.0) as usize;
+        lane.min(self.count - 1)
+    }
+
+    /// The lateral position of a lane's centre \[m\].
+    pub(super) fn centre_m(&self, lane: usize) -> f64 {
+        self.right_m + (lane as f64 + 0.5) * self.width_m
+    }
+}
+
+/// Whether a vehicle is at least partly in a lane of the ego's road at time `t` of its prediction.
+fn is_in(scene: &Scene, lanes: &Lanes, lane: usize, other: &Agent, t: usize) -> bool {
+    let lateral = scene.ego.corridor.across(at(other, t).position());
+    let reach = 0.5 * (lanes.width_m + other.body.width_m);
+    !scene.ego.crosses(other) && (lateral - lanes.centre_m(lane)).abs() < reach
+}
+
+/// Where a vehicle is at time `t` of its prediction.
+fn at(other: &Agent, t: usize) -> State {
+    other.prediction.states.get(t).or(other.prediction.states.last()).copied().unwrap_or(other.state)
+}
+
+/// What is ahead of a state in a lane at time `t`: the nearest vehicle, or the lane's end.
+pub(super) fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t: usize) -> Option<Leader> {
+    let (ego, road) = (&scene.ego, &scene.ego.corridor);
+    let own = road.along(state.position());
+    let vehicles = scene.others.iter().filter(|other| is_in(scene, lanes, lane, other, t)).filter_map(|other| {
+        let there = at(other, t);
+        let ahead = road.along(there.position()) - own;
+        let gap_m = ahead - other.body.rear_m - ego.body.front_m;
+        (ahead > 0.0).then_some(Leader { gap_m, speed_mps: there.speed_mps })
+    });
+    // Three length scales of its taper before the end there is no room left.
+    let end = road
+        .end
+        .filter(|_| lane == 0)
+        .map(|end| Leader { gap_m: end.end_m - 3.0 * end.taper_m - own - ego.body.front_m, speed_mps: 0.0 });
+    vehicles.chain(end).min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+}
+
+/// The nearest vehicle behind the ego in a lane, now.
+pub(super) fn follower<'a>(scene: &'a Scene, lanes: &Lanes, lane: usize) -> Option<&'a Agent> {
+    let behind = |other: &&Agent| scene.ego.lead_of(other) <= 0.0 && is_in(scene, lanes, lane, other, 0);
+    let behind = scene.others.iter().filter(behind);
+    behind.max_by(|a, b| scene.ego.lead_of(a).total_cmp(&scene.ego.lead_of(b)))
+}

@@ -1,0 +1,121 @@
+//! The field's baseline of a human driver: the intelligent driver model along the road (`car_following`), and MOBIL for lane
+//! changes (`mobil`).
+//!
+//! The model knows one road: whoever crosses it is ignored.
+
+mod car_following;
+pub mod diagnostics;
+mod lanes;
+mod mobil;
+mod settings;
+
+pub use settings::{Mobil, Settings};
+
+use crate::steering::{admissible, roll_out, steer};
+use crate::{Input, Plan, PlanError, Scene};
+use car_following::Leader;
+use diagnostics::{GAP, INCENTIVE, LANE};
+use lanes::{Lanes, leader};
+
+/// A driver after the model.
+#[derive(Clone, Debug)]
+pub struct Idm {
+    settings: Settings,
+    /// The lane it drives in or changes to.
+    lane: Option<usize>,
+}
+
+impl Idm {
+    /// A driver who has not chosen a lane yet.
+    pub fn new(settings: Settings) -> Self {
+        Idm { settings, lane: None }
+    }
+
+    /// Chooses a lane and plans the next moves.
+    ///
+    /// # Errors
+    /// Never; the signature is that of all planners.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let scene = &self.settings.prediction.applied_to(scene);
+        let lanes = Lanes::of_road(scene, &self.settings.mobil);
+        let now = self.lane.unwrap_or_else(|| lanes.at(scene.ego.corridor.across(scene.ego.state.position())));
+        let choice = mobil::choose(scene, &self.settings, now);
+        self.lane = Some(choice.lane);
+        let (own, wanted) = (&scene.ego, scene.goal.target.speed_mps);
+        let lateral = lanes.centre_m(choice.lane);
+        let trajectory = roll_out(scene, |t, state| {
+            // In the lane that it leaves it minds the vehicle ahead until it is out of it.
+            let ahead = nearest([now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t)));
+            let acceleration = self.settings.acceleration(state.speed_mps, wanted, ahead);
+            Input {
+                acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
+                steering_rad: steer(own, state, lateral),
+            }
+        });
+        let ahead = leader(scene, &lanes, choice.lane, &own.state, 0);
+        let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
+        diagnostics.extend(ahead.map(|leader| GAP.is(leader.gap_m)));
+        let events = (choice.lane != now).then(|| format!("changes to lane {}", choice.lane)).into_iter().collect();
+        Ok(Plan { trajectory, diagnostics, events, ..Plan::default() })
+    }
+}
+
+fn nearest(leaders: [Option<Leader>; 2]) -> Option<Leader> {
+    leaders.into_iter().flatten().min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{agent, scene};
+
+    fn in_lanes(mut ego: crate::Agent, others: Vec<crate::Agent>, lane_m: f64, wanted_mps: f64) -> Scene {
+        (ego.corridor.right_m, ego.corridor.left_m) = (0.0, 0.74);
+        let mut scene = scene(ego, others);
+        (scene.goal.target.y_m, scene.goal.target.speed_mps) = (lane_m, wanted_mps);
+        scene
+    }
+
+    #[test]
+    fn a_slow_leader_is_followed_and_a_standing_one_is_not_hit() {
+        let leader = agent(1.2, 0.185, 0.0, 0.0);
+        let mut scene = in_lanes(agent(0.0, 0.185, 0.0, 0.8), vec![leader], 0.185, 1.0);
+        scene.horizon = 100;
+        let plan = Idm::new(Settings::default()).plan(&scene).expect("a plan");
+        let end = plan.trajectory.states.last().expect("states");
+        assert!(end.x_m + 0.4 < 1.2 && end.speed_mps < 0.05, "{end:?}");
+    }
+
+    #[test]
+    fn the_goal_s_lane_is_taken_when_its_follower_is_far_and_not_when_it_is_near() {
+        for (behind_m, lane) in [(-3.0, 1.0), (-0.7, 0.0)] {
+            let follower = agent(behind_m, 0.555, 0.0, 1.2);
+            let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![follower], 0.555, 1.0);
+            let plan = Idm::new(Settings::default()).plan(&scene).expect("a plan");
+            assert_eq!(plan.value_of(&LANE), Some(lane), "follower at {behind_m}");
+        }
+    }
+
+    #[test]
+    fn a_slow_leader_is_overtaken_by_one_who_does_not_insist_on_its_lane() {
+        let leader = agent(0.9, 0.185, 0.0, 0.3);
+        let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![leader], 0.185, 1.2);
+        let lane = |bias_mps2: f64| {
+            let mobil = Mobil { bias_mps2, ..Mobil::default() };
+            Idm::new(Settings { mobil, ..Settings::default() }).plan(&scene).expect("a plan").value_of(&LANE)
+        };
+        assert_eq!((lane(0.0), lane(100.0)), (Some(1.0), Some(0.0)));
+    }
+
+    #[test]
+    fn a_lane_that_ends_is_left_or_stopped_in() {
+        let mut ego = agent(0.0, 0.185, 0.0, 1.0);
+        ego.corridor.end = Some(crate::LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
+        // Somebody stays beside it, so that it cannot leave.
+        let mut scene = in_lanes(ego, vec![agent(0.0, 0.555, 0.0, 1.0)], 0.555, 1.0);
+        scene.horizon = 100;
+        let plan = Idm::new(Settings::default()).plan(&scene).expect("a plan");
+        let end = plan.trajectory.states.last().expect("states");
+        assert!(end.x_m + 0.21 < 2.6 && end.speed_mps < 0.05, "{end:?}");
+    }
+}

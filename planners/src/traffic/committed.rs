@@ -1,0 +1,77 @@
+//! What a vehicle has committed itself to: what the others expect of it, and what it does when its planner fails.
+
+use super::rolled_out;
+use crate::predict::{constant_velocity, steady};
+use crate::{Scene, State, Trajectory};
+
+/// The plan that a vehicle follows since its last decision.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CommittedPlan {
+    /// The plan of the last tick, or the fallback in its place; none before the first.
+    pub trajectory: Option<Trajectory>,
+    /// How many inputs of the last plan that the planner found are still to come.
+    pub remaining_inputs: usize,
+}
+
+/// Where a plan comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Origin {
+    /// The planner found it.
+    #[default]
+    Planned,
+    /// The planner failed: the previous plan goes on.
+    Continued,
+    /// The planner failed and there was nothing to continue: full braking.
+    Braking,
+    /// It has crashed: full braking, and nobody is asked.
+    Crashed,
+}
+
+impl CommittedPlan {
+    /// What is expected of a vehicle in `state` before it has planned again: its plan one step further, from where it really
+    /// is (a plant need not follow the plan exactly); before the first plan, constant velocity.
+    pub fn prediction(&self, state: &State, horizon: usize, step_s: f64) -> Trajectory {
+        let Some(plan) = &self.trajectory else { return constant_velocity(state, horizon, step_s) };
+        let mut prediction = plan.shifted();
+        if let Some(first) = prediction.states.first_mut() {
+            *first = *state;
+        }
+        prediction
+    }
+
+    /// Commits the vehicle of `scene` to what its planner `found`, or to the fallback where that is nothing.
+    pub(super) fn renew(
+        &mut self,
+        found: Option<&Trajectory>,
+        is_crashed: bool,
+        scene: &Scene,
+    ) -> (Trajectory, Origin) {
+        let (trajectory, origin) = match found {
+            _ if is_crashed => (braking(scene), Origin::Crashed),
+            Some(found) => (found.clone(), Origin::Planned),
+            None => self.fallback(scene),
+        };
+        self.remaining_inputs = match origin {
+            Origin::Planned => trajectory.horizon().saturating_sub(1),
+            Origin::Continued => self.remaining_inputs.saturating_sub(1),
+            Origin::Braking | Origin::Crashed => 0,
+        };
+        self.trajectory = Some(trajectory.clone());
+        (trajectory, origin)
+    }
+
+    /// The previous plan one step further while inputs of it are left, then full braking.
+    fn fallback(&self, scene: &Scene) -> (Trajectory, Origin) {
+        match self.trajectory.as_ref().filter(|_| self.remaining_inputs > 0) {
+            Some(plan) => (rolled_out(scene, plan.shifted().inputs), Origin::Continued),
+            None => (braking(scene), Origin::Braking),
+        }
+    }
+}
+
+/// Full braking until the vehicle stands.
+fn braking(scene: &Scene) -> Trajectory {
+    let limits = &scene.ego.limits;
+    let brake = limits.acceleration_min_mps2;
+    rolled_out(scene, steady(&scene.ego.state, brake, limits, scene.horizon, scene.step_s))
+}

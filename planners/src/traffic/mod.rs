@@ -1,0 +1,164 @@
+//! The closed loop of vehicles that plan and move together, as pure functions of plain values.
+//!
+//! One tick is
+//!
+//! ```text
+//! sense     the caller writes state, last input and damage of every road user into a `Traffic`
+//! predict   Traffic::predict          everybody is expected to continue its last plan, from where it really is
+//! plan      Traffic::plan             everybody decides, in `Traffic::planning_order`; failures fall back
+//! act       Traffic::applied_inputs   the first input of each plan, within the limits
+//! move      a plant of the caller, or the bicycle: Traffic::advance
+//! ```
+//!
+//! and [`Traffic::drive`] is a whole tick with the bicycle as the plant.
+//!
+//! There are no clocks, entities or threads here. The application, the tests, the examples and the benchmarks run this code;
+//! whoever wants to know how long planning takes measures inside the closure that it gives to [`Traffic::plan`].
+//!
+//! **Who knows which plan.** Those who go first ([`RoadUser::goes_first`]) plan from the front of the road to its rear and
+//! publish their plans at once. All the others plan afterwards and know these plans (the source's assumption of perfect
+//! prediction); of one another they know the last plans only, so that the order in which they are listed has no influence.
+
+mod committed;
+mod limits;
+mod order;
+#[cfg(test)]
+mod tests;
+
+pub use committed::{CommittedPlan, Origin};
+pub use limits::applied_input;
+
+use crate::{Agent, Bicycle, Goal, Input, Plan, PlanError, Scene, Trajectory};
+
+/// Everybody on the road at the start of a tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Traffic {
+    /// How many ticks have passed.
+    pub tick: usize,
+    /// Length of a tick, which is also the time step of plans \[s\].
+    pub step_s: f64,
+    /// Number of steps of a plan.
+    pub horizon: usize,
+    /// The road users, in the order in which they are listed.
+    pub road_users: Vec<RoadUser>,
+}
+
+/// One vehicle with all that the loop keeps of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoadUser {
+    /// The vehicle as everybody sees it.
+    pub agent: Agent,
+    /// What it wants.
+    pub goal: Goal,
+    /// Whether it plans before, and publishes its plan to, those who do not.
+    pub goes_first: bool,
+    /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
+    pub is_crashed: bool,
+    /// What it decided last.
+    pub committed: CommittedPlan,
+}
+
+/// What one vehicle decided in a tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// The index of the vehicle among the road users.
+    pub vehicle: usize,
+    /// The plan that is carried out: the planner's, or a fallback without diagnostics and events.
+    pub plan: Plan,
+    /// Where the plan comes from.
+    pub origin: Origin,
+    /// Why the planner found none, if it was asked and failed.
+    pub failure: Option<PlanError>,
+}
+
+impl RoadUser {
+    /// A vehicle that has not planned yet.
+    pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
+        RoadUser { agent, goal, goes_first, is_crashed: false, committed: CommittedPlan::default() }
+    }
+}
+
+impl Traffic {
+    /// Writes into every agent's prediction what the others expect of it before it has planned in this tick.
+    pub fn predict(&mut self) {
+        let Traffic { horizon, step_s, .. } = *self;
+        for RoadUser { agent, committed, .. } in &mut self.road_users {
+            agent.prediction = committed.prediction(&agent.state, horizon, step_s);
+        }
+    }
+
+    /// The moment as one vehicle sees it.
+    pub fn scene(&self, vehicle: usize) -> Scene {
+        let others = self.road_users.iter().enumerate().filter(|(other, _)| *other != vehicle);
+        Scene {
+            tick: self.tick,
+            step_s: self.step_s,
+            horizon: self.horizon,
+            ego: self.road_users[vehicle].agent.clone(),
+            goal: self.road_users[vehicle].goal,
+            others: others.map(|(_, other)| other.agent.clone()).collect(),
+        }
+    }
+
+    /// Lets everybody decide; returns the decisions in the order in which they were made.
+    ///
+    /// `ask` is given the index of a vehicle and its scene, and answers with what the vehicle's planner does. Afterwards the
+    /// predictions of those who go first are their plans.
+    pub fn plan(&mut self, mut ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
+        let order = self.planning_order();
+        order.into_iter().map(|vehicle| self.decide(vehicle, &mut ask)).collect()
+    }
+
+    fn decide(&mut self, vehicle: usize, ask: impl FnOnce(usize, &Scene) -> Result<Plan, PlanError>) -> Decision {
+        let scene = self.scene(vehicle);
+        let user = &mut self.road_users[vehicle];
+        let outcome = if user.is_crashed { None } else { Some(ask(vehicle, &scene)) };
+        let (plan, failure) = match outcome {
+            Some(Ok(plan)) => (Some(plan), None),
+            Some(Err(error)) => (None, Some(error)),
+            None => (None, None),
+        };
+        let found = plan.as_ref().map(|plan| &plan.trajectory);
+        let (trajectory, origin) = user.committed.renew(found, user.is_crashed, &scene);
+        if user.goes_first {
+            user.agent.prediction = trajectory.clone();
+        }
+        let plan = plan.unwrap_or_else(|| Plan { trajectory, ..Plan::default() });
+        Decision { vehicle, plan, origin, failure }
+    }
+
+    /// The input that each vehicle applies after planning: the first one of its plan, within its limits.
+    pub fn applied_inputs(&self) -> Vec<Input> {
+        let applied = |RoadUser { agent, committed, .. }: &RoadUser| {
+            let planned = committed.trajectory.as_ref().and_then(|plan| plan.inputs.first());
+            applied_input(&planned.copied().unwrap_or_default(), &agent.state, &agent.limits, self.step_s)
+        };
+        self.road_users.iter().map(applied).collect()
+    }
+
+    /// One tick with the bicycle as the plant: everybody predicts, plans, acts and moves. Returns the decisions in the order
+    /// in which they were made.
+    pub fn drive(&mut self, ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
+        self.predict();
+        let decisions = self.plan(ask);
+        let inputs = self.applied_inputs();
+        self.advance(&inputs);
+        decisions
+    }
+
+    /// Moves everybody by one tick with the bicycle as the plant.
+    pub fn advance(&mut self, inputs: &[Input]) {
+        for (RoadUser { agent, .. }, input) in self.road_users.iter_mut().zip(inputs) {
+            agent.state = Bicycle::new(&agent.body, self.step_s).step(&agent.state, input);
+            agent.previous_input = *input;
+        }
+        self.tick += 1;
+    }
+}
+
+/// Where inputs lead the planning vehicle of a scene.
+fn rolled_out(scene: &Scene, inputs: Vec<Input>) -> Trajectory {
+    let mut states = Vec::new();
+    scene.model().roll_out(&scene.ego.state, &inputs, &mut states);
+    Trajectory { states, inputs }
+}

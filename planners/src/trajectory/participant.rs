@@ -1,0 +1,60 @@
+//! A vehicle whose inputs are decided, with its hard bounds.
+
+use crate::{Bicycle, Input, Limits, State};
+
+/// One vehicle whose inputs are decided. What it wants and avoids is said by the problem's terms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Participant {
+    /// Its motion.
+    pub model: Bicycle,
+    /// Its hard bounds.
+    pub limits: Limits,
+    /// State at `t = 0`.
+    pub start: State,
+    /// Input applied before `t = 0`, for the first `Δu`.
+    pub previous_input: Input,
+    /// Inputs at `t = 0 … first−1` that are not decided but known (eq. 6.15: the human follows the prediction until
+    /// `T_n`); empty for a vehicle that decides from the start.
+    pub known_inputs: Vec<Input>,
+}
+
+impl Participant {
+    /// The first stage whose input is decided.
+    pub fn first(&self) -> usize {
+        self.known_inputs.len()
+    }
+
+    /// The nearest admissible inputs to a guess: known inputs kept, accelerations and steering clipped to their
+    /// bounds, and the speed kept within its own.
+    pub fn admissible(&self, guess: &[Input], horizon: usize) -> Vec<Input> {
+        let (limits, step) = (&self.limits, self.model.step_s());
+        let mut speed = self.start.speed_mps;
+        (0..horizon)
+            .map(|t| {
+                let input = if t < self.first() {
+                    self.known_inputs[t]
+                } else {
+                    let wanted = guess.get(t).copied().unwrap_or_default();
+                    let [slowest, fastest] = self.speed_bounds(t + 1);
+                    let low = limits.acceleration_min_mps2.max((slowest - speed) / step);
+                    let high = limits.acceleration_max_mps2.min((fastest - speed) / step);
+                    Input {
+                        acceleration_mps2: wanted.acceleration_mps2.min(high).max(low),
+                        steering_rad: wanted.steering_rad.clamp(-limits.steering_max_rad, limits.steering_max_rad),
+                    }
+                };
+                speed += step * input.acceleration_mps2;
+                input
+            })
+            .collect()
+    }
+
+    /// Bounds on the speed at time `t` \[m/s\]. A vehicle that is out of bounds now (a plant that is not the model may
+    /// leave it so) is asked to come back no faster than it can.
+    pub fn speed_bounds(&self, t: usize) -> [f64; 2] {
+        let (limits, elapsed) = (&self.limits, self.model.step_s() * t as f64);
+        let reachable_low = self.start.speed_mps + limits.acceleration_max_mps2 * elapsed;
+        let reachable_high = self.start.speed_mps + limits.acceleration_min_mps2 * elapsed;
+        [limits.speed_min_mps.min(reachable_low), limits.speed_max_mps.max(reachable_high)]
+    }
+}

@@ -1,0 +1,106 @@
+//! Local optima, how they were found, and why none was.
+
+use thiserror::Error;
+
+use crate::Trajectory;
+use crate::trajectory::cost::Cost;
+use crate::trajectory::iterate::Iterate;
+use crate::trajectory::stage::StageError;
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances {
+    /// Largest KKT residual of a converged solution.
+    pub residual: f64,
+    /// An undamped step whose predicted decrease is below this share of `1 + |J|` is the last: beyond it the stage
+    /// problems' own tolerance shows.
+    pub decrease: f64,
+    /// Most steps in one descent.
+    pub iteration_limit: usize,
+    /// A safety row (1 − d²) or a road edge \[m\] violated by more than this makes a solution suspect.
+    pub slack: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Tolerances { residual: 1e-8, decrease: 1e-11, iteration_limit: 100, slack: 1e-3 }
+    }
+}
+
+impl Tolerances {
+    /// Whether a descent found an optimum, and no safety row or road edge is violated there.
+    pub(crate) fn trust(&self, outcome: &Result<Optimum, DescentError>) -> bool {
+        outcome.as_ref().is_ok_and(|optimum| optimum.cost.unsafety() <= self.slack)
+    }
+}
+
+/// What a descent did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Starting guesses tried.
+    pub starts: usize,
+    /// Quadratic programmes posed; those refused as not convex cost little.
+    pub programmes: usize,
+    /// Iterations inside them.
+    pub inner_iterations: usize,
+    /// KKT residual at the end, by the independent check.
+    pub residual: f64,
+    /// How many steps fell back from the exact Hessian to Gauss-Newton.
+    pub fallbacks: usize,
+}
+
+/// A local optimum.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Optimum {
+    /// Inputs and states.
+    pub iterate: Iterate,
+    /// Its cost.
+    pub cost: Cost,
+    /// How it was found.
+    pub statistics: Statistics,
+}
+
+/// Why no optimum was found.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum DescentError {
+    /// A step problem had no solution.
+    #[error("step {step}: {source}")]
+    Step {
+        /// Which step.
+        step: usize,
+        /// What the stage solver said.
+        source: StageError,
+    },
+    /// The iteration limit.
+    #[error("not converged after {} programmes: residual {:.1e}", .0.programmes, .0.residual)]
+    NotConverged(Statistics),
+    /// An exploration that was given up: even many times what its steps promise would not end below the cost to beat.
+    #[error("no optimum below a cost of {0} in sight")]
+    NotBelow(f64),
+    /// The problem holds a number that is not finite.
+    #[error("the problem has a cost that is not a number")]
+    NotFinite,
+}
+
+impl Optimum {
+    /// What another optimum has to cost less than to replace this one.
+    pub(super) fn bar(&self) -> f64 {
+        self.cost.total - 1e-9 * (1.0 + self.cost.total.abs())
+    }
+
+    /// The motion of one participant.
+    pub fn trajectory(&self, participant: usize) -> Trajectory {
+        self.iterate.trajectory(participant)
+    }
+}
+
+impl Statistics {
+    /// Adds the work of another optimisation; the worse residual counts.
+    pub fn add(&mut self, other: &Statistics) {
+        self.starts += other.starts;
+        self.programmes += other.programmes;
+        self.inner_iterations += other.inner_iterations;
+        self.fallbacks += other.fallbacks;
+        self.residual = self.residual.max(other.residual);
+    }
+}

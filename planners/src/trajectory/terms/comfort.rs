@@ -1,0 +1,19 @@
+//! Comfort: changes of the input cost, `Σ_t ‖u_t − u_{t−1}‖²_R` (eq. 6.6), over the stages whose input is decided.
+
+/// The comfort cost of one vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comfort {
+    /// Whose inputs.
+    pub vehicle: usize,
+    /// Diagonal of `R` on (Δa, Δδ).
+    pub weights: [f64; 2],
+}
+
+impl Comfort {
+    /// Adds the cost of one change of the input.
+    pub(in crate::trajectory) fn add_value(&self, change: [f64; 2], total: &mut f64) {
+        for axis in 0..2 {
+            *total += self.weights[axis] * change[axis].powi(2);
+        }
+    }
+}

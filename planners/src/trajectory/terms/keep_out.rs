@@ -1,0 +1,74 @@
+//! An ellipse around a predicted motion that a vehicle keeps out of: `d² − 1 + s ≥ 0` at `t = 1…N` (eq. 6.8).
+//!
+//! With the exact penalty it is the safety constraint, with a hinge the human driver's discomfort `weight·max(0, 1 − d²)²`.
+
+use super::shape::{RowTerm, Subject};
+use crate::State;
+use crate::trajectory::cost::Violation;
+use crate::trajectory::iterate::Iterate;
+use crate::trajectory::penalty::Penalty;
+use crate::vehicle::{OrientedEllipse, PoseExpansion};
+
+/// Rows of this value and more (`d² ≥ 25`) are left out of step problems.
+pub(super) const FAR: f64 = 24.0;
+
+/// A moving ellipse.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeepOut {
+    /// Who keeps out.
+    pub vehicle: usize,
+    /// Centres at `t = 1…N`; `N` long \[m\].
+    pub centres: Vec<[f64; 2]>,
+    /// The ellipse around each.
+    pub ellipse: OrientedEllipse,
+    /// What entering costs.
+    pub penalty: Penalty,
+}
+
+impl KeepOut {
+    /// How near a motion comes: the largest `1 − d²` over `t = 1…N`, negative outside. `states` begin at `t = 0`.
+    pub fn intrusion(&self, states: &[State]) -> f64 {
+        let centres = states.iter().skip(1).zip(&self.centres);
+        let distances = centres.map(|(state, centre)| self.ellipse.distance(state.position(), *centre).squared);
+        1.0 - distances.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The row of an ellipse for a position and a centre.
+pub(super) fn expand(ellipse: &OrientedEllipse, position: [f64; 2], centre: [f64; 2]) -> PoseExpansion {
+    let distance = ellipse.distance(position, centre);
+    let ([x, y], [xx, xy, yy]) = (distance.gradient, ellipse.hessian());
+    PoseExpansion { value: distance.squared - 1.0, gradient: [x, y, 0.0], hessian: [xx, xy, yy, 0.0] }
+}
+
+/// Entering an ellipse counts as a violation of safety only where it costs from the first millimetre on.
+pub(super) fn violation(penalty: &Penalty) -> Option<Violation> {
+    (penalty.linear > 0.0).then_some(Violation::Safety)
+}
+
+impl RowTerm for KeepOut {
+    fn subject(&self) -> Subject {
+        Subject { vehicle: self.vehicle, other: None }
+    }
+
+    fn penalty(&self) -> Penalty {
+        self.penalty
+    }
+
+    fn violation(&self) -> Option<Violation> {
+        violation(&self.penalty)
+    }
+
+    fn far_value(&self) -> f64 {
+        FAR
+    }
+
+    fn ellipse(&self) -> Option<&OrientedEllipse> {
+        Some(&self.ellipse)
+    }
+
+    fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
+        let position = iterate.states[self.vehicle][stage + 1].position();
+        rows[0] = expand(&self.ellipse, position, self.centres[stage]);
+    }
+}

@@ -1,0 +1,43 @@
+//! Road edges: the four corners stay on the road (eq. 6.7 in the road's frame), softly, with an exact penalty.
+//!
+//! The rows are [`Corridor::clearances`], which state the mathematics.
+
+use super::shape::{RowTerm, Subject};
+use crate::trajectory::cost::Violation;
+use crate::trajectory::iterate::Iterate;
+use crate::trajectory::penalty::Penalty;
+use crate::vehicle::PoseExpansion;
+use crate::{Body, Corridor};
+
+/// The road that a vehicle may use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoadEdge {
+    /// Whose corners.
+    pub vehicle: usize,
+    /// Its body.
+    pub body: Body,
+    /// The road.
+    pub corridor: Corridor,
+}
+
+impl RowTerm for RoadEdge {
+    fn subject(&self) -> Subject {
+        Subject { vehicle: self.vehicle, other: None }
+    }
+
+    fn rows_per_stage(&self) -> usize {
+        4
+    }
+
+    fn penalty(&self) -> Penalty {
+        Penalty::EXACT
+    }
+
+    fn violation(&self) -> Option<Violation> {
+        Some(Violation::RoadEdge)
+    }
+
+    fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
+        rows.copy_from_slice(&self.corridor.clearances(&self.body, &iterate.states[self.vehicle][stage + 1]));
+    }
+}

@@ -1,0 +1,48 @@
+//! Two deciding vehicles keep apart: the first stays outside an ellipse around the second, `d² − 1 + s ≥ 0` at `t = 1…N`.
+
+use super::keep_out::{FAR, expand, violation};
+use super::shape::{RowTerm, Subject};
+use crate::trajectory::cost::Violation;
+use crate::trajectory::iterate::Iterate;
+use crate::trajectory::penalty::Penalty;
+use crate::vehicle::{OrientedEllipse, PoseExpansion};
+
+/// An ellipse around a deciding vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Separation {
+    /// The vehicle that keeps out.
+    pub vehicle: usize,
+    /// The vehicle in the ellipse's centre.
+    pub from: usize,
+    /// The ellipse.
+    pub ellipse: OrientedEllipse,
+    /// What entering costs.
+    pub penalty: Penalty,
+}
+
+impl RowTerm for Separation {
+    fn subject(&self) -> Subject {
+        Subject { vehicle: self.vehicle, other: Some(self.from) }
+    }
+
+    fn penalty(&self) -> Penalty {
+        self.penalty
+    }
+
+    fn violation(&self) -> Option<Violation> {
+        violation(&self.penalty)
+    }
+
+    fn far_value(&self) -> f64 {
+        FAR
+    }
+
+    fn ellipse(&self) -> Option<&OrientedEllipse> {
+        Some(&self.ellipse)
+    }
+
+    fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
+        let position = |vehicle: usize| iterate.states[vehicle][stage + 1].position();
+        rows[0] = expand(&self.ellipse, position(self.vehicle), position(self.from));
+    }
+}
