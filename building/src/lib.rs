@@ -65,6 +65,6 @@ pub mod identify;
 pub mod lifted;
 pub mod network;
 pub mod occupancy;
-mod random;
+pub mod random;
 pub mod setting;
 pub mod weather;

@@ -1,4 +1,8 @@
-//! Random numbers that are the same on every machine: ChaCha's stream, and the normal distribution through `libm`.
+//! All random numbers of runs, the same on every machine.
+//!
+//! [`Random`] is ChaCha's stream, with the normal distribution through `libm`. [`SplitMix64`] draws the random change of
+//! starts; it is older than the other, and stays because the seeds of recorded runs and of the tables in the documents stand
+//! for its numbers.
 
 use std::f64::consts::TAU;
 
@@ -7,29 +11,35 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// A stream of random numbers. Streams of one seed with other labels are independent.
 #[derive(Clone, Debug)]
-pub(crate) struct Random(ChaCha8Rng);
+pub struct Random(ChaCha8Rng);
 
 impl Random {
-    /// The stream of a seed and a label; each purpose has a stream of its own, so that draws for one do not shift those for another.
-    pub(crate) fn new(seed: u64, label: u64) -> Self {
+    /// The stream of a seed and a label; each purpose has a stream of its own, so that draws for one do not shift those for
+    /// another.
+    pub fn new(seed: u64, label: u64) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         generator.set_stream(label);
         Self(generator)
     }
 
     /// Uniform in \[low, high).
-    pub(crate) fn uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
     /// True with this probability.
-    pub(crate) fn chance(&mut self, probability: f64) -> bool {
+    pub fn chance(&mut self, probability: f64) -> bool {
         self.unit() < probability
+    }
+
+    /// True with this probability, from half as much of the stream.
+    pub fn chance_of_32_bits(&mut self, probability: f64) -> bool {
+        f64::from(self.0.next_u32()) < probability * 4_294_967_296.0
     }
 
     /// Normal with mean and standard deviation (Box and Muller; the second number is not kept, so that every draw takes
     /// the same amount of the stream).
-    pub(crate) fn normal(&mut self, mean: f64, deviation: f64) -> f64 {
+    pub fn normal(&mut self, mean: f64, deviation: f64) -> f64 {
         let radius = libm::sqrt(-2.0 * libm::log(1.0 - self.unit()));
         mean + deviation * radius * libm::cos(TAU * self.unit())
     }
@@ -40,9 +50,41 @@ impl Random {
     }
 }
 
+/// A sequence of 64-bit numbers from a seed (Steele, Lea and Flood, 2014).
+#[derive(Clone, Debug)]
+pub struct SplitMix64(u64);
+
+impl SplitMix64 {
+    /// The sequence of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in \[−1, 1), from the upper 53 bits.
+    pub fn around_zero(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The first numbers of the reference implementation for the seed 1234567.
+    #[test]
+    fn split_mix_is_the_published_generator() {
+        let mut sequence = SplitMix64::new(1_234_567);
+        let numbers: Vec<u64> = (0..3).map(|_| sequence.next()).collect();
+        assert_eq!(numbers, [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]);
+    }
 
     #[test]
     fn moments_are_those_of_the_distributions() {

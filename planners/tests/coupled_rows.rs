@@ -23,7 +23,7 @@ fn problem(seed: u64) -> Problem {
     let lower = random.between(0.6, 1.4);
     for (vehicle, width) in [0.05, 0.0].into_iter().enumerate() {
         let (lower_mps, upper_mps) = (Some(lower), Some(lower + width));
-        problem.terms.extend(MeanSpeed { lower_mps, upper_mps, penalty: PENALTY }.terms(vehicle));
+        problem.terms.extend(MeanSpeed { lower_mps, upper_mps, penalty: PENALTY }.bounds(vehicle).map(Term::MeanSpeed));
     }
     problem
 }
@@ -74,7 +74,9 @@ fn a_mean_speed_is_as_binding_as_its_price() {
     let mean = |weight: f64| {
         let mut problem = free.clone();
         let penalty = Penalty { linear: weight, quadratic: 0.0 };
-        problem.terms.extend(MeanSpeed { lower_mps: Some(1.25), upper_mps: Some(1.3), penalty }.terms(0));
+        problem
+            .terms
+            .extend(MeanSpeed { lower_mps: Some(1.25), upper_mps: Some(1.3), penalty }.bounds(0).map(Term::MeanSpeed));
         let optimum = Optimiser::new(Structured::default()).descend(&problem, &guess).expect("an optimum");
         (MeanSpeed::of(&optimum.iterate.states[0]), optimum.cost.violation(Violation::MeanSpeed))
     };

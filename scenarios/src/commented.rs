@@ -10,12 +10,12 @@ use std::path::Path;
 use interplay_building::bounds::Bound;
 use serde_json::{Map, Value as Json};
 
-use crate::building::is_embedded_weather;
 use crate::error::LoadError;
 use crate::load::{load, tree};
 use crate::nearest::listed;
 use crate::schema::{self, Concern, SchemaNode};
-use crate::tree::{Node, Value};
+use crate::tree::{TomlNode, TomlValue};
+use crate::weather_file::is_embedded_weather;
 
 /// Columns of a comment.
 const WIDTH: usize = 110;
@@ -29,7 +29,7 @@ const WIDTH: usize = 110;
 pub fn commented(name_or_path: &str, folder: &Path) -> Result<String, LoadError> {
     let scenario = load(name_or_path, &[])?;
     let mut tree = tree(name_or_path)?;
-    settle_weather(&mut tree, folder);
+    make_weather_path_absolute(&mut tree, folder);
     let Json::Object(mut stated) = tree.to_json() else { return Ok(String::new()) };
     stated.remove("figure");
     let [vehicles, building] = [!scenario.vehicles.is_empty(), scenario.building.is_some()];
@@ -39,12 +39,12 @@ pub fn commented(name_or_path: &str, folder: &Path) -> Result<String, LoadError>
 }
 
 /// Makes a relative path to a weather file absolute if it starts from another folder than `folder`.
-fn settle_weather(tree: &mut Node, folder: &Path) {
-    let Value::Table(root) = &mut tree.value else { return };
-    let Some(Value::Table(weather)) = root.get_mut("weather").map(|entry| &mut entry.node.value) else { return };
+fn make_weather_path_absolute(tree: &mut TomlNode, folder: &Path) {
+    let TomlValue::Table(root) = &mut tree.value else { return };
+    let Some(TomlValue::Table(weather)) = root.get_mut("weather").map(|entry| &mut entry.node.value) else { return };
     let Some(file) = weather.get_mut("file").map(|entry| &mut entry.node) else { return };
     let beside = Path::new(&file.place.document.name).parent().unwrap_or(Path::new("")).to_owned();
-    let Value::Text(name) = &mut file.value else { return };
+    let TomlValue::Text(name) = &mut file.value else { return };
     let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
     let same = matches!((real(&beside), real(folder)), (Ok(one), Ok(other)) if one == other);
     if !is_embedded_weather(name)
@@ -74,7 +74,7 @@ struct Section<'a> {
 impl Writer {
     /// Writes the keys of a table, then the tables below it. Unless `live`, all of it is a comment.
     fn table(&mut self, path: &str, schema: SchemaNode, value: &Map<String, Json>, live: bool) {
-        let first = self.explained.insert(sort_of_table(schema, value));
+        let first = self.explained.insert(table_type(schema, value));
         let mut sections = Vec::new();
         for (key, property) in keys(schema, value) {
             let below = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
@@ -82,7 +82,7 @@ impl Writer {
             let shown = stated.or_else(|| property.default_or_example().filter(|_| first));
             let Some(shown) = shown.filter(|_| self.concerns(property)) else { continue };
             let live = live && stated.is_some();
-            let is_new = |table: &Map<String, Json>| !self.explained.contains(&sort_of_table(property, table));
+            let is_new = |table: &Map<String, Json>| !self.explained.contains(&table_type(property, table));
             let is_list = property.table_entries().is_some();
             if !is_list && shown.as_object().is_some_and(is_new) || is_list && (first || !is_empty(shown)) {
                 sections.push(Section { path: below, schema: property, value: shown, live });
@@ -110,7 +110,7 @@ impl Writer {
         };
         let is_list = schema.table_entries().is_some();
         let live = *live && !(is_list && is_empty(value));
-        if !live && is_list && self.explained.contains(&sort_of_table(table, &empty)) {
+        if !live && is_list && self.explained.contains(&table_type(table, &empty)) {
             return;
         }
         for (index, value) in values.into_iter().enumerate() {
@@ -170,7 +170,7 @@ fn keys(schema: SchemaNode, value: &Map<String, Json>) -> impl Iterator<Item = (
 }
 
 /// What makes two tables the same sort of table: definition and kind.
-fn sort_of_table(schema: SchemaNode, value: &Map<String, Json>) -> String {
+fn table_type(schema: SchemaNode, value: &Map<String, Json>) -> String {
     let kind = value.get("kind").and_then(Json::as_str).unwrap_or_default();
     format!("{} {kind}", schema.definition_name().unwrap_or_default())
 }

@@ -1,6 +1,6 @@
 //! Located errors.
 //!
-//! A [`Problem`] is one thing wrong at one [`Place`] of one [`Document`]; a [`LoadError`] holds all that were found.
+//! A [`Fault`] is one thing wrong at one [`Place`] of one [`Document`]; a [`LoadError`] holds all that were found.
 //! Both are `miette` diagnostics, so that whoever shows them decides how.
 
 use std::{fmt, ops::Range, sync::Arc};
@@ -9,11 +9,11 @@ use miette::{Diagnostic, LabeledSpan, MietteError, MietteSpanContents, SourceCod
 use thiserror::Error;
 
 /// Excerpts longer than this are cut around the error \[bytes\].
-const EXCERPT_BYTES: usize = 2000;
+const MAX_EXCERPT_BYTES: usize = 2000;
 /// How much of a long line is shown before the error \[bytes\].
-const LEAD_BYTES: usize = 60;
+const CONTEXT_BYTES: usize = 60;
 /// How much of a long text is underlined \[bytes\].
-const LABEL_BYTES: usize = 100;
+const MAX_UNDERLINED_BYTES: usize = 100;
 
 /// A text in which an error may lie: a file, or the argument of a flag.
 #[derive(Debug)]
@@ -43,8 +43,8 @@ impl Document {
         let (offset, text) = (self.text.floor_char_boundary(span.offset()), &self.text);
         let line_start = text[..offset].rfind('\n').map_or(0, |newline| newline + 1);
         let line_end = text[offset..].find('\n').map_or(text.len(), |newline| offset + newline);
-        let start = text.floor_char_boundary(offset.saturating_sub(LEAD_BYTES)).max(line_start);
-        let end = text.ceil_char_boundary(offset + span.len() + LEAD_BYTES).min(line_end);
+        let start = text.floor_char_boundary(offset.saturating_sub(CONTEXT_BYTES)).max(line_start);
+        let end = text.ceil_char_boundary(offset + span.len() + CONTEXT_BYTES).min(line_end);
         start..end.max(start)
     }
 }
@@ -67,7 +67,7 @@ impl SourceCode for Document {
         lines_after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let lines = self.text.as_str().read_span(span, lines_before, lines_after)?;
-        let (range, line, column) = if lines.data().len() <= EXCERPT_BYTES {
+        let (range, line, column) = if lines.data().len() <= MAX_EXCERPT_BYTES {
             let start = lines.span().offset();
             (start..start + lines.span().len(), lines.line(), lines.column())
         } else {
@@ -98,7 +98,7 @@ impl Place {
         let text = &self.document.text;
         let start = text.floor_char_boundary(self.span.start);
         let line_end = text[start..].find(['\n', '\r']).map_or(text.len(), |newline| start + newline);
-        let end = self.span.end.min(line_end).min(start + LABEL_BYTES);
+        let end = self.span.end.min(line_end).min(start + MAX_UNDERLINED_BYTES);
         SourceSpan::from((start, text.floor_char_boundary(end).saturating_sub(start)))
     }
 }
@@ -106,42 +106,42 @@ impl Place {
 /// One thing that is wrong with a scenario, and what would work instead.
 #[derive(Clone, Debug, Error)]
 #[error("{message}")]
-pub struct Problem {
+pub struct Fault {
     message: String,
     help: Option<String>,
     place: Option<Place>,
     labels: Vec<LabeledSpan>,
 }
 
-impl Problem {
-    /// A problem that no text can be blamed for, such as a missing file.
-    pub(crate) fn new(message: impl Into<String>) -> Problem {
-        Problem { message: message.into(), help: None, place: None, labels: Vec::new() }
+impl Fault {
+    /// A fault that no text can be blamed for, such as a missing file.
+    pub(crate) fn new(message: impl Into<String>) -> Fault {
+        Fault { message: message.into(), help: None, place: None, labels: Vec::new() }
     }
 
-    /// A problem at a place; `label` stands beside the underlined text.
-    pub(crate) fn at(place: &Place, label: &str, message: impl Into<String>) -> Problem {
+    /// A fault at a place; `label` stands beside the underlined text.
+    pub(crate) fn at(place: &Place, label: &str, message: impl Into<String>) -> Fault {
         let span = LabeledSpan::new_primary_with_span(Some(label.to_owned()), place.underlined());
-        Problem { message: message.into(), help: None, place: Some(place.clone()), labels: vec![span] }
+        Fault { message: message.into(), help: None, place: Some(place.clone()), labels: vec![span] }
     }
 
     /// With a hint at what would work.
-    pub(crate) fn help(mut self, help: impl Into<String>) -> Problem {
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Fault {
         self.help = Some(help.into());
         self
     }
 
     /// With a second place, shown if it is in the same document.
-    pub(crate) fn also(mut self, other: &Place, label: &str) -> Problem {
+    pub(crate) fn also(mut self, other: &Place, label: &str) -> Fault {
         if self.place.as_ref().is_some_and(|place| Arc::ptr_eq(&place.document, &other.document)) {
             self.labels.push(LabeledSpan::new_with_span(Some(label.to_owned()), other.underlined()));
         }
         self
     }
 
-    /// The same problem, blamed on the text that led there.
-    pub(crate) fn moved_to(self, place: &Place) -> Problem {
-        Problem { help: self.help, ..Problem::at(place, "from here", self.message) }
+    /// The same fault, blamed on the text that led there.
+    pub(crate) fn moved_to(self, place: &Place) -> Fault {
+        Fault { help: self.help, ..Fault::at(place, "from here", self.message) }
     }
 
     /// What is wrong.
@@ -164,7 +164,7 @@ impl Problem {
     }
 }
 
-impl Diagnostic for Problem {
+impl Diagnostic for Fault {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }
@@ -180,43 +180,43 @@ impl Diagnostic for Problem {
 
 /// A scenario that cannot be used, with everything that was found wrong.
 #[derive(Clone, Debug, Error, Diagnostic)]
-#[error("cannot use scenario {}: {}", quoted(scenario), counted(problems.len() + left_out))]
+#[error("cannot use scenario {}: {}", quoted(scenario), counted(faults.len() + left_out))]
 pub struct LoadError {
     scenario: String,
     #[related]
-    problems: Vec<Problem>,
+    faults: Vec<Fault>,
     left_out: usize,
     #[help]
     more: Option<String>,
 }
 
 impl LoadError {
-    /// How many problems are reported at most.
-    const MOST: usize = 20;
+    /// How many faults are reported at most.
+    const MAX_FAULTS: usize = 20;
 
-    pub(crate) fn new(scenario: impl Into<String>, mut problems: Vec<Problem>) -> LoadError {
-        problems.sort_by_key(Problem::order);
-        let left_out = problems.len().saturating_sub(LoadError::MOST);
-        problems.truncate(LoadError::MOST);
-        let more = (left_out > 0).then(|| format!("{left_out} more are not shown; mend these first"));
-        LoadError { scenario: scenario.into(), problems, left_out, more }
+    pub(crate) fn new(scenario: impl Into<String>, mut faults: Vec<Fault>) -> LoadError {
+        faults.sort_by_key(Fault::order);
+        let left_out = faults.len().saturating_sub(LoadError::MAX_FAULTS);
+        faults.truncate(LoadError::MAX_FAULTS);
+        let more = (left_out > 0).then(|| format!("{left_out} more are not shown; fix these first"));
+        LoadError { scenario: scenario.into(), faults, left_out, more }
     }
 
     /// What is wrong, in the order of the text; at most 20.
-    pub fn problems(&self) -> &[Problem] {
-        &self.problems
+    pub fn faults(&self) -> &[Fault] {
+        &self.faults
     }
 }
 
-fn counted(problems: usize) -> String {
-    if problems == 1 { "1 error".to_owned() } else { format!("{problems} errors") }
+fn counted(faults: usize) -> String {
+    if faults == 1 { "1 error".to_owned() } else { format!("{faults} errors") }
 }
 
 /// A text from outside in backticks, without control characters and not too long.
 pub(crate) fn quoted(text: &str) -> String {
-    const MOST: usize = 80;
+    const MAX_CHARACTERS: usize = 80;
     let shown: String =
-        text.chars().take(MOST).map(masked).map(|c| if c == '\n' || c == '\r' { ' ' } else { c }).collect();
-    let dots = if text.chars().nth(MOST).is_some() { "…" } else { "" };
+        text.chars().take(MAX_CHARACTERS).map(masked).map(|c| if c == '\n' || c == '\r' { ' ' } else { c }).collect();
+    let dots = if text.chars().nth(MAX_CHARACTERS).is_some() { "…" } else { "" };
     format!("`{shown}{dots}`")
 }

@@ -8,20 +8,20 @@ use serde_json::json;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Expect {
-    /// Whether nobody may touch anybody (`true`), or a collision must happen (`false`).
+    /// Whether no two vehicles may touch (`true`), or some must (`false`).
     #[schemars(example = true, extend("x-concerns" = "vehicles"))]
     pub no_collision: Option<bool>,
-    /// Who collides with whom, as pairs of names: these and nobody else.
+    /// The pairs of vehicles that must collide; no others may.
     #[schemars(example = vec![["ego", "front"]], extend("x-excludes" = ["no_collision"]), extend("x-concerns" = "vehicles"))]
     pub collisions: Option<Vec<[String; 2]>>,
     /// The vehicles from first to last: along the road at the end of the run, or through the conflict zone of an
     /// intersection. Those left out are not judged.
     #[schemars(example = vec!["ego", "front"], extend("x-concerns" = "vehicles"))]
     pub order: Option<Vec<String>>,
-    /// The footprint of the ego never comes nearer to another than this \[m\].
+    /// The smallest gap allowed between the footprint of the ego and any other \[m\].
     #[schemars(range(min = 0.0), example = 0.05, extend("x-concerns" = "vehicles"))]
     pub min_gap_m: Option<f64>,
-    /// At most so many plans fail, all vehicles together.
+    /// The largest number of failed plans, over all vehicles.
     #[schemars(example = 0, extend("x-concerns" = "vehicles"))]
     pub plan_failures_at_most: Option<usize>,
     /// Vehicles that must reach their goal, one `[[expect.completes]]` each.
@@ -29,7 +29,7 @@ pub struct Expect {
     pub completes: Vec<Completes>,
     /// Bounds on the extremes of speeds over the run, one `[[expect.speed]]` each.
     #[schemars(extend("x-concerns" = "vehicles"))]
-    pub speed: Vec<SpeedRange>,
+    pub speed: Vec<ExpectedSpeed>,
     /// What the building must achieve.
     #[schemars(example = json!({ "after_iterations": 2 }), extend("x-concerns" = "building"))]
     pub building: Option<BuildingExpect>,
@@ -39,7 +39,7 @@ pub struct Expect {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BuildingExpect {
-    /// How many days are left out at the start, while a controller learns.
+    /// The number of days at the start that are not judged, while a controller learns.
     pub after_iterations: usize,
     /// Whether the cost never rises from one of these days to the next.
     #[schemars(example = true)]
@@ -59,7 +59,7 @@ pub struct BuildingExpect {
     /// Largest excess of a requested input over its limit \[kW\].
     #[schemars(range(min = 0.0), example = 0.0)]
     pub input_violation_kw_at_most: Option<f64>,
-    /// How much dearer a day is than the cheapest one that knows everything beforehand.
+    /// The cost of a day above that of its optimum with perfect knowledge.
     #[schemars(range(min = 0.0), example = 30.0, extend("x-unit" = "dimensionless"))]
     pub regret_at_most: Option<f64>,
     /// Heat brought in and taken out before the first occupied time of the day: the controller acts ahead \[kWh\].
@@ -68,13 +68,13 @@ pub struct BuildingExpect {
     /// Spectral radius of the controller, where it has one.
     #[schemars(range(min = 0.0), example = 0.9, extend("x-unit" = "dimensionless"))]
     pub spectral_radius_at_most: Option<f64>,
-    /// On how many of these days the controller may have no plan of its own, all together.
+    /// The number of these days on which the controller may fall back on the plan of the day before.
     #[schemars(example = 0)]
     pub fallbacks_at_most: Option<usize>,
     /// Whether the cost of the common plan never rises from one round of messages to the next.
     #[schemars(example = true)]
     pub exchange_never_rises: Option<bool>,
-    /// By which share the zones' common plan is dearer than the centralised one; with `compare = true` of a distributed
+    /// Relative cost of the zones' common plan above that of the centralised one; with `compare = true` of a distributed
     /// controller.
     #[schemars(range(min = 0.0), example = 0.01, extend("x-unit" = "dimensionless"))]
     pub above_centralised_at_most: Option<f64>,
@@ -87,11 +87,11 @@ pub struct Completes {
     /// Name of the vehicle.
     #[schemars(example = &"ego")]
     pub vehicle: String,
-    /// Not before this time \[s\].
+    /// The earliest time allowed \[s\].
     #[serde(default)]
     #[schemars(range(min = 0.0), example = 1.0)]
     pub after_s: Option<f64>,
-    /// Not after this time \[s\].
+    /// The latest time allowed \[s\].
     #[serde(default)]
     #[schemars(range(min = 0.0), example = 6.0)]
     pub before_s: Option<f64>,
@@ -100,23 +100,23 @@ pub struct Completes {
 /// Bounds on the smallest and the largest speed of a vehicle over the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SpeedRange {
+pub struct ExpectedSpeed {
     /// Name of the vehicle.
     #[schemars(example = &"ego")]
     pub vehicle: String,
-    /// Its smallest speed is below this: it did slow down \[m/s\].
+    /// Its smallest speed must be below this: it slowed down \[m/s\].
     #[serde(default)]
     #[schemars(example = 0.8)]
     pub min_below_mps: Option<f64>,
-    /// Its smallest speed is above this: it did not slow down further \[m/s\].
+    /// Its smallest speed must be above this: it did not slow down further \[m/s\].
     #[serde(default)]
     #[schemars(example = 0.2)]
     pub min_above_mps: Option<f64>,
-    /// Its largest speed is below this: it did not go faster \[m/s\].
+    /// Its largest speed must be below this: it did not go faster \[m/s\].
     #[serde(default)]
     #[schemars(example = 1.4)]
     pub max_below_mps: Option<f64>,
-    /// Its largest speed is above this: it did go faster \[m/s\].
+    /// Its largest speed must be above this: it went faster \[m/s\].
     #[serde(default)]
     #[schemars(example = 1.1)]
     pub max_above_mps: Option<f64>,

@@ -5,9 +5,9 @@
 //! keys that this kind does not know are dropped, and of two keys that exclude each other the later one removes the earlier.
 
 use crate::schema::SchemaNode;
-use crate::tree::{Entry, Node, Table, Value};
+use crate::tree::{Table, TomlEntry, TomlNode, TomlValue};
 
-/// Lays one table over another; `schema` is what the format says of the table, if it knows it.
+/// Merges `over` into `under`, key by key; `schema` is what the format says of the table, if it knows it.
 pub(crate) fn merge_tables(schema: Option<SchemaNode>, mut under: Table, over: Table) -> Table {
     if let Some(new) = kind(&over).filter(|new| kind(&under) != Some(new)) {
         let table = schema.and_then(|table| table.of_kind(new));
@@ -23,7 +23,7 @@ pub(crate) fn merge_tables(schema: Option<SchemaNode>, mut under: Table, over: T
     for (key, entry) in over {
         let property = table.and_then(|table| table.property(&key));
         let merged = match under.remove(&key) {
-            Some(below) => Entry { key: entry.key, node: merge_nodes(property, below.node, entry.node) },
+            Some(below) => TomlEntry { key: entry.key, node: merge_nodes(property, below.node, entry.node) },
             None => entry,
         };
         under.insert(key, merged);
@@ -35,26 +35,26 @@ fn kind(table: &Table) -> Option<&str> {
     table.get("kind")?.node.text()
 }
 
-fn merge_nodes(schema: Option<SchemaNode>, under: Node, over: Node) -> Node {
+fn merge_nodes(schema: Option<SchemaNode>, under: TomlNode, over: TomlNode) -> TomlNode {
     let merge_key = schema.and_then(SchemaNode::merge_key);
     let value = match (under.value, over.value, merge_key) {
-        (Value::Table(under), Value::Table(over), _) => Value::Table(merge_tables(schema, under, over)),
-        (Value::Array(under), Value::Array(over), Some(key)) => {
-            Value::Array(merge_entries(schema.and_then(SchemaNode::entries), key, under, over))
+        (TomlValue::Table(under), TomlValue::Table(over), _) => TomlValue::Table(merge_tables(schema, under, over)),
+        (TomlValue::Array(under), TomlValue::Array(over), Some(key)) => {
+            TomlValue::Array(merge_entries(schema.and_then(SchemaNode::entries), key, under, over))
         }
         (_, over, _) => over,
     };
-    Node { place: over.place, value }
+    TomlNode { place: over.place, value }
 }
 
-/// Lays lists of tables over each other, entries with the same value of `key` together. A second such entry is kept, for the
+/// Merges two lists of tables, entries with the same value of `key` together. A second such entry is kept, for the
 /// check to refuse.
-fn merge_entries(schema: Option<SchemaNode>, key: &str, under: Vec<Node>, over: Vec<Node>) -> Vec<Node> {
-    let name = |node: &Node| Some(node.table()?.get(key)?.node.text()?.to_owned());
-    let mut merged: Vec<Option<Node>> = under.into_iter().map(Some).collect();
+fn merge_entries(schema: Option<SchemaNode>, key: &str, under: Vec<TomlNode>, over: Vec<TomlNode>) -> Vec<TomlNode> {
+    let name = |node: &TomlNode| Some(node.table()?.get(key)?.node.text()?.to_owned());
+    let mut merged: Vec<Option<TomlNode>> = under.into_iter().map(Some).collect();
     let mut laid_over = vec![false; merged.len()];
     for node in over {
-        let same_name = |below: &Option<Node>| {
+        let same_name = |below: &Option<TomlNode>| {
             let below = below.as_ref().and_then(name);
             below.is_some() && below == name(&node)
         };

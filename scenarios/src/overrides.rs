@@ -5,15 +5,15 @@
 
 use std::sync::Arc;
 
-use crate::error::{Document, Place, Problem, quoted};
+use crate::error::{Document, Fault, Place, quoted};
 use crate::merge::merge_tables;
 use crate::nearest::suggestion;
 use crate::scenario::EGO;
 use crate::schema::{self, SchemaNode};
-use crate::tree::{Entry, Node, Table, Value, kind_of, parse_value};
+use crate::tree::{Table, TomlEntry, TomlNode, TomlValue, kind_of, parse_value};
 
 /// The most words that a path may have; bounds the depth of what `--set` can make.
-const LONGEST_PATH: usize = 16;
+const MAX_PATH_STEPS: usize = 16;
 
 /// A change of a scenario by a flag.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,17 +35,17 @@ struct Step {
 
 impl Override {
     /// Lays the change over a scenario.
-    pub(crate) fn apply(&self, root: &mut Table) -> Result<(), Problem> {
+    pub(crate) fn apply(&self, root: &mut Table) -> Result<(), Fault> {
         let (steps, value) = match self {
             Override::Set(assignment) => assignment_of(assignment)?,
             Override::Seed(seed) => {
                 let place = whole("--seed", &seed.to_string());
-                (steps_of(&["seed"], &place), Node { place, value: Value::Integer(i128::from(*seed)) })
+                (steps_of(&["seed"], &place), TomlNode { place, value: TomlValue::Integer(i128::from(*seed)) })
             }
             Override::Planner(kind) => {
                 let place = whole("--planner", kind);
                 let path = ["vehicle", &ego_name(root), "driver", "kind"];
-                (steps_of(&path, &place), Node { place, value: Value::Text(kind.clone()) })
+                (steps_of(&path, &place), TomlNode { place, value: TomlValue::Text(kind.clone()) })
             }
         };
         lay(Some(schema::complete()), root, &steps, value)
@@ -62,24 +62,24 @@ fn steps_of(path: &[&str], place: &Place) -> Vec<Step> {
 }
 
 /// Path and value of `path.to.key=value`.
-fn assignment_of(assignment: &str) -> Result<(Vec<Step>, Node), Problem> {
+fn assignment_of(assignment: &str) -> Result<(Vec<Step>, TomlNode), Fault> {
     let document = Document::new("--set", assignment, 0);
     let place = Place::new(&document, 0..assignment.len());
     let example = "write for example `--set vehicle.ego.goal.speed_mps=1.2`";
     let Some((path, value)) = assignment.split_once('=') else {
-        return Err(Problem::at(&place, "no `=` here", "`--set` needs PATH=VALUE").help(example));
+        return Err(Fault::at(&place, "no `=` here", "`--set` needs PATH=VALUE").help(example));
     };
     let mut steps = Vec::new();
     let mut offset = 0;
     for word in path.split('.') {
-        if steps.len() == LONGEST_PATH {
-            let message = format!("no key of a scenario has more than {LONGEST_PATH} words");
-            return Err(Problem::at(&place, "too long", message).help(example));
+        if steps.len() == MAX_PATH_STEPS {
+            let message = format!("no key of a scenario has more than {MAX_PATH_STEPS} words");
+            return Err(Fault::at(&place, "too long", message).help(example));
         }
         let place = Place::new(&document, offset..offset + word.len());
         offset += word.len() + 1;
         if word.trim().is_empty() {
-            return Err(Problem::at(&place, "a key is missing here", "`--set` needs PATH=VALUE").help(example));
+            return Err(Fault::at(&place, "a key is missing here", "`--set` needs PATH=VALUE").help(example));
         }
         steps.push(Step { word: word.trim().to_owned(), place });
     }
@@ -87,42 +87,42 @@ fn assignment_of(assignment: &str) -> Result<(Vec<Step>, Node), Problem> {
 }
 
 /// The value that follows the `=`, with blanks around it ignored.
-fn value_of(document: &Arc<Document>, offset: usize, written: &str) -> Node {
+fn value_of(document: &Arc<Document>, offset: usize, written: &str) -> TomlNode {
     let value = written.trim();
     let offset = offset + (written.len() - written.trim_start().len());
     let place = Place::new(document, offset..offset + value.len());
-    let text = || Node { place, value: Value::Text(value.to_owned()) };
+    let text = || TomlNode { place, value: TomlValue::Text(value.to_owned()) };
     parse_value(document, offset, value).unwrap_or_else(text)
 }
 
 fn ego_name(root: &Table) -> String {
-    let Some(Value::Array(vehicles)) = root.get("vehicle").map(|entry| &entry.node.value) else {
+    let Some(TomlValue::Array(vehicles)) = root.get("vehicle").map(|entry| &entry.node.value) else {
         return EGO.to_owned();
     };
-    let names: Vec<&str> = vehicles.iter().filter_map(Node::label).collect();
+    let names: Vec<&str> = vehicles.iter().filter_map(TomlNode::label).collect();
     let ego = names.iter().find(|name| **name == EGO).or(names.first());
     ego.map_or(EGO, |name| *name).to_owned()
 }
 
 /// Lays a value over a table at the end of a path, making the tables on the way that are not there yet.
-fn lay(schema: Option<SchemaNode>, table: &mut Table, steps: &[Step], value: Node) -> Result<(), Problem> {
+fn lay(schema: Option<SchemaNode>, table: &mut Table, steps: &[Step], value: TomlNode) -> Result<(), Fault> {
     let [step, rest @ ..] = steps else { return Ok(()) };
     if rest.is_empty() {
-        let change = Table::from([(step.word.clone(), Entry { key: step.place.clone(), node: value })]);
+        let change = Table::from([(step.word.clone(), TomlEntry { key: step.place.clone(), node: value })]);
         *table = merge_tables(schema, std::mem::take(table), change);
         return Ok(());
     }
     let property = schema.and_then(|table| table.property(&step.word));
-    let entry = table.entry(step.word.clone()).or_insert_with(|| Entry {
+    let entry = table.entry(step.word.clone()).or_insert_with(|| TomlEntry {
         key: step.place.clone(),
-        node: Node { place: step.place.clone(), value: Value::Table(Table::new()) },
+        node: TomlNode { place: step.place.clone(), value: TomlValue::Table(Table::new()) },
     });
     match &mut entry.node.value {
-        Value::Table(table) => lay(property, table, rest, value),
-        Value::Array(items) => lay_in_list(property.and_then(SchemaNode::entries), items, step, rest, value),
+        TomlValue::Table(table) => lay(property, table, rest, value),
+        TomlValue::Array(items) => lay_in_list(property.and_then(SchemaNode::entries), items, step, rest, value),
         other => {
             let message = format!("{} is {}, not a table", quoted(&step.word), kind_of(other));
-            Err(Problem::at(&step.place, "nothing is below this", message))
+            Err(Fault::at(&step.place, "nothing is below this", message))
         }
     }
 }
@@ -130,20 +130,20 @@ fn lay(schema: Option<SchemaNode>, table: &mut Table, steps: &[Step], value: Nod
 /// Lays a value over the entry of a list that the first step names; `schema` is that of an entry.
 fn lay_in_list(
     schema: Option<SchemaNode>,
-    items: &mut [Node],
+    items: &mut [TomlNode],
     list: &Step,
     steps: &[Step],
-    value: Node,
-) -> Result<(), Problem> {
+    value: TomlNode,
+) -> Result<(), Fault> {
     let [step, rest @ ..] = steps else { return Ok(()) };
     let labels: Vec<String> = items.iter().filter_map(|item| item.label().map(str::to_owned)).collect();
     let Some(item) = items.iter_mut().find(|item| item.label() == Some(step.word.as_str())) else {
         let known: Vec<&str> = labels.iter().map(String::as_str).collect();
         let message = format!("there is no {} in {}", quoted(&step.word), quoted(&list.word));
-        return Err(Problem::at(&step.place, "unknown", message).help(suggestion(&step.word, "there are", &known)));
+        return Err(Fault::at(&step.place, "unknown", message).help(suggestion(&step.word, "there are", &known)));
     };
     match &mut item.value {
-        Value::Table(table) if !rest.is_empty() => lay(schema, table, rest, value),
+        TomlValue::Table(table) if !rest.is_empty() => lay(schema, table, rest, value),
         _ => {
             *item = value;
             Ok(())

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Plant {
-    /// Exactly the bicycle model that the planners use (eq. 6.1-6.4). A collision is noted and has no consequence.
+    /// The bicycle model of the planners, exactly (eq. 6.1-6.4). A collision is recorded and does not change the motion.
     Kinematic(Kinematic),
-    /// Bodies driven through the forces of their tyres, by actuators that lag. Planners meet a plant that is not their
-    /// model, and a collision pushes bodies about; whoever had one brakes and stays.
+    /// Rigid bodies with tyre forces and lagging actuators, which differ from the planners' model. A collision has an
+    /// impulse, and the vehicles involved brake to a standstill.
     Dynamic(Dynamic),
 }
 
@@ -25,7 +25,7 @@ impl Default for Plant {
 #[serde(deny_unknown_fields, default)]
 pub struct Kinematic {}
 
-/// Tyres and actuators, of every vehicle alike. The default is that of a 1/10 scale car.
+/// Tyres and actuators, the same for every vehicle. The default is a 1/10 scale car.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Dynamic {
@@ -39,19 +39,19 @@ pub struct Dynamic {
     /// understeers \[1/rad\].
     #[schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     pub rear_stiffness_per_rad: f64,
-    /// Time constant with which the acceleration follows what is asked for; 0 for at once \[s\].
+    /// Time constant of the lag of the acceleration behind its command; 0 for none \[s\].
     #[schemars(range(min = 0.0))]
     pub acceleration_lag_s: f64,
     /// The fastest change of the acceleration \[m/s³\].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub jerk_max_mps3: f64,
-    /// Time constant with which the steering angle follows what is asked for; 0 for at once \[s\].
+    /// Time constant of the lag of the steering angle behind its command; 0 for none \[s\].
     #[schemars(range(min = 0.0))]
     pub steering_lag_s: f64,
     /// The fastest change of the steering angle \[rad/s\].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub steering_rate_max_radps: f64,
-    /// Share of the closing speed with which bodies part after a collision.
+    /// Coefficient of restitution: the share of the closing speed at which bodies separate after a collision.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub restitution: f64,
 }

@@ -5,16 +5,22 @@
 
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::Controller;
+use interplay_building::control::pid::PidSettings;
 use interplay_building::occupancy::Occupancy;
+use interplay_building::random::SplitMix64;
 use interplay_planners::{Body, Driver, Limits, SafetyEllipse, State, human};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::building::{Building, Weather};
-use crate::{Branch, Expect, Plant, Road, jitter};
+use crate::building::BuildingConfig;
+use crate::expect::Expect;
+use crate::plant::Plant;
+use crate::road::{Branch, Road};
+use crate::start_jitter::StartJitter;
+use crate::weather::WeatherConfig;
 
-/// One scenario: agents, their world, and what is expected of the run.
+/// One scenario: agents, their world, and the expectations of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
@@ -32,15 +38,15 @@ pub struct Scenario {
     #[serde(default = "defaults::duration_s")]
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"))]
     pub duration_s: f64,
-    /// Time from one tick to the next: everybody plans and moves once a tick \[s\].
+    /// Time from one tick to the next; all vehicles plan and move once a tick \[s\].
     #[serde(default = "defaults::step_s")]
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"))]
     pub step_s: f64,
-    /// How many ticks every plan looks ahead.
+    /// Horizon of every plan, in ticks.
     #[serde(default = "defaults::horizon_steps")]
     #[schemars(range(min = 2, max = 200), extend("x-concerns" = "vehicles"))]
     pub horizon_steps: usize,
-    /// From which all random numbers are drawn.
+    /// Seed of all random numbers.
     #[serde(default = "defaults::seed")]
     pub seed: u64,
     /// What moves the vehicles, `kind` choosing; by default exactly the model that planners use.
@@ -62,11 +68,11 @@ pub struct Scenario {
     /// The building; without the table there is none.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "preset": "testbed" }))]
-    pub building: Option<Building>,
+    pub building: Option<BuildingConfig>,
     /// The weather around the building; by default a synthetic tropical climate, forecast without error.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "kind": "synthetic" }))]
-    pub weather: Option<Weather>,
+    pub weather: Option<WeatherConfig>,
     /// The people in the building; by default office hours with real deviations.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({}))]
@@ -75,7 +81,7 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "occupied_c": [24.0] }))]
     pub setpoints: Option<Setpoints>,
-    /// Who controls the building; by default a PID controller in each zone.
+    /// The controller of the building; by default PID control in each zone.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "kind": "pid" }))]
     pub controller: Option<Controller>,
@@ -83,10 +89,13 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(range(min = 1, max = 10000), extend("x-concerns" = "building"), example = 10)]
     pub iterations: Option<usize>,
-    /// What makes the run pass; nothing by default.
+    /// The conditions under which the run passes; none by default.
     #[serde(default)]
     pub expect: Expect,
 }
+
+/// How many days are simulated unless the scenario says so.
+const ITERATIONS: usize = 10;
 
 mod defaults {
     pub fn duration_s() -> f64 {
@@ -127,10 +136,22 @@ impl Scenario {
         (self.duration_s / self.step_s).round() as usize
     }
 
+    /// How many days of the building are simulated; 0 without a building.
+    pub fn days(&self) -> usize {
+        if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
+    }
+
+    /// Who controls the building; a PID controller in each zone unless the scenario says so.
+    pub fn controller(&self) -> Controller {
+        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
+    }
+
     /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
     /// same seed gives the same starts.
     pub fn starts(&self) -> Vec<State> {
-        jitter::starts(self)
+        let mut random = SplitMix64::new(self.seed);
+        let jitter = self.start_jitter;
+        self.vehicles.iter().map(|vehicle| jitter.changed(vehicle.start, &vehicle.limits, &mut random)).collect()
     }
 }
 
@@ -140,19 +161,7 @@ pub(crate) const NAME_PATTERN: &str = "^[a-z0-9_-]{1,64}$";
 /// The name that makes a vehicle the ego.
 pub(crate) const EGO: &str = "ego";
 
-/// A random change of every start, uniform over `±` the stated amounts and drawn from the seed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct StartJitter {
-    /// Largest shift along the vehicle's own heading \[m\].
-    #[schemars(range(min = 0.0))]
-    pub position_m: f64,
-    /// Largest change of the speed, which stays within the vehicle's limits \[m/s\].
-    #[schemars(range(min = 0.0))]
-    pub speed_mps: f64,
-}
-
-/// One vehicle: where it starts, what it wants, what it is like and who drives it.
+/// One vehicle: start, goal, body, limits and driver.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Vehicle {
@@ -165,10 +174,10 @@ pub struct Vehicle {
     /// Where it starts: mass centre, heading and speed.
     #[schemars(example = json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 }))]
     pub start: State,
-    /// What it wants; by default to carry on as it starts.
+    /// Its goal; by default to keep its lateral position and its speed.
     #[serde(default)]
-    pub goal: Goal,
-    /// What deviations from its goal and what changes of its inputs cost it.
+    pub goal: GoalConfig,
+    /// Weights of deviations from its goal and of changes of its inputs.
     #[serde(default)]
     pub weights: Weights,
     /// Its size and axles; by default Table 6.1.
@@ -180,7 +189,7 @@ pub struct Vehicle {
     /// The ellipse around each other vehicle that it keeps out of; by default Table 6.2.
     #[serde(default)]
     pub safety: SafetyEllipse,
-    /// Who drives it, `kind` choosing; by default a nice human.
+    /// Its driver, `kind` choosing; by default a nice human.
     #[serde(default = "default_driver")]
     pub driver: Driver,
 }
@@ -206,17 +215,17 @@ impl Vehicle {
     }
 }
 
-/// What a vehicle wants. Whatever is not said stays as it is at the start.
+/// The goal of a vehicle. What is not stated stays as at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Goal {
-    /// The lane whose centre it wants, counted from the right; 0 is the rightmost.
+pub struct GoalConfig {
+    /// The lane whose centre it aims at, counted from the right; 0 is the rightmost.
     #[schemars(example = 1, extend("x-excludes" = ["y_m"]))]
     pub lane: Option<usize>,
-    /// The lateral position that it wants, on the road along x \[m\].
+    /// The lateral position that it aims at, on the road along x \[m\].
     #[schemars(example = 0.555)]
     pub y_m: Option<f64>,
-    /// The speed that it wants \[m/s\].
+    /// The speed that it aims at \[m/s\].
     #[schemars(example = 1.0)]
     pub speed_mps: Option<f64>,
 }
@@ -225,7 +234,7 @@ pub struct Goal {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Weights {
-    /// Of the position along the vehicle's road: 0, since nobody wants to stay at one place.
+    /// Of the position along the vehicle's road: must be 0, since goals have no longitudinal position.
     #[schemars(range(min = 0.0), extend("x-unit" = "1/m²"))]
     pub x: f64,
     /// Of the position across the vehicle's road, which is y where the road runs along x \[1/m²\].

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::embedded::{self, Embedded};
-use crate::error::{Document, LoadError, Place, Problem, quoted};
+use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::nearest::nearest;
 
 /// The largest file that is read; a scenario takes a few kilobytes.
-const LARGEST_BYTES: u64 = 1 << 20;
+const MAX_FILE_BYTES: u64 = 1 << 20;
 
 /// Where a scenario comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,23 +29,23 @@ impl Source {
     ///
     /// There is neither a scenario nor a file of that name.
     pub fn find(name_or_path: &str) -> Result<Source, LoadError> {
-        Source::resolve(name_or_path).map_err(|problem| LoadError::new(name_or_path, vec![problem]))
+        Source::resolve(name_or_path).map_err(|fault| LoadError::new(name_or_path, vec![fault]))
     }
 
-    fn resolve(name_or_path: &str) -> Result<Source, Problem> {
+    fn resolve(name_or_path: &str) -> Result<Source, Fault> {
         if let Some(file) = embedded::find(name_or_path) {
             return Ok(Source::Embedded(file));
         }
         let path = PathBuf::from(name_or_path);
         if name_or_path.is_empty() || matches!(fs::exists(&path), Ok(false)) {
             let message = format!("there is no scenario and no file {}", quoted(name_or_path));
-            return Err(Problem::new(message).help(other_names(name_or_path)));
+            return Err(Fault::new(message).help(other_names(name_or_path)));
         }
         Ok(Source::File(path))
     }
 
     /// The source that `extends` in this one refers to: an authored scenario, or a file relative to this one.
-    pub(crate) fn parent(&self, extends: &str) -> Result<Source, Problem> {
+    pub(crate) fn parent(&self, extends: &str) -> Result<Source, Fault> {
         let folder = match self {
             Source::Embedded(file) => Path::new(file.name).parent(),
             Source::File(path) => path.parent(),
@@ -55,7 +55,7 @@ impl Source {
             Source::Embedded(_) => {
                 let beside_name = beside.with_extension("");
                 let found = beside_name.to_str().and_then(embedded::find).or_else(|| embedded::find(extends));
-                let missing = || Problem::new(format!("there is no scenario {}", quoted(extends)));
+                let missing = || Fault::new(format!("there is no scenario {}", quoted(extends)));
                 found.map(Source::Embedded).ok_or_else(|| missing().help(other_names(extends)))
             }
             Source::File(_) => match embedded::find(extends) {
@@ -90,13 +90,13 @@ impl Source {
     }
 
     /// The text, and the document that errors point into.
-    pub(crate) fn read(&self, rank: usize) -> Result<(Arc<Document>, String), Problem> {
+    pub(crate) fn read(&self, rank: usize) -> Result<(Arc<Document>, String), Fault> {
         let text = match self {
             Source::Embedded(file) => file.text.to_owned(),
             Source::File(path) => decoded(&self.title(), &read_bytes(path)?, rank)?,
         };
         if text.trim().is_empty() {
-            return Err(Problem::new(format!("{} is empty", quoted(&self.title()))).help(
+            return Err(Fault::new(format!("{} is empty", quoted(&self.title()))).help(
                 "a scenario needs at least `title`, `shows` and a `[[vehicle]]`; or start with `extends = \"lane-change/front-nice\"`",
             ));
         }
@@ -121,24 +121,24 @@ fn other_names(missing: &str) -> String {
     }
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
+fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     let name = quoted(&path.display().to_string());
-    let unreadable = |error: std::io::Error| Problem::new(format!("cannot read {name}: {error}"));
+    let unreadable = |error: std::io::Error| Fault::new(format!("cannot read {name}: {error}"));
     let file = File::open(path).map_err(unreadable)?;
     if file.metadata().map_err(unreadable)?.is_dir() {
-        return Err(Problem::new(format!("{name} is a directory")).help("give the path of a TOML file in it"));
+        return Err(Fault::new(format!("{name} is a directory")).help("give the path of a TOML file in it"));
     }
     let mut bytes = Vec::new();
-    file.take(LARGEST_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_BYTES {
+    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
         let help = "a scenario takes a few kilobytes: is this the file that you meant?";
-        return Err(Problem::new(format!("{name} is larger than 1 MiB")).help(help));
+        return Err(Fault::new(format!("{name} is larger than 1 MiB")).help(help));
     }
     Ok(bytes)
 }
 
 /// The bytes as text; the error points at the first byte that is not UTF-8.
-fn decoded(title: &str, bytes: &[u8], rank: usize) -> Result<String, Problem> {
+fn decoded(title: &str, bytes: &[u8], rank: usize) -> Result<String, Fault> {
     let error = match str::from_utf8(bytes) {
         Ok(text) => return Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned()),
         Err(error) => error,
@@ -148,5 +148,5 @@ fn decoded(title: &str, bytes: &[u8], rank: usize) -> Result<String, Problem> {
     let document = Document::new(title, &format!("{valid}\u{fffd}"), rank);
     let place = Place::new(&document, offset..offset + '\u{fffd}'.len_utf8());
     let message = format!("{} is not UTF-8 text", quoted(title));
-    Err(Problem::at(&place, "here the text ends", message).help("a scenario is a TOML file, encoded as UTF-8"))
+    Err(Fault::at(&place, "here the text ends", message).help("a scenario is a TOML file, encoded as UTF-8"))
 }

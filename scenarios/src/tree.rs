@@ -5,80 +5,80 @@ use std::{collections::BTreeMap, sync::Arc};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::error::{Document, Place, Problem};
+use crate::error::{Document, Fault, Place};
 
 /// A value and where it is written.
 #[derive(Clone, Debug)]
-pub(crate) struct Node {
+pub(crate) struct TomlNode {
     pub place: Place,
-    pub value: Value,
+    pub value: TomlValue,
 }
 
 /// A TOML value. Numbers are wider than what a scenario may hold, so that the check can say what is wrong with them.
 #[derive(Clone, Debug)]
-pub(crate) enum Value {
+pub(crate) enum TomlValue {
     Text(String),
     Integer(i128),
     Float(f64),
     Bool(bool),
     Datetime,
-    Array(Vec<Node>),
+    Array(Vec<TomlNode>),
     Table(Table),
 }
 
 /// Keys with their values.
-pub(crate) type Table = BTreeMap<String, Entry>;
+pub(crate) type Table = BTreeMap<String, TomlEntry>;
 
 /// A value with the place of its key.
 #[derive(Clone, Debug)]
-pub(crate) struct Entry {
+pub(crate) struct TomlEntry {
     pub key: Place,
-    pub node: Node,
+    pub node: TomlNode,
 }
 
 /// How many syntax errors are reported at most; later ones tend to follow from the first.
-const MOST_SYNTAX_ERRORS: usize = 3;
+const MAX_SYNTAX_ERRORS: usize = 3;
 
 /// Parses a document. The nesting depth is bounded by the parser.
-pub(crate) fn parse(document: &Arc<Document>, text: &str) -> Result<Node, Vec<Problem>> {
+pub(crate) fn parse(document: &Arc<Document>, text: &str) -> Result<TomlNode, Vec<Fault>> {
     let (table, errors) = DeTable::parse_recoverable(text);
     if errors.is_empty() {
-        return Ok(Node { place: Place::new(document, 0..0), value: from_table(document, 0, table.into_inner()) });
+        return Ok(TomlNode { place: Place::new(document, 0..0), value: from_table(document, 0, table.into_inner()) });
     }
-    let problems = errors.iter().take(MOST_SYNTAX_ERRORS).map(|error| {
+    let faults = errors.iter().take(MAX_SYNTAX_ERRORS).map(|error| {
         let place = Place::new(document, error.span().unwrap_or(0..0));
-        Problem::at(&place, "here", format!("not valid TOML: {}", error.message().replace('\n', ", ")))
+        Fault::at(&place, "here", format!("not valid TOML: {}", error.message().replace('\n', ", ")))
     });
-    Err(problems.collect())
+    Err(faults.collect())
 }
 
 /// Parses a single value that is written at `offset` in the document; `None` if it is not TOML.
-pub(crate) fn parse_value(document: &Arc<Document>, offset: usize, text: &str) -> Option<Node> {
+pub(crate) fn parse_value(document: &Arc<Document>, offset: usize, text: &str) -> Option<TomlNode> {
     DeValue::parse(text).ok().map(|value| from_value(document, offset, value))
 }
 
-fn from_table(document: &Arc<Document>, offset: usize, table: DeTable<'_>) -> Value {
+fn from_table(document: &Arc<Document>, offset: usize, table: DeTable<'_>) -> TomlValue {
     let entries = table.into_iter().map(|(key, value)| {
         let place = Place::new(document, offset + key.span().start..offset + key.span().end);
-        (key.into_inner().into_owned(), Entry { key: place, node: from_value(document, offset, value) })
+        (key.into_inner().into_owned(), TomlEntry { key: place, node: from_value(document, offset, value) })
     });
-    Value::Table(entries.collect())
+    TomlValue::Table(entries.collect())
 }
 
-fn from_value(document: &Arc<Document>, offset: usize, value: Spanned<DeValue<'_>>) -> Node {
+fn from_value(document: &Arc<Document>, offset: usize, value: Spanned<DeValue<'_>>) -> TomlNode {
     let place = Place::new(document, offset + value.span().start..offset + value.span().end);
     let value = match value.into_inner() {
-        DeValue::String(text) => Value::Text(text.into_owned()),
-        DeValue::Integer(integer) => Value::Integer(widened(integer.as_str(), integer.radix())),
-        DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
-        DeValue::Boolean(truth) => Value::Bool(truth),
-        DeValue::Datetime(_) => Value::Datetime,
+        DeValue::String(text) => TomlValue::Text(text.into_owned()),
+        DeValue::Integer(integer) => TomlValue::Integer(widened(integer.as_str(), integer.radix())),
+        DeValue::Float(float) => TomlValue::Float(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(truth) => TomlValue::Bool(truth),
+        DeValue::Datetime(_) => TomlValue::Datetime,
         DeValue::Array(items) => {
-            Value::Array(items.into_iter().map(|item| from_value(document, offset, item)).collect())
+            TomlValue::Array(items.into_iter().map(|item| from_value(document, offset, item)).collect())
         }
         DeValue::Table(table) => from_table(document, offset, table),
     };
-    Node { place, value }
+    TomlNode { place, value }
 }
 
 /// An integer of any length; one beyond all bounds becomes the largest of its sign.
@@ -87,11 +87,11 @@ fn widened(digits: &str, radix: u32) -> i128 {
     i128::from_str_radix(digits, radix).unwrap_or(extreme)
 }
 
-impl Node {
+impl TomlNode {
     /// The entries, if this is a table.
     pub fn table(&self) -> Option<&Table> {
         match &self.value {
-            Value::Table(table) => Some(table),
+            TomlValue::Table(table) => Some(table),
             _ => None,
         }
     }
@@ -99,21 +99,21 @@ impl Node {
     /// The text, if this is one.
     pub fn text(&self) -> Option<&str> {
         match &self.value {
-            Value::Text(text) => Some(text),
+            TomlValue::Text(text) => Some(text),
             _ => None,
         }
     }
 
     /// Whether this is a list without entries.
     pub fn is_empty_list(&self) -> bool {
-        matches!(&self.value, Value::Array(items) if items.is_empty())
+        matches!(&self.value, TomlValue::Array(items) if items.is_empty())
     }
 
     /// The node below this one under a key or, in an array, an index.
-    fn child(&self, step: &str) -> Option<&Node> {
+    fn child(&self, step: &str) -> Option<&TomlNode> {
         match &self.value {
-            Value::Table(table) => table.get(step).map(|entry| &entry.node),
-            Value::Array(items) => items.get(step.parse::<usize>().ok()?),
+            TomlValue::Table(table) => table.get(step).map(|entry| &entry.node),
+            TomlValue::Array(items) => items.get(step.parse::<usize>().ok()?),
             _ => None,
         }
     }
@@ -133,7 +133,7 @@ impl Node {
     }
 
     /// What is written at a path, if anything is.
-    pub fn at(&self, path: &str) -> Option<&Node> {
+    pub fn at(&self, path: &str) -> Option<&TomlNode> {
         path.split('.').try_fold(self, |node, step| node.child(step))
     }
 
@@ -147,26 +147,26 @@ impl Node {
     pub fn to_json(&self) -> serde_json::Value {
         use serde_json::{Number, Value as Json};
         match &self.value {
-            Value::Text(text) => Json::String(text.clone()),
-            Value::Integer(integer) => Number::from_i128(*integer).map_or(Json::Null, Json::Number),
-            Value::Float(float) => Number::from_f64(*float).map_or(Json::Null, Json::Number),
-            Value::Bool(truth) => Json::Bool(*truth),
-            Value::Datetime => Json::Null,
-            Value::Array(items) => items.iter().map(Node::to_json).collect(),
-            Value::Table(table) => table.iter().map(|(key, entry)| (key.clone(), entry.node.to_json())).collect(),
+            TomlValue::Text(text) => Json::String(text.clone()),
+            TomlValue::Integer(integer) => Number::from_i128(*integer).map_or(Json::Null, Json::Number),
+            TomlValue::Float(float) => Number::from_f64(*float).map_or(Json::Null, Json::Number),
+            TomlValue::Bool(truth) => Json::Bool(*truth),
+            TomlValue::Datetime => Json::Null,
+            TomlValue::Array(items) => items.iter().map(TomlNode::to_json).collect(),
+            TomlValue::Table(table) => table.iter().map(|(key, entry)| (key.clone(), entry.node.to_json())).collect(),
         }
     }
 }
 
 /// What a value is, in the words of an error message.
-pub(crate) fn kind_of(value: &Value) -> &'static str {
+pub(crate) fn kind_of(value: &TomlValue) -> &'static str {
     match value {
-        Value::Text(_) => "a text",
-        Value::Integer(_) => "a whole number",
-        Value::Float(_) => "a number",
-        Value::Bool(_) => "true or false",
-        Value::Datetime => "a date",
-        Value::Array(_) => "a list",
-        Value::Table(_) => "a table",
+        TomlValue::Text(_) => "a text",
+        TomlValue::Integer(_) => "a whole number",
+        TomlValue::Float(_) => "a number",
+        TomlValue::Bool(_) => "true or false",
+        TomlValue::Datetime => "a date",
+        TomlValue::Array(_) => "a list",
+        TomlValue::Table(_) => "a table",
     }
 }

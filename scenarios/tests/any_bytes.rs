@@ -16,7 +16,7 @@ fn show(result: Result<Scenario, LoadError>) -> Option<String> {
     handler.render_report(&mut text, &error).expect("every error can be shown");
     assert!(text.contains('×') && text.len() < 200_000, "{} bytes", text.len());
     assert!(!text.contains('\u{1b}'), "nothing from a file may steer the terminal");
-    error.problems().iter().for_each(|problem| assert!(!problem.message().is_empty()));
+    error.faults().iter().for_each(|fault| assert!(!fault.message().is_empty()));
     Some(text)
 }
 

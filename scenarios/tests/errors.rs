@@ -332,7 +332,7 @@ fn all_independent_errors_at_once() {
         writeln!(many, "unknown_{index:02} = 1").expect("writing to a string cannot fail");
     }
     let error = from_text("bad.toml", &many, &[]).expect_err("unknown keys");
-    assert_eq!(error.problems().len(), 20);
+    assert_eq!(error.faults().len(), 20);
     assert!(rendered(&error, 100).contains("10 more are not shown"));
     insta::assert_snapshot!("all_independent_errors_at_once", errors.0);
 }
@@ -343,7 +343,7 @@ fn long_lines_are_cut_around_the_error() {
     let error = from_text("bad.toml", &long, &[]).expect_err("not a text");
     let text = rendered(&error, 100);
     assert!(text.chars().count() < 6000, "{} characters", text.chars().count());
-    assert!(error.problems().iter().any(|problem| problem.line_and_column() == Some((2, 9))), "{text}");
+    assert!(error.faults().iter().any(|problem| problem.line_and_column() == Some((2, 9))), "{text}");
 }
 
 #[test]

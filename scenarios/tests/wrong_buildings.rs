@@ -84,7 +84,7 @@ fn zones_and_walls() {
     );
     refusal(all, "wall_to_itself", ("[\"office\", \"store\"]", "[\"store\", \"store\"]"), &["bad.toml:16:11", "store"]);
     refusal(all, "three_sides", ("[\"office\", \"store\"]", "[\"office\", \"store\", \"ambient\"]"), &["at most 2"]);
-    refusal(all, "negative_resistance", ("31.25", "-31.25"), &["bad.toml:21:23", "above 0"]);
+    refusal(all, "negative_resistance", ("31.25", "-31.25"), &["bad.toml:21:23", "at least 0.000001"]);
     refusal(
         all,
         "preset_and_zones",
@@ -123,4 +123,33 @@ fn days_and_controllers() {
     let none = "extends = 'lane-change/front-nice'\ntitle = 'a'\niterations = 3";
     errors.error("only_for_buildings", from_text("bad.toml", none, &[]), &["there is no building", "`[building]`"]);
     insta::assert_snapshot!("days_and_controllers", errors.0);
+}
+
+/// Each error points at the key that it is about, also where only the building crate can find it.
+#[test]
+fn keys_of_controllers_and_setpoints() {
+    let mut errors = Catalogue::default();
+    let all = &mut errors;
+    let controller = |settings: &str| format!("kind = {settings}");
+    let learning = "\"iterative-learning\"\nproportional_kw_per_k = 0.1\nfeedback = { proportional_kw_per_k = -0.1 }";
+    refusal(
+        all,
+        "negative_gain_of_the_feedback",
+        ("kind = \"pid\"", &controller(learning)),
+        &["bad.toml:29:38", "`controller.feedback.proportional_kw_per_k` must be at least 0"],
+    );
+    refusal(
+        all,
+        "silent_zone_beyond_the_last",
+        ("kind = \"pid\"", &controller("\"distributed\"\nsilent_zone = 2")),
+        &["bad.toml:28:15", "`silent_zone` is 2; it must be at most 1"],
+    );
+    refusal(
+        all,
+        "end_before_the_start",
+        ("[setpoints]", "[setpoints]\nfrom_h = 9.0\nto_h = 8.5"),
+        &["bad.toml:25:8", "`to_h` is 8.5; it must be at least 9"],
+    );
+    refusal(all, "zone_called_ambient", ("\"store\"", "\"ambient\""), &["bad.toml:13:8", "zone 2", "`ambient`"]);
+    insta::assert_snapshot!("keys_of_controllers_and_setpoints", errors.0);
 }

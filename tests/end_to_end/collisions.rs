@@ -32,7 +32,7 @@ fn unavoidable(free_m: f64) -> String {
 }
 
 fn scenario(text: &str) -> Scenario {
-    from_text("collision.toml", text, &[]).unwrap_or_else(|error| panic!("{:?}", error.problems()))
+    from_text("collision.toml", text, &[]).unwrap_or_else(|error| panic!("{:?}", error.faults()))
 }
 
 fn gap_m(film: &Film, time_s: f64) -> f64 {

@@ -74,7 +74,7 @@ fn the_readme_s_example_is_a_scenario_and_its_commands_exist() {
     let readme = document("README.md");
     let example = block(&readme, "toml", "[[vehicle]]");
     if let Err(error) = from_text("README.toml", &example, &[]) {
-        panic!("{:?}", error.problems());
+        panic!("{:?}", error.faults());
     }
     let help = ["run", "suite", "new", "identify"]
         .map(|word| interplay(&scratch("readme-help"), &[word, "--help"]).stdout)

@@ -49,7 +49,7 @@ pub fn film(name: &str, scenario: Scenario) -> Film {
 /// An authored scenario, changed like by `--set`.
 pub fn authored(name: &str, changes: &[&str]) -> Scenario {
     let changes: Vec<_> = changes.iter().map(|change| Override::Set((*change).to_owned())).collect();
-    load(name, &changes).unwrap_or_else(|error| panic!("{error}: {:?}", error.problems()))
+    load(name, &changes).unwrap_or_else(|error| panic!("{error}: {:?}", error.faults()))
 }
 
 /// Every authored scenario of vehicles alone, and the first one with other drivers and starts; made once, in parallel.

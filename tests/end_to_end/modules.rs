@@ -27,7 +27,6 @@ const KNOWN_CIRCLES: &[(&str, &str, &str)] = &[
     ("planners", "", "scene, plan and trajectory name one another"),
     ("planners", "negotiation", "the folder's own items and persuasion name one another"),
     ("planners", "trajectory::sqp", "line search and optimiser name one another"),
-    ("scenarios", "", "scenario, building, jitter and schema name one another"),
 ];
 
 /// The path of a module within its crate; the root's is empty.

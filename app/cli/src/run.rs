@@ -7,7 +7,7 @@ use interplay_presentation::figures::{Camera, Take, own_page};
 use interplay_presentation::record::{RecordError, Recorder, Sink, Viewer};
 use interplay_presentation::report::summary;
 use interplay_presentation::shell;
-use interplay_scenarios::{Override, Scenario, load};
+use interplay_scenarios::{Override, Scenario, driver_kinds, load};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::Watcher;
@@ -29,9 +29,7 @@ pub(crate) struct Run {
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT)]
     scenario: Option<String>,
 
-    /// Who drives the ego instead of the scenario's choice: human, conservative, negotiation, bayesian, game, cooperative,
-    /// idm
-    #[arg(long, value_name = "KIND")]
+    #[arg(long, value_name = "KIND", help = planner_help())]
     planner: Option<String>,
 
     /// Change one value of the scenario; may be repeated
@@ -203,6 +201,11 @@ impl Run {
         recorder.repeat_with(&self.command())?;
         Ok(vec![Box::new(recorder)])
     }
+}
+
+/// What `--planner` does, with the kinds of drivers that a scenario may name.
+fn planner_help() -> String {
+    format!("Who drives the ego instead of the scenario's choice: {}", driver_kinds().join(", "))
 }
 
 /// A seed as it is written on the command line.

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::setting::{SettingError, SettingKey, check_within};
+use crate::bounds::Bound;
+use crate::setting::{self, SettingError, SettingKey, check_bound};
 
 /// Wanted temperatures and what it costs to miss them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -133,24 +134,8 @@ impl Setpoints {
         if found == 0 || (found != 1 && found != zones) {
             return Err(SetpointsError::Count { found, zones });
         }
-        let wanted = "between -50 and 100 °C";
-        for (zone, &value) in self.occupied_c.iter().enumerate() {
-            check_within(SettingKey::from("occupied_c").entry(zone), value, -50.0..=100.0, wanted)?;
-        }
-        if let Some(value) = self.other_c {
-            check_within("other_c", value, -50.0..=100.0, wanted)?;
-        }
-        check_within("from_h", self.from_h, 0.0..=24.0, "an hour of the day, 0 to 24")?;
-        check_within("to_h", self.to_h, self.from_h..=24.0, "an hour of the day, after from_h")?;
-        for (key, value) in [
-            ("occupied_weight", self.occupied_weight),
-            ("other_weight", self.other_weight),
-            ("input_weight", self.input_weight),
-            ("band_k", self.band_k),
-        ] {
-            check_within(key, value, 0.0..=1e9, "at least 0")?;
-        }
-        Ok(())
+        setting::check(self)?;
+        Ok(check_bound("to_h", self.to_h, Bound::AtLeast(self.from_h))?)
     }
 }
 

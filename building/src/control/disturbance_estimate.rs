@@ -15,7 +15,6 @@ use serde::{Deserialize, Serialize};
 
 use super::{ControlError, DayAhead, DayRecord};
 use crate::lifted::Lifted;
-use crate::setting::check_within;
 
 /// What the disturbance of a day is predicted from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -56,14 +55,10 @@ pub struct PredictionError {
 }
 
 impl DisturbanceEstimator {
-    /// An estimator before the first day. `rate` is λ.
-    ///
-    /// # Errors
-    /// [`ControlError::Setting`] if the rate is not between 0 and 1.
-    pub fn new(lifted: Lifted, prediction: DisturbancePrediction, rate: f64) -> Result<Self, ControlError> {
-        check_within("learning_rate", rate, 0.0..=1.0, "between 0 and 1")?;
+    /// An estimator before the first day. `rate` is λ, between 0 and 1.
+    pub fn new(lifted: Lifted, prediction: DisturbancePrediction, rate: f64) -> Self {
         let bias_kw = vec![0.0; lifted.size()];
-        Ok(Self { lifted, prediction, rate, bias_kw, measured_kw: None, today: None })
+        Self { lifted, prediction, rate, bias_kw, measured_kw: None, today: None }
     }
 
     /// The model of a day.

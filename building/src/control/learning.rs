@@ -23,7 +23,7 @@ use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
-use crate::setting::check_not_negative;
+use crate::setting;
 
 /// Iterative learning of P- or PD-type on top of a PID controller.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -114,13 +114,9 @@ impl Learning {
     /// # Errors
     /// [`ControlError::Setting`].
     pub fn new(settings: LearningSettings, lifted: Lifted) -> Result<Self, ControlError> {
-        check_not_negative(&[
-            ("proportional_kw_per_k", settings.proportional_kw_per_k),
-            ("derivative_kw_per_k", settings.derivative_kw_per_k),
-        ])?;
+        setting::check(&settings)?;
         let model = lifted.model();
-        let feedback = Pid::new(settings.feedback, model.network().limits_kw(), model.step_s())
-            .map_err(|error| error.within("feedback"))?;
+        let feedback = Pid::new(settings.feedback, model.network().limits_kw(), model.step_s())?;
         let planned_kw = vec![0.0; lifted.size()];
         let wanted = vec![None; lifted.size()];
         Ok(Self { settings, lifted, feedback, planned_kw, learned_kw: None, expected_kw: None, wanted })

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
-use crate::setting::{SettingError, check_not_negative};
+use crate::setting::{self, SettingError};
 
 /// Gains of a PID controller. They are per hour, not per step, so that they do not depend on the step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -55,11 +55,7 @@ impl Pid {
     /// # Errors
     /// [`SettingError`] if a gain is negative.
     pub fn new(settings: PidSettings, limits_kw: &[f64], step_s: f64) -> Result<Self, SettingError> {
-        check_not_negative(&[
-            ("proportional_kw_per_k", settings.proportional_kw_per_k),
-            ("integral_kw_per_k_h", settings.integral_kw_per_k_h),
-            ("derivative_kw_h_per_k", settings.derivative_kw_h_per_k),
-        ])?;
+        setting::check(&settings)?;
         let integral_kw = vec![0.0; limits_kw.len()];
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), step_h: step_s / 3600.0, integral_kw, before_c: None })
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
-use crate::setting::{check_not_negative, check_within};
+use crate::setting;
 
 /// A two-sided thermostat with a dead band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -40,8 +40,7 @@ impl Thermostat {
     /// # Errors
     /// [`ControlError::Setting`] if the dead band is negative, or the power not a share.
     pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
-        check_not_negative(&[("dead_band_k", settings.dead_band_k)])?;
-        check_within("power", settings.power, 0.0..=1.0, "a share of the limit, 0 to 1")?;
+        setting::check(&settings)?;
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
     }
 }

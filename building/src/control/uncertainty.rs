@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ControlError;
 use crate::comfort::Targets;
-use crate::setting::{SettingError, check_not_negative, check_within};
+use crate::setting::{self, SettingError};
 
 /// Variance that is added to every entry of the diagonal \[kW²\].
 const NUGGET_KW2: f64 = 1e-8;
@@ -74,15 +74,7 @@ impl Uncertainty {
     /// # Errors
     /// [`SettingError`] if a deviation is negative, or a correlation not between -1 and 1.
     pub fn new(settings: UncertaintySettings) -> Result<Self, SettingError> {
-        check_not_negative(&[
-            ("common_kw", settings.common_kw),
-            ("zone_kw", settings.zone_kw),
-            ("zone_other_kw", settings.zone_other_kw),
-            ("prior_days", settings.prior_days),
-        ])?;
-        let wanted = "a correlation, between -1 and 1";
-        check_within("common_correlation", settings.common_correlation, -1.0..=1.0, wanted)?;
-        check_within("zone_correlation", settings.zone_correlation, -1.0..=1.0, wanted)?;
+        setting::check(&settings)?;
         Ok(Self { settings, seen: [(0.0, 0.0); 3] })
     }
 

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bounds::Bound;
 use crate::discretise;
-use crate::setting::SettingError;
+use crate::setting::{self, SettingError, check_bound};
 
 /// How to identify. Every field has a default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,17 +15,22 @@ pub struct IdentifySettings {
     pub method: Estimator,
     /// Bandwidth of the kernel smoother \[h\]; only `semiparametric` uses it. Wider ones let slow disturbances bias the
     /// conductances, narrower ones leave only sensor noise.
+    #[schemars(range(max = 168.0))]
     pub bandwidth_h: f64,
     /// How a step is understood when rates become capacities and time constants: `exact` for measured buildings, which do
     /// not live in steps; `euler` for data simulated by eq. 2.3 itself.
     pub discretisation: discretise::Discretisation,
     /// r, the autoregressive order of the residual model.
+    #[schemars(range(min = 1, max = 10))]
     pub autoregressive_order: usize,
     /// How many daily harmonics the residual model and `prediction-error` hold.
+    #[schemars(range(max = 12))]
     pub harmonics: usize,
     /// How long the model runs freely from a measured state, to see how it errs \[h\].
+    #[schemars(range(max = 720.0))]
     pub horizon_h: f64,
     /// The first this many days are trained on and the others tested; all are trained on if it is left out.
+    #[schemars(range(min = 0.001, max = 100000.0))]
     pub train_days: Option<f64>,
 }
 
@@ -64,28 +70,11 @@ impl IdentifySettings {
     /// # Errors
     /// [`SettingError`] for the first field that makes no sense with this sampling time.
     pub(super) fn check(&self, step_s: f64) -> Result<(), SettingError> {
-        let error = |key: &str, value: f64, wanted| Err(SettingError { key: key.into(), value, wanted });
-        let within = |value: f64, low: f64, high: f64| value.is_finite() && low <= value && value <= high;
-        if !within(self.bandwidth_h * 3600.0, step_s, 7.0 * 86_400.0) {
-            return error("bandwidth_h", self.bandwidth_h, "from one sampling time to a week");
-        }
-        if !(1..=10).contains(&self.autoregressive_order) {
-            return error("autoregressive_order", self.autoregressive_order as f64, "from 1 to 10");
-        }
-        // The highest harmonic must turn slower than the sampling.
-        if self.harmonics > 12 || self.harmonics as f64 * step_s > 21_600.0 {
-            return error(
-                "harmonics",
-                self.harmonics as f64,
-                "from 0 to 12, and at most a quarter of the samples a day",
-            );
-        }
-        if !within(self.horizon_h * 3600.0, step_s, 30.0 * 86_400.0) {
-            return error("horizon_h", self.horizon_h, "from one sampling time to 30 days");
-        }
-        match self.train_days {
-            Some(days) if !within(days, 1e-3, 1e5) => error("train_days", days, "a positive number of days"),
-            _ => Ok(()),
-        }
+        setting::check(self)?;
+        let step_h = step_s / 3600.0;
+        check_bound("bandwidth_h", self.bandwidth_h, Bound::AtLeast(step_h))?;
+        // The highest harmonic must turn slower than the sampling: at most a quarter of the samples a day.
+        check_bound("harmonics", self.harmonics as f64, Bound::AtMost((21_600.0 / step_s).floor()))?;
+        check_bound("horizon_h", self.horizon_h, Bound::AtLeast(step_h))
     }
 }

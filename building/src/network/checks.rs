@@ -2,7 +2,7 @@
 
 use super::error::{NetworkError, Part};
 use super::settings::{AMBIENT, Wall, Zone};
-use crate::setting::{SettingError, check_not_negative, check_within};
+use crate::setting;
 
 pub(super) fn check_zones(zones: &[Zone]) -> Result<(), NetworkError> {
     if zones.is_empty() {
@@ -13,12 +13,11 @@ pub(super) fn check_zones(zones: &[Zone]) -> Result<(), NetworkError> {
         if name.trim().is_empty() || name == AMBIENT {
             return Err(NetworkError::BadName { zone: index, name });
         }
-        let settings = positive("capacity_kj_per_k", zone.capacity_kj_per_k).and_then(|()| {
-            check_not_negative(&[("limit_kw", zone.limit_kw), ("solar_aperture_m2", zone.solar_aperture_m2)])
-        });
-        let called = || format!("zone `{name}`");
-        settings.map_err(|error| NetworkError::Setting { part: Part::Zone(index), called: called(), error })?;
     }
+    setting::check_each(zones).map_err(|(index, error)| {
+        let called = format!("zone `{}`", zones[index].name);
+        NetworkError::Setting { part: Part::Zone(index), called, error }
+    })?;
     let mut names: Vec<(&str, usize)> = zones.iter().enumerate().map(|(i, zone)| (zone.name.as_str(), i)).collect();
     names.sort_unstable();
     match names.windows(2).find(|pair| pair[0].0 == pair[1].0) {
@@ -42,17 +41,16 @@ pub(super) fn check_walls(zones: &[Zone], walls: &[Wall]) -> Result<Vec<[Option<
     };
     let mut ends = Vec::with_capacity(walls.len());
     for (index, wall) in walls.iter().enumerate() {
-        let called = || wall_name(index, wall);
         let [one, other] = &wall.between;
         if one == other {
-            return Err(NetworkError::SamePlace { wall: index, called: called(), name: one.clone() });
+            return Err(NetworkError::SamePlace { wall: index, called: wall_name(index, wall), name: one.clone() });
         }
         ends.push([find(index, one)?, find(index, other)?]);
-        let capacity = || wall.capacity_kj_per_k.map_or(Ok(()), |capacity| positive("capacity_kj_per_k", capacity));
-        positive("resistance_k_per_kw", wall.resistance_k_per_kw)
-            .and_then(|()| capacity())
-            .map_err(|error| NetworkError::Setting { part: Part::Wall(index), called: called(), error })?;
     }
+    setting::check_each(walls).map_err(|(index, error)| {
+        let called = wall_name(index, &walls[index]);
+        NetworkError::Setting { part: Part::Wall(index), called, error }
+    })?;
     Ok(ends)
 }
 
@@ -69,9 +67,4 @@ fn unknown(zones: &[Zone], (index, wall): (usize, &Wall), name: &str) -> Network
         name: name.to_owned(),
         nearest: nearest.map_or_else(String::new, |zone| zone.name.clone()),
     }
-}
-
-/// Refuses what is not a positive number, or so small or large that its inverse is of no use.
-fn positive(key: &str, value: f64) -> Result<(), SettingError> {
-    check_within(key, value, 1e-9..=1e12, "between 1e-9 and 1e12 (leave a wall out that lets no heat through)")
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Network, NetworkError};
-use crate::setting::check_within;
+use crate::setting;
 
 /// The factors by which a controller's model of a building is wrong. With all factors 1 it is right.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,16 +31,10 @@ impl Network {
     /// The network of a model with this mismatch.
     ///
     /// # Errors
-    /// [`NetworkError::Believed`] if a factor is not a number above zero.
+    /// [`NetworkError::Believed`] if a factor is out of range.
     pub fn believed(&self, mismatch: &ModelMismatch) -> Result<Network, NetworkError> {
         let ModelMismatch { capacity_factor, inner_resistance_factor, outer_resistance_factor } = *mismatch;
-        for (key, value) in [
-            ("capacity_factor", capacity_factor),
-            ("inner_resistance_factor", inner_resistance_factor),
-            ("outer_resistance_factor", outer_resistance_factor),
-        ] {
-            check_within(key, value, f64::MIN_POSITIVE..=f64::MAX, "above 0").map_err(NetworkError::Believed)?;
-        }
+        setting::check(mismatch).map_err(NetworkError::Believed)?;
         let mut network = self.clone();
         network.capacities_kj_per_k.iter_mut().for_each(|capacity| *capacity *= capacity_factor);
         network.links.iter_mut().for_each(|link| link.conductance_kw_per_k /= inner_resistance_factor);

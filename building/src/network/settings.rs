@@ -15,7 +15,7 @@ pub struct Zone {
     pub name: String,
     /// Heat that warms the zone by one kelvin \[kJ/K\].
     #[serde(default = "default_capacity_kj_per_k")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 0.000001))]
     pub capacity_kj_per_k: f64,
     /// Largest heating power, and largest cooling power \[kW\].
     #[serde(default = "default_limit_kw")]
@@ -56,13 +56,14 @@ pub struct Wall {
     /// The two places that it separates: names of zones, or `ambient`.
     #[schemars(example = vec!["office", "ambient"])]
     pub between: [String; 2],
-    /// Temperature difference that drives one kilowatt through \[K/kW\]. (1 K·min/kJ is 60 K/kW.)
-    #[schemars(extend("exclusiveMinimum" = 0.0), example = 31.25)]
+    /// Temperature difference that drives one kilowatt through \[K/kW\]. (1 K·min/kJ is 60 K/kW.) Leave out a wall that lets no
+    /// heat through.
+    #[schemars(range(min = 0.000001), example = 31.25)]
     pub resistance_k_per_kw: f64,
     /// Heat that the wall itself stores \[kJ/K\]. With it the wall is a temperature of its own, with half of the
     /// resistance to either side (2R1C).
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0.0), example = 200.0)]
+    #[schemars(range(min = 0.000001), example = 200.0)]
     pub capacity_kj_per_k: Option<f64>,
 }
 

@@ -27,7 +27,7 @@ use crate::encounter::{Choice, Partner};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::MeanSpeed;
-use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
+use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use diagnostics as reported;
 use equilibrium::{Solution, leader_follower, nash};
@@ -199,6 +199,6 @@ impl Game {
 pub fn problem(scene: &Scene, expressed: Option<MeanSpeed>) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
-    problem.terms.extend(expressed.iter().flat_map(|bounds| bounds.terms(0)));
+    problem.terms.extend(expressed.iter().flat_map(|interval| interval.bounds(0)).map(Term::MeanSpeed));
     problem
 }

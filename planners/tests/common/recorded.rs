@@ -287,7 +287,7 @@ impl Vehicle {
         ];
         terms.extend(self.keep_outs.iter().map(|of| Term::KeepOut(of.keep_out(vehicle))));
         terms.extend(self.distance_costs.iter().map(|of| Term::DistanceCost(of.distance_cost(vehicle))));
-        terms.extend(self.mean_speed.iter().flat_map(|of| of.mean_speed().terms(vehicle)));
+        terms.extend(self.mean_speed.iter().flat_map(|of| of.mean_speed().bounds(vehicle)).map(Term::MeanSpeed));
         terms
     }
 }

@@ -51,7 +51,7 @@ impl Shot {
     pub fn take(&self) -> Result<Take, String> {
         let changes: Vec<Override> = self.sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
         let scenario = load(self.scenario, &changes).map_err(|error| {
-            let problems = error.problems().iter().map(ToString::to_string).collect::<Vec<_>>();
+            let problems = error.faults().iter().map(ToString::to_string).collect::<Vec<_>>();
             format!("{error}: {}", problems.join("; "))
         })?;
         let sets = self.sets.iter().flat_map(|set| ["--set", set]);

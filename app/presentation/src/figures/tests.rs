@@ -24,7 +24,7 @@ fn every_entry_says_what_the_source_shows_and_names_scenarios_that_exist() {
         for shot in entry.shots.iter().chain(entry.beside) {
             let sets: Vec<Override> = shot.sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
             if let Err(error) = load(shot.scenario, &sets) {
-                panic!("{entry}: {} with {:?}: {:?}", shot.scenario, shot.sets, error.problems());
+                panic!("{entry}: {} with {:?}: {:?}", shot.scenario, shot.sets, error.faults());
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use interplay_scenarios::{BuildingExpect, Completes, Expect, SpeedRange};
+use interplay_scenarios::{BuildingExpect, Completes, Expect, ExpectedSpeed};
 use serde_json::{Value, json};
 
 use super::building::BuildingReport;
@@ -66,7 +66,7 @@ fn completes(window: &Completes, report: &Report) -> Expectation {
     }
 }
 
-fn speed(range: &SpeedRange, report: &Report) -> Vec<Expectation> {
+fn speed(range: &ExpectedSpeed, report: &Report) -> Vec<Expectation> {
     let Some(vehicle) = report.vehicle(&range.vehicle) else { return Vec::new() };
     let (min, max) = (vehicle.min_speed_mps, vehicle.max_speed_mps);
     let bounds = [

@@ -64,8 +64,8 @@ impl Concurrent {
         settings.check()?;
         Ok(Self {
             settings,
-            uncertainty: Uncertainty::new(settings.uncertainty).map_err(|error| error.within("uncertainty"))?,
-            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?,
+            uncertainty: Uncertainty::new(settings.uncertainty)?,
+            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate),
             history: PlanHistory::default(),
             feedback: None,
             state: None,

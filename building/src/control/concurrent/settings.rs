@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::control::BandPenalty;
 use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
-use crate::setting::{SettingError, check_not_negative, check_within};
+use crate::setting::{self, SettingError};
 
 /// Feedforward and a Youla-parametrised feedback (chapter 4).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -64,15 +64,7 @@ impl Default for ConcurrentSettings {
 impl ConcurrentSettings {
     /// Refuses settings that are out of range. Bounds below their floor are found when the building is known.
     pub(super) fn check(&self) -> Result<(), SettingError> {
-        check_within("taps", self.taps as f64, 1.0..=48.0, "a number of steps, 1 to 48")?;
-        check_within("confidence", self.confidence, 0.5..=0.999_999, "a probability, 0.5 to 0.999999")?;
-        check_not_negative(&[
-            ("gamma_q", self.gamma_q),
-            ("gamma_2", self.gamma_2.unwrap_or_default()),
-            ("discomfort_linear", self.discomfort_linear),
-            ("discomfort_quadratic", self.discomfort_quadratic),
-            ("initial_gain_kw_per_k", self.initial_gain_kw_per_k),
-        ])
+        setting::check(self)
     }
 
     /// Cost of leaving the comfort band.

@@ -15,10 +15,8 @@
 
 use std::collections::VecDeque;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
-
 use crate::lifted::Lifted;
+use crate::random::Random;
 
 /// The content of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +59,7 @@ pub(super) struct Messages {
     loss: f64,
     delay: usize,
     silent: Option<usize>,
-    generator: ChaCha8Rng,
+    random: Random,
     /// Messages that each zone sent since [`Messages::start`].
     pub sent: Vec<usize>,
     /// Messages since then that did not arrive in their round.
@@ -111,7 +109,7 @@ impl Messages {
             loss,
             delay,
             silent,
-            generator: ChaCha8Rng::seed_from_u64(0),
+            random: Random::new(0, 0),
             sent: vec![0; zones],
             undelivered: 0,
         }
@@ -141,7 +139,7 @@ impl Messages {
         for edge in &mut self.edges {
             let (from, to) = (self.owner[edge.from], self.owner[edge.to]);
             let silent = self.silent == Some(from) || self.silent == Some(to);
-            let lost = self.loss > 0.0 && f64::from(self.generator.next_u32()) < self.loss * 4_294_967_296.0;
+            let lost = self.loss > 0.0 && self.random.chance_of_32_bits(self.loss);
             let late = self.delay > 0;
             edge.live = !silent && !lost && !late;
             if self.silent != Some(from) {

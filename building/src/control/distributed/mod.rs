@@ -61,7 +61,7 @@ impl Distributed {
         settings.check(model.network().zone_count())?;
         let lifted = Lifted::new(&Model::euler(model.network(), model.step_s())?, steps);
         let messages = Messages::new(&lifted, settings.loss, settings.delay_rounds, settings.silent_zone);
-        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?;
+        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate);
         Ok(Self { settings, estimator, history: PlanHistory::default(), messages, zone_models: None })
     }
 
@@ -229,7 +229,7 @@ impl Centralised {
     /// [`ControlError::Setting`] if a setting is out of range.
     pub fn new(settings: CentralisedSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
-        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?;
+        let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate);
         Ok(Self { settings, estimator, history: PlanHistory::default() })
     }
 }

@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bounds::Bound;
 use crate::control::BandPenalty;
 use crate::control::disturbance_estimate::DisturbancePrediction;
-use crate::setting::{SettingError, check_not_negative, check_within};
+use crate::setting::{self, SettingError, check_bound};
 
 /// How the zones' proposals of a round become a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -76,16 +77,9 @@ impl Default for DistributedSettings {
 impl DistributedSettings {
     /// Refuses settings that are out of range.
     pub(super) fn check(&self, zones: usize) -> Result<(), SettingError> {
-        check_within("loss", self.loss, 0.0..=1.0, "a share, between 0 and 1")?;
-        if let Some(zone) = self.silent_zone {
-            let wanted = "the number of a zone, from 0";
-            check_within("silent_zone", zone as f64, 0.0..=zones.max(1) as f64 - 1.0, wanted)?;
-        }
-        check_not_negative(&[
-            ("tolerance_kw", self.tolerance_kw),
-            ("discomfort_quadratic", self.discomfort_quadratic),
-            ("gain_kw_per_k", self.gain_kw_per_k),
-        ])
+        setting::check(self)?;
+        let last_zone = zones.max(1) as f64 - 1.0;
+        self.silent_zone.map_or(Ok(()), |zone| check_bound("silent_zone", zone as f64, Bound::AtMost(last_zone)))
     }
 }
 
@@ -117,10 +111,7 @@ impl Default for CentralisedSettings {
 impl CentralisedSettings {
     /// Refuses settings that are out of range.
     pub(super) fn check(&self) -> Result<(), SettingError> {
-        check_not_negative(&[
-            ("discomfort_quadratic", self.discomfort_quadratic),
-            ("gain_kw_per_k", self.gain_kw_per_k),
-        ])
+        setting::check(self)
     }
 }
 

@@ -126,8 +126,8 @@ impl Iterative {
         let n = lifted.zones();
         Ok(Self {
             settings,
-            uncertainty: Uncertainty::new(settings.uncertainty).map_err(|error| error.within("uncertainty"))?,
-            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate)?,
+            uncertainty: Uncertainty::new(settings.uncertainty)?,
+            estimator: DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate),
             history: PlanHistory::default(),
             gain: DMatrix::from_diagonal_element(n, n, settings.initial_gain_kw_per_k),
             feedback: None,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
-use crate::setting::{SettingError, check_not_negative, check_within};
+use crate::setting::{self, SettingError};
 
 /// What is minimised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -122,8 +122,6 @@ impl Default for IterativeSettings {
 impl IterativeSettings {
     /// Refuses settings that are out of range.
     pub(super) fn check(&self) -> Result<(), SettingError> {
-        check_within("decay", self.decay, 1e-3..=1.0, "a rate, above 0 and at most 1")?;
-        check_within("confidence", self.confidence, 0.5..=0.999_999, "a probability, 0.5 to 0.999999")?;
-        check_not_negative(&[("initial_gain_kw_per_k", self.initial_gain_kw_per_k)])
+        setting::check(self)
     }
 }

@@ -1,6 +1,6 @@
 //! The text beside the pictures of a building.
 
-use interplay_scenarios::{Scenario, Weather};
+use interplay_scenarios::{Scenario, WeatherConfig};
 
 use super::super::markdown::code;
 
@@ -8,8 +8,8 @@ use super::super::markdown::code;
 pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
     let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
     let weather = match scenario.weather.clone().unwrap_or_default() {
-        Weather::Synthetic(_) => "a synthetic tropical climate".to_owned(),
-        Weather::Epw(file) => format!("the file {}", code(&file.file)),
+        WeatherConfig::Synthetic(_) => "a synthetic tropical climate".to_owned(),
+        WeatherConfig::Epw(file) => format!("the file {}", code(&file.file)),
     };
     format!(
         "### {title}\n\n{shows}.{again}\n\n**Look for**: {look}.\n\n\

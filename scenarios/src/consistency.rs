@@ -2,23 +2,26 @@
 //!
 //! By now every key has the right type and range; the tree says where each is written.
 
+mod building;
+
 use interplay_planners::{Driver, State};
 
-use crate::error::{Place, Problem, quoted};
+use crate::error::{Fault, Place, quoted};
 use crate::nearest::suggestion;
-use crate::tree::Node;
-use crate::{Branch, Road, Scenario, Vehicle, building};
+use crate::road::{Branch, Road};
+use crate::scenario::{Scenario, Vehicle};
+use crate::tree::TomlNode;
 
 /// The most ticks a run may take.
-const MOST_TICKS: f64 = 100_000.0;
+const MAX_TICKS: f64 = 100_000.0;
 /// The angles at which roads may cross, to either side \[deg\].
-const CROSSING_DEG: std::ops::RangeInclusive<f64> = 20.0..=160.0;
+const CROSSING_ANGLE_DEG: std::ops::RangeInclusive<f64> = 20.0..=160.0;
 /// How far a corner may stick out of the road by rounding \[m\].
-const TOLERANCE_M: f64 = 1e-9;
+const ROUNDING_M: f64 = 1e-9;
 
 /// Everything that does not fit together.
-pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
-    let mut checker = Checker { scenario, tree, problems: Vec::new() };
+pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
+    let mut checker = Checker { scenario, tree, faults: Vec::new() };
     checker.times();
     checker.names();
     checker.road();
@@ -30,14 +33,14 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
     }
     checker.starts();
     checker.expectations();
-    checker.problems.extend(building::check(scenario, tree));
-    checker.problems
+    checker.faults.extend(building::check(scenario, tree));
+    checker.faults
 }
 
 struct Checker<'a> {
     scenario: &'a Scenario,
-    tree: &'a Node,
-    problems: Vec<Problem>,
+    tree: &'a TomlNode,
+    faults: Vec<Fault>,
 }
 
 impl Checker<'_> {
@@ -45,10 +48,10 @@ impl Checker<'_> {
         self.tree.place_of(path)
     }
 
-    /// Records a problem with the value at a path.
+    /// Records a fault with the value at a path.
     fn refuse(&mut self, path: &str, label: &str, message: String, help: &str) {
-        let problem = Problem::at(self.place(path), label, message);
-        self.problems.push(if help.is_empty() { problem } else { problem.help(help) });
+        let fault = Fault::at(self.place(path), label, message);
+        self.faults.push(if help.is_empty() { fault } else { fault.help(help) });
     }
 
     fn times(&mut self) {
@@ -56,8 +59,8 @@ impl Checker<'_> {
         if duration_s < step_s {
             let message = format!("`duration_s` ({duration_s}) is shorter than one step (`step_s` = {step_s})");
             self.refuse("duration_s", "too short", message, "simulate at least one step");
-        } else if duration_s / step_s > MOST_TICKS {
-            let message = format!("{duration_s} s in steps of {step_s} s are more than {MOST_TICKS} ticks");
+        } else if duration_s / step_s > MAX_TICKS {
+            let message = format!("{duration_s} s in steps of {step_s} s are more than {MAX_TICKS} ticks");
             self.refuse("duration_s", "too long", message, "shorten `duration_s` or lengthen `step_s`");
         }
     }
@@ -67,9 +70,9 @@ impl Checker<'_> {
         for (index, vehicle) in vehicles.iter().enumerate() {
             if let Some(first) = vehicles[..index].iter().position(|earlier| earlier.name == vehicle.name) {
                 let message = format!("two vehicles are called {}", quoted(&vehicle.name));
-                let problem = Problem::at(self.place(&format!("vehicle.{index}.name")), "the second", message);
-                let problem = problem.also(self.place(&format!("vehicle.{first}.name")), "the first");
-                self.problems.push(problem.help("give each vehicle a name of its own"));
+                let fault = Fault::at(self.place(&format!("vehicle.{index}.name")), "the second", message);
+                let fault = fault.also(self.place(&format!("vehicle.{first}.name")), "the first");
+                self.faults.push(fault.help("give each vehicle a name of its own"));
             }
         }
     }
@@ -98,13 +101,13 @@ impl Checker<'_> {
     /// Roads that cross at a small angle run side by side, and their conflict zone is as long as they are.
     fn road(&mut self) {
         if let Road::Intersection(crossing) = &self.scenario.road
-            && !CROSSING_DEG.contains(&crossing.angle_deg.abs())
+            && !CROSSING_ANGLE_DEG.contains(&crossing.angle_deg.abs())
         {
             let message = format!("`road.angle_deg` is {}, at which roads hardly cross", crossing.angle_deg);
             let help = format!(
                 "from {} to {} the crossing road comes from the right of the main one, with a minus from its left",
-                CROSSING_DEG.start(),
-                CROSSING_DEG.end()
+                CROSSING_ANGLE_DEG.start(),
+                CROSSING_ANGLE_DEG.end()
             );
             self.refuse("road.angle_deg", "too small an angle", message, &help);
         }
@@ -187,22 +190,22 @@ impl Checker<'_> {
         let pairs = || scenario.vehicles.iter().zip(&starts).enumerate();
         for (index, (vehicle, start)) in pairs() {
             let path = format!("vehicle.{index}.start");
-            if !scenario.road.corridor(vehicle.road).contains(&vehicle.body, start, TOLERANCE_M) {
+            if !scenario.road.corridor(vehicle.road).contains(&vehicle.body, start, ROUNDING_M) {
                 let message = format!("vehicle {} starts outside the road{moved}", quoted(&vehicle.name));
                 let help = format!("{}, and the whole body must lie on it", extent(&scenario.road, vehicle.road));
                 self.refuse(&path, "a corner is beside the road", message, &help);
             }
             for (other_index, (other, other_start)) in pairs().take(index) {
-                if touch((vehicle, start), (other, other_start)) {
+                if overlap((vehicle, start), (other, other_start)) {
                     let message = format!(
                         "vehicles {} and {} overlap at the start{moved}",
                         quoted(&other.name),
                         quoted(&vehicle.name)
                     );
-                    let problem = Problem::at(self.place(&path), "overlaps", message);
-                    let problem = problem.also(self.place(&format!("vehicle.{other_index}.start")), "with this one");
-                    self.problems.push(
-                        problem.help(
+                    let fault = Fault::at(self.place(&path), "overlaps", message);
+                    let fault = fault.also(self.place(&format!("vehicle.{other_index}.start")), "with this one");
+                    self.faults.push(
+                        fault.help(
                             "`x_m` and `y_m` are the mass centre; `body` says how far the vehicle reaches from it",
                         ),
                     );
@@ -299,20 +302,20 @@ fn plural(count: usize, noun: &str) -> String {
 }
 
 /// Whether two footprints share more than a line: no edge of either separates them (separating axis theorem).
-fn touch((first, at): (&Vehicle, &State), (second, other_at): (&Vehicle, &State)) -> bool {
+fn overlap((first, at): (&Vehicle, &State), (second, other_at): (&Vehicle, &State)) -> bool {
     let (corners, other_corners) = (first.body.corners(at), second.body.corners(other_at));
     let headings = [at.heading_rad, other_at.heading_rad].map(libm::sincos);
     let axes = headings.iter().flat_map(|(sin, cos)| [[*cos, *sin], [-sin, *cos]]);
     let mut gaps = axes.map(|axis| {
-        let (low, high) = shadow(&corners, axis);
-        let (other_low, other_high) = shadow(&other_corners, axis);
+        let (low, high) = projection(&corners, axis);
+        let (other_low, other_high) = projection(&other_corners, axis);
         (other_low - high).max(low - other_high)
     });
-    gaps.all(|gap| gap < -TOLERANCE_M)
+    gaps.all(|gap| gap < -ROUNDING_M)
 }
 
 /// The interval that a rectangle covers along an axis.
-fn shadow(corners: &[[f64; 2]; 4], [x, y]: [f64; 2]) -> (f64, f64) {
+fn projection(corners: &[[f64; 2]; 4], [x, y]: [f64; 2]) -> (f64, f64) {
     let along = corners.map(|corner| corner[0] * x + corner[1] * y);
     along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(*at), high.max(*at)))
 }
@@ -328,7 +331,7 @@ mod tests {
         let scenario = crate::from_text("cars.toml", text, &[]).expect("a scenario without fault");
         let (car, start) = (&scenario.vehicles[0], State::default());
         let other = State { x_m, y_m, heading_rad, speed_mps: 0.0 };
-        let (one_way, other_way) = (touch((car, &start), (car, &other)), touch((car, &other), (car, &start)));
+        let (one_way, other_way) = (overlap((car, &start), (car, &other)), overlap((car, &other), (car, &start)));
         assert_eq!(one_way, other_way, "touching is mutual");
         one_way
     }

@@ -6,39 +6,39 @@ use interplay_building::control::ControlError;
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::{Network, NetworkError, Part};
 
-use super::{Building, DAY_S};
-use crate::Scenario;
-use crate::error::{Problem, quoted};
+use crate::building::{BuildingConfig, DAY_S};
+use crate::error::{Fault, quoted};
+use crate::scenario::Scenario;
 use crate::schema::{self, Concern, SchemaNode};
-use crate::tree::Node;
+use crate::tree::TomlNode;
 
 /// The most steps that a building may take.
-const MOST_STEPS: usize = 100_000;
+const MAX_STEPS: usize = 100_000;
 /// The most zones.
-const MOST_ZONES: usize = 1000;
+const MAX_ZONES: usize = 1000;
 /// Everything that does not fit together.
-pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
-    let mut problems = Vec::new();
+pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
+    let mut faults = Vec::new();
     if scenario.vehicles.is_empty() {
-        problems.extend(stated(Concern::Vehicles, tree).map(|key| {
+        faults.extend(stated(Concern::Vehicles, tree).map(|key| {
             let message = format!("{} is stated, but there are no vehicles", quoted(&key));
             let help = "a building takes its step from `building.step_s` and its days from `iterations`";
-            Problem::at(tree.place_of(&key), "for vehicles only", message).help(help)
+            Fault::at(tree.place_of(&key), "for vehicles only", message).help(help)
         }));
     }
     let Some(building) = &scenario.building else {
         if scenario.vehicles.is_empty() {
             let message = "there is nothing to simulate: neither a `[[vehicle]]` nor a `[building]`";
             let help = "state vehicles, a building, or both; or start with `extends = \"lane-change/front-nice\"`";
-            problems.push(Problem::at(&tree.place, "in this file", message).help(help));
+            faults.push(Fault::at(&tree.place, "in this file", message).help(help));
         }
-        problems.extend(stated(Concern::Building, tree).map(|key| {
+        faults.extend(stated(Concern::Building, tree).map(|key| {
             let message = format!("{} is stated, but there is no building", quoted(&key));
-            Problem::at(tree.place_of(&key), "for a building only", message).help("add a `[building]`")
+            Fault::at(tree.place_of(&key), "for a building only", message).help("add a `[building]`")
         }));
-        return problems;
+        return faults;
     };
-    let mut checker = Checker { scenario, tree, problems };
+    let mut checker = Checker { scenario, tree, faults };
     checker.times(building);
     if checker.sources(building) {
         match building.network() {
@@ -46,11 +46,11 @@ pub(crate) fn check(scenario: &Scenario, tree: &Node) -> Vec<Problem> {
             Err(error) => checker.network(&error),
         }
     }
-    checker.problems
+    checker.faults
 }
 
 /// The keys of the file and of its expectations that have this concern and do not state what is so by default.
-fn stated(concern: Concern, tree: &Node) -> impl Iterator<Item = String> {
+fn stated(concern: Concern, tree: &TomlNode) -> impl Iterator<Item = String> {
     let root = schema::complete();
     let of_file = root.properties().map(|(key, property)| (key.clone(), property));
     let expectations = root.property("expect").into_iter().flat_map(SchemaNode::properties);
@@ -64,17 +64,17 @@ fn stated(concern: Concern, tree: &Node) -> impl Iterator<Item = String> {
 
 struct Checker<'a> {
     scenario: &'a Scenario,
-    tree: &'a Node,
-    problems: Vec<Problem>,
+    tree: &'a TomlNode,
+    faults: Vec<Fault>,
 }
 
 impl Checker<'_> {
     fn refuse(&mut self, path: &str, label: &str, message: String, help: &str) {
-        let problem = Problem::at(self.tree.place_of(path), label, message);
-        self.problems.push(if help.is_empty() { problem } else { problem.help(help) });
+        let fault = Fault::at(self.tree.place_of(path), label, message);
+        self.faults.push(if help.is_empty() { fault } else { fault.help(help) });
     }
 
-    fn times(&mut self, building: &Building) {
+    fn times(&mut self, building: &BuildingConfig) {
         let (step_s, steps) = (building.step_s, building.steps_per_day());
         if (steps as f64 * step_s - DAY_S).abs() > 1e-6 {
             let message = format!("`building.step_s` ({step_s}) does not divide a day of 86400 s");
@@ -84,15 +84,15 @@ impl Checker<'_> {
                 message,
                 "choose 900, 1800 or 3600, for example",
             );
-        } else if self.scenario.days() * steps > MOST_STEPS {
-            let message = format!("{} days of {steps} steps are more than {MOST_STEPS} steps", self.scenario.days());
+        } else if self.scenario.days() * steps > MAX_STEPS {
+            let message = format!("{} days of {steps} steps are more than {MAX_STEPS} steps", self.scenario.days());
             self.refuse("iterations", "too many", message, "lower `iterations` or lengthen `building.step_s`");
         }
     }
 
     /// Whether it is clear of which zones the building consists.
-    fn sources(&mut self, building: &Building) -> bool {
-        let before = self.problems.len();
+    fn sources(&mut self, building: &BuildingConfig) -> bool {
+        let before = self.faults.len();
         if building.zones.is_empty() && !building.walls.is_empty() {
             let message = "`building` has walls but no zones".to_owned();
             self.refuse(
@@ -102,11 +102,11 @@ impl Checker<'_> {
                 "add a `[[building.zone]]` for each place, or no walls",
             );
         }
-        if let Some(grid) = building.grid.filter(|grid| grid.rooms() > MOST_ZONES) {
-            let message = format!("a grid of {} rooms has more than {MOST_ZONES} zones", grid.rooms());
+        if let Some(grid) = building.grid.filter(|grid| grid.rooms() > MAX_ZONES) {
+            let message = format!("a grid of {} rooms has more than {MAX_ZONES} zones", grid.rooms());
             self.refuse("building.grid", "too many", message, "");
         }
-        self.problems.len() == before
+        self.faults.len() == before
     }
 
     fn network(&mut self, error: &NetworkError) {
@@ -120,7 +120,7 @@ impl Checker<'_> {
     }
 
     /// Whether the model can be simulated, aimed and controlled.
-    fn controlled(&mut self, building: &Building, network: &Network) {
+    fn controlled(&mut self, building: &BuildingConfig, network: &Network) {
         let steps = building.steps_per_day();
         let setpoints = self.scenario.setpoints.clone().unwrap_or_default();
         if let Err(error) = setpoints.targets(network.zone_count(), building.step_s, steps) {
@@ -138,7 +138,7 @@ impl Checker<'_> {
     }
 
     /// Whether the controller can work with what it takes the building for.
-    fn believed(&mut self, building: &Building, steps: usize) {
+    fn believed(&mut self, building: &BuildingConfig, steps: usize) {
         let network = match building.believed_network() {
             Ok(network) => network,
             Err(error) => {

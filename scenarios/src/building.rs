@@ -1,34 +1,21 @@
-//! The building of a scenario: its zones and walls, the weather outside, and how long it is simulated.
+//! The building of a scenario: its zones and walls.
 //!
 //! A building has a clock of its own: it goes from step to step, and an iteration is a day.
 
-mod check;
-mod weather;
-
-use interplay_building::control::Controller;
-use interplay_building::control::pid::PidSettings;
 use interplay_building::discretise::Discretisation;
 use interplay_building::network::{ModelMismatch, Network, NetworkError, Wall, Zone};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::Scenario;
-
-pub(crate) use check::check;
-pub use weather::{EpwFile, Synthetic, Weather};
-pub(crate) use weather::{attach, is_embedded_weather};
-
 /// A day \[s\].
-const DAY_S: f64 = 86_400.0;
-/// How many days are simulated unless the scenario says so.
-const ITERATIONS: usize = 10;
+pub(crate) const DAY_S: f64 = 86_400.0;
 
 /// Zones and walls, given as a `preset`, as a `grid`, or one by one; by default the testbed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Building {
-    /// A building that is known by name.
+pub struct BuildingConfig {
+    /// A building with a name of its own.
     #[schemars(example = &"testbed", extend("x-excludes" = ["grid", "zone"]))]
     pub preset: Option<Preset>,
     /// Rooms in rows and columns, on one floor or several, each like those of the testbed.
@@ -50,13 +37,13 @@ pub struct Building {
     /// Temperature of everything at the start \[°C\].
     #[schemars(range(min = -50.0, max = 100.0))]
     pub initial_c: f64,
-    /// What the controller takes the building for, where it is wrong.
+    /// Factors between the model that the controller uses and the building.
     pub believed: ModelMismatch,
 }
 
-impl Default for Building {
+impl Default for BuildingConfig {
     fn default() -> Self {
-        Building {
+        BuildingConfig {
             preset: None,
             grid: None,
             zones: Vec::new(),
@@ -69,7 +56,7 @@ impl Default for Building {
     }
 }
 
-/// A building that is known by name.
+/// A building with a name of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Preset {
@@ -104,7 +91,7 @@ impl Grid {
     }
 }
 
-/// How rooms are drawn: floors side by side, rooms of a floor by rows.
+/// The drawing of rooms: floors side by side, rooms of a floor by rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FloorPlan {
     /// Rooms in a row.
@@ -115,7 +102,7 @@ pub struct FloorPlan {
     pub floors: usize,
 }
 
-impl Building {
+impl BuildingConfig {
     /// The thermal network.
     ///
     /// # Errors
@@ -132,7 +119,7 @@ impl Building {
     /// What the controller takes the network for.
     ///
     /// # Errors
-    /// As [`Building::network`], and if a believed factor is out of range.
+    /// As [`BuildingConfig::network`], and if a believed factor is out of range.
     pub fn believed_network(&self) -> Result<Network, NetworkError> {
         self.network()?.believed(&self.believed)
     }
@@ -153,17 +140,5 @@ impl Building {
     /// How many steps a day has.
     pub fn steps_per_day(&self) -> usize {
         (DAY_S / self.step_s).round() as usize
-    }
-}
-
-impl Scenario {
-    /// How many days of the building are simulated; 0 without a building.
-    pub fn days(&self) -> usize {
-        if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
-    }
-
-    /// Who controls the building; a PID controller in each zone unless the scenario says so.
-    pub fn controller(&self) -> Controller {
-        self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
     }
 }

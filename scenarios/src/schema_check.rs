@@ -6,20 +6,20 @@
 use interplay_building::bounds::Bound;
 use serde_json::Value as Json;
 
-use crate::error::{Place, Problem, quoted};
+use crate::error::{Fault, Place, quoted};
 use crate::nearest::{listed, suggestion};
 use crate::schema::{self, SchemaNode, quantity_of, unit_of};
-use crate::tree::{Node, Table, Value, kind_of};
+use crate::tree::{Table, TomlNode, TomlValue, kind_of};
 
 /// Everything that is wrong with the shape of the tree.
-pub(crate) fn check(tree: &Node) -> Vec<Problem> {
-    let mut checker = Checker { problems: Vec::new() };
+pub(crate) fn check(tree: &TomlNode) -> Vec<Fault> {
+    let mut checker = Checker { faults: Vec::new() };
     checker.node(tree, schema::complete(), &Path::default());
-    checker.problems
+    checker.faults
 }
 
 /// The largest whole number of a setting, unless its type is `u64`.
-const LARGEST_INTEGER: i128 = 1_000_000_000;
+const MAX_INTEGER: i128 = 1_000_000_000;
 
 /// Where the checker is, as `--set` would address it.
 #[derive(Clone, Default)]
@@ -32,16 +32,16 @@ impl Path {
 }
 
 struct Checker {
-    problems: Vec<Problem>,
+    faults: Vec<Fault>,
 }
 
 impl Checker {
     fn refuse(&mut self, place: &Place, label: &str, message: String, help: impl Into<String>) {
-        let (problem, help) = (Problem::at(place, label, message), help.into());
-        self.problems.push(if help.is_empty() { problem } else { problem.help(help) });
+        let (fault, help) = (Fault::at(place, label, message), help.into());
+        self.faults.push(if help.is_empty() { fault } else { fault.help(help) });
     }
 
-    fn node(&mut self, node: &Node, schema: SchemaNode, path: &Path) {
+    fn node(&mut self, node: &TomlNode, schema: SchemaNode, path: &Path) {
         let (words, kinds) = (schema.words(), schema.kinds());
         if !words.is_empty() {
             return self.word(node, &words, path);
@@ -50,18 +50,18 @@ impl Checker {
             return self.table_of_a_kind(node, &kinds, schema, path);
         }
         match (schema.type_name(), &node.value) {
-            (Some("object"), Value::Table(table)) => self.table(node, table, schema, path),
-            (Some("array"), Value::Array(items)) => self.list(node, items, schema, path),
-            (Some("string"), Value::Text(text)) => self.text(node, text, schema, path),
-            (Some("boolean"), Value::Bool(_)) => {}
-            (Some("integer"), Value::Integer(integer)) => self.integer(node, *integer, schema, path),
-            (Some("number"), Value::Integer(integer)) => self.number(node, *integer as f64, schema, path),
-            (Some("number"), Value::Float(float)) => self.number(node, *float, schema, path),
+            (Some("object"), TomlValue::Table(table)) => self.table(node, table, schema, path),
+            (Some("array"), TomlValue::Array(items)) => self.list(node, items, schema, path),
+            (Some("string"), TomlValue::Text(text)) => self.text(node, text, schema, path),
+            (Some("boolean"), TomlValue::Bool(_)) => {}
+            (Some("integer"), TomlValue::Integer(integer)) => self.integer(node, *integer, schema, path),
+            (Some("number"), TomlValue::Integer(integer)) => self.number(node, *integer as f64, schema, path),
+            (Some("number"), TomlValue::Float(float)) => self.number(node, *float, schema, path),
             (wanted, _) => self.wrong_type(node, wanted, schema, path),
         }
     }
 
-    fn wrong_type(&mut self, node: &Node, wanted: Option<&str>, schema: SchemaNode, path: &Path) {
+    fn wrong_type(&mut self, node: &TomlNode, wanted: Option<&str>, schema: SchemaNode, path: &Path) {
         let wanted = match wanted {
             Some("object") => "a table",
             Some("array") => "a list",
@@ -71,16 +71,16 @@ impl Checker {
             _ => "a number",
         };
         let got = match &node.value {
-            Value::Text(text) => format!("the text {}", quoted(text)),
-            Value::Bool(truth) => format!("`{truth}`"),
-            Value::Float(float) => format!("{float}"),
+            TomlValue::Text(text) => format!("the text {}", quoted(text)),
+            TomlValue::Bool(truth) => format!("`{truth}`"),
+            TomlValue::Float(float) => format!("{float}"),
             other => kind_of(other).to_owned(),
         };
         let message = format!("{} must be {wanted}, not {got}", quoted(&path.0));
         self.refuse(&node.place, &format!("not {wanted}"), message, schema.description());
     }
 
-    fn table(&mut self, node: &Node, table: &Table, schema: SchemaNode, path: &Path) {
+    fn table(&mut self, node: &TomlNode, table: &Table, schema: SchemaNode, path: &Path) {
         for (key, entry) in table {
             match schema.property(key) {
                 Some(property) => self.node(&entry.node, property, &path.join(key)),
@@ -115,7 +115,7 @@ impl Checker {
         self.refuse(place, "unknown key", message, help);
     }
 
-    fn list(&mut self, node: &Node, items: &[Node], schema: SchemaNode, path: &Path) {
+    fn list(&mut self, node: &TomlNode, items: &[TomlNode], schema: SchemaNode, path: &Path) {
         let bound = |keyword: &str| schema.keyword(keyword).and_then(Json::as_u64);
         let count = items.len() as u64;
         if let Some(least) = bound("minItems").filter(|least| count < *least) {
@@ -133,7 +133,7 @@ impl Checker {
         }
     }
 
-    fn text(&mut self, node: &Node, text: &str, schema: SchemaNode, path: &Path) {
+    fn text(&mut self, node: &TomlNode, text: &str, schema: SchemaNode, path: &Path) {
         if schema.keyword("minLength").is_some() && text.trim().is_empty() {
             let message = format!("{} must not be empty", quoted(&path.0));
             self.refuse(&node.place, "empty", message, "");
@@ -145,9 +145,9 @@ impl Checker {
         }
     }
 
-    fn integer(&mut self, node: &Node, integer: i128, schema: SchemaNode, path: &Path) {
+    fn integer(&mut self, node: &TomlNode, integer: i128, schema: SchemaNode, path: &Path) {
         let is_long = schema.keyword("format").is_some_and(|format| format == "uint64");
-        let largest = if is_long { u64::MAX.into() } else { LARGEST_INTEGER };
+        let largest = if is_long { u64::MAX.into() } else { MAX_INTEGER };
         if integer > largest {
             let message = format!("{} must be at most {largest}", quoted(&path.0));
             self.refuse(&node.place, "too large", message, schema.description());
@@ -156,7 +156,7 @@ impl Checker {
         }
     }
 
-    fn number(&mut self, node: &Node, number: f64, schema: SchemaNode, path: &Path) {
+    fn number(&mut self, node: &TomlNode, number: f64, schema: SchemaNode, path: &Path) {
         match Bound::of_every_setting().into_iter().find(|bound| !bound.admits(number)) {
             Some(bound) => {
                 let label = if bound == Bound::Finite { "not finite" } else { "too large" };
@@ -167,7 +167,7 @@ impl Checker {
         }
     }
 
-    fn range(&mut self, node: &Node, number: f64, schema: SchemaNode, path: &Path) {
+    fn range(&mut self, node: &TomlNode, number: f64, schema: SchemaNode, path: &Path) {
         for bound in schema.bounds().filter(|bound| !bound.admits(number)) {
             let message = format!("{} must be {bound}, not {number}", quoted(&path.0));
             self.refuse(&node.place, &format!("must be {bound}"), message, schema.description());
@@ -175,12 +175,12 @@ impl Checker {
     }
 
     /// A table whose `kind` says which keys it has.
-    fn table_of_a_kind(&mut self, node: &Node, kinds: &[&str], schema: SchemaNode, path: &Path) {
+    fn table_of_a_kind(&mut self, node: &TomlNode, kinds: &[&str], schema: SchemaNode, path: &Path) {
         if let Some(word) = node.text().filter(|word| kinds.contains(word)) {
             let message = format!("{} must be a table whose `kind` is {}", quoted(&path.0), quoted(word));
             return self.refuse(&node.place, "not a table", message, format!("write `{{ kind = \"{word}\" }}`"));
         }
-        let Value::Table(table) = &node.value else {
+        let TomlValue::Table(table) = &node.value else {
             return self.wrong_type(node, Some("object"), schema, path);
         };
         let Some(entry) = table.get("kind") else {
@@ -193,7 +193,7 @@ impl Checker {
         }
     }
 
-    fn word(&mut self, node: &Node, words: &[&str], path: &Path) {
+    fn word(&mut self, node: &TomlNode, words: &[&str], path: &Path) {
         match node.text() {
             Some(text) if words.contains(&text) => {}
             Some(text) => {

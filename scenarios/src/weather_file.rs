@@ -1,0 +1,89 @@
+//! Reads the weather file of a scenario, when the scenario is loaded: whatever is wrong with it is said then, with its line.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use interplay_building::weather::Epw;
+
+use crate::building::DAY_S;
+use crate::error::{Document, Fault, Place, quoted};
+use crate::nearest::suggestion;
+use crate::tree::TomlNode;
+use crate::weather::EpwFile;
+
+/// Weather files in the binary, by the name that a scenario gives as `file`.
+static EMBEDDED: &[(&str, &str)] = &[("tropical-july.epw", include_str!("../weather/tropical-july.epw"))];
+/// The largest file that is read; a year by the minute takes less \[bytes\].
+const MAX_FILE_BYTES: u64 = 1 << 27;
+/// Errors in weather are listed after those in the scenario.
+const RANK: usize = 1000;
+
+/// Reads an EPW file, and sees that it covers so many days of simulation.
+pub(crate) fn attach(file: &mut EpwFile, days: usize, tree: &TomlNode) -> Result<(), Fault> {
+    let place = tree.place_of("weather.file");
+    let (title, text) = read(&file.file, place)?;
+    let epw = Epw::parse(&text).map_err(|error| located(&title, &text, error.line, &error.problem.to_string()))?;
+    let Some(start_s) = file.start_s(&epw) else {
+        let (month, day) = (file.month.unwrap_or(1), file.day.unwrap_or(1));
+        let message = format!("{} has no day {day} of month {month}", quoted(&title));
+        let place = tree.place_of(if file.day.is_some() { "weather.day" } else { "weather.month" });
+        return Err(Fault::at(place, "no such day", message).help("without `month` and `day` its first day is taken"));
+    };
+    let covered = ((epw.rows() as f64 * epw.interval_s - start_s) / DAY_S).floor() as usize;
+    if !epw.is_whole_year() && days > covered {
+        let message = format!("{} covers {covered} days from there, and {days} are simulated", quoted(&title));
+        let fault = Fault::at(place, "too short", message);
+        return Err(fault.help("lower `iterations`, start earlier, or take a file of a whole year, which repeats"));
+    }
+    file.content = Some(Arc::new(epw));
+    Ok(())
+}
+
+/// Whether a file of weather of that name is in the binary.
+pub(crate) fn is_embedded_weather(name: &str) -> bool {
+    EMBEDDED.iter().any(|(known, _)| *known == name)
+}
+
+/// Title and text of the EPW file that is called `file` at `place`.
+fn read(file: &str, place: &Place) -> Result<(String, String), Fault> {
+    if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == file) {
+        return Ok(((*name).to_owned(), (*text).to_owned()));
+    }
+    let beside = Path::new(&place.document.name).parent().unwrap_or(Path::new(""));
+    // A flag is no file: what it names is relative to the current folder, and so is the flag's parent.
+    let path: PathBuf = beside.join(file);
+    let title = path.display().to_string();
+    let refused = |reason: String| {
+        let names: Vec<&str> = EMBEDDED.iter().map(|(name, _)| *name).collect();
+        let help = format!(
+            "the path is relative to the scenario file; {}",
+            suggestion(file, "in the binary there are", &names)
+        );
+        Fault::at(place, "this file", format!("cannot read {}: {reason}", quoted(&title))).help(help)
+    };
+    let opened = File::open(&path).map_err(|error| refused(error.to_string()))?;
+    if opened.metadata().is_ok_and(|found| found.is_dir()) {
+        return Err(refused("it is a directory".to_owned()));
+    }
+    let mut bytes = Vec::new();
+    opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| refused(error.to_string()))?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(refused("it is larger than 128 MiB, and no weather file is".to_owned()));
+    }
+    Ok((title, String::from_utf8_lossy(&bytes).into_owned()))
+}
+
+/// A fault in a line of an EPW file, counted from 1.
+fn located(title: &str, text: &str, line: usize, fault: &str) -> Fault {
+    let ends = text.match_indices('\n').map(|(end, _)| end + 1);
+    let start = [0].into_iter().chain(ends).nth(line.saturating_sub(1)).unwrap_or(text.len());
+    let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);
+    let document = Document::new(title, text, RANK);
+    let place = Place::new(&document, start..start + length);
+    let message = format!("{} is no whole EPW file: line {line}: {fault}", quoted(title));
+    let help =
+        "`weather.file` must name an EPW file as EnergyPlus reads it: 8 lines of header, then a row for each interval";
+    Fault::at(&place, "this line", message).help(help)
+}
