@@ -23,7 +23,7 @@ fn problem(seed: u64) -> Problem {
     let lower = random.between(0.6, 1.4);
     for (vehicle, width) in [0.05, 0.0].into_iter().enumerate() {
         let (lower_mps, upper_mps) = (Some(lower), Some(lower + width));
-        problem.terms.extend(MeanSpeed { lower_mps, upper_mps, penalty: PENALTY }.terms(vehicle));
+        problem.terms.extend(MeanSpeed { lower_mps, upper_mps, penalty: PENALTY }.bounds(vehicle).map(Term::MeanSpeed));
     }
     problem
 }
@@ -46,10 +46,12 @@ fn the_solvers_agree_on_step_problems() {
 
 #[test]
 fn descents_end_at_optima() {
+    let (mut confirmed, mut compared) = (0, 0);
     for seed in 0..SEEDS {
         let problem = problem(seed);
         let guess = vec![vec![Input::default(); HORIZON]; 2];
         let Ok(ours) = Optimiser::new(Structured::default()).descend(&problem, &guess) else { continue };
+        confirmed += 1;
         // The stated residual may be that of a last step that was not taken; a descent from there confirms the optimum.
         let again = Optimiser::new(Structured::default()).descend(&problem, &ours.iterate.inputs).expect("confirmed");
         let residual = ours.statistics.residual.min(again.statistics.residual);
@@ -59,10 +61,13 @@ fn descents_end_at_optima() {
             let Ok(theirs) = Optimiser::new(Sparse::default()).descend(&problem, &ours.iterate.inputs) else {
                 continue;
             };
+            compared += 1;
             let gained = (ours.cost.total - theirs.cost.total) / (1.0 + ours.cost.total);
             assert!(gained <= 1e-5, "seed {seed}: {} improved to {}", ours.cost.total, theirs.cost.total);
         }
     }
+    // Descents may give up, but not so many that nothing is tested.
+    assert!(8 * confirmed >= 7 * SEEDS && 12 * compared >= SEEDS, "{confirmed} and {compared} of {SEEDS}");
 }
 
 /// A bound on the mean speed that costs nothing to keep is kept, and one that costs too much is not.
@@ -74,7 +79,9 @@ fn a_mean_speed_is_as_binding_as_its_price() {
     let mean = |weight: f64| {
         let mut problem = free.clone();
         let penalty = Penalty { linear: weight, quadratic: 0.0 };
-        problem.terms.extend(MeanSpeed { lower_mps: Some(1.25), upper_mps: Some(1.3), penalty }.terms(0));
+        problem
+            .terms
+            .extend(MeanSpeed { lower_mps: Some(1.25), upper_mps: Some(1.3), penalty }.bounds(0).map(Term::MeanSpeed));
         let optimum = Optimiser::new(Structured::default()).descend(&problem, &guess).expect("an optimum");
         (MeanSpeed::of(&optimum.iterate.states[0]), optimum.cost.violation(Violation::MeanSpeed))
     };

@@ -114,7 +114,7 @@ fn mean_speed() {
         check_all(|random| {
             let penalty = Penalty { linear: 75.0, quadratic: 2.0 };
             let mean_speed = MeanSpeed { lower_mps, upper_mps, penalty };
-            problem(&[indifferent(random)], mean_speed.terms(0))
+            problem(&[indifferent(random)], mean_speed.bounds(0).map(Term::MeanSpeed))
         });
     }
 }

@@ -3,7 +3,6 @@
 //! Linear, so the expansion is exact. Deviation from eq. 8.13: as printed the `N + 1` speeds are divided by `N`.
 
 use super::shape::TrajectoryTerm;
-use super::term::Term;
 use crate::State;
 use crate::trajectory::cost::Violation;
 use crate::trajectory::penalty::Penalty;
@@ -39,13 +38,13 @@ impl MeanSpeed {
         states.iter().map(|state| state.speed_mps).sum::<f64>() / states.len() as f64
     }
 
-    /// The bounds that exist, as terms: the lower, then the upper one.
-    pub fn terms(&self, vehicle: usize) -> impl Iterator<Item = Term> + use<> {
+    /// The bounds that exist: the lower, then the upper one.
+    pub fn bounds(&self, vehicle: usize) -> impl Iterator<Item = MeanSpeedBound> + use<> {
         let penalty = self.penalty;
         let bounds = [(self.lower_mps, false), (self.upper_mps, true)];
         bounds.into_iter().filter_map(move |(bound, is_upper)| {
             let speed_mps = bound?;
-            Some(Term::MeanSpeed(MeanSpeedBound { vehicle, speed_mps, is_upper, penalty }))
+            Some(MeanSpeedBound { vehicle, speed_mps, is_upper, penalty })
         })
     }
 }

@@ -9,7 +9,7 @@
 //! | [`RowTerm`] | the penalty of `c_t(x_t) + s ≥ 0` at every stage | [`RoadEdge`], [`KeepOut`], [`Separation`] |
 //! | [`TrajectoryTerm`] | the penalty of one row over all states of a vehicle | [`Persuasion`], [`MeanSpeed`] |
 //!
-//! To add a term: a file here, which implements a shape, and a variant of [`Term`].
+//! To add a term: a file here, which implements a shape, and a variant of [`Term`] below.
 
 mod comfort;
 mod distance_cost;
@@ -19,7 +19,6 @@ mod persuasion;
 mod road_edge;
 mod separation;
 mod shape;
-mod term;
 mod tracking;
 
 pub use comfort::Comfort;
@@ -32,5 +31,41 @@ pub use separation::Separation;
 #[cfg(doc)]
 use shape::StateCostTerm;
 pub(super) use shape::{MAX_ROWS_PER_STAGE, RowTerm, Shape, Subject, TrajectoryTerm};
-pub use term::Term;
 pub use tracking::Tracking;
+
+/// A cost or soft constraint of a trajectory problem.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Term {
+    /// Distance from a desired motion.
+    Tracking(Tracking),
+    /// Changes of the input.
+    Comfort(Comfort),
+    /// Corners that stay on the road.
+    RoadEdge(RoadEdge),
+    /// An ellipse around a predicted motion that a vehicle keeps out of.
+    KeepOut(KeepOut),
+    /// Two deciding vehicles that keep apart.
+    Separation(Separation),
+    /// A trajectory nearer to one reference than to another.
+    Persuasion(Persuasion),
+    /// A bound on a mean speed.
+    MeanSpeed(MeanSpeedBound),
+    /// A price of the distance from a predicted motion.
+    DistanceCost(DistanceCost),
+}
+
+impl Term {
+    /// The term by its shape.
+    pub(in crate::trajectory) fn shape(&self) -> Shape<'_> {
+        match self {
+            Term::Tracking(term) => Shape::StateCost(term),
+            Term::Comfort(term) => Shape::InputChange(term),
+            Term::RoadEdge(term) => Shape::Rows(term),
+            Term::KeepOut(term) => Shape::Rows(term),
+            Term::Separation(term) => Shape::Rows(term),
+            Term::Persuasion(term) => Shape::Trajectory(term),
+            Term::MeanSpeed(term) => Shape::Trajectory(term),
+            Term::DistanceCost(term) => Shape::StateCost(term),
+        }
+    }
+}
