@@ -1,5 +1,6 @@
 //! Laws of the loop that hold whatever the planners do.
 
+use super::committed::rolled_out;
 use super::*;
 use crate::State;
 use crate::fixture::{agent, scene};

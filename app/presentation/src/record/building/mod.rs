@@ -26,7 +26,7 @@ pub use layout::{TextPanels, layout};
 use design::DesignPlots;
 use floor_plan::FloorPlanLayer;
 use interplay_simulation::frame::BuildingFrame;
-use series::ZoneSeries;
+use series::ZonePlots;
 
 /// The timeline of days, from 1.
 pub const ITERATION: &str = "iteration";
@@ -45,7 +45,7 @@ pub struct BuildingLayer {
     /// Coldest and warmest of the zones that have plots \[°C\].
     range_c: Option<[f64; 2]>,
     plan: FloorPlanLayer,
-    series: ZoneSeries,
+    series: ZonePlots,
     plans: DesignPlots,
 }
 
@@ -62,7 +62,7 @@ impl BuildingLayer {
         let shown = shown(names.len());
         let setpoints = scenario.setpoints.clone().unwrap_or_default();
         let plan = FloorPlanLayer::begin(stream, building.floor_plan(), &setpoints)?;
-        let series = ZoneSeries::begin(stream, &names, &shown, network.limits_kw(), setpoints.band_k)?;
+        let series = ZonePlots::begin(stream, &names, &shown, network.limits_kw(), setpoints.band_k)?;
         let duration_s = building.step_s * (scenario.days() * building.steps_per_day()) as f64;
         let plans = DesignPlots::begin(stream, &names, &shown, scenario.controller().plans())?;
         Ok(Some(BuildingLayer { names, shown, duration_s, range_c: None, plan, series, plans }))

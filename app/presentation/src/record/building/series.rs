@@ -8,7 +8,7 @@ use super::super::re_sdk_types::archetypes::{Clear, Scalars, SeriesLines};
 use super::super::re_sdk_types::components::{Color, InterpolationMode};
 
 /// The series of a building.
-pub struct ZoneSeries {
+pub struct ZonePlots {
     band_k: f64,
     /// The largest power of any zone that is shown \[kW\].
     limit_kw: f64,
@@ -21,7 +21,7 @@ fn zone(index: usize, what: &str) -> String {
     format!("building/zone/{}/{what}", index + 1)
 }
 
-impl ZoneSeries {
+impl ZonePlots {
     /// Logs names and colours.
     ///
     /// # Errors
@@ -32,7 +32,7 @@ impl ZoneSeries {
         shown: &[usize],
         limits_kw: &[f64],
         band_k: f64,
-    ) -> RecordingStreamResult<ZoneSeries> {
+    ) -> RecordingStreamResult<ZonePlots> {
         for (place, &index) in shown.iter().enumerate() {
             let vehicle_colour = palette::series(place);
             style(stream, &zone(index, "temperature"), "temperature", vehicle_colour.solid(), 2.0)?;
@@ -50,7 +50,7 @@ impl ZoneSeries {
         style(stream, "building/iteration/cost", "cost of the day", palette::series(1).solid(), 2.0)?;
         style(stream, "building/iteration/optimum", "cheapest possible", palette::series(0).solid(), 1.5)?;
         let limit_kw = shown.iter().map(|&index| limits_kw[index]).fold(0.0, f64::max);
-        Ok(ZoneSeries { band_k, limit_kw, wanted: vec![false; shown.len()] })
+        Ok(ZonePlots { band_k, limit_kw, wanted: vec![false; shown.len()] })
     }
 
     /// Logs one step.
