@@ -1,9 +1,18 @@
-//! Commands as a POSIX shell reads them.
+//! Words as a POSIX shell reads them.
 
-/// One line that a shell splits into exactly these words. A NUL, which no argument of a program can hold, is left out.
+/// One line that a shell splits into exactly these words.
 pub fn line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
-    let words: Vec<String> = words.into_iter().map(|word| word.replace('\0', "")).collect();
-    shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
+    words.into_iter().map(quoted).collect::<Vec<_>>().join(" ")
+}
+
+/// A word in single quotes unless it needs none.
+fn quoted(word: &str) -> String {
+    let plain = |character: char| character.is_ascii_alphanumeric() || "_-./=:,+@%".contains(character);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
 }
 
 #[cfg(test)]
@@ -15,6 +24,7 @@ mod tests {
     #[test]
     fn plain_words_stay_as_they_are() {
         assert_eq!(line(["run", "a/b.toml", "--set", "x.y=1.5"]), "run a/b.toml --set x.y=1.5");
+        assert_eq!(line(["--set", r#"title="It's""#, ""]), r#"--set 'title="It'\''s"' ''"#);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::committed::rolled_out;
 use super::*;
 use crate::State;
+use crate::Trajectory;
 use crate::fixture::{agent, scene};
 use crate::predict::{constant_velocity, steady};
 use proptest::prelude::*;
