@@ -7,11 +7,11 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use interplay_planners::game::equilibrium::{Solution, leader_follower, nash};
-use interplay_planners::game::payoff::{Mind, Player, Stakes};
+use interplay_planners::game::equilibrium::{GameSolution, leader_follower, nash};
+use interplay_planners::game::payoff::{Player, Stakes, TabulatedTheory};
 use interplay_planners::game::prospect::ProspectTheory;
 
-type Solve = fn(&Player, &Player) -> Solution;
+type Solve = fn(&Player, &Player) -> GameSolution;
 
 /// Stakes of ego and other for intentions on a grid: own, seen, the other's.
 fn games() -> Vec<[Stakes; 2]> {
@@ -24,13 +24,13 @@ fn games() -> Vec<[Stakes; 2]> {
 }
 
 fn solutions(criterion: &mut Criterion) {
-    let (mind, games) = (Mind::new(ProspectTheory::default()), games());
+    let (theory, games) = (TabulatedTheory::new(ProspectTheory::default()), games());
     let solvers: [(&str, Solve); 2] = [("leader-follower", leader_follower), ("nash", nash)];
     for (name, solve) in solvers {
         let mut next = games.iter().cycle();
         criterion.bench_function(&format!("game/{name}"), |bencher| {
             bencher.iter(|| {
-                let stakes = next.next().map(|stakes| stakes.map(|stakes| mind.player(stakes)));
+                let stakes = next.next().map(|stakes| stakes.map(|stakes| theory.player(stakes)));
                 stakes.map(|[ego, other]| black_box(solve(&ego, &other)))
             });
         });

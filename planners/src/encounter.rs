@@ -40,7 +40,7 @@ pub(crate) fn distance_to_path(agent: &Agent, other: &Agent) -> Option<f64> {
 
 /// The vehicle that is interacted with, and those before and after it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Partner {
+pub(crate) struct PartnerSequence {
     /// Names from the front of the road to its rear; fixed at the first step.
     order: Vec<String>,
     current: Option<String>,
@@ -50,7 +50,7 @@ pub(crate) struct Partner {
 
 /// Whom a planner turns to.
 #[derive(Clone, Debug)]
-pub(crate) struct Choice<'a> {
+pub(crate) struct PartnerChoice<'a> {
     /// The vehicle, if one is left.
     pub partner: Option<&'a Agent>,
     /// Whether it is another one than a step before.
@@ -61,9 +61,9 @@ pub(crate) struct Choice<'a> {
     pub is_first: bool,
 }
 
-impl Partner {
+impl PartnerSequence {
     /// The first vehicle with which something is left to settle.
-    pub(crate) fn choose<'a>(&mut self, scene: &'a Scene, clear_lead_m: f64) -> Choice<'a> {
+    pub(crate) fn choose<'a>(&mut self, scene: &'a Scene, clear_lead_m: f64) -> PartnerChoice<'a> {
         if self.order.is_empty() {
             let mut others: Vec<&Agent> = scene.others.iter().collect();
             others.sort_by(|a, b| scene.ego.lead_of(b).total_cmp(&scene.ego.lead_of(a)));
@@ -75,11 +75,11 @@ impl Partner {
         let is_new = name != self.current;
         self.steps = if is_new { 0 } else { self.steps + 1 };
         self.current = name;
-        Choice { partner, is_new, steps: self.steps, is_first: self.order.first() == self.current.as_ref() }
+        PartnerChoice { partner, is_new, steps: self.steps, is_first: self.order.first() == self.current.as_ref() }
     }
 }
 
-impl Choice<'_> {
+impl PartnerChoice<'_> {
     /// What to say about a change: "`does` NAME", or that nobody is left `to_do` it with.
     pub(crate) fn event(&self, does: &str, to_do: &str) -> Option<String> {
         let found = |partner: &Agent| format!("{does} {}", partner.name);
@@ -118,7 +118,7 @@ mod tests {
     /// The front vehicle, the rear one once the front one is clear ahead in the wanted lane, and then nobody.
     #[test]
     fn partners_are_met_from_front_to_rear() {
-        let mut partner = Partner::default();
+        let mut partner = PartnerSequence::default();
         let mut meet = |front: f64, rear: f64| {
             let others = vec![named("rear", rear), named("front", front)];
             let mut scene = scene(agent(0.0, 0.0, 0.0, 1.0), others);

@@ -46,10 +46,12 @@ fn the_solvers_agree_on_step_problems() {
 
 #[test]
 fn descents_end_at_optima() {
+    let (mut confirmed, mut compared) = (0, 0);
     for seed in 0..SEEDS {
         let problem = problem(seed);
         let guess = vec![vec![Input::default(); HORIZON]; 2];
         let Ok(ours) = Optimiser::new(Structured::default()).descend(&problem, &guess) else { continue };
+        confirmed += 1;
         // The stated residual may be that of a last step that was not taken; a descent from there confirms the optimum.
         let again = Optimiser::new(Structured::default()).descend(&problem, &ours.iterate.inputs).expect("confirmed");
         let residual = ours.statistics.residual.min(again.statistics.residual);
@@ -59,10 +61,13 @@ fn descents_end_at_optima() {
             let Ok(theirs) = Optimiser::new(Sparse::default()).descend(&problem, &ours.iterate.inputs) else {
                 continue;
             };
+            compared += 1;
             let gained = (ours.cost.total - theirs.cost.total) / (1.0 + ours.cost.total);
             assert!(gained <= 1e-5, "seed {seed}: {} improved to {}", ours.cost.total, theirs.cost.total);
         }
     }
+    // Descents may give up, but not so many that nothing is tested.
+    assert!(8 * confirmed >= 7 * SEEDS && 12 * compared >= SEEDS, "{confirmed} and {compared} of {SEEDS}");
 }
 
 /// A bound on the mean speed that costs nothing to keep is kept, and one that costs too much is not.

@@ -16,6 +16,11 @@ fn problems() -> impl Iterator<Item = (u64, Problem)> {
     (0..SEEDS).flat_map(|seed| [(seed, alone(seed)), (seed, pair(seed, 1.0 + 0.02 * seed as f64))])
 }
 
+/// A test that skips what cannot be solved must not skip everything: at least seven of eight problems are solved.
+fn assert_nearly_all(solved: usize, of: usize) {
+    assert!(solved * 8 >= of * 7, "only {solved} of {of} problems were solved");
+}
+
 /// Random starts on top of others are harder than anything met on a road: some descents give up, but say so.
 #[test]
 fn descents_end_at_points_that_satisfy_the_optimality_conditions() {
@@ -31,26 +36,38 @@ fn descents_end_at_points_that_satisfy_the_optimality_conditions() {
         }
     }
     assert!(given_up.len() * 8 <= solved, "{given_up:#?}");
+    assert_eq!(given_up.len() + solved, problems().count());
 }
 
 #[test]
 fn an_optimum_costs_no_more_than_its_guess() {
+    let mut solved = 0;
     for (seed, problem) in problems() {
         let guess = iterate(&problem, &mut Random(seed + 7));
         let before = problem.cost(&guess).total;
-        let Ok(optimum) = Optimiser::new(Structured::default()).descend(&problem, &guess.inputs) else { continue };
-        assert!(optimum.cost.total <= before, "seed {seed}: {} from {before}", optimum.cost.total);
+        if let Ok(optimum) = Optimiser::new(Structured::default()).descend(&problem, &guess.inputs) {
+            assert!(optimum.cost.total <= before, "seed {seed}: {} from {before}", optimum.cost.total);
+            solved += 1;
+        }
     }
+    assert_nearly_all(solved, problems().count());
 }
 
 /// Gauss-Newton steps of the general solver, started where the structured one ended, find nothing notably cheaper (they
 /// may jump to another optimum nearby).
 #[test]
 fn the_general_solver_does_not_improve_an_optimum() {
-    for (seed, problem) in problems().filter(|(seed, _)| seed % 4 == 0) {
-        let Ok(ours) = Optimiser::new(Structured::default()).descend(&problem, &at_rest(&problem)) else { continue };
-        let Ok(theirs) = Optimiser::new(Sparse::default()).descend(&problem, &ours.iterate.inputs) else { continue };
-        let gained = (ours.cost.total - theirs.cost.total) / (1.0 + ours.cost.total);
-        assert!(gained <= 1e-4, "seed {seed}: {} improved to {}", ours.cost.total, theirs.cost.total);
+    let chosen = || problems().filter(|(seed, _)| seed % 4 == 0);
+    let mut compared = 0;
+    for (seed, problem) in chosen() {
+        let ours = Optimiser::new(Structured::default()).descend(&problem, &at_rest(&problem));
+        let start = ours.as_ref().map(|ours| &ours.iterate.inputs);
+        let theirs = start.map(|start| Optimiser::new(Sparse::default()).descend(&problem, start));
+        if let (Ok(ours), Ok(Ok(theirs))) = (&ours, theirs) {
+            let gained = (ours.cost.total - theirs.cost.total) / (1.0 + ours.cost.total);
+            assert!(gained <= 1e-4, "seed {seed}: {} improved to {}", ours.cost.total, theirs.cost.total);
+            compared += 1;
+        }
     }
+    assert_nearly_all(compared, chosen().count());
 }

@@ -83,7 +83,7 @@ fn on_a_ramp_nobody_leaves_the_road() {
 /// The value that follows from the source's own equations repels: the ego does not persuade anybody.
 #[test]
 fn the_exact_value_persuades_nobody() {
-    let exact = bayesian::Settings { value: bayesian::Value::Exact, ..bayesian::Settings::default() };
+    let exact = bayesian::Settings { value: bayesian::ReplyValue::Exact, ..bayesian::Settings::default() };
     let run = run(lane_change(Driver::Bayesian(exact), [Nice, Nice]), 100);
     assert!(run.collision.is_none());
     assert!(run.merged().is_none_or(|(place, _)| place != AHEAD), "{:?}", run.merged());
@@ -116,7 +116,7 @@ fn at_an_intersection_everybody_yields_to_the_tough() {
 
 #[test]
 fn a_mixed_equilibrium_drives_too() {
-    let nash = || Driver::Game(game::Settings { solution: game::Method::Nash, ..game::Settings::default() });
+    let nash = || Driver::Game(game::Settings { solution: game::SolutionConcept::Nash, ..game::Settings::default() });
     for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
         let run = sound(run(lane_change(nash(), styles), 100));
         let mut played = 0;

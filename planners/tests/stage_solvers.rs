@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Random, alone, iterate, pair};
+use interplay_planners::trajectory::kkt::Residual;
 use interplay_planners::trajectory::{Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt};
 
 fn step_problem(problem: &Problem, seed: u64) -> StageQp {
@@ -20,7 +21,32 @@ fn compare(problem: &Problem, seed: u64) {
     // Multipliers reach 1e3 here, and rounding stops a few problems at a complementarity of 1e-8.
     assert!(residual.largest() < 3e-5, "seed {seed}: {residual:?}");
     let residual = kkt::residual(&qp, &sparse);
-    assert!(residual.largest() < 1e-1, "seed {seed}, sparse: {residual:?}");
+    assert!(is_optimal_for_oracle(&residual, problem), "seed {seed}, sparse: {residual:?}");
+}
+
+/// Whether the general solver's solution satisfies the optimality conditions as well as it can: Clarabel scales the problem,
+/// so with multipliers of up to 1e3 (1e2 of them of rows over whole trajectories, each of which adds up 30 steps) its
+/// tolerance of 1e-8 means less here. The largest residuals in 300 problems are half of these bounds.
+fn is_optimal_for_oracle(residual: &Residual, problem: &Problem) -> bool {
+    let stationarity = if problem.participants.len() == 1 { 1e-5 } else { 1e-2 };
+    residual.stationarity < stationarity
+        && residual.primal < 1e-6
+        && residual.dual < 1e-6
+        && residual.complementarity < 1e-3
+}
+
+/// The bounds are narrow enough to tell a solution from one that is a little off.
+#[test]
+fn a_solution_that_is_slightly_off_is_no_optimum() {
+    for seed in 0..20 {
+        let problem = alone(seed);
+        let qp = step_problem(&problem, seed);
+        let mut solution = StageSolution::default();
+        Sparse::default().solve(&qp, &mut solution, false).expect("sparse");
+        solution.inputs[0][10][0] += 1e-3;
+        let residual = kkt::residual(&qp, &solution);
+        assert!(!is_optimal_for_oracle(&residual, &problem), "seed {seed}: {residual:?}");
+    }
 }
 
 #[test]

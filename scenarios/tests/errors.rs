@@ -343,7 +343,7 @@ fn long_lines_are_cut_around_the_error() {
     let error = from_text("bad.toml", &long, &[]).expect_err("not a text");
     let text = rendered(&error, 100);
     assert!(text.chars().count() < 6000, "{} characters", text.chars().count());
-    assert!(error.faults().iter().any(|problem| problem.line_and_column() == Some((2, 9))), "{text}");
+    assert!(error.faults().iter().any(|fault| fault.line_and_column() == Some((2, 9))), "{text}");
 }
 
 #[test]

@@ -238,7 +238,7 @@ fn a_commented_file_means_the_same_as_its_origin() {
         let again = from_text("new.toml", &text, &[]).unwrap_or_else(|error| panic!("{error:?}\n{text}"));
         assert!(again == scenario, "{} is another scenario:\n{text}", file.name);
         let comments = text.lines().filter(|line| line.starts_with("# "));
-        assert!(comments.map(|line| line.chars().count()).max() <= Some(110), "{text}");
+        assert!(comments.map(|line| line.chars().count()).max().is_some_and(|longest| longest <= 110), "{text}");
     }
     let text = commented("lane-change/front-nice", Path::new("")).expect("authored");
     for piece in

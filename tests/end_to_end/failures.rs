@@ -4,7 +4,7 @@
 
 use interplay_planners::Limits;
 use interplay_planners::predict::steady;
-use interplay_simulation::components::{Identity, Objective};
+use interplay_simulation::components::{Identity, VehicleGoal};
 use interplay_simulation::frame::{Frame, Level, Origin};
 use interplay_simulation::measure::Measures;
 use interplay_simulation::{phases, spawn};
@@ -22,7 +22,7 @@ fn run_with_failures() -> (Vec<Frame>, usize) {
     let mut world = spawn::world(&scenario, vec![Box::new(camera.clone())]).expect("no building");
     let mut schedule = phases::schedule();
     for tick in 0..SPOILT.end + 2 {
-        let mut objectives = world.query::<(&Identity, &mut Objective)>();
+        let mut objectives = world.query::<(&Identity, &mut VehicleGoal)>();
         for (identity, mut objective) in objectives.iter_mut(&mut world) {
             if identity.name == "front" {
                 objective.goal.target.speed_mps = if SPOILT.contains(&tick) { f64::NAN } else { 1.4 };

@@ -1,7 +1,6 @@
 //! A run of the library, kept frame by frame.
 
 use std::sync::{Arc, LazyLock, Mutex};
-use std::thread;
 
 use interplay_planners::State;
 use interplay_scenarios::{Override, Plant, Scenario, embedded, load};
@@ -9,6 +8,7 @@ use interplay_simulation::frame::Frame;
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::Watcher;
+use rayon::prelude::*;
 
 /// A run and all that was seen of it.
 pub struct Film {
@@ -62,11 +62,7 @@ pub static FILMS: LazyLock<Vec<Film>> = LazyLock::new(|| {
         let driver = format!("vehicle.ego.driver.kind=\"{kind}\"");
         takes.push((kind, authored("lane-change/front-nice", &[&jitter[..], &[&driver]].concat())));
     }
-    thread::scope(|scope| {
-        let running: Vec<_> =
-            takes.into_iter().map(|(name, scenario)| scope.spawn(move || film(name, scenario))).collect();
-        running.into_iter().map(|film| film.join().expect("no run panics")).collect()
-    })
+    takes.into_par_iter().map(|(name, scenario)| film(name, scenario)).collect()
 });
 
 /// The films in which vehicles move exactly as planners think.

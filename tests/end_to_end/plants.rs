@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::{env, fs, thread};
+use std::{env, fs};
 
 use interplay_scenarios::{Plant, embedded};
 use interplay_simulation::report::Report;
+use rayon::prelude::*;
 
 use crate::film::{FILMS, Film, authored, film};
 
@@ -25,21 +25,9 @@ fn figures() -> Vec<(&'static Film, Film)> {
         let is_authored = embedded().iter().any(|file| file.name == film.name());
         is_authored && film.scenario.figure.is_some() && matches!(film.scenario.plant, Plant::Kinematic(_))
     });
-    let waiting: Mutex<Vec<&Film>> = Mutex::new(pairs.collect());
-    let done = Mutex::new(Vec::new());
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(|| {
-                loop {
-                    let next = waiting.lock().expect("nobody panics with it").pop();
-                    let Some(own) = next else { break };
-                    let tyres = film(own.name(), authored(own.name(), &[DYNAMIC]));
-                    done.lock().expect("nobody panics with it").push((own, tyres));
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().expect("nobody panicked with it");
+    let pairs: Vec<&Film> = pairs.collect();
+    let on_tyres = |own: &'static Film| (own, film(own.name(), authored(own.name(), &[DYNAMIC])));
+    let mut done: Vec<_> = pairs.into_par_iter().map(on_tyres).collect();
     done.sort_by_key(|(own, _)| own.name());
     done
 }

@@ -1,9 +1,7 @@
 //! Drivers and plants that should not manage a scenario do not: its expectations are strong enough to say so.
 
-use std::sync::Mutex;
-use std::thread;
-
 use interplay_scenarios::{Override, load};
+use rayon::prelude::*;
 
 use crate::film::film;
 
@@ -26,24 +24,12 @@ const RECKLESS: &str = "vehicle.ego.driver={ kind = 'human', style = 'tough' }";
 
 #[test]
 fn whoever_should_not_manage_does_not() {
-    let waiting = Mutex::new(UNSUITED.iter());
-    let check = |(name, change, expected): &(&str, &str, &[&str])| {
+    UNSUITED.par_iter().for_each(|(name, change, expected): &(&str, &str, &[&str])| {
         let scenario = load(name, &[Override::Set((*change).to_owned())]).expect("a sound change");
         let report = film(name, scenario).report;
         let failed = report.expectations.iter().filter(|one| !one.passed).map(|one| one.what.as_str());
         let failed: Vec<&str> = failed.collect();
         assert!(expected.iter().all(|what| failed.contains(what)), "{name} with {change}: {failed:?} fail");
         assert!(!report.passed);
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(|| {
-                loop {
-                    let next = waiting.lock().expect("nobody panics with it").next();
-                    let Some(case) = next else { break };
-                    check(case);
-                }
-            });
-        }
     });
 }

@@ -39,7 +39,7 @@ pub struct Physique {
 
 /// What a vehicle wants.
 #[derive(Component, Clone, Copy, Debug)]
-pub struct Objective {
+pub struct VehicleGoal {
     /// Its goal.
     pub goal: Goal,
     /// What it tells the others of it, if anything.

@@ -4,12 +4,12 @@ use bevy::ecs::prelude::*;
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
 
-use crate::components::{Clock, Committed, Driving, Identity, Motion, Objective, Physique, Present, Sensed};
+use crate::components::{Clock, Committed, Driving, Identity, Motion, Physique, Present, Sensed, VehicleGoal};
 use crate::frame::{Frame, VehicleFrame};
 
 /// Fills [`Sensed`] and opens the tick's [`Frame`].
 pub fn sense(
-    vehicles: Query<(&Identity, &Motion, &Physique, &Objective, &Driving, &Committed)>,
+    vehicles: Query<(&Identity, &Motion, &Physique, &VehicleGoal, &Driving, &Committed)>,
     clock: Res<Clock>,
     mut sensed: ResMut<Sensed>,
     mut present: ResMut<Present>,

@@ -5,7 +5,7 @@ use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 
 use crate::climate::{self, BuildingError};
-use crate::components::{Clock, Committed, Driving, Identity, Motion, Objective, Physique, Present, Sensed};
+use crate::components::{Clock, Committed, Driving, Identity, Motion, Physique, Present, Sensed, VehicleGoal};
 use crate::measure::{BuildingMeasures, Measures};
 use crate::moments::Moment;
 use crate::physics::{Physics, VehicleBody};
@@ -30,7 +30,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
             Identity { index, name: vehicle.name.clone() },
             Motion { state, input: Input::default(), crashed: false },
             Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor(vehicle.road) },
-            Objective { goal, shared: vehicle.driver.shared_goal(&goal) },
+            VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             Driving { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },
             Committed::default(),
             VehicleBody(handle),

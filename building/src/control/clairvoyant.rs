@@ -1,11 +1,13 @@
 //! A controller that knows the disturbances of the day in advance. The cost of the other controllers is compared with its.
 
+use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
+use crate::discretise::Model;
 use crate::lifted::Lifted;
 
-/// What to look for in a recording of a building with this controller.
-pub(super) const LOOK_FOR: &str =
-    "knowing the day beforehand, it cools before people come; no controller can be cheaper";
+/// The clairvoyant controller has no settings.
+#[derive(Clone, Copy, Debug)]
+pub struct ClairvoyantSettings;
 
 /// Applies the optimum of the day under its actual disturbances.
 #[derive(Clone, Debug)]
@@ -19,6 +21,20 @@ impl Clairvoyant {
     pub fn new(lifted: Lifted) -> Self {
         let planned_kw = vec![0.0; lifted.size()];
         Self { lifted, planned_kw }
+    }
+}
+
+impl ControllerKind for ClairvoyantSettings {
+    fn kind(&self) -> &'static str {
+        "clairvoyant"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "it knows the day in advance and cools before people come; no controller can be cheaper"
+    }
+
+    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Clairvoyant::new(Lifted::new(model, steps))))
     }
 }
 

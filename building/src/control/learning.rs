@@ -19,13 +19,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::pid::{Pid, PidSettings};
+use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use crate::discretise::Model;
 use crate::lifted::Lifted;
 use crate::setting;
-
-/// What to look for in a recording of a building with this controller.
-pub(super) const LOOK_FOR: &str =
-    "day by day the temperatures come closer to what is wanted when people arrive, and the cost falls";
 
 /// Iterative learning of P- or PD-type on top of a PID controller.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -129,6 +127,20 @@ impl Learning {
         let at_rest_c = vec![0.0; self.lifted.model().network().node_count()];
         let forecast = day_ahead.forecast;
         self.lifted.solve(&self.lifted.free_response(&at_rest_c, &forecast.ambient_c, &forecast.gains_kw))
+    }
+}
+
+impl ControllerKind for LearningSettings {
+    fn kind(&self) -> &'static str {
+        "iterative-learning"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "day by day the temperatures come closer to the wanted ones when people arrive, and the cost falls"
+    }
+
+    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Learning::new(*self, Lifted::new(model, steps))?))
     }
 }
 

@@ -30,13 +30,15 @@ pub mod learning;
 mod optimum;
 pub mod pid;
 mod planning;
+mod regulator;
 pub mod stability;
 pub mod thermostat;
 pub mod uncertainty;
 
 pub use clairvoyant::Clairvoyant;
-pub use controller::{Controller, Regulator};
+pub use controller::Controller;
 pub use design::{Design, Exchange};
 pub use error::ControlError;
 pub use interface::{Control, DayAhead, DayRecord, Disturbance, Observation};
 pub use optimum::{BandPenalty, DayOptimum, optimum};
+pub use regulator::Regulator;

@@ -11,12 +11,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use crate::discretise::Model;
 use crate::setting::{self, SettingError};
-
-/// What to look for in a recording of a building with this controller.
-pub(super) const LOOK_FOR: &str =
-    "the controller has no memory: it is late every morning by as much, and the cost does not fall";
 
 /// Gains of a PID controller. They are per hour, not per step, so that they do not depend on the step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -86,6 +84,20 @@ impl Pid {
             output_kw.push((direct_kw + self.integral_kw[zone]).clamp(-limit_kw, limit_kw));
         }
         output_kw
+    }
+}
+
+impl ControllerKind for PidSettings {
+    fn kind(&self) -> &'static str {
+        "pid"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "the controller has no memory: it is equally late every morning, and the cost does not fall"
+    }
+
+    fn regulator(&self, model: &Model, _: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Pid::new(*self, model.network().limits_kw(), model.step_s())?))
     }
 }
 

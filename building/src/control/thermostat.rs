@@ -3,12 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
+use crate::discretise::Model;
 use crate::setting;
-
-/// What to look for in a recording of a building with this controller.
-pub(super) const LOOK_FOR: &str =
-    "equipment runs at full power or not at all, and temperatures swing about what is wanted";
 
 /// A two-sided thermostat with a dead band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -44,6 +42,20 @@ impl Thermostat {
     pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
         setting::check(&settings)?;
         Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
+    }
+}
+
+impl ControllerKind for ThermostatSettings {
+    fn kind(&self) -> &'static str {
+        "thermostat"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "equipment runs at full power or not at all, and temperatures oscillate about the wanted ones"
+    }
+
+    fn regulator(&self, model: &Model, _: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Thermostat::new(*self, model.network().limits_kw())?))
     }
 }
 

@@ -12,14 +12,14 @@
 //! is kept: solved again it must have exactly the cost that the planner stated. (A human states none: its plan must be an
 //! optimum of the rebuilt problem.)
 //!
-//! With each goes the memory with which a planner begins: that of a descent in the problem of the step before.
+//! With each problem goes the warm start of the planner: what the descent in the problem of the step before left.
 
 mod closed_loop;
-mod echo;
-mod minutes;
-mod negotiation_view;
+mod negotiation_replay;
 #[path = "../../tests/common/recorded.rs"]
 mod recorded;
+mod replay;
+mod stated_problems;
 #[path = "../../tests/common/world.rs"]
 mod world;
 
@@ -31,10 +31,10 @@ use interplay_planners::trajectory::{Iterate, Optimiser, Problem, Robust};
 use interplay_planners::{Agent, Driver, Plan, Trajectory, conservative, human, negotiation};
 
 use closed_loop::{Decision, SCENARIOS};
-use echo::Echo;
-use minutes::Minutes;
-use negotiation_view::{NegotiationView, Posed};
+use negotiation_replay::{NegotiationReplay, Posed};
 use recorded::{KINDS, Recorded};
+use replay::WarmStartReplay;
+use stated_problems::StatedProblems;
 
 /// How many problems of each kind are kept.
 const KEPT: [usize; KINDS.len()] = [200, 200, 200, 100, 100, 100];
@@ -58,8 +58,8 @@ fn main() -> Result<()> {
         let baseline = conservative::Settings::default();
         for ego in egos(baseline, asking) {
             let run = format!("{}/{}", scenario.name, ego.kind());
-            let (mut view, mut minutes) = (NegotiationView::new(asking), Minutes::default());
-            let mut echoes: [Echo; KINDS.len()] = Default::default();
+            let (mut negotiation, mut stated) = (NegotiationReplay::new(asking), StatedProblems::default());
+            let mut replays: [WarmStartReplay; KINDS.len()] = Default::default();
             closed_loop::run(&scenario, &ego, |decision| {
                 let posed = match decision.driver {
                     Driver::Human(settings) => match ego {
@@ -67,18 +67,18 @@ fn main() -> Result<()> {
                         _ => None,
                     },
                     Driver::Conservative(_) => Some(posed_by_conservative(decision)?),
-                    Driver::Negotiation(_) => view.rebuild(decision.scene, decision.plan)?,
-                    Driver::Bayesian(settings) => minutes.bayesian(decision, settings)?,
-                    Driver::Game(settings) => minutes.game(decision, settings)?,
-                    Driver::Cooperative(settings) => minutes.cooperative(decision, settings)?,
+                    Driver::Negotiation(_) => negotiation.rebuild(decision.scene, decision.plan)?,
+                    Driver::Bayesian(settings) => stated.bayesian(decision, settings)?,
+                    Driver::Game(settings) => stated.game(decision, settings)?,
+                    Driver::Cooperative(settings) => stated.cooperative(decision, settings)?,
                     Driver::Idm(_) | Driver::Scripted(_) => None,
                 };
                 let kind = KINDS.iter().position(|kind| *kind == decision.driver.kind()).ok_or("a new kind")?;
                 let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
                 if let Some(posed) = posed {
-                    let memory = echoes[kind].memory(KINDS[kind], tick, name, &posed)?;
+                    let warm_start = replays[kind].warm_start(KINDS[kind], tick, name, &posed)?;
                     let (problem, guess) = posed;
-                    let recorded = Recorded::new(format!("{run}/{tick}/{name}"), &problem, &guess, &memory);
+                    let recorded = Recorded::new(format!("{run}/{tick}/{name}"), &problem, &guess, &warm_start);
                     if recorded.problem() != problem {
                         return Err(format!("the record of {} lost something", recorded.id).into());
                     }

@@ -10,9 +10,9 @@
 use super::Settings;
 use crate::{Agent, State, Trajectory};
 
-/// Beliefs, renewed at every step.
+/// The beliefs behind a signal, updated at every step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Belief {
+pub struct PersuasionBelief {
     /// Mean change of the ego's plan from one step to the next, `α` (eq. 7.27).
     pub alpha: f64,
     /// Mean change of the other's plan from one step to the next, `β` (eq. 7.28) \[m\].
@@ -25,15 +25,15 @@ pub struct Belief {
     pub deviation: f64,
 }
 
-impl Belief {
+impl PersuasionBelief {
     /// Before anything was seen: the geometric middle of what `w_1` may be, and a signal without doubt.
     pub fn initial(settings: &Settings) -> Self {
         let w_1 = (settings.w_1_min * settings.w_1_max).sqrt();
-        Belief { alpha: 0.0, beta_m: 0.0, variance: 0.0, w_1, deviation: 0.0 }
+        PersuasionBelief { alpha: 0.0, beta_m: 0.0, variance: 0.0, w_1, deviation: 0.0 }
     }
 
-    /// Takes in what the other plans now, `before` being what it planned a step ago.
-    pub(super) fn watch(&mut self, other: &Agent, before: &Trajectory, settings: &Settings) {
+    /// Updates the belief by what the other plans now; `before` is what it planned a step ago.
+    pub(super) fn observe(&mut self, other: &Agent, before: &Trajectory, settings: &Settings) {
         let expected = before.shifted();
         self.beta_m = mean_change(&other.prediction, &expected, |a, b| squared(a.position(), b.position()));
         let range = settings.w_1_max - settings.w_1_min;
@@ -42,8 +42,8 @@ impl Belief {
         self.deviation = self.w_1 * strayed;
     }
 
-    /// Takes in what the ego itself plans now.
-    pub(super) fn reflect(&mut self, plan: &Trajectory, before: &Trajectory, settings: &Settings) {
+    /// Updates the belief by what the ego itself plans now; `before` is what it planned a step ago.
+    pub(super) fn observe_own_plan(&mut self, plan: &Trajectory, before: &Trajectory, settings: &Settings) {
         self.alpha = mean_change(plan, &before.shifted(), |a, b| squared(a.to_array(), b.to_array()));
         self.variance = (settings.variance_per_change * self.alpha).min(settings.variance_max);
     }
@@ -74,10 +74,10 @@ mod tests {
         fixture::agent(x_m, 0.0, 0.0, speed_mps)
     }
 
-    fn watched(other: &Agent) -> Belief {
+    fn watched(other: &Agent) -> PersuasionBelief {
         let settings = Settings::default();
-        let mut belief = Belief::initial(&settings);
-        belief.watch(other, &at(0.0, 1.0), &settings);
+        let mut belief = PersuasionBelief::initial(&settings);
+        belief.observe(other, &at(0.0, 1.0), &settings);
         belief
     }
 
@@ -98,12 +98,12 @@ mod tests {
     #[test]
     fn a_consistent_plan_is_a_clear_signal() {
         let settings = Settings::default();
-        let mut belief = Belief::initial(&settings);
-        belief.reflect(&at(0.1, 1.0), &at(0.0, 1.0), &settings);
+        let mut belief = PersuasionBelief::initial(&settings);
+        belief.observe_own_plan(&at(0.1, 1.0), &at(0.0, 1.0), &settings);
         assert!(belief.variance < 1e-12);
-        belief.reflect(&at(0.12, 1.0), &at(0.0, 1.0), &settings);
+        belief.observe_own_plan(&at(0.12, 1.0), &at(0.0, 1.0), &settings);
         assert!((belief.variance - 0.01).abs() < 1e-12);
-        belief.reflect(&at(1.1, 1.0), &at(0.0, 1.0), &settings);
+        belief.observe_own_plan(&at(1.1, 1.0), &at(0.0, 1.0), &settings);
         assert_eq!(belief.variance, settings.variance_max);
     }
 }

@@ -17,14 +17,14 @@ mod settings;
 mod signal;
 mod value;
 
-pub use belief::Belief;
-pub use settings::{Settings, Value};
+pub use belief::PersuasionBelief;
+pub use settings::{ReplyValue, Settings};
 pub use signal::problem;
 pub use value::attraction;
 
 use crate::conservative;
 use crate::diagnostic::{COST, SAFETY_SLACK};
-use crate::encounter::{Choice, Partner};
+use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
@@ -36,10 +36,10 @@ use diagnostics::{ATTRACTION, BELIEF_VARIANCE, CONSERVATIVENESS, LOYALTY, OTHER_
 pub struct Bayesian {
     settings: Settings,
     optimiser: Optimiser<Robust>,
-    partner: Partner,
-    belief: Belief,
+    partner: PartnerSequence,
+    belief: PersuasionBelief,
     /// What the partner planned a step ago.
-    watched: Option<Trajectory>,
+    partner_plan: Option<Trajectory>,
     last: Option<Trajectory>,
 }
 
@@ -49,9 +49,9 @@ impl Bayesian {
         Bayesian {
             settings,
             optimiser: Optimiser::resuming(Robust::default()),
-            partner: Partner::default(),
-            belief: Belief::initial(&settings),
-            watched: None,
+            partner: PartnerSequence::default(),
+            belief: PersuasionBelief::initial(&settings),
+            partner_plan: None,
             last: None,
         }
     }
@@ -63,7 +63,7 @@ impl Bayesian {
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
-        self.watch(&choice);
+        self.observe(&choice);
         let problem = problem(scene, choice.partner, &self.belief, &self.settings);
         let every = self.settings.look_around_every;
         let Solved { problem, optimum, event } =
@@ -71,27 +71,27 @@ impl Bayesian {
         let diagnostics = self.diagnostics(&problem, &optimum);
         let trajectory = optimum.trajectory(0);
         if let Some(before) = &self.last {
-            self.belief.reflect(&trajectory, before, &self.settings);
+            self.belief.observe_own_plan(&trajectory, before, &self.settings);
         }
         self.last = Some(trajectory.clone());
         let events = choice.event("persuades", "to persuade").into_iter().chain(event).collect();
         Ok(Plan { trajectory, proposal: None, diagnostics, events, statistics: optimum.statistics })
     }
 
-    /// Renews the belief about the vehicle to persuade.
-    fn watch(&mut self, choice: &Choice) {
+    /// Updates the belief about the vehicle to persuade.
+    fn observe(&mut self, choice: &PartnerChoice) {
         if choice.is_new {
-            self.belief = Belief::initial(&self.settings);
-            self.watched = None;
+            self.belief = PersuasionBelief::initial(&self.settings);
+            self.partner_plan = None;
         }
-        if let (Some(partner), Some(before)) = (choice.partner, &self.watched) {
-            self.belief.watch(partner, before, &self.settings);
+        if let (Some(partner), Some(before)) = (choice.partner, &self.partner_plan) {
+            self.belief.observe(partner, before, &self.settings);
         }
-        self.watched = choice.partner.map(|partner| partner.prediction.clone());
+        self.partner_plan = choice.partner.map(|partner| partner.prediction.clone());
     }
 
     fn diagnostics(&self, problem: &Problem, optimum: &Optimum) -> Vec<Diagnostic> {
-        let Belief { alpha, beta_m, variance, w_1, .. } = self.belief;
+        let PersuasionBelief { alpha, beta_m, variance, w_1, .. } = self.belief;
         let mut diagnostics = Vec::new();
         for term in &problem.terms {
             let Term::DistanceCost(impression) = term else { continue };

@@ -8,7 +8,7 @@ use crate::predict::Prediction;
 /// Which value of the other's best reply enters the ego's cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Value {
+pub enum ReplyValue {
     /// `k_1 ω`, as the source: attracts, the more the readier the other is to change its plan.
     #[default]
     Linear,
@@ -44,7 +44,7 @@ pub struct Settings {
     #[schemars(range(min = 0.0, max = 0.2), extend("x-unit" = "dimensionless"))]
     pub impression_variance: f64,
     /// Which value of the other's best reply enters the ego's cost.
-    pub value: Value,
+    pub value: ReplyValue,
     /// A vehicle that is this far ahead in the target lane is not persuaded any more \[m\].
     #[schemars(range(min = 0.0))]
     pub clear_lead_m: f64,
@@ -65,7 +65,7 @@ impl Default for Settings {
             variance_per_change: 0.5,
             variance_max: 0.05,
             impression_variance: 0.1,
-            value: Value::Linear,
+            value: ReplyValue::Linear,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
             look_around_every: 0,

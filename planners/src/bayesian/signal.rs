@@ -13,18 +13,18 @@
 //! `x̂`, so is the place from which `ω` is measured: the distance from `x_sᴾ` at `x*` is the one from a moved centre at `x̂`, in
 //! a stretched metric.
 
-use super::belief::Belief;
+use super::belief::PersuasionBelief;
 use super::{Settings, value};
 use crate::trajectory::terms::{DistanceCost, Tracking};
 use crate::trajectory::{Problem, Term};
 use crate::{Agent, Scene, conservative};
 
 /// Largest `2ΣW_2`.
-const MOST_DOUBT: f64 = 0.9;
+const MAX_SIGNAL_DOUBT: f64 = 0.9;
 
 /// The conservative problem (eq. 6.13), which is also that of somebody whom nobody is left to persuade, with the price of a
 /// signal to `partner`.
-pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &Belief, settings: &Settings) -> Problem {
+pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &PersuasionBelief, settings: &Settings) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
     if let Some(partner) = partner {
@@ -40,15 +40,15 @@ pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &Belief, settings
 }
 
 /// `2ΣW_2` of every component (along, across, θ, v).
-fn doubts(scene: &Scene, belief: &Belief) -> [f64; 4] {
-    scene.goal.tracking.map(|weight| (2.0 * belief.variance * weight).min(MOST_DOUBT))
+fn doubts(scene: &Scene, belief: &PersuasionBelief) -> [f64; 4] {
+    scene.goal.tracking.map(|weight| (2.0 * belief.variance * weight).min(MAX_SIGNAL_DOUBT))
 }
 
 /// The price of `ω` at `x*`: with `D = 2ΣW_2`, `x* − x_sᴾ = (x̂ − D x_g − (1 − D) x_sᴾ)/(1 − D)`.
 fn impression(
     scene: &Scene,
     partner: &Agent,
-    belief: &Belief,
+    belief: &PersuasionBelief,
     [doubt_along, doubt_across, ..]: [f64; 4],
     settings: &Settings,
 ) -> DistanceCost {

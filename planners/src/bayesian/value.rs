@@ -23,8 +23,7 @@
 //! 7.16 lacks a square: the exponent is `½ Σ_ω q²`, `q = ‖x_s − x_sᴾ‖²_{W_1}`; 7.18 follows from it with `γ`, the `q` of the
 //! step before, for one of its factors.
 
-use super::Settings;
-use super::settings::Value;
+use super::settings::{ReplyValue, Settings};
 use crate::trajectory::terms::DistancePrice;
 
 /// `k_1` of eq. 7.19.
@@ -35,8 +34,8 @@ pub fn attraction(w_1: f64, w_4: f64) -> f64 {
 /// The price of the distance `ω` for a believed `w_1` and a deviation `γ` of the other from what was predicted.
 pub(super) fn price(settings: &Settings, w_1: f64, deviation: f64) -> DistancePrice {
     match settings.value {
-        Value::Linear => DistancePrice::Linear { weight: attraction(w_1, settings.w_4) },
-        Value::Exact => DistancePrice::Exact {
+        ReplyValue::Linear => DistancePrice::Linear { weight: attraction(w_1, settings.w_4) },
+        ReplyValue::Exact => DistancePrice::Exact {
             base: 1.0 + settings.impression_variance * deviation,
             loyalty: w_1.max(settings.w_4),
             aversion: settings.w_4,

@@ -9,7 +9,7 @@
 //! crossing is refined and checked. Of several equilibria the source wants the mixed one: that with more
 //! intentions off their bounds wins, then the risk-dominant one (Harsanyi and Selten: the larger product of what the
 //! players lose by turning to the other end). Should there be none, the pair on the grid that tempts least is returned;
-//! [`Solution::temptation`] tells.
+//! [`GameSolution::temptation`] tells.
 
 use super::payoff::Player;
 use super::reply::{CELL, HIGHEST, LOWEST, POINTS, best_of, best_reply, grid_reply, intention, maximum, reply_near};
@@ -23,7 +23,7 @@ const CROSSING_STEPS: usize = 24;
 
 /// A pair of intentions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Solution {
+pub struct GameSolution {
     /// Probability with which the ego passes, `p_e`.
     pub ego: f64,
     /// Probability with which the other passes, `p_s`.
@@ -38,7 +38,7 @@ pub struct Solution {
 ///
 /// The grid finds where maxima are. It rounds replies, and utilities may be steep in them, so that which maximum is the
 /// highest is told by exact replies.
-pub fn leader_follower(ego: &Player, other: &Player) -> Solution {
+pub fn leader_follower(ego: &Player, other: &Player) -> GameSolution {
     let rough: [f64; POINTS] =
         std::array::from_fn(|own| ego.utility(intention(own), intention(grid_reply(other, own))));
     let led = |own: f64| ego.utility(own, best_reply(other, own));
@@ -55,13 +55,13 @@ fn is_peak(values: &[f64], index: usize) -> bool {
 }
 
 /// A mixed equilibrium.
-pub fn nash(ego: &Player, other: &Player) -> Solution {
+pub fn nash(ego: &Player, other: &Player) -> GameSolution {
     let answers = [ego, other].map(|player| std::array::from_fn(|point| intention(grid_reply(player, point))));
     let around = |own: f64| {
         let theirs = reply_near(other, own, between(&answers[1], own));
         reply_near(ego, theirs, between(&answers[0], theirs)) - own
     };
-    let mut best: Option<(Rank, Solution)> = None;
+    let mut best: Option<(Rank, GameSolution)> = None;
     for bracket in crossings(&answers) {
         let own = root(around, bracket);
         let found = solution(ego, other, own, best_reply(other, own));
@@ -74,11 +74,11 @@ pub fn nash(ego: &Player, other: &Player) -> Solution {
     best.map_or_else(|| least_tempting(ego, other), |(_, found)| found)
 }
 
-fn solution(ego: &Player, other: &Player, own: f64, theirs: f64) -> Solution {
+fn solution(ego: &Player, other: &Player, own: f64, theirs: f64) -> GameSolution {
     let utilities = [ego.utility(own, theirs), other.utility(theirs, own)];
     let best = [ego.utility(best_reply(ego, theirs), theirs), other.utility(best_reply(other, own), own)];
     let temptation = [best[0] - utilities[0], best[1] - utilities[1]].map(|gain| gain.max(0.0));
-    Solution { ego: own, other: theirs, utilities, temptation }
+    GameSolution { ego: own, other: theirs, utilities, temptation }
 }
 
 /// A reply between two grid points, if replies do not jump there.
@@ -146,7 +146,7 @@ struct Rank {
 }
 
 impl Rank {
-    fn of(ego: &Player, other: &Player, at: &Solution) -> Rank {
+    fn of(ego: &Player, other: &Player, at: &GameSolution) -> Rank {
         let inside = |p: f64| p > LOWEST + CELL / 10.0 && p < HIGHEST - CELL / 10.0;
         let turned = |p: f64| if p > 0.5 { LOWEST } else { HIGHEST };
         let losses = [
@@ -163,9 +163,9 @@ impl Rank {
 }
 
 /// The pair on the grid whose larger temptation is least.
-fn least_tempting(ego: &Player, other: &Player) -> Solution {
-    let mut best = Solution { temptation: [f64::INFINITY; 2], ..Solution::default() };
-    let worst = |at: &Solution| at.temptation[0].max(at.temptation[1]);
+fn least_tempting(ego: &Player, other: &Player) -> GameSolution {
+    let mut best = GameSolution { temptation: [f64::INFINITY; 2], ..GameSolution::default() };
+    let worst = |at: &GameSolution| at.temptation[0].max(at.temptation[1]);
     let replies = |player: &Player| -> [f64; POINTS] {
         std::array::from_fn(|point| player.utility(best_reply(player, intention(point)), intention(point)))
     };
@@ -175,7 +175,7 @@ fn least_tempting(ego: &Player, other: &Player) -> Solution {
             let (own, theirs) = (intention(i), intention(j));
             let utilities = [ego.utility(own, theirs), other.utility(theirs, own)];
             let temptation = [ego_best[j] - utilities[0], other_best[i] - utilities[1]].map(|gain| gain.max(0.0));
-            let at = Solution { ego: own, other: theirs, utilities, temptation };
+            let at = GameSolution { ego: own, other: theirs, utilities, temptation };
             if worst(&at) < worst(&best) {
                 best = at;
             }
@@ -187,7 +187,7 @@ fn least_tempting(ego: &Player, other: &Player) -> Solution {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::game::payoff::{MIND, Stakes};
+    use crate::game::payoff::{Stakes, THEORY};
     use crate::game::prospect::ProspectTheory;
     use proptest::prelude::*;
 
@@ -209,8 +209,8 @@ mod tests {
         (0..=450).map(|i| LOWEST + 0.002 * f64::from(i))
     }
 
-    fn solved(stakes: [Stakes; 2], by: fn(&Player, &Player) -> Solution) -> Solution {
-        by(&MIND.player(stakes[0]), &MIND.player(stakes[1]))
+    fn solved(stakes: [Stakes; 2], by: fn(&Player, &Player) -> GameSolution) -> GameSolution {
+        by(&THEORY.player(stakes[0]), &THEORY.player(stakes[1]))
     }
 
     proptest! {
@@ -238,7 +238,7 @@ mod tests {
 
         #[test]
         fn a_leader_gains_nothing_by_another_intention(stakes in stakes(), instead in LOWEST..HIGHEST) {
-            let [ego, other] = stakes.map(|stakes| MIND.player(stakes));
+            let [ego, other] = stakes.map(|stakes| THEORY.player(stakes));
             let led = leader_follower(&ego, &other);
             prop_assert_eq!(led.temptation[1], 0.0, "the follower follows");
             // The optimum on the grid may miss a maximum next to a jump of the replies by part of a cell.
@@ -261,7 +261,7 @@ mod tests {
     #[test]
     fn a_pair_that_tempts_least_is_what_it_says() {
         let stakes = [Stakes { turn: 1.0, accident: 2.0 }, Stakes { turn: 0.7, accident: 2.0 }];
-        let [ego, other] = stakes.map(|stakes| MIND.player(stakes));
+        let [ego, other] = stakes.map(|stakes| THEORY.player(stakes));
         let at = least_tempting(&ego, &other);
         assert!((at.utilities[0] - ego.utility(at.ego, at.other)).abs() < 1e-15);
         assert!(at.temptation.iter().all(|gain| (0.0..1e-2).contains(gain)), "{at:?}");

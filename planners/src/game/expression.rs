@@ -1,7 +1,7 @@
 //! Intention expression: the mean speeds at which the other reads the ego's intention (eq. 8.11-8.15).
 
 use super::Settings;
-use super::meeting::{Meeting, Sight};
+use super::meeting::{Meeting, ObservedBehaviour};
 use super::reply::{HIGHEST, LOWEST};
 use crate::Scene;
 use crate::trajectory::Penalty;
@@ -22,13 +22,13 @@ pub fn mean_speed(
     intention: f64,
     prior: f64,
     meeting: &Meeting,
-    sight: &Sight,
+    ego_behaviour: &ObservedBehaviour,
     scene: &Scene,
     settings: &Settings,
 ) -> MeanSpeed {
     let lower = (intention - settings.epsilon_p).max(LEAST);
-    let least = (lower > LOWEST + EXTREME).then(|| sight.behaviour.expressing(lower, prior));
-    let most = (intention < HIGHEST - EXTREME).then(|| sight.behaviour.expressing(intention, prior));
+    let least = (lower > LOWEST + EXTREME).then(|| ego_behaviour.behaviour.expressing(lower, prior));
+    let most = (intention < HIGHEST - EXTREME).then(|| ego_behaviour.behaviour.expressing(intention, prior));
     let [least, most] = [least, most].map(|bound| bound.map(|bound| speed_mps(bound, meeting)));
     let drivable = |speed: f64| speed.clamp(scene.ego.limits.speed_min_mps, scene.ego.limits.speed_max_mps);
     let penalty = Penalty { linear: settings.slack_weight * scene.horizon as f64, quadratic: 0.0 };
@@ -64,8 +64,8 @@ mod tests {
         ) {
             let settings = Settings::default();
             let meeting = MEETINGS[which];
-            let [sight, _] = meeting.sights([1.0, other_mps], &settings);
-            let bound = mean_speed(intention, prior, &meeting, &sight, &alone(), &settings);
+            let [ego_behaviour, _] = meeting.observations([1.0, other_mps], &settings);
+            let bound = mean_speed(intention, prior, &meeting, &ego_behaviour, &alone(), &settings);
             if let (Some(lower), Some(upper)) = (bound.lower_mps, bound.upper_mps) {
                 prop_assert!(lower <= upper);
                 let speed = lower + share * (upper - lower);
@@ -73,7 +73,7 @@ mod tests {
                 let limits = alone().ego.limits;
                 prop_assume!(lower > settings.standstill_mps && upper < limits.speed_max_mps);
                 // What the other expects depends on its own speed only.
-                let [shown, _] = meeting.sights([speed, other_mps], &settings);
+                let [shown, _] = meeting.observations([speed, other_mps], &settings);
                 let read = shown.behaviour.posterior(prior, shown.observed);
                 prop_assert!(read <= intention + 1e-9 && read >= intention - settings.epsilon_p - 1e-9);
             }
@@ -84,16 +84,16 @@ mod tests {
     fn who_is_late_is_asked_for_the_highest_speed() {
         let settings = Settings { sigma_2_s: 0.5, ..Settings::default() };
         let meeting = Meeting::Crossing { ego_m: 1.4, other_m: 0.2 };
-        let [sight, _] = meeting.sights([1.0, 1.0], &settings);
-        let bound = mean_speed(0.9, 0.1, &meeting, &sight, &alone(), &settings);
+        let [ego_behaviour, _] = meeting.observations([1.0, 1.0], &settings);
+        let bound = mean_speed(0.9, 0.1, &meeting, &ego_behaviour, &alone(), &settings);
         assert_eq!(bound.lower_mps, Some(alone().ego.limits.speed_max_mps));
     }
 
     #[test]
     fn extreme_intentions_are_bounded_on_one_side() {
         let (settings, meeting) = (Settings::default(), MEETINGS[0]);
-        let [sight, _] = meeting.sights([1.0, 1.0], &settings);
-        let bound = |intention| mean_speed(intention, 0.5, &meeting, &sight, &alone(), &settings);
+        let [ego_behaviour, _] = meeting.observations([1.0, 1.0], &settings);
+        let bound = |intention| mean_speed(intention, 0.5, &meeting, &ego_behaviour, &alone(), &settings);
         assert!(bound(HIGHEST).upper_mps.is_none() && bound(HIGHEST).lower_mps.is_some());
         assert!(bound(LOWEST).lower_mps.is_none() && bound(LOWEST).upper_mps.is_some());
     }

@@ -24,7 +24,7 @@ pub enum Meeting {
 
 /// What one vehicle shows, and what it would show if it yielded or passed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
+pub struct ObservedBehaviour {
     /// Mean speed \[m/s\], or time of arrival \[s\].
     pub observed: f64,
     /// What is expected.
@@ -51,7 +51,7 @@ impl Meeting {
     }
 
     /// What the ego shows the other and the other shows the ego, at these mean speeds.
-    pub fn sights(&self, [ego_mps, other_mps]: [f64; 2], settings: &Settings) -> [Sight; 2] {
+    pub fn observations(&self, [ego_mps, other_mps]: [f64; 2], settings: &Settings) -> [ObservedBehaviour; 2] {
         match *self {
             Meeting::Alongside { lead_m } => {
                 let seen = |observed: f64, reference: f64, lead_m: f64| {
@@ -61,7 +61,7 @@ impl Meeting {
                         passing: reference + (gap + lead_m) / finish,
                         deviation: settings.sigma_1_mps,
                     };
-                    Sight { observed, behaviour }
+                    ObservedBehaviour { observed, behaviour }
                 };
                 // `d` is how far the one who watches is ahead.
                 [seen(ego_mps, other_mps, -lead_m), seen(other_mps, ego_mps, lead_m)]
@@ -74,7 +74,7 @@ impl Meeting {
                         passing: reference - settings.crossing_s,
                         deviation: settings.sigma_2_s,
                     };
-                    Sight { observed, behaviour }
+                    ObservedBehaviour { observed, behaviour }
                 };
                 [seen(times[0], times[1]), seen(times[1], times[0])]
             }
@@ -112,10 +112,10 @@ mod tests {
     #[test]
     fn the_faster_of_two_side_by_side_is_the_one_that_seems_to_pass() {
         let settings = Settings::default();
-        let [ego, other] = Meeting::Alongside { lead_m: 0.0 }.sights([1.2, 1.0], &settings);
+        let [ego, other] = Meeting::Alongside { lead_m: 0.0 }.observations([1.2, 1.0], &settings);
         assert!(ego.behaviour.posterior(0.5, ego.observed) > 0.5);
         assert!(other.behaviour.posterior(0.5, other.observed) < 0.5);
-        let [same, alike] = Meeting::Alongside { lead_m: 0.0 }.sights([1.0, 1.0], &settings);
+        let [same, alike] = Meeting::Alongside { lead_m: 0.0 }.observations([1.0, 1.0], &settings);
         assert!((same.behaviour.posterior(0.5, 1.0) - 0.5).abs() < 1e-12);
         assert_eq!(same, alike);
     }
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn expected_speeds_end_a_safety_gap_behind_or_ahead() {
         let settings = Settings { safety_gap_m: 1.5, finish_s: 5.0, ..Settings::default() };
-        let [ego, other] = Meeting::Alongside { lead_m: 0.4 }.sights([1.0, 1.1], &settings);
+        let [ego, other] = Meeting::Alongside { lead_m: 0.4 }.observations([1.0, 1.1], &settings);
         assert!((other.behaviour.yielding - (1.0 - 1.1 / 5.0)).abs() < 1e-12);
         assert!((other.behaviour.passing - (1.0 + 1.9 / 5.0)).abs() < 1e-12);
         assert!((ego.behaviour.yielding - (1.1 - 1.9 / 5.0)).abs() < 1e-12);
@@ -135,7 +135,7 @@ mod tests {
     fn who_arrives_first_seems_to_pass() {
         let settings = Settings::default();
         let meeting = Meeting::Crossing { ego_m: 1.0, other_m: 2.0 };
-        let [ego, other] = meeting.sights([1.0, 1.0], &settings);
+        let [ego, other] = meeting.observations([1.0, 1.0], &settings);
         assert_eq!((ego.observed, other.observed), (1.0, 2.0));
         assert!(ego.behaviour.posterior(0.5, ego.observed) > 0.5);
         assert!(other.behaviour.posterior(0.5, other.observed) < 0.5);

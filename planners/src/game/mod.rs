@@ -20,28 +20,28 @@ pub mod prospect;
 pub mod reply;
 mod settings;
 
-pub use settings::{Method, Settings};
+pub use settings::{Settings, SolutionConcept};
 
 use crate::diagnostic::{COST, SAFETY_SLACK};
-use crate::encounter::{Choice, Partner};
+use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::MeanSpeed;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use diagnostics as reported;
-use equilibrium::{Solution, leader_follower, nash};
+use equilibrium::{GameSolution, leader_follower, nash};
 use intention::forget;
-use meeting::{Meeting, Sight};
-use payoff::{Mind, Stakes};
+use meeting::{Meeting, ObservedBehaviour};
+use payoff::{Stakes, TabulatedTheory};
 
 /// A planner that plays, with what it remembers.
 #[derive(Clone, Debug)]
 pub struct Game {
     settings: Settings,
-    mind: Mind,
+    theory: TabulatedTheory,
     optimiser: Optimiser<Robust>,
-    partner: Partner,
+    partner: PartnerSequence,
     intentions: Intentions,
     last: Option<Trajectory>,
 }
@@ -68,7 +68,7 @@ impl Default for Intentions {
 struct Round {
     /// Stakes of the ego and of the other.
     stakes: [Stakes; 2],
-    solution: Solution,
+    solution: GameSolution,
 }
 
 impl Game {
@@ -76,9 +76,9 @@ impl Game {
     pub fn new(settings: Settings) -> Self {
         Game {
             settings,
-            mind: Mind::new(settings.prospect),
+            theory: TabulatedTheory::new(settings.prospect),
             optimiser: Optimiser::resuming(Robust::default()),
-            partner: Partner::default(),
+            partner: PartnerSequence::default(),
             intentions: Intentions::default(),
             last: None,
         }
@@ -97,10 +97,11 @@ impl Game {
         let meeting = choice.partner.and_then(|other| Some((other, Meeting::of(scene, other, &self.settings)?)));
         let (mut round, mut expressed) = (None, None);
         if let Some((other, meeting)) = meeting {
-            let sight = self.watch(scene, other, &meeting);
+            let ego_behaviour = self.watch(scene, other, &meeting);
             let played = self.play();
             self.intentions.own = played.solution.ego;
-            expressed = self.is_expressing(scene, &choice, &meeting).then(|| self.express(scene, &meeting, &sight));
+            expressed =
+                self.is_expressing(scene, &choice, &meeting).then(|| self.express(scene, &meeting, &ego_behaviour));
             round = Some(played);
         }
         let problem = problem(scene, expressed);
@@ -116,13 +117,13 @@ impl Game {
     }
 
     /// Renews both beliefs; returns what the ego shows.
-    fn watch(&mut self, scene: &Scene, other: &Agent, meeting: &Meeting) -> Sight {
+    fn watch(&mut self, scene: &Scene, other: &Agent, meeting: &Meeting) -> ObservedBehaviour {
         let plan = self.last.as_ref().map(Trajectory::shifted);
         let ego_mps = plan.map_or(scene.ego.state.speed_mps, |plan| MeanSpeed::of(&plan.states));
         let other_mps = MeanSpeed::of(&other.prediction.states);
-        let [shown, seen] = meeting.sights([ego_mps, other_mps], &self.settings);
-        let believed = |before: f64, sight: &Sight| {
-            sight.behaviour.posterior(forget(before, self.settings.forgetting), sight.observed)
+        let [shown, seen] = meeting.observations([ego_mps, other_mps], &self.settings);
+        let believed = |before: f64, ego_behaviour: &ObservedBehaviour| {
+            ego_behaviour.behaviour.posterior(forget(before, self.settings.forgetting), ego_behaviour.observed)
         };
         let Intentions { other, seen: own, .. } = self.intentions;
         (self.intentions.other, self.intentions.seen) = (believed(other, &seen), believed(own, &shown));
@@ -132,23 +133,23 @@ impl Game {
     fn play(&self) -> Round {
         let (Intentions { other, seen, own }, accident) = (self.intentions, self.settings.accident);
         let stakes = [Stakes { turn: own / other, accident }, Stakes { turn: other / seen, accident }];
-        let [ego, other] = stakes.map(|stakes| self.mind.player(stakes));
+        let [ego, other] = stakes.map(|stakes| self.theory.player(stakes));
         let solve = match self.settings.solution {
-            Method::LeaderFollower => leader_follower,
-            Method::Nash => nash,
+            SolutionConcept::LeaderFollower => leader_follower,
+            SolutionConcept::Nash => nash,
         };
         Round { stakes, solution: solve(&ego, &other) }
     }
 
     /// Whether there is still something to show to the partner.
-    fn is_expressing(&self, scene: &Scene, choice: &Choice, meeting: &Meeting) -> bool {
+    fn is_expressing(&self, scene: &Scene, choice: &PartnerChoice, meeting: &Meeting) -> bool {
         let spoken_s = scene.step_s * choice.steps as f64;
         meeting.is_open() && (choice.is_first || spoken_s <= self.settings.later_expression_s)
     }
 
-    fn express(&self, scene: &Scene, meeting: &Meeting, sight: &Sight) -> MeanSpeed {
+    fn express(&self, scene: &Scene, meeting: &Meeting, ego_behaviour: &ObservedBehaviour) -> MeanSpeed {
         let Intentions { own, seen, .. } = self.intentions;
-        expression::mean_speed(own, seen, meeting, sight, scene, &self.settings)
+        expression::mean_speed(own, seen, meeting, ego_behaviour, scene, &self.settings)
     }
 
     fn diagnostics(

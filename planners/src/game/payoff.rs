@@ -113,26 +113,26 @@ impl Weights {
     }
 }
 
-/// The mind of a player: prospect theory with tabulated weights.
+/// Prospect theory with tabulated decision weights: how both players value lotteries.
 #[derive(Clone, Debug)]
-pub struct Mind {
+pub struct TabulatedTheory {
     theory: ProspectTheory,
     gains: Weights,
     losses: Weights,
 }
 
-impl Mind {
+impl TabulatedTheory {
     /// Tabulates the weights of a theory; takes a few milliseconds.
     pub fn new(theory: ProspectTheory) -> Self {
-        Mind { theory, gains: Weights::new(theory.gamma), losses: Weights::new(theory.eta) }
+        TabulatedTheory { theory, gains: Weights::new(theory.gamma), losses: Weights::new(theory.eta) }
     }
 
-    /// A player with this mind and something at stake.
+    /// A player who values the lotteries of its stakes by this theory.
     pub fn player(&self, stakes: Stakes) -> Player<'_> {
         let losses = stakes.losses();
         let [worst, middle, least] = losses.map(|(payoff, _)| self.theory.value(payoff));
         Player {
-            mind: self,
+            theory: self,
             gain: self.theory.value(stakes.turn),
             steps: [worst - middle, middle - least, least],
             ranking: losses.map(|(_, loss)| loss),
@@ -143,7 +143,7 @@ impl Mind {
 /// The utility function of one player.
 #[derive(Clone, Copy, Debug)]
 pub struct Player<'a> {
-    mind: &'a Mind,
+    theory: &'a TabulatedTheory,
     /// `v(x)`.
     gain: f64,
     /// `v₁ − v₂, v₂ − v₃, v₃`.
@@ -155,14 +155,14 @@ impl Player<'_> {
     /// `U` of eq. 8.7 for a player who passes with probability `own` while the other does with `other`.
     pub fn utility(&self, own: f64, other: f64) -> f64 {
         let mut cumulated = 0.0;
-        let mut utility = self.gain * self.mind.gains.at(own * (1.0 - other));
+        let mut utility = self.gain * self.theory.gains.at(own * (1.0 - other));
         for (loss, step) in self.ranking.iter().zip(self.steps) {
             cumulated += match loss {
                 Loss::Stalemate => (1.0 - own) * (1.0 - other),
                 Loss::Wait => (1.0 - own) * other,
                 Loss::Accident => own * other,
             };
-            utility += step * self.mind.losses.at(cumulated);
+            utility += step * self.theory.losses.at(cumulated);
         }
         utility
     }
@@ -183,9 +183,9 @@ impl Player<'_> {
         });
         let mut best = (0, f64::NEG_INFINITY);
         for own in own {
-            let mut utility = self.gain * self.mind.gains.at_node(own * (100 - other));
+            let mut utility = self.gain * self.theory.gains.at_node(own * (100 - other));
             for ((base, slope), step) in lines.iter().zip(self.steps) {
-                utility += step * self.mind.losses.at_node(base + own * slope);
+                utility += step * self.theory.losses.at_node(base + own * slope);
             }
             if utility > best.1 {
                 best = (own, utility);
@@ -195,9 +195,10 @@ impl Player<'_> {
     }
 }
 
-/// A mind that several tests share, as its tables take a while.
+/// Shared by several tests, as tabulating takes a while.
 #[cfg(test)]
-pub(super) static MIND: std::sync::LazyLock<Mind> = std::sync::LazyLock::new(|| Mind::new(ProspectTheory::default()));
+pub(super) static THEORY: std::sync::LazyLock<TabulatedTheory> =
+    std::sync::LazyLock::new(|| TabulatedTheory::new(ProspectTheory::default()));
 
 #[cfg(test)]
 mod tests {
@@ -214,7 +215,7 @@ mod tests {
         #[test]
         fn the_tables_agree_with_the_definition(stakes in stakes(), own in 0.05..0.95, other in 0.05..0.95) {
             let theory = ProspectTheory::default();
-            let (fast, slow) = (MIND.player(stakes).utility(own, other), theory.utility(&mut stakes.lottery(own, other)));
+            let (fast, slow) = (THEORY.player(stakes).utility(own, other), theory.utility(&mut stakes.lottery(own, other)));
             prop_assert!((fast - slow).abs() < 1e-7 * (1.0 + slow.abs()), "{fast} against {slow}");
         }
 
@@ -224,7 +225,7 @@ mod tests {
             let utility = |own: i32| {
                 theory.utility(&mut stakes.lottery(f64::from(own) / 100.0, f64::from(other) / 100.0))
             };
-            let found = utility(MIND.player(stakes).best_of(5..=95, other));
+            let found = utility(THEORY.player(stakes).best_of(5..=95, other));
             let best = (5..=95).map(utility).fold(f64::NEG_INFINITY, f64::max);
             prop_assert!(found >= best - 1e-9 * (1.0 + best.abs()), "{found} against {best}");
         }

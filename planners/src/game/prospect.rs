@@ -80,7 +80,7 @@ impl ProspectTheory {
     }
 }
 
-/// How much a cumulated probability weighs in the mind, `w` (eq. 8.6); 0 at 0 and 1 at 1.
+/// The decision weight of a cumulated probability, `w` (eq. 8.6); 0 at 0 and 1 at 1.
 pub fn weighting(probability: f64, exponent: f64) -> f64 {
     let p = probability.clamp(0.0, 1.0);
     let (this, that) = (libm::pow(p, exponent), libm::pow(1.0 - p, exponent));

@@ -84,7 +84,7 @@ pub(super) fn best_of(values: impl Iterator<Item = f64>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::game::payoff::{MIND, Mind, Stakes};
+    use crate::game::payoff::{Stakes, THEORY, TabulatedTheory};
     use crate::game::prospect::ProspectTheory;
     use proptest::prelude::*;
 
@@ -93,7 +93,7 @@ mod tests {
 
         #[test]
         fn nothing_on_a_finer_grid_is_better(turn in 0.05..19.0, accident in 0.5..5.0, other in 0.05..0.95) {
-            let player = MIND.player(Stakes { turn, accident });
+            let player = THEORY.player(Stakes { turn, accident });
             let best = player.utility(best_reply(&player, other), other);
             for own in (0..=9000).map(|i| LOWEST + f64::from(i) * 1e-4) {
                 prop_assert!(player.utility(own, other) <= best + 1e-9 * (1.0 + best.abs()), "{own}");
@@ -102,7 +102,7 @@ mod tests {
 
         #[test]
         fn the_grid_s_reply_is_the_best_one_in_its_cell(turn in 0.05..19.0, accident in 0.5..5.0, other in 0_usize..91) {
-            let player = MIND.player(Stakes { turn, accident });
+            let player = THEORY.player(Stakes { turn, accident });
             let (on_grid, exact) = (grid_reply(&player, other), best_reply(&player, intention(other)));
             let loss = player.utility(exact, intention(other)) - player.utility(intention(on_grid), intention(other));
             prop_assert!((0.0..1e-3 * (1.0 + turn)).contains(&loss), "{loss}");
@@ -113,9 +113,9 @@ mod tests {
     /// change where both bounds are worth the same: `(1 − o) 3x = o (M − x)`.
     #[test]
     fn undistorted_replies_change_where_the_other_makes_one_indifferent() {
-        let mind = Mind::new(ProspectTheory::EXPECTED);
+        let theory = TabulatedTheory::new(ProspectTheory::EXPECTED);
         for (turn, accident) in [(1.0, 2.0), (0.5, 3.0), (2.0, 4.0)] {
-            let player = mind.player(Stakes { turn, accident });
+            let player = theory.player(Stakes { turn, accident });
             let indifferent = 3.0 * turn / (2.0 * turn + accident);
             assert_eq!(best_reply(&player, indifferent - 0.01), HIGHEST);
             assert_eq!(best_reply(&player, indifferent + 0.01), LOWEST);

@@ -9,7 +9,7 @@ use crate::predict::Prediction;
 /// How the game is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum SolutionConcept {
     /// The ego leads and the other follows: the source's procedure (eq. 8.8, 8.9).
     #[default]
     LeaderFollower,
@@ -22,7 +22,7 @@ pub enum Method {
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
     /// How the game is solved.
-    pub solution: Method,
+    pub solution: SolutionConcept,
     /// What the accident costs, `M` of Table 8.2. Stakes are ratios of probabilities and reach 19: 2 or 3 on one road, 1 at an
     /// intersection; from 50 on both yield.
     #[schemars(range(min = 0.001), extend("x-unit" = "dimensionless"))]
@@ -80,7 +80,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Settings {
-            solution: Method::LeaderFollower,
+            solution: SolutionConcept::LeaderFollower,
             accident: 2.0,
             prospect: ProspectTheory::default(),
             safety_gap_m: 1.5,

@@ -1,4 +1,4 @@
-//! The safety filter: no step that a conservative driver could not answer for.
+//! The safety filter: the planner applies its first input only if a conservative plan still exists after it.
 //!
 //! The negotiated input is applied only if, from the state it leads to and with the others one step further along their
 //! predictions, a conservative plan still keeps its slack small. There is no guarantee if a prediction changes, so every

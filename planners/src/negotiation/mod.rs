@@ -3,7 +3,7 @@
 //! At every step the planner
 //!
 //! 1. makes a conservative plan (eq. 6.13), its retreat;
-//! 2. chooses whom to ask (`interlocutor`);
+//! 2. chooses whom to ask (`partner_selection`);
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`acceptance`], eq. 6.19);
 //! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
 //! 5. stays nearer to its last proposal than to its retreat, the more the better it was received (`persuasion`,
@@ -15,10 +15,11 @@ mod acceptance;
 mod concession;
 pub mod diagnostics;
 mod filter;
-mod interlocutor;
+mod partner_selection;
 mod persuasion;
 mod proposal;
 mod settings;
+mod state;
 
 pub use acceptance::acceptance;
 pub use concession::Concession;
@@ -31,44 +32,25 @@ use crate::solo::{Solved, extremes};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
-use crate::{Agent, Input, Plan, PlanError, Proposal, Scene, Trajectory};
+use crate::{Agent, Input, Plan, PlanError, Proposal, Scene};
 use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
-use interlocutor::Interlocutor;
+use partner_selection::PartnerSelection;
+use state::{NegotiationRound, NegotiationState};
 
-/// A negotiating planner with what it remembers of the talk.
+/// A negotiating planner with what it remembers.
 #[derive(Clone, Debug)]
 pub struct Negotiation {
     settings: Settings,
     retreat: Conservative,
     filter: Filter,
     optimiser: Optimiser<Robust>,
-    interlocutor: Interlocutor,
-    talk: Talk,
-}
-
-/// What was said so far to one vehicle; begun anew with the next one.
-#[derive(Clone, Debug, Default)]
-struct Talk {
-    concession: Concession,
-    last: Option<Round>,
-}
-
-/// One round of the talk.
-#[derive(Clone, Debug)]
-struct Round {
-    /// The ego's cooperative plan.
-    cooperative: Trajectory,
-    /// The ego's conservative plan.
-    conservative: Option<Trajectory>,
-    /// What was proposed to the other.
-    proposal: Trajectory,
-    /// What the other was expected to do.
-    prediction: Trajectory,
+    selection: PartnerSelection,
+    negotiation: NegotiationState,
 }
 
 impl Negotiation {
-    /// A planner that has not talked to anyone yet.
+    /// A planner that has not negotiated yet.
     pub fn new(settings: Settings) -> Self {
         let look_around_every = settings.look_around_every;
         Negotiation {
@@ -76,8 +58,8 @@ impl Negotiation {
             retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
             filter: Filter::default(),
             optimiser: optimiser(&settings),
-            interlocutor: Interlocutor::default(),
-            talk: Talk::default(),
+            selection: PartnerSelection::default(),
+            negotiation: NegotiationState::default(),
         }
     }
 
@@ -92,8 +74,8 @@ impl Negotiation {
         let Some(partner) = self.choose(scene, &mut events) else {
             return Ok(Plan { events, ..conservative::answer(&retreat?) });
         };
-        let accepted = self.listen(partner);
-        let persuasion = persuasion::constraint(&self.settings, self.talk.last.as_ref(), accepted);
+        let accepted = self.update_acceptance(partner);
+        let persuasion = persuasion::constraint(&self.settings, self.negotiation.last.as_ref(), accepted);
         let outcome = self.propose(scene, partner, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
@@ -103,19 +85,20 @@ impl Negotiation {
             }
         };
         self.remember(&optimum, &retreat, partner);
-        let mut plan = self.speak(&optimum, partner, accepted, persuasion.as_ref());
+        let mut plan = self.to_plan(&optimum, partner, accepted, persuasion.as_ref());
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         self.filter(scene, &retreat, &optimum, &mut plan);
         Ok(plan)
     }
 
+    /// Chooses the vehicle to negotiate with; notes a change as an event.
     fn choose<'a>(&mut self, scene: &'a Scene, events: &mut Vec<String>) -> Option<&'a Agent> {
-        let before = self.interlocutor.current().map(str::to_owned);
-        let partner = self.interlocutor.choose(scene, &self.settings);
+        let before = self.selection.current().map(str::to_owned);
+        let partner = self.selection.choose(scene, &self.settings);
         let now = partner.map(|partner| partner.name.clone());
         if before != now {
-            self.talk = Talk::default();
+            self.negotiation = NegotiationState::default();
             events.push(match &now {
                 Some(name) => format!("asks {name}"),
                 None => "nobody left to ask".to_owned(),
@@ -124,22 +107,23 @@ impl Negotiation {
         partner
     }
 
-    /// Acceptance of the last proposal, after which the ego concedes.
-    fn listen(&mut self, partner: &Agent) -> f64 {
+    /// How far the last proposal was accepted; the ego concedes accordingly. Before the first proposal it is 1.
+    fn update_acceptance(&mut self, partner: &Agent) -> f64 {
         let accepted = self
-            .talk
+            .negotiation
             .last
             .as_ref()
             .map(|round| acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted()));
         if let Some(accepted) = accepted {
-            self.talk.concession.concede(accepted, self.settings.beta, self.settings.weight_floor);
-            self.interlocutor.note(accepted, &self.settings);
+            self.negotiation.concession.concede(accepted, self.settings.beta, self.settings.weight_floor);
+            self.selection.record(accepted, &self.settings);
         }
         accepted.unwrap_or(1.0)
     }
 
+    /// The ego's plan and the proposal to the partner at their joint optimum.
     fn propose(&mut self, scene: &Scene, partner: &Agent, persuasion: Option<Persuasion>) -> Result<Solved, PlanError> {
-        let problem = problem(scene, partner, self.talk.concession.weight(), persuasion, &self.settings);
+        let problem = problem(scene, partner, self.negotiation.concession.weight(), persuasion, &self.settings);
         let keep = self.guess(&problem, partner);
         let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
         let every = self.settings.look_around_every;
@@ -148,19 +132,20 @@ impl Negotiation {
         Ok(Solved { problem, optimum, event: None })
     }
 
-    /// The last round one step later. The other may have changed its mind since: what was proposed before can be worse than
-    /// what it now does by itself, so the cheaper of the two begins.
+    /// The starting guess: the plans of the last round one step later. The other may plan differently by now, so that the last
+    /// proposal costs more than the other's new plan; the cheaper of the two is taken.
     fn guess(&self, problem: &Problem, partner: &Agent) -> Vec<Vec<Input>> {
         let own_way = partner.prediction.inputs.clone();
-        let Some(round) = &self.talk.last else { return vec![Vec::new(), own_way] };
+        let Some(round) = &self.negotiation.last else { return vec![Vec::new(), own_way] };
         let cooperative = round.cooperative.later_inputs();
         let proposed = vec![cooperative.clone(), round.proposal.later_inputs()];
         let unasked = vec![cooperative, own_way];
         if problem.cost_of(&proposed) <= problem.cost_of(&unasked) { proposed } else { unasked }
     }
 
+    /// Keeps what this round led to for the next one.
     fn remember(&mut self, optimum: &Optimum, retreat: &Result<Solved, PlanError>, partner: &Agent) {
-        self.talk.last = Some(Round {
+        self.negotiation.last = Some(NegotiationRound {
             cooperative: optimum.trajectory(0),
             conservative: retreat.as_ref().ok().map(|retreat| retreat.optimum.trajectory(0)),
             proposal: optimum.trajectory(1),
@@ -168,7 +153,8 @@ impl Negotiation {
         });
     }
 
-    fn speak(&self, optimum: &Optimum, partner: &Agent, accepted: f64, persuasion: Option<&Persuasion>) -> Plan {
+    /// The answer of the planner for an optimum of the negotiation problem.
+    fn to_plan(&self, optimum: &Optimum, partner: &Agent, accepted: f64, persuasion: Option<&Persuasion>) -> Plan {
         let trajectory = optimum.trajectory(0);
         let active = persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory));
         Plan {
@@ -180,7 +166,7 @@ impl Negotiation {
             }),
             diagnostics: vec![
                 ACCEPTANCE.is(accepted),
-                CONCESSION_WEIGHT.is(self.talk.concession.weight()),
+                CONCESSION_WEIGHT.is(self.negotiation.concession.weight()),
                 PERSUASION_STRENGTH.is(persuasion.map_or(0.0, |persuasion| persuasion.strength)),
                 PERSUASION_ACTIVE.is(f64::from(u8::from(active))),
                 COST.is(optimum.cost.total),

@@ -1,6 +1,7 @@
 //! Persuasion: a constraint that keeps the plan nearer to cooperation than to retreat (eq. 6.20-6.23).
 
-use super::{Round, Settings};
+use super::settings::Settings;
+use super::state::NegotiationRound;
 use crate::Trajectory;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::Persuasion;
@@ -12,7 +13,7 @@ const PENALTY: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
 
 /// The persuasion constraint `‖trj − con‖² ≥ α ‖trj − coop‖²`, `α = 1 + γ p_a` (eq. 6.23, corrected: as printed the right
 /// norm is not squared). It starts with the second round, and is left out where the two references nearly coincide.
-pub(super) fn constraint(settings: &Settings, last: Option<&Round>, accepted: f64) -> Option<Persuasion> {
+pub(super) fn constraint(settings: &Settings, last: Option<&NegotiationRound>, accepted: f64) -> Option<Persuasion> {
     let round = last.filter(|_| settings.persuasion)?;
     let conservative = round.conservative.as_ref()?.shifted();
     let cooperative = round.cooperative.shifted();

@@ -2,8 +2,8 @@
 //! numbers instead of named fields, so that hundreds of problems fit a small file.
 #![allow(dead_code, reason = "each binary uses its own part")]
 
-#[path = "minutes.rs"]
-mod minutes;
+#[path = "warm_start_record.rs"]
+mod warm_start_record;
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ use interplay_planners::vehicle::OrientedEllipse;
 use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, SafetyEllipse, State, negotiation};
 use serde::{Deserialize, Serialize};
 
-use minutes::Minutes;
+use warm_start_record::WarmStartRecord;
 
 /// The planners whose problems are recorded.
 pub const KINDS: [&str; 6] = ["human", "conservative", "negotiation", "bayesian", "game", "cooperative"];
@@ -49,7 +49,7 @@ pub struct Recorded {
     pub guess: Vec<Vec<[f64; 2]>>,
     /// What the plan of the step before leaves to this one, if there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub memory: Option<Minutes>,
+    pub memory: Option<WarmStartRecord>,
 }
 
 /// One deciding vehicle.
@@ -168,7 +168,7 @@ impl Recorded {
             leaning: find(problem, |term| if let Term::Persuasion(term) = term { Some(Lean::new(term)) } else { None })
                 .pop(),
             guess: guess.iter().map(|inputs| inputs.iter().map(|input| input.to_array()).collect()).collect(),
-            memory: Minutes::new(memory),
+            memory: WarmStartRecord::new(memory),
         }
     }
 
@@ -186,7 +186,7 @@ impl Recorded {
 
     /// The memory; empty if there is none.
     pub fn memory(&self) -> WarmStart {
-        self.memory.as_ref().map(|minutes| minutes.memory(self.horizon)).unwrap_or_default()
+        self.memory.as_ref().map(|record| record.warm_start(self.horizon)).unwrap_or_default()
     }
 
     /// The guess.

@@ -21,16 +21,14 @@ use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
 use super::iterative::rows;
 use super::optimum::{ConstraintTightening, margins_kw, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
+use super::regulator::{ControllerKind, Regulator};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
 use super::{ControlError, DayAhead, Design, Observation};
 use crate::comfort::Targets;
+use crate::discretise::Model;
 use crate::lifted::Lifted;
 use filter::FilterDesign;
 use youla::StateSpace;
-
-/// What to look for in a recording of a building with this controller.
-pub(super) const LOOK_FOR: &str = "after one day temperatures stay within the comfort band although the forecast is wrong: the feedback is shaped for \
-     what is uncertain";
 
 /// The concurrent design with its state.
 #[derive(Clone, Debug)]
@@ -92,6 +90,25 @@ impl Concurrent {
         };
         self.feedback = Some((targets.clone(), feedback.clone()));
         Ok(feedback)
+    }
+}
+
+impl ControllerKind for ConcurrentSettings {
+    fn kind(&self) -> &'static str {
+        "concurrent"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "after one day temperatures stay within the comfort band although the forecast is wrong: the feedback is designed for \
+         the uncertainty of the forecast"
+    }
+
+    fn plans(&self) -> bool {
+        true
+    }
+
+    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Concurrent::new(*self, Lifted::new(model, steps))?))
     }
 }
 

@@ -19,6 +19,7 @@ pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
 use super::disturbance_estimate::DisturbanceEstimator;
 use super::optimum::{ConstraintTightening, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
+use super::regulator::{ControllerKind, Regulator};
 use super::{ControlError, DayAhead, Design, Exchange, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
@@ -27,14 +28,6 @@ use agreement::{JointDay, Rules, ZoneModels};
 use cooperative::{Conditions, LearningLaw, cooperative_error};
 use messages::Messages;
 use settings::penalty;
-
-/// What to look for in a recording of a building whose zones plan together.
-pub(super) const LOOK_FOR: &str =
-    "zones that speak with their neighbours only come to a common plan round by round, and cool before people come";
-
-/// What to look for in a recording of a building with the centralised plan.
-pub(super) const LOOK_FOR_CENTRALISED: &str =
-    "one problem for the whole building: what zones that plan together approach";
 
 /// The largest number of inputs of a day for which the convergence conditions are computed each day.
 const MOST_FOR_CONDITIONS: usize = 200;
@@ -140,6 +133,24 @@ fn follow(history: &PlanHistory, gain_kw_per_k: f64, limits_kw: &[f64], observat
         .collect()
 }
 
+impl ControllerKind for DistributedSettings {
+    fn kind(&self) -> &'static str {
+        "distributed"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "zones that send messages to their neighbours only agree on a common plan round by round, and cool before people come"
+    }
+
+    fn plans(&self) -> bool {
+        true
+    }
+
+    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Distributed::new(*self, model, steps)?))
+    }
+}
+
 impl PlanningDesign for Distributed {
     fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory) {
         (&mut self.estimator, &mut self.history)
@@ -220,6 +231,24 @@ impl Centralised {
         settings.check()?;
         let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate);
         Ok(Self { settings, estimator, history: PlanHistory::default() })
+    }
+}
+
+impl ControllerKind for CentralisedSettings {
+    fn kind(&self) -> &'static str {
+        "centralised"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "one problem for the whole building, whose optimum the zones of the distributed design approach"
+    }
+
+    fn plans(&self) -> bool {
+        true
+    }
+
+    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Centralised::new(*self, Lifted::new(model, steps))?))
     }
 }
 

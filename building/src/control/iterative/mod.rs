@@ -28,17 +28,15 @@ pub use settings::{Chance, Coordination, ErrorGrowth, IterativeSettings, Objecti
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
 use super::optimum::{ConstraintTightening, ErrorBound, margins_kw, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
+use super::regulator::{ControllerKind, Regulator};
 use super::stability::{closed_loop, spectral_radius};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
 use super::{ControlError, DayAhead, Design, Observation};
 use crate::comfort::Targets;
+use crate::discretise::Model;
 use crate::lifted::Lifted;
 use joint::Joint;
 use projection::Projection;
-
-/// What to look for in a recording of a building with this controller.
-pub(super) const LOOK_FOR: &str = "after one day temperatures follow their plan; what is left is what nobody could foresee, answered by a feedback gain \
-     that is designed anew as the uncertainty becomes known";
 
 /// The largest number of inputs of a day for which the feedback is designed; its matrices have the square of that many entries.
 pub const MOST_UNKNOWNS: usize = 1200;
@@ -214,6 +212,25 @@ fn check_size(lifted: &Lifted) -> Result<(), ControlError> {
 /// A matrix by rows.
 pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+impl ControllerKind for IterativeSettings {
+    fn kind(&self) -> &'static str {
+        "iterative"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "after one day temperatures follow their plan; the feedback acts on forecast errors only, and its gain is designed \
+         again as their size becomes known"
+    }
+
+    fn plans(&self) -> bool {
+        true
+    }
+
+    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Iterative::new(*self, Lifted::new(model, steps))?))
+    }
 }
 
 impl PlanningDesign for Iterative {

@@ -1,4 +1,4 @@
-//! The problems of the planners that state all they decided on, rebuilt from their statements.
+//! The problems of those planners whose diagnostics say all that the problem depends on, rebuilt from the diagnostics.
 
 use interplay_planners::bayesian::diagnostics::{BELIEF_VARIANCE, LOYALTY};
 use interplay_planners::diagnostic::COST;
@@ -8,19 +8,19 @@ use interplay_planners::trajectory::{Iterate, Penalty, Problem};
 use interplay_planners::{Agent, Input, Plan, Trajectory, bayesian, cooperative, game};
 
 use crate::closed_loop::Decision;
-use crate::negotiation_view::Posed;
+use crate::negotiation_replay::Posed;
 use crate::{Result, cost_of_plan, stated};
 
-/// What has to be remembered of a run.
+/// What the problem of a step depends on and only earlier steps say.
 #[derive(Default)]
-pub struct Minutes {
+pub struct StatedProblems {
     /// Whom the ego interacts with.
     partner: Option<String>,
     /// Everybody's part of the last joint plan, by name.
     joint: Vec<(String, Trajectory)>,
 }
 
-impl Minutes {
+impl StatedProblems {
     /// The problem of the Bayesian planner while it persuades somebody.
     ///
     /// # Errors
@@ -35,7 +35,7 @@ impl Minutes {
             return Ok(None);
         }
         let (variance, w_1) = (stated(plan, &BELIEF_VARIANCE)?, stated(plan, &LOYALTY)?);
-        let belief = bayesian::Belief { variance, w_1, ..bayesian::Belief::initial(settings) };
+        let belief = bayesian::PersuasionBelief { variance, w_1, ..bayesian::PersuasionBelief::initial(settings) };
         let problem = bayesian::problem(scene, partner, &belief, settings);
         agrees(decision, cost_of_plan(&problem, plan))?;
         Ok(Some((problem, vec![keep(decision.last)])))

@@ -1,4 +1,4 @@
-//! The negotiation planner's problem, rebuilt from its scene and answer by keeping the same minutes of the talk.
+//! The negotiation planner's problem, rebuilt from its scenes and plans by repeating the negotiation.
 
 use interplay_planners::conservative::{self, Conservative};
 use interplay_planners::diagnostic::COST;
@@ -18,15 +18,15 @@ const PERSUASION: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
 /// A problem with the guess to start from.
 pub type Posed = (Problem, Vec<Vec<Input>>);
 
-/// The minutes of a negotiation, and planners that repeat what the observed one does unseen.
-pub struct NegotiationView {
+/// The state of a negotiation, and planners that repeat what the observed one does unseen.
+pub struct NegotiationReplay {
     settings: Settings,
     retreat: Conservative,
     optimiser: Optimiser<Robust>,
-    talk: Option<Talk>,
+    state: Option<NegotiationState>,
 }
 
-struct Talk {
+struct NegotiationState {
     partner: String,
     concession: Concession,
     last: Option<Round>,
@@ -39,15 +39,15 @@ struct Round {
     prediction: Trajectory,
 }
 
-impl NegotiationView {
-    /// The view of a planner that has not talked yet.
+impl NegotiationReplay {
+    /// The view of a planner that has not negotiated yet.
     pub fn new(settings: Settings) -> Self {
         let look_around_every = settings.look_around_every;
-        NegotiationView {
+        NegotiationReplay {
             settings,
             retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
             optimiser: negotiation::optimiser(&settings),
-            talk: None,
+            state: None,
         }
     }
 
@@ -59,21 +59,19 @@ impl NegotiationView {
         let conservative = self.retreat.plan(scene)?.trajectory;
         let asked = plan.proposal.as_ref().map(|proposal| proposal.to.as_str());
         let Some(partner) = scene.others.iter().find(|other| Some(other.name.as_str()) == asked) else {
-            self.talk = None;
+            self.state = None;
             return Ok(None);
         };
-        let mut talk = self.talk.take().filter(|talk| talk.partner == partner.name).unwrap_or_else(|| Talk {
-            partner: partner.name.clone(),
-            concession: Concession::default(),
-            last: None,
+        let mut state = self.state.take().filter(|state| state.partner == partner.name).unwrap_or_else(|| {
+            NegotiationState { partner: partner.name.clone(), concession: Concession::default(), last: None }
         });
-        let accepted = listen(&mut talk, partner, &self.settings);
-        let leaning = talk.last.as_ref().and_then(|round| leaning(round, 1.0 + self.settings.gamma * accepted));
-        let weight = talk.concession.weight();
+        let accepted = update_acceptance(&mut state, partner, &self.settings);
+        let leaning = state.last.as_ref().and_then(|round| leaning(round, 1.0 + self.settings.gamma * accepted));
+        let weight = state.concession.weight();
         let problem = negotiation::problem(scene, partner, weight, leaning, &self.settings);
         let own_way = partner.prediction.inputs.clone();
         let mut keep = vec![Vec::new(), own_way.clone()];
-        if let Some(round) = &talk.last {
+        if let Some(round) = &state.last {
             let cooperative = round.cooperative.later_inputs();
             keep = vec![cooperative.clone(), round.proposal.later_inputs()];
             let unasked = vec![cooperative, own_way];
@@ -89,22 +87,22 @@ impl NegotiationView {
         if optimum.cost.total != stated(plan, &COST)? {
             return Err(format!("tick {}: the rebuilt negotiation costs {}", scene.tick, optimum.cost.total).into());
         }
-        talk.last = Some(Round {
+        state.last = Some(Round {
             cooperative: optimum.trajectory(0),
             conservative,
             proposal: optimum.trajectory(1),
             prediction: partner.prediction.clone(),
         });
-        self.talk = Some(talk);
+        self.state = Some(state);
         Ok(Some((problem, keep)))
     }
 }
 
 /// The acceptance of the last proposal; concedes accordingly.
-fn listen(talk: &mut Talk, partner: &Agent, settings: &Settings) -> f64 {
-    let Some(round) = &talk.last else { return 1.0 };
+fn update_acceptance(state: &mut NegotiationState, partner: &Agent, settings: &Settings) -> f64 {
+    let Some(round) = &state.last else { return 1.0 };
     let accepted = acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted());
-    talk.concession.concede(accepted, settings.beta, settings.weight_floor);
+    state.concession.concede(accepted, settings.beta, settings.weight_floor);
     accepted
 }
 

@@ -1,30 +1,30 @@
-//! Whom to ask.
+//! Which vehicle the ego negotiates with.
 //!
 //! The source asks the front vehicle first and the rear one when the acceptance probability has not risen by more than
 //! `ε` five times in a row (section 6.5). That also happens at steady acceptance, so a low probability is required too. A
 //! vehicle with which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has
 //! crossed, or that the ego has crossed before.
 
-use super::Settings;
+use super::settings::Settings;
 use crate::encounter::is_settled;
 use crate::{Agent, Scene};
 
 /// An acceptance below this counts as a refusal.
 const REFUSAL: f64 = 0.5;
 
-/// The order of asking, and how patient the ego still is.
+/// The order in which vehicles are asked, and how long the present one has not accepted.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Interlocutor {
+pub(super) struct PartnerSelection {
     /// Names from the front of the road to its rear; fixed at the first step.
     order: Vec<String>,
-    /// Who was refused by, and is no longer asked.
+    /// Vehicles that refused for too long and are no longer asked.
     refused: Vec<String>,
     current: Option<String>,
     last_acceptance: Option<f64>,
-    fruitless_steps: usize,
+    steps_without_progress: usize,
 }
 
-impl Interlocutor {
+impl PartnerSelection {
     pub(super) fn current(&self) -> Option<&str> {
         self.current.as_deref()
     }
@@ -48,18 +48,18 @@ impl Interlocutor {
         if name != self.current {
             self.current = name;
             self.last_acceptance = None;
-            self.fruitless_steps = 0;
+            self.steps_without_progress = 0;
         }
         chosen
     }
 
-    /// Takes note of the latest acceptance; after too many fruitless steps the present vehicle is not asked again.
-    pub(super) fn note(&mut self, accepted: f64, settings: &Settings) {
-        let fruitless =
+    /// Records the latest acceptance. After too many steps without progress the present vehicle is not asked again.
+    pub(super) fn record(&mut self, accepted: f64, settings: &Settings) {
+        let no_progress =
             accepted < REFUSAL && self.last_acceptance.is_some_and(|last| accepted - last <= settings.epsilon);
-        self.fruitless_steps = if fruitless { self.fruitless_steps + 1 } else { 0 };
+        self.steps_without_progress = if no_progress { self.steps_without_progress + 1 } else { 0 };
         self.last_acceptance = Some(accepted);
-        if self.fruitless_steps >= settings.patience_steps {
+        if self.steps_without_progress >= settings.patience_steps {
             self.refused.extend(self.current.clone().filter(|name| !self.refused.contains(name)));
         }
     }

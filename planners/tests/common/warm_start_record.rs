@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A [`WarmStart`], rounded to six digits: multipliers as pairs of index and value, those that hardly differ from zero left out.
 #[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Minutes {
+pub struct WarmStartRecord {
     /// Per vehicle, of the bounds.
     pub bounds: Vec<Vec<(usize, f64)>>,
     /// Per block, of the rows.
@@ -16,15 +16,15 @@ pub struct Minutes {
     pub reach: Option<[f64; 6]>,
 }
 
-impl Minutes {
-    /// What is worth keeping of a memory; nothing if it is empty.
+impl WarmStartRecord {
+    /// The part of a warm start that is recorded; `None` if it is empty.
     pub fn new(of: &WarmStart) -> Option<Self> {
         let sparse = |values: &[f64]| {
             let kept = values.iter().enumerate().filter(|(_, value)| **value > 1e-6);
             kept.map(|(index, value)| (index, rounded(*value))).collect()
         };
         let bounds = of.multipliers.bound_multipliers.iter();
-        (!of.multipliers.inputs.is_empty()).then(|| Minutes {
+        (!of.multipliers.inputs.is_empty()).then(|| WarmStartRecord {
             bounds: bounds.map(|bounds| sparse(bounds.as_flattened().as_flattened())).collect(),
             rows: of.multipliers.row_multipliers.iter().map(|rows| sparse(rows)).collect(),
             trajectories: of.multipliers.trajectory_multipliers.iter().copied().map(rounded).collect(),
@@ -32,8 +32,8 @@ impl Minutes {
         })
     }
 
-    /// The memory, for a problem of `horizon` steps.
-    pub fn memory(&self, horizon: usize) -> WarmStart {
+    /// The warm start for a problem of `horizon` steps.
+    pub fn warm_start(&self, horizon: usize) -> WarmStart {
         let fill = |values: &mut [f64], sparse: &[(usize, f64)]| {
             for (index, value) in sparse {
                 values[*index] = *value;
