@@ -225,3 +225,29 @@ fn every_room_takes_the_lints_of_the_workspace() {
         assert_eq!(manifest["lints"]["workspace"].as_bool(), Some(true), "{member}");
     }
 }
+
+/// What is recorded, reported and measured of planners and controllers they declare themselves: none of their words stands in
+/// the code that shows it. Comments and tests may name them.
+#[test]
+fn recorder_report_and_measures_name_no_planner_and_no_controller() {
+    let kinds = ["negotiation", "bayesian", "game", "cooperative", "conservative", "idm", "scripted", "acceptance"];
+    let controllers = ["pid", "thermostat", "clairvoyant", "iterative", "concurrent", "distributed", "centralised"];
+    let folders = [
+        "app/presentation/src/record",
+        "app/presentation/src/report",
+        "app/simulation/src/report",
+        "app/simulation/src/measure",
+    ];
+    for file in folders.iter().flat_map(|folder| rust_files(&root().join(folder))) {
+        let text = read(&file);
+        let shown = text.split("#[cfg(test)]").next().unwrap_or_default();
+        if file.ends_with("tests.rs") {
+            continue;
+        }
+        for line in shown.lines().filter(|line| !line.trim_start().starts_with("//")) {
+            for word in kinds.iter().chain(&controllers) {
+                assert!(!line.contains(&format!("\"{word}")), "{} names {word}: {line}", file.display());
+            }
+        }
+    }
+}

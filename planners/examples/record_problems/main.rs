@@ -71,7 +71,8 @@ fn main() -> Result<()> {
                     Driver::Bayesian(settings) => stated.bayesian(decision, settings)?,
                     Driver::Game(settings) => stated.game(decision, settings)?,
                     Driver::Cooperative(settings) => stated.cooperative(decision, settings)?,
-                    Driver::Idm(_) | Driver::Scripted(_) => None,
+                    // The problems of other planners are not recorded.
+                    _ => None,
                 };
                 let kind = KINDS.iter().position(|kind| *kind == decision.driver.kind()).ok_or("a new kind")?;
                 let (tick, name) = (decision.scene.tick, &decision.scene.ego.name);
