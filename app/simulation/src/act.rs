@@ -1,6 +1,6 @@
 //! Act: the first input of each plan is applied, within the vehicle's limits.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 
 use crate::components::{Identity, Motion, Present, Sensed};
 

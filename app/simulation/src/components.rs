@@ -1,6 +1,6 @@
 //! What the entities carry: components of vehicles, and the resources of a world.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Corridor, Goal, Input, Limits, Planner, State};
 

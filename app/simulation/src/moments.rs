@@ -1,6 +1,6 @@
 //! Moments: vehicles and building have a clock each, and the loop runs whenever one of them strikes.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_scenarios::Scenario;
 
 use crate::components::to_nanosecond;

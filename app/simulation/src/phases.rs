@@ -1,7 +1,7 @@
 //! The loop as one visible list.
 
-use bevy::ecs::prelude::*;
-use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 
 use crate::{act, climate, measure, moments, physics, plan, predict, sense, watch};
 

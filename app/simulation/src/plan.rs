@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_planners::traffic::{Decision, Origin};
 
 use crate::components::{Committed, Driving, Identity, Present, Sensed};

@@ -1,6 +1,6 @@
 //! Predict: what everybody is expected to do.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 
 use crate::components::Sensed;
 

@@ -1,6 +1,6 @@
 //! Sense: components become plain values, in the scenario's order.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
 

@@ -1,6 +1,6 @@
 //! From a scenario to entities.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 
 use crate::components::Present;
 use crate::frame::Frame;

@@ -12,9 +12,10 @@ mod panels;
 pub mod style;
 mod table;
 
+use std::fs::{self, File};
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-use std::{fs, io};
 
 use plotters::coord::Shift;
 use plotters::drawing::DrawingAreaErrorKind;
@@ -105,12 +106,31 @@ fn save(folder: &Path, name: &str, figure: &impl Figure) -> Result<[PathBuf; 2],
     let [vector, raster] = ["svg", "png"].map(|ending| folder.join(format!("{name}.{ending}")));
     let unwritable = |reason| PlotError::Unwritable { folder: folder.to_owned(), reason };
     fs::write(&vector, svg(name, figure)?).map_err(unwritable)?;
+    let pixels = pixels(name, figure)?;
+    write_png(&raster, figure.size(), &pixels).map_err(|error| unwritable(io::Error::other(error)))?;
+    Ok([vector, raster])
+}
+
+/// The figure as red, green and blue bytes, row by row from the top.
+fn pixels(name: &str, figure: &impl Figure) -> Result<Vec<u8>, PlotError> {
+    let failed = |reason: String| PlotError::Drawing { name: name.to_owned(), reason };
+    let (width, height) = figure.size();
+    let mut pixels = vec![0; 3 * width as usize * height as usize];
     {
-        let failed = |reason: String| PlotError::Drawing { name: name.to_owned(), reason };
-        let area = BitMapBackend::new(&raster, figure.size()).into_drawing_area();
+        let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
         figure.draw(&area).and_then(|()| area.present()).map_err(|error| failed(error.to_string()))?;
     }
-    Ok([vector, raster])
+    Ok(pixels)
+}
+
+/// Writes pixels as PNG. Plotters could, too, with a second version of the image library that Rerun has.
+fn write_png(path: &Path, (width, height): (u32, u32), pixels: &[u8]) -> Result<(), png::EncodingError> {
+    let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()
 }
 
 impl Drawing {

@@ -1,6 +1,6 @@
 //! Balance: heat flows, and the temperatures move on by a step.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_building::day::Heat;
 
 use super::{Building, Equipment, Gains, Node, Temperature};

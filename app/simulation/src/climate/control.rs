@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_building::control::ControlError;
 use interplay_building::day::{Day, Heat};
 

@@ -1,6 +1,6 @@
 //! Disturb: what the weather and the people do, and what was expected of them.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_building::day::Day;
 
 use super::{Building, Gains, Node, Temperature};

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 
 use super::Building;
 

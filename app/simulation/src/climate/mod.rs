@@ -13,7 +13,7 @@ mod disturbance;
 mod learn;
 mod spawn;
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_building::comfort::Targets;
 use interplay_building::control::{ControlError, Regulator};
 use interplay_building::day::{Day, Surroundings};

@@ -1,6 +1,6 @@
 //! From a scenario to zones.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_building::comfort::SetpointsError;
 use interplay_building::control::{ControlError, Disturbance};
 use interplay_building::day::{Day, Surroundings};

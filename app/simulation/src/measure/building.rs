@@ -1,6 +1,6 @@
 //! How a building does, day by day.
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_building::comfort::Targets;
 use interplay_building::control::{Controller, DayRecord, optimum};
 use interplay_building::day::KeyFigures;

@@ -9,7 +9,7 @@ mod milestones;
 mod planning;
 mod speed;
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_planners::State;
 use interplay_scenarios::Scenario;
 

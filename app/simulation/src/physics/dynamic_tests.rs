@@ -1,6 +1,6 @@
 //! What tyres and actuators do, against closed forms.
 
-use bevy::ecs::system::RunSystemOnce;
+use bevy_ecs::system::RunSystemOnce;
 use interplay_planners::{Input, State};
 use interplay_scenarios::{Dynamic, Plant, Scenario, from_text};
 

@@ -20,7 +20,7 @@ mod path;
 mod tests;
 mod tyres;
 
-use bevy::ecs::prelude::*;
+use bevy_ecs::prelude::*;
 use interplay_planners::{Body, State};
 use interplay_scenarios::{Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};

@@ -1,6 +1,6 @@
 //! Contacts in closed form: every one is found, at its time, however fast; and none where nobody touches.
 
-use bevy::ecs::system::RunSystemOnce;
+use bevy_ecs::system::RunSystemOnce;
 use interplay_planners::{Body, State};
 use interplay_scenarios::from_text;
 
