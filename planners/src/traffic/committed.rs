@@ -1,8 +1,7 @@
 //! What a vehicle has committed itself to: what the others expect of it, and what it does when its planner fails.
 
-use super::rolled_out;
 use crate::predict::{constant_velocity, steady};
-use crate::{Scene, State, Trajectory};
+use crate::{Input, Scene, State, Trajectory};
 
 /// The plan that a vehicle follows since its last decision.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,4 +73,11 @@ fn braking(scene: &Scene) -> Trajectory {
     let limits = &scene.ego.limits;
     let brake = limits.acceleration_min_mps2;
     rolled_out(scene, steady(&scene.ego.state, brake, limits, scene.horizon, scene.step_s))
+}
+
+/// Where inputs lead the planning vehicle of a scene.
+pub(super) fn rolled_out(scene: &Scene, inputs: Vec<Input>) -> Trajectory {
+    let mut states = Vec::new();
+    scene.model().roll_out(&scene.ego.state, &inputs, &mut states);
+    Trajectory { states, inputs }
 }

@@ -28,7 +28,7 @@ mod tests;
 pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
 
-use crate::{Agent, Bicycle, Goal, Input, Plan, PlanError, Scene, Trajectory};
+use crate::{Agent, Bicycle, Goal, Input, Plan, PlanError, Scene};
 
 /// Everybody on the road at the start of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -154,11 +154,4 @@ impl Traffic {
         }
         self.tick += 1;
     }
-}
-
-/// Where inputs lead the planning vehicle of a scene.
-fn rolled_out(scene: &Scene, inputs: Vec<Input>) -> Trajectory {
-    let mut states = Vec::new();
-    scene.model().roll_out(&scene.ego.state, &inputs, &mut states);
-    Trajectory { states, inputs }
 }
