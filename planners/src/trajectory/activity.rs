@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, STEPS_AT_EDGE, STEPS_AT_ELLIPSE, STEPS_AT_IN
 use crate::vehicle::PoseExpansion;
 
 /// A bound that is closer than this is active (in the unit of what it bounds; `d²` for ellipses).
-const TOUCHING: f64 = 1e-4;
+const ACTIVE_DISTANCE: f64 = 1e-4;
 
 /// Numbers of steps at which constraints of one vehicle are active.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,7 +63,7 @@ fn touches(problem: &Problem, iterate: &Iterate, vehicle: usize, stage: usize, k
             let mut expansions = [PoseExpansion::default(); MAX_ROWS_PER_STAGE];
             let expansions = &mut expansions[..rows.rows_per_stage()];
             rows.expand(stage, iterate, expansions);
-            expansions.iter().any(|row| row.value < TOUCHING)
+            expansions.iter().any(|row| row.value < ACTIVE_DISTANCE)
         }
         _ => false,
     })
@@ -76,5 +76,5 @@ fn is_at_input_bound(own: &Participant, iterate: &Iterate, participant: usize, s
 }
 
 fn is_at_bound(value: f64, low: f64, high: f64) -> bool {
-    value < low + TOUCHING || value > high - TOUCHING
+    value < low + ACTIVE_DISTANCE || value > high - ACTIVE_DISTANCE
 }

@@ -8,18 +8,18 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{Reach, StageSolution, StageSolver};
 
-/// Damping begins with this, in units of the comfort weights.
+/// Smallest damping that is tried, in units of the comfort weights.
 const MIN_DAMPING: f64 = 1.0;
-/// Where even this damping gains nothing, nothing does.
+/// Largest damping that is tried.
 const MAX_DAMPING: f64 = 1e6;
-/// A smaller share of a step calls for damping.
+/// A step of which a smaller share was taken is followed by a damped one.
 const MIN_UNDAMPED_SHARE: f64 = 0.1;
 /// Tolerance of the very last step problem where rows on the verge of being active need it: such a row has slack and
 /// multiplier of about its root.
 const POLISH_TOLERANCE: f64 = 1e-14;
 /// A KKT residual above this is worth polishing.
 const POLISHED_RESIDUAL: f64 = 1e-6;
-/// An exploration may still gain so many times what a step promises.
+/// An exploration goes on while this multiple of what a step promises would lead below the cost to beat.
 const MAX_GAIN_PER_PROMISE: f64 = 10.0;
 
 /// A descent and the memory that it needs; nothing is allocated once it has its size.

@@ -27,11 +27,11 @@ use crate::vehicle::OrientedEllipse;
 
 /// A multiplier above this makes a row active.
 const ACTIVE_MULTIPLIER: f64 = 1e-6;
-/// A promise counts if it is below so many times the optimum at hand: tangents make it too dear.
+/// A promised cost is followed if it is below this multiple of the optimum at hand; tangents make the promise too dear.
 const MAX_PROMISED_COST_RATIO: f64 = 1.01;
-/// Above so many times it the other side is out of reach.
+/// Above this multiple of the optimum at hand the other side is treated as out of reach.
 const UNREACHABLE_COST_RATIO: f64 = 2.0;
-/// For how many plans a side that was out of reach is not looked at.
+/// Number of plans for which a side that was out of reach is not examined.
 const PLANS_WITHOUT_LOOK: usize = 4;
 
 /// The cheapest of an optimum, whose descent is the last that was kept, and those on the other side of each ellipse that it

@@ -15,7 +15,7 @@ use crate::State;
 use crate::trajectory::stage::StateCost;
 
 /// Smooths the tip of the cone at `d = 0`, `ε`.
-const TIP: f64 = 1e-4;
+const CONE_SMOOTHING: f64 = 1e-4;
 
 /// The cost of a trajectory's distances from a moving centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +89,7 @@ impl DistanceCost {
         let [xx, xy, yy] = self.metric;
         let (dx, dy) = (position[0] - self.centres[k][0], position[1] - self.centres[k][1]);
         let (mx, my) = (xx * dx + xy * dy, xy * dx + yy * dy);
-        let omega = (dx * mx + dy * my + TIP * TIP).sqrt();
+        let omega = (dx * mx + dy * my + CONE_SMOOTHING * CONE_SMOOTHING).sqrt();
         (omega, [mx / omega, my / omega])
     }
 

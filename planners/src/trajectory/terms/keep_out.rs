@@ -10,7 +10,7 @@ use crate::trajectory::penalty::Penalty;
 use crate::vehicle::{OrientedEllipse, PoseExpansion};
 
 /// Rows of this value and more (`d² ≥ 25`) are left out of step problems.
-pub(super) const FAR: f64 = 24.0;
+pub(super) const FAR_VALUE: f64 = 24.0;
 
 /// A moving ellipse.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +60,7 @@ impl RowTerm for KeepOut {
     }
 
     fn far_value(&self) -> f64 {
-        FAR
+        FAR_VALUE
     }
 
     fn ellipse(&self) -> Option<&OrientedEllipse> {

@@ -1,6 +1,6 @@
 //! Two deciding vehicles keep apart: the first stays outside an ellipse around the second, `d² − 1 + s ≥ 0` at `t = 1…N`.
 
-use super::keep_out::{FAR, expand, violation};
+use super::keep_out::{FAR_VALUE, expand, violation};
 use super::shape::{RowTerm, Subject};
 use crate::trajectory::cost::Violation;
 use crate::trajectory::iterate::Iterate;
@@ -34,7 +34,7 @@ impl RowTerm for Separation {
     }
 
     fn far_value(&self) -> f64 {
-        FAR
+        FAR_VALUE
     }
 
     fn ellipse(&self) -> Option<&OrientedEllipse> {

@@ -30,7 +30,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 }
             }
         }
-        let multipliers = &self.columns.multiplier[self.columns.len() - self.along.len()..];
+        let multipliers = &self.columns.multiplier[self.columns.len() - self.trajectory_rows.len()..];
         for (row, multiplier) in qp.trajectory_rows.iter().zip(multipliers) {
             for (k, beta) in row.bends.iter().enumerate() {
                 let pose = &mut self.hessians[k * Self::VEHICLES + row.vehicle].pose;
@@ -51,7 +51,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 let cost = &stages.state_costs[k];
                 let ([xx, xy, yy], [.., heading, speed]) = (cost.position_hessian(), cost.hessian);
                 let pose = [xx, xy, 0.0, yy, 0.0, heading];
-                let input = [0, 1].map(|axis| stages.damping(qp.damping, axis) + self.firmness);
+                let input = [0, 1].map(|axis| stages.damping(qp.damping, axis) + self.input_regularization);
                 self.smooth_hessians.push(VehicleHessian { pose, speed, input });
             }
         }
@@ -120,8 +120,8 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         for (row, pull) in self.inequalities.rows.iter().zip(row_pulls) {
             row.pull(-pull, &mut self.gradient.states);
         }
-        for (along, pull) in self.along.iter().zip(&row_pulls[self.inequalities.rows.len()..]) {
-            along.pull(*pull, &mut self.gradient, Self::VEHICLES);
+        for (expanded, pull) in self.trajectory_rows.iter().zip(&row_pulls[self.inequalities.rows.len()..]) {
+            expanded.pull(*pull, &mut self.gradient, Self::VEHICLES);
         }
     }
 

@@ -83,7 +83,7 @@ pub(super) struct Prospect {
 }
 
 /// Independent running sums, so that the processor need not wait for one addition to begin the next.
-const LANES: usize = 4;
+const RUNNING_SUMS: usize = 4;
 
 impl Prospect {
     fn and(self, other: Prospect) -> Prospect {
@@ -258,15 +258,15 @@ impl Columns {
 
     /// What the step would do to slacks and multipliers.
     fn prospect(&self) -> Prospect {
-        let (slack, slack_rest) = self.slack.as_chunks::<LANES>();
-        let (slack_step, slack_step_rest) = self.slack_step.as_chunks::<LANES>();
-        let (inverse, inverse_rest) = self.inverse_slack.as_chunks::<LANES>();
-        let (multiplier, multiplier_rest) = self.multiplier.as_chunks::<LANES>();
-        let (multiplier_step, multiplier_step_rest) = self.multiplier_step.as_chunks::<LANES>();
-        let (mut linear, mut quadratic, mut ratio) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (slack, slack_rest) = self.slack.as_chunks::<RUNNING_SUMS>();
+        let (slack_step, slack_step_rest) = self.slack_step.as_chunks::<RUNNING_SUMS>();
+        let (inverse, inverse_rest) = self.inverse_slack.as_chunks::<RUNNING_SUMS>();
+        let (multiplier, multiplier_rest) = self.multiplier.as_chunks::<RUNNING_SUMS>();
+        let (multiplier_step, multiplier_step_rest) = self.multiplier_step.as_chunks::<RUNNING_SUMS>();
+        let (mut linear, mut quadratic, mut ratio) = ([0.0; RUNNING_SUMS], [0.0; RUNNING_SUMS], [0.0; RUNNING_SUMS]);
         let whole = slack.iter().zip(slack_step).zip(inverse).zip(multiplier.iter().zip(multiplier_step));
         for (((s, ds), inverse), (m, dm)) in whole {
-            for i in 0..LANES {
+            for i in 0..RUNNING_SUMS {
                 linear[i] += s[i] * dm[i] + m[i] * ds[i];
                 quadratic[i] += ds[i] * dm[i];
                 ratio[i] = larger(larger(-ds[i] * inverse[i], -dm[i] / m[i]), ratio[i]);
@@ -278,7 +278,7 @@ impl Columns {
             quadratic[0] += ds * dm;
             ratio[0] = larger(larger(-ds * inverse, -dm / m), ratio[0]);
         }
-        let sum = |lanes: [f64; LANES]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+        let sum = |lanes: [f64; RUNNING_SUMS]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
         Prospect { ratio: ratio.into_iter().fold(0.0, larger), linear: sum(linear), quadratic: sum(quadratic) }
     }
 

@@ -1,28 +1,28 @@
 //! The interior-point iteration (see the parent module for the equations).
 
-use super::along::Along;
 use super::columns::{Columns, Start, larger};
 use super::riccati::{PairHessian, Riccati, VehicleHessian};
 use super::rows::{Inequalities, Point};
+use super::trajectory_row::ExpandedTrajectoryRow;
 use crate::trajectory::stage::qp::{Hessian, Reach, StageQp};
 use crate::trajectory::stage::solution::StageSolution;
 use crate::trajectory::stage::solver::{StageError, StageSolver};
 
 /// Tolerance on the dual residual as a share of its start, per tolerance on everything else.
-const DUAL_TOLERANCE: f64 = 1e-3;
-/// What is accepted where rounding stops the iteration before that.
-const ACCEPTED: f64 = 1e-7;
-/// Below this complementarity the factorisation has lost digits that matter.
-const REFINED_BELOW: f64 = 1e-4;
-/// Complementarity is not aimed below this share of the tolerance.
-const CENTRED: f64 = 1e-2;
-/// See [`Interior::firmness`].
-const FIRM: f64 = 1e-3;
-/// A derivative of the Lagrangian below this is zero but for rounding …
-const STATIONARY: f64 = 1e-8;
-/// … and what so many steps do not improve is left as it is.
-const POLISHES: usize = 2;
-/// Most iterations.
+const DUAL_TOLERANCE_RATIO: f64 = 1e-3;
+/// Largest residual that is accepted where rounding stops the iteration above the tolerance.
+const ACCEPTED_RESIDUAL: f64 = 1e-7;
+/// Below this mean complementarity Newton steps are refined: the factorisation has lost digits that matter.
+const REFINEMENT_COMPLEMENTARITY: f64 = 1e-4;
+/// The iteration does not aim at a complementarity below this share of the tolerance.
+const MIN_CENTRING_RATIO: f64 = 1e-2;
+/// Weight on the inputs where the Hessian is singular but for rounding ([`Interior::input_regularization`]).
+const INPUT_REGULARIZATION: f64 = 1e-3;
+/// A derivative of the Lagrangian over the inputs below this is treated as zero.
+const STATIONARITY_TOLERANCE: f64 = 1e-8;
+/// After so many steps that bring the derivative no nearer to zero the iteration ends as it is.
+const MAX_STEPS_WITHOUT_GAIN: usize = 2;
+/// Largest number of iterations.
 const ITERATION_LIMIT: usize = 50;
 /// A multiplier beyond this with a row still violated means that the rows contradict each other.
 const INFEASIBLE_MULTIPLIER: f64 = 1e9;
@@ -67,7 +67,7 @@ pub(super) struct Interior<const W: usize, const Z: usize> {
     pub(super) smooth_hessians: Vec<VehicleHessian>,
     pub(super) smooth_pairs: Vec<PairHessian>,
     /// Added to the Hessian over the inputs where it is singular but for rounding; steps are then a little short.
-    pub(super) firmness: f64,
+    pub(super) input_regularization: f64,
     /// Where the iteration stands.
     pub(super) point: Point,
     /// Its next step.
@@ -79,7 +79,7 @@ pub(super) struct Interior<const W: usize, const Z: usize> {
     /// The same with the rows' pull.
     pub(super) gradient: Point,
     /// The rows over whole trajectories at the point.
-    pub(super) along: Vec<Along>,
+    pub(super) trajectory_rows: Vec<ExpandedTrajectoryRow>,
 }
 
 impl<const W: usize, const Z: usize> Interior<W, Z> {
@@ -98,9 +98,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
         }
         if matches!(outcome, Err(StageError::Unsolved { .. })) && qp.hessian == Hessian::GaussNewton {
-            self.firmness = FIRM;
+            self.input_regularization = INPUT_REGULARIZATION;
             outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
-            self.firmness = 0.0;
+            self.input_regularization = 0.0;
         }
         solution.iterations = iterations;
         outcome?;
@@ -137,8 +137,8 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         let rows = self.inequalities.bounds.len() + self.inequalities.rows.len() + qp.trajectory_rows.len();
         let hard = rows - self.inequalities.weights.len();
         self.columns.shape(hard, self.inequalities.weights.iter().copied());
-        self.along.resize_with(qp.trajectory_rows.len(), Along::default);
-        self.along.iter_mut().zip(&qp.trajectory_rows).for_each(|(along, row)| along.shape_like(row));
+        self.trajectory_rows.resize_with(qp.trajectory_rows.len(), ExpandedTrajectoryRow::default);
+        self.trajectory_rows.iter_mut().zip(&qp.trajectory_rows).for_each(|(expanded, row)| expanded.shape_like(row));
         self.point.clear(qp.horizon * Self::VEHICLES);
         self.fill_smooth_hessians(qp);
         self.refresh_values(qp);
@@ -152,9 +152,12 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         let (mut dual_share, mut polished) = (1.0, 0);
         for _ in 0..ITERATION_LIMIT {
             let (complementarity, primal) = self.columns.measure();
-            if complementarity < qp.tolerance && primal < qp.tolerance && dual_share < DUAL_TOLERANCE * qp.tolerance {
+            if complementarity < qp.tolerance
+                && primal < qp.tolerance
+                && dual_share < DUAL_TOLERANCE_RATIO * qp.tolerance
+            {
                 // Multipliers come out of large weights with few digits; a step that is next to nothing cleans them.
-                if polished == POLISHES || self.stationarity(qp) < STATIONARY {
+                if polished == MAX_STEPS_WITHOUT_GAIN || self.stationarity(qp) < STATIONARITY_TOLERANCE {
                     return Ok(());
                 }
                 polished += 1;
@@ -182,9 +185,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             let left = complementarity + share * (affine.linear + share * affine.quadratic) / count;
             // Without any inequality there is nothing to centre; beyond the tolerance there is nothing to gain but rounding.
             let centring = if complementarity > 0.0 { (left / complementarity).powi(3) * complementarity } else { 0.0 };
-            let centring = larger(centring, CENTRED * qp.tolerance);
+            let centring = larger(centring, MIN_CENTRING_RATIO * qp.tolerance);
             self.columns.aim(centring, true);
-            self.newton(qp, complementarity < REFINED_BELOW);
+            self.newton(qp, complementarity < REFINEMENT_COMPLEMENTARITY);
             let ratio = self.columns.step().ratio;
             let boundary = 1.0 - complementarity.clamp(1e-6, 5e-3);
             let share = if ratio > boundary { boundary / ratio } else { 1.0 };
@@ -194,7 +197,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             self.refresh_values(qp);
         }
         let (complementarity, worst) = self.columns.measure();
-        if complementarity < ACCEPTED && worst < ACCEPTED && dual_share < ACCEPTED {
+        if complementarity < ACCEPTED_RESIDUAL && worst < ACCEPTED_RESIDUAL && dual_share < ACCEPTED_RESIDUAL {
             return Ok(());
         }
         let status = format!("residual {worst:.1e}, dual residual at {dual_share:.1e} of its start");
@@ -211,24 +214,24 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         for (row, value) in self.inequalities.rows.iter().zip(rows) {
             *value = row.value + row.slope(&self.point.states);
         }
-        for ((row, along), value) in qp.trajectory_rows.iter().zip(&mut self.along).zip(trajectories) {
-            *value = along.refresh(row, &self.point, Self::VEHICLES);
+        for ((row, expanded), value) in qp.trajectory_rows.iter().zip(&mut self.trajectory_rows).zip(trajectories) {
+            *value = expanded.refresh(row, &self.point, Self::VEHICLES);
         }
     }
 
     /// `H⁻¹ v` of every row over a whole trajectory, for Sherman and Morrison.
     fn respond(&mut self, qp: &StageQp) {
-        let weights = &self.columns.weight[self.columns.len() - self.along.len()..];
-        for index in 0..self.along.len() {
-            let (before, after) = self.along.split_at_mut(index);
-            let along = &mut after[0];
+        let weights = &self.columns.weight[self.columns.len() - self.trajectory_rows.len()..];
+        for index in 0..self.trajectory_rows.len() {
+            let (before, after) = self.trajectory_rows.split_at_mut(index);
+            let expanded = &mut after[0];
             self.gradient.clear(qp.horizon * Self::VEHICLES);
             // The gradient −v makes the solve return H⁻¹ v.
-            along.pull(-1.0, &mut self.gradient, Self::VEHICLES);
-            along.response.clear(qp.horizon * Self::VEHICLES);
-            self.riccati.solve(qp, &self.gradient, &mut along.response);
+            expanded.pull(-1.0, &mut self.gradient, Self::VEHICLES);
+            expanded.response.clear(qp.horizon * Self::VEHICLES);
+            self.riccati.solve(qp, &self.gradient, &mut expanded.response);
             for (earlier, weight) in before.iter().zip(weights) {
-                earlier.correct(*weight, &mut along.response, Self::VEHICLES);
+                earlier.correct(*weight, &mut expanded.response, Self::VEHICLES);
             }
         }
     }
@@ -239,12 +242,12 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         self.step.states.resize(self.gradient.states.len(), [0.0; 4]);
         self.step.inputs.resize(self.gradient.inputs.len(), [0.0; 2]);
         self.riccati.solve(qp, &self.gradient, &mut self.step);
-        correct(&self.columns, &self.along, &mut self.step, Self::VEHICLES);
+        correct(&self.columns, &self.trajectory_rows, &mut self.step, Self::VEHICLES);
         if refined {
             self.leave_residual(qp);
             self.correction.clear(qp.horizon * Self::VEHICLES);
             self.riccati.solve(qp, &self.gradient, &mut self.correction);
-            correct(&self.columns, &self.along, &mut self.correction, Self::VEHICLES);
+            correct(&self.columns, &self.trajectory_rows, &mut self.correction, Self::VEHICLES);
             self.step.add(1.0, &self.correction);
         }
         self.fill_slopes();
@@ -259,15 +262,15 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         for (row, slope) in self.inequalities.rows.iter().zip(rows) {
             *slope = row.slope(&self.step.states);
         }
-        for (along, slope) in self.along.iter().zip(trajectories) {
-            *slope = -along.dot(&self.step, Self::VEHICLES);
+        for (expanded, slope) in self.trajectory_rows.iter().zip(trajectories) {
+            *slope = -expanded.dot(&self.step, Self::VEHICLES);
         }
     }
 }
 
 /// Turns a step of the factored Hessian into one with the rows over whole trajectories.
-fn correct(columns: &Columns, along: &[Along], step: &mut Point, vehicles: usize) {
-    for (along, weight) in along.iter().zip(&columns.weight[columns.len() - along.len()..]) {
-        along.correct(*weight, step, vehicles);
+fn correct(columns: &Columns, expanded: &[ExpandedTrajectoryRow], step: &mut Point, vehicles: usize) {
+    for (expanded, weight) in expanded.iter().zip(&columns.weight[columns.len() - expanded.len()..]) {
+        expanded.correct(*weight, step, vehicles);
     }
 }

@@ -46,13 +46,13 @@
 //! five entries beside its diagonal, its `B` four); `L⁻¹F_wz` and `VᵀV` of `M` vehicles cost `(2M)²·3M` and some
 //! `2M·18M(M + 1)` more. `tests/instructions/count.sh` counts what becomes of that.
 
-mod along;
 mod assemble;
 mod columns;
 mod interior;
 mod refine;
 mod riccati;
 mod rows;
+mod trajectory_row;
 mod write;
 
 pub use interior::Structured;

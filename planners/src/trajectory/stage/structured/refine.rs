@@ -21,9 +21,9 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
     pub(super) fn leave_residual(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
         add_product(qp, &self.hessians, &self.pairs, &self.step, &mut self.gradient);
-        let weights = &self.columns.weight[self.columns.len() - self.along.len()..];
-        for (along, weight) in self.along.iter().zip(weights) {
-            along.pull(weight * along.dot(&self.step, vehicles), &mut self.gradient, vehicles);
+        let weights = &self.columns.weight[self.columns.len() - self.trajectory_rows.len()..];
+        for (expanded, weight) in self.trajectory_rows.iter().zip(weights) {
+            expanded.pull(weight * expanded.dot(&self.step, vehicles), &mut self.gradient, vehicles);
         }
         self.carry_back(qp);
     }

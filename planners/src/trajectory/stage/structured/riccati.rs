@@ -23,7 +23,7 @@ use crate::trajectory::stage::solver::StageError;
 use crate::vehicle::Jacobian;
 
 /// Number of states of a vehicle with its previous input.
-const BLOCK: usize = 6;
+const STATE_SIZE: usize = 6;
 
 /// Second derivatives of one vehicle at one stage: cost, barrier and curvature.
 #[derive(Clone, Copy, Debug, Default)]
@@ -196,10 +196,10 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             self.couplings[k] = f.wz;
             p = f.zz;
             for i in 0..Self::VEHICLES {
-                for r in BLOCK * i..BLOCK * (i + 1) {
+                for r in STATE_SIZE * i..STATE_SIZE * (i + 1) {
                     for v in &f.wz {
                         let share = v[r];
-                        for (value, v) in p[r].iter_mut().zip(v).take(BLOCK * (i + 1)) {
+                        for (value, v) in p[r].iter_mut().zip(v).take(STATE_SIZE * (i + 1)) {
                             *value -= share * v;
                         }
                     }
@@ -220,7 +220,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
         }
         for i in 0..Self::VEHICLES {
             let (stages, own) = (&qp.vehicles[i], &own[i]);
-            let (w, z) = (2 * i, BLOCK * i);
+            let (w, z) = (2 * i, STATE_SIZE * i);
             if k < stages.first {
                 for a in w..w + 2 {
                     f.ww[a] = [0.0; W];
@@ -259,7 +259,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             let mut f_w = [0.0; W];
             let mut carried = [0.0; Z];
             for i in 0..vehicles {
-                let (stages, z) = (&qp.vehicles[i], BLOCK * i);
+                let (stages, z) = (&qp.vehicles[i], STATE_SIZE * i);
                 let pull = gradient.states[k * vehicles + i];
                 let row: [f64; 4] = std::array::from_fn(|axis| p[z + axis] + pull[axis]);
                 let from_state = times_b(&row, &stages.jacobians[k]);
@@ -293,7 +293,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             }
             self.factors[k].backward(&mut w);
             for i in 0..vehicles {
-                let at = BLOCK * i;
+                let at = STATE_SIZE * i;
                 let before = [z[at], z[at + 1], z[at + 2], z[at + 3]];
                 let input = if k < qp.vehicles[i].first { [0.0; 2] } else { [w[2 * i], w[2 * i + 1]] };
                 let state = qp.vehicles[i].jacobians[k].apply(&before, &input);
@@ -310,7 +310,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
 #[inline(always)]
 fn add_stage<const Z: usize>(p: &mut [[f64; Z]; Z], hessians: &[VehicleHessian], coupling: &[PairHessian]) {
     for (i, h) in hessians.iter().enumerate() {
-        let z = BLOCK * i;
+        let z = STATE_SIZE * i;
         let [xx, xy, xt, yy, yt, tt] = h.pose;
         let pose = [[xx, xy, xt], [xy, yy, yt], [xt, yt, tt]];
         for a in 0..3 {
@@ -321,7 +321,7 @@ fn add_stage<const Z: usize>(p: &mut [[f64; Z]; Z], hessians: &[VehicleHessian],
         p[z + 3][z + 3] += h.speed;
     }
     for ([i, j], [xx, xy, yy]) in pairs(hessians.len()).zip(coupling) {
-        let (zi, zj) = (BLOCK * i, BLOCK * j);
+        let (zi, zj) = (STATE_SIZE * i, STATE_SIZE * j);
         p[zi][zj] -= xx;
         p[zi][zj + 1] -= xy;
         p[zi + 1][zj] -= xy;
@@ -339,11 +339,11 @@ fn block_pair<const W: usize, const Z: usize>(
     f: &mut Quadratic<W, Z>,
 ) {
     let (a_i, a_j) = (&qp.vehicles[i].jacobians[k], &qp.vehicles[j].jacobians[k]);
-    let (zi, zj, wi, wj) = (BLOCK * i, BLOCK * j, 2 * i, 2 * j);
+    let (zi, zj, wi, wj) = (STATE_SIZE * i, STATE_SIZE * j, 2 * i, 2 * j);
     // Rows of P_ij times A_j and B_j (with the identity of the previous-input part).
-    let mut right = [[0.0; 4]; BLOCK];
-    let mut into_w = [[0.0; 2]; BLOCK];
-    for r in 0..BLOCK {
+    let mut right = [[0.0; 4]; STATE_SIZE];
+    let mut into_w = [[0.0; 2]; STATE_SIZE];
+    for r in 0..STATE_SIZE {
         let row = &p[zi + r];
         let state = [row[zj], row[zj + 1], row[zj + 2], row[zj + 3]];
         right[r] = times_a(&state, a_j);

@@ -122,7 +122,7 @@ pub(super) struct Inequalities {
 }
 
 /// A multiplier above this belongs to a row that matters.
-const MATTERS: f64 = 1e-6;
+const ACTIVE_MULTIPLIER: f64 = 1e-6;
 
 impl Inequalities {
     /// Lists the inequalities of a problem. Rows whose violation costs nothing are left out, and with a `reach` those that
@@ -157,7 +157,7 @@ impl Inequalities {
                 let sides = [(1.0, -interval.lower), (-1.0, interval.upper)];
                 for ((sign, room), multiplier) in sides.into_iter().zip(known) {
                     let bound = Bound { at: k * qp.vehicles.len() + vehicle, quantity, sign, room };
-                    if multiplier > MATTERS || reach.is_none_or(|reach| room <= reach.of_bound(quantity)) {
+                    if multiplier > ACTIVE_MULTIPLIER || reach.is_none_or(|reach| room <= reach.of_bound(quantity)) {
                         self.bounds.push(bound);
                         self.multipliers.push(multiplier);
                     } else {
@@ -175,7 +175,7 @@ impl Inequalities {
             let other = block.other.map(|other| k * vehicles + other);
             let at = k * vehicles + block.vehicle;
             let row = Inequality { at, other, gradient: row.gradient, value: row.value, block: index };
-            if *multiplier > MATTERS || reach.is_none_or(|reach| row.value <= reach.of_row(&row)) {
+            if *multiplier > ACTIVE_MULTIPLIER || reach.is_none_or(|reach| row.value <= reach.of_row(&row)) {
                 self.rows.push(row);
                 self.weights.extend(block.penalty.map(weights));
                 self.multipliers.push(*multiplier);

@@ -5,7 +5,7 @@ use crate::trajectory::stage::qp::TrajectoryRow;
 
 /// One such row at the current point.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Along {
+pub(super) struct ExpandedTrajectoryRow {
     vehicle: usize,
     /// Its gradient `v` over `(x, y, v)` after every stage.
     slopes: Vec<[f64; 3]>,
@@ -13,7 +13,7 @@ pub(super) struct Along {
     pub response: Point,
 }
 
-impl Along {
+impl ExpandedTrajectoryRow {
     /// Takes over a row's shape.
     pub fn shape_like(&mut self, row: &TrajectoryRow) {
         self.vehicle = row.vehicle;
