@@ -7,7 +7,7 @@ use interplay_scenarios::{Override, Plant, Scenario, embedded, load};
 use interplay_simulation::frame::Frame;
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
-use interplay_simulation::watch::Watcher;
+use interplay_simulation::watch::{WatchError, Watcher};
 use rayon::prelude::*;
 
 /// A run and all that was seen of it.
@@ -29,12 +29,12 @@ impl Camera {
 }
 
 impl Watcher for Camera {
-    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
         self.0.lock().map_err(|error| error.to_string())?.push(frame.clone());
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), String> {
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
         Ok(())
     }
 }

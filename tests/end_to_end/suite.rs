@@ -74,7 +74,7 @@ fn one_failed_expectation_fails_the_suite_and_is_named() {
     let xml = fs::read_to_string(folder.join("out.xml")).expect("the results were written");
     assert_eq!(xml.matches("<testcase ").count(), 3, "{xml}");
     assert_eq!(xml.matches("<failure message=\"min_gap_m: want 9.0, got 0.").count(), 1, "{xml}");
-    assert!(xml.contains("tests=\"3\" failures=\"1\" errors=\"0\""), "{xml}");
+    assert!(xml.contains("tests=\"3\" skipped=\"0\" failures=\"1\" errors=\"0\""), "{xml}");
 }
 
 /// Nothing runs unless everything can.

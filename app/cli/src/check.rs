@@ -3,9 +3,9 @@
 use clap::Args;
 use interplay_scenarios::{Scenario, load};
 
-use crate::ending::Ending;
+use crate::exit_status::ExitStatus;
 use crate::files;
-use crate::output::{complain, complain_about, print};
+use crate::output::{print, print_error, print_load_error};
 
 /// Check scenario files without running them; every error is located.
 #[derive(Debug, Args)]
@@ -17,8 +17,8 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    pub(crate) fn execute(self) -> Ending {
-        let mut ending = Ending::Well;
+    pub(crate) fn execute(self) -> ExitStatus {
+        let mut ending = ExitStatus::Well;
         for path in &self.paths {
             match files::find(path) {
                 Ok(found) => {
@@ -26,15 +26,15 @@ impl Check {
                         match load(&file, &[]) {
                             Ok(scenario) => print(&approved(&file, &scenario)),
                             Err(error) => {
-                                complain_about(error);
-                                ending = Ending::BadInput;
+                                print_load_error(error);
+                                ending = ExitStatus::BadInput;
                             }
                         }
                     }
                 }
                 Err(error) => {
-                    complain(&error);
-                    ending = Ending::BadInput;
+                    print_error(&error.to_string());
+                    ending = ExitStatus::BadInput;
                 }
             }
         }

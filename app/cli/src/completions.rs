@@ -3,7 +3,7 @@
 use clap::Args;
 use clap_complete::Shell;
 
-use crate::ending::Ending;
+use crate::exit_status::ExitStatus;
 use crate::output::print;
 
 /// Print completions for a shell.
@@ -16,10 +16,10 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn execute(self, mut interplay: clap::Command) -> Ending {
+    pub(crate) fn execute(self, mut interplay: clap::Command) -> ExitStatus {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut interplay, "interplay", &mut script);
         print(&String::from_utf8_lossy(&script));
-        Ending::Well
+        ExitStatus::Well
     }
 }

@@ -4,31 +4,42 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use interplay_scenarios::embedded;
+use thiserror::Error;
 
 /// A scenario to be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Found {
+pub(crate) struct ScenarioArgument {
     /// What its run is called: see [`short_name`]; in a folder, its path below that folder, without the extension.
     pub name: String,
     /// Name of the embedded scenario, or path of the file.
     pub scenario: String,
 }
 
+/// Why a folder gives no scenarios.
+#[derive(Debug, Error)]
+pub(crate) enum FolderError {
+    #[error("cannot read folder `{folder}`: {reason}")]
+    Unreadable { folder: String, reason: io::Error },
+    #[error("there is no .toml file in folder `{folder}`")]
+    Empty { folder: String },
+}
+
 /// What an argument stands for: an embedded scenario, a file, or all .toml files below a folder, sorted.
 ///
 /// # Errors
-/// In words, if a folder cannot be read or has no such file in it. Whether the others exist shows when they are loaded.
-pub(crate) fn find(argument: &str) -> Result<Vec<Found>, String> {
+/// [`FolderError`], if a folder cannot be read or has no such file in it. Whether the others exist shows when they are loaded.
+pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError> {
     if !Path::new(argument).is_dir() {
-        return Ok(vec![Found { name: short_name(argument), scenario: argument.to_owned() }]);
+        return Ok(vec![ScenarioArgument { name: short_name(argument), scenario: argument.to_owned() }]);
     }
-    let found = below(Path::new(argument)).map_err(|error| format!("cannot read folder `{argument}`: {error}"))?;
+    let found =
+        below(Path::new(argument)).map_err(|reason| FolderError::Unreadable { folder: argument.to_owned(), reason })?;
     if found.is_empty() {
-        return Err(format!("there is no .toml file in folder `{argument}`"));
+        return Err(FolderError::Empty { folder: argument.to_owned() });
     }
     let named = |path: PathBuf| {
         let name = path.strip_prefix(argument).unwrap_or(&path).with_extension("");
-        Found { name: name.to_string_lossy().into_owned(), scenario: path.to_string_lossy().into_owned() }
+        ScenarioArgument { name: name.to_string_lossy().into_owned(), scenario: path.to_string_lossy().into_owned() }
     };
     Ok(found.into_iter().map(named).collect())
 }

@@ -1,14 +1,16 @@
 //! `interplay identify`
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use clap::Args;
-use interplay_building::identify::{Identification, Mapping, Telemetry, identify};
+use interplay_building::identify::{Identification, IdentifyError, Mapping, Telemetry, TelemetryError, identify};
 use interplay_presentation::{plot, report};
+use thiserror::Error;
 
-use crate::ending::Ending;
-use crate::output::{complain, print};
+use crate::error::CommandError;
+use crate::exit_status::ExitStatus;
+use crate::output::{json, print, print_error};
 
 /// Find thermal parameters in telemetry, with uncertainty and residual diagnostics.
 ///
@@ -42,23 +44,23 @@ pub(crate) struct Identify {
 }
 
 impl Identify {
-    pub(crate) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> ExitStatus {
         let found = match self.identify() {
             Ok(found) => found,
             Err(error) => {
-                complain(&format!("Error: {error}"));
-                return Ending::BadInput;
+                print_error(&format!("Error: {error}"));
+                return ExitStatus::BadInput;
             }
         };
         let told = self.tell(&found);
         if let Err(error) = told {
-            complain(&format!("Error: {error}"));
-            return Ending::Unfinished;
+            print_error(&format!("Error: {error}"));
+            return ExitStatus::Unfinished;
         }
-        Ending::Well
+        ExitStatus::Well
     }
 
-    fn identify(&self) -> Result<Identification, String> {
+    fn identify(&self) -> Result<Identification, InputError> {
         let mapping_file = self.mapping.clone().unwrap_or_else(|| self.table.with_extension("toml"));
         let table = read(&self.table, "")?;
         let help = match self.mapping {
@@ -66,22 +68,20 @@ impl Identify {
             None => "; a mapping says which column is what: name one with --mapping (see `interplay identify --help`)",
         };
         let described = read(&mapping_file, help)?;
-        let said = |error: interplay_building::identify::TelemetryError| error.to_string();
-        let mapping = Mapping::parse(&mapping_file.display().to_string(), &described).map_err(said)?;
+        let mapping = Mapping::parse(&mapping_file.display().to_string(), &described)?;
         let name = self.table.display().to_string();
-        let telemetry = Telemetry::read(&name, &table, &mapping).map_err(said)?;
-        identify(&telemetry, &mapping.identify).map_err(|error| format!("{name}: {error}"))
+        let telemetry = Telemetry::read(&name, &table, &mapping)?;
+        identify(&telemetry, &mapping.identify).map_err(|reason| InputError::Identify { name, reason })
     }
 
     /// Prints what was found, and draws it if that is asked for.
-    fn tell(&self, found: &Identification) -> Result<(), String> {
+    fn tell(&self, found: &Identification) -> Result<(), CommandError> {
         if let Some(folder) = &self.out {
-            let written = plot::identification(folder, found).map_err(|error| error.to_string())?;
-            complain(&format!("{} plots in {}", written.len(), folder.display()));
+            let written = plot::identification(folder, found)?;
+            print_error(&format!("{} plots in {}", written.len(), folder.display()));
         }
         let text = if self.json {
-            let text = serde_json::to_string_pretty(&found.report);
-            text.map_err(|error| format!("the findings cannot be written as JSON: {error}"))? + "\n"
+            json("the findings", &found.report)?
         } else {
             report::identification(&self.table.display().to_string(), found)
         };
@@ -90,13 +90,30 @@ impl Identify {
     }
 }
 
-/// A file as text; the error says what would work.
-fn read(path: &Path, help: &str) -> Result<String, String> {
-    let bytes = fs::read(path).map_err(|error| format!("cannot read {}: {error}{help}", path.display()))?;
+/// Why telemetry cannot be used.
+#[derive(Debug, Error)]
+enum InputError {
+    #[error("cannot read {}: {reason}{help}", path.display())]
+    Unreadable { path: PathBuf, reason: io::Error, help: &'static str },
+    #[error("{}:{line}: not UTF-8 text; save it as UTF-8", path.display())]
+    NotUtf8 { path: PathBuf, line: usize },
+    #[error(transparent)]
+    Telemetry(#[from] TelemetryError),
+    #[error("{name}: {reason}")]
+    Identify { name: String, reason: IdentifyError },
+}
+
+/// A file as text; the error ends with `help`.
+fn read(path: &Path, help: &'static str) -> Result<String, InputError> {
+    let path = path.to_owned();
+    let bytes = match fs::read(&path) {
+        Ok(bytes) => bytes,
+        Err(reason) => return Err(InputError::Unreadable { path, reason, help }),
+    };
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").map(<[u8]>::to_vec).unwrap_or(bytes);
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
-        format!("{}:{line}: not UTF-8 text; save it as UTF-8", path.display())
+        InputError::NotUtf8 { path, line }
     })
 }

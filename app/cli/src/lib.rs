@@ -5,7 +5,8 @@
 
 mod check;
 mod completions;
-mod ending;
+mod error;
+mod exit_status;
 mod files;
 mod identify;
 mod list;

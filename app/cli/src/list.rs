@@ -4,8 +4,8 @@ use clap::Args;
 use interplay_scenarios::{embedded, load};
 use serde_json::json;
 
-use crate::ending::Ending;
-use crate::output::{complain_about, print};
+use crate::exit_status::ExitStatus;
+use crate::output::{print, print_load_error};
 
 /// List the embedded scenarios: name, what it shows, figure reproduced.
 #[derive(Debug, Args)]
@@ -17,14 +17,14 @@ pub(crate) struct List {
 }
 
 impl List {
-    pub(crate) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> ExitStatus {
         let mut rows = Vec::new();
         for file in embedded() {
             match load(file.name, &[]) {
                 Ok(scenario) => rows.push((file.name, scenario)),
                 Err(error) => {
-                    complain_about(error);
-                    return Ending::BadInput;
+                    print_load_error(error);
+                    return ExitStatus::BadInput;
                 }
             }
         }
@@ -33,13 +33,13 @@ impl List {
                 json!({ "name": name, "title": scenario.title, "shows": scenario.shows, "figure": scenario.figure })
             });
             print(&format!("{:#}\n", serde_json::Value::Array(rows.collect())));
-            return Ending::Well;
+            return ExitStatus::Well;
         }
         let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
         for (name, scenario) in &rows {
             let figure = scenario.figure.as_ref().map(|figure| format!(" (Fig. {figure})")).unwrap_or_default();
             print(&format!("{name:width$}  {}{figure}\n", scenario.shows));
         }
-        Ending::Well
+        ExitStatus::Well
     }
 }

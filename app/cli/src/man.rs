@@ -2,8 +2,8 @@
 
 use clap::Args;
 
-use crate::ending::Ending;
-use crate::output::{complain, print};
+use crate::exit_status::ExitStatus;
+use crate::output::{print, print_error};
 
 /// Print a manual page: of the whole, or of one command.
 #[derive(Debug, Args)]
@@ -15,25 +15,25 @@ pub(crate) struct Man {
 }
 
 impl Man {
-    pub(crate) fn execute(self, mut interplay: clap::Command) -> Ending {
+    pub(crate) fn execute(self, mut interplay: clap::Command) -> ExitStatus {
         interplay.build();
         let page = match &self.of {
             None => Some(interplay),
             Some(name) => interplay.find_subcommand(name).cloned(),
         };
         let Some(page) = page else {
-            complain("there is no such command; `interplay help` lists all of them");
-            return Ending::BadInput;
+            print_error("there is no such command; `interplay help` lists all of them");
+            return ExitStatus::BadInput;
         };
         let mut text = Vec::new();
         match clap_mangen::Man::new(page).render(&mut text) {
             Ok(()) => {
                 print(&String::from_utf8_lossy(&text));
-                Ending::Well
+                ExitStatus::Well
             }
             Err(error) => {
-                complain(&format!("the manual page cannot be written: {error}"));
-                Ending::Unfinished
+                print_error(&format!("the manual page cannot be written: {error}"));
+                ExitStatus::Unfinished
             }
         }
     }

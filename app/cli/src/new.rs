@@ -9,8 +9,8 @@ use interplay_presentation::shell;
 use interplay_scenarios::{LoadError, commented};
 use thiserror::Error;
 
-use crate::ending::Ending;
-use crate::output::{complain, complain_about, print};
+use crate::exit_status::ExitStatus;
+use crate::output::{print, print_error, print_load_error};
 use crate::schema;
 
 /// What editors complete from, beside the scenario.
@@ -44,20 +44,20 @@ enum NewError {
 }
 
 impl New {
-    pub(crate) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> ExitStatus {
         match self.write() {
             Ok(()) => {
                 let run = shell::line(["interplay", "run", &self.file.to_string_lossy()]);
                 print(&format!("wrote {}; to run it: {run}\n", self.file.display()));
-                Ending::Well
+                ExitStatus::Well
             }
             Err(NewError::Origin(error)) => {
-                complain_about(error);
-                Ending::BadInput
+                print_load_error(error);
+                ExitStatus::BadInput
             }
             Err(error) => {
-                complain(&error.to_string());
-                if matches!(error, NewError::Exists(_)) { Ending::BadInput } else { Ending::Unfinished }
+                print_error(&error.to_string());
+                if matches!(error, NewError::Exists(_)) { ExitStatus::BadInput } else { ExitStatus::Unfinished }
             }
         }
     }
@@ -72,7 +72,7 @@ impl New {
         let command = shell::line(words.iter().map(String::as_str));
         let head = format!(
             "#:schema {SCHEMA}\n# Written by `{command}`.\n\
-             # Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\
+             # Lines such as `#key = value` show defaults, or examples where there is none: recorded away the `#` to change them,\n\
              # and that of the `#[table]` above them.\n\n"
         );
         create(&self.file, &(head + &scenario))?;

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use interplay_presentation::figures::{self, Entry, Kind, Made, find, make, registry, section};
+use interplay_presentation::figures::{self, Entry, EntryOutcome, Kind, find, make, registry, section};
 use interplay_presentation::page::Page;
 
-use crate::ending::Ending;
-use crate::output::{complain, print};
+use crate::exit_status::ExitStatus;
+use crate::output::{print, print_error};
 use crate::progress::Progress;
 
 /// Make the figures and tables of the dissertation again, as SVG and PNG, with a page that shows and explains them.
@@ -32,24 +32,24 @@ pub(crate) struct Reproduce {
 }
 
 impl Reproduce {
-    pub(crate) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> ExitStatus {
         if self.list {
             registry().for_each(|entry| print(&format!("{:10}  {}\n", entry.id(), entry.title)));
-            return Ending::Well;
+            return ExitStatus::Well;
         }
         let entries = match find(&self.figures) {
             Ok(entries) => entries,
             Err(error) => {
-                complain(&format!("Error: {error}"));
-                return Ending::BadInput;
+                print_error(&format!("Error: {error}"));
+                return ExitStatus::BadInput;
             }
         };
         if let Err(error) = std::fs::create_dir_all(&self.out) {
-            complain(&format!(
+            print_error(&format!(
                 "Error: cannot make the folder {}: {error}; name another with --out",
                 self.out.display()
             ));
-            return Ending::BadInput;
+            return ExitStatus::BadInput;
         }
         let began = Instant::now();
         let progress = Progress::of(figures::steps(&entries));
@@ -57,15 +57,15 @@ impl Reproduce {
         progress.clear();
         let page = self.out.join("index.html");
         if let Err(error) = std::fs::write(&page, page_of(&made).html()) {
-            complain(&format!("Error: cannot write {}: {error}", page.display()));
-            return Ending::Unfinished;
+            print_error(&format!("Error: cannot write {}: {error}", page.display()));
+            return ExitStatus::Unfinished;
         }
         tell(&made, &page, began.elapsed().as_secs_f64());
         ending(&made)
     }
 }
 
-fn page_of(made: &[Made]) -> Page {
+fn page_of(made: &[EntryOutcome]) -> Page {
     let count = |kind: Kind| made.iter().filter(|made| made.entry.kind == kind).count();
     let broken = made.iter().filter(|made| made.outcome.is_err()).count();
     let missed = made.iter().filter(|made| made.outcome.is_ok() && !made.held()).count();
@@ -87,12 +87,12 @@ fn page_of(made: &[Made]) -> Page {
     }
 }
 
-fn tell(made: &[Made], page: &Path, wall_s: f64) {
+fn tell(made: &[EntryOutcome], page: &Path, wall_s: f64) {
     for made in made {
         let entry: &Entry = made.entry;
         match &made.outcome {
-            Err(error) => complain(&format!("{entry} could not be made: {error}")),
-            Ok(_) if !made.held() => complain(&format!("{entry}: an expectation of its scenario failed")),
+            Err(error) => print_error(&format!("{entry} could not be made: {error}")),
+            Ok(_) if !made.held() => print_error(&format!("{entry}: an expectation of its scenario failed")),
             Ok(_) => {}
         }
     }
@@ -101,12 +101,12 @@ fn tell(made: &[Made], page: &Path, wall_s: f64) {
 }
 
 /// A figure that could not be made weighs more than an expectation that failed.
-fn ending(made: &[Made]) -> Ending {
+fn ending(made: &[EntryOutcome]) -> ExitStatus {
     if made.iter().any(|made| made.outcome.is_err()) {
-        Ending::Unfinished
+        ExitStatus::Unfinished
     } else if made.iter().any(|made| !made.held()) {
-        Ending::Failed
+        ExitStatus::Failed
     } else {
-        Ending::Well
+        ExitStatus::Well
     }
 }

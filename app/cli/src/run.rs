@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use interplay_presentation::figures::{Camera, Take, own_page};
+use interplay_presentation::figures::{FrameLog, RecordedRun, run_page};
 use interplay_presentation::record::{RecordError, Recorder, Sink, Viewer};
 use interplay_presentation::report::summary;
 use interplay_presentation::shell;
@@ -11,11 +11,13 @@ use interplay_scenarios::{Override, Scenario, driver_kinds, load};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use interplay_simulation::watch::Watcher;
+use thiserror::Error;
 
-use crate::ending::Ending;
+use crate::error::CommandError;
+use crate::exit_status::ExitStatus;
 use crate::files::short_name;
-use crate::output::{complain, complain_about, json, print};
-use crate::watch::Watched;
+use crate::output::{json, print, print_error, print_load_error};
+use crate::watch::WatchedFiles;
 
 /// Run one scenario, say whether its expectations held, and record it.
 #[derive(Debug, Default, Args)]
@@ -71,57 +73,57 @@ pub(crate) struct Run {
 pub(crate) const DEFAULT: &str = "lane-change/front-nice";
 
 impl Run {
-    pub(crate) fn execute(self) -> Ending {
-        if self.watch { self.again_and_again() } else { self.once() }
+    pub(crate) fn execute(self) -> ExitStatus {
+        if self.watch { self.run_at_every_change() } else { self.run_once() }
     }
 
     /// Runs at every change of the scenario; never returns unless there is nothing to watch.
-    fn again_and_again(&self) -> Ending {
-        let mut watched = Watched::look(self.scenario());
+    fn run_at_every_change(&self) -> ExitStatus {
+        let mut watched = WatchedFiles::look(self.scenario());
         if watched.is_empty() {
-            complain(&format!(
+            print_error(&format!(
                 "--watch needs a scenario file, and `{}` is none; `interplay new my.toml --from {0}` makes one",
                 self.scenario()
             ));
-            return Ending::BadInput;
+            return ExitStatus::BadInput;
         }
         loop {
-            self.once();
-            complain(&format!("watching {}; Ctrl-C ends", self.scenario()));
+            self.run_once();
+            print_error(&format!("watching {}; Ctrl-C ends", self.scenario()));
             watched = watched.wait();
         }
     }
 
-    fn once(&self) -> Ending {
+    fn run_once(&self) -> ExitStatus {
         let scenario = match load(self.scenario(), &self.overrides()) {
             Ok(scenario) => scenario,
             Err(error) => {
-                complain_about(error);
-                return Ending::BadInput;
+                print_load_error(error);
+                return ExitStatus::BadInput;
             }
         };
         let name = short_name(self.scenario());
         let watchers = match self.watchers(&scenario, &name) {
             Ok(watchers) => watchers,
             Err(error) => {
-                complain(&error.to_string());
-                return Ending::Unfinished;
+                print_error(&error.to_string());
+                return ExitStatus::Unfinished;
             }
         };
-        let told = self.film(&name, scenario, watchers).and_then(|take| {
-            self.page(&name, &take)?;
-            self.tell(&take.scenario.title, &take.report).map(|()| take.report.passed)
+        let told = self.footprints(&name, scenario, watchers).and_then(|recorded| {
+            self.page(&name, &recorded)?;
+            self.tell(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
         });
         match told {
             Ok(passed) => {
                 if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
-                    complain(&format!("recorded to {}", path.display()));
+                    print_error(&format!("recorded to {}", path.display()));
                 }
-                if passed { Ending::Well } else { Ending::Failed }
+                if passed { ExitStatus::Well } else { ExitStatus::Failed }
             }
             Err(error) => {
-                complain(&error);
-                Ending::Unfinished
+                print_error(&error.to_string());
+                ExitStatus::Unfinished
             }
         }
     }
@@ -132,29 +134,34 @@ impl Run {
     }
 
     /// Runs it; its frames are kept if a page is to be drawn of them.
-    fn film(&self, name: &str, scenario: Scenario, mut watchers: Vec<Box<dyn Watcher>>) -> Result<Take, String> {
-        let camera = Camera::default();
+    fn footprints(
+        &self,
+        name: &str,
+        scenario: Scenario,
+        mut watchers: Vec<Box<dyn Watcher>>,
+    ) -> Result<RecordedRun, CommandError> {
+        let camera = FrameLog::default();
         if self.report.is_some() {
             watchers.push(Box::new(camera.clone()));
         }
-        let report = run(name, &scenario, watchers).map_err(|error| error.to_string())?;
-        Ok(Take { label: String::new(), command: self.words(), scenario, frames: camera.frames(), report })
+        let report = run(name, &scenario, watchers)?;
+        Ok(RecordedRun { label: String::new(), command: self.words(), scenario, frames: camera.frames(), report })
     }
 
     /// Draws the page, if that is asked for.
-    fn page(&self, name: &str, take: &Take) -> Result<(), String> {
+    fn page(&self, name: &str, recorded: &RecordedRun) -> Result<(), CommandError> {
         let Some(folder) = &self.report else { return Ok(()) };
         let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
         let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
         let what = |file: &String| format!("the recording; `interplay view {file}` opens it");
-        let page = own_page(take, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
-        complain(&format!("page in {}", page.display()));
+        let page = run_page(recorded, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
+        print_error(&format!("page in {}", page.display()));
         Ok(())
     }
 
     /// Prints the report as it was asked for.
-    fn tell(&self, title: &str, report: &Report) -> Result<(), String> {
-        let text = if self.json { json(report)? } else { summary(title, report) };
+    fn tell(&self, title: &str, report: &Report) -> Result<(), CommandError> {
+        let text = if self.json { json("the report", report)? } else { summary(title, report) };
         print(&text);
         Ok(())
     }
@@ -191,9 +198,7 @@ impl Run {
 
     fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
         let sink = match &self.connect {
-            Some(viewer) => {
-                Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok).map_err(RecordError::Broken)?))
-            }
+            Some(viewer) => Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok)?)),
             None => self.recording(name).map(Sink::File),
         };
         let Some(sink) = sink else { return Ok(Vec::new()) };
@@ -203,14 +208,19 @@ impl Run {
     }
 }
 
+/// A text that is no seed.
+#[derive(Debug, Error)]
+#[error("a seed is a whole number from 0 to {}", u64::MAX)]
+struct SeedError;
+
 /// What `--planner` does, with the kinds of drivers that a scenario may name.
 fn planner_help() -> String {
     format!("Who drives the ego instead of the scenario's choice: {}", driver_kinds().join(", "))
 }
 
 /// A seed as it is written on the command line.
-fn seed(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+fn seed(text: &str) -> Result<u64, SeedError> {
+    text.parse().map_err(|_| SeedError)
 }
 
 #[cfg(test)]

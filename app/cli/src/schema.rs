@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::ending::Ending;
+use crate::exit_status::ExitStatus;
 use crate::output::print;
 
 /// Print the JSON Schema of the scenario format, from which editors complete and explain keys.
@@ -14,9 +14,9 @@ use crate::output::print;
 pub(crate) struct Schema {}
 
 impl Schema {
-    pub(crate) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> ExitStatus {
         print(&text());
-        Ending::Well
+        ExitStatus::Well
     }
 }
 

@@ -11,9 +11,10 @@ use interplay_simulation::report::Report;
 use interplay_simulation::run::run;
 use rayon::prelude::*;
 
-use crate::ending::Ending;
-use crate::files::{self, Found};
-use crate::output::{complain, complain_about, json, print};
+use crate::error::CommandError;
+use crate::exit_status::ExitStatus;
+use crate::files::{self, ScenarioArgument};
+use crate::output::{json, print, print_error, print_load_error};
 use crate::progress::Progress;
 
 /// Run many scenarios side by side and say which of them do what they should.
@@ -41,24 +42,24 @@ pub(crate) struct Suite {
 }
 
 impl Suite {
-    pub(crate) fn execute(self) -> Ending {
-        let Some(scenarios) = self.load() else { return Ending::BadInput };
+    pub(crate) fn execute(self) -> ExitStatus {
+        let Some(scenarios) = self.load() else { return ExitStatus::BadInput };
         let began = Instant::now();
         let cases = match self.run(&scenarios) {
             Ok(cases) => cases,
             Err(error) => {
-                complain(&error);
-                return Ending::Unfinished;
+                print_error(&error.to_string());
+                return ExitStatus::Unfinished;
             }
         };
         for (name, error) in cases.iter().filter_map(|case| Some((&case.name, case.outcome.as_ref().err()?))) {
-            complain(&format!("{name} could not be finished: {error}"));
+            print_error(&format!("{name} could not be finished: {error}"));
         }
         match self.tell(&cases, began.elapsed().as_secs_f64()) {
             Ok(()) => ending(&cases),
             Err(error) => {
-                complain(&error);
-                Ending::Unfinished
+                print_error(&error.to_string());
+                ExitStatus::Unfinished
             }
         }
     }
@@ -67,11 +68,11 @@ impl Suite {
     fn load(&self) -> Option<Vec<(String, Scenario)>> {
         let mut sound = true;
         let mut scenarios = Vec::new();
-        for Found { name, scenario } in self.find(&mut sound) {
+        for ScenarioArgument { name, scenario } in self.find(&mut sound) {
             match load(&scenario, &[]) {
                 Ok(scenario) => scenarios.push((name, scenario)),
                 Err(error) => {
-                    complain_about(error);
+                    print_load_error(error);
                     sound = false;
                 }
             }
@@ -79,9 +80,9 @@ impl Suite {
         sound.then_some(scenarios)
     }
 
-    fn find(&self, sound: &mut bool) -> Vec<Found> {
+    fn find(&self, sound: &mut bool) -> Vec<ScenarioArgument> {
         if self.paths.is_empty() {
-            let name = |name: &str| Found { name: name.to_owned(), scenario: name.to_owned() };
+            let name = |name: &str| ScenarioArgument { name: name.to_owned(), scenario: name.to_owned() };
             return embedded().iter().map(|file| name(file.name)).collect();
         }
         let mut found = Vec::new();
@@ -89,7 +90,7 @@ impl Suite {
             match files::find(path) {
                 Ok(more) => found.extend(more),
                 Err(error) => {
-                    complain(&error);
+                    print_error(&error.to_string());
                     *sound = false;
                 }
             }
@@ -98,13 +99,13 @@ impl Suite {
     }
 
     /// Runs every scenario in a world of its own; the cases come in the order of the scenarios.
-    fn run(&self, scenarios: &[(String, Scenario)]) -> Result<Vec<Case>, String> {
+    fn run(&self, scenarios: &[(String, Scenario)]) -> Result<Vec<Case>, CommandError> {
         let jobs = self.jobs.map_or(0, NonZeroUsize::get);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
-        let pool = pool.map_err(|error| format!("cannot start {jobs} threads: {error}"))?;
+        let pool = pool.map_err(|reason| CommandError::Threads { jobs, reason })?;
         let progress = Progress::of(scenarios.len());
         let case = |(name, scenario): &(String, Scenario)| {
-            let outcome = run(name, scenario, Vec::new()).map_err(|error| error.to_string());
+            let outcome = run(name, scenario, Vec::new());
             progress.advance();
             Case { name: name.clone(), outcome }
         };
@@ -114,24 +115,26 @@ impl Suite {
     }
 
     /// Prints and writes the results as it was asked for.
-    fn tell(&self, cases: &[Case], wall_s: f64) -> Result<(), String> {
+    fn tell(&self, cases: &[Case], wall_s: f64) -> Result<(), CommandError> {
         let reports: Vec<&Report> = cases.iter().filter_map(|case| case.outcome.as_ref().ok()).collect();
-        print(&if self.json { json(&reports)? } else { table(cases, wall_s) });
-        self.junit.as_deref().map_or(Ok(()), |path| write(path, &junit(cases, wall_s)))
+        print(&if self.json { json("the reports", &reports)? } else { table(cases, wall_s) });
+        let Some(path) = &self.junit else { return Ok(()) };
+        let xml = junit(cases, wall_s).map_err(|error| CommandError::Xml(Box::new(error)))?;
+        write(path, &xml)
     }
 }
 
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    std::fs::write(path, text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))
+fn write(path: &Path, text: &str) -> Result<(), CommandError> {
+    std::fs::write(path, text).map_err(|reason| CommandError::Unwritable { path: path.to_owned(), reason })
 }
 
 /// A run that could not be finished weighs more than an expectation that failed.
-fn ending(cases: &[Case]) -> Ending {
-    let mut ending = Ending::Well;
+fn ending(cases: &[Case]) -> ExitStatus {
+    let mut ending = ExitStatus::Well;
     for case in cases {
         match &case.outcome {
-            Err(_) => return Ending::Unfinished,
-            Ok(report) if !report.passed => ending = Ending::Failed,
+            Err(_) => return ExitStatus::Unfinished,
+            Ok(report) if !report.passed => ending = ExitStatus::Failed,
             Ok(_) => {}
         }
     }
@@ -140,6 +143,8 @@ fn ending(cases: &[Case]) -> Ending {
 
 #[cfg(test)]
 mod tests {
+    use interplay_simulation::run::RunError;
+
     use super::*;
 
     fn case(outcome: Result<bool, &str>) -> Case {
@@ -147,16 +152,16 @@ mod tests {
         scenario.duration_s = scenario.step_s;
         let report = || run("short", &scenario, Vec::new()).expect("one tick");
         let outcome = outcome.map(|passed| Report { passed, ..report() });
-        Case { name: "short".to_owned(), outcome: outcome.map_err(str::to_owned) }
+        Case { name: "short".to_owned(), outcome: outcome.map_err(|error| RunError::Watch(error.into())) }
     }
 
     #[test]
     fn the_worst_case_decides_how_the_suite_ends() {
         let ending =
             |outcomes: &[Result<bool, &str>]| ending(&outcomes.iter().map(|one| case(*one)).collect::<Vec<_>>());
-        assert_eq!(ending(&[]), Ending::Well);
-        assert_eq!(ending(&[Ok(true), Ok(true)]), Ending::Well);
-        assert_eq!(ending(&[Ok(true), Ok(false), Ok(true)]), Ending::Failed);
-        assert_eq!(ending(&[Ok(false), Err("broken"), Ok(true)]), Ending::Unfinished);
+        assert_eq!(ending(&[]), ExitStatus::Well);
+        assert_eq!(ending(&[Ok(true), Ok(true)]), ExitStatus::Well);
+        assert_eq!(ending(&[Ok(true), Ok(false), Ok(true)]), ExitStatus::Failed);
+        assert_eq!(ending(&[Ok(false), Err("broken"), Ok(true)]), ExitStatus::Unfinished);
     }
 }

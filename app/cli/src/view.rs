@@ -9,8 +9,8 @@ use clap::Args;
 use interplay_presentation::record::{MAGIC, viewer_version};
 use thiserror::Error;
 
-use crate::ending::Ending;
-use crate::output::complain;
+use crate::exit_status::ExitStatus;
+use crate::output::print_error;
 
 /// Open recordings in the installed Rerun viewer, once its version is seen to be the right one.
 #[derive(Debug, Args)]
@@ -39,14 +39,14 @@ enum ViewError {
 }
 
 impl View {
-    pub(crate) fn execute(self) -> Ending {
+    pub(crate) fn execute(self) -> ExitStatus {
         match self.view() {
-            Ok(()) => Ending::Well,
+            Ok(()) => ExitStatus::Well,
             Err(error) => {
-                complain(&error.to_string());
+                print_error(&error.to_string());
                 match error {
-                    ViewError::Unreadable { .. } | ViewError::NoRecording(_) => Ending::BadInput,
-                    _ => Ending::Unfinished,
+                    ViewError::Unreadable { .. } | ViewError::NoRecording(_) => ExitStatus::BadInput,
+                    _ => ExitStatus::Unfinished,
                 }
             }
         }

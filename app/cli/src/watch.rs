@@ -11,20 +11,20 @@ const LOOK: Duration = Duration::from_millis(200);
 
 /// The files of a scenario as they were when it was last looked at.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Watched {
+pub(crate) struct WatchedFiles {
     scenario: String,
     seen: Vec<(PathBuf, Option<(SystemTime, u64)>)>,
 }
 
-impl Watched {
+impl WatchedFiles {
     /// Looks at a scenario and all that it extends.
-    pub fn look(scenario: &str) -> Watched {
+    pub fn look(scenario: &str) -> WatchedFiles {
         let state = |path: &PathBuf| {
             let found = std::fs::metadata(path).ok()?;
             Some((found.modified().ok()?, found.len()))
         };
         let seen = files(scenario).into_iter().map(|path| (path.clone(), state(&path))).collect();
-        Watched { scenario: scenario.to_owned(), seen }
+        WatchedFiles { scenario: scenario.to_owned(), seen }
     }
 
     /// Whether there is any file that could change.
@@ -33,15 +33,15 @@ impl Watched {
     }
 
     /// Waits until any of the files has changed and is left alone again: editors write in several steps.
-    pub fn wait(self) -> Watched {
+    pub fn wait(self) -> WatchedFiles {
         loop {
             sleep(LOOK);
-            let now = Watched::look(&self.scenario);
+            let now = WatchedFiles::look(&self.scenario);
             if now == self || now.is_empty() {
                 continue;
             }
             sleep(LOOK);
-            let later = Watched::look(&self.scenario);
+            let later = WatchedFiles::look(&self.scenario);
             if later == now {
                 return later;
             }

@@ -13,7 +13,7 @@ use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::moments::moments;
 use crate::report::Report;
-use crate::watch::{Watcher, Watchers};
+use crate::watch::{WatchError, Watcher, Watchers};
 use crate::{phases, spawn};
 
 /// Why a run could not be finished.
@@ -21,7 +21,7 @@ use crate::{phases, spawn};
 pub enum RunError {
     /// What was to be kept of it could not be kept.
     #[error("{0}")]
-    Watch(String),
+    Watch(WatchError),
     /// The building cannot be built.
     #[error("the building cannot be simulated: {0}")]
     Building(#[from] BuildingError),

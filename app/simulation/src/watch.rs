@@ -1,30 +1,35 @@
 //! Record: every tick is shown to whoever watches: a recorder, a progress bar.
 
+use std::error::Error;
+
 use bevy::ecs::prelude::*;
 
 use crate::components::Present;
 use crate::frame::Frame;
+
+/// Why a watcher could not keep what it was shown.
+pub type WatchError = Box<dyn Error + Send + Sync>;
 
 /// Somebody who is shown every tick.
 pub trait Watcher: Send + Sync {
     /// Looks at one tick.
     ///
     /// # Errors
-    /// In words, if it cannot be kept; the run goes on and reports the first of them at its end.
-    fn tick(&mut self, frame: &Frame) -> Result<(), String>;
+    /// Anything, if it cannot be kept; the run goes on and reports the first of them at its end.
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError>;
 
     /// The run is over.
     ///
     /// # Errors
-    /// In words, if what was seen cannot be kept.
-    fn finish(self: Box<Self>) -> Result<(), String>;
+    /// Anything, if what was seen cannot be kept.
+    fn finish(self: Box<Self>) -> Result<(), WatchError>;
 }
 
 /// Those who watch a world.
 #[derive(Resource, Default)]
 pub struct Watchers {
     watchers: Vec<Box<dyn Watcher>>,
-    failure: Option<String>,
+    failure: Option<WatchError>,
 }
 
 impl Watchers {
@@ -37,7 +42,7 @@ impl Watchers {
     ///
     /// # Errors
     /// The first thing that went wrong.
-    pub fn finish(self) -> Result<(), String> {
+    pub fn finish(self) -> Result<(), WatchError> {
         let mut failure = self.failure;
         for watcher in self.watchers {
             let ended = watcher.finish();

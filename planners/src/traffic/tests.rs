@@ -2,9 +2,10 @@
 
 use super::committed::rolled_out;
 use super::*;
+use crate::State;
+use crate::Trajectory;
 use crate::fixture::{agent, scene};
 use crate::predict::{constant_velocity, steady};
-use crate::{State, Trajectory};
 use proptest::prelude::*;
 
 const STEP_S: f64 = 0.1;

@@ -4,7 +4,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use interplay_simulation::frame::Frame;
-use interplay_simulation::watch::Watcher;
+use interplay_simulation::watch::{WatchError, Watcher};
 
 /// The shortest time headway to the vehicle ahead in the same lane [s]: the gap between the bumpers, divided by the speed.
 struct Headway {
@@ -14,7 +14,7 @@ struct Headway {
 }
 
 impl Watcher for Headway {
-    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
         let Some(ego) = frame.vehicles.iter().find(|vehicle| vehicle.name == "ego") else { return Ok(()) };
         let same_lane = frame.vehicles.iter().filter(|other| (other.state.y_m - ego.state.y_m).abs() < 0.19);
         let ahead = same_lane.map(|other| other.state.x_m - ego.state.x_m).filter(|lead_m| *lead_m > 0.0);
@@ -24,7 +24,7 @@ impl Watcher for Headway {
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), String> {
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
         Ok(())
     }
 }

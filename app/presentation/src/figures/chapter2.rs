@@ -17,7 +17,7 @@ pub(super) static ENTRIES: &[Entry] = &[
              diverges; smoothing the temperatures does not remove the disturbance unless the heat is smoothed too \
              (otherwise gains are 70 to 130 % off); the M-step (2.14) divides by a sum where a sum of squares belongs.",
         ),
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| theory::identification(entry.title, false),
     },
@@ -31,7 +31,7 @@ pub(super) static ENTRIES: &[Entry] = &[
             "A prediction one step ahead says little, because temperatures hardly change within 15 minutes. Below it, \
              the model runs freely for a day at a time.",
         ),
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| theory::identification(entry.title, true),
     },
@@ -45,7 +45,7 @@ pub(super) static ENTRIES: &[Entry] = &[
             "The unit cannot be kW/K: with the step of half an hour that chapters 3 to 5 use, the rooms would then be \
              unstable. Read as K·min/kJ, which is 60 K/kW, they settle within hours, as rooms do.",
         ),
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| theory::thermal_parameters(entry.title),
     },

@@ -3,20 +3,22 @@
 use interplay_building::comfort::Setpoints;
 
 use super::entry::{Entry, Kind};
-use super::take::Shot;
+use super::recorded_run::RunSpec;
 use super::{climate, drawings, theory};
 
-const TUNED: Shot = Shot { label: "feedback tuned every day", scenario: "building/iterative-warm-nights", sets: &[] };
-const FIXED: Shot = Shot { label: "fixed feedback, K = 0.1 kW/K", scenario: "building/fixed-warm-nights", sets: &[] };
-const PRINTED: Shot = Shot {
+const TUNED: RunSpec =
+    RunSpec { label: "feedback tuned every day", scenario: "building/iterative-warm-nights", sets: &[] };
+const FIXED: RunSpec =
+    RunSpec { label: "fixed feedback, K = 0.1 kW/K", scenario: "building/fixed-warm-nights", sets: &[] };
+const PRINTED: RunSpec = RunSpec {
     label: "objective as printed: feedback left open",
     scenario: "building/iterative-warm-nights",
     sets: &["controller.objective=\"nominal\""],
 };
-const FREE_NIGHTS: Shot =
-    Shot { label: "free at night: tuned feedback", scenario: "building/iterative-free-nights", sets: &[] };
-const FIXED_FREE_NIGHTS: Shot =
-    Shot { label: "free at night: fixed feedback", scenario: "building/fixed-free-nights", sets: &[] };
+const FREE_NIGHTS: RunSpec =
+    RunSpec { label: "free at night: tuned feedback", scenario: "building/iterative-free-nights", sets: &[] };
+const FIXED_FREE_NIGHTS: RunSpec =
+    RunSpec { label: "free at night: fixed feedback", scenario: "building/fixed-free-nights", sets: &[] };
 
 const DEGENERATE: &str = "As printed, the design multiplies all its unknowns by one known vector, so that only the nominal \
     inputs matter: given a forecast it learns nothing, and the feedback is whatever the solver happens to return. Here the \
@@ -35,9 +37,9 @@ pub(super) static ENTRIES: &[Entry] = &[
             "The weather files of the source are not named. The climate here is synthetic, drawn from a seed, and has \
              Singapore's mean, range and scatter; the forecast errs as BOPTEST defines it.",
         ),
-        shots: &[TUNED],
+        runs: &[TUNED],
         beside: &[],
-        draw: |entry, takes| Ok(climate::weather(entry.title, takes[0]).sketch().into()),
+        draw: |entry, recorded_runs| Ok(climate::weather(entry.title, recorded_runs[0]).drawing().into()),
     },
     Entry {
         kind: Kind::Figure,
@@ -46,7 +48,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         says: "On the first day the rooms are far from what is wanted; from the second day on they follow it in spite of \
                weather that no forecast knew.",
         erratum: Some(DEGENERATE),
-        shots: &[TUNED],
+        runs: &[TUNED],
         beside: &[PRINTED],
         draw: drawings::temperatures,
     },
@@ -59,7 +61,7 @@ pub(super) static ENTRIES: &[Entry] = &[
             "The limit is one of power, in kW. The chance constraint (3.21) bounds each input on its own with 95 %; all 192 \
              of a day hold together less often. What the equipment cannot give is cut off and counted below.",
         ),
-        shots: &[TUNED],
+        runs: &[TUNED],
         beside: &[],
         draw: drawings::inputs,
     },
@@ -70,9 +72,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         says: "From the same start, both learn on the first day; with feedback that is tuned every day the cost settles \
                lower than with fixed feedback. A design takes about 120 s.",
         erratum: Some(DEGENERATE),
-        shots: &[TUNED, FIXED],
+        runs: &[TUNED, FIXED],
         beside: &[FREE_NIGHTS, FIXED_FREE_NIGHTS, PRINTED],
-        draw: |entry, takes| Ok(climate::costs(entry.title, takes).sketch().into()),
+        draw: |entry, recorded_runs| Ok(climate::costs(entry.title, recorded_runs).drawing().into()),
     },
     Entry {
         kind: Kind::Table,
@@ -80,11 +82,11 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Wanted temperatures while occupied",
         says: "24, 25, 26 and 27 °C in rooms 1 to 4 from 8 to 19 h; 30 °C otherwise.",
         erratum: None,
-        shots: &[TUNED],
+        runs: &[TUNED],
         beside: &[],
-        draw: |entry, takes| {
+        draw: |entry, recorded_runs| {
             let default = Setpoints::default();
-            Ok(theory::setpoints(entry.title, takes[0].scenario.setpoints.as_ref().unwrap_or(&default)))
+            Ok(theory::setpoints(entry.title, recorded_runs[0].scenario.setpoints.as_ref().unwrap_or(&default)))
         },
     },
 ];

@@ -2,23 +2,24 @@
 
 use interplay_building::comfort::Setpoints;
 
-use super::entry::{Entry, Exhibit, Kind};
-use super::take::{Shot, Take};
+use super::entry::{Entry, FigureContent, Kind};
+use super::error::FigureError;
+use super::recorded_run::{RecordedRun, RunSpec};
 use super::{climate, theory};
 
-const fn shot(label: &'static str, scenario: &'static str) -> Shot {
-    Shot { label, scenario, sets: &[] }
+const fn spec(label: &'static str, scenario: &'static str) -> RunSpec {
+    RunSpec { label, scenario, sets: &[] }
 }
 
-const ACCURATE: Shot = shot("concurrent, exact prediction", "building/concurrent-exact");
-const FIXED_ACCURATE: Shot = shot("fixed PID and learning, no forecast", "building/pid-exact");
-const FORECAST: Shot = Shot {
+const ACCURATE: RunSpec = spec("concurrent, exact prediction", "building/concurrent-exact");
+const FIXED_ACCURATE: RunSpec = spec("fixed PID and learning, no forecast", "building/pid-exact");
+const FORECAST: RunSpec = RunSpec {
     label: "planned with the forecast, fixed feedback",
     scenario: "building/concurrent-exact",
     sets: &["controller={ kind = \"iterative\", stability = \"fixed\" }"],
 };
-const UNCERTAIN: Shot = shot("concurrent, uncertain prediction", "building/concurrent-uncertain");
-const FIXED_UNCERTAIN: Shot = shot("fixed PID and learning, no forecast", "building/pid-uncertain");
+const UNCERTAIN: RunSpec = spec("concurrent, uncertain prediction", "building/concurrent-uncertain");
+const FIXED_UNCERTAIN: RunSpec = spec("fixed PID and learning, no forecast", "building/pid-uncertain");
 
 const BLIND: &str = "The vector α of (4.11) is blind to a Q that moves heat between rooms, and as printed Q does not enter the \
     cost at all: the Q that comes out can be far worse than none. Here Q minimises the effect of the disturbance that is \
@@ -28,8 +29,8 @@ const SAME: &str = "With an exact prediction, feedback has nothing left to do: i
     no forecast, which is what is drawn here.";
 
 /// The first two rooms, as the source draws them.
-fn two_rooms(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    Ok(climate::temperatures(entry.title, takes[0], &[0, 1]).sketch().into())
+fn two_rooms(entry: &Entry, recorded_runs: &[&RecordedRun]) -> Result<FigureContent, FigureError> {
+    Ok(climate::temperatures(entry.title, recorded_runs[0], &[0, 1]).drawing().into())
 }
 
 /// The figures and tables of the chapter.
@@ -43,10 +44,12 @@ pub(super) static ENTRIES: &[Entry] = &[
             "What is drawn is the outdoor temperature that would have the same effect, T₀ + w R₀: the source does not say \
              how it adds watts and degrees.",
         ),
-        shots: &[UNCERTAIN],
+        runs: &[UNCERTAIN],
         beside: &[],
-        draw: |entry, takes| {
-            Ok(climate::disturbance(entry.title, takes[0], &climate::first_zones(takes[0])).sketch().into())
+        draw: |entry, recorded_runs| {
+            Ok(climate::disturbance(entry.title, recorded_runs[0], &climate::first_zones(recorded_runs[0]))
+                .drawing()
+                .into())
         },
     },
     Entry {
@@ -56,7 +59,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         says: "Rooms 1 and 2 on three consecutive days: poor on the first, close to what is wanted from the second on, with \
                cooling that begins before people come.",
         erratum: Some(BLIND),
-        shots: &[ACCURATE],
+        runs: &[ACCURATE],
         beside: &[FIXED_ACCURATE],
         draw: two_rooms,
     },
@@ -66,7 +69,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Learning with a fixed PID feedback, exact prediction",
         says: "With a fixed feedback the part of the disturbance that does not repeat stays visible.",
         erratum: Some(SAME),
-        shots: &[FIXED_ACCURATE],
+        runs: &[FIXED_ACCURATE],
         beside: &[FORECAST, ACCURATE],
         draw: two_rooms,
     },
@@ -76,7 +79,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Concurrent design, uncertain prediction",
         says: "With a prediction that errs, the rooms still follow closely and stay within the comfort zone.",
         erratum: Some(BLIND),
-        shots: &[UNCERTAIN],
+        runs: &[UNCERTAIN],
         beside: &[FIXED_UNCERTAIN],
         draw: two_rooms,
     },
@@ -86,7 +89,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Learning with a fixed PID feedback, uncertain prediction",
         says: "The fixed feedback does not follow well enough, and the comfort zone is left.",
         erratum: None,
-        shots: &[FIXED_UNCERTAIN],
+        runs: &[FIXED_UNCERTAIN],
         beside: &[UNCERTAIN],
         draw: two_rooms,
     },
@@ -96,11 +99,11 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Wanted temperatures during working hours",
         says: "22.5, 22, 23 and 23.5 °C in rooms 1 to 4 from 7:30 to 18 h; free otherwise.",
         erratum: None,
-        shots: &[UNCERTAIN],
+        runs: &[UNCERTAIN],
         beside: &[],
-        draw: |entry, takes| {
+        draw: |entry, recorded_runs| {
             let default = Setpoints::default();
-            Ok(theory::setpoints(entry.title, takes[0].scenario.setpoints.as_ref().unwrap_or(&default)))
+            Ok(theory::setpoints(entry.title, recorded_runs[0].scenario.setpoints.as_ref().unwrap_or(&default)))
         },
     },
 ];

@@ -1,17 +1,18 @@
 //! Chapter 5: zones that plan together.
 
 use super::entry::{Entry, Kind};
-use super::take::Shot;
+use super::recorded_run::RunSpec;
 use super::{climate, drawings};
 
-const TOGETHER: Shot = Shot { label: "distributed", scenario: "building/distributed", sets: &[] };
-const CENTRAL: Shot = Shot {
+const TOGETHER: RunSpec = RunSpec { label: "distributed", scenario: "building/distributed", sets: &[] };
+const CENTRAL: RunSpec = RunSpec {
     label: "the same in one problem",
     scenario: "building/distributed",
     sets: &["controller={ kind = \"centralised\" }"],
 };
-const ROUNDS: Shot = Shot { label: "rounds as printed (Jacobi)", scenario: "building/distributed-rounds", sets: &[] };
-const MOMENTUM: Shot = Shot {
+const ROUNDS: RunSpec =
+    RunSpec { label: "rounds as printed (Jacobi)", scenario: "building/distributed-rounds", sets: &[] };
+const MOMENTUM: RunSpec = RunSpec {
     label: "rounds with momentum",
     scenario: "building/distributed-rounds",
     sets: &["controller.scheme=\"momentum\""],
@@ -28,7 +29,7 @@ pub(super) static ENTRIES: &[Entry] = &[
             "The matrix that couples the zones in (5.1) is the identity plus the Laplacian of the graph; read as an \
              adjacency matrix with ones it has a negative eigenvalue, and any uniform gain diverges.",
         ),
-        shots: &[TOGETHER],
+        runs: &[TOGETHER],
         beside: &[CENTRAL],
         draw: drawings::temperatures,
     },
@@ -38,7 +39,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Inputs of the four zones over three days",
         says: "Inputs obey their limits, are nearly zero outside working hours, and begin some steps before 8 h.",
         erratum: None,
-        shots: &[TOGETHER],
+        runs: &[TOGETHER],
         beside: &[CENTRAL],
         draw: drawings::inputs,
     },
@@ -54,8 +55,8 @@ pub(super) static ENTRIES: &[Entry] = &[
              momentum in an eighth of the rounds. That one problem grows exponentially is a property of the dense form: in \
              the sparse one it is the faster of both at every size.",
         ),
-        shots: &[ROUNDS],
+        runs: &[ROUNDS],
         beside: &[MOMENTUM],
-        draw: |entry, takes| Ok(climate::rounds(entry.title, takes[0]).sketch().into()),
+        draw: |entry, recorded_runs| Ok(climate::rounds(entry.title, recorded_runs[0]).drawing().into()),
     },
 ];

@@ -1,18 +1,18 @@
 //! Chapter 6: negotiation.
 
-use super::drawings::{film, film_and_mind, speeds};
+use super::drawings::{footprints, footprints_and_planner_panels, speeds};
 use super::entry::{Entry, Kind};
-use super::take::Shot;
+use super::recorded_run::RunSpec;
 use super::theory;
 
 const CONSERVATIVE: &[&str] = &["vehicle.ego.driver.kind=\"conservative\""];
 
-const fn shot(scenario: &'static str) -> Shot {
-    Shot { label: "negotiation", scenario, sets: &[] }
+const fn spec(scenario: &'static str) -> RunSpec {
+    RunSpec { label: "negotiation", scenario, sets: &[] }
 }
 
-const fn beside(scenario: &'static str) -> Shot {
-    Shot { label: "conservative planner instead", scenario, sets: CONSERVATIVE }
+const fn beside(scenario: &'static str) -> RunSpec {
+    RunSpec { label: "conservative planner instead", scenario, sets: CONSERVATIVE }
 }
 
 const PINNED: &str = "(6.15) demands safety from the other's old prediction, with which the best proposal is no proposal; \
@@ -30,9 +30,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, lane change, drivers nice",
         says: "The ego (yellow) proposes, the front driver (blue) accepts and lets it cut in.",
         erratum: Some(PINNED),
-        shots: &[shot("lane-change/front-nice")],
+        runs: &[spec("lane-change/front-nice")],
         beside: &[beside("lane-change/front-nice")],
-        draw: film_and_mind,
+        draw: footprints_and_planner_panels,
     },
     Entry {
         kind: Kind::Figure,
@@ -41,9 +41,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         says: "The ego tries to cut in ahead of the front driver, who refuses; it waits, asks the rear driver (green), who is \
                nice, and cuts in ahead of that one.",
         erratum: Some(SWITCH),
-        shots: &[shot("lane-change/front-tough")],
+        runs: &[spec("lane-change/front-tough")],
         beside: &[beside("lane-change/front-tough")],
-        draw: film_and_mind,
+        draw: footprints_and_planner_panels,
     },
     Entry {
         kind: Kind::Figure,
@@ -51,9 +51,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, lane keeping, merging driver nice",
         says: "Someone wants to merge into the ego's lane; the ego accelerates and thereby says that it will not yield.",
         erratum: Some(PINNED),
-        shots: &[shot("lane-keeping/nice")],
+        runs: &[spec("lane-keeping/nice")],
         beside: &[beside("lane-keeping/nice")],
-        draw: film,
+        draw: footprints,
     },
     Entry {
         kind: Kind::Figure,
@@ -61,9 +61,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, lane keeping, merging driver tough",
         says: "The other merges whatever the ego does; the ego slows down and lets it in.",
         erratum: None,
-        shots: &[shot("lane-keeping/tough")],
+        runs: &[spec("lane-keeping/tough")],
         beside: &[beside("lane-keeping/tough")],
-        draw: film,
+        draw: footprints,
     },
     Entry {
         kind: Kind::Figure,
@@ -71,7 +71,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, lane keeping, speeds with a nice driver",
         says: "The ego is faster than the other throughout.",
         erratum: None,
-        shots: &[shot("lane-keeping/nice")],
+        runs: &[spec("lane-keeping/nice")],
         beside: &[beside("lane-keeping/nice")],
         draw: speeds,
     },
@@ -81,7 +81,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, lane keeping, speeds with a tough driver",
         says: "The ego slows down, then follows.",
         erratum: None,
-        shots: &[shot("lane-keeping/tough")],
+        runs: &[spec("lane-keeping/tough")],
         beside: &[beside("lane-keeping/tough")],
         draw: speeds,
     },
@@ -91,9 +91,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, intersection, crossing driver nice",
         says: "Both would arrive at once; the ego crosses first.",
         erratum: Some(FILTER),
-        shots: &[shot("intersection/nice")],
+        runs: &[spec("intersection/nice")],
         beside: &[beside("intersection/nice")],
-        draw: film,
+        draw: footprints,
     },
     Entry {
         kind: Kind::Figure,
@@ -101,9 +101,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, intersection, crossing driver tough",
         says: "The ego waits and crosses second.",
         erratum: Some(FILTER),
-        shots: &[shot("intersection/tough")],
+        runs: &[spec("intersection/tough")],
         beside: &[beside("intersection/tough")],
-        draw: film,
+        draw: footprints,
     },
     Entry {
         kind: Kind::Figure,
@@ -111,7 +111,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, intersection, speeds with a nice driver",
         says: "The ego accelerates and passes first; the other slows down.",
         erratum: None,
-        shots: &[shot("intersection/nice")],
+        runs: &[spec("intersection/nice")],
         beside: &[beside("intersection/nice")],
         draw: speeds,
     },
@@ -121,7 +121,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Negotiation, intersection, speeds with a tough driver",
         says: "The ego keeps its speed low until the other has passed.",
         erratum: None,
-        shots: &[shot("intersection/tough")],
+        runs: &[spec("intersection/tough")],
         beside: &[beside("intersection/tough")],
         draw: speeds,
     },
@@ -131,7 +131,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Dimensions",
         says: "Vehicles and lanes at a tenth of their size.",
         erratum: None,
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| Ok(theory::dimensions(entry.title)),
     },
@@ -144,7 +144,7 @@ pub(super) static ENTRIES: &[Entry] = &[
             "Beside another vehicle in the next lane the ellipse is passed at 1.057 times its half axis: just legal. At \
              intersections here the ellipse is wider (0.5 m), since 0.35 m leave 4.5 cm between a nose and a side.",
         ),
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| theory::configuration(entry.title),
     },

@@ -1,19 +1,19 @@
 //! Chapter 7: Bayesian persuasion.
 
-use super::drawings::{film, film_and_mind, speeds};
+use super::drawings::{footprints, footprints_and_planner_panels, speeds};
 use super::entry::{Entry, Kind};
-use super::take::Shot;
+use super::recorded_run::RunSpec;
 
-const fn shot(scenario: &'static str) -> Shot {
-    Shot { label: "Bayesian persuasion", scenario, sets: &[] }
+const fn spec(scenario: &'static str) -> RunSpec {
+    RunSpec { label: "Bayesian persuasion", scenario, sets: &[] }
 }
 
-const fn conservative(scenario: &'static str) -> Shot {
-    Shot { label: "conservative planner instead", scenario, sets: &["vehicle.ego.driver.kind=\"conservative\""] }
+const fn conservative(scenario: &'static str) -> RunSpec {
+    RunSpec { label: "conservative planner instead", scenario, sets: &["vehicle.ego.driver.kind=\"conservative\""] }
 }
 
-const fn exact(scenario: &'static str) -> Shot {
-    Shot { label: "with the exact value of (7.19)", scenario, sets: &["vehicle.ego.driver.value=\"exact\""] }
+const fn exact(scenario: &'static str) -> RunSpec {
+    RunSpec { label: "with the exact value of (7.19)", scenario, sets: &["vehicle.ego.driver.value=\"exact\""] }
 }
 
 const DROPPED: &str = "(7.19) silently drops a term. The value that follows from the chapter's own equations repels: with it \
@@ -32,9 +32,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, lane change, rear driver nice",
         says: "The front driver (blue) is always tough. The rear driver (green) slows down and lets the ego (yellow) in.",
         erratum: Some(DROPPED),
-        shots: &[shot("lane-change/bayesian-front-tough")],
+        runs: &[spec("lane-change/bayesian-front-tough")],
         beside: &[conservative("lane-change/bayesian-front-tough"), exact("lane-change/bayesian-front-tough")],
-        draw: film_and_mind,
+        draw: footprints_and_planner_panels,
     },
     Entry {
         kind: Kind::Figure,
@@ -42,9 +42,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, lane change, rear driver tough",
         says: "The rear driver accelerates and ignores the ego, which waits until it has passed and changes lane behind it.",
         erratum: None,
-        shots: &[shot("lane-change/bayesian-both-tough")],
+        runs: &[spec("lane-change/bayesian-both-tough")],
         beside: &[conservative("lane-change/bayesian-both-tough")],
-        draw: film_and_mind,
+        draw: footprints_and_planner_panels,
     },
     Entry {
         kind: Kind::Figure,
@@ -52,9 +52,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, lane keeping, merging driver nice",
         says: "The ego ignores the wish to merge and accelerates, to show its intention.",
         erratum: Some(DROPPED),
-        shots: &[shot("lane-keeping/bayesian-nice")],
+        runs: &[spec("lane-keeping/bayesian-nice")],
         beside: &[conservative("lane-keeping/bayesian-nice"), exact("lane-keeping/bayesian-nice")],
-        draw: film,
+        draw: footprints,
     },
     Entry {
         kind: Kind::Figure,
@@ -62,9 +62,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, lane keeping, merging driver tough",
         says: "The ego slows down, to show that it yields.",
         erratum: None,
-        shots: &[shot("lane-keeping/bayesian-tough")],
+        runs: &[spec("lane-keeping/bayesian-tough")],
         beside: &[conservative("lane-keeping/bayesian-tough")],
-        draw: film,
+        draw: footprints,
     },
     Entry {
         kind: Kind::Figure,
@@ -72,7 +72,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, lane keeping, speeds with a nice driver",
         says: "The ego accelerates and stays faster than the other.",
         erratum: None,
-        shots: &[shot("lane-keeping/bayesian-nice")],
+        runs: &[spec("lane-keeping/bayesian-nice")],
         beside: &[conservative("lane-keeping/bayesian-nice")],
         draw: speeds,
     },
@@ -82,7 +82,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, lane keeping, speeds with a tough driver",
         says: "The ego slows down, then follows.",
         erratum: None,
-        shots: &[shot("lane-keeping/bayesian-tough")],
+        runs: &[spec("lane-keeping/bayesian-tough")],
         beside: &[conservative("lane-keeping/bayesian-tough")],
         draw: speeds,
     },
@@ -92,9 +92,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, intersection, crossing driver nice",
         says: "The ego passes first.",
         erratum: Some(DROPPED),
-        shots: &[shot("intersection/bayesian-nice")],
+        runs: &[spec("intersection/bayesian-nice")],
         beside: &[conservative("intersection/bayesian-nice"), exact("intersection/bayesian-nice")],
-        draw: film,
+        draw: footprints,
     },
     Entry {
         kind: Kind::Figure,
@@ -102,9 +102,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, intersection, crossing driver tough",
         says: "The ego inches forward, then stops and waits for the other to pass.",
         erratum: Some(NO_LINE),
-        shots: &[shot("intersection/bayesian-tough")],
+        runs: &[spec("intersection/bayesian-tough")],
         beside: &[conservative("intersection/bayesian-tough")],
-        draw: film,
+        draw: footprints,
     },
     Entry {
         kind: Kind::Figure,
@@ -112,7 +112,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, intersection, speeds with a nice driver",
         says: "The ego keeps accelerating and crosses first.",
         erratum: None,
-        shots: &[shot("intersection/bayesian-nice")],
+        runs: &[spec("intersection/bayesian-nice")],
         beside: &[conservative("intersection/bayesian-nice")],
         draw: speeds,
     },
@@ -122,7 +122,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Bayesian persuasion, intersection, speeds with a tough driver",
         says: "The ego inches, then stops.",
         erratum: Some(NO_LINE),
-        shots: &[shot("intersection/bayesian-tough")],
+        runs: &[spec("intersection/bayesian-tough")],
         beside: &[conservative("intersection/bayesian-tough")],
         draw: speeds,
     },

@@ -1,24 +1,24 @@
 //! Chapter 8: the persuasion game.
 
-use super::drawings::{film_and_mind, speeds};
+use super::drawings::{footprints_and_planner_panels, speeds};
 use super::entry::{Entry, Kind};
-use super::take::Shot;
+use super::recorded_run::RunSpec;
 use super::theory;
 
-const fn shot(scenario: &'static str) -> Shot {
-    Shot { label: "game", scenario, sets: &[] }
+const fn spec(scenario: &'static str) -> RunSpec {
+    RunSpec { label: "game", scenario, sets: &[] }
 }
 
-const fn conservative(scenario: &'static str) -> Shot {
-    Shot { label: "conservative planner instead", scenario, sets: &["vehicle.ego.driver.kind=\"conservative\""] }
+const fn conservative(scenario: &'static str) -> RunSpec {
+    RunSpec { label: "conservative planner instead", scenario, sets: &["vehicle.ego.driver.kind=\"conservative\""] }
 }
 
-const fn large(scenario: &'static str) -> Shot {
-    Shot { label: "accident as printed, \"large\": M = 50", scenario, sets: &["vehicle.ego.driver.accident=50"] }
+const fn large(scenario: &'static str) -> RunSpec {
+    RunSpec { label: "accident as printed, \"large\": M = 50", scenario, sets: &["vehicle.ego.driver.accident=50"] }
 }
 
-const fn nash(scenario: &'static str) -> Shot {
-    Shot {
+const fn nash(scenario: &'static str) -> RunSpec {
+    RunSpec {
         label: "equilibrium instead of leader and follower",
         scenario,
         sets: &["vehicle.ego.driver.solution=\"nash\""],
@@ -44,7 +44,7 @@ pub(super) static ENTRIES: &[Entry] = &[
              in print is η. \"β > 1\" contradicts the 0.88 that is used. In (8.7) outcomes must be ranked; \"any order\" is \
              not the same.",
         ),
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| Ok(theory::weights(entry.title)),
     },
@@ -54,13 +54,13 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Game, lane change, rear driver friendly",
         says: "The front driver never yields. The ego merges ahead of the friendly rear driver.",
         erratum: Some(LARGE),
-        shots: &[shot("lane-change/game-friendly")],
+        runs: &[spec("lane-change/game-friendly")],
         beside: &[
             conservative("lane-change/game-friendly"),
             nash("lane-change/game-friendly"),
             large("lane-change/game-friendly"),
         ],
-        draw: film_and_mind,
+        draw: footprints_and_planner_panels,
     },
     Entry {
         kind: Kind::Figure,
@@ -68,9 +68,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Game, lane change, rear driver aggressive",
         says: "The ego finds no chance to merge until the second driver has passed too.",
         erratum: None,
-        shots: &[shot("lane-change/game-aggressive")],
+        runs: &[spec("lane-change/game-aggressive")],
         beside: &[conservative("lane-change/game-aggressive"), nash("lane-change/game-aggressive")],
-        draw: film_and_mind,
+        draw: footprints_and_planner_panels,
     },
     Entry {
         kind: Kind::Figure,
@@ -78,7 +78,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Game, lane change, speeds with a friendly driver",
         says: "The friendly driver slows down while the ego merges.",
         erratum: None,
-        shots: &[shot("lane-change/game-friendly")],
+        runs: &[spec("lane-change/game-friendly")],
         beside: &[conservative("lane-change/game-friendly")],
         draw: speeds,
     },
@@ -88,7 +88,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Game, lane change, speeds with an aggressive driver",
         says: "The ego slows down until both have passed.",
         erratum: None,
-        shots: &[shot("lane-change/game-aggressive")],
+        runs: &[spec("lane-change/game-aggressive")],
         beside: &[conservative("lane-change/game-aggressive")],
         draw: speeds,
     },
@@ -98,9 +98,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Game, intersection, crossing driver friendly",
         says: "The other decides to yield, and the ego crosses first.",
         erratum: Some(SWAPPED),
-        shots: &[shot("intersection/game-friendly")],
+        runs: &[spec("intersection/game-friendly")],
         beside: &[conservative("intersection/game-friendly"), large("intersection/game-friendly")],
-        draw: film_and_mind,
+        draw: footprints_and_planner_panels,
     },
     Entry {
         kind: Kind::Figure,
@@ -108,7 +108,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Game, intersection, speeds with a friendly driver",
         says: "The ego accelerates, the other slows down.",
         erratum: None,
-        shots: &[shot("intersection/game-friendly")],
+        runs: &[spec("intersection/game-friendly")],
         beside: &[conservative("intersection/game-friendly")],
         draw: speeds,
     },
@@ -118,9 +118,9 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Game, intersection, crossing driver aggressive",
         says: "The other passes first, and the ego has to wait.",
         erratum: Some(SWAPPED),
-        shots: &[shot("intersection/game-aggressive")],
+        runs: &[spec("intersection/game-aggressive")],
         beside: &[conservative("intersection/game-aggressive"), large("intersection/game-aggressive")],
-        draw: film_and_mind,
+        draw: footprints_and_planner_panels,
     },
     Entry {
         kind: Kind::Figure,
@@ -128,7 +128,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Game, intersection, speeds with an aggressive driver",
         says: "The ego slows down until the other has passed.",
         erratum: None,
-        shots: &[shot("intersection/game-aggressive")],
+        runs: &[spec("intersection/game-aggressive")],
         beside: &[conservative("intersection/game-aggressive")],
         draw: speeds,
     },
@@ -138,7 +138,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "The game of chicken",
         says: "Who swerves while the other drives on is the chicken; if both drive on, both lose M.",
         erratum: None,
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| Ok(theory::chicken(entry.title)),
     },
@@ -152,7 +152,7 @@ pub(super) static ENTRIES: &[Entry] = &[
             "The first number of each pair is the surrounding vehicle's. With clipped probabilities a stake reaches 19, \
              more than a moderate M: then waiting for ever is worse than the accident.",
         ),
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| Ok(theory::payoffs(entry.title)),
     },
@@ -162,7 +162,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         title: "Probabilities of the four events",
         says: "Products of the two probabilities of passing.",
         erratum: None,
-        shots: &[],
+        runs: &[],
         beside: &[],
         draw: |entry, _| Ok(theory::events(entry.title)),
     },

@@ -6,8 +6,8 @@ use interplay_building::network::Network;
 use interplay_simulation::climate::people;
 use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
 
-use super::take::Take;
-use crate::plot::ink::{self, BLUE, Dash, Ink, LIMIT, ORANGE, WANTED};
+use super::recorded_run::RecordedRun;
+use crate::plot::style::{self, BLUE, Dash, LIMIT, LineStyle, ORANGE, WANTED};
 use crate::plot::{Curve, Panel, Panels};
 
 /// The most zones that are drawn one by one.
@@ -16,79 +16,79 @@ pub const MOST_ZONES: usize = 4;
 const MOST_DAYS: usize = 5;
 
 /// The steps of a building.
-fn steps(take: &Take) -> impl Iterator<Item = &BuildingFrame> {
-    take.frames.iter().filter_map(|frame| frame.building.as_ref())
+fn steps(recorded: &RecordedRun) -> impl Iterator<Item = &BuildingFrame> {
+    recorded.frames.iter().filter_map(|frame| frame.building.as_ref())
 }
 
 /// Sampling time \[h\].
-fn step_h(take: &Take) -> f64 {
-    take.scenario.building.as_ref().map_or(1.0, |building| building.step_s / 3600.0)
+fn step_h(recorded: &RecordedRun) -> f64 {
+    recorded.scenario.building.as_ref().map_or(1.0, |building| building.step_s / 3600.0)
 }
 
-fn network(take: &Take) -> Option<Network> {
-    take.scenario.building.as_ref().and_then(|building| building.network().ok())
+fn network(recorded: &RecordedRun) -> Option<Network> {
+    recorded.scenario.building.as_ref().and_then(|building| building.network().ok())
 }
 
 /// The days that are drawn one by one: all, or the first of them and the last.
-fn days(take: &Take) -> Vec<usize> {
-    let count = steps(take).last().map_or(0, |step| step.day + 1);
+fn days(recorded: &RecordedRun) -> Vec<usize> {
+    let count = steps(recorded).last().map_or(0, |step| step.day + 1);
     let first = (0..count).take(if count > MOST_DAYS { MOST_DAYS - 1 } else { count });
     first.chain((count > MOST_DAYS).then(|| count - 1)).collect()
 }
 
 /// The first zones of a building.
-pub fn first_zones(take: &Take) -> Vec<usize> {
-    let zones = steps(take).next().map_or(0, |step| step.zones.len());
+pub fn first_zones(recorded: &RecordedRun) -> Vec<usize> {
+    let zones = steps(recorded).next().map_or(0, |step| step.zones.len());
     (0..zones.min(MOST_ZONES)).collect()
 }
 
 /// A value of a zone over a day, at the hours of `hour`.
-fn day_of(take: &Take, day: usize, zone: usize, value: impl Fn(&ZoneFrame) -> f64) -> Vec<[f64; 2]> {
-    let step_h = step_h(take);
-    let today = steps(take).filter(|step| step.day == day);
+fn day_of(recorded: &RecordedRun, day: usize, zone: usize, value: impl Fn(&ZoneFrame) -> f64) -> Vec<[f64; 2]> {
+    let step_h = step_h(recorded);
+    let today = steps(recorded).filter(|step| step.day == day);
     today.map(|step| [step.step as f64 * step_h, value(&step.zones[zone])]).collect()
 }
 
 /// Temperatures of some zones over the day, one curve a day, against what is wanted and the comfort band.
-pub fn temperatures(title: &str, take: &Take, zones: &[usize]) -> Panels {
-    let Setpoints { band_k, from_h, to_h, .. } = take.scenario.setpoints.clone().unwrap_or_default();
+pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
+    let Setpoints { band_k, from_h, to_h, .. } = recorded.scenario.setpoints.clone().unwrap_or_default();
     let panel = |&zone: &usize| {
-        let mut curves: Vec<Curve> = days(take)
+        let mut curves: Vec<Curve> = days(recorded)
             .into_iter()
-            .zip(ink::inks())
-            .map(|(day, ink)| {
-                let points = day_of(take, day, zone, |now| now.temperature_c);
-                Curve::new(format!("day {}", day + 1), ink, points)
+            .zip(style::inks())
+            .map(|(day, style)| {
+                let points = day_of(recorded, day, zone, |now| now.temperature_c);
+                Curve::new(format!("day {}", day + 1), style, points)
             })
             .collect();
-        for (name, beside_k, ink) in
+        for (name, beside_k, style) in
             [("wanted", 0.0, WANTED), ("comfort band", band_k, LIMIT), ("comfort band", -band_k, LIMIT)]
         {
             let wanted = |now: &ZoneFrame| now.reference_c.map_or(f64::NAN, |wanted_c| wanted_c + beside_k);
             let comfortable = |hour: f64| beside_k == 0.0 || (from_h..=to_h).contains(&hour);
-            let points = day_of(take, 0, zone, wanted).into_iter();
+            let points = day_of(recorded, 0, zone, wanted).into_iter();
             let points: Vec<[f64; 2]> =
                 points.map(|[hour, c]| [hour, if comfortable(hour) { c } else { f64::NAN }]).collect();
             if points.iter().any(|point| point[1].is_finite()) {
-                curves.push(Curve::new(name, ink, points));
+                curves.push(Curve::new(name, style, points));
             }
         }
-        Panel { name: format!("{}: temperature [°C]", name(take, zone)), curves, ..Panel::default() }
+        Panel { name: format!("{}: temperature [°C]", name(recorded, zone)), curves, ..Panel::default() }
     };
     over_day(title, zones.iter().map(panel).collect())
 }
 
 /// Heat from the equipment of some zones over the day, one curve a day, against its limits.
-pub fn inputs(title: &str, take: &Take, zones: &[usize]) -> Panels {
-    let limits_kw = network(take).map(|network| network.limits_kw().to_vec()).unwrap_or_default();
+pub fn inputs(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
+    let limits_kw = network(recorded).map(|network| network.limits_kw().to_vec()).unwrap_or_default();
     let panel = |&zone: &usize| {
-        let curves = days(take).into_iter().zip(ink::inks()).map(|(day, ink)| {
-            let points = day_of(take, day, zone, |now| now.heat_kw);
-            Curve::held(format!("day {}", day + 1), ink, &points, step_h(take))
+        let curves = days(recorded).into_iter().zip(style::inks()).map(|(day, style)| {
+            let points = day_of(recorded, day, zone, |now| now.heat_kw);
+            Curve::held(format!("day {}", day + 1), style, &points, step_h(recorded))
         });
         let limit = limits_kw.get(zone).map_or(Vec::new(), |&limit_kw| vec![limit_kw, -limit_kw]);
         Panel {
-            name: format!("{}: heat, cooling below 0 [kW]", name(take, zone)),
+            name: format!("{}: heat, cooling below 0 [kW]", name(recorded, zone)),
             curves: curves.collect(),
             limits: limit.into_iter().map(|limit_kw| (limit_kw, "limit of the equipment".to_owned())).collect(),
             ..Panel::default()
@@ -101,21 +101,21 @@ fn over_day(title: &str, panels: Vec<Panel>) -> Panels {
     Panels { title: title.to_owned(), across: "time of day [h]".to_owned(), columns: 2, every: Some(4.0), panels }
 }
 
-fn name(take: &Take, zone: usize) -> String {
-    let named = network(take).and_then(|network| network.names().get(zone).cloned());
+fn name(recorded: &RecordedRun, zone: usize) -> String {
+    let named = network(recorded).and_then(|network| network.names().get(zone).cloned());
     named.unwrap_or_else(|| format!("zone {}", zone + 1))
 }
 
 /// What a day cost, day by day, of one run or of several.
-pub fn costs(title: &str, takes: &[&Take]) -> Panels {
-    let curve = |(take, ink): (&&Take, Ink)| {
-        let days = take.report.building.iter().flat_map(|building| &building.iterations);
+pub fn costs(title: &str, recorded_runs: &[&RecordedRun]) -> Panels {
+    let curve = |(recorded, style): (&&RecordedRun, LineStyle)| {
+        let days = recorded.report.building.iter().flat_map(|building| &building.iterations);
         let points = days.enumerate().map(|(day, figures)| [day as f64 + 1.0, figures.figures.cost]).collect();
-        Curve::new(take.label.as_str(), ink, points).marked()
+        Curve::new(recorded.label.as_str(), style, points).marked()
     };
-    let mut curves: Vec<Curve> = takes.iter().zip(ink::inks()).map(curve).collect();
-    if let [take] = takes {
-        let days = take.report.building.iter().flat_map(|building| &building.iterations).enumerate();
+    let mut curves: Vec<Curve> = recorded_runs.iter().zip(style::inks()).map(curve).collect();
+    if let [recorded] = recorded_runs {
+        let days = recorded.report.building.iter().flat_map(|building| &building.iterations).enumerate();
         let least = days.filter_map(|(day, figures)| Some([day as f64 + 1.0, figures.figures.cost - figures.regret?]));
         let least: Vec<[f64; 2]> = least.collect();
         if !least.is_empty() {
@@ -136,18 +136,18 @@ pub fn costs(title: &str, takes: &[&Take]) -> Panels {
 }
 
 /// Outdoor temperature and its forecast, day after day.
-pub fn weather(title: &str, take: &Take) -> Panels {
-    let step_h = step_h(take);
+pub fn weather(title: &str, recorded: &RecordedRun) -> Panels {
+    let step_h = step_h(recorded);
     let per_day = (24.0 / step_h).round();
-    let curve = |name: &str, ink: Ink, value: fn(&BuildingFrame) -> f64| {
-        let points = steps(take).map(|step| [step.day as f64 + step.step as f64 / per_day, value(step)]);
-        Curve::new(name, ink, points.collect())
+    let curve = |name: &str, style: LineStyle, value: fn(&BuildingFrame) -> f64| {
+        let points = steps(recorded).map(|step| [step.day as f64 + step.step as f64 / per_day, value(step)]);
+        Curve::new(name, style, points.collect())
     };
     let panel = Panel {
         name: "outdoor temperature [°C]".to_owned(),
         curves: vec![
-            curve("forecast at midnight", Ink::new(BLUE, Dash::Long), |step| step.forecast_c),
-            curve("real", Ink::new(ORANGE, Dash::Solid), |step| step.ambient_c),
+            curve("forecast at midnight", LineStyle::new(BLUE, Dash::Long), |step| step.forecast_c),
+            curve("real", LineStyle::new(ORANGE, Dash::Solid), |step| step.ambient_c),
         ],
         ..Panel::default()
     };
@@ -162,15 +162,15 @@ pub fn weather(title: &str, take: &Take) -> Panels {
 
 /// The net effect of weather and people on each zone as a temperature: that of the air outside which would do the same,
 /// T₀ + w R₀, as predicted and as it turned out, on the first day.
-pub fn disturbance(title: &str, take: &Take, zones: &[usize]) -> Panels {
-    let per_kw: Vec<f64> = network(take).map_or(Vec::new(), |network| network.ambient_kw_per_k().to_vec());
-    let scheduled_kw = scheduled_kw(take);
-    let count = steps(take).next().map_or(1, |step| step.zones.len());
-    let step_h = step_h(take);
+pub fn disturbance(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
+    let per_kw: Vec<f64> = network(recorded).map_or(Vec::new(), |network| network.ambient_kw_per_k().to_vec());
+    let scheduled_kw = scheduled_kw(recorded);
+    let count = steps(recorded).next().map_or(1, |step| step.zones.len());
+    let step_h = step_h(recorded);
     let panel = |&zone: &usize| {
         let equivalent =
             |ambient_c: f64, gains_kw: f64| ambient_c + gains_kw / per_kw.get(zone).copied().unwrap_or(1.0);
-        let today = || steps(take).filter(|step| step.day == 0);
+        let today = || steps(recorded).filter(|step| step.day == 0);
         let expected = today().map(|step| {
             let gains_kw = scheduled_kw.get(step.step * count + zone).copied().unwrap_or(0.0);
             [step.step as f64 * step_h, equivalent(step.forecast_c, gains_kw)]
@@ -178,10 +178,10 @@ pub fn disturbance(title: &str, take: &Take, zones: &[usize]) -> Panels {
         let real =
             today().map(|step| [step.step as f64 * step_h, equivalent(step.ambient_c, step.zones[zone].gains_kw)]);
         Panel {
-            name: format!("{}: net disturbance [°C]", name(take, zone)),
+            name: format!("{}: net disturbance [°C]", name(recorded, zone)),
             curves: vec![
-                Curve::new("predicted", Ink::new(BLUE, Dash::Long), expected.collect()),
-                Curve::new("real", Ink::new(ORANGE, Dash::Solid), real.collect()),
+                Curve::new("predicted", LineStyle::new(BLUE, Dash::Long), expected.collect()),
+                Curve::new("real", LineStyle::new(ORANGE, Dash::Solid), real.collect()),
             ],
             ..Panel::default()
         }
@@ -190,20 +190,20 @@ pub fn disturbance(title: &str, take: &Take, zones: &[usize]) -> Panels {
 }
 
 /// Heat of people as scheduled, which is what the controllers expect \[kW\], stacked.
-fn scheduled_kw(take: &Take) -> Vec<f64> {
-    let Some(building) = &take.scenario.building else { return Vec::new() };
-    let zones = network(take).map_or(0, |network| network.zone_count());
-    people(&take.scenario, zones).scheduled_kw(building.step_s, building.steps_per_day())
+fn scheduled_kw(recorded: &RecordedRun) -> Vec<f64> {
+    let Some(building) = &recorded.scenario.building else { return Vec::new() };
+    let zones = network(recorded).map_or(0, |network| network.zone_count());
+    people(&recorded.scenario, zones).scheduled_kw(building.step_s, building.steps_per_day())
 }
 
 /// The cost of the common plan, round by round of an exchange of messages, for each day that had one.
-pub fn rounds(title: &str, take: &Take) -> Panels {
-    let exchanges = steps(take).filter_map(|step| Some((step.day, step.design.as_ref()?.exchange.as_ref()?)));
+pub fn rounds(title: &str, recorded: &RecordedRun) -> Panels {
+    let exchanges = steps(recorded).filter_map(|step| Some((step.day, step.design.as_ref()?.exchange.as_ref()?)));
     let exchanges: Vec<(usize, &Exchange)> = exchanges.filter(|(_, exchange)| exchange.costs.len() > 1).collect();
     let mut curves = Vec::new();
-    for ((day, exchange), ink) in exchanges.iter().zip(ink::inks()) {
+    for ((day, exchange), style) in exchanges.iter().zip(style::inks()) {
         let points = exchange.costs.iter().enumerate().map(|(round, cost)| [round as f64, *cost]);
-        curves.push(Curve::new(format!("day {}", day + 1), ink, points.collect()));
+        curves.push(Curve::new(format!("day {}", day + 1), style, points.collect()));
         if let Some(centralised) = exchange.centralised {
             let ends = [0.0, exchange.costs.len() as f64 - 1.0];
             let name = format!("day {}: the same in one problem", day + 1);

@@ -1,33 +1,37 @@
-//! Drawings that several entries share, each of the first take.
+//! Drawings that several entries share, each of the first run.
 
-use super::entry::{Entry, Exhibit};
-use super::take::Take;
+use super::entry::{Entry, FigureContent};
+use super::error::FigureError;
+use super::recorded_run::RecordedRun;
 use super::{climate, driving};
 
 /// Footprints.
-pub(super) fn film(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    Ok(driving::film(entry.title, takes[0]).sketch().into())
+pub(super) fn footprints(entry: &Entry, recorded_runs: &[&RecordedRun]) -> Result<FigureContent, FigureError> {
+    Ok(driving::footprints(entry.title, recorded_runs[0]).drawing().into())
 }
 
-/// Footprints, and below them what the ego had in mind.
-pub(super) fn film_and_mind(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    let mut exhibit = film(entry, takes)?;
-    let mind = driving::reasons("What the ego has in mind", takes[0], takes[0].scenario.ego_index());
-    exhibit.pictures.extend(mind.map(|panels| panels.sketch()));
-    Ok(exhibit)
+/// Footprints, and below them what the ego's planner computed.
+pub(super) fn footprints_and_planner_panels(
+    entry: &Entry,
+    recorded_runs: &[&RecordedRun],
+) -> Result<FigureContent, FigureError> {
+    let mut content = footprints(entry, recorded_runs)?;
+    let mind = driving::reasons("What the ego has in mind", recorded_runs[0], recorded_runs[0].scenario.ego_index());
+    content.pictures.extend(mind.map(|panels| panels.drawing()));
+    Ok(content)
 }
 
 /// Speeds.
-pub(super) fn speeds(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    Ok(driving::speeds(entry.title, takes[0]).sketch().into())
+pub(super) fn speeds(entry: &Entry, recorded_runs: &[&RecordedRun]) -> Result<FigureContent, FigureError> {
+    Ok(driving::speeds(entry.title, recorded_runs[0]).drawing().into())
 }
 
 /// Temperatures of the first four zones.
-pub(super) fn temperatures(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    Ok(climate::temperatures(entry.title, takes[0], &climate::first_zones(takes[0])).sketch().into())
+pub(super) fn temperatures(entry: &Entry, recorded_runs: &[&RecordedRun]) -> Result<FigureContent, FigureError> {
+    Ok(climate::temperatures(entry.title, recorded_runs[0], &climate::first_zones(recorded_runs[0])).drawing().into())
 }
 
 /// Inputs of the first four zones.
-pub(super) fn inputs(entry: &Entry, takes: &[&Take]) -> Result<Exhibit, String> {
-    Ok(climate::inputs(entry.title, takes[0], &climate::first_zones(takes[0])).sketch().into())
+pub(super) fn inputs(entry: &Entry, recorded_runs: &[&RecordedRun]) -> Result<FigureContent, FigureError> {
+    Ok(climate::inputs(entry.title, recorded_runs[0], &climate::first_zones(recorded_runs[0])).drawing().into())
 }

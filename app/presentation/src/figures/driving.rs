@@ -4,73 +4,76 @@ use interplay_planners::State;
 use interplay_scenarios::{Road, Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
 
-use super::take::Take;
-use crate::plot::ink::{self, BLACK, BLUE, Dash, GREY, Ink, ORANGE};
-use crate::plot::{Curve, Film, Moment, Panel, Panels, Strip};
+use super::recorded_run::RecordedRun;
+use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
+use crate::plot::{Curve, FootprintPlot, FootprintSnapshot, Panel, Panels, Strip};
 
-/// How many moments a film has: of strips, and of a plan.
+/// How many snapshots a picture of footprints has: in strips, and on one map.
 const MOMENTS: [usize; 2] = [8, 12];
-/// How long a film goes on after the last vehicle has reached its goal \[s\].
+/// How long a picture of footprints goes on after the last vehicle has reached its goal \[s\].
 const AFTERWARDS_S: f64 = 1.5;
 /// Beyond its end, where a ramp is drawn as the edge of the road \[m\].
 const FAR_M: f64 = 1e4;
 
-/// The ink of every vehicle, in the scenario's order: the ego's is orange.
-pub fn inks(scenario: &Scenario) -> Vec<Ink> {
+/// The line style of every vehicle, in the scenario's order: the ego's is orange.
+pub fn inks(scenario: &Scenario) -> Vec<LineStyle> {
     let ego = scenario.ego_index();
-    let mut others = ink::inks().filter(|ink| ink.colour != ORANGE);
-    let mut other = || others.next().unwrap_or(Ink::new(BLUE, Dash::Solid));
+    let mut others = style::inks().filter(|style| style.colour != ORANGE);
+    let mut other = || others.next().unwrap_or(LineStyle::new(BLUE, Dash::Solid));
     (0..scenario.vehicles.len())
-        .map(|index| if index == ego { Ink::new(ORANGE, Dash::Solid) } else { other() })
+        .map(|index| if index == ego { LineStyle::new(ORANGE, Dash::Solid) } else { other() })
         .collect()
 }
 
 /// Footprints at equal steps of time, until all have reached their goals who do; to the end if the ego does not.
-pub fn film(title: &str, take: &Take) -> Film {
-    let Take { scenario, frames, .. } = take;
+pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
+    let RecordedRun { scenario, frames, .. } = recorded;
     let roads = roads(scenario);
     let parallel = roads.iter().all(|road| road.heading_rad == roads[0].heading_rad);
     let count = MOMENTS[usize::from(!parallel)];
     let ego = scenario.ego_index();
     let mut order: Vec<usize> = (0..scenario.vehicles.len()).collect();
     order.sort_by_key(|&index| index != ego);
-    let ticks = ticks(take, count);
-    let moment = |tick: usize| Moment {
-        time_s: time_s(take, tick),
-        bodies: order.iter().map(|&index| scenario.vehicles[index].body.corners(&state(take, tick, index))).collect(),
+    let ticks = ticks(recorded, count);
+    let snapshot = |tick: usize| FootprintSnapshot {
+        time_s: time_s(recorded, tick),
+        bodies: order
+            .iter()
+            .map(|&index| scenario.vehicles[index].body.corners(&state(recorded, tick, index)))
+            .collect(),
     };
     let inks = inks(scenario);
     let last = ticks.last().copied().unwrap_or_default();
-    Film {
+    FootprintPlot {
         title: title.to_owned(),
         roads,
         cast: order.iter().map(|&index| (who(&scenario.vehicles[index]), inks[index].colour)).collect(),
-        moments: ticks.into_iter().map(moment).collect(),
+        snapshots: ticks.into_iter().map(snapshot).collect(),
         path: (0..=last.min(frames.len()))
-            .map(|tick| (time_s(take, tick), state(take, tick, ego).position()))
+            .map(|tick| (time_s(recorded, tick), state(recorded, tick, ego).position()))
             .collect(),
     }
 }
 
-/// The ticks that a film shows: equal steps, the first is the start.
-fn ticks(take: &Take, count: usize) -> Vec<usize> {
-    let completed = take.report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s);
-    let step_s = take.scenario.step_s;
+/// The ticks that a picture of footprints shows: equal steps, the first is the start.
+fn ticks(recorded: &RecordedRun, count: usize) -> Vec<usize> {
+    let completed = recorded.report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s);
+    let step_s = recorded.scenario.step_s;
     let last = (completed.fold(0.0, f64::max) + AFTERWARDS_S) / step_s;
-    let whole = take.report.vehicles.get(take.scenario.ego_index()).is_none_or(|ego| ego.completed_s.is_none());
-    let end = if whole { take.frames.len() } else { (last.round() as usize).min(take.frames.len()) };
+    let whole = recorded.report.vehicles.get(recorded.scenario.ego_index()).is_none_or(|ego| ego.completed_s.is_none());
+    let end = if whole { recorded.frames.len() } else { (last.round() as usize).min(recorded.frames.len()) };
     let every = end.div_ceil(count.max(2) - 1).max(1);
     (0..=end).step_by(every).collect()
 }
 
-fn time_s(take: &Take, tick: usize) -> f64 {
-    take.frames.get(tick).map_or(tick as f64 * take.scenario.step_s, |frame| frame.time_s)
+fn time_s(recorded: &RecordedRun, tick: usize) -> f64 {
+    recorded.frames.get(tick).map_or(tick as f64 * recorded.scenario.step_s, |frame| frame.time_s)
 }
 
 /// Where a vehicle is at the start of a tick; after the last one, where it ended.
-fn state(take: &Take, tick: usize, index: usize) -> State {
-    let seen = take.frames.get(tick).and_then(|frame| frame.vehicles.get(index)).map(|vehicle| vehicle.state);
-    seen.or(take.report.vehicles.get(index).map(|vehicle| vehicle.last)).unwrap_or_default()
+fn state(recorded: &RecordedRun, tick: usize, index: usize) -> State {
+    let seen = recorded.frames.get(tick).and_then(|frame| frame.vehicles.get(index)).map(|vehicle| vehicle.state);
+    seen.or(recorded.report.vehicles.get(index).map(|vehicle| vehicle.last)).unwrap_or_default()
 }
 
 /// Name and driver of a vehicle.
@@ -110,17 +113,17 @@ fn strip(road: &Road, vehicle: &Vehicle) -> Strip {
 }
 
 /// Speeds over time, with uprights where somebody reaches its goal.
-pub fn speeds(title: &str, take: &Take) -> Panels {
-    let panel = Panel { reaches: vec![0.0], ..each_vehicle(take, "speed [m/s]", |state, _| state.speed_mps) };
+pub fn speeds(title: &str, recorded: &RecordedRun) -> Panels {
+    let panel = Panel { reaches: vec![0.0], ..each_vehicle(recorded, "speed [m/s]", |state, _| state.speed_mps) };
     over_time(title, vec![panel])
 }
 
 /// Speeds, the smallest gap of the ego, and accelerations over time.
-pub fn motion(title: &str, take: &Take) -> Panels {
-    let mut panels = vec![each_vehicle(take, "speed [m/s]", |state, _| state.speed_mps)];
-    let gaps: Vec<[f64; 2]> = vehicle_frames(take).filter_map(|frame| Some([frame.time_s, frame.gap_m?])).collect();
+pub fn motion(title: &str, recorded: &RecordedRun) -> Panels {
+    let mut panels = vec![each_vehicle(recorded, "speed [m/s]", |state, _| state.speed_mps)];
+    let gaps: Vec<[f64; 2]> = vehicle_frames(recorded).filter_map(|frame| Some([frame.time_s, frame.gap_m?])).collect();
     if !gaps.is_empty() {
-        let curve = Curve::new("smallest gap of the ego", Ink::new(BLACK, Dash::Solid), gaps);
+        let curve = Curve::new("smallest gap of the ego", LineStyle::new(BLACK, Dash::Solid), gaps);
         panels.push(Panel {
             name: "gap between footprints [m]".to_owned(),
             curves: vec![curve],
@@ -128,13 +131,13 @@ pub fn motion(title: &str, take: &Take) -> Panels {
             ..Panel::default()
         });
     }
-    panels.push(each_vehicle(take, "acceleration [m/s²]", |_, acceleration_mps2| acceleration_mps2));
+    panels.push(each_vehicle(recorded, "acceleration [m/s²]", |_, acceleration_mps2| acceleration_mps2));
     over_time(title, panels)
 }
 
 /// The ticks of vehicles.
-fn vehicle_frames(take: &Take) -> impl Iterator<Item = &Frame> {
-    take.frames.iter().filter(|frame| !frame.vehicles.is_empty())
+fn vehicle_frames(recorded: &RecordedRun) -> impl Iterator<Item = &Frame> {
+    recorded.frames.iter().filter(|frame| !frame.vehicles.is_empty())
 }
 
 fn over_time(title: &str, panels: Vec<Panel>) -> Panels {
@@ -142,49 +145,49 @@ fn over_time(title: &str, panels: Vec<Panel>) -> Panels {
 }
 
 /// A curve for each vehicle, of its state and its acceleration.
-fn each_vehicle(take: &Take, name: &str, value: fn(&State, f64) -> f64) -> Panel {
+fn each_vehicle(recorded: &RecordedRun, name: &str, value: fn(&State, f64) -> f64) -> Panel {
     let mut panel = Panel { name: name.to_owned(), ..Panel::default() };
-    let vehicles = take.scenario.vehicles.iter().zip(inks(&take.scenario));
-    for ((index, (vehicle, ink)), seen) in vehicles.enumerate().zip(&take.report.vehicles) {
-        let points = vehicle_frames(take).map(|frame| {
+    let vehicles = recorded.scenario.vehicles.iter().zip(inks(&recorded.scenario));
+    for ((index, (vehicle, style)), seen) in vehicles.enumerate().zip(&recorded.report.vehicles) {
+        let points = vehicle_frames(recorded).map(|frame| {
             let vehicle = &frame.vehicles[index];
             [frame.time_s, value(&vehicle.state, vehicle.input.acceleration_mps2)]
         });
-        panel.curves.push(Curve::new(&vehicle.name, ink, points.collect()));
+        panel.curves.push(Curve::new(&vehicle.name, style, points.collect()));
         if let Some(completed_s) = seen.completed_s {
-            let upright = Ink::new(ink.colour, Dash::Short);
-            panel.moments.push((completed_s, upright, format!("{} reaches its goal", vehicle.name)));
+            let upright = LineStyle::new(style.colour, Dash::Short);
+            panel.snapshots.push((completed_s, upright, format!("{} reaches its goal", vehicle.name)));
         }
     }
     panel
 }
 
 /// What a planner was thinking: its own numbers over time; none if it says nothing.
-pub fn reasons(title: &str, take: &Take, index: usize) -> Option<Panels> {
+pub fn reasons(title: &str, recorded: &RecordedRun, index: usize) -> Option<Panels> {
     let mut panels = Vec::new();
-    for plot in take.scenario.vehicles[index].driver.explanation().plots {
+    for plot in recorded.scenario.vehicles[index].driver.explanation().plots {
         let mut curves = Vec::new();
-        for (quantity, ink) in plot.quantities.iter().zip(ink::inks()) {
+        for (quantity, style) in plot.quantities.iter().zip(style::inks()) {
             let value = |frame: &Frame| frame.vehicles[index].plan.value_of(quantity).unwrap_or(f64::NAN);
-            let points: Vec<[f64; 2]> = vehicle_frames(take).map(|frame| [frame.time_s, value(frame)]).collect();
+            let points: Vec<[f64; 2]> = vehicle_frames(recorded).map(|frame| [frame.time_s, value(frame)]).collect();
             if points.iter().any(|point| point[1].is_finite()) {
-                curves.push(Curve::new(quantity.name, ink, points));
+                curves.push(Curve::new(quantity.name, style, points));
             }
         }
         if !curves.is_empty() {
             panels.push(Panel { name: plot.title_with_unit(), curves, ..Panel::default() });
         }
     }
-    let refused = refusals(take, index);
+    let refused = refusals(recorded, index);
     if let Some(first) = panels.first_mut() {
-        let upright = Ink::new(GREY, Dash::Short);
-        first.moments = refused.into_iter().map(|time_s| (time_s, upright, "no plan: fallback".to_owned())).collect();
+        let upright = LineStyle::new(GREY, Dash::Short);
+        first.snapshots = refused.into_iter().map(|time_s| (time_s, upright, "no plan: fallback".to_owned())).collect();
     }
     (!panels.is_empty()).then(|| over_time(title, panels))
 }
 
 /// When a planner failed \[s\].
-fn refusals(take: &Take, index: usize) -> Vec<f64> {
+fn refusals(recorded: &RecordedRun, index: usize) -> Vec<f64> {
     let failed = |frame: &&Frame| frame.vehicles[index].origin != interplay_simulation::frame::Origin::Planned;
-    vehicle_frames(take).filter(failed).map(|frame| frame.time_s).collect()
+    vehicle_frames(recorded).filter(failed).map(|frame| frame.time_s).collect()
 }

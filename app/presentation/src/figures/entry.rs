@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use super::take::{Ran, Shot, Take};
-use crate::plot::{Sheet, Sketch};
+use super::error::FigureError;
+use super::recorded_run::{RecordedRun, RunOutcome, RunSpec};
+use crate::plot::{Drawing, TextTable};
 
 /// What an entry is in the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,30 +29,30 @@ pub struct Entry {
     /// What the source has wrong that concerns it, and what that does.
     pub erratum: Option<&'static str>,
     /// The runs that are drawn.
-    pub shots: &'static [Shot],
+    pub runs: &'static [RunSpec],
     /// Runs that are measured beside them, such as another planner or the equations as printed.
-    pub beside: &'static [Shot],
-    /// How it is drawn from the takes of `shots`.
+    pub beside: &'static [RunSpec],
+    /// How it is drawn from the runs of `runs`.
     pub draw: Draw,
 }
 
-/// How an entry is drawn from its takes.
-pub type Draw = fn(&Entry, &[&Take]) -> Result<Exhibit, String>;
+/// How an entry is drawn from its runs.
+pub type Draw = fn(&Entry, &[&RecordedRun]) -> Result<FigureContent, FigureError>;
 
 /// What came of an entry, or of a run: pictures, and tables of what was measured.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Exhibit {
+pub struct FigureContent {
     /// The pictures.
-    pub pictures: Vec<Sketch>,
+    pub pictures: Vec<Drawing>,
     /// What was measured.
-    pub sheets: Vec<Sheet>,
+    pub tables: Vec<TextTable>,
     /// What came of it, in sentences with a word in front of each.
     pub words: Vec<(String, String)>,
 }
 
-impl From<Sketch> for Exhibit {
-    fn from(picture: Sketch) -> Exhibit {
-        Exhibit { pictures: vec![picture], ..Exhibit::default() }
+impl From<Drawing> for FigureContent {
+    fn from(picture: Drawing) -> FigureContent {
+        FigureContent { pictures: vec![picture], ..FigureContent::default() }
     }
 }
 
@@ -77,17 +78,17 @@ impl fmt::Display for Entry {
 }
 
 /// What became of an entry.
-#[derive(Clone, Debug)]
-pub struct Made {
+#[derive(Debug)]
+pub struct EntryOutcome {
     /// The entry.
     pub entry: &'static Entry,
     /// What was drawn and measured, or why not.
-    pub outcome: Result<Exhibit, String>,
+    pub outcome: Result<FigureContent, FigureError>,
     /// How each run went that was asked of it and could be finished.
-    pub runs: Vec<Ran>,
+    pub runs: Vec<RunOutcome>,
 }
 
-impl Made {
+impl EntryOutcome {
     /// Whether every run did what its scenario expects.
     pub fn held(&self) -> bool {
         self.runs.iter().all(|run| run.held != Some(false))

@@ -2,25 +2,26 @@
 
 use interplay_simulation::report::{BuildingReport, Report};
 
-use super::take::Take;
-use crate::plot::Sheet;
+use super::recorded_run::RecordedRun;
+use crate::plot::TextTable;
 
 /// The runs side by side: what tells whether they are what the source shows.
-pub fn side_by_side(takes: &[&Take]) -> Vec<Sheet> {
-    let mut sheets = Vec::new();
-    let drives: Vec<&&Take> = takes.iter().filter(|take| !take.report.vehicles.is_empty()).collect();
+pub fn side_by_side(recorded_runs: &[&RecordedRun]) -> Vec<TextTable> {
+    let mut tables = Vec::new();
+    let drives: Vec<&&RecordedRun> =
+        recorded_runs.iter().filter(|recorded| !recorded.report.vehicles.is_empty()).collect();
     if !drives.is_empty() {
-        sheets.push(driving(&drives));
+        tables.push(driving(&drives));
     }
-    let houses = takes.iter().filter_map(|take| Some((*take, take.report.building.as_ref()?)));
-    let houses: Vec<(&Take, &BuildingReport)> = houses.collect();
+    let houses = recorded_runs.iter().filter_map(|recorded| Some((*recorded, recorded.report.building.as_ref()?)));
+    let houses: Vec<(&RecordedRun, &BuildingReport)> = houses.collect();
     if !houses.is_empty() {
-        sheets.push(building(&houses));
+        tables.push(building(&houses));
     }
-    sheets
+    tables
 }
 
-fn driving(takes: &[&&Take]) -> Sheet {
+fn driving(recorded_runs: &[&&RecordedRun]) -> TextTable {
     let header = [
         "run",
         "reaches its goal [s]",
@@ -31,9 +32,9 @@ fn driving(takes: &[&&Take]) -> Sheet {
         "plans that failed",
         "expectations",
     ];
-    let row = |take: &&&Take| {
-        let report = &take.report;
-        let ego = report.vehicles.get(take.scenario.ego_index());
+    let row = |recorded: &&&RecordedRun| {
+        let report = &recorded.report;
+        let ego = report.vehicles.get(recorded.scenario.ego_index());
         let completed = report
             .vehicles
             .iter()
@@ -41,20 +42,20 @@ fn driving(takes: &[&&Take]) -> Sheet {
         let completed: Vec<String> = completed.collect();
         let failed: usize = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
         [
-            label(take),
+            label(recorded),
             if completed.is_empty() { "nobody".to_owned() } else { completed.join(", ") },
             report.order.join(", "),
             ego.map_or_else(String::new, |ego| format!("{:.2} to {:.2}", ego.min_speed_mps, ego.max_speed_mps)),
             report.min_gap_m.map_or_else(|| "–".to_owned(), |gap_m| format!("{gap_m:.3}")),
             report.collisions.len().to_string(),
             failed.to_string(),
-            expectations(report, take.changed()),
+            expectations(report, recorded.changed()),
         ]
     };
-    Sheet::new("Measured", header, takes.iter().map(row).collect())
+    TextTable::new("Measured", header, recorded_runs.iter().map(row).collect())
 }
 
-fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
+fn building(houses: &[(&RecordedRun, &BuildingReport)]) -> TextTable {
     let header = [
         "run",
         "cost J, day by day",
@@ -66,7 +67,7 @@ fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
         "design of a day, slowest [ms]",
         "expectations",
     ];
-    let row = |(take, report): &(&Take, &BuildingReport)| {
+    let row = |(recorded, report): &(&RecordedRun, &BuildingReport)| {
         let days = &report.iterations;
         let costs: Vec<String> = days.iter().map(|day| format!("{:.1}", day.figures.cost)).collect();
         let last = |value: fn(&interplay_simulation::day::DayFigures) -> f64| {
@@ -75,7 +76,7 @@ fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
         let most =
             |value: fn(&interplay_simulation::day::DayFigures) -> f64| days.iter().map(value).fold(0.0, f64::max);
         [
-            label(take),
+            label(recorded),
             costs.join(", "),
             last(|day| day.figures.tracking_rmse_c),
             last(|day| day.figures.discomfort_k_h),
@@ -83,14 +84,14 @@ fn building(houses: &[(&Take, &BuildingReport)]) -> Sheet {
             last(|day| day.figures.energy_kwh),
             format!("{:.3}", most(|day| day.figures.input_violation_kw)),
             format!("{:.1}", 1e3 * most(|day| day.design_s)),
-            expectations(&take.report, take.changed()),
+            expectations(&recorded.report, recorded.changed()),
         ]
     };
-    Sheet::new("Measured", header, houses.iter().map(row).collect())
+    TextTable::new("Measured", header, houses.iter().map(row).collect())
 }
 
-fn label(take: &Take) -> String {
-    if take.label.is_empty() { take.report.scenario.clone() } else { take.label.clone() }
+fn label(recorded: &RecordedRun) -> String {
+    if recorded.label.is_empty() { recorded.report.scenario.clone() } else { recorded.label.clone() }
 }
 
 /// How many expectations held; those of a scenario that was changed on purpose do not count.
@@ -105,7 +106,7 @@ fn expectations(report: &Report, changed: bool) -> String {
 }
 
 /// Every expectation of a run: what was wanted and what came of it.
-pub fn expected(report: &Report) -> Sheet {
+pub fn expected(report: &Report) -> TextTable {
     let row = |expectation: &interplay_simulation::report::Expectation| {
         [
             expectation.what.clone(),
@@ -115,5 +116,5 @@ pub fn expected(report: &Report) -> Sheet {
         ]
     };
     let rows = report.expectations.iter().map(row).collect();
-    Sheet::new("Expectations", ["what", "wanted", "measured", ""], rows)
+    TextTable::new("Expectations", ["what", "wanted", "measured", ""], rows)
 }

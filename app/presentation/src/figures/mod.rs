@@ -1,11 +1,11 @@
 //! Every figure and table of the source, and how each is made again.
 //!
 //! The registry is data, a file a chapter: an [`Entry`] names a figure, says what the source shows, which runs make it
-//! ([`Shot`]s of authored scenarios), which drawing, and where an erratum changes the result. [`make`] runs what is needed,
-//! each shot once, and draws; a figure that fails does not stop the others.
+//! ([`RunSpec`]s of authored scenarios), which drawing, and where an erratum changes the result. [`make`] runs what is needed,
+//! each of them once, and draws; a figure that fails does not stop the others.
 //!
 //! ```text
-//! entries -> shots -> takes (runs with all their frames) -> sketches and sheets -> files and page
+//! entries -> runs with all their frames -> drawings and tables -> files and page
 //! ```
 
 mod chapter2;
@@ -19,27 +19,30 @@ mod climate;
 mod drawings;
 mod driving;
 mod entry;
-mod find;
+mod error;
+mod lookup;
 mod measures;
+mod recorded_run;
 mod save;
 mod section;
+mod sentences;
 mod show;
-mod take;
 #[cfg(test)]
 mod tests;
 mod theory;
-mod words;
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
-pub use entry::{Draw, Entry, Exhibit, Kind, Made};
-pub use find::{UnknownFigure, find};
+pub use entry::{Draw, Entry, EntryOutcome, FigureContent, Kind};
+pub use error::FigureError;
+pub use lookup::{UnknownFigure, find};
+pub use recorded_run::{FrameLog, RecordedRun, RunOutcome, RunSpec};
 use save::save;
-pub use section::{own_page, section};
-pub use take::{Camera, Ran, Shot, Take};
+pub use section::{run_page, section};
 
 /// Every figure and table, by chapters, figures before tables.
 pub fn registry() -> impl Iterator<Item = &'static Entry> {
@@ -57,67 +60,74 @@ pub fn registry() -> impl Iterator<Item = &'static Entry> {
 
 /// How many steps [`make`] takes for these entries: runs, and drawings.
 pub fn steps(entries: &[&'static Entry]) -> usize {
-    shots(entries).len() + entries.len()
+    runs(entries).len() + entries.len()
 }
 
 /// Makes the entries in parallel and writes their pictures into a folder; `advance` is told of every step that is done.
 /// They come in the order in which they were asked for.
-pub fn make(entries: &[&'static Entry], folder: &Path, advance: &(dyn Fn() + Sync)) -> Vec<Made> {
-    let run = |shot: &Shot| {
-        let take = shot.take();
+pub fn make(entries: &[&'static Entry], folder: &Path, advance: &(dyn Fn() + Sync)) -> Vec<EntryOutcome> {
+    let run = |spec: &RunSpec| {
+        let recorded = spec.record().map_err(Arc::new);
         advance();
-        (*shot, take)
+        (*spec, recorded)
     };
-    let takes: BTreeMap<Shot, Result<Take, String>> = shots(entries).par_iter().with_max_len(1).map(run).collect();
+    let recorded_runs: RecordedRuns = runs(entries).par_iter().with_max_len(1).map(run).collect();
     let draw = |entry: &&'static Entry| {
-        let made = make_one(entry, &takes, folder);
+        let made = make_one(entry, &recorded_runs, folder);
         advance();
         made
     };
     entries.par_iter().with_max_len(1).map(draw).collect()
 }
 
+/// The runs of several figures, or why there is none.
+type RecordedRuns = BTreeMap<RunSpec, Result<RecordedRun, Arc<FigureError>>>;
+
 /// What has to be run, each once.
-fn shots(entries: &[&'static Entry]) -> Vec<Shot> {
-    let mut shots: Vec<Shot> =
-        entries.iter().flat_map(|entry| entry.shots.iter().chain(entry.beside)).copied().collect();
-    shots.sort();
-    shots.dedup();
-    shots
+fn runs(entries: &[&'static Entry]) -> Vec<RunSpec> {
+    let mut runs: Vec<RunSpec> =
+        entries.iter().flat_map(|entry| entry.runs.iter().chain(entry.beside)).copied().collect();
+    runs.sort();
+    runs.dedup();
+    runs
 }
 
-fn make_one(entry: &'static Entry, takes: &BTreeMap<Shot, Result<Take, String>>, folder: &Path) -> Made {
-    let of = |shots: &[Shot]| -> Vec<Result<&Take, String>> {
-        let taken = |shot: &Shot| match takes.get(shot) {
-            Some(Ok(take)) => Ok(take),
-            Some(Err(error)) => Err(format!("{}: {error}", shot.scenario)),
-            None => Err(format!("{} was not run", shot.scenario)),
+fn make_one(entry: &'static Entry, recorded_runs: &RecordedRuns, folder: &Path) -> EntryOutcome {
+    let of = |runs: &[RunSpec]| -> Vec<Result<&RecordedRun, FigureError>> {
+        let taken = |spec: &RunSpec| match recorded_runs.get(spec) {
+            Some(Ok(recorded)) => Ok(recorded),
+            Some(Err(reason)) => Err(FigureError::Shared { scenario: spec.scenario, reason: Arc::clone(reason) }),
+            None => Err(FigureError::NotRun(spec.scenario)),
         };
-        shots.iter().map(taken).collect()
+        runs.iter().map(taken).collect()
     };
-    let (drawn, beside) = (of(entry.shots), of(entry.beside));
-    let ran: Vec<Ran> =
-        drawn.iter().chain(&beside).filter_map(|take| take.as_ref().ok()).map(|take| take.ran()).collect();
-    let outcome = drawn.into_iter().collect::<Result<Vec<&Take>, String>>().and_then(|drawn| {
-        let mut exhibit = (entry.draw)(entry, &drawn)?;
-        let beside: Vec<&Take> = beside.into_iter().flatten().collect();
+    let (drawn, beside) = (of(entry.runs), of(entry.beside));
+    let ran: Vec<RunOutcome> = drawn
+        .iter()
+        .chain(&beside)
+        .filter_map(|recorded| recorded.as_ref().ok())
+        .map(|recorded| recorded.ran())
+        .collect();
+    let outcome = drawn.into_iter().collect::<Result<Vec<&RecordedRun>, FigureError>>().and_then(|drawn| {
+        let mut content = (entry.draw)(entry, &drawn)?;
+        let beside: Vec<&RecordedRun> = beside.into_iter().flatten().collect();
         if entry.kind == Kind::Figure {
-            exhibit.words.extend(told(&drawn, &beside));
-            let measured: Vec<&Take> = drawn.into_iter().chain(beside).collect();
-            exhibit.sheets.extend(measures::side_by_side(&measured));
+            content.words.extend(told(&drawn, &beside));
+            let measured: Vec<&RecordedRun> = drawn.into_iter().chain(beside).collect();
+            content.tables.extend(measures::side_by_side(&measured));
         }
-        save(&exhibit.pictures, folder, &entry.id())?;
-        Ok(exhibit)
+        save(&content.pictures, folder, &entry.id())?;
+        Ok(content)
     });
-    Made { entry, outcome, runs: ran }
+    EntryOutcome { entry, outcome, runs: ran }
 }
 
 /// What came of the run that is drawn, and what each of the others changes.
-fn told(drawn: &[&Take], beside: &[&Take]) -> Vec<(String, String)> {
+fn told(drawn: &[&RecordedRun], beside: &[&RecordedRun]) -> Vec<(String, String)> {
     let Some((first, others)) = drawn.split_first() else { return Vec::new() };
-    let changes = others.iter().chain(beside).filter_map(|other| words::difference(first, other));
+    let changes = others.iter().chain(beside).filter_map(|other| sentences::difference(first, other));
     let changes: Vec<String> = changes.collect();
-    let mut told = vec![("Here".to_owned(), words::outcome(first))];
+    let mut told = vec![("Here".to_owned(), sentences::outcome(first))];
     told.extend((!changes.is_empty()).then(|| ("Beside it".to_owned(), changes.join(" "))));
     told
 }

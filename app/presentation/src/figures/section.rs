@@ -2,16 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use super::entry::{Exhibit, Made};
+use super::entry::{EntryOutcome, FigureContent};
+use super::error::FigureError;
+use super::recorded_run::{RecordedRun, RunOutcome};
 use super::save::save;
 use super::show::show;
-use super::take::{Ran, Take};
-use crate::page::{Page, Section, Verdict};
+use crate::page::{Page, Section, SectionStatus};
 use crate::report::summary;
 use crate::shell;
 
 /// The part of the page that shows a figure.
-pub fn section(made: &Made) -> Section {
+pub fn section(made: &EntryOutcome) -> Section {
     let entry = made.entry;
     let mut section = Section {
         id: entry.id(),
@@ -27,8 +28,8 @@ pub fn section(made: &Made) -> Section {
     let again = format!("interplay reproduce {}", entry.id());
     section.commands = std::iter::once(again).chain(commands).collect();
     match &made.outcome {
-        Ok(exhibit) => fill(&mut section, exhibit),
-        Err(reason) => section.verdict = Verdict::Broken(reason.clone()),
+        Ok(content) => fill(&mut section, content),
+        Err(reason) => section.verdict = SectionStatus::Broken(reason.to_string()),
     }
     section
 }
@@ -37,58 +38,59 @@ pub fn section(made: &Made) -> Section {
 /// `files` are already there, each with what it is. Says where the page is.
 ///
 /// # Errors
-/// In words, if a picture cannot be drawn or the disk refuses a file.
-pub fn own_page(take: &Take, folder: &Path, files: Vec<(String, String)>) -> Result<PathBuf, String> {
-    let exhibit = show(take);
-    save(&exhibit.pictures, folder, "picture")?;
+/// [`FigureError`], if a picture cannot be drawn or the disk refuses a file.
+pub fn run_page(recorded: &RecordedRun, folder: &Path, files: Vec<(String, String)>) -> Result<PathBuf, FigureError> {
+    let content = show(recorded);
+    save(&content.pictures, folder, "picture")?;
     let page = Page {
-        title: take.scenario.title.clone(),
+        title: recorded.scenario.title.clone(),
         opening: Vec::new(),
-        sections: vec![own_section(take, &exhibit, files)],
+        sections: vec![run_section(recorded, &content, files)],
     };
     let path = folder.join("index.html");
-    let written = std::fs::write(&path, page.html());
-    written.map_err(|error| format!("cannot write {}: {error}; name another folder with --report", path.display()))?;
-    Ok(path)
+    match std::fs::write(&path, page.html()) {
+        Ok(()) => Ok(path),
+        Err(reason) => Err(FigureError::Page { path, reason }),
+    }
 }
 
 /// The part of the page that shows a run of its own; `files` lie beside the page.
-fn own_section(take: &Take, exhibit: &Exhibit, files: Vec<(String, String)>) -> Section {
-    let held = (!take.report.expectations.is_empty()).then_some(take.report.passed);
-    let ran = Ran { command: take.command.clone(), held };
+fn run_section(recorded: &RecordedRun, content: &FigureContent, files: Vec<(String, String)>) -> Section {
+    let held = (!recorded.report.expectations.is_empty()).then_some(recorded.report.passed);
+    let ran = RunOutcome { command: recorded.command.clone(), held };
     let mut section = Section {
         id: "run".to_owned(),
-        heading: take.report.scenario.clone(),
+        heading: recorded.report.scenario.clone(),
         verdict: verdict(std::slice::from_ref(&ran)),
-        words: vec![("What it shows".to_owned(), take.scenario.shows.clone())],
-        commands: vec![shell::line(take.command.iter().map(String::as_str))],
+        words: vec![("What it shows".to_owned(), recorded.scenario.shows.clone())],
+        commands: vec![shell::line(recorded.command.iter().map(String::as_str))],
         files,
         ..Section::default()
     };
-    if let Some(figure) = &take.scenario.figure {
+    if let Some(figure) = &recorded.scenario.figure {
         section.words.push(("In the source".to_owned(), format!("Fig. {figure}")));
     }
-    fill(&mut section, exhibit);
-    section.commands.push(format!("\n{}", summary(&take.scenario.title, &take.report).trim_end()));
+    fill(&mut section, content);
+    section.commands.push(format!("\n{}", summary(&recorded.scenario.title, &recorded.report).trim_end()));
     section
 }
 
-fn verdict(runs: &[Ran]) -> Verdict {
+fn verdict(runs: &[RunOutcome]) -> SectionStatus {
     let judged: Vec<bool> = runs.iter().filter_map(|run| run.held).collect();
     match judged.iter().all(|held| *held) {
-        _ if judged.is_empty() => Verdict::Shown,
-        true => Verdict::Held,
-        false => Verdict::Missed,
+        _ if judged.is_empty() => SectionStatus::Shown,
+        true => SectionStatus::Held,
+        false => SectionStatus::Missed,
     }
 }
 
-fn fill(section: &mut Section, exhibit: &Exhibit) {
-    for picture in &exhibit.pictures {
+fn fill(section: &mut Section, content: &FigureContent) {
+    for picture in &content.pictures {
         match picture.svg() {
             Ok(svg) => section.pictures.push((picture.words().join("; "), svg)),
-            Err(error) => section.verdict = Verdict::Broken(error.to_string()),
+            Err(error) => section.verdict = SectionStatus::Broken(error.to_string()),
         }
     }
-    section.tables.extend(exhibit.sheets.iter().cloned());
-    section.words.extend(exhibit.words.iter().cloned());
+    section.tables.extend(content.tables.iter().cloned());
+    section.words.extend(content.words.iter().cloned());
 }

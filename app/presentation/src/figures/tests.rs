@@ -1,4 +1,4 @@
-//! The registry is complete, every shot of it exists, every picture can be read, and a failure stays alone.
+//! The registry is complete, every scenario that it runs exists, every picture can be read, and a failure stays alone.
 
 use interplay_scenarios::{Override, load};
 
@@ -21,10 +21,10 @@ fn every_figure_and_table_is_there_once() {
 fn every_entry_says_what_the_source_shows_and_names_scenarios_that_exist() {
     for entry in registry() {
         assert!(entry.says.len() > 20 && entry.title.len() > 5, "{entry}");
-        for shot in entry.shots.iter().chain(entry.beside) {
-            let sets: Vec<Override> = shot.sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
-            if let Err(error) = load(shot.scenario, &sets) {
-                panic!("{entry}: {} with {:?}: {:?}", shot.scenario, shot.sets, error.faults());
+        for spec in entry.runs.iter().chain(entry.beside) {
+            let sets: Vec<Override> = spec.sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
+            if let Err(error) = load(spec.scenario, &sets) {
+                panic!("{entry}: {} with {:?}: {:?}", spec.scenario, spec.sets, error.faults());
             }
         }
     }
@@ -37,9 +37,9 @@ fn every_picture_can_be_read() {
     let folder = folder("all");
     for made in make(&entries, &folder, &|| ()) {
         let entry = made.entry;
-        let exhibit = made.outcome.unwrap_or_else(|error| panic!("{entry}: {error}"));
-        assert!(!exhibit.pictures.is_empty(), "{entry} has no picture");
-        for picture in &exhibit.pictures {
+        let content = made.outcome.unwrap_or_else(|error| panic!("{entry}: {error}"));
+        assert!(!content.pictures.is_empty(), "{entry} has no picture");
+        for picture in &content.pictures {
             assert_eq!(picture.illegible(), Vec::<String>::new(), "{entry}");
             assert!(picture.mark_count() > picture.words().len() + 2, "{entry} has words only");
         }
@@ -48,7 +48,7 @@ fn every_picture_can_be_read() {
             assert!(std::fs::metadata(&file).is_ok_and(|file| file.len() > 1000), "{}", file.display());
         }
         // The source's own tables and parameters need no run; all else is measured.
-        assert!(entry.kind == Kind::Table || !exhibit.sheets.is_empty(), "{entry} has nothing measured");
+        assert!(entry.kind == Kind::Table || !content.tables.is_empty(), "{entry} has nothing measured");
     }
     std::fs::remove_dir_all(folder).expect("it was made above");
 }
@@ -56,18 +56,20 @@ fn every_picture_can_be_read() {
 /// Every axis has a unit, or is a number of something.
 #[test]
 fn every_axis_has_a_unit() {
-    let take = Shot { label: "", scenario: "lane-change/front-nice", sets: &["duration_s=2"] }.take().expect("a run");
-    let house = Shot { label: "", scenario: "building/distributed", sets: &["iterations=2"] }.take().expect("a run");
+    let recorded =
+        RunSpec { label: "", scenario: "lane-change/front-nice", sets: &["duration_s=2"] }.record().expect("a run");
+    let building_layer =
+        RunSpec { label: "", scenario: "building/distributed", sets: &["iterations=2"] }.record().expect("a run");
     let plots = [
-        driving::motion("", &take),
-        driving::speeds("", &take),
-        driving::reasons("", &take, 0).expect("negotiation says what it thinks"),
-        climate::temperatures("", &house, &[0, 1, 2, 3]),
-        climate::inputs("", &house, &[0]),
-        climate::weather("", &house),
-        climate::disturbance("", &house, &[0]),
-        climate::costs("", &[&house]),
-        climate::rounds("", &house),
+        driving::motion("", &recorded),
+        driving::speeds("", &recorded),
+        driving::reasons("", &recorded, 0).expect("negotiation says what it thinks"),
+        climate::temperatures("", &building_layer, &[0, 1, 2, 3]),
+        climate::inputs("", &building_layer, &[0]),
+        climate::weather("", &building_layer),
+        climate::disturbance("", &building_layer, &[0]),
+        climate::costs("", &[&building_layer]),
+        climate::rounds("", &building_layer),
     ];
     for plot in plots {
         let unit = |words: &str| words.ends_with(']') || words.contains("iteration") || words.contains("round");
@@ -86,14 +88,14 @@ static BROKEN: Entry = Entry {
     title: "What cannot be drawn",
     says: "",
     erratum: None,
-    shots: &[],
+    runs: &[],
     beside: &[],
-    draw: |_, _| Err("nothing there".to_owned()),
+    draw: |_, _| Err(FigureError::NotRun("nothing")),
 };
 static MISSING: Entry = Entry {
     number: "0.2",
-    shots: &[Shot { label: "", scenario: "no/such-scenario", sets: &[] }],
-    draw: |_, _| Ok(Exhibit::default()),
+    runs: &[RunSpec { label: "", scenario: "no/such-scenario", sets: &[] }],
+    draw: |_, _| Ok(FigureContent::default()),
     ..BROKEN
 };
 
@@ -108,15 +110,15 @@ fn a_figure_that_fails_does_not_stop_the_others() {
     let folder = folder("failing");
     let made = make(&entries, &folder, &advance);
     std::fs::remove_dir_all(folder).expect("it was made above");
-    let outcomes: Vec<Result<(), &str>> =
-        made.iter().map(|made| made.outcome.as_ref().map(|_| ()).map_err(String::as_str)).collect();
-    assert_eq!(outcomes[0], Err("nothing there"));
-    assert!(outcomes[1].is_err_and(|error| error.contains("no/such-scenario")), "{outcomes:?}");
+    let outcomes: Vec<Result<(), String>> =
+        made.iter().map(|made| made.outcome.as_ref().map(|_| ()).map_err(ToString::to_string)).collect();
+    assert_eq!(outcomes[0], Err("nothing was not run".to_owned()));
+    assert!(outcomes[1].as_ref().is_err_and(|error| error.contains("no/such-scenario")), "{outcomes:?}");
     assert_eq!(outcomes[2], Ok(()));
     assert_eq!(steps.into_inner(), super::steps(&entries));
-    let parts: Vec<crate::page::Verdict> = made.iter().map(|made| section(made).verdict).collect();
-    assert_eq!(parts[0], crate::page::Verdict::Broken("nothing there".to_owned()));
-    assert_eq!(parts[2], crate::page::Verdict::Shown);
+    let parts: Vec<crate::page::SectionStatus> = made.iter().map(|made| section(made).verdict).collect();
+    assert_eq!(parts[0], crate::page::SectionStatus::Broken("nothing was not run".to_owned()));
+    assert_eq!(parts[2], crate::page::SectionStatus::Shown);
 }
 
 /// An empty folder of this test.

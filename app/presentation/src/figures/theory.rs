@@ -13,48 +13,49 @@ use interplay_planners::game::prospect::{ProspectTheory, weighting};
 use interplay_planners::{Body, SafetyEllipse};
 use interplay_scenarios::load;
 
-use super::entry::Exhibit;
-use crate::plot::ink::{BLACK, BLUE, Dash, GREY, Ink, ORANGE};
-use crate::plot::{Curve, Panel, Panels, Sheet};
+use super::entry::FigureContent;
+use super::error::FigureError;
+use crate::plot::style::{BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
+use crate::plot::{Curve, Panel, Panels, TextTable};
 
 /// Days that the classroom is trained on.
 const TRAIN_DAYS: f64 = 9.0;
 
 /// The identified classroom over the rows trained on, or over the others (Figs. 2.5 and 2.6).
-pub fn identification(title: &str, test: bool) -> Result<Exhibit, String> {
+pub fn identification(title: &str, test: bool) -> Result<FigureContent, FigureError> {
     let telemetry = Classroom::default().simulate();
     let identified = |method: Estimator| {
         let settings = IdentifySettings { method, train_days: Some(TRAIN_DAYS), ..IdentifySettings::default() };
-        identify(&telemetry, &settings).map_err(|error| error.to_string())
+        identify(&telemetry, &settings)
     };
     let (found, source) = (identified(Estimator::PredictionError)?, identified(Estimator::Semiparametric)?);
     let (Some(zone), Some(other)) = (found.report.zones.first(), source.report.zones.first()) else {
-        return Err("the classroom has no zone".to_owned());
+        return Err(FigureError::NoZone);
     };
     let errors = if test { zone.test.as_ref() } else { Some(&zone.train) };
-    let sheets = errors.map(fit_errors).into_iter().chain([parameters_found(zone, other)]).collect();
-    Ok(Exhibit { pictures: vec![fit(title, &found, test).sketch()], sheets, ..Exhibit::default() })
+    let tables = errors.map(fit_errors).into_iter().chain([parameters_found(zone, other)]).collect();
+    Ok(FigureContent { pictures: vec![fit(title, &found, test).drawing()], tables, ..FigureContent::default() })
 }
 
 fn fit(title: &str, found: &Identification, test: bool) -> Panels {
     let Some(series) = found.series.first() else { return Panels::default() };
     let rows = if test { series.test_start..series.measured_c.len() } else { 0..series.test_start };
-    let curve = |name: &str, ink: Ink, values: &[f64]| {
+    let curve = |name: &str, style: LineStyle, values: &[f64]| {
         let points = rows.clone().map(|row| [series.time_s[row] / 86_400.0, values[row]]);
-        Curve::new(name, ink.thin(), points.collect())
+        Curve::new(name, style.thin(), points.collect())
     };
     let measured = || {
-        let curve = curve("measured", Ink::new(GREY, Dash::Solid), &series.measured_c);
-        Curve { ink: Ink { width: 7, ..curve.ink }, ..curve }
+        let curve = curve("measured", LineStyle::new(GREY, Dash::Solid), &series.measured_c);
+        Curve { style: LineStyle { width: 7, ..curve.style }, ..curve }
     };
     let panel = |name: &str, predicted: Curve| Panel {
         name: name.to_owned(),
         curves: vec![measured(), predicted],
         ..Panel::default()
     };
-    let one_step = curve("predicted a step (15 min) ahead", Ink::new(ORANGE, Dash::Solid), &series.one_step_c);
+    let one_step = curve("predicted a step (15 min) ahead", LineStyle::new(ORANGE, Dash::Solid), &series.one_step_c);
     let free_run = &series.free_run_with_residual_model_c;
-    let free_run = curve("predicted a day ahead, from midnight on", Ink::new(BLUE, Dash::Solid), free_run);
+    let free_run = curve("predicted a day ahead, from midnight on", LineStyle::new(BLUE, Dash::Solid), free_run);
     Panels {
         title: title.to_owned(),
         across: "time [days]".to_owned(),
@@ -64,7 +65,7 @@ fn fit(title: &str, found: &Identification, test: bool) -> Panels {
     }
 }
 
-fn fit_errors(errors: &ErrorReport) -> Sheet {
+fn fit_errors(errors: &ErrorReport) -> TextTable {
     let kelvin = |value: f64| format!("{value:.3}");
     let mut rows = vec![
         ["one step ahead, network alone".to_owned(), kelvin(errors.one_step_k)],
@@ -79,10 +80,10 @@ fn fit_errors(errors: &ErrorReport) -> Sheet {
     };
     let runs = errors.free_run.errors_k.iter();
     rows.extend(runs.filter_map(|(how, error_k)| Some([format!("a day ahead, {}", words(how)), kelvin((*error_k)?)])));
-    Sheet::new("Measured: errors, root mean square", ["prediction", "error [K]"], rows)
+    TextTable::new("Measured: errors, root mean square", ["prediction", "error [K]"], rows)
 }
 
-fn parameters_found(zone: &ZoneReport, other: &ZoneReport) -> Sheet {
+fn parameters_found(zone: &ZoneReport, other: &ZoneReport) -> TextTable {
     let number = |value: Option<f64>| value.map_or_else(|| "undetermined".to_owned(), |value| format!("{value:.4}"));
     let truth = |name: &str| match name {
         "heat capacity" => format!("{:.1}", synthetic_classroom::CAPACITY_KJ_PER_K),
@@ -96,13 +97,13 @@ fn parameters_found(zone: &ZoneReport, other: &ZoneReport) -> Sheet {
         [name.clone(), truth(name), number(*value), number(*standard_error), number(by_source), unit.clone()]
     });
     let header = ["parameter", "simulated with", "estimate", "standard error", "by the source's method", "unit"];
-    Sheet::new("Measured: parameters", header, rows.collect())
+    TextTable::new("Measured: parameters", header, rows.collect())
 }
 
 /// Table 2.1 in the unit that makes sense of it, and what each reading of the printed unit leads to.
-pub fn thermal_parameters(title: &str) -> Result<Exhibit, String> {
+pub fn thermal_parameters(title: &str) -> Result<FigureContent, FigureError> {
     let network = Network::testbed();
-    let found = Model::euler(&network, 1800.0).map_err(|error| error.to_string())?;
+    let found = Model::euler(&network, 1800.0)?;
     let constants = network.time_constants_s();
     let row = |name: &str, printed: &str, value: String, unit: &str| {
         [name.to_owned(), printed.to_owned(), value, unit.to_owned()]
@@ -116,7 +117,7 @@ pub fn thermal_parameters(title: &str) -> Result<Exhibit, String> {
         row("R14, R23", "10000 kW/K", "no wall".to_owned(), ""),
         row("R01 … R04", "0.5208 kW/K", format!("{:.2}", conductance(0)), "K/kW"),
     ];
-    let table = Sheet::new(title, ["parameter", "printed", "as used here", "unit"], rows);
+    let table = TextTable::new(title, ["parameter", "printed", "as used here", "unit"], rows);
     let list = |values: Vec<f64>, digits: usize| {
         let words: Vec<String> = values.into_iter().map(|value| format!("{value:.digits$}")).collect();
         words.join(", ")
@@ -127,13 +128,13 @@ pub fn thermal_parameters(title: &str) -> Result<Exhibit, String> {
         ["kW/K (as printed)".to_owned(), list(as_printed, 2), "unstable: grows from step to step".to_owned()],
     ];
     let hours = list(constants.into_iter().map(|seconds| seconds / 3600.0).collect(), 1);
-    let findings = Sheet::new(
+    let findings = TextTable::new(
         "Measured: eigenvalues of A = I + T_s C⁻¹ R with steps of half an hour",
         ["unit of the resistances", "eigenvalues", ""],
         findings,
     );
-    let constants = Sheet::new("Measured: time constants", ["time constants [h]"], vec![[hours]]);
-    Ok(Exhibit { pictures: vec![table.sketch()], sheets: vec![findings, constants], ..Exhibit::default() })
+    let constants = TextTable::new("Measured: time constants", ["time constants [h]"], vec![[hours]]);
+    Ok(FigureContent { pictures: vec![table.drawing()], tables: vec![findings, constants], ..FigureContent::default() })
 }
 
 /// Eigenvalues of the step of forward Euler if Table 2.1's numbers were conductances \[kW/K\], as printed. The four rooms
@@ -144,19 +145,19 @@ fn printed_eigenvalues() -> Vec<f64> {
 }
 
 /// Wanted temperatures (Tables 3.1 and 4.1).
-pub fn setpoints(title: &str, setpoints: &Setpoints) -> Exhibit {
+pub fn setpoints(title: &str, setpoints: &Setpoints) -> FigureContent {
     let rooms = setpoints.occupied_c.iter().enumerate();
     let rows = rooms.map(|(room, wanted_c)| [format!("{}", room + 1), format!("{wanted_c:.1}")]).collect();
-    let table = Sheet::new(title, ["room", "temperature [°C]"], rows);
+    let table = TextTable::new(title, ["room", "temperature [°C]"], rows);
     let Setpoints { from_h, to_h, band_k, .. } = setpoints;
     let other = setpoints.other_c.map_or_else(|| "free".to_owned(), |other_c| format!("{other_c:.1} °C"));
     let rows = vec![[format!("{from_h:.1} h to {to_h:.1} h"), other, format!("±{band_k:.1} K")]];
-    let findings = Sheet::new("As used here", ["working hours", "at other times", "comfort band"], rows);
-    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings], ..Exhibit::default() }
+    let findings = TextTable::new("As used here", ["working hours", "at other times", "comfort band"], rows);
+    FigureContent { pictures: vec![table.drawing()], tables: vec![findings], ..FigureContent::default() }
 }
 
 /// The size of vehicles (Table 6.1).
-pub fn dimensions(title: &str) -> Exhibit {
+pub fn dimensions(title: &str) -> FigureContent {
     let body = Body::default();
     let lane = interplay_scenarios::Lanes::default().lane_width_m;
     let values = [
@@ -166,13 +167,13 @@ pub fn dimensions(title: &str) -> Exhibit {
         ("W_L", "width of a lane", lane),
     ];
     let row = |(symbol, name, value): (&str, &str, f64)| [symbol.to_owned(), name.to_owned(), format!("{value:.2} m")];
-    let table = Sheet::new(title, ["symbol", "meaning", "value"], values.map(row).to_vec());
-    Exhibit { pictures: vec![table.sketch()], ..Exhibit::default() }
+    let table = TextTable::new(title, ["symbol", "meaning", "value"], values.map(row).to_vec());
+    FigureContent { pictures: vec![table.drawing()], ..FigureContent::default() }
 }
 
 /// How plans are optimised (Table 6.2).
-pub fn configuration(title: &str) -> Result<Exhibit, String> {
-    let scenario = load("lane-change/front-nice", &[]).map_err(|error| error.to_string())?;
+pub fn configuration(title: &str) -> Result<FigureContent, FigureError> {
+    let scenario = load("lane-change/front-nice", &[])?;
     let (limits, ellipse) = (Limits::default(), SafetyEllipse::default());
     let row = |symbol: &str, name: &str, value: String| [symbol.to_owned(), name.to_owned(), value];
     let third = std::f64::consts::PI / 3.0;
@@ -192,23 +193,23 @@ pub fn configuration(title: &str) -> Result<Exhibit, String> {
         row("a_s", "half axis of the safety ellipse along the road", format!("{:.2} m", ellipse.along_m)),
         row("b_s", "half axis across it", format!("{:.2} m", ellipse.across_m)),
     ];
-    let table = Sheet::new(title, ["symbol", "meaning", "value"], rows);
-    Ok(Exhibit { pictures: vec![table.sketch()], ..Exhibit::default() })
+    let table = TextTable::new(title, ["symbol", "meaning", "value"], rows);
+    Ok(FigureContent { pictures: vec![table.drawing()], ..FigureContent::default() })
 }
 
 /// How people weigh cumulated probabilities (Fig. 8.1).
-pub fn weights(title: &str) -> Exhibit {
+pub fn weights(title: &str) -> FigureContent {
     let ProspectTheory { gamma, eta, .. } = ProspectTheory::default();
-    let curve = |name: String, ink: Ink, weigh: &dyn Fn(f64) -> f64| {
+    let curve = |name: String, style: LineStyle, weigh: &dyn Fn(f64) -> f64| {
         let points = (0..=200).map(|i| f64::from(i) / 200.0).map(|p| [p, weigh(p)]);
-        Curve::new(name, ink, points.collect())
+        Curve::new(name, style, points.collect())
     };
     let panel = Panel {
         name: "subjective weight w [–]".to_owned(),
         curves: vec![
-            curve(format!("gains, exponent {gamma}"), Ink::new(BLUE, Dash::Solid), &|p| weighting(p, gamma)),
-            curve(format!("losses, exponent {eta}"), Ink::new(ORANGE, Dash::Long), &|p| weighting(p, eta)),
-            curve("as probable as it is".to_owned(), Ink::new(BLACK, Dash::Short).thin(), &|p| p),
+            curve(format!("gains, exponent {gamma}"), LineStyle::new(BLUE, Dash::Solid), &|p| weighting(p, gamma)),
+            curve(format!("losses, exponent {eta}"), LineStyle::new(ORANGE, Dash::Long), &|p| weighting(p, eta)),
+            curve("as probable as it is".to_owned(), LineStyle::new(BLACK, Dash::Short).thin(), &|p| p),
         ],
         ..Panel::default()
     };
@@ -223,23 +224,23 @@ pub fn weights(title: &str) -> Exhibit {
         [name.to_owned(), rare, likely, format!("{:.2}", crossing(exponent))]
     };
     let header = ["", "weight of p = 0.05", "weight of p = 0.95", "overweighted up to p ="];
-    let findings = Sheet::new("Measured", header, vec![row("gains", gamma), row("losses", eta)]);
-    Exhibit { pictures: vec![picture.sketch()], sheets: vec![findings], ..Exhibit::default() }
+    let findings = TextTable::new("Measured", header, vec![row("gains", gamma), row("losses", eta)]);
+    FigureContent { pictures: vec![picture.drawing()], tables: vec![findings], ..FigureContent::default() }
 }
 
 /// The game of chicken (Table 8.1).
-pub fn chicken(title: &str) -> Exhibit {
+pub fn chicken(title: &str) -> FigureContent {
     let row = |words: [&str; 3]| words.map(str::to_owned);
     let rows = vec![row(["X swerves", "(1, 1)", "(−1, 2)"]), row(["X drives", "(2, −1)", "(−M, −M)"])];
-    let table = Sheet::new(title, ["payoffs (X, Y)", "Y swerves", "Y drives"], rows);
-    Exhibit { pictures: vec![table.sketch()], ..Exhibit::default() }
+    let table = TextTable::new(title, ["payoffs (X, Y)", "Y swerves", "Y drives"], rows);
+    FigureContent { pictures: vec![table.drawing()], ..FigureContent::default() }
 }
 
 /// The payoffs of the driving game (Table 8.2), in symbols and for one pair of intentions.
-pub fn payoffs(title: &str) -> Exhibit {
+pub fn payoffs(title: &str) -> FigureContent {
     let row = |words: [&str; 3]| words.map(str::to_owned);
     let rows = vec![row(["SV yields", "(−2x_s, −2x_e)", "(−x_s, x_e)"]), row(["SV passes", "(x_s, −x_e)", "(−M, −M)"])];
-    let table = Sheet::new(title, ["payoffs (SV, EV)", "EV yields", "EV passes"], rows);
+    let table = TextTable::new(title, ["payoffs (SV, EV)", "EV yields", "EV passes"], rows);
     // The source's stakes are ratios of probabilities between 0.05 and 0.95.
     let stakes = |[of, over]: [f64; 2]| Stakes { turn: of / over, accident: 2.0 };
     let rows = [[0.5, 0.5], [0.05, 0.95], [0.95, 0.05]].map(|pair| {
@@ -253,16 +254,16 @@ pub fn payoffs(title: &str) -> Exhibit {
         ]
     });
     let header = ["stake x of a player", "both yield", "it alone yields", "it alone passes", "both pass (M = 2)"];
-    let findings = Sheet::new("Measured: what one player gets", header, rows.to_vec());
-    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings], ..Exhibit::default() }
+    let findings = TextTable::new("Measured: what one player gets", header, rows.to_vec());
+    FigureContent { pictures: vec![table.drawing()], tables: vec![findings], ..FigureContent::default() }
 }
 
 /// The probabilities of the four events (Table 8.3), in symbols and as they are computed.
-pub fn events(title: &str) -> Exhibit {
+pub fn events(title: &str) -> FigureContent {
     let row = |words: [&str; 3]| words.map(str::to_owned);
     let rows =
         vec![row(["SV yields", "(1 − p_e)(1 − p_s)", "p_e (1 − p_s)"]), row(["SV passes", "(1 − p_e) p_s", "p_e p_s"])];
-    let table = Sheet::new(title, ["probability", "EV yields", "EV passes"], rows);
+    let table = TextTable::new(title, ["probability", "EV yields", "EV passes"], rows);
     let rows = [[0.5, 0.5], [0.8, 0.3]].map(|[p_e, p_s]| {
         let lottery = Stakes { turn: 1.0, accident: 2.0 }.lottery(p_e, p_s).map(|outcome| outcome.probability);
         let total: f64 = lottery.iter().sum();
@@ -270,6 +271,6 @@ pub fn events(title: &str) -> Exhibit {
         [format!("p_e = {p_e}, p_s = {p_s}"), neither, other, ego, both, format!("{total:.2}")]
     });
     let header = ["for", "both yield", "SV passes alone", "EV passes alone", "both pass", "together"];
-    let findings = Sheet::new("Measured", header, rows.to_vec());
-    Exhibit { pictures: vec![table.sketch()], sheets: vec![findings], ..Exhibit::default() }
+    let findings = TextTable::new("Measured", header, rows.to_vec());
+    FigureContent { pictures: vec![table.drawing()], tables: vec![findings], ..FigureContent::default() }
 }

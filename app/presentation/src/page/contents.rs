@@ -1,6 +1,6 @@
 //! What a page shows.
 
-use crate::plot::Sheet;
+use crate::plot::TextTable;
 
 /// A page.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,13 +21,13 @@ pub struct Section {
     /// Its heading.
     pub heading: String,
     /// How it turned out.
-    pub verdict: Verdict,
+    pub verdict: SectionStatus,
     /// Paragraphs with a word in front of each.
     pub words: Vec<(String, String)>,
     /// Pictures as SVG, each with what it shows in words.
     pub pictures: Vec<(String, String)>,
     /// Tables.
-    pub tables: Vec<Sheet>,
+    pub tables: Vec<TextTable>,
     /// Commands that make the same again.
     pub commands: Vec<String>,
     /// Files beside the page, with what each is.
@@ -36,7 +36,7 @@ pub struct Section {
 
 /// How a part turned out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Verdict {
+pub enum SectionStatus {
     /// Nothing was expected.
     #[default]
     Shown,
@@ -48,25 +48,25 @@ pub enum Verdict {
     Broken(String),
 }
 
-impl Verdict {
+impl SectionStatus {
     /// The words for it.
     pub fn word(&self) -> &'static str {
         match self {
-            Verdict::Shown => "shown",
-            Verdict::Held => "expectations held",
-            Verdict::Missed => "an expectation failed",
-            Verdict::Broken(_) => "could not be made",
+            SectionStatus::Shown => "shown",
+            SectionStatus::Held => "expectations held",
+            SectionStatus::Missed => "an expectation failed",
+            SectionStatus::Broken(_) => "could not be made",
         }
     }
 }
 
-impl Verdict {
+impl SectionStatus {
     /// A sign for it.
     pub(super) fn sign(&self) -> &'static str {
         match self {
-            Verdict::Shown => "–",
-            Verdict::Held => "✓",
-            Verdict::Missed | Verdict::Broken(_) => "✗",
+            SectionStatus::Shown => "–",
+            SectionStatus::Held => "✓",
+            SectionStatus::Missed | SectionStatus::Broken(_) => "✗",
         }
     }
 }

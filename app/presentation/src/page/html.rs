@@ -1,9 +1,9 @@
-//! The page as text.
+//! The page as text. The library escapes every text that is put into the markup.
 
-use std::fmt::Write;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::contents::{Page, Section, Verdict};
-use crate::plot::Sheet;
+use super::contents::{Page, Section, SectionStatus};
+use crate::plot::TextTable;
 
 const STYLE: &str = "\
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 0 auto; max-width: 1120px; padding: 1rem 1.5rem 4rem; }
@@ -25,107 +25,99 @@ dl { margin: .4rem 0; } dt { font-weight: 600; margin-top: .5rem; } dd { margin:
 
 /// The whole page.
 pub(super) fn page(page: &Page) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = write_page(&mut text, page);
-    text
-}
-
-fn write_page(text: &mut String, page: &Page) -> std::fmt::Result {
-    let title = escaped(&page.title);
-    writeln!(text, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">")?;
-    writeln!(text, "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">")?;
-    // Without this, browsers ask for a picture of their own.
-    writeln!(text, "<link rel=\"icon\" href=\"data:,\">")?;
-    writeln!(text, "<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>")?;
-    for paragraph in &page.opening {
-        writeln!(text, "<p>{}</p>", escaped(paragraph))?;
-    }
-    if page.sections.len() > 1 {
-        writeln!(text, "<nav aria-label=\"Contents\"><ul>")?;
-        for section in &page.sections {
-            let (id, heading) = (escaped(&section.id), escaped(&section.heading));
-            let (verdict, sign) = (&section.verdict, section.verdict.sign());
-            let mark = format!("<span class=\"mark {}\" title=\"{}\">{sign}</span>", class(verdict), verdict.word());
-            writeln!(text, "<li>{mark} <a href=\"#{id}\">{heading}</a></li>")?;
+    let markup = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                // Without this, browsers ask for a picture of their own.
+                link rel="icon" href="data:,";
+                title { (page.title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { (page.title) }
+                @for paragraph in &page.opening { p { (paragraph) } }
+                @if page.sections.len() > 1 { (contents(&page.sections)) }
+                @for section in &page.sections { (part(section)) }
+            }
         }
-        writeln!(text, "</ul></nav>")?;
-    }
-    for section in &page.sections {
-        write_section(text, section)?;
-    }
-    writeln!(text, "</body>\n</html>")
+    };
+    markup.into_string()
 }
 
-fn class(verdict: &Verdict) -> &'static str {
+/// Links to all parts.
+fn contents(sections: &[Section]) -> Markup {
+    html! {
+        nav aria-label="Contents" {
+            ul {
+                @for Section { id, heading, verdict, .. } in sections {
+                    li {
+                        span class={ "mark " (class(verdict)) } title=(verdict.word()) { (verdict.sign()) }
+                        " " a href={ "#" (id) } { (heading) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn class(verdict: &SectionStatus) -> &'static str {
     match verdict {
-        Verdict::Shown => "shown",
-        Verdict::Held => "held",
-        Verdict::Missed => "missed",
-        Verdict::Broken(_) => "broken",
+        SectionStatus::Shown => "shown",
+        SectionStatus::Held => "held",
+        SectionStatus::Missed => "missed",
+        SectionStatus::Broken(_) => "broken",
     }
 }
 
-fn mark(verdict: &Verdict) -> String {
-    format!("<span class=\"mark {}\">{}</span>", class(verdict), verdict.word())
-}
-
-fn write_section(text: &mut String, section: &Section) -> std::fmt::Result {
-    let (id, heading) = (escaped(&section.id), escaped(&section.heading));
-    writeln!(text, "<section id=\"{id}\">\n<h2>{heading} {}</h2>", mark(&section.verdict))?;
-    if let Verdict::Broken(reason) = &section.verdict {
-        writeln!(text, "<p>{}</p>", escaped(reason))?;
-    }
-    for (index, (alt, svg)) in section.pictures.iter().enumerate() {
-        writeln!(text, "<figure>{}</figure>", inline(svg, alt, &format!("{id}-picture-{}", index + 1)))?;
-    }
-    if !section.words.is_empty() {
-        writeln!(text, "<dl>")?;
-        for (name, words) in &section.words {
-            writeln!(text, "<dt>{}</dt><dd>{}</dd>", escaped(name), escaped(words))?;
+fn part(section: &Section) -> Markup {
+    let Section { id, heading, verdict, .. } = section;
+    html! {
+        section id=(id) {
+            h2 { (heading) " " span class={ "mark " (class(verdict)) } { (verdict.word()) } }
+            @if let SectionStatus::Broken(reason) = verdict { p { (reason) } }
+            @for (index, (alt, svg)) in section.pictures.iter().enumerate() {
+                figure { (inline(svg, alt, &format!("{id}-picture-{}", index + 1))) }
+            }
+            @if !section.words.is_empty() {
+                dl {
+                    @for (name, words) in &section.words { dt { (name) } dd { (words) } }
+                }
+            }
+            @for table in &section.tables { (table_markup(table)) }
+            @if !section.commands.is_empty() { pre { (section.commands.join("\n")) } }
+            @for (file, what) in &section.files {
+                p { a href=(file) { (file) } ": " (what) }
+            }
         }
-        writeln!(text, "</dl>")?;
     }
-    section.tables.iter().try_for_each(|table| write_table(text, table))?;
-    if !section.commands.is_empty() {
-        let commands: Vec<String> = section.commands.iter().map(|command| escaped(command)).collect();
-        writeln!(text, "<pre>{}</pre>", commands.join("\n"))?;
+}
+
+fn table_markup(table: &TextTable) -> Markup {
+    html! {
+        table {
+            caption { (table.title) }
+            thead { tr { @for word in &table.header { th { (word) } } } }
+            tbody {
+                @for words in &table.rows { tr { @for word in words { td { (word) } } } }
+            }
+        }
     }
-    for (file, what) in &section.files {
-        let file = escaped(file);
-        writeln!(text, "<p><a href=\"{file}\">{file}</a>: {}</p>", escaped(what))?;
-    }
-    writeln!(text, "</section>")
 }
 
 /// A picture as part of the page. The name space is the parser's business there, and an address; it goes.
-fn inline(svg: &str, alt: &str, id: &str) -> String {
+fn inline(svg: &str, alt: &str, id: &str) -> Markup {
     let svg = svg.trim_start_matches(|c| c != '<').replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
-    let small = if width(&svg).is_some_and(|width| width < 1000) { " class=\"small\"" } else { "" };
-    let opening = format!("<svg id=\"{id}\"{small} role=\"img\" aria-label=\"{}\"", escaped(alt));
-    svg.replacen("<svg", &opening, 1)
+    let small = width(&svg).is_some_and(|width| width < 1000);
+    // An element without content: what is written of it up to its end are the attributes.
+    let opening = html! { svg id=(id) class=[small.then_some("small")] role="img" aria-label=(alt); }.into_string();
+    PreEscaped(svg.replacen("<svg", opening.trim_end_matches('>'), 1))
 }
 
 fn width(svg: &str) -> Option<u32> {
     svg.split("width=\"").nth(1)?.split('"').next()?.parse().ok()
-}
-
-fn write_table(text: &mut String, table: &Sheet) -> std::fmt::Result {
-    let row = |tag: &str, words: &[String]| {
-        let cells: Vec<String> = words.iter().map(|word| format!("<{tag}>{}</{tag}>", escaped(word))).collect();
-        format!("<tr>{}</tr>", cells.concat())
-    };
-    writeln!(text, "<table><caption>{}</caption>", escaped(&table.title))?;
-    writeln!(text, "<thead>{}</thead><tbody>", row("th", &table.header))?;
-    for words in &table.rows {
-        writeln!(text, "{}", row("td", words))?;
-    }
-    writeln!(text, "</tbody></table>")
-}
-
-/// Words that HTML takes for words.
-fn escaped(words: &str) -> String {
-    words.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -150,7 +142,7 @@ mod tests {
     #[test]
     fn a_picture_within_the_page_names_no_address() {
         let svg = "<svg width=\"700\" height=\"2\" xmlns=\"http://www.w3.org/2000/svg\"><rect/></svg>";
-        let inside = inline(svg, "a \"thing\"", "p");
+        let inside = inline(svg, "a \"thing\"", "p").into_string();
         assert!(!inside.contains("http"), "{inside}");
         assert!(inside.starts_with("<svg id=\"p\" class=\"small\" role=\"img\" aria-label=\"a &quot;thing&quot;\""));
     }

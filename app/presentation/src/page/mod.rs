@@ -5,7 +5,7 @@
 mod contents;
 mod html;
 
-pub use contents::{Page, Section, Verdict};
+pub use contents::{Page, Section, SectionStatus};
 
 impl Page {
     /// The whole as HTML.

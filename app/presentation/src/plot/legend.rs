@@ -1,13 +1,13 @@
 //! Legends: above the plots, where they hide nothing.
 
-use super::ink::{Colour, Ink};
-use super::sketch::{MEDIUM, Side, Sketch, width_of};
+use super::drawing::{Drawing, MEDIUM, Side, width_of};
+use super::style::{Colour, LineStyle};
 
 /// What stands for a thing in a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Sample {
     /// A piece of its line.
-    Line(Ink),
+    Line(LineStyle),
     /// A piece of its surface.
     Patch(Colour),
 }
@@ -65,14 +65,14 @@ impl Legend {
     }
 
     /// Draws it with its upper left corner at a place.
-    pub fn draw(&self, sketch: &mut Sketch, [left, top]: [f64; 2], width: f64) {
+    pub fn draw(&self, drawing: &mut Drawing, [left, top]: [f64; 2], width: f64) {
         for ((sample, name), (row, x)) in self.entries.iter().zip(self.places(width)) {
             let (x, y) = (left + x, top + (row as f64 + 0.5) * ROW);
             match sample {
-                Sample::Line(ink) => sketch.line(vec![[x, y], [x + SAMPLE, y]], *ink),
-                Sample::Patch(colour) => sketch.block([x, y - 10.0], [x + SAMPLE, y + 10.0], *colour),
+                Sample::Line(style) => drawing.line(vec![[x, y], [x + SAMPLE, y]], *style),
+                Sample::Patch(colour) => drawing.block([x, y - 10.0], [x + SAMPLE, y + 10.0], *colour),
             }
-            sketch.text([x + SAMPLE + GAP, y], Side::Left, MEDIUM, name.as_str());
+            drawing.text([x + SAMPLE + GAP, y], Side::Left, MEDIUM, name.as_str());
         }
     }
 }

@@ -1,16 +1,16 @@
 //! The one room that names Plotters: figures as SVG and PNG, labelled with a font inside the binary.
 //!
-//! A figure is drawn by one function for both, so that the two show the same. Most are a [`Sketch`], which pure functions
-//! make: [`Panels`] of curves, a [`Film`] of footprints, a [`Sheet`] of words.
+//! A figure is drawn by one function for both, so that the two show the same. Most are a [`Drawing`], which pure functions
+//! make: [`Panels`] of curves, a [`FootprintPlot`] of footprints, a [`TextTable`] of words.
 
 mod axis;
-mod film;
+mod drawing;
+mod footprints;
 mod identification;
-pub mod ink;
 mod legend;
 mod panels;
-mod sheet;
-mod sketch;
+pub mod style;
+mod table;
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -22,11 +22,11 @@ use plotters::prelude::*;
 use plotters::style::register_font;
 use thiserror::Error;
 
-pub use film::{Film, Moment, Strip};
+pub use drawing::Drawing;
+pub use footprints::{FootprintPlot, FootprintSnapshot, Strip};
 pub use identification::identification;
 pub use panels::{Curve, Panel, Panels};
-pub use sheet::Sheet;
-pub use sketch::Sketch;
+pub use table::TextTable;
 
 /// Width and height of a figure \[points, and pixels of the PNG\].
 const SIZE: (u32, u32) = (1200, 520);
@@ -113,7 +113,7 @@ fn save(folder: &Path, name: &str, figure: &impl Figure) -> Result<[PathBuf; 2],
     Ok([vector, raster])
 }
 
-impl Sketch {
+impl Drawing {
     /// The picture as SVG.
     ///
     /// # Errors

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::axis::Axis;
-use super::ink::{Dash, GREY, Ink, LIMIT, PALE, SURFACE};
+use super::drawing::{Drawing, LARGE, MEDIUM, SMALL, Side};
 use super::legend::{Legend, Sample};
 use super::range;
-use super::sketch::{LARGE, MEDIUM, SMALL, Side, Sketch};
+use super::style::{Dash, GREY, LIMIT, LineStyle, PALE, SURFACE};
 
 const WIDTH: f64 = 1400.0;
 const LEFT: f64 = 92.0;
@@ -43,7 +43,7 @@ pub struct Panel {
     /// Parts of the way across that are shaded, such as working hours, and their name.
     pub shaded: (Vec<[f64; 2]>, String),
     /// Uprights: something happened.
-    pub moments: Vec<(f64, Ink, String)>,
+    pub snapshots: Vec<(f64, LineStyle, String)>,
     /// Values that must be visible even if no curve reaches them.
     pub reaches: Vec<f64>,
     /// Whether upwards goes by logarithms.
@@ -58,15 +58,15 @@ pub struct Curve {
     /// Its points; one that is not finite breaks it.
     pub points: Vec<[f64; 2]>,
     /// How it is drawn.
-    pub ink: Ink,
+    pub style: LineStyle,
     /// Whether each point is marked.
     pub marked: bool,
 }
 
 impl Curve {
     /// A curve without marks.
-    pub fn new(name: impl Into<String>, ink: Ink, points: Vec<[f64; 2]>) -> Curve {
-        Curve { name: name.into(), points, ink, marked: false }
+    pub fn new(name: impl Into<String>, style: LineStyle, points: Vec<[f64; 2]>) -> Curve {
+        Curve { name: name.into(), points, style, marked: false }
     }
 
     /// The same with a mark on each point.
@@ -75,8 +75,8 @@ impl Curve {
     }
 
     /// A value that holds for `step` from each place on, and then jumps.
-    pub fn held(name: impl Into<String>, ink: Ink, points: &[[f64; 2]], step: f64) -> Curve {
-        Curve::new(name, ink, points.iter().flat_map(|&[x, y]| [[x, y], [x + step, y]]).collect())
+    pub fn held(name: impl Into<String>, style: LineStyle, points: &[[f64; 2]], step: f64) -> Curve {
+        Curve::new(name, style, points.iter().flat_map(|&[x, y]| [[x, y], [x + step, y]]).collect())
     }
 }
 
@@ -100,7 +100,7 @@ fn with_room(values: Range<f64>) -> Range<f64> {
 
 impl Panels {
     /// The picture.
-    pub fn sketch(&self) -> Sketch {
+    pub fn drawing(&self) -> Drawing {
         let columns = self.columns.max(1);
         let rows = self.panels.len().div_ceil(columns);
         let plot_height = match rows {
@@ -117,9 +117,9 @@ impl Panels {
         };
         let head = TITLE + legend.height(WIDTH - 2.0 * RIGHT) + 6.0;
         let row_height = names + plot_height + TICKS;
-        let mut sketch = Sketch::new(WIDTH, head + rows as f64 * row_height + ACROSS + 8.0);
-        sketch.text([RIGHT, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
-        legend.draw(&mut sketch, [RIGHT, TITLE], WIDTH - 2.0 * RIGHT);
+        let mut drawing = Drawing::new(WIDTH, head + rows as f64 * row_height + ACROSS + 8.0);
+        drawing.text([RIGHT, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
+        legend.draw(&mut drawing, [RIGHT, TITLE], WIDTH - 2.0 * RIGHT);
         let values = self.values_across();
         for (index, panel) in self.panels.iter().enumerate() {
             let (row, column) = (index / columns, index % columns);
@@ -129,17 +129,17 @@ impl Panels {
             let y = Axis::new(panel.values(), [bottom, top]);
             let y = if panel.logarithmic { y.logarithmic() } else { y };
             let x = Axis::new(values.clone(), [left, right]).every(self.every);
-            panel.draw(&mut sketch, &Frame { x, y, left, right, top, bottom });
-            sketch.text([left - 70.0, top - names + 0.5 * NAME], Side::Left, MEDIUM, panel.name.as_str());
+            panel.draw(&mut drawing, &Frame { x, y, left, right, top, bottom });
+            drawing.text([left - 70.0, top - names + 0.5 * NAME], Side::Left, MEDIUM, panel.name.as_str());
             if common.is_none() {
-                panel.legend().draw(&mut sketch, [left, top - names + NAME], right - left);
+                panel.legend().draw(&mut drawing, [left, top - names + NAME], right - left);
             }
             if index + columns >= self.panels.len() {
                 let middle = [0.5 * (left + right), bottom + TICKS + 0.5 * ACROSS];
-                sketch.text(middle, Side::Middle, MEDIUM, self.across.as_str());
+                drawing.text(middle, Side::Middle, MEDIUM, self.across.as_str());
             }
         }
-        sketch
+        drawing
     }
 
     /// One legend for all plots, unless a line means different things in them.
@@ -168,13 +168,13 @@ impl Panel {
     fn legend(&self) -> Legend {
         let mut legend = Legend::default();
         for curve in &self.curves {
-            legend.add(Sample::Line(curve.ink), &curve.name);
+            legend.add(Sample::Line(curve.style), &curve.name);
         }
         for (_, name) in &self.limits {
             legend.add(Sample::Line(LIMIT), name);
         }
-        for (_, ink, name) in &self.moments {
-            legend.add(Sample::Line(ink.thin()), name);
+        for (_, style, name) in &self.snapshots {
+            legend.add(Sample::Line(style.thin()), name);
         }
         legend.add(Sample::Patch(SURFACE), &self.shaded.1);
         legend
@@ -191,44 +191,45 @@ impl Panel {
         if low < high { 0.8 * low..1.25 * high } else { 0.1..10.0 }
     }
 
-    fn draw(&self, sketch: &mut Sketch, frame: &Frame) {
+    fn draw(&self, drawing: &mut Drawing, frame: &Frame) {
         let Frame { x, y, left, right, top, bottom } = frame;
         for [from, to] in &self.shaded.0 {
-            sketch.block([x.pixel(*from), *top], [x.pixel(*to), *bottom], SURFACE);
+            drawing.block([x.pixel(*from), *top], [x.pixel(*to), *bottom], SURFACE);
         }
-        self.draw_axes(sketch, frame);
-        for (at, ink, _) in &self.moments {
-            sketch.line(vec![[x.pixel(*at), *top], [x.pixel(*at), *bottom]], ink.thin());
+        self.draw_axes(drawing, frame);
+        for (at, style, _) in &self.snapshots {
+            drawing.line(vec![[x.pixel(*at), *top], [x.pixel(*at), *bottom]], style.thin());
         }
         for (limit, _) in &self.limits {
-            sketch.line(vec![[*left, y.pixel(*limit)], [*right, y.pixel(*limit)]], LIMIT);
+            drawing.line(vec![[*left, y.pixel(*limit)], [*right, y.pixel(*limit)]], LIMIT);
         }
         for curve in &self.curves {
             let pixels: Vec<[f64; 2]> = curve.points.iter().map(|point| [point[0], point[1]]).collect();
             for piece in pixels.split(|point| !point[1].is_finite()).filter(|piece| !piece.is_empty()) {
                 let points: Vec<[f64; 2]> = piece.iter().map(|point| [x.pixel(point[0]), y.pixel(point[1])]).collect();
                 if curve.marked {
-                    points.iter().for_each(|&point| sketch.disc(point, 6, curve.ink.colour));
+                    points.iter().for_each(|&point| drawing.disc(point, 6, curve.style.colour));
                 }
-                sketch.line(points, curve.ink);
+                drawing.line(points, curve.style);
             }
         }
     }
 
-    fn draw_axes(&self, sketch: &mut Sketch, frame: &Frame) {
+    fn draw_axes(&self, drawing: &mut Drawing, frame: &Frame) {
         let Frame { x, y, left, right, top, bottom } = frame;
-        let (grid, axis) = (Ink { width: 1, ..Ink::new(PALE, Dash::Solid) }, Ink::new(GREY, Dash::Solid).thin());
+        let (grid, axis) =
+            (LineStyle { width: 1, ..LineStyle::new(PALE, Dash::Solid) }, LineStyle::new(GREY, Dash::Solid).thin());
         for (value, words) in x.ticks(105.0) {
             let at = x.pixel(value);
-            sketch.line(vec![[at, *top], [at, *bottom]], grid);
-            sketch.text([at, bottom + 0.5 * TICKS], Side::Middle, SMALL, words);
+            drawing.line(vec![[at, *top], [at, *bottom]], grid);
+            drawing.text([at, bottom + 0.5 * TICKS], Side::Middle, SMALL, words);
         }
         for (value, words) in y.ticks(42.0) {
             let at = y.pixel(value);
-            sketch.line(vec![[*left, at], [*right, at]], grid);
-            sketch.text([left - 10.0, at], Side::Right, SMALL, words);
+            drawing.line(vec![[*left, at], [*right, at]], grid);
+            drawing.text([left - 10.0, at], Side::Right, SMALL, words);
         }
-        sketch.line(vec![[*left, *top], [*left, *bottom]], axis);
-        sketch.line(vec![[*left, *bottom], [*right, *bottom]], axis);
+        drawing.line(vec![[*left, *top], [*left, *bottom]], axis);
+        drawing.line(vec![[*left, *bottom], [*right, *bottom]], axis);
     }
 }

@@ -7,7 +7,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::building;
 use super::markdown::code;
-use super::palette::{FAILURE, Paint};
+use super::palette::{FAILURE, VehicleColour};
 use super::planner_panels;
 
 /// Logs the text beside the pictures.
@@ -17,21 +17,25 @@ use super::planner_panels;
 pub fn about(
     stream: &RecordingStream,
     scenario: &Scenario,
-    paints: &[Paint],
+    vehicle_colours: &[VehicleColour],
     command: Option<&str>,
 ) -> RecordingStreamResult<()> {
-    let driving = (!scenario.vehicles.is_empty()).then(|| description(scenario, paints, command));
+    let driving = (!scenario.vehicles.is_empty()).then(|| description(scenario, vehicle_colours, command));
     let command = command.filter(|_| driving.is_none());
     let building = scenario.building.is_some().then(|| building::about(scenario, command));
     let text = driving.into_iter().chain(building).collect::<Vec<_>>().join("\n\n");
     stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
 }
 
-fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> String {
+fn description(scenario: &Scenario, vehicle_colours: &[VehicleColour], command: Option<&str>) -> String {
     let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
     let figure = scenario.figure.as_ref().map(|figure| format!(" (figure {figure})")).unwrap_or_default();
-    let who: String =
-        scenario.vehicles.iter().zip(paints).map(|(vehicle, paint)| row(scenario, vehicle, *paint)).collect();
+    let who: String = scenario
+        .vehicles
+        .iter()
+        .zip(vehicle_colours)
+        .map(|(vehicle, vehicle_colour)| row(scenario, vehicle, *vehicle_colour))
+        .collect();
     format!(
         "### {title}\n\n{shows}{figure}.{again}\n\n\
          | vehicle | colour | driver | wants |\n|---|---|---|---|\n{who}\n\
@@ -45,26 +49,26 @@ fn description(scenario: &Scenario, paints: &[Paint], command: Option<&str>) -> 
     )
 }
 
-fn row(scenario: &Scenario, vehicle: &Vehicle, paint: Paint) -> String {
+fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: VehicleColour) -> String {
     let target = vehicle.target(&scenario.road);
     let wish = match vehicle.goal.lane {
         Some(lane) => format!("lane {lane} at {:.2} m/s", target.speed_mps),
         None => format!("{:.2} m/s", target.speed_mps),
     };
-    format!("| **{}** | {} | {} | {wish} |\n", vehicle.name, paint.word, vehicle.driver.kind())
+    format!("| **{}** | {} | {} | {wish} |\n", vehicle.name, vehicle_colour.word, vehicle.driver.kind())
 }
 
 #[cfg(test)]
 mod tests {
     use interplay_scenarios::load;
 
-    use super::super::palette::paints;
+    use super::super::palette::vehicle_colours;
     use super::description;
 
     #[test]
     fn the_text_says_how_to_repeat_the_run() {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
-        let text = |command| description(&scenario, &paints(&scenario), command);
+        let text = |command| description(&scenario, &vehicle_colours(&scenario), command);
         assert!(text(Some("interplay run a --seed 2")).contains("(figure 6.1). Again: `interplay run a --seed 2`\n"));
         assert!(!text(None).contains("Again"));
     }

@@ -18,11 +18,11 @@ use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStre
 use xxhash_rust::xxh3::xxh3_128;
 
 /// A part of the window.
-pub enum Panel {
+pub enum LayoutNode {
     /// Side by side, with shares of the width.
-    Row(Vec<(f32, Panel)>),
+    Row(Vec<(f32, LayoutNode)>),
     /// One below the other, with shares of the height.
-    Column(Vec<(f32, Panel)>),
+    Column(Vec<(f32, LayoutNode)>),
     /// A view.
     View(View),
 }
@@ -81,7 +81,7 @@ impl View {
 pub fn send(
     stream: &RecordingStream,
     application: &'static str,
-    root: &Panel,
+    root: &LayoutNode,
     (play, speed): (PlayState, f64),
 ) -> RecordingStreamResult<()> {
     let (blueprint, messages) =
@@ -128,26 +128,26 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     /// Writes a panel and everything in it; returns its name and its path.
-    fn panel(&mut self, panel: &Panel) -> RecordingStreamResult<(Uuid, String)> {
+    fn panel(&mut self, panel: &LayoutNode) -> RecordingStreamResult<(Uuid, String)> {
         self.names += 1;
         let (sort, class) = match panel {
-            Panel::View(view) => ("view", view.class),
-            Panel::Row(_) => ("container", "row"),
-            Panel::Column(_) => ("container", "column"),
+            LayoutNode::View(view) => ("view", view.class),
+            LayoutNode::Row(_) => ("container", "row"),
+            LayoutNode::Column(_) => ("container", "column"),
         };
         // The viewer remembers what it knows of a view by its name, also when it goes over to another recording's layout: a
         // name must never stand for a view of another class.
         let name = Uuid { bytes: xxh3_128(format!("{class} {}", self.names).as_bytes()).to_be_bytes() };
         let path = format!("{sort}/{name}");
         match panel {
-            Panel::View(view) => self.view(&path, view)?,
-            Panel::Row(parts) => {
+            LayoutNode::View(view) => self.view(&path, view)?,
+            LayoutNode::Row(parts) => {
                 let contents = self.contents(parts)?;
                 let shares = parts.iter().map(|(share, _)| ColumnShare((*share).into()));
                 let row = ContainerBlueprint::new(ContainerKind::Horizontal);
                 self.stream.log(path.as_str(), &row.with_contents(contents).with_col_shares(shares))?;
             }
-            Panel::Column(parts) => {
+            LayoutNode::Column(parts) => {
                 let contents = self.contents(parts)?;
                 let shares = parts.iter().map(|(share, _)| RowShare((*share).into()));
                 let column = ContainerBlueprint::new(ContainerKind::Vertical);
@@ -157,7 +157,7 @@ impl Writer<'_> {
         Ok((name, path))
     }
 
-    fn contents(&mut self, parts: &[(f32, Panel)]) -> RecordingStreamResult<Vec<IncludedContent>> {
+    fn contents(&mut self, parts: &[(f32, LayoutNode)]) -> RecordingStreamResult<Vec<IncludedContent>> {
         parts.iter().map(|(_, part)| Ok(IncludedContent(self.panel(part)?.1.into()))).collect()
     }
 

@@ -1,5 +1,6 @@
 //! Why a recording failed.
 
+use std::io;
 use std::path::PathBuf;
 
 use rerun::RecordingStreamError;
@@ -14,7 +15,7 @@ pub enum RecordError {
         /// The file that was asked for.
         path: PathBuf,
         /// What is in the way.
-        reason: String,
+        reason: io::Error,
     },
     /// No viewer listens.
     #[error(
@@ -24,15 +25,23 @@ pub enum RecordError {
         /// Where one was looked for.
         address: String,
         /// What the system says.
-        reason: String,
+        reason: io::Error,
     },
+    /// The address that Rerun names itself is none.
+    #[error(transparent)]
+    Address(#[from] ViewerAddressError),
     /// Rerun refused data or lost the viewer.
     #[error("the recording broke off: {0}")]
-    Broken(String),
+    Broken(Box<dyn std::error::Error + Send + Sync>),
 }
 
 impl From<RecordingStreamError> for RecordError {
     fn from(error: RecordingStreamError) -> Self {
-        RecordError::Broken(error.to_string())
+        RecordError::Broken(Box::new(error))
     }
 }
+
+/// A text that is not the address of a viewer.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("not the address of a viewer; write it like {}", rerun::DEFAULT_CONNECT_URL)]
+pub struct ViewerAddressError;

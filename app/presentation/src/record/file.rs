@@ -1,28 +1,28 @@
 //! A file that appears whole or not at all: written beside its final place and renamed when it is complete.
 
-use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::RecordError;
+use tempfile::NamedTempFile;
+
+use super::error::RecordError;
 
 /// Checks that a file can be written to `target`, and leaves no trace of that.
 ///
 /// # Errors
 /// [`RecordError::Unwritable`] with the reason.
 pub fn check(target: &Path) -> Result<(), RecordError> {
-    let refuse = |reason: String| RecordError::Unwritable { path: target.to_owned(), reason };
+    let refuse = |reason: io::Error| RecordError::Unwritable { path: target.to_owned(), reason };
     if target.file_name().is_none() {
-        return Err(refuse("it names no file".to_owned()));
+        return Err(refuse(io::Error::other("it names no file")));
     }
     if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
         let what = if target.is_dir() { "it is a folder" } else { "it is not an ordinary file" };
-        return Err(refuse(what.to_owned()));
+        return Err(refuse(io::Error::other(what)));
     }
     let nearest = folders_above(target).find(|folder| folder.exists()).unwrap_or_else(|| PathBuf::from("."));
-    let probe = Guard { temporary: beside(&nearest.join("probe")), folders: Vec::new(), placed: false };
-    create(&probe.temporary).map(drop).map_err(|error| refuse(error.to_string()))
+    temporary_in(&nearest).map(drop).map_err(refuse)
 }
 
 /// Writes a file, making folders as needed.
@@ -31,59 +31,52 @@ pub fn check(target: &Path) -> Result<(), RecordError> {
 /// [`RecordError::Unwritable`] if the disk refuses. Then nothing was made, and what stood at `target` is as it was.
 pub fn write(target: &Path, content: &[u8]) -> Result<(), RecordError> {
     check(target)?;
-    let mut folders: Vec<PathBuf> = folders_above(target).take_while(|folder| !folder.exists()).collect();
-    folders.reverse();
-    let mut guard = Guard { temporary: beside(target), folders, placed: false };
-    guard
-        .fill(target, content)
-        .map_err(|error| RecordError::Unwritable { path: target.to_owned(), reason: error.to_string() })
+    let missing = folders_above(target).take_while(|folder| !folder.exists()).collect();
+    let folders = NewFolders(missing);
+    let written = folders.make().and_then(|()| place(target, content));
+    written.map_err(|reason| RecordError::Unwritable { path: target.to_owned(), reason })?;
+    folders.keep();
+    Ok(())
 }
 
-/// What a file in the making has created so far; taken back unless the file reaches its place.
-struct Guard {
-    temporary: PathBuf,
-    /// Folders that did not exist, outermost first.
-    folders: Vec<PathBuf>,
-    placed: bool,
+/// Writes beside the target and renames. What is left of a failure is removed.
+fn place(target: &Path, content: &[u8]) -> io::Result<()> {
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = temporary_in(folder)?;
+    file.write_all(content)?;
+    file.as_file().sync_all()?;
+    file.persist(target).map(drop).map_err(|error| error.error)
 }
 
-impl Guard {
-    fn fill(&mut self, target: &Path, content: &[u8]) -> io::Result<()> {
-        if let Some(folder) = self.folders.last() {
-            fs::create_dir_all(folder)?;
-        }
-        let mut file = create(&self.temporary)?;
-        file.write_all(content)?;
-        file.sync_all()?;
-        fs::rename(&self.temporary, target)?;
-        self.placed = true;
-        Ok(())
+/// A file that vanishes unless it is given a place; readable for whom any new file would be.
+fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".").suffix(".part");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}
+
+/// Folders that did not exist, innermost first; removed again unless they are kept.
+struct NewFolders(Vec<PathBuf>);
+
+impl NewFolders {
+    fn make(&self) -> io::Result<()> {
+        self.0.first().map_or(Ok(()), fs::create_dir_all)
+    }
+
+    fn keep(mut self) {
+        self.0.clear();
     }
 }
 
-impl Drop for Guard {
+impl Drop for NewFolders {
     fn drop(&mut self) {
-        if self.placed {
-            return;
-        }
         // What cannot be removed was never created, or is in somebody else's use by now.
-        let _ = fs::remove_file(&self.temporary);
-        for folder in self.folders.iter().rev() {
+        for folder in &self.0 {
             let _ = fs::remove_dir(folder);
         }
     }
-}
-
-fn create(path: &Path) -> io::Result<fs::File> {
-    fs::OpenOptions::new().write(true).create_new(true).open(path)
-}
-
-/// A name of our own beside a path.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}-{:?}.part", std::process::id(), std::thread::current().id()));
-    path.with_file_name(name)
 }
 
 /// The folders above a path, innermost first.
@@ -106,6 +99,10 @@ mod tests {
         write(&target, b"second").expect("replaces");
         assert_eq!(fs::read(&target).expect("there"), b"second");
         assert_eq!(fs::read_dir(folder.0.join("a/b")).expect("there").count(), 1);
+        let plain = folder.0.join("plain");
+        fs::write(&plain, b"").expect("writable");
+        let permissions = |path: &Path| fs::metadata(path).expect("there").permissions();
+        assert_eq!(permissions(&target), permissions(&plain), "a new file like any other");
     }
 
     #[test]
@@ -132,11 +129,11 @@ mod tests {
     fn a_file_that_cannot_be_placed_takes_its_folders_along() {
         let folder = Folder::new("unplaced");
         let made = folder.0.join("made");
-        let target = made.join("run.rrd");
-        let mut guard = Guard { temporary: beside(&target), folders: vec![made.clone()], placed: false };
-        guard.fill(Path::new("/proc/run.rrd"), b"content").expect_err("another file system");
+        let folders = NewFolders(vec![made.clone()]);
+        folders.make().expect("writable");
+        place(Path::new("/proc/run.rrd"), b"content").expect_err("no place for files");
         assert!(made.exists());
-        drop(guard);
+        drop(folders);
         assert!(!made.exists());
     }
 }

@@ -10,7 +10,7 @@ use super::re_sdk_types::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBound
 use super::re_sdk_types::{blueprint, datatypes};
 use interplay_scenarios::{Branch, Scenario, Vehicle};
 
-use super::blueprint::{Panel, View};
+use super::blueprint::{LayoutNode, View};
 use super::panels::{about, events};
 use super::planner_panels;
 use super::plots::{self, Plots};
@@ -25,33 +25,33 @@ const BESIDE_LANES: f64 = 0.5;
 const SHARE_BEHIND: f64 = 0.42;
 
 /// The layout for a scenario of which `plots` were recorded between the longitudinal coordinates `road_m`.
-pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> Panel {
-    let words = (1.9, Panel::Row(words(scenario, plots)));
+pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> LayoutNode {
+    let words = (1.9, LayoutNode::Row(words(scenario, plots)));
     if let Some([from_m, to_m]) = scenario.road.conflict_zone_m(Branch::Main) {
-        let beside = Panel::Column(rows(numbers(scenario, plots), 2));
-        let above = Panel::Row(vec![(1.0, crossing(scenario, 0.5 * (from_m + to_m))), (1.2, beside)]);
-        return Panel::Column(vec![(3.4, above), words]);
+        let beside = LayoutNode::Column(rows(numbers(scenario, plots), 2));
+        let above = LayoutNode::Row(vec![(1.0, crossing(scenario, 0.5 * (from_m + to_m))), (1.2, beside)]);
+        return LayoutNode::Column(vec![(3.4, above), words]);
     }
     let mut parts = vec![(1.7, close_up(scenario)), (0.65, whole_road(scenario, road_m))];
     parts.extend(rows(numbers(scenario, plots), 4).into_iter().map(|(_, row)| (1.5, row)));
     parts.push(words);
-    Panel::Column(parts)
+    LayoutNode::Column(parts)
 }
 
 /// Panels in rows of at most `longest`, all about equally long.
-fn rows(panels: Vec<(f32, Panel)>, longest: usize) -> Vec<(f32, Panel)> {
+fn rows(panels: Vec<(f32, LayoutNode)>, longest: usize) -> Vec<(f32, LayoutNode)> {
     let count = panels.len().div_ceil(longest).max(1);
     let length = panels.len().div_ceil(count).max(1);
     let mut panels = panels.into_iter().peekable();
     let mut rows = Vec::new();
     while panels.peek().is_some() {
-        rows.push((1.0, Panel::Row(panels.by_ref().take(length).collect())));
+        rows.push((1.0, LayoutNode::Row(panels.by_ref().take(length).collect())));
     }
     rows
 }
 
 /// Speeds, what goes on in the planners, and the gap.
-fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
+fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<(f32, LayoutNode)> {
     let fastest = scenario.vehicles.iter().map(|vehicle| vehicle.limits.speed_max_mps).fold(0.0, f64::max);
     let speeds = Plot::new(scenario, "Speeds [m/s]", vec!["/plots/speed/**".to_owned()]);
     let mut panels = vec![(1.0, speeds.between(0.0, 1.05 * fastest).legend_at(Corner2D::RightBottom))];
@@ -72,7 +72,7 @@ fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
     panels
 }
 
-fn words(scenario: &Scenario, plots: &Plots) -> Vec<(f32, Panel)> {
+fn words(scenario: &Scenario, plots: &Plots) -> Vec<(f32, LayoutNode)> {
     let computing = Plot::new(scenario, "Time to plan [ms]", vec!["/plots/planner-ms/**".to_owned()]);
     let mut row = vec![(0.8, computing.legend_at(Corner2D::RightTop))];
     if plots.has(plots::LOG) {
@@ -98,13 +98,13 @@ impl Plot {
         Plot(self.0.with("ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high))))
     }
 
-    fn legend_at(self, corner: Corner2D) -> Panel {
-        Panel::View(self.0.with("PlotLegend", PlotLegend::new().with_corner(corner)))
+    fn legend_at(self, corner: Corner2D) -> LayoutNode {
+        LayoutNode::View(self.0.with("PlotLegend", PlotLegend::new().with_corner(corner)))
     }
 
     /// Of one series that the title names.
-    fn alone(self) -> Panel {
-        Panel::View(self.0.with("PlotLegend", PlotLegend::new().with_visible(false)))
+    fn alone(self) -> LayoutNode {
+        LayoutNode::View(self.0.with("PlotLegend", PlotLegend::new().with_visible(false)))
     }
 }
 
@@ -113,32 +113,32 @@ pub fn close_up_span_m(scenario: &Scenario) -> f64 {
     CLOSE_UP_ASPECT * (scenario.road.width_m() + 2.0 * BESIDE_LANES * scenario.road.lane_width_m())
 }
 
-fn close_up(scenario: &Scenario) -> Panel {
+fn close_up(scenario: &Scenario) -> LayoutNode {
     let beside = BESIDE_LANES * scenario.road.lane_width_m();
     let across = [-scenario.road.width_m() - beside, beside];
     let span = close_up_span_m(scenario);
     let along = [-SHARE_BEHIND * span, (1.0 - SHARE_BEHIND) * span];
-    Panel::View(traced(scenario, top_view("Around the ego", along, across).from(FOLLOW)))
+    LayoutNode::View(traced(scenario, top_view("Around the ego", along, across).from(FOLLOW)))
 }
 
 /// Where the roads meet, as far around as the vehicles come from.
-fn crossing(scenario: &Scenario, centre_m: f64) -> Panel {
+fn crossing(scenario: &Scenario, centre_m: f64) -> LayoutNode {
     let middle = [centre_m, 0.5 * scenario.road.width_m()];
     let off = |vehicle: &Vehicle| (vehicle.start.x_m - middle[0]).abs().max((vehicle.start.y_m - middle[1]).abs());
     let reach =
         scenario.vehicles.iter().map(off).fold(scenario.road.width_m(), f64::max) + scenario.road.lane_width_m();
     let across = [-middle[1] - reach, -middle[1] + reach];
     let view = top_view("The intersection", [middle[0] - reach, middle[0] + reach], across);
-    Panel::View(traced(scenario, view))
+    LayoutNode::View(traced(scenario, view))
 }
 
-fn whole_road(scenario: &Scenario, road_m: [f64; 2]) -> Panel {
+fn whole_road(scenario: &Scenario, road_m: [f64; 2]) -> LayoutNode {
     let view = top_view("The whole road", road_m, [-scenario.road.width_m(), 0.0]);
     let view = scenario.vehicles.iter().fold(view, |view, vehicle| {
         let parts = ["label", "prediction", "safety"];
         parts.iter().fold(view, |view, part| view.without(&format!("/world/vehicle/{}/{part}", vehicle.name)))
     });
-    Panel::View(traced(scenario, view))
+    LayoutNode::View(traced(scenario, view))
 }
 
 fn top_view(title: &str, [left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> View {

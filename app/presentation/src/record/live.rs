@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use rerun::external::re_uri::ProxyUri;
 
-use super::RecordError;
+use super::error::{RecordError, ViewerAddressError};
 
 /// How long to wait for a viewer.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -22,7 +22,7 @@ impl Viewer {
     ///
     /// # Errors
     /// Never, as long as Rerun can read the address that it names itself.
-    pub fn here() -> Result<Viewer, String> {
+    pub fn here() -> Result<Viewer, ViewerAddressError> {
         rerun::DEFAULT_CONNECT_URL.parse()
     }
 
@@ -34,9 +34,9 @@ impl Viewer {
             let first = found.next().ok_or(std::io::ErrorKind::NotFound)?;
             TcpStream::connect_timeout(&first, PATIENCE)
         });
-        let refuse = |error: std::io::Error| RecordError::NoViewer {
+        let refuse = |reason: std::io::Error| RecordError::NoViewer {
             address: format!("{}:{}", origin.host, origin.port),
-            reason: error.to_string(),
+            reason,
         };
         reached.map(drop).map_err(refuse)
     }
@@ -49,11 +49,10 @@ impl fmt::Display for Viewer {
 }
 
 impl FromStr for Viewer {
-    type Err = String;
+    type Err = ViewerAddressError;
 
-    fn from_str(text: &str) -> Result<Viewer, String> {
-        let wrong = |_| format!("not the address of a viewer; write it like {}", rerun::DEFAULT_CONNECT_URL);
-        text.parse().map(Viewer).map_err(wrong)
+    fn from_str(text: &str) -> Result<Viewer, ViewerAddressError> {
+        text.parse().map(Viewer).map_err(|_| ViewerAddressError)
     }
 }
 
@@ -67,7 +66,7 @@ mod tests {
         assert_eq!(here.to_string(), "rerun+http://127.0.0.1:9876/proxy");
         assert_eq!(here.to_string().parse(), Ok(here));
         for wrong in ["", "nowhere", "http://127.0.0.1:9876", "rerun+http://127.0.0.1:9876/catalog"] {
-            let error = wrong.parse::<Viewer>().expect_err(wrong);
+            let error = wrong.parse::<Viewer>().expect_err(wrong).to_string();
             assert!(error.contains("rerun+http://127.0.0.1:9876/proxy"), "{error}");
         }
     }

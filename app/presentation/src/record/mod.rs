@@ -37,22 +37,22 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use ::re_sdk_types;
-use blueprint::Panel;
-use building::House;
+use blueprint::LayoutNode;
+use building::BuildingLayer;
 use interplay_scenarios::{Branch, Scenario};
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
-pub use error::RecordError;
+pub use error::{RecordError, ViewerAddressError};
 pub use live::Viewer;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
 pub use timelines::{SIM_TIME, TICK};
-use vehicles::Cast;
+use vehicles::VehicleLayer;
 
 use interplay_simulation::frame::Frame;
-use interplay_simulation::watch::Watcher;
+use interplay_simulation::watch::{WatchError, Watcher};
 
 /// The first bytes of every recording in a file.
 pub const MAGIC: [u8; 3] = *b"RRF";
@@ -85,9 +85,9 @@ pub struct Recorder {
     stream: RecordingStream,
     output: Output,
     scenario: Scenario,
-    cast: Cast,
+    vehicles: VehicleLayer,
     plots: Plots,
-    house: Option<House>,
+    building_layer: Option<BuildingLayer>,
     /// Longitudinal coordinates between which somebody was \[m\].
     driven_m: Option<[f64; 2]>,
 }
@@ -122,17 +122,17 @@ impl Recorder {
         stream.set_log_time_enabled(false);
         stream.set_log_tick_enabled(false);
         stream.send_recording_name(format!("{name}: {}", scenario.title))?;
-        let paints = palette::paints(scenario);
+        let vehicle_colours = palette::vehicle_colours(scenario);
         let [from_m, to_m] = expected_road(scenario);
         let beyond_m = layout::close_up_span_m(scenario);
         if !scenario.vehicles.is_empty() {
             road::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
         }
-        about::about(&stream, scenario, &paints, None)?;
-        let cast = Cast::enter(&stream, scenario, &paints)?;
-        let plots = Plots::begin(&stream, scenario, &paints)?;
-        let house = House::begin(&stream, scenario)?;
-        Ok(Recorder { stream, output, scenario: scenario.clone(), cast, plots, house, driven_m: None })
+        about::about(&stream, scenario, &vehicle_colours, None)?;
+        let vehicles = VehicleLayer::begin(&stream, scenario, &vehicle_colours)?;
+        let plots = Plots::begin(&stream, scenario, &vehicle_colours)?;
+        let building_layer = BuildingLayer::begin(&stream, scenario)?;
+        Ok(Recorder { stream, output, scenario: scenario.clone(), vehicles, plots, building_layer, driven_m: None })
     }
 
     /// Adds to the text of the recording what a reader types to get the run again.
@@ -140,8 +140,8 @@ impl Recorder {
     /// # Errors
     /// [`RecordError::Broken`] if Rerun refuses the text.
     pub fn repeat_with(&self, command: &str) -> Result<(), RecordError> {
-        let paints = palette::paints(&self.scenario);
-        Ok(about::about(&self.stream, &self.scenario, &paints, Some(command))?)
+        let vehicle_colours = palette::vehicle_colours(&self.scenario);
+        Ok(about::about(&self.stream, &self.scenario, &vehicle_colours, Some(command))?)
     }
 
     /// Records one tick.
@@ -151,10 +151,10 @@ impl Recorder {
     pub fn tick(&mut self, frame: &Frame) -> Result<(), RecordError> {
         self.stream.set_duration_secs(SIM_TIME, frame.time_s);
         self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
-        self.cast.tick(&self.stream, frame)?;
+        self.vehicles.tick(&self.stream, frame)?;
         self.plots.tick(&self.stream, frame)?;
-        if let (Some(house), Some(frame)) = (&mut self.house, &frame.building) {
-            house.step(&self.stream, frame)?;
+        if let (Some(building_layer), Some(frame)) = (&mut self.building_layer, &frame.building) {
+            building_layer.step(&self.stream, frame)?;
         }
         let corridor = self.scenario.road.corridor(Branch::Main);
         for vehicle in &frame.vehicles {
@@ -179,12 +179,13 @@ impl Recorder {
     pub fn finish(self) -> Result<(), RecordError> {
         let road_m = self.driven_m.map(|[from, to]| [from - margin(&self.scenario), to + margin(&self.scenario)]);
         self.arrange(road_m.unwrap_or_else(|| expected_road(&self.scenario)))?;
-        let broken = |error: &dyn std::fmt::Display| RecordError::Broken(error.to_string());
         match &self.output {
             Output::File { path, content } => {
-                file::write(path, &content.drain_as_bytes().map_err(|error| broken(&error))?)
+                file::write(path, &content.drain_as_bytes().map_err(|error| RecordError::Broken(Box::new(error)))?)
             }
-            Output::Live { .. } => self.stream.flush_with_timeout(PATIENCE).map_err(|error| broken(&error)),
+            Output::Live { .. } => {
+                self.stream.flush_with_timeout(PATIENCE).map_err(|error| RecordError::Broken(Box::new(error)))
+            }
         }
     }
 
@@ -192,15 +193,15 @@ impl Recorder {
     fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
         let driving = || layout::layout(&self.scenario, &self.plots, road_m);
         let words = match self.scenario.vehicles.is_empty() {
-            false => building::Words::Elsewhere,
-            true if self.plots.has(plots::LOG) => building::Words::AboutAndEvents,
-            true => building::Words::About,
+            false => building::TextPanels::Elsewhere,
+            true if self.plots.has(plots::LOG) => building::TextPanels::AboutAndEvents,
+            true => building::TextPanels::About,
         };
-        let house = self.house.as_ref().map(|house| building::layout(house, words));
-        let panel = match house {
+        let building_layer = self.building_layer.as_ref().map(|building_layer| building::layout(building_layer, words));
+        let panel = match building_layer {
             None => driving(),
-            Some(house) if self.scenario.vehicles.is_empty() => house,
-            Some(house) => Panel::Row(vec![(1.0, driving()), (1.0, house)]),
+            Some(building_layer) if self.scenario.vehicles.is_empty() => building_layer,
+            Some(building_layer) => LayoutNode::Row(vec![(1.0, driving()), (1.0, building_layer)]),
         };
         let speed = if self.scenario.vehicles.is_empty() { DAYS } else { 1.0 };
         let play = match self.output {
@@ -212,12 +213,12 @@ impl Recorder {
 }
 
 impl Watcher for Recorder {
-    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
-        Recorder::tick(self, frame).map_err(|error| error.to_string())
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
+        Ok(Recorder::tick(self, frame)?)
     }
 
-    fn finish(self: Box<Self>) -> Result<(), String> {
-        Recorder::finish(*self).map_err(|error| error.to_string())
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
+        Ok(Recorder::finish(*self)?)
     }
 }
 

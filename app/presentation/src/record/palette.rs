@@ -16,23 +16,23 @@ const OTHERS: [([u8; 3], &str); 5] = [
 ];
 
 /// Something went wrong: a plan that is only a fallback. Vermillion, which no vehicle has.
-pub const FAILURE: Paint = Paint { rgb: [0xD5, 0x5E, 0x00], word: "vermillion" };
+pub const FAILURE: VehicleColour = VehicleColour { rgb: [0xD5, 0x5E, 0x00], word: "vermillion" };
 /// The surface of the road.
-pub const ASPHALT: Paint = Paint { rgb: [0x2B, 0x2E, 0x33], word: "grey" };
+pub const ASPHALT: VehicleColour = VehicleColour { rgb: [0x2B, 0x2E, 0x33], word: "grey" };
 /// Edges and lane markings.
-pub const MARKING: Paint = Paint { rgb: [0xA8, 0xAC, 0xB3], word: "light grey" };
+pub const MARKING: VehicleColour = VehicleColour { rgb: [0xA8, 0xAC, 0xB3], word: "light grey" };
 /// What belongs to nobody.
-pub const NEUTRAL: Paint = Paint { rgb: [0xDD, 0xDD, 0xDD], word: "white" };
+pub const NEUTRAL: VehicleColour = VehicleColour { rgb: [0xDD, 0xDD, 0xDD], word: "white" };
 
 /// A colour with the word that a legend uses for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Paint {
+pub struct VehicleColour {
     rgb: [u8; 3],
     /// What people call it.
     pub word: &'static str,
 }
 
-impl Paint {
+impl VehicleColour {
     /// The colour, opaque.
     pub fn solid(self) -> Color {
         self.veiled(0xFF)
@@ -52,28 +52,28 @@ impl Paint {
 }
 
 /// One colour a vehicle, in the scenario's order.
-pub fn paints(scenario: &Scenario) -> Vec<Paint> {
+pub fn vehicle_colours(scenario: &Scenario) -> Vec<VehicleColour> {
     let ego = scenario.ego_index();
     let mut others = OTHERS.iter().cycle();
     (0..scenario.vehicles.len())
         .map(|index| match (index == ego, others.clone().next()) {
             (false, Some(&(rgb, word))) => {
                 others.next();
-                Paint { rgb, word }
+                VehicleColour { rgb, word }
             }
-            _ => Paint { rgb: EGO, word: "orange" },
+            _ => VehicleColour { rgb: EGO, word: "orange" },
         })
         .collect()
 }
 
 /// Colours of a planner's numbers, by their place among those that share a panel.
-pub fn series(index: usize) -> Paint {
+pub fn series(index: usize) -> VehicleColour {
     let palette = [
-        Paint { rgb: [0x00, 0x9E, 0x73], word: "green" },
-        Paint { rgb: EGO, word: "orange" },
-        Paint { rgb: [0x56, 0xB4, 0xE9], word: "sky blue" },
-        Paint { rgb: [0xCC, 0x79, 0xA7], word: "purple" },
-        Paint { rgb: [0xF0, 0xE4, 0x42], word: "yellow" },
+        VehicleColour { rgb: [0x00, 0x9E, 0x73], word: "green" },
+        VehicleColour { rgb: EGO, word: "orange" },
+        VehicleColour { rgb: [0x56, 0xB4, 0xE9], word: "sky blue" },
+        VehicleColour { rgb: [0xCC, 0x79, 0xA7], word: "purple" },
+        VehicleColour { rgb: [0xF0, 0xE4, 0x42], word: "yellow" },
         NEUTRAL,
         FAILURE,
     ];

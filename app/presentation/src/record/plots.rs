@@ -8,7 +8,7 @@ use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::palette::{self, FAILURE, NEUTRAL, Paint};
+use super::palette::{self, FAILURE, NEUTRAL, VehicleColour};
 use super::planner_panels::{place, slug};
 use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
 use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
@@ -48,12 +48,22 @@ impl Plots {
     ///
     /// # Errors
     /// If Rerun refuses a component.
-    pub fn begin(stream: &RecordingStream, scenario: &Scenario, paints: &[Paint]) -> RecordingStreamResult<Plots> {
+    pub fn begin(
+        stream: &RecordingStream,
+        scenario: &Scenario,
+        vehicle_colours: &[VehicleColour],
+    ) -> RecordingStreamResult<Plots> {
         let kind = |index: usize| scenario.vehicles[index].driver.kind();
         let mut planners = Vec::new();
-        for (index, (vehicle, paint)) in scenario.vehicles.iter().zip(paints).enumerate() {
+        for (index, (vehicle, vehicle_colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate() {
             for (quantity, _) in QUANTITIES {
-                style(stream, &format!("plots/{quantity}/{}", vehicle.name), &vehicle.name, paint.solid(), false)?;
+                style(
+                    stream,
+                    &format!("plots/{quantity}/{}", vehicle.name),
+                    &vehicle.name,
+                    vehicle_colour.solid(),
+                    false,
+                )?;
             }
             let alone = (0..scenario.vehicles.len()).all(|other| other == index || kind(other) != kind(index));
             let end = if alone { String::new() } else { format!("/{}", vehicle.name) };
@@ -111,8 +121,8 @@ impl Plots {
                 if !self.seen.contains(&path) {
                     let name = quantity.name;
                     let label = if end.is_empty() { name.to_owned() } else { format!("{name}, {}", vehicle.name) };
-                    let paint = palette::series(place(explanation, quantity).unwrap_or_default());
-                    style(stream, &path, &label, paint.solid(), quantity.is_switch())?;
+                    let vehicle_colour = palette::series(place(explanation, quantity).unwrap_or_default());
+                    style(stream, &path, &label, vehicle_colour.solid(), quantity.is_switch())?;
                     self.seen.insert(path.clone());
                 }
                 stream.log(path, &Scalars::single(*value))?;
@@ -140,13 +150,13 @@ impl Plots {
     }
 
     fn say(&mut self, stream: &RecordingStream, level: Level, text: &str) -> RecordingStreamResult<()> {
-        let (level, paint) = match level {
+        let (level, vehicle_colour) = match level {
             Level::Note => (TextLogLevel::INFO, NEUTRAL),
             Level::Warning => (TextLogLevel::WARN, FAILURE),
             Level::Alarm => (TextLogLevel::ERROR, FAILURE),
         };
         self.seen.insert(LOG.to_owned());
-        stream.log(LOG, &TextLog::new(text).with_level(level).with_color(paint.solid()))
+        stream.log(LOG, &TextLog::new(text).with_level(level).with_color(vehicle_colour.solid()))
     }
 }
 

@@ -183,13 +183,13 @@ fn a_panel_is_there_only_if_it_has_something_to_show() {
 struct Listener(std::sync::Arc<std::sync::Mutex<std::collections::BTreeSet<&'static str>>>);
 
 impl Watcher for Listener {
-    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
         let mut heard = self.0.lock().map_err(|error| error.to_string())?;
         heard.extend(frame.vehicles[0].plan.diagnostics.iter().map(|diagnostic| diagnostic.quantity.name));
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), String> {
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
         Ok(())
     }
 }
@@ -211,10 +211,10 @@ fn planners_give_every_number_that_a_panel_shows() {
     }
 }
 
-fn titles(panel: &Panel) -> Vec<String> {
+fn titles(panel: &LayoutNode) -> Vec<String> {
     match panel {
-        Panel::Row(parts) | Panel::Column(parts) => parts.iter().flat_map(|(_, part)| titles(part)).collect(),
-        Panel::View(view) => vec![view.title().to_owned()],
+        LayoutNode::Row(parts) | LayoutNode::Column(parts) => parts.iter().flat_map(|(_, part)| titles(part)).collect(),
+        LayoutNode::View(view) => vec![view.title().to_owned()],
     }
 }
 
@@ -255,13 +255,13 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
     let (_, timelines) = &entities["/building/outdoors/real"];
     assert!([SIM_TIME, TICK, building::ITERATION].iter().all(|name| timelines.iter().any(|there| there == name)));
     assert!(!entities.keys().any(|path| path.starts_with("/world")), "no road without vehicles");
-    let house = recorder.house.as_ref().expect("a building");
+    let building_layer = recorder.building_layer.as_ref().expect("a building");
     assert_eq!(
-        titles(&building::layout(house, building::Words::About)).len(),
+        titles(&building::layout(building_layer, building::TextPanels::About)).len(),
         1 + 4 + 4,
         "plan, temperatures, numbers and words"
     );
-    let beside = titles(&building::layout(house, building::Words::Elsewhere));
+    let beside = titles(&building::layout(building_layer, building::TextPanels::Elsewhere));
     assert_eq!(beside.len(), 1 + 4 + 3, "vehicles have the words");
 }
 
@@ -296,7 +296,8 @@ fn every_vehicle_up_to_six_has_a_colour_of_its_own() {
             .vehicles
             .push(interplay_scenarios::Vehicle { name: format!("more-{copy}"), ..scenario.vehicles[1].clone() });
     }
-    let paints = palette::paints(&scenario);
-    let words: std::collections::BTreeSet<&str> = paints.iter().map(|paint| paint.word).collect();
-    assert_eq!((paints.len(), words.len(), paints[0].word), (6, 6, "orange"));
+    let vehicle_colours = palette::vehicle_colours(&scenario);
+    let words: std::collections::BTreeSet<&str> =
+        vehicle_colours.iter().map(|vehicle_colour| vehicle_colour.word).collect();
+    assert_eq!((vehicle_colours.len(), words.len(), vehicle_colours[0].word), (6, 6, "orange"));
 }

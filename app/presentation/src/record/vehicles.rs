@@ -5,7 +5,7 @@ use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::palette::{FAILURE, NEUTRAL, Paint};
+use super::palette::{FAILURE, NEUTRAL, VehicleColour};
 use super::re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
 use super::re_sdk_types::components::Radius;
 use super::road::turn;
@@ -17,7 +17,7 @@ pub const FOLLOW: &str = "follow";
 const FILL_LINES: u8 = 7;
 
 /// All vehicles, in the scenario's order.
-pub struct Cast {
+pub struct VehicleLayer {
     performers: Vec<Performer>,
     ego: usize,
 }
@@ -26,26 +26,30 @@ pub struct Cast {
 struct Performer {
     /// `world/vehicle/<name>`.
     path: String,
-    paint: Paint,
+    vehicle_colour: VehicleColour,
     body: Body,
     road_heading_rad: f64,
     last: Option<State>,
     asks: bool,
 }
 
-impl Cast {
+impl VehicleLayer {
     /// Logs what never changes about the vehicles: shapes, colours, widths.
     ///
     /// # Errors
     /// If Rerun refuses a component.
-    pub fn enter(stream: &RecordingStream, scenario: &Scenario, paints: &[Paint]) -> RecordingStreamResult<Cast> {
+    pub fn begin(
+        stream: &RecordingStream,
+        scenario: &Scenario,
+        vehicle_colours: &[VehicleColour],
+    ) -> RecordingStreamResult<VehicleLayer> {
         let ego = scenario.ego_index();
         let mut performers = Vec::new();
-        for (vehicle, paint) in scenario.vehicles.iter().zip(paints) {
+        for (vehicle, vehicle_colour) in scenario.vehicles.iter().zip(vehicle_colours) {
             let path = format!("world/vehicle/{}", vehicle.name);
             let road_heading_rad = scenario.road.heading_rad(vehicle.road);
-            let (paint, body) = (*paint, vehicle.body);
-            let performer = Performer { path, paint, body, road_heading_rad, last: None, asks: false };
+            let (vehicle_colour, body) = (*vehicle_colour, vehicle.body);
+            let performer = Performer { path, vehicle_colour, body, road_heading_rad, last: None, asks: false };
             performer.dress(stream)?;
             performers.push(performer);
         }
@@ -59,7 +63,7 @@ impl Cast {
                 stream.log_static(format!("{}/safety", other.path), &ellipse)?;
             }
         }
-        Ok(Cast { performers, ego })
+        Ok(VehicleLayer { performers, ego })
     }
 
     /// Logs one tick.
@@ -91,7 +95,7 @@ impl Performer {
     fn dress(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         let style = |opacity: u8, points: f32, order: f32| {
             LineStrips2D::update_fields()
-                .with_colors([self.paint.veiled(opacity)])
+                .with_colors([self.vehicle_colour.veiled(opacity)])
                 .with_radii([Radius::new_ui_points(points)])
                 .with_draw_order(order)
         };
@@ -99,18 +103,18 @@ impl Performer {
         stream.log_static(self.at("trace"), &style(110, 1.5, 3.0))?;
         let plan = LineStrips2D::update_fields().with_radii([Radius::new_ui_points(1.8)]).with_draw_order(4.0);
         stream.log_static(self.at("plan"), &plan)?;
-        let dots = Points2D::update_fields().with_colors([self.paint.solid()]);
+        let dots = Points2D::update_fields().with_colors([self.vehicle_colour.solid()]);
         stream.log_static(self.at("proposal"), &dots.with_radii([Radius::new_ui_points(2.6)]).with_draw_order(5.0))?;
         let (lines, radius) = filling(&self.body);
-        let body = LineStrips2D::new(lines).with_radii([radius]).with_colors([self.paint.solid()]);
+        let body = LineStrips2D::new(lines).with_radii([radius]).with_colors([self.vehicle_colour.solid()]);
         stream.log_static(self.at("body"), &body.with_draw_order(6.0))?;
         let (ahead, half) = (0.45 * self.body.front_m as f32, 0.36 * self.body.width_m as f32);
         let pane = LineStrips2D::new([[[ahead, -half], [ahead, half]]])
             .with_radii([Radius::new_scene_units(0.12 * self.body.front_m as f32)])
-            .with_colors([self.paint.dark()])
+            .with_colors([self.vehicle_colour.dark()])
             .with_draw_order(7.0);
         stream.log_static(self.at("body/windscreen"), &pane)?;
-        let label = Points2D::update_fields().with_colors([self.paint.solid()]);
+        let label = Points2D::update_fields().with_colors([self.vehicle_colour.solid()]);
         stream.log_static(self.at("label"), &label.with_radii([Radius::new_ui_points(0.0)]).with_draw_order(8.0))
     }
 
@@ -124,8 +128,8 @@ impl Performer {
         if let Some(last) = self.last.replace(*state) {
             stream.log(self.at("trace"), &strips([vec![point(&last), point(state)]]))?;
         }
-        let paint = if vehicle.origin == Origin::Planned { self.paint } else { FAILURE };
-        let plan = strips([points(&vehicle.plan.trajectory)]).with_colors([paint.solid()]);
+        let vehicle_colour = if vehicle.origin == Origin::Planned { self.vehicle_colour } else { FAILURE };
+        let plan = strips([points(&vehicle.plan.trajectory)]).with_colors([vehicle_colour.solid()]);
         stream.log(self.at("plan"), &plan)?;
         stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction)))?;
         let asks = vehicle.plan.proposal.as_ref().map(|proposal| points(&proposal.trajectory));

@@ -2,8 +2,11 @@
 
 use std::fmt::Write;
 
+use interplay_simulation::day::DayFigures;
 use interplay_simulation::measure::Fallback;
 use interplay_simulation::report::BuildingReport;
+
+use super::columns::{Align, lines};
 
 /// The most days that a summary lists.
 const LISTED: usize = 14;
@@ -16,37 +19,40 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
     for remark in &building.remarks {
         writeln!(text, "  note: {remark}")?;
     }
-    writeln!(
-        text,
-        "  {:>4}  {:>9}  {:>9}  {:>6}  {:>14}  {:>10}  {:>7}  {:>13}  {:>9}",
-        "day", "cost", "regret", "rmse K", "discomfort K·h", "energy kWh", "peak kW", "over limit kW", "design ms"
-    )?;
-    let count = building.iterations.len();
-    for (index, day) in building.iterations.iter().enumerate() {
-        if count > LISTED && (LISTED / 2..count - LISTED / 2).contains(&index) {
-            if index == LISTED / 2 {
-                writeln!(text, "     …  {} more in --json", count - LISTED)?;
-            }
-            continue;
-        }
-        let figures = &day.figures;
-        let regret = day.regret.map_or_else(|| "-".to_owned(), |regret| format!("{regret:.2}"));
-        writeln!(
-            text,
-            "  {:>4}  {:>9.2}  {regret:>9}  {:>6.3}  {:>14.3}  {:>10.2}  {:>7.2}  {:>13.3}  {:>9.2}",
-            index + 1,
-            figures.cost,
-            figures.tracking_rmse_c,
-            figures.discomfort_k_h,
-            figures.energy_kwh,
-            figures.peak_kw,
-            figures.input_violation_kw,
-            1e3 * day.design_s
-        )?;
-    }
+    write_days(text, &building.iterations)?;
     write_exchange(text, building)?;
     for Fallback { day, reason } in building.fallbacks.iter().take(LISTED) {
         writeln!(text, "  day {day} repeated the one before: {reason}")?;
+    }
+    Ok(())
+}
+
+/// A line for each day; of many days, the first and the last ones.
+fn write_days(text: &mut String, days: &[DayFigures]) -> std::fmt::Result {
+    let titles = ["day", "cost", "regret", "rmse K", "discomfort K·h", "energy kWh", "peak kW", "over limit kW"];
+    let header = titles.into_iter().chain(["design ms"]).map(|title| (title, Align::Right));
+    let row = |(index, day): (usize, &DayFigures)| {
+        let figures = &day.figures;
+        vec![
+            (index + 1).to_string(),
+            format!("{:.2}", figures.cost),
+            day.regret.map_or_else(|| "-".to_owned(), |regret| format!("{regret:.2}")),
+            format!("{:.3}", figures.tracking_rmse_c),
+            format!("{:.3}", figures.discomfort_k_h),
+            format!("{:.2}", figures.energy_kwh),
+            format!("{:.2}", figures.peak_kw),
+            format!("{:.3}", figures.input_violation_kw),
+            format!("{:.2}", 1e3 * day.design_s),
+        ]
+    };
+    let left_out = days.len().saturating_sub(LISTED);
+    let is_listed = |index: usize| left_out == 0 || !(LISTED / 2..days.len() - LISTED / 2).contains(&index);
+    let listed = days.iter().enumerate().filter(|(index, _)| is_listed(*index)).map(row);
+    for (index, line) in lines(&header.collect::<Vec<_>>(), listed).iter().enumerate() {
+        if left_out > 0 && index == 1 + LISTED / 2 {
+            writeln!(text, "     …  {left_out} more in --json")?;
+        }
+        writeln!(text, "  {line}")?;
     }
     Ok(())
 }

@@ -6,6 +6,8 @@ use interplay_building::identify::{
     Confidence, ErrorReport, Identification, IdentificationReport, Quantity, ResidualForecast, ZoneReport,
 };
 
+use super::columns::{Align, lines};
+
 /// The findings for a person: parameters with uncertainty and verdict, residuals, errors, and what to beware of.
 pub fn identification(file: &str, found: &Identification) -> String {
     let mut text = String::new();
@@ -45,17 +47,17 @@ fn write_report(text: &mut String, file: &str, report: &IdentificationReport) ->
 
 fn write_zone(text: &mut String, zone: &ZoneReport) -> fmt::Result {
     writeln!(text, "\nzone {}", zone.name)?;
-    let all = || zone.coefficients.iter().chain(&zone.physical);
-    let width = all().map(|quantity| quantity.name.chars().count()).max().unwrap_or(0);
-    let unit = all().map(|quantity| quantity.unit.chars().count()).max().unwrap_or(0).max("unit".len());
-    writeln!(
-        text,
-        "  {:width$}  {:>10}  {:>10}  {:unit$}  {:>24}  verdict",
-        "parameter", "estimate", "std error", "unit", "95 % interval"
-    )?;
-    for quantity in all() {
-        write_quantity(text, quantity, (width, unit))?;
-    }
+    use Align::{Left, Right};
+    let header = [
+        ("parameter", Left),
+        ("estimate", Right),
+        ("std error", Right),
+        ("unit", Left),
+        ("95 % interval", Right),
+        ("verdict", Left),
+    ];
+    let rows = zone.coefficients.iter().chain(&zone.physical).map(row);
+    lines(&header, rows).iter().try_for_each(|line| writeln!(text, "  {line}"))?;
     let white = &zone.whiteness;
     writeln!(
         text,
@@ -66,7 +68,7 @@ fn write_zone(text: &mut String, zone: &ZoneReport) -> fmt::Result {
     zone.test.iter().try_for_each(|test| write_errors(text, "tested on", test))
 }
 
-fn write_quantity(text: &mut String, quantity: &Quantity, (width, unit): (usize, usize)) -> fmt::Result {
+fn row(quantity: &Quantity) -> Vec<String> {
     let known = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
     let (low, high) = quantity.interval;
     let interval = match (low, high) {
@@ -75,15 +77,14 @@ fn write_quantity(text: &mut String, quantity: &Quantity, (width, unit): (usize,
             format!("{} … {}", low.map_or_else(|| "-∞".to_owned(), number), high.map_or_else(|| "∞".to_owned(), number))
         }
     };
-    writeln!(
-        text,
-        "  {:width$}  {:>10}  {:>10}  {:unit$}  {interval:>24}  {}",
-        quantity.name,
+    vec![
+        quantity.name.clone(),
         known(quantity.value),
         known(quantity.standard_error),
-        quantity.unit,
-        word(quantity.verdict.confidence)
-    )
+        quantity.unit.clone(),
+        interval,
+        word(quantity.verdict.confidence).to_owned(),
+    ]
 }
 
 fn write_errors(text: &mut String, rows: &str, errors: &ErrorReport) -> fmt::Result {

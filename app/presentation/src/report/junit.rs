@@ -1,80 +1,79 @@
 //! Many runs as JUnit XML, which build servers show: a test case for every run, a failure for what was not as expected,
 //! an error for a run that could not be finished.
 
-use std::fmt::Write;
+use std::time::Duration;
+
+use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite, XmlString};
 
 use super::Case;
 
 /// The document; the suite took `wall_s` seconds.
-pub fn junit(cases: &[Case], wall_s: f64) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = write_document(&mut text, cases, wall_s);
-    text
-}
-
-fn write_document(text: &mut String, cases: &[Case], wall_s: f64) -> std::fmt::Result {
-    let errors = cases.iter().filter(|case| case.outcome.is_err()).count();
-    let failures = cases.iter().filter(|case| case.failed().next().is_some()).count();
-    let counts = format!(r#"tests="{}" failures="{failures}" errors="{errors}" time="{wall_s:.3}""#, cases.len());
-    writeln!(text, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
-    writeln!(text, r#"<testsuites name="interplay" {counts}>"#)?;
-    writeln!(text, r#"  <testsuite name="scenarios" {counts}>"#)?;
-    for case in cases {
-        write_case(text, case)?;
-    }
-    writeln!(text, "  </testsuite>\n</testsuites>")
+///
+/// # Errors
+/// [`SerializeError`] if the writer of XML refuses a text.
+pub fn junit(cases: &[Case], wall_s: f64) -> Result<String, SerializeError> {
+    let mut suite = TestSuite::new("scenarios");
+    suite.set_time(seconds(wall_s)).add_test_cases(cases.iter().map(test_case));
+    let mut report = Report::new("interplay");
+    report.set_time(seconds(wall_s)).add_test_suite(suite);
+    report.to_string()
 }
 
 /// `family/name` is the case `name` of the class `family`.
-fn write_case(text: &mut String, case: &Case) -> std::fmt::Result {
+fn test_case(case: &Case) -> TestCase {
     let (family, name) = case.name.rsplit_once('/').unwrap_or(("scenarios", &case.name));
-    let time_s = case.outcome.as_ref().map_or(0.0, |report| report.wall_s);
-    write!(text, r#"    <testcase classname="{}" name="{}" time="{time_s:.3}""#, escaped(family), escaped(name))?;
     let failed: Vec<String> = case.failed().map(ToString::to_string).collect();
-    match &case.outcome {
-        Ok(_) if failed.is_empty() => writeln!(text, "/>"),
+    let status = match &case.outcome {
+        Ok(_) if failed.is_empty() => TestCaseStatus::success(),
         Ok(_) => {
-            let all = escaped(&failed.join("\n"));
-            writeln!(text, ">\n      <failure message=\"{}\">{all}</failure>\n    </testcase>", escaped(&failed[0]))
+            let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+            status.set_message(text(&failed[0])).set_description(text(&failed.join("\n")));
+            status
         }
-        Err(error) => writeln!(text, ">\n      <error message=\"{}\"/>\n    </testcase>", escaped(error)),
-    }
+        Err(error) => {
+            let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+            status.set_message(text(&error.to_string()));
+            status
+        }
+    };
+    let mut test_case = TestCase::new(text(name), status);
+    let time_s = case.outcome.as_ref().map_or(0.0, |report| report.wall_s);
+    test_case.set_classname(text(family)).set_time(seconds(time_s));
+    test_case
 }
 
-/// A text as XML 1.0 takes it, in content and between double quotes; characters that XML cannot hold become `?`.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::new();
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\n' | '\t' | '\r' => escaped.push_str(&format!("&#{};", u32::from(character))),
-            _ if character.is_control() || matches!(character, '\u{fffe}' | '\u{ffff}') => escaped.push('?'),
-            _ => escaped.push(character),
-        }
-    }
-    escaped
+fn seconds(time_s: f64) -> Duration {
+    Duration::try_from_secs_f64(time_s).unwrap_or_default()
+}
+
+/// A text without the two characters that XML 1.0 cannot hold and the library leaves in.
+fn text(text: &str) -> XmlString {
+    XmlString::new(text.replace(['\u{fffe}', '\u{ffff}'], "?"))
 }
 
 #[cfg(test)]
 mod tests {
+    use interplay_simulation::run::RunError;
+
     use super::*;
+
+    fn unfinished(name: &str, error: &str) -> String {
+        let case = Case { name: name.to_owned(), outcome: Err(RunError::Watch(error.into())) };
+        junit(&[case], 1.0).expect("it can be written")
+    }
 
     #[test]
     fn nothing_in_a_text_is_taken_for_markup() {
-        assert_eq!(escaped("a<b & \"c\">\u{1b}\n"), "a&lt;b &amp; &quot;c&quot;&gt;?&#10;");
-        assert_eq!(escaped("grün – 1.5 m/s²"), "grün – 1.5 m/s²");
+        let written = unfinished("a<b & \"c\">\u{1b}\u{ffff}", "grün – 1.5 m/s²");
+        assert!(written.contains(r#"name="a&lt;b &amp; &quot;c&quot;&gt;?""#), "{written}");
+        assert!(written.contains(r#"message="grün – 1.5 m/s²""#), "{written}");
     }
 
     #[test]
     fn an_unfinished_run_is_an_error() {
-        let case = Case { name: "family/one".to_owned(), outcome: Err("the \"loop\" broke".to_owned()) };
-        let text = junit(&[case], 1.0);
-        assert!(text.contains(r#"tests="1" failures="0" errors="1" time="1.000""#), "{text}");
-        assert!(text.contains(r#"classname="family" name="one" time="0.000">"#), "{text}");
-        assert!(text.contains(r#"<error message="the &quot;loop&quot; broke"/>"#), "{text}");
+        let written = unfinished("family/one", "the \"loop\" broke");
+        assert!(written.contains(r#"tests="1" skipped="0" failures="0" errors="1" time="1.000""#), "{written}");
+        assert!(written.contains(r#"name="one" classname="family" time="0.000">"#), "{written}");
+        assert!(written.contains(r#"<error message="the &quot;loop&quot; broke"/>"#), "{written}");
     }
 }

@@ -3,14 +3,17 @@
 use std::fmt::Write;
 
 use interplay_simulation::report::{Expectation, Report};
+use interplay_simulation::run::RunError;
+
+use super::columns::{Align, lines};
 
 /// One run of a suite: its report, or why it could not be finished.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Case {
     /// What the run is called.
     pub name: String,
     /// How it ended.
-    pub outcome: Result<Report, String>,
+    pub outcome: Result<Report, RunError>,
 }
 
 impl Case {
@@ -39,22 +42,25 @@ pub fn table(cases: &[Case], wall_s: f64) -> String {
 }
 
 fn write_table(text: &mut String, cases: &[Case], wall_s: f64) -> std::fmt::Result {
-    let longest = cases.iter().map(|case| case.name.chars().count()).max().unwrap_or(0);
-    let width = longest.max("scenario".len());
-    let header = ["outcome", "collisions", "smallest gap m", "time s"];
-    writeln!(text, "{:width$}  {:16}  {:>10}  {:>14}  {:>7}", "scenario", header[0], header[1], header[2], header[3])?;
-    for case in cases {
-        write!(text, "{:width$}  {:16}", case.name, case.verdict())?;
+    use Align::{Left, Right};
+    let header =
+        [("scenario", Left), ("outcome", Left), ("collisions", Right), ("smallest gap m", Right), ("time s", Right)];
+    let row = |case: &Case| {
+        let mut row = vec![case.name.clone(), case.verdict().to_owned()];
+        if let Ok(report) = &case.outcome {
+            let gap = report.min_gap_m.map_or_else(|| "-".to_owned(), |gap| format!("{gap:.3}"));
+            row.extend([report.collisions.len().to_string(), gap, format!("{:.2}", report.wall_s)]);
+        }
+        row
+    };
+    let lines = lines(&header, cases.iter().map(row));
+    lines.iter().take(1).try_for_each(|header| writeln!(text, "{header}"))?;
+    for (case, line) in cases.iter().zip(&lines[1..]) {
         match &case.outcome {
-            Ok(report) => {
-                let gap = report.min_gap_m.map_or_else(|| "-".to_owned(), |gap| format!("{gap:.3}"));
-                writeln!(text, "  {:>10}  {gap:>14}  {:>7.2}", report.collisions.len(), report.wall_s)?;
-            }
-            Err(error) => writeln!(text, "  {error}")?,
+            Ok(_) => writeln!(text, "{line}")?,
+            Err(error) => writeln!(text, "{line}  {error}")?,
         }
-        for failed in case.failed() {
-            writeln!(text, "  FAIL {failed}")?;
-        }
+        case.failed().try_for_each(|failed| writeln!(text, "  FAIL {failed}"))?;
     }
     let passed = cases.iter().filter(|case| case.outcome.as_ref().is_ok_and(|report| report.passed)).count();
     let verdict = if passed == cases.len() { "PASSED" } else { "FAILED" };

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use interplay_simulation::report::{Report, VehicleReport};
 
 use super::building;
+use super::columns::{Align, lines};
 
 /// The report for a person: who merged where and when, the smallest gap, planner times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {
@@ -65,26 +66,29 @@ fn write_expectations(text: &mut String, report: &Report) -> std::fmt::Result {
 }
 
 fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Result {
-    let width = vehicles.iter().map(|vehicle| vehicle.name.len()).max().unwrap_or(0).max("vehicle".len());
-    writeln!(
-        text,
-        "  {:width$}  {:13}  {:>11}  {:>11}  {:>7}  {:>9}  {:>6}",
-        "vehicle", "driver", "speed m/s", "|a| m/s²", "plans", "median ms", "p99 ms"
-    )?;
-    for vehicle in vehicles {
+    use Align::{Left, Right};
+    let header = [
+        ("vehicle", Left),
+        ("driver", Left),
+        ("speed m/s", Right),
+        ("|a| m/s²", Right),
+        ("plans", Right),
+        ("median ms", Right),
+        ("p99 ms", Right),
+        ("", Left),
+    ];
+    let row = |vehicle: &VehicleReport| {
         let plans = &vehicle.plans;
-        let failed = if plans.failed > 0 { format!(", {} FAILED", plans.failed) } else { String::new() };
-        writeln!(
-            text,
-            "  {:width$}  {:13}  {:>11}  {:>11.2}  {:>7}  {:>9.2}  {:>6.2}{failed}",
-            vehicle.name,
-            vehicle.driver,
+        vec![
+            vehicle.name.clone(),
+            vehicle.driver.clone(),
             format!("{:.2}-{:.2}", vehicle.min_speed_mps, vehicle.max_speed_mps),
-            vehicle.mean_abs_acceleration,
-            plans.count,
-            plans.median_ms,
-            plans.p99_ms
-        )?;
-    }
-    Ok(())
+            format!("{:.2}", vehicle.mean_abs_acceleration),
+            plans.count.to_string(),
+            format!("{:.2}", plans.median_ms),
+            format!("{:.2}", plans.p99_ms),
+            if plans.failed > 0 { format!("{} FAILED", plans.failed) } else { String::new() },
+        ]
+    };
+    lines(&header, vehicles.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))
 }

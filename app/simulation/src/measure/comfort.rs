@@ -4,7 +4,7 @@ use interplay_planners::Input;
 
 /// Means of the absolute acceleration and of its change.
 #[derive(Clone, Copy, Debug)]
-pub struct Comfort {
+pub struct RideComfort {
     step_s: f64,
     previous: f64,
     acceleration_sum: f64,
@@ -12,10 +12,10 @@ pub struct Comfort {
     count: usize,
 }
 
-impl Comfort {
+impl RideComfort {
     /// A vehicle that has not accelerated yet.
     pub fn new(step_s: f64) -> Self {
-        Comfort { step_s, previous: 0.0, acceleration_sum: 0.0, jerk_sum: 0.0, count: 0 }
+        RideComfort { step_s, previous: 0.0, acceleration_sum: 0.0, jerk_sum: 0.0, count: 0 }
     }
 
     /// Takes the input of one tick.
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn means_of_a_pulse() {
-        let mut comfort = Comfort::new(0.1);
+        let mut comfort = RideComfort::new(0.1);
         for acceleration_mps2 in [0.0, 1.0, -1.0, 0.0] {
             comfort.observe(&Input { acceleration_mps2, steering_rad: 0.0 });
         }

@@ -14,7 +14,7 @@ use interplay_planners::State;
 use interplay_scenarios::Scenario;
 
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
-pub use comfort::Comfort;
+pub use comfort::RideComfort;
 pub use completion::Completion;
 pub use digest::{Digest, PhaseDigests};
 pub use gap::SmallestGap;
@@ -46,7 +46,7 @@ pub struct VehicleMeasures {
     /// When it reached its goal.
     pub completion: Completion,
     /// How smoothly it drove.
-    pub comfort: Comfort,
+    pub comfort: RideComfort,
     /// How fast it drove.
     pub speed: SpeedRange,
     /// How its planner did.
@@ -60,7 +60,7 @@ impl Measures {
     pub fn new(scenario: &Scenario) -> Self {
         let vehicles = scenario.vehicles.iter().zip(scenario.starts()).map(|(vehicle, start)| VehicleMeasures {
             completion: Completion::new(vehicle, &scenario.road),
-            comfort: Comfort::new(scenario.step_s),
+            comfort: RideComfort::new(scenario.step_s),
             speed: SpeedRange::new(start.speed_mps),
             planning: Planning::default(),
             last: start,

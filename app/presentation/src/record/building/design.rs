@@ -36,7 +36,7 @@ pub const MESSAGES: &str = "building/exchange/messages";
 
 /// What is known of the controller's plans so far.
 #[derive(Default)]
-pub struct Plans {
+pub struct DesignPlots {
     /// Whether this controller plans at all.
     learns: bool,
     /// What was said of the day's plan.
@@ -47,7 +47,7 @@ pub struct Plans {
     seen: BTreeSet<&'static str>,
 }
 
-impl Plans {
+impl DesignPlots {
     /// Logs names and colours; `learns` says whether this controller plans at all.
     ///
     /// # Errors
@@ -57,24 +57,30 @@ impl Plans {
         names: &[String],
         shown: &[usize],
         learns: bool,
-    ) -> RecordingStreamResult<Plans> {
+    ) -> RecordingStreamResult<DesignPlots> {
         if !learns {
-            return Ok(Plans::default());
+            return Ok(DesignPlots::default());
         }
         for (place, &index) in shown.iter().enumerate() {
-            let (paint, name) = (palette::series(place), &names[index]);
-            style(stream, &of(LEARNED, index), name, paint.solid(), 1.5)?;
-            style(stream, &(of(GAIN, index) + "/own"), &format!("{name}: own error"), paint.solid(), 2.0)?;
-            style(stream, &(of(GAIN, index) + "/others"), &format!("{name}: others'"), paint.veiled(130), 1.5)?;
+            let (vehicle_colour, name) = (palette::series(place), &names[index]);
+            style(stream, &of(LEARNED, index), name, vehicle_colour.solid(), 1.5)?;
+            style(stream, &(of(GAIN, index) + "/own"), &format!("{name}: own error"), vehicle_colour.solid(), 2.0)?;
+            style(
+                stream,
+                &(of(GAIN, index) + "/others"),
+                &format!("{name}: others'"),
+                vehicle_colour.veiled(130),
+                1.5,
+            )?;
         }
-        for (name, words, paint) in [
+        for (name, words, vehicle_colour) in [
             ("one", "limit of convergence", FAILURE),
             ("spectral-radius", "spectral radius", palette::series(0)),
             ("largest-singular-value", "largest singular value", NEUTRAL),
         ] {
-            style(stream, &format!("{CONVERGENCE}/{name}"), words, paint.solid(), 1.5)?;
+            style(stream, &format!("{CONVERGENCE}/{name}"), words, vehicle_colour.solid(), 1.5)?;
         }
-        Ok(Plans { learns, ..Plans::default() })
+        Ok(DesignPlots { learns, ..DesignPlots::default() })
     }
 
     /// Whether there is anything to show of `part`.

@@ -11,22 +11,22 @@
 //! building/{learned,feedback,convergence,exchange}/…   what the controller says of its plans, see `design.rs`
 //! ```
 
+mod about;
 mod design;
+mod floor_plan;
 mod layout;
-mod plan;
 mod series;
-mod words;
 
 use interplay_scenarios::Scenario;
 use rerun::{RecordingStream, RecordingStreamResult};
 
-pub use layout::{Words, layout};
-pub use words::about;
+pub use about::about;
+pub use layout::{TextPanels, layout};
 
-use design::Plans;
+use design::DesignPlots;
+use floor_plan::FloorPlanLayer;
 use interplay_simulation::frame::BuildingFrame;
-use plan::Plan;
-use series::Series;
+use series::ZonePlots;
 
 /// The timeline of days, from 1.
 pub const ITERATION: &str = "iteration";
@@ -35,7 +35,7 @@ pub const ITERATION: &str = "iteration";
 const SHOWN: usize = 4;
 
 /// What a recording must know of a building.
-pub struct House {
+pub struct BuildingLayer {
     /// Names of the zones.
     pub names: Vec<String>,
     /// The zones that have plots, by number from 0.
@@ -44,28 +44,28 @@ pub struct House {
     duration_s: f64,
     /// Coldest and warmest of the zones that have plots \[°C\].
     range_c: Option<[f64; 2]>,
-    plan: Plan,
-    series: Series,
-    plans: Plans,
+    plan: FloorPlanLayer,
+    series: ZonePlots,
+    plans: DesignPlots,
 }
 
-impl House {
+impl BuildingLayer {
     /// Logs what never changes; `None` without a building.
     ///
     /// # Errors
     /// If Rerun refuses a component.
-    pub fn begin(stream: &RecordingStream, scenario: &Scenario) -> RecordingStreamResult<Option<House>> {
+    pub fn begin(stream: &RecordingStream, scenario: &Scenario) -> RecordingStreamResult<Option<BuildingLayer>> {
         // A scenario whose zones make no network is refused before it is run.
         let network = scenario.building.as_ref().and_then(|building| Some((building, building.network().ok()?)));
         let Some((building, network)) = network else { return Ok(None) };
         let names = network.names()[..network.zone_count()].to_vec();
         let shown = shown(names.len());
         let setpoints = scenario.setpoints.clone().unwrap_or_default();
-        let plan = Plan::begin(stream, building.floor_plan(), &setpoints)?;
-        let series = Series::begin(stream, &names, &shown, network.limits_kw(), setpoints.band_k)?;
+        let plan = FloorPlanLayer::begin(stream, building.floor_plan(), &setpoints)?;
+        let series = ZonePlots::begin(stream, &names, &shown, network.limits_kw(), setpoints.band_k)?;
         let duration_s = building.step_s * (scenario.days() * building.steps_per_day()) as f64;
-        let plans = Plans::begin(stream, &names, &shown, scenario.controller().plans())?;
-        Ok(Some(House { names, shown, duration_s, range_c: None, plan, series, plans }))
+        let plans = DesignPlots::begin(stream, &names, &shown, scenario.controller().plans())?;
+        Ok(Some(BuildingLayer { names, shown, duration_s, range_c: None, plan, series, plans }))
     }
 
     /// Logs one step.

@@ -8,7 +8,7 @@ use super::super::re_sdk_types::archetypes::{Clear, Scalars, SeriesLines};
 use super::super::re_sdk_types::components::{Color, InterpolationMode};
 
 /// The series of a building.
-pub struct Series {
+pub struct ZonePlots {
     band_k: f64,
     /// The largest power of any zone that is shown \[kW\].
     limit_kw: f64,
@@ -21,7 +21,7 @@ fn zone(index: usize, what: &str) -> String {
     format!("building/zone/{}/{what}", index + 1)
 }
 
-impl Series {
+impl ZonePlots {
     /// Logs names and colours.
     ///
     /// # Errors
@@ -32,14 +32,14 @@ impl Series {
         shown: &[usize],
         limits_kw: &[f64],
         band_k: f64,
-    ) -> RecordingStreamResult<Series> {
+    ) -> RecordingStreamResult<ZonePlots> {
         for (place, &index) in shown.iter().enumerate() {
-            let paint = palette::series(place);
-            style(stream, &zone(index, "temperature"), "temperature", paint.solid(), 2.0)?;
+            let vehicle_colour = palette::series(place);
+            style(stream, &zone(index, "temperature"), "temperature", vehicle_colour.solid(), 2.0)?;
             style(stream, &zone(index, "reference"), "wanted", NEUTRAL.solid(), 1.5)?;
             style(stream, &zone(index, "band/low"), "comfort, low", MARKING.veiled(150), 1.0)?;
             style(stream, &zone(index, "band/high"), "comfort, high", MARKING.veiled(150), 1.0)?;
-            style(stream, &zone(index, "heat"), &names[index], paint.solid(), 1.5)?;
+            style(stream, &zone(index, "heat"), &names[index], vehicle_colour.solid(), 1.5)?;
         }
         for (end, name) in [("low", "limit of cooling"), ("high", "limit of heating")] {
             style(stream, &format!("building/limit/{end}"), name, FAILURE.solid(), 1.0)?;
@@ -50,7 +50,7 @@ impl Series {
         style(stream, "building/iteration/cost", "cost of the day", palette::series(1).solid(), 2.0)?;
         style(stream, "building/iteration/optimum", "cheapest possible", palette::series(0).solid(), 1.5)?;
         let limit_kw = shown.iter().map(|&index| limits_kw[index]).fold(0.0, f64::max);
-        Ok(Series { band_k, limit_kw, wanted: vec![false; shown.len()] })
+        Ok(ZonePlots { band_k, limit_kw, wanted: vec![false; shown.len()] })
     }
 
     /// Logs one step.

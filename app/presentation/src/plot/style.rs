@@ -52,7 +52,7 @@ impl Dash {
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ink {
+pub struct LineStyle {
     /// Its colour.
     pub colour: Colour,
     /// How it is broken.
@@ -61,37 +61,37 @@ pub struct Ink {
     pub width: u32,
 }
 
-impl Ink {
+impl LineStyle {
     /// A line of ordinary width.
-    pub const fn new(colour: Colour, dash: Dash) -> Ink {
-        Ink { colour, dash, width: 3 }
+    pub const fn new(colour: Colour, dash: Dash) -> LineStyle {
+        LineStyle { colour, dash, width: 3 }
     }
 
     /// The same, thin.
-    pub const fn thin(self) -> Ink {
-        Ink { width: 2, ..self }
+    pub const fn thin(self) -> LineStyle {
+        LineStyle { width: 2, ..self }
     }
 
     /// The same, broken otherwise.
-    pub const fn dashed(self, dash: Dash) -> Ink {
-        Ink { dash, ..self }
+    pub const fn dashed(self, dash: Dash) -> LineStyle {
+        LineStyle { dash, ..self }
     }
 }
 
 /// A limit that must not be passed.
-pub const LIMIT: Ink = Ink::new(VERMILLION, Dash::Short).thin();
+pub const LIMIT: LineStyle = LineStyle::new(VERMILLION, Dash::Short).thin();
 /// Something wanted or expected, beside what came of it.
-pub const WANTED: Ink = Ink::new(BLACK, Dash::Long).thin();
+pub const WANTED: LineStyle = LineStyle::new(BLACK, Dash::Long).thin();
 
 /// Inks of several things of one kind, told apart by colour and by dashes; they begin again after the last.
-pub fn inks() -> impl Iterator<Item = Ink> {
+pub fn inks() -> impl Iterator<Item = LineStyle> {
     let inks = [
-        Ink::new(ORANGE, Dash::Solid),
-        Ink::new(BLUE, Dash::Long),
-        Ink::new(GREEN, Dash::Mixed),
-        Ink::new(PURPLE, Dash::Short),
-        Ink::new(SKY, Dash::Solid),
-        Ink::new(BLACK, Dash::Long),
+        LineStyle::new(ORANGE, Dash::Solid),
+        LineStyle::new(BLUE, Dash::Long),
+        LineStyle::new(GREEN, Dash::Mixed),
+        LineStyle::new(PURPLE, Dash::Short),
+        LineStyle::new(SKY, Dash::Solid),
+        LineStyle::new(BLACK, Dash::Long),
     ];
     inks.into_iter().cycle()
 }

@@ -1,9 +1,9 @@
 //! All moments in one plan, for roads that cross.
 
 use super::super::axis::Axis;
-use super::super::ink::{Colour, Dash, GREY, Ink, PAPER, SURFACE};
-use super::super::sketch::{LARGE, MEDIUM, SMALL, Side, Sketch};
-use super::{Film, MARGIN, PATH, Strip, TITLE, WIDTH, body, distance};
+use super::super::drawing::{Drawing, LARGE, MEDIUM, SMALL, Side};
+use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER, SURFACE};
+use super::{FootprintPlot, MARGIN, PATH, Strip, TITLE, WIDTH, body, distance};
 
 const LEFT: f64 = 92.0;
 const TICKS: f64 = 34.0;
@@ -39,42 +39,42 @@ impl Map {
     }
 }
 
-impl Film {
+impl FootprintPlot {
     /// The crossing from above, with every footprint of every moment.
-    pub fn plan(&self) -> Sketch {
+    pub fn plan(&self) -> Drawing {
         let margin = 0.5 * self.longest_m();
         let [low, high] = self.bounds();
         let (low_m, high_m) = (low.map(|value| value - margin), high.map(|value| value + margin));
         let legend = self.legend();
-        let steps = self.moments.get(1).map_or(0.0, |moment| moment.time_s - self.moments[0].time_s);
+        let steps = self.snapshots.get(1).map_or(0.0, |snapshot| snapshot.time_s - self.snapshots[0].time_s);
         let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 84.0;
         let wide = (WIDTH - LEFT - MARGIN) / (high_m[0] - low_m[0]);
         let scale = wide.min(HIGHEST / (high_m[1] - low_m[1]));
         let [across, upwards] = [0, 1].map(|axis| (high_m[axis] - low_m[axis]) * scale);
         let left = LEFT + 0.5 * (WIDTH - LEFT - MARGIN - across);
         let map = Map { low_m, high_m, scale, left, bottom: head + upwards };
-        let mut sketch = Sketch::new(WIDTH, head + upwards + TICKS + ACROSS + 8.0);
-        sketch.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
-        legend.draw(&mut sketch, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
+        let mut drawing = Drawing::new(WIDTH, head + upwards + TICKS + ACROSS + 8.0);
+        drawing.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
+        legend.draw(&mut drawing, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
         let words = format!("footprint 1 at 0 s, then one every {steps:.1} s");
-        sketch.text([MARGIN, head - 66.0], Side::Left, MEDIUM, words);
-        self.roads.iter().for_each(|road| map.draw_road(&mut sketch, road));
-        self.roads.iter().for_each(|road| map.draw_lines(&mut sketch, road));
-        map.draw_axes(&mut sketch);
-        sketch.line(self.path_pixels(f64::INFINITY, |point| map.place(point)), PATH);
-        self.draw_footprints(&mut sketch, &map);
-        sketch
+        drawing.text([MARGIN, head - 66.0], Side::Left, MEDIUM, words);
+        self.roads.iter().for_each(|road| map.draw_road(&mut drawing, road));
+        self.roads.iter().for_each(|road| map.draw_lines(&mut drawing, road));
+        map.draw_axes(&mut drawing);
+        drawing.line(self.path_pixels(f64::INFINITY, |point| map.place(point)), PATH);
+        self.draw_footprints(&mut drawing, &map);
+        drawing
     }
 
-    fn draw_footprints(&self, sketch: &mut Sketch, map: &Map) {
-        let last = self.moments.len().saturating_sub(1).max(1) as f64;
-        for (index, moment) in self.moments.iter().enumerate() {
-            for (body, (_, colour)) in moment.bodies.iter().zip(&self.cast) {
-                body::draw(sketch, body.map(|corner| map.place(corner)), *colour, 0.45 + 0.5 * index as f64 / last);
+    fn draw_footprints(&self, drawing: &mut Drawing, map: &Map) {
+        let last = self.snapshots.len().saturating_sub(1).max(1) as f64;
+        for (index, snapshot) in self.snapshots.iter().enumerate() {
+            for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.cast) {
+                body::draw(drawing, body.map(|corner| map.place(corner)), *colour, 0.45 + 0.5 * index as f64 / last);
             }
         }
         for who in 0..self.cast.len() {
-            let bodies: Vec<_> = self.moments.iter().filter_map(|moment| moment.bodies.get(who)).collect();
+            let bodies: Vec<_> = self.snapshots.iter().filter_map(|snapshot| snapshot.bodies.get(who)).collect();
             let mates = self.mates(who);
             let mut first = 0;
             while first < bodies.len() {
@@ -84,8 +84,8 @@ impl Film {
                 let words = if count == 1 { format!("{}", first + 1) } else { format!("{}–{}", first + 1, last + 1) };
                 let corners = bodies[last].map(|corner| map.place(corner));
                 match mates.iter().position(|&mate| mate == who) {
-                    Some(place) if mates.len() > 1 => body::number_beside(sketch, corners, place % 2 == 0, &words),
-                    _ => body::number(sketch, corners, UNDERNEATH, &words),
+                    Some(place) if mates.len() > 1 => body::number_beside(drawing, corners, place % 2 == 0, &words),
+                    _ => body::number(drawing, corners, UNDERNEATH, &words),
                 }
                 first += count;
             }
@@ -93,10 +93,10 @@ impl Film {
     }
 }
 
-impl Film {
+impl FootprintPlot {
     /// Everybody who starts in the lane of `who`: their footprints lie on one another, and numbers must not.
     fn mates(&self, who: usize) -> Vec<usize> {
-        let Some(start) = self.moments.first() else { return Vec::new() };
+        let Some(start) = self.snapshots.first() else { return Vec::new() };
         let lane = |[front_right, front_left, rear_right, _]: [[f64; 2]; 4]| {
             let length = distance(front_right, rear_right);
             let [cos, sin] = [0, 1].map(|axis| (front_right[axis] - rear_right[axis]) / length);
@@ -123,41 +123,41 @@ impl Map {
         clipped(&ring, self.low_m, self.high_m)
     }
 
-    fn draw_road(&self, sketch: &mut Sketch, road: &Strip) {
+    fn draw_road(&self, drawing: &mut Drawing, road: &Strip) {
         let surface = self.band(road, road.edges_m);
-        sketch.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
+        drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
         if !road.shoulder_m.is_empty() {
             let ring = clipped(&road.shoulder_m, self.low_m, self.high_m);
-            sketch.fill(ring.into_iter().map(|point| self.place(point)).collect(), PAPER, 1.0);
+            drawing.fill(ring.into_iter().map(|point| self.place(point)).collect(), PAPER, 1.0);
         }
     }
 
-    fn draw_lines(&self, sketch: &mut Sketch, road: &Strip) {
+    fn draw_lines(&self, drawing: &mut Drawing, road: &Strip) {
         let edges = road.edges_m.iter().map(|&edge| (edge, Dash::Solid));
         let dividers = road.dividers_m.iter().map(|&divider| (divider, Dash::Long));
         for (lateral_m, dash) in edges.chain(dividers) {
             let line = self.band(road, [lateral_m, lateral_m]);
             let ends: Vec<[f64; 2]> = line.into_iter().map(|point| self.place(point)).collect();
-            sketch.line(ends, Ink { width: 1, ..Ink::new(GREY, dash) });
+            drawing.line(ends, LineStyle { width: 1, ..LineStyle::new(GREY, dash) });
         }
     }
 
-    fn draw_axes(&self, sketch: &mut Sketch) {
+    fn draw_axes(&self, drawing: &mut Drawing) {
         let [left, right, top, bottom] = [self.left, self.right(), self.top(), self.bottom];
-        let axis = Ink::new(GREY, Dash::Solid).thin();
+        let axis = LineStyle::new(GREY, Dash::Solid).thin();
         let [x, y] = [0, 1].map(|i| self.low_m[i]..self.high_m[i]);
         let (x, y) = (Axis::new(x, [left, right]), Axis::new(y, [bottom, top]));
         for (value, words) in x.ticks(105.0) {
-            sketch.line(vec![[x.pixel(value), bottom], [x.pixel(value), bottom + 8.0]], axis);
-            sketch.text([x.pixel(value), bottom + 0.65 * TICKS], Side::Middle, SMALL, words);
+            drawing.line(vec![[x.pixel(value), bottom], [x.pixel(value), bottom + 8.0]], axis);
+            drawing.text([x.pixel(value), bottom + 0.65 * TICKS], Side::Middle, SMALL, words);
         }
         for (value, words) in y.ticks(80.0) {
-            sketch.line(vec![[left - 8.0, y.pixel(value)], [left, y.pixel(value)]], axis);
-            sketch.text([left - 14.0, y.pixel(value)], Side::Right, SMALL, words);
+            drawing.line(vec![[left - 8.0, y.pixel(value)], [left, y.pixel(value)]], axis);
+            drawing.text([left - 14.0, y.pixel(value)], Side::Right, SMALL, words);
         }
-        sketch.line(vec![[left, top], [left, bottom], [right, bottom]], axis);
-        sketch.text([left - 14.0, top - 20.0], Side::Right, MEDIUM, "y [m]");
-        sketch.text([0.5 * (left + right), bottom + TICKS + 0.5 * ACROSS], Side::Middle, MEDIUM, "x [m]");
+        drawing.line(vec![[left, top], [left, bottom], [right, bottom]], axis);
+        drawing.text([left - 14.0, top - 20.0], Side::Right, MEDIUM, "y [m]");
+        drawing.text([0.5 * (left + right), bottom + TICKS + 0.5 * ACROSS], Side::Middle, MEDIUM, "x [m]");
     }
 }
 

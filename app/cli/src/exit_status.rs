@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Ending {
+pub(crate) enum ExitStatus {
     /// All well.
     Well,
     /// An expectation failed.
@@ -15,13 +15,13 @@ pub(crate) enum Ending {
     Unfinished,
 }
 
-impl From<Ending> for ExitCode {
-    fn from(ending: Ending) -> Self {
+impl From<ExitStatus> for ExitCode {
+    fn from(ending: ExitStatus) -> Self {
         match ending {
-            Ending::Well => ExitCode::SUCCESS,
-            Ending::Failed => ExitCode::from(1),
-            Ending::BadInput => ExitCode::from(2),
-            Ending::Unfinished => ExitCode::from(3),
+            ExitStatus::Well => ExitCode::SUCCESS,
+            ExitStatus::Failed => ExitCode::from(1),
+            ExitStatus::BadInput => ExitCode::from(2),
+            ExitStatus::Unfinished => ExitCode::from(3),
         }
     }
 }

@@ -1,9 +1,9 @@
 //! One strip of road a moment, below the one before.
 
 use super::super::axis::Axis;
-use super::super::ink::{Dash, GREY, Ink, PAPER, SURFACE};
-use super::super::sketch::{LARGE, MEDIUM, SMALL, Side, Sketch};
-use super::{Film, MARGIN, PATH, TITLE, WIDTH, body};
+use super::super::drawing::{Drawing, LARGE, MEDIUM, SMALL, Side};
+use super::super::style::{Dash, GREY, LineStyle, PAPER, SURFACE};
+use super::{FootprintPlot, MARGIN, PATH, TITLE, WIDTH, body};
 
 /// Space for the number and the time of a moment \[px\].
 const LEFT: f64 = 150.0;
@@ -32,15 +32,15 @@ struct Window {
 }
 
 impl Window {
-    fn of(film: &Film) -> Window {
-        let [[from, _], [to, _]] = film.bounds();
-        let edges = film.roads.iter().map(|road| road.edges_m);
+    fn of(footprints: &FootprintPlot) -> Window {
+        let [[from, _], [to, _]] = footprints.bounds();
+        let edges = footprints.roads.iter().map(|road| road.edges_m);
         let mut edges_m = edges
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [right, left]| [low.min(right), high.max(left)]);
         if edges_m[0] >= edges_m[1] {
             edges_m = [0.0, 1.0];
         }
-        let (margin, longest) = (0.5 * film.longest_m(), film.longest_m());
+        let (margin, longest) = (0.5 * footprints.longest_m(), footprints.longest_m());
         let space = WIDTH - LEFT - MARGIN;
         let whole = space / (to - from + 2.0 * margin);
         let height = HIGHEST / (edges_m[1] - edges_m[0]);
@@ -57,36 +57,39 @@ impl Window {
     }
 }
 
-impl Film {
+impl FootprintPlot {
     /// Moments one below the other, all of the same part of the road, or of the part around the ego.
-    pub fn strips(&self) -> Sketch {
+    pub fn strips(&self) -> Drawing {
         let window = Window::of(self);
         let legend = self.legend();
         let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 22.0;
         let row = window.height() + BETWEEN;
-        let bottom = head + self.moments.len() as f64 * row;
-        let mut sketch = Sketch::new(WIDTH, bottom + TICKS + ACROSS + 8.0);
-        sketch.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
-        legend.draw(&mut sketch, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
-        for index in 0..self.moments.len() {
-            self.draw_strip(&mut sketch, &window, index, head + index as f64 * row);
+        let bottom = head + self.snapshots.len() as f64 * row;
+        let mut drawing = Drawing::new(WIDTH, bottom + TICKS + ACROSS + 8.0);
+        drawing.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
+        legend.draw(&mut drawing, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
+        for index in 0..self.snapshots.len() {
+            self.draw_strip(&mut drawing, &window, index, head + index as f64 * row);
         }
         let axis = Axis::new(window.start_m..window.start_m + window.length_m, [LEFT, WIDTH - MARGIN]);
         for (value, words) in axis.ticks(105.0) {
             let x = axis.pixel(value);
-            sketch.line(vec![[x, bottom - BETWEEN], [x, bottom - BETWEEN + 8.0]], Ink::new(GREY, Dash::Solid).thin());
-            sketch.text([x, bottom + 0.3 * TICKS], Side::Middle, SMALL, words);
+            drawing.line(
+                vec![[x, bottom - BETWEEN], [x, bottom - BETWEEN + 8.0]],
+                LineStyle::new(GREY, Dash::Solid).thin(),
+            );
+            drawing.text([x, bottom + 0.3 * TICKS], Side::Middle, SMALL, words);
         }
         let across = if window.moves { "place along the road, from the ego [m]" } else { "place along the road [m]" };
         let middle = [0.5 * (LEFT + WIDTH - MARGIN), bottom + TICKS + 0.4 * ACROSS];
-        sketch.text(middle, Side::Middle, MEDIUM, across);
-        sketch
+        drawing.text(middle, Side::Middle, MEDIUM, across);
+        drawing
     }
 
-    fn draw_strip(&self, sketch: &mut Sketch, window: &Window, index: usize, top: f64) {
-        let moment = &self.moments[index];
+    fn draw_strip(&self, drawing: &mut Drawing, window: &Window, index: usize, top: f64) {
+        let snapshot = &self.snapshots[index];
         let centre = |body: &[[f64; 2]; 4]| 0.25 * body.iter().map(|corner| corner[0]).sum::<f64>();
-        let shift_m = if window.moves { moment.bodies.first().map_or(0.0, centre) } else { 0.0 };
+        let shift_m = if window.moves { snapshot.bodies.first().map_or(0.0, centre) } else { 0.0 };
         let bottom = top + window.height();
         let point = |[x, y]: [f64; 2]| {
             let along = LEFT + (x - shift_m - window.start_m) * window.scale;
@@ -96,32 +99,32 @@ impl Film {
             let [x, y] = point(at);
             [x.clamp(LEFT, WIDTH - MARGIN), y]
         };
-        sketch.block([LEFT, top], [WIDTH - MARGIN, bottom], SURFACE);
+        drawing.block([LEFT, top], [WIDTH - MARGIN, bottom], SURFACE);
         for road in &self.roads {
             if !road.shoulder_m.is_empty() {
-                sketch.fill(road.shoulder_m.iter().map(|&point| place(point)).collect(), PAPER, 1.0);
+                drawing.fill(road.shoulder_m.iter().map(|&point| place(point)).collect(), PAPER, 1.0);
             }
             for &lateral_m in &road.dividers_m {
                 let y = place([0.0, lateral_m])[1];
-                sketch.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], Ink::new(GREY, Dash::Long).thin());
+                drawing.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], LineStyle::new(GREY, Dash::Long).thin());
             }
         }
         for y in [top, bottom] {
-            sketch.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], Ink::new(GREY, Dash::Solid).thin());
+            drawing.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], LineStyle::new(GREY, Dash::Solid).thin());
         }
-        let path = self.path_pixels(moment.time_s, point).into_iter();
-        sketch.line(path.filter(|[x, _]| (LEFT..=WIDTH - MARGIN).contains(x)).collect(), PATH);
+        let path = self.path_pixels(snapshot.time_s, point).into_iter();
+        drawing.line(path.filter(|[x, _]| (LEFT..=WIDTH - MARGIN).contains(x)).collect(), PATH);
         let number = format!("{}", index + 1);
-        for (body, (_, colour)) in moment.bodies.iter().zip(&self.cast) {
+        for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.cast) {
             let x = body.map(|corner| LEFT + (corner[0] - shift_m - window.start_m) * window.scale);
             if x.iter().all(|x| (LEFT..=WIDTH - MARGIN).contains(x)) {
                 let corners = body.map(place);
-                body::draw(sketch, corners, *colour, 1.0);
-                body::number(sketch, corners, *colour, &number);
+                body::draw(drawing, corners, *colour, 1.0);
+                body::number(drawing, corners, *colour, &number);
             }
         }
         let middle = 0.5 * (top + bottom);
-        sketch.text([MARGIN, middle], Side::Left, LARGE, number);
-        sketch.text([LEFT - 14.0, middle], Side::Right, SMALL, format!("{:.1} s", moment.time_s));
+        drawing.text([MARGIN, middle], Side::Left, LARGE, number);
+        drawing.text([LEFT - 14.0, middle], Side::Right, SMALL, format!("{:.1} s", snapshot.time_s));
     }
 }

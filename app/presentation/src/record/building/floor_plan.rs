@@ -23,18 +23,22 @@ const NAMED: usize = 16;
 const LABELLED: usize = 144;
 
 /// How the floor plan is drawn.
-pub struct Plan {
+pub struct FloorPlanLayer {
     rooms: FloorPlan,
     /// The temperature that is neither cold nor warm \[°C\].
     middle_c: f64,
 }
 
-impl Plan {
+impl FloorPlanLayer {
     /// Logs what never changes.
     ///
     /// # Errors
     /// If Rerun refuses a component.
-    pub fn begin(stream: &RecordingStream, rooms: FloorPlan, setpoints: &Setpoints) -> RecordingStreamResult<Plan> {
+    pub fn begin(
+        stream: &RecordingStream,
+        rooms: FloorPlan,
+        setpoints: &Setpoints,
+    ) -> RecordingStreamResult<FloorPlanLayer> {
         let wanted_c = &setpoints.occupied_c;
         let middle_c = wanted_c.iter().sum::<f64>() / wanted_c.len().max(1) as f64;
         let style = Points2D::update_fields()
@@ -42,7 +46,7 @@ impl Plan {
             .with_radii([Radius::new_ui_points(0.0)])
             .with_draw_order(1.0);
         stream.log_static("building/plan/labels", &style)?;
-        Ok(Plan { rooms, middle_c })
+        Ok(FloorPlanLayer { rooms, middle_c })
     }
 
     /// Logs one step.
@@ -126,7 +130,7 @@ mod tests {
 
     #[test]
     fn every_room_has_its_place_and_its_colour() {
-        let plan = Plan { rooms: FloorPlan { columns: 2, rows: 2, floors: 1 }, middle_c: 25.0 };
+        let plan = FloorPlanLayer { rooms: FloorPlan { columns: 2, rows: 2, floors: 1 }, middle_c: 25.0 };
         let zone = |temperature_c| ZoneFrame {
             temperature_c,
             next_c: 0.0,
@@ -152,7 +156,7 @@ mod tests {
 
     #[test]
     fn floors_lie_side_by_side_and_never_overlap() {
-        let plan = Plan { rooms: FloorPlan { columns: 5, rows: 5, floors: 16 }, middle_c: 25.0 };
+        let plan = FloorPlanLayer { rooms: FloorPlan { columns: 5, rows: 5, floors: 16 }, middle_c: 25.0 };
         assert_eq!(plan.across(), 4);
         let [width, height] = plan.size();
         assert_eq!(width, height);

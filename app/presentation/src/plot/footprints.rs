@@ -1,15 +1,15 @@
-//! Films: footprints at equal steps of time, numbered, on their roads.
+//! Footprints at equal steps of time, numbered, on their roads.
 //!
-//! Where all roads run the same way, each moment is a strip of its own below the one before ([`Film::strips`]): vehicles
-//! in one lane would cover one another otherwise. Where roads cross, all moments are in one plan ([`Film::plan`]).
+//! Where all roads run the same way, each moment is a strip of its own below the one before ([`FootprintPlot::strips`]): vehicles
+//! in one lane would cover one another otherwise. Where roads cross, all moments are in one plan ([`FootprintPlot::plan`]).
 
 mod body;
 mod plan;
 mod strips;
 
-use super::ink::{Colour, Dash, Ink, VERMILLION};
+use super::drawing::Drawing;
 use super::legend::{Legend, Sample};
-use super::sketch::Sketch;
+use super::style::{Colour, Dash, LineStyle, VERMILLION};
 
 const WIDTH: f64 = 1400.0;
 const MARGIN: f64 = 30.0;
@@ -17,11 +17,11 @@ const TITLE: f64 = 48.0;
 /// Points of a path are not closer than this: whole pixels would make it ragged \[px\].
 const NEAREST: f64 = 16.0;
 /// The path of the ego, as the source draws it.
-const PATH: Ink = Ink::new(VERMILLION, Dash::Solid);
+const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 
 /// Vehicles at equal steps of time. Lengths are in metres, in a frame whose x axis runs along the main road.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Film {
+pub struct FootprintPlot {
     /// What it shows.
     pub title: String,
     /// The roads.
@@ -29,7 +29,7 @@ pub struct Film {
     /// Who drives: name and colour.
     pub cast: Vec<(String, Colour)>,
     /// The moments, in order.
-    pub moments: Vec<Moment>,
+    pub snapshots: Vec<FootprintSnapshot>,
     /// Where the ego's centre was, with the time \[s\].
     pub path: Vec<(f64, [f64; 2])>,
 }
@@ -49,16 +49,16 @@ pub struct Strip {
 
 /// One moment.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Moment {
+pub struct FootprintSnapshot {
     /// When it is \[s\].
     pub time_s: f64,
     /// Who is where: the corners of each body, front right, front left, rear right, rear left.
     pub bodies: Vec<[[f64; 2]; 4]>,
 }
 
-impl Film {
+impl FootprintPlot {
     /// The picture that suits the roads.
-    pub fn sketch(&self) -> Sketch {
+    pub fn drawing(&self) -> Drawing {
         let parallel = self.roads.iter().all(|road| libm::cos(road.heading_rad) > 0.999);
         if parallel { self.strips() } else { self.plan() }
     }
@@ -76,7 +76,7 @@ impl Film {
     /// Smallest and largest x and y of all bodies.
     fn bounds(&self) -> [[f64; 2]; 2] {
         let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for point in self.moments.iter().flat_map(|moment| moment.bodies.iter().flatten()) {
+        for point in self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().flatten()) {
             for axis in 0..2 {
                 bounds[0][axis] = bounds[0][axis].min(point[axis]);
                 bounds[1][axis] = bounds[1][axis].max(point[axis]);
@@ -99,7 +99,7 @@ impl Film {
 
     /// Length of the longest body.
     fn longest_m(&self) -> f64 {
-        let bodies = self.moments.iter().flat_map(|moment| &moment.bodies);
+        let bodies = self.snapshots.iter().flat_map(|snapshot| &snapshot.bodies);
         bodies.map(|body| distance(body[0], body[2])).fold(0.0, f64::max).max(1e-3)
     }
 }
@@ -111,20 +111,22 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::ink::{BLUE, ORANGE};
-    use crate::plot::sketch::Mark;
+    use crate::plot::drawing::Mark;
+    use crate::plot::style::{BLUE, ORANGE};
 
     /// Two cars of 4.5 m on a straight road, seen at equal steps while they go `length_m`.
-    fn drive(length_m: f64) -> Film {
+    fn drive(length_m: f64) -> FootprintPlot {
         let body = |x: f64, y: f64| [[x + 2.3, y - 1.0], [x + 2.3, y + 1.0], [x - 2.2, y - 1.0], [x - 2.2, y + 1.0]];
         let place = |i: u32| f64::from(i) * length_m / 7.0;
-        let moment =
-            |i: u32| Moment { time_s: f64::from(i), bodies: vec![body(place(i), 1.75), body(place(i) + 12.0, 5.25)] };
-        Film {
+        let snapshot = |i: u32| FootprintSnapshot {
+            time_s: f64::from(i),
+            bodies: vec![body(place(i), 1.75), body(place(i) + 12.0, 5.25)],
+        };
+        FootprintPlot {
             title: "Drive".to_owned(),
             roads: vec![Strip { edges_m: [0.0, 7.0], dividers_m: vec![3.5], ..Strip::default() }],
             cast: vec![("ego: human".to_owned(), ORANGE), ("front: human".to_owned(), BLUE)],
-            moments: (0..8).map(moment).collect(),
+            snapshots: (0..8).map(snapshot).collect(),
             path: (0..8).map(|i| (f64::from(i), [place(i), 1.75])).collect(),
         }
     }
@@ -133,9 +135,9 @@ mod tests {
     #[test]
     fn short_and_long_drives_show_every_footprint() {
         for length_m in [20.0, 100.0, 2000.0] {
-            let sketch = drive(length_m).sketch();
-            assert_eq!(sketch.illegible(), Vec::<String>::new(), "{length_m} m");
-            let bodies = sketch.marks.iter().filter_map(|mark| match mark {
+            let drawing = drive(length_m).drawing();
+            assert_eq!(drawing.illegible(), Vec::<String>::new(), "{length_m} m");
+            let bodies = drawing.marks.iter().filter_map(|mark| match mark {
                 Mark::Fill { ring, colour, .. } if ring.len() == 4 && [ORANGE, BLUE].contains(colour) => Some(ring),
                 _ => None,
             });
@@ -144,18 +146,25 @@ mod tests {
                 bodies.map(|ring| distance(ring[0], ring[3]).max(distance(ring[0], ring[1]))).collect();
             assert_eq!(lengths.len(), 2 + 16, "{length_m} m");
             assert!(lengths.iter().all(|length| *length > 25.0), "{length_m} m: {lengths:?}");
-            assert_eq!(sketch.words().iter().filter(|words| **words == "8").count(), 3, "{length_m} m");
+            assert_eq!(drawing.words().iter().filter(|words| **words == "8").count(), 3, "{length_m} m");
         }
     }
 
     /// Where roads cross, all moments are in one plan, as large in x as in y.
     #[test]
     fn a_crossing_is_drawn_to_scale() {
-        let mut film = drive(20.0);
-        film.roads.push(Strip { heading_rad: std::f64::consts::FRAC_PI_2, edges_m: [-3.5, 3.5], ..Strip::default() });
-        film.moments.iter_mut().for_each(|moment| moment.bodies[1] = moment.bodies[1].map(|[x, y]| [-y, x]));
-        let sketch = film.sketch();
-        let sizes: Vec<[f64; 2]> = sketch
+        let mut footprints = drive(20.0);
+        footprints.roads.push(Strip {
+            heading_rad: std::f64::consts::FRAC_PI_2,
+            edges_m: [-3.5, 3.5],
+            ..Strip::default()
+        });
+        footprints
+            .snapshots
+            .iter_mut()
+            .for_each(|snapshot| snapshot.bodies[1] = snapshot.bodies[1].map(|[x, y]| [-y, x]));
+        let drawing = footprints.drawing();
+        let sizes: Vec<[f64; 2]> = drawing
             .marks
             .iter()
             .filter_map(|mark| match mark {

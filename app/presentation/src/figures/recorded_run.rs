@@ -1,4 +1,4 @@
-//! A take: a run of a scenario and all that was seen of it.
+//! Runs with all their frames.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -6,11 +6,13 @@ use interplay_scenarios::{Override, Scenario, load};
 use interplay_simulation::frame::Frame;
 use interplay_simulation::report::Report;
 use interplay_simulation::run::{RunError, run};
-use interplay_simulation::watch::Watcher;
+use interplay_simulation::watch::{WatchError, Watcher};
+
+use super::error::FigureError;
 
 /// A run that a figure needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Shot {
+pub struct RunSpec {
     /// What tells it apart from the others of its figure.
     pub label: &'static str,
     /// Name of the authored scenario.
@@ -21,7 +23,7 @@ pub struct Shot {
 
 /// How a run went.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ran {
+pub struct RunOutcome {
     /// The words of the command that runs the same.
     pub command: Vec<String>,
     /// Whether its expectations held; `None` if the scenario was changed or expects nothing.
@@ -30,7 +32,7 @@ pub struct Ran {
 
 /// A run and all that was seen of it.
 #[derive(Clone, Debug)]
-pub struct Take {
+pub struct RecordedRun {
     /// What tells it apart from others beside it.
     pub label: String,
     /// The words of the command that runs the same.
@@ -43,66 +45,63 @@ pub struct Take {
     pub report: Report,
 }
 
-impl Shot {
+impl RunSpec {
     /// Runs it.
     ///
     /// # Errors
-    /// In words, if the scenario cannot be loaded or its run cannot be finished.
-    pub fn take(&self) -> Result<Take, String> {
+    /// [`FigureError`], if the scenario cannot be loaded or its run cannot be finished.
+    pub fn record(&self) -> Result<RecordedRun, FigureError> {
         let changes: Vec<Override> = self.sets.iter().map(|set| Override::Set((*set).to_owned())).collect();
-        let scenario = load(self.scenario, &changes).map_err(|error| {
-            let problems = error.faults().iter().map(ToString::to_string).collect::<Vec<_>>();
-            format!("{error}: {}", problems.join("; "))
-        })?;
+        let scenario = load(self.scenario, &changes)?;
         let sets = self.sets.iter().flat_map(|set| ["--set", set]);
         let command = ["interplay", "run", self.scenario].into_iter().chain(sets).map(str::to_owned).collect();
-        Take::of(self.scenario, scenario, command, self.label).map_err(|error| error.to_string())
+        Ok(RecordedRun::of(self.scenario, scenario, command, self.label)?)
     }
 }
 
-impl Take {
+impl RecordedRun {
     /// Runs a scenario, called `name` in the report, and keeps what is seen.
     ///
     /// # Errors
     /// [`RunError`].
-    pub fn of(name: &str, scenario: Scenario, command: Vec<String>, label: &str) -> Result<Take, RunError> {
-        let camera = Camera::default();
+    pub fn of(name: &str, scenario: Scenario, command: Vec<String>, label: &str) -> Result<RecordedRun, RunError> {
+        let camera = FrameLog::default();
         let report = run(name, &scenario, vec![Box::new(camera.clone())])?;
-        Ok(Take { label: label.to_owned(), command, scenario, frames: camera.frames(), report })
+        Ok(RecordedRun { label: label.to_owned(), command, scenario, frames: camera.frames(), report })
     }
 }
 
-impl Take {
+impl RecordedRun {
     /// Whether it was changed, so that the authored expectations may not hold.
     pub fn changed(&self) -> bool {
         self.command.iter().any(|word| word == "--set" || word == "--planner")
     }
 
     /// How it went.
-    pub fn ran(&self) -> Ran {
+    pub fn ran(&self) -> RunOutcome {
         let judged = !self.changed() && !self.report.expectations.is_empty();
-        Ran { command: self.command.clone(), held: judged.then_some(self.report.passed) }
+        RunOutcome { command: self.command.clone(), held: judged.then_some(self.report.passed) }
     }
 }
 
 /// A watcher that keeps what it is shown; its clones share what they keep.
 #[derive(Clone, Debug, Default)]
-pub struct Camera(Arc<Mutex<Vec<Frame>>>);
+pub struct FrameLog(Arc<Mutex<Vec<Frame>>>);
 
-impl Camera {
-    /// The frames so far, which the camera then has no longer.
+impl FrameLog {
+    /// The frames so far, which the log then has no longer.
     pub fn frames(&self) -> Vec<Frame> {
         std::mem::take(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
-impl Watcher for Camera {
-    fn tick(&mut self, frame: &Frame) -> Result<(), String> {
+impl Watcher for FrameLog {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(frame.clone());
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), String> {
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
         Ok(())
     }
 }

@@ -1,13 +1,13 @@
-//! A sketch: a picture as a list of marks in pixels, from the back to the front.
+//! A drawing: a picture as a list of marks in pixels, from the back to the front.
 //!
-//! Every drawing is a pure function from numbers to a sketch; only here it meets Plotters, which turns the same marks into
+//! Every drawing is a pure function from numbers to a [`Drawing`]; only here it meets Plotters, which turns the same marks into
 //! SVG and into PNG.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::ink::{BLACK, Colour, Dash, Ink};
+use super::style::{BLACK, Colour, Dash, LineStyle};
 use super::{Drawn, FONT, Figure};
 
 /// Size of text on ticks and bodies \[px\].
@@ -21,7 +21,7 @@ const SHARP_COS: f64 = 0.7;
 
 /// A picture to be saved.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sketch {
+pub struct Drawing {
     pub(super) size: (u32, u32),
     pub(super) marks: Vec<Mark>,
 }
@@ -32,7 +32,7 @@ pub(super) enum Mark {
     /// A filled polygon.
     Fill { ring: Vec<[f64; 2]>, colour: Colour, opacity: f64 },
     /// A line through points.
-    Line { points: Vec<[f64; 2]>, ink: Ink },
+    Line { points: Vec<[f64; 2]>, style: LineStyle },
     /// A filled disc.
     Disc { centre: [f64; 2], radius: u32, colour: Colour },
     /// Words.
@@ -47,10 +47,10 @@ pub(super) enum Side {
     Right,
 }
 
-impl Sketch {
+impl Drawing {
     /// An empty picture.
-    pub(super) fn new(width: f64, height: f64) -> Sketch {
-        Sketch { size: (width.ceil() as u32, height.ceil() as u32), marks: Vec::new() }
+    pub(super) fn new(width: f64, height: f64) -> Drawing {
+        Drawing { size: (width.ceil() as u32, height.ceil() as u32), marks: Vec::new() }
     }
 
     pub(super) fn fill(&mut self, ring: Vec<[f64; 2]>, colour: Colour, opacity: f64) {
@@ -62,8 +62,8 @@ impl Sketch {
         self.fill(vec![[x, y], [right, y], [right, bottom], [x, bottom]], colour, 1.0);
     }
 
-    pub(super) fn line(&mut self, points: Vec<[f64; 2]>, ink: Ink) {
-        self.marks.push(Mark::Line { points, ink });
+    pub(super) fn line(&mut self, points: Vec<[f64; 2]>, style: LineStyle) {
+        self.marks.push(Mark::Line { points, style });
     }
 
     pub(super) fn disc(&mut self, centre: [f64; 2], radius: u32, colour: Colour) {
@@ -139,7 +139,7 @@ pub(super) fn width_of(words: &str, size: f64) -> f64 {
     measured.map_or(0.55 * size * words.chars().count() as f64, |(width, _)| f64::from(width))
 }
 
-impl Figure for Sketch {
+impl Figure for Drawing {
     fn size(&self) -> (u32, u32) {
         self.size
     }
@@ -153,29 +153,27 @@ impl Figure for Sketch {
 fn draw_mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, mark: &Mark) -> Drawn<B> {
     match mark {
         Mark::Fill { ring, colour, opacity } => {
-            area.draw(&Polygon::new(ring.iter().map(pixel).collect::<Vec<_>>(), paint(*colour).mix(*opacity).filled()))
+            area.draw(&Polygon::new(ring.iter().map(pixel).collect::<Vec<_>>(), rgb(*colour).mix(*opacity).filled()))
         }
-        Mark::Line { points, ink } => {
-            let style = paint(ink.colour).stroke_width(ink.width);
-            pieces(points, ink.dash).into_iter().try_for_each(|piece| area.draw(&PathElement::new(piece, style)))
+        Mark::Line { points, style } => {
+            let stroke = rgb(style.colour).stroke_width(style.width);
+            pieces(points, style.dash).into_iter().try_for_each(|piece| area.draw(&PathElement::new(piece, stroke)))
         }
-        Mark::Disc { centre, radius, colour } => {
-            area.draw(&Circle::new(pixel(centre), *radius, paint(*colour).filled()))
-        }
+        Mark::Disc { centre, radius, colour } => area.draw(&Circle::new(pixel(centre), *radius, rgb(*colour).filled())),
         Mark::Text { at, words, size, colour, side } => {
             let anchor = match side {
                 Side::Left => HPos::Left,
                 Side::Middle => HPos::Center,
                 Side::Right => HPos::Right,
             };
-            let colour = paint(*colour);
+            let colour = rgb(*colour);
             let style = (FONT, *size).into_font().color(&colour).pos(Pos::new(anchor, VPos::Center));
             area.draw(&Text::new(words.as_str(), pixel(at), style))
         }
     }
 }
 
-fn paint([red, green, blue]: Colour) -> RGBColor {
+fn rgb([red, green, blue]: Colour) -> RGBColor {
     RGBColor(red, green, blue)
 }
 

@@ -1,14 +1,14 @@
 //! What came of runs, in a sentence.
 
-use super::take::Take;
+use super::recorded_run::RecordedRun;
 
 /// Of a goal that is not reached, or was from the start.
 const NEVER: &str = "never";
 
 /// What a run came to.
-pub fn outcome(take: &Take) -> String {
-    let mut sentences = vec![take.scenario.shows.trim_end_matches('.').to_owned()];
-    let known = facts(take).into_iter().filter(|(_, value)| value != NEVER);
+pub fn outcome(recorded: &RecordedRun) -> String {
+    let mut sentences = vec![recorded.scenario.shows.trim_end_matches('.').to_owned()];
+    let known = facts(recorded).into_iter().filter(|(_, value)| value != NEVER);
     sentences.extend(known.map(|(what, value)| format!("{what} {value}")));
     let mut text = sentences.remove(0);
     text.push_str(". ");
@@ -18,8 +18,8 @@ pub fn outcome(take: &Take) -> String {
 }
 
 /// What another run changes, if anything that counts.
-pub fn difference(take: &Take, beside: &Take) -> Option<String> {
-    let changed: Vec<String> = facts(take)
+pub fn difference(recorded: &RecordedRun, beside: &RecordedRun) -> Option<String> {
+    let changed: Vec<String> = facts(recorded)
         .into_iter()
         .zip(facts(beside))
         .filter(|((_, here), (_, there))| here != there)
@@ -30,10 +30,10 @@ pub fn difference(take: &Take, beside: &Take) -> Option<String> {
 }
 
 /// What counts of a run, always in the same order.
-fn facts(take: &Take) -> Vec<(String, String)> {
+fn facts(recorded: &RecordedRun) -> Vec<(String, String)> {
     let mut facts = Vec::new();
-    let report = &take.report;
-    if let Some(ego) = report.vehicles.get(take.scenario.ego_index()) {
+    let report = &recorded.report;
+    if let Some(ego) = report.vehicles.get(recorded.scenario.ego_index()) {
         let goal = ego.completed_s.map_or_else(|| NEVER.to_owned(), |time_s| format!("at {time_s:.1} s"));
         facts.push((format!("{} reaches its goal", ego.name), goal));
         facts.push(("order at the end".to_owned(), report.order.join(", ")));
@@ -64,13 +64,15 @@ fn capitalised(words: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Shot;
+    use super::super::RunSpec;
     use super::*;
 
     #[test]
     fn a_run_is_told_from_another_by_what_counts() {
-        let take = |label, sets| Shot { label, scenario: "lane-change/front-nice", sets }.take().expect("a run");
-        let (nice, other) = (take("", &[]), take("conservative", &["vehicle.ego.driver.kind=\"conservative\""]));
+        let recorded =
+            |label, sets| RunSpec { label, scenario: "lane-change/front-nice", sets }.record().expect("a run");
+        let (nice, other) =
+            (recorded("", &[]), recorded("conservative", &["vehicle.ego.driver.kind=\"conservative\""]));
         let words = outcome(&nice);
         assert!(words.contains(". Ego reaches its goal at "), "{words}");
         let words = difference(&nice, &other).expect("it has a label");

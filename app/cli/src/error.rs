@@ -1,0 +1,31 @@
+//! Why a command gave up after it had begun.
+
+use std::io;
+use std::path::PathBuf;
+
+use interplay_presentation::figures::FigureError;
+use interplay_presentation::plot::PlotError;
+use interplay_presentation::record::RecordError;
+use interplay_simulation::run::RunError;
+use thiserror::Error;
+
+/// Why there is no result, or why it is not where it should be.
+#[derive(Debug, Error)]
+pub(crate) enum CommandError {
+    #[error(transparent)]
+    Run(#[from] RunError),
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    #[error("{what} cannot be written as JSON: {reason}")]
+    Json { what: &'static str, reason: serde_json::Error },
+    #[error("the results cannot be written as XML: {0}")]
+    Xml(Box<dyn std::error::Error + Send + Sync>),
+    #[error("cannot write `{}`: {reason}", path.display())]
+    Unwritable { path: PathBuf, reason: io::Error },
+    #[error("cannot start {jobs} threads: {reason}")]
+    Threads { jobs: usize, reason: rayon::ThreadPoolBuildError },
+}
