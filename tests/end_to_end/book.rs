@@ -17,6 +17,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("cargo ", "this test is run by it"),
     (".ci/run", "the same"),
     ("tests/peers/", "needs Python with CasADi"),
+    ("tests/build_times.py", "needs the timings of a cold build"),
     ("pip ", "needs the network"),
     ("rerun", "another program"),
     ("mdbook ", "another program"),

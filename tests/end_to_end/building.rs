@@ -235,7 +235,12 @@ fn spoilt_buildings_are_refused_where_they_are_spoilt() {
     let wrong_unit = SOUND.replace("1800.0", "1800.0\nmethod = \"euler\"").replace("31.25", "0.5208");
     refused(&run_text("building-unit", &wrong_unit, &[]), &["my.toml:8", "the largest stable step is", "K/kW"]);
     let cases = [
-        ("zero", "62.5", "0.0", &["my.toml:18:23", "`building.wall.0.resistance_k_per_kw` must be above 0"][..]),
+        (
+            "zero",
+            "62.5",
+            "0.0",
+            &["my.toml:18:23", "`building.wall.0.resistance_k_per_kw` must be at least 0.000001"][..],
+        ),
         ("itself", r#"["office", "store"]"#, r#"["office", "office"]"#, &["my.toml:17", "on both sides"]),
         ("unknown", r#""ambient"]"#, r#""ambeint"]"#, &["my.toml:21", "`ambeint`, which is no zone", "`ambient`"]),
         ("twice", "\"store\"\n\n[[building.wall]]", "\"office\"\n\n[[building.wall]]", &["my.toml:14", "two zones"]),

@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn in_a_folder_files_keep_their_place() {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/files");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/files");
         let found = find(folder).expect("the authored files are there");
         let names: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
         assert_eq!(names, embedded().iter().map(|file| file.name).collect::<Vec<_>>());
