@@ -249,7 +249,12 @@ fn spoilt_buildings_are_refused_where_they_are_spoilt() {
         ("negative", "limit_kw = 1.5", "limit_kw = -1.5", &["my.toml:11:12", "must be at least 0, not -1.5"]),
         ("counts", "[24.0]", "[24.0, 25.0, 26.0]", &["my.toml:25", "3 temperatures for 2 zones"]),
         ("kind", "\"pid\"", "\"pdi\"", &["my.toml:28:8", "did you mean `pid`"]),
-        ("gain", "\"pid\"", "\"pid\"\nproportional_kw_per_k = -1.0", &["my.toml:29", "`controller`", "at least 0"]),
+        (
+            "gain",
+            "\"pid\"",
+            "\"pid\"\nproportional_kw_per_k = -1.0",
+            &["my.toml:29:25", "`controller.proportional_kw_per_k`", "at least 0"],
+        ),
         ("both", "step_s = 1800.0", "preset = \"testbed\"", &["my.toml", "states both `preset` and `zone`"]),
         ("driving", "iterations = 2", "duration_s = 2.0", &["my.toml:4", "there are no vehicles", "iterations"]),
     ];
