@@ -4,16 +4,10 @@ use interplay_planners::conservative::{self, Conservative};
 use interplay_planners::diagnostic::COST;
 use interplay_planners::negotiation::{self, Concession, Settings, acceptance};
 use interplay_planners::predict::steady;
-use interplay_planners::trajectory::terms::Persuasion;
-use interplay_planners::trajectory::{Optimiser, Penalty, Problem, Robust};
+use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Agent, Input, Plan, Scene, Trajectory};
 
 use crate::{Result, stated};
-
-/// Below this squared distance of its two references the persuasion constraint is left out \[m²\].
-const INDISTINCT: f64 = 1e-3;
-/// What falling short of it costs.
-const PERSUASION: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
 
 /// A problem with the guess to start from.
 pub type Posed = (Problem, Vec<Vec<Input>>);
@@ -66,9 +60,12 @@ impl NegotiationReplay {
             NegotiationState { partner: partner.name.clone(), concession: Concession::default(), last: None }
         });
         let accepted = update_acceptance(&mut state, partner, &self.settings);
-        let leaning = state.last.as_ref().and_then(|round| leaning(round, 1.0 + self.settings.gamma * accepted));
+        let strength = 1.0 + self.settings.gamma * accepted;
+        let persuasion = state.last.as_ref().and_then(|round| {
+            negotiation::persuasion(&round.cooperative.shifted(), &round.conservative.shifted(), strength)
+        });
         let weight = state.concession.weight();
-        let problem = negotiation::problem(scene, partner, weight, leaning, &self.settings);
+        let problem = negotiation::problem(scene, partner, weight, persuasion, &self.settings);
         let own_way = partner.prediction.inputs.clone();
         let mut keep = vec![Vec::new(), own_way.clone()];
         if let Some(round) = &state.last {
@@ -104,18 +101,6 @@ fn update_acceptance(state: &mut NegotiationState, partner: &Agent, settings: &S
     let accepted = acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted());
     state.concession.concede(accepted, settings.beta, settings.weight_floor);
     accepted
-}
-
-fn leaning(round: &Round, strength: f64) -> Option<Persuasion> {
-    let (toward, away) = (round.cooperative.shifted(), round.conservative.shifted());
-    let positions = |of: &Trajectory| of.states.iter().take(of.horizon()).map(|state| state.position()).collect();
-    (away.squared_distance(&toward) >= INDISTINCT).then(|| Persuasion {
-        vehicle: 0,
-        toward: positions(&toward),
-        away: positions(&away),
-        strength,
-        penalty: PERSUASION,
-    })
 }
 
 fn extremes(scene: &Scene) -> [Vec<Input>; 2] {

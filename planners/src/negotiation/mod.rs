@@ -23,6 +23,7 @@ mod state;
 
 pub use acceptance::acceptance;
 pub use concession::Concession;
+pub use persuasion::persuasion;
 pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
@@ -75,7 +76,7 @@ impl Negotiation {
             return Ok(Plan { events, ..conservative::answer(&retreat?) });
         };
         let accepted = self.update_acceptance(partner);
-        let persuasion = persuasion::constraint(&self.settings, self.negotiation.last.as_ref(), accepted);
+        let persuasion = persuasion::next_constraint(&self.settings, self.negotiation.last.as_ref(), accepted);
         let outcome = self.propose(scene, partner, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,

@@ -7,24 +7,33 @@ use crate::trajectory::Penalty;
 use crate::trajectory::terms::Persuasion;
 
 /// Below this squared distance of cooperative and conservative plan the ball has collapsed \[m²\].
-const INDISTINCT: f64 = 1e-3;
+const MIN_REFERENCE_DISTANCE_M2: f64 = 1e-3;
 /// What falling short costs: mild, as persuasion must never overrule safety.
 const PENALTY: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
 
 /// The persuasion constraint `‖trj − con‖² ≥ α ‖trj − coop‖²`, `α = 1 + γ p_a` (eq. 6.23, corrected: as printed the right
 /// norm is not squared). It starts with the second round, and is left out where the two references nearly coincide.
-pub(super) fn constraint(settings: &Settings, last: Option<&NegotiationRound>, accepted: f64) -> Option<Persuasion> {
+pub(super) fn next_constraint(
+    settings: &Settings,
+    last: Option<&NegotiationRound>,
+    accepted: f64,
+) -> Option<Persuasion> {
     let round = last.filter(|_| settings.persuasion)?;
     let conservative = round.conservative.as_ref()?.shifted();
-    let cooperative = round.cooperative.shifted();
-    if conservative.squared_distance(&cooperative) < INDISTINCT {
+    persuasion(&round.cooperative.shifted(), &conservative, 1.0 + settings.gamma * accepted)
+}
+
+/// The persuasion constraint of strength `α` with a cooperative and a conservative reference; none where the two nearly
+/// coincide.
+pub fn persuasion(cooperative: &Trajectory, conservative: &Trajectory, strength: f64) -> Option<Persuasion> {
+    if conservative.squared_distance(cooperative) < MIN_REFERENCE_DISTANCE_M2 {
         return None;
     }
     Some(Persuasion {
         vehicle: 0,
-        toward: positions(&cooperative),
-        away: positions(&conservative),
-        strength: 1.0 + settings.gamma * accepted,
+        toward: positions(cooperative),
+        away: positions(conservative),
+        strength,
         penalty: PENALTY,
     })
 }

@@ -18,6 +18,12 @@ impl Penalty {
         Penalty { linear: 0.0, quadratic: weight }
     }
 
+    /// Whether the penalty begins with a slope, so that with a weight above its multiplier the row holds whenever it can: a
+    /// constraint, and not a price of coming near.
+    pub fn is_exact(&self) -> bool {
+        self.linear > 0.0
+    }
+
     /// Cost of a row of value `c`, violated by `max(0, −c)`.
     pub fn cost(&self, value: f64) -> f64 {
         let violation = (-value).max(0.0);

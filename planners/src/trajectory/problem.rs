@@ -132,5 +132,5 @@ fn add_rows(rows: &dyn RowTerm, stage: usize, iterate: &Iterate, room: &mut Stag
 
 fn add_trajectory_row(row: &dyn TrajectoryTerm, iterate: &Iterate, cost: &mut Cost) {
     let excess = row.excess(&iterate.states[row.vehicle()]);
-    cost.add_trajectory_row(&row.penalty(), Some(row.violation()), -excess);
+    cost.add_trajectory_row(&row.penalty(), row.violation(), -excess);
 }

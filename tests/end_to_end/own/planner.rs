@@ -46,6 +46,7 @@ impl Careful {
 
 use interplay_planners::Limits;
 use interplay_planners::predict::constant_velocity;
+use interplay_planners::traffic::{Origin, RoadUser, Traffic};
 use interplay_planners::{Agent, Body, Corridor, Goal, Input, SafetyEllipse, State};
 
 fn agent(name: &str, x_m: f64, speed_mps: f64) -> Agent {
@@ -65,18 +66,21 @@ fn agent(name: &str, x_m: f64, speed_mps: f64) -> Agent {
 #[test]
 fn a_planner_of_one_s_own_keeps_its_distance() {
     let mut planner = Careful { headway_s: 2.0 };
-    let (mut ego, mut leader) = (agent("ego", 0.0, 1.0), agent("leader", 2.0, 0.4));
+    let (ego, leader) = (agent("ego", 0.0, 1.0), agent("leader", 2.0, 0.4));
     let target = State { speed_mps: 1.0, ..ego.state };
     let goal = Goal { target, tracking: [0.0, 1.0, 0.5, 1.0], comfort: [0.1; 2], safety: SafetyEllipse::default() };
-    let model = Bicycle::new(&ego.body, 0.1);
+    let road_users = vec![RoadUser::new(ego, goal, false), RoadUser::new(leader, goal, true)];
+    let mut traffic = Traffic { tick: 0, step_s: 0.1, horizon: 30, road_users };
     for tick in 0..200 {
-        let scene = Scene { tick, step_s: 0.1, horizon: 30, ego: ego.clone(), goal, others: vec![leader.clone()] };
-        let plan = planner.plan(&scene).expect("a plan");
-        assert_eq!((plan.trajectory.states.len(), plan.trajectory.inputs.len()), (31, 30));
-        ego.state = model.step(&ego.state, &plan.trajectory.inputs[0]);
-        leader.state = model.step(&leader.state, &Input::default());
-        assert!(ego.lead_of(&leader) > 0.4, "the bumpers touch at {} s", f64::from(tick as u32) * 0.1);
+        let decisions = traffic.drive(|index, scene| match index {
+            0 => planner.plan(scene),
+            _ => Ok(Plan { trajectory: constant_velocity(&scene.ego.state, 30, 0.1), ..Plan::default() }),
+        });
+        assert!(decisions.iter().all(|decision| decision.origin == Origin::Planned), "at {} s", 0.1 * f64::from(tick));
+        let [ego, leader] = [0, 1].map(|index| &traffic.road_users[index].agent);
+        assert!(ego.lead_of(leader) > 0.4, "the bumpers touch at {} s", 0.1 * f64::from(tick));
     }
+    let [mut ego, leader] = [0, 1].map(|index| traffic.road_users[index].agent.clone());
     assert!((ego.state.speed_mps - 0.4).abs() < 0.01, "it drives as fast as the leader: {:?}", ego.state);
     assert!((ego.lead_of(&leader) - 0.4 - 2.0 * 0.4).abs() < 0.05, "two seconds behind: {}", ego.lead_of(&leader));
     ego.state.x_m = f64::NAN;

@@ -1,4 +1,7 @@
 //! Comfort: changes of the input cost, `Σ_t ‖u_t − u_{t−1}‖²_R` (eq. 6.6), over the stages whose input is decided.
+//!
+//! The cost is quadratic in the inputs, and a stage problem has it in its form (`Σ r (Δū + w_k − w_{k−1})²`): the solvers take
+//! the weights `R` and know the derivatives.
 
 /// The comfort cost of one vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -41,9 +41,9 @@ pub(super) fn expand(ellipse: &OrientedEllipse, position: [f64; 2], centre: [f64
     PoseExpansion { value: distance.squared - 1.0, gradient: [x, y, 0.0], hessian: [xx, xy, yy, 0.0] }
 }
 
-/// Entering an ellipse counts as a violation of safety only where it costs from the first millimetre on.
+/// Entering an ellipse is a violation of safety where the row is a constraint, and not a driver's discomfort.
 pub(super) fn violation(penalty: &Penalty) -> Option<Violation> {
-    (penalty.linear > 0.0).then_some(Violation::Safety)
+    penalty.is_exact().then_some(Violation::Safety)
 }
 
 impl RowTerm for KeepOut {

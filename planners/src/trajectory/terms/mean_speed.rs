@@ -58,8 +58,8 @@ impl TrajectoryTerm for MeanSpeedBound {
         self.penalty
     }
 
-    fn violation(&self) -> Violation {
-        Violation::MeanSpeed
+    fn violation(&self) -> Option<Violation> {
+        Some(Violation::MeanSpeed)
     }
 
     fn excess(&self, states: &[State]) -> f64 {

@@ -53,8 +53,8 @@ impl TrajectoryTerm for Persuasion {
         self.penalty
     }
 
-    fn violation(&self) -> Violation {
-        Violation::Persuasion
+    fn violation(&self) -> Option<Violation> {
+        Some(Violation::Persuasion)
     }
 
     fn excess(&self, states: &[State]) -> f64 {

@@ -80,8 +80,8 @@ pub(in crate::trajectory) trait TrajectoryTerm {
     /// What a violation costs.
     fn penalty(&self) -> Penalty;
 
-    /// What a violation is.
-    fn violation(&self) -> Violation;
+    /// What a violation is, if a planner wants to know of it.
+    fn violation(&self) -> Option<Violation>;
 
     /// `−c` at the states of `t = 0…N`: at most 0 where the row holds.
     fn excess(&self, states: &[State]) -> f64;
