@@ -29,7 +29,7 @@ use crate::setting;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LearningSettings {
-    /// l_p \[kW/K\].
+    /// Heat that the next day adds per kelvin that the zone was too cold one step later, `l_p` \[kW/K\].
     #[schemars(range(min = 0.0))]
     pub proportional_kw_per_k: f64,
     /// l_d \[kW/K\] per change of the error over a step; 0 for P-type. It suits one step and capacity.

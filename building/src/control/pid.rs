@@ -20,13 +20,13 @@ use crate::setting::{self, SettingError};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PidSettings {
-    /// k_p \[kW/K\].
+    /// Heat per kelvin that the zone is too cold, `k_p` \[kW/K\].
     #[schemars(range(min = 0.0))]
     pub proportional_kw_per_k: f64,
-    /// k_i \[kW/(K·h)\].
+    /// Heat per kelvin and hour that the zone has been too cold, `k_i` \[kW/(K·h)\].
     #[schemars(range(min = 0.0))]
     pub integral_kw_per_k_h: f64,
-    /// k_d \[kW·h/K\].
+    /// Heat held back per kelvin an hour by which the temperature rises, `k_d` \[kW·h/K\].
     #[schemars(range(min = 0.0))]
     pub derivative_kw_h_per_k: f64,
 }
