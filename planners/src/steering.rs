@@ -15,21 +15,21 @@ use crate::{Agent, Input, Scene, State, Trajectory};
 /// Time constant `τ` \[s\].
 const TIME_CONSTANT_S: f64 = 0.45;
 /// Largest angle to the road, `θ_max` \[rad\].
-const STEEPEST_RAD: f64 = 0.4;
+const MAX_ANGLE_TO_ROAD_RAD: f64 = 0.4;
 /// Below this speed the angles are those at this speed \[m/s\].
-const CRAWL_MPS: f64 = 0.1;
+const MIN_STEERING_SPEED_MPS: f64 = 0.1;
 /// Largest sine of the slip angle that is asked for.
-const SHARPEST: f64 = 0.9;
+const MAX_SIN_SLIP: f64 = 0.9;
 
 /// The steering angle that leads to a lateral position on the agent's road \[rad\].
 pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
-    let speed = state.speed_mps.max(CRAWL_MPS);
+    let speed = state.speed_mps.max(MIN_STEERING_SPEED_MPS);
     let error = agent.corridor.across(state.position()) - lateral_m;
     let heading = state.heading_rad - agent.corridor.heading_rad;
-    let wanted = (-error / (2.0 * TIME_CONSTANT_S * speed)).clamp(-STEEPEST_RAD, STEEPEST_RAD);
+    let wanted = (-error / (2.0 * TIME_CONSTANT_S * speed)).clamp(-MAX_ANGLE_TO_ROAD_RAD, MAX_ANGLE_TO_ROAD_RAD);
     let rate = 2.0 / TIME_CONSTANT_S * (wanted - heading);
     let rear = agent.body.rear_axle_m;
-    let sin_slip = (rear * rate / speed).clamp(-SHARPEST, SHARPEST);
+    let sin_slip = (rear * rate / speed).clamp(-MAX_SIN_SLIP, MAX_SIN_SLIP);
     let tan_slip = sin_slip / (1.0 - sin_slip * sin_slip).sqrt();
     let limit = agent.limits.steering_max_rad;
     libm::atan(agent.body.wheelbase_m() / rear * tan_slip).clamp(-limit, limit)

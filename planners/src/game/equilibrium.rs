@@ -12,14 +12,17 @@
 //! [`GameSolution::temptation`] tells.
 
 use super::payoff::Player;
-use super::reply::{CELL, HIGHEST, LOWEST, POINTS, best_of, best_reply, grid_reply, intention, maximum, reply_near};
+use super::reply::{
+    GRID_CELL, GRID_POINTS, MAX_INTENTION, MIN_INTENTION, best_of, best_reply, grid_reply, intention, maximum,
+    reply_near,
+};
 
 /// Utilities closer than this are equal.
-const NO_TEMPTATION: f64 = 1e-9;
+const MAX_EQUILIBRIUM_TEMPTATION: f64 = 1e-9;
 /// Steps of the leader's golden section: to some 10⁻⁴.
-const LEADING_STEPS: usize = 10;
+const LEADER_REFINEMENT_STEPS: usize = 10;
 /// Most steps towards a crossing.
-const CROSSING_STEPS: usize = 24;
+const CROSSING_BISECTION_STEPS: usize = 24;
 
 /// A pair of intentions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,12 +42,12 @@ pub struct GameSolution {
 /// The grid finds where maxima are. It rounds replies, and utilities may be steep in them, so that which maximum is the
 /// highest is told by exact replies.
 pub fn leader_follower(ego: &Player, other: &Player) -> GameSolution {
-    let rough: [f64; POINTS] =
+    let rough: [f64; GRID_POINTS] =
         std::array::from_fn(|own| ego.utility(intention(own), intention(grid_reply(other, own))));
     let led = |own: f64| ego.utility(own, best_reply(other, own));
-    let peaks: Vec<f64> = (0..POINTS).filter(|own| is_peak(&rough, *own)).map(intention).collect();
-    let highest = peaks.get(best_of(peaks.iter().map(|own| led(*own)))).copied().unwrap_or(LOWEST);
-    let own = maximum(led, highest, CELL, LEADING_STEPS);
+    let peaks: Vec<f64> = (0..GRID_POINTS).filter(|own| is_peak(&rough, *own)).map(intention).collect();
+    let highest = peaks.get(best_of(peaks.iter().map(|own| led(*own)))).copied().unwrap_or(MIN_INTENTION);
+    let own = maximum(led, highest, GRID_CELL, LEADER_REFINEMENT_STEPS);
     solution(ego, other, own, best_reply(other, own))
 }
 
@@ -66,7 +69,7 @@ pub fn nash(ego: &Player, other: &Player) -> GameSolution {
         let own = root(around, bracket);
         let found = solution(ego, other, own, best_reply(other, own));
         let rank = Rank::of(ego, other, &found);
-        let tempting = found.temptation.iter().any(|gain| *gain > NO_TEMPTATION);
+        let tempting = found.temptation.iter().any(|gain| *gain > MAX_EQUILIBRIUM_TEMPTATION);
         if !tempting && best.as_ref().is_none_or(|(held, _)| rank.beats(held)) {
             best = Some((rank, found));
         }
@@ -82,26 +85,26 @@ fn solution(ego: &Player, other: &Player, own: f64, theirs: f64) -> GameSolution
 }
 
 /// A reply between two grid points, if replies do not jump there.
-fn between(answers: &[f64; POINTS], to: f64) -> f64 {
-    let scaled = ((to - LOWEST) / CELL).clamp(0.0, (POINTS - 1) as f64);
-    let point = (scaled as usize).min(POINTS - 2);
+fn between(answers: &[f64; GRID_POINTS], to: f64) -> f64 {
+    let scaled = ((to - MIN_INTENTION) / GRID_CELL).clamp(0.0, (GRID_POINTS - 1) as f64);
+    let point = (scaled as usize).min(GRID_POINTS - 2);
     let share = scaled - point as f64;
     (1.0 - share) * answers[point] + share * answers[point + 1]
 }
 
 /// Where the replies to replies cross the diagonal: intervals of the ego's intention.
-fn crossings([ego, other]: &[[f64; POINTS]; 2]) -> Vec<[f64; 2]> {
+fn crossings([ego, other]: &[[f64; GRID_POINTS]; 2]) -> Vec<[f64; 2]> {
     let above = |point: usize| between(ego, other[point]) - intention(point);
     // What a grid reply says is true to half a cell.
-    let touches = |point: usize| above(point).abs() < CELL;
+    let touches = |point: usize| above(point).abs() < GRID_CELL;
     let mut found: Vec<[f64; 2]> = Vec::new();
-    for point in 0..POINTS {
-        let crosses = point + 1 < POINTS && above(point) * above(point + 1) < 0.0;
+    for point in 0..GRID_POINTS {
+        let crosses = point + 1 < GRID_POINTS && above(point) * above(point + 1) < 0.0;
         if !(touches(point) || crosses) {
             continue;
         }
         let low = intention(point.saturating_sub(1));
-        let high = intention((point + 1).min(POINTS - 1));
+        let high = intention((point + 1).min(GRID_POINTS - 1));
         match found.last_mut() {
             Some(last) if last[1] >= low => last[1] = high,
             _ => found.push([low, high]),
@@ -117,10 +120,10 @@ fn root(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
         return if at_low.abs() <= at_high.abs() { low } else { high };
     }
     let mut kept = 0;
-    for _ in 0..CROSSING_STEPS {
+    for _ in 0..CROSSING_BISECTION_STEPS {
         let middle = low - at_low * (high - low) / (at_high - at_low);
         let at_middle = f(middle);
-        if at_middle.abs() < NO_TEMPTATION {
+        if at_middle.abs() < MAX_EQUILIBRIUM_TEMPTATION {
             return middle;
         }
         if at_middle * at_low > 0.0 {
@@ -147,8 +150,8 @@ struct Rank {
 
 impl Rank {
     fn of(ego: &Player, other: &Player, at: &GameSolution) -> Rank {
-        let inside = |p: f64| p > LOWEST + CELL / 10.0 && p < HIGHEST - CELL / 10.0;
-        let turned = |p: f64| if p > 0.5 { LOWEST } else { HIGHEST };
+        let inside = |p: f64| p > MIN_INTENTION + GRID_CELL / 10.0 && p < MAX_INTENTION - GRID_CELL / 10.0;
+        let turned = |p: f64| if p > 0.5 { MIN_INTENTION } else { MAX_INTENTION };
         let losses = [
             at.utilities[0] - ego.utility(turned(at.ego), at.other),
             at.utilities[1] - other.utility(turned(at.other), at.ego),
@@ -166,12 +169,12 @@ impl Rank {
 fn least_tempting(ego: &Player, other: &Player) -> GameSolution {
     let mut best = GameSolution { temptation: [f64::INFINITY; 2], ..GameSolution::default() };
     let worst = |at: &GameSolution| at.temptation[0].max(at.temptation[1]);
-    let replies = |player: &Player| -> [f64; POINTS] {
+    let replies = |player: &Player| -> [f64; GRID_POINTS] {
         std::array::from_fn(|point| player.utility(best_reply(player, intention(point)), intention(point)))
     };
     let (ego_best, other_best) = (replies(ego), replies(other));
-    for i in 0..POINTS {
-        for j in 0..POINTS {
+    for i in 0..GRID_POINTS {
+        for j in 0..GRID_POINTS {
             let (own, theirs) = (intention(i), intention(j));
             let utilities = [ego.utility(own, theirs), other.utility(theirs, own)];
             let temptation = [ego_best[j] - utilities[0], other_best[i] - utilities[1]].map(|gain| gain.max(0.0));
@@ -193,7 +196,7 @@ mod tests {
 
     /// Stakes of the ego and the other as they arise from intentions.
     fn stakes() -> impl Strategy<Value = [Stakes; 2]> {
-        let p = || LOWEST..HIGHEST;
+        let p = || MIN_INTENTION..MAX_INTENTION;
         (p(), p(), p(), prop::sample::select(vec![1.0, 2.0, 3.0])).prop_map(|(own, seen, theirs, accident)| {
             [Stakes { turn: own / theirs, accident }, Stakes { turn: theirs / seen, accident }]
         })
@@ -206,7 +209,7 @@ mod tests {
     }
 
     fn deviations() -> impl Iterator<Item = f64> {
-        (0..=450).map(|i| LOWEST + 0.002 * f64::from(i))
+        (0..=450).map(|i| MIN_INTENTION + 0.002 * f64::from(i))
     }
 
     fn solved(stakes: [Stakes; 2], by: fn(&Player, &Player) -> GameSolution) -> GameSolution {
@@ -219,7 +222,7 @@ mod tests {
         #[test]
         fn nobody_gains_by_leaving_an_equilibrium_alone(stakes in stakes()) {
             let at = solved(stakes, nash);
-            prop_assert!(at.temptation.iter().all(|gain| *gain <= NO_TEMPTATION), "{at:?}");
+            prop_assert!(at.temptation.iter().all(|gain| *gain <= MAX_EQUILIBRIUM_TEMPTATION), "{at:?}");
             for instead in deviations() {
                 let gains = [
                     gain(stakes[0], at.ego, at.other, instead),
@@ -237,7 +240,7 @@ mod tests {
         }
 
         #[test]
-        fn a_leader_gains_nothing_by_another_intention(stakes in stakes(), instead in LOWEST..HIGHEST) {
+        fn a_leader_gains_nothing_by_another_intention(stakes in stakes(), instead in MIN_INTENTION..MAX_INTENTION) {
             let [ego, other] = stakes.map(|stakes| THEORY.player(stakes));
             let led = leader_follower(&ego, &other);
             prop_assert_eq!(led.temptation[1], 0.0, "the follower follows");
@@ -252,9 +255,9 @@ mod tests {
         let (eager, patient) = (Stakes { turn: 6.0, accident: 2.0 }, Stakes { turn: 0.2, accident: 2.0 });
         for by in [leader_follower, nash] {
             let at = solved([eager, patient], by);
-            assert_eq!((at.ego, at.other), (HIGHEST, LOWEST));
+            assert_eq!((at.ego, at.other), (MAX_INTENTION, MIN_INTENTION));
             let at = solved([patient, eager], by);
-            assert_eq!((at.ego, at.other), (LOWEST, HIGHEST));
+            assert_eq!((at.ego, at.other), (MIN_INTENTION, MAX_INTENTION));
         }
     }
 
@@ -265,6 +268,6 @@ mod tests {
         let at = least_tempting(&ego, &other);
         assert!((at.utilities[0] - ego.utility(at.ego, at.other)).abs() < 1e-15);
         assert!(at.temptation.iter().all(|gain| (0.0..1e-2).contains(gain)), "{at:?}");
-        assert!(nash(&ego, &other).temptation.iter().all(|gain| *gain <= NO_TEMPTATION));
+        assert!(nash(&ego, &other).temptation.iter().all(|gain| *gain <= MAX_EQUILIBRIUM_TEMPTATION));
     }
 }

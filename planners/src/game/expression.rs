@@ -2,15 +2,15 @@
 
 use super::Settings;
 use super::meeting::{Meeting, ObservedBehaviour};
-use super::reply::{HIGHEST, LOWEST};
+use super::reply::{MAX_INTENTION, MIN_INTENTION};
 use crate::Scene;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::MeanSpeed;
 
 /// An intention this close to a bound means "or more": with both at 0.95, eq. 8.14 would force the neutral speed.
-const EXTREME: f64 = 0.005;
+const EXTREME_MARGIN: f64 = 0.005;
 /// The lower bound of eq. 8.11 stays above this.
-const LEAST: f64 = 0.01;
+const MIN_LOWER_BOUND: f64 = 0.01;
 
 /// The interval of mean speeds at which the posterior about the ego is in `[p* − ε_p, p*]` (eq. 8.11), within what the ego
 /// can drive.
@@ -26,9 +26,10 @@ pub fn mean_speed(
     scene: &Scene,
     settings: &Settings,
 ) -> MeanSpeed {
-    let lower = (intention - settings.epsilon_p).max(LEAST);
-    let least = (lower > LOWEST + EXTREME).then(|| ego_behaviour.behaviour.expressing(lower, prior));
-    let most = (intention < HIGHEST - EXTREME).then(|| ego_behaviour.behaviour.expressing(intention, prior));
+    let lower = (intention - settings.epsilon_p).max(MIN_LOWER_BOUND);
+    let least = (lower > MIN_INTENTION + EXTREME_MARGIN).then(|| ego_behaviour.behaviour.expressing(lower, prior));
+    let most =
+        (intention < MAX_INTENTION - EXTREME_MARGIN).then(|| ego_behaviour.behaviour.expressing(intention, prior));
     let [least, most] = [least, most].map(|bound| bound.map(|bound| speed_mps(bound, meeting)));
     let drivable = |speed: f64| speed.clamp(scene.ego.limits.speed_min_mps, scene.ego.limits.speed_max_mps);
     let penalty = Penalty { linear: settings.slack_weight * scene.horizon as f64, quadratic: 0.0 };
@@ -94,7 +95,7 @@ mod tests {
         let (settings, meeting) = (Settings::default(), MEETINGS[0]);
         let [ego_behaviour, _] = meeting.observations([1.0, 1.0], &settings);
         let bound = |intention| mean_speed(intention, 0.5, &meeting, &ego_behaviour, &alone(), &settings);
-        assert!(bound(HIGHEST).upper_mps.is_none() && bound(HIGHEST).lower_mps.is_some());
-        assert!(bound(LOWEST).lower_mps.is_none() && bound(LOWEST).upper_mps.is_some());
+        assert!(bound(MAX_INTENTION).upper_mps.is_none() && bound(MAX_INTENTION).lower_mps.is_some());
+        assert!(bound(MIN_INTENTION).lower_mps.is_none() && bound(MIN_INTENTION).upper_mps.is_some());
     }
 }

@@ -14,7 +14,7 @@
 //! Eq. 8.1 repeated reaches 1 exactly after some 37 steps, and then 8.12 has the logarithm of 0: posteriors are clipped to
 //! [0.05, 0.95] and forget a share towards ½ at every step.
 
-use super::reply::{HIGHEST, LOWEST};
+use super::reply::{MAX_INTENTION, MIN_INTENTION};
 
 /// What is expected of a vehicle that yields and of one that passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ impl Behaviour {
         let evidence = (self.passing - self.yielding) * (2.0 * observed - self.passing - self.yielding)
             / (2.0 * self.deviation * self.deviation);
         let odds = logit(prior) + evidence;
-        (1.0 / (1.0 + libm::exp(-odds))).clamp(LOWEST, HIGHEST)
+        (1.0 / (1.0 + libm::exp(-odds))).clamp(MIN_INTENTION, MAX_INTENTION)
     }
 
     /// The behaviour that turns a prior into a posterior.
@@ -74,7 +74,7 @@ mod tests {
             let observed = 0.5 * (yielding + passing) + offset;
             let density = |mean: f64| -> f64 { libm::exp(-(observed - mean).powi(2) / (2.0 * deviation * deviation)) };
             let (pass, yields) = (density(passing) * prior, density(yielding) * (1.0 - prior));
-            let expected = (pass / (pass + yields)).clamp(LOWEST, HIGHEST);
+            let expected = (pass / (pass + yields)).clamp(MIN_INTENTION, MAX_INTENTION);
             prop_assert!((behaviour.posterior(prior, observed) - expected).abs() < 1e-9);
         }
 
@@ -99,7 +99,7 @@ mod tests {
         let speeds = Behaviour { yielding: 0.7, passing: 1.3, deviation: 0.2 };
         let mut belief = 0.5;
         (0..100).for_each(|_| belief = speeds.posterior(forget(belief, 0.1), 1.4));
-        assert_eq!(belief, HIGHEST);
+        assert_eq!(belief, MAX_INTENTION);
         (0..100).for_each(|_| belief = speeds.posterior(forget(belief, 0.1), 1.0));
         assert!((belief - 0.5).abs() < 1e-3);
     }

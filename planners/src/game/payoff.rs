@@ -21,9 +21,9 @@
 use super::prospect::{Outcome, ProspectTheory, weighting, weighting_slope};
 
 /// Nodes of the weight tables per unit of probability.
-const NODES: usize = 10_000;
+const TABLE_NODES: usize = 10_000;
 /// Closer to 0 or 1 than this the weights are too steep for the tables.
-const STEEP: f64 = 2e-3;
+const STEEP_END: f64 = 2e-3;
 
 /// What one player has at stake.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,13 +83,13 @@ struct Weights {
 
 impl Weights {
     fn new(exponent: f64) -> Self {
-        let spacing = 1.0 / NODES as f64;
+        let spacing = 1.0 / TABLE_NODES as f64;
         let node = |i: usize| {
             let p = i as f64 * spacing;
-            let slope = if i == 0 || i == NODES { 0.0 } else { spacing * weighting_slope(p, exponent) };
+            let slope = if i == 0 || i == TABLE_NODES { 0.0 } else { spacing * weighting_slope(p, exponent) };
             [weighting(p, exponent), slope]
         };
-        let nodes: Vec<[f64; 2]> = (0..=NODES).map(node).collect();
+        let nodes: Vec<[f64; 2]> = (0..=TABLE_NODES).map(node).collect();
         Weights { exponent, values: nodes.iter().map(|[value, _]| *value).collect(), nodes }
     }
 
@@ -100,10 +100,10 @@ impl Weights {
 
     #[inline(always)]
     fn at(&self, p: f64) -> f64 {
-        if !(STEEP..=1.0 - STEEP).contains(&p) {
+        if !(STEEP_END..=1.0 - STEEP_END).contains(&p) {
             return weighting(p, self.exponent);
         }
-        let scaled = p * NODES as f64;
+        let scaled = p * TABLE_NODES as f64;
         let index = scaled as usize;
         let t = scaled - index as f64;
         let ([left, left_slope], [right, right_slope]) = (self.nodes[index], self.nodes[index + 1]);

@@ -7,17 +7,17 @@
 use super::payoff::Player;
 
 /// The lowest intention.
-pub const LOWEST: f64 = 0.05;
+pub const MIN_INTENTION: f64 = 0.05;
 /// The highest intention.
-pub const HIGHEST: f64 = 0.95;
-/// Number of grid points from [`LOWEST`] to [`HIGHEST`].
-pub(super) const POINTS: usize = 91;
+pub const MAX_INTENTION: f64 = 0.95;
+/// Number of grid points from [`MIN_INTENTION`] to [`MAX_INTENTION`].
+pub(super) const GRID_POINTS: usize = 91;
 /// Their distance.
-pub(super) const CELL: f64 = 0.01;
+pub(super) const GRID_CELL: f64 = 0.01;
 /// Every how many grid points a first look is taken: local maxima are farther apart than that.
-const STRIDE: usize = 3;
+const COARSE_STRIDE: usize = 3;
 /// Steps of the golden section from the strides on both sides to the square root of the rounding error.
-const STEPS: usize = 34;
+const SECTION_STEPS: usize = 34;
 
 /// Lowest and highest intention in hundredths.
 pub(super) const HUNDREDTHS: [i32; 2] = [5, 95];
@@ -29,28 +29,28 @@ pub(super) fn intention(point: usize) -> f64 {
 
 /// The best reply to an intention of the other.
 pub fn best_reply(player: &Player, other: f64) -> f64 {
-    let best = best_of((0..POINTS).step_by(STRIDE).map(|point| player.utility(intention(point), other)));
-    reply_near(player, other, intention(STRIDE * best))
+    let best = best_of((0..GRID_POINTS).step_by(COARSE_STRIDE).map(|point| player.utility(intention(point), other)));
+    reply_near(player, other, intention(COARSE_STRIDE * best))
 }
 
 /// The best reply on the grid to the grid's intention `other`, as an index.
 pub(super) fn grid_reply(player: &Player, other: usize) -> usize {
     let [lowest, highest] = HUNDREDTHS;
-    let (other, stride) = (lowest + other as i32, STRIDE as i32);
-    let first = player.best_of((lowest..=highest).step_by(STRIDE), other);
+    let (other, stride) = (lowest + other as i32, COARSE_STRIDE as i32);
+    let first = player.best_of((lowest..=highest).step_by(COARSE_STRIDE), other);
     let around = (first + 1 - stride).max(lowest)..=(first + stride - 1).min(highest);
     (player.best_of(around, other) - lowest) as usize
 }
 
 /// The best reply within a stride of a guess.
 pub(super) fn reply_near(player: &Player, other: f64, guess: f64) -> f64 {
-    maximum(|own| player.utility(own, other), guess, STRIDE as f64 * CELL, STEPS)
+    maximum(|own| player.utility(own, other), guess, COARSE_STRIDE as f64 * GRID_CELL, SECTION_STEPS)
 }
 
 /// The place of the maximum of `f` within `reach` of `guess`, where `f` has one (golden section).
 pub(super) fn maximum(f: impl Fn(f64) -> f64, guess: f64, reach: f64, steps: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let (mut low, mut high) = ((guess - reach).max(LOWEST), (guess + reach).min(HIGHEST));
+    let (mut low, mut high) = ((guess - reach).max(MIN_INTENTION), (guess + reach).min(MAX_INTENTION));
     let ends = [low, high];
     let (mut left, mut right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
     let (mut at_left, mut at_right) = (f(left), f(right));
@@ -95,7 +95,7 @@ mod tests {
         fn nothing_on_a_finer_grid_is_better(turn in 0.05..19.0, accident in 0.5..5.0, other in 0.05..0.95) {
             let player = THEORY.player(Stakes { turn, accident });
             let best = player.utility(best_reply(&player, other), other);
-            for own in (0..=9000).map(|i| LOWEST + f64::from(i) * 1e-4) {
+            for own in (0..=9000).map(|i| MIN_INTENTION + f64::from(i) * 1e-4) {
                 prop_assert!(player.utility(own, other) <= best + 1e-9 * (1.0 + best.abs()), "{own}");
             }
         }
@@ -117,8 +117,8 @@ mod tests {
         for (turn, accident) in [(1.0, 2.0), (0.5, 3.0), (2.0, 4.0)] {
             let player = theory.player(Stakes { turn, accident });
             let indifferent = 3.0 * turn / (2.0 * turn + accident);
-            assert_eq!(best_reply(&player, indifferent - 0.01), HIGHEST);
-            assert_eq!(best_reply(&player, indifferent + 0.01), LOWEST);
+            assert_eq!(best_reply(&player, indifferent - 0.01), MAX_INTENTION);
+            assert_eq!(best_reply(&player, indifferent + 0.01), MIN_INTENTION);
         }
     }
 }

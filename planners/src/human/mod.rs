@@ -32,18 +32,19 @@ use crate::trajectory::{
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 
 /// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
-const RESOLVE: f64 = 1.0;
-/// A plan outside the ellipses by this much of `d²` is in nobody's way.
-const OUT_OF_THE_WAY: f64 = 0.1;
-/// The very first guess leans towards yielding.
-const FIRST_GUESS: f64 = 0.3;
-/// The safety ellipse around the car ahead, shorter by this factor, is not entered while brakes can help: a hinge alone
-/// lets a driver be talked into a collision by its wish to go on …
-const TAILGATING: f64 = 0.7;
-/// … and is this much wider, so that the driver stops behind rather than swerve into a lane where it minds nobody.
-const WHOLE_LANE: f64 = 4.0;
-/// Another plan must be cheaper by this share to be preferred to improving the last one.
-const HYSTERESIS: f64 = 1e-3;
+const GUESSED_ACCELERATION_RATIO: f64 = 1.0;
+/// A plan whose `d²` exceeds 1 by this much everywhere is contested by nobody.
+const UNCONTESTED_MARGIN: f64 = 0.1;
+/// The very first guess brakes with this share of the strongest braking.
+const FIRST_BRAKING_RATIO: f64 = 0.3;
+/// Length of the ellipse around the car ahead that is not entered while brakes can help, as a share of the safety ellipse. A
+/// hinge alone does not exclude a collision where the wanted speed weighs more.
+const LEADER_LENGTH_RATIO: f64 = 0.7;
+/// Width of the same ellipse as a multiple of the safety ellipse: the driver stops behind rather than swerve into a lane where
+/// it yields to nobody.
+const LEADER_WIDTH_RATIO: f64 = 4.0;
+/// Another plan replaces the improved last one if it is cheaper by this share.
+const MIN_COST_ADVANTAGE: f64 = 1e-3;
 
 /// A human driver with the plan it made last.
 #[derive(Clone, Debug)]
@@ -66,8 +67,8 @@ impl Human {
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let hurried = closing::hurried(scene, self.settings.closing_mps);
         let scene = hurried.as_ref().unwrap_or(scene);
-        let minded = minded(scene, &self.settings);
-        let (best, statistics) = self.decide(&problem(scene, &self.settings), &minded, scene)?;
+        let yielded_to = yielded_to(scene, &self.settings);
+        let (best, statistics) = self.decide(&problem(scene, &self.settings), &yielded_to, scene)?;
         let trajectory = best.trajectory(0);
         self.last = Some(trajectory.clone());
         Ok(Plan {
@@ -78,11 +79,11 @@ impl Human {
         })
     }
 
-    /// The cheapest of keeping on, yielding and passing; the latter two only where somebody minded is near the plan.
+    /// The cheapest of keeping on, yielding and passing; the latter two only where somebody that the driver yields to is near the plan.
     fn decide(
         &mut self,
         problem: &Problem,
-        minded: &[KeepOut],
+        yielded_to: &[KeepOut],
         scene: &Scene,
     ) -> Result<(Optimum, Statistics), DescentError> {
         let steady = |share| steadily(scene, share);
@@ -90,16 +91,17 @@ impl Human {
         let mut best = self.optimiser.descend(problem, &[keep]);
         let mut statistics = best.as_ref().map(|optimum| optimum.statistics).unwrap_or_default();
         let contested = best.as_ref().is_ok_and(|optimum| {
-            minded.iter().any(|keep_out| keep_out.intrusion(&optimum.iterate.states[0]) > -OUT_OF_THE_WAY)
+            yielded_to.iter().any(|keep_out| keep_out.intrusion(&optimum.iterate.states[0]) > -UNCONTESTED_MARGIN)
         });
         let trusted = self.optimiser.tolerances.trust(&best);
         if !trusted || (self.settings.reconsiders && contested) {
-            let mut guesses: Vec<Vec<Input>> = vec![steady(-RESOLVE), steady(RESOLVE)];
+            let mut guesses: Vec<Vec<Input>> =
+                vec![steady(-GUESSED_ACCELERATION_RATIO), steady(GUESSED_ACCELERATION_RATIO)];
             if !trusted {
                 guesses.insert(0, steady(0.0));
             }
             for guess in guesses {
-                let margin = |held: &Optimum| held.cost.total - HYSTERESIS * (1.0 + held.cost.total);
+                let margin = |held: &Optimum| held.cost.total - MIN_COST_ADVANTAGE * (1.0 + held.cost.total);
                 // In trouble nothing is given up early.
                 let bar = Bar { cost: best.as_ref().map_or(f64::INFINITY, margin), gives_up: trusted };
                 let Ok(found) = self.optimiser.explore(problem, &[guess], bar) else { continue };
@@ -116,13 +118,13 @@ impl Human {
 /// The problem that a driver poses.
 pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
-    terms.extend(followed(scene, settings).into_iter().chain(minded(scene, settings)).map(Term::KeepOut));
+    terms.extend(followed(scene, settings).into_iter().chain(yielded_to(scene, settings)).map(Term::KeepOut));
     Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
 }
 
 /// The guess of keeping on: the last plan one step later, or at first a little braking.
 pub fn guess(scene: &Scene, last: Option<&Trajectory>) -> Vec<Input> {
-    last.map_or_else(|| steadily(scene, -FIRST_GUESS), Trajectory::later_inputs)
+    last.map_or_else(|| steadily(scene, -FIRST_BRAKING_RATIO), Trajectory::later_inputs)
 }
 
 /// Straight on with a share of the strongest acceleration, or of the strongest braking where it is negative.
@@ -138,7 +140,7 @@ fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
     let comfortable = scene.keep_out(&leader.prediction, scene.ego.corridor.heading_rad, penalty);
     let SafetyEllipse { along_m, across_m } = comfortable.ellipse.shape();
-    let ellipse = SafetyEllipse { along_m: TAILGATING * along_m, across_m: WHOLE_LANE * across_m };
+    let ellipse = SafetyEllipse { along_m: LEADER_LENGTH_RATIO * along_m, across_m: LEADER_WIDTH_RATIO * across_m };
     let firm = KeepOut {
         ellipse: ellipse.oriented(comfortable.ellipse.heading_rad()),
         penalty: Penalty::EXACT,
@@ -148,7 +150,7 @@ fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
 }
 
 /// Everybody who might cut in or cross.
-fn minded(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
+fn yielded_to(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     let (ego, weight) = (&scene.ego, settings.weight());
     if weight == 0.0 {
         return Vec::new();

@@ -18,18 +18,18 @@ pub(super) struct Leader {
 }
 
 /// A gap that is closed counts as this \[m\].
-const NO_GAP_M: f64 = 1e-3;
+const MIN_GAP_M: f64 = 1e-3;
 
 impl Settings {
     /// The acceleration `a` of a vehicle behind `leader`, if there is one, \[m/s²\].
     pub(super) fn acceleration(&self, speed_mps: f64, wanted_mps: f64, leader: Option<Leader>) -> f64 {
-        let free = libm::pow(speed_mps.max(0.0) / wanted_mps.max(NO_GAP_M), self.exponent);
+        let free = libm::pow(speed_mps.max(0.0) / wanted_mps.max(MIN_GAP_M), self.exponent);
         let close = leader.map_or(0.0, |leader| {
             let closing = speed_mps * (speed_mps - leader.speed_mps);
             let dynamic =
                 speed_mps * self.headway_s + closing / (2.0 * (self.acceleration_mps2 * self.braking_mps2).sqrt());
             let wanted_gap = self.gap_m + dynamic.max(0.0);
-            let share = wanted_gap / leader.gap_m.max(NO_GAP_M);
+            let share = wanted_gap / leader.gap_m.max(MIN_GAP_M);
             share * share
         });
         self.acceleration_mps2 * (1.0 - free - close)

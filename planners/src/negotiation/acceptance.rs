@@ -3,9 +3,9 @@
 use crate::Trajectory;
 
 /// Squared distance of proposal and old prediction below which nothing was asked \[m²\].
-const NOTHING_ASKED: f64 = 1e-3;
+const MIN_ASKED_DEVIATION_M2: f64 = 1e-3;
 /// Keeps the share defined when the other neither moved nor was far from the proposal \[m²\].
-const REGULARISATION: f64 = 1e-4;
+const SHARE_REGULARISATION_M2: f64 = 1e-4;
 
 /// The acceptance probability `p_a` (eq. 6.19, corrected): with `a` the squared distance of the other's new prediction
 /// from its old one and `b` that from the proposal, `(a + ε)/(a + b + ε)`.
@@ -15,12 +15,12 @@ const REGULARISATION: f64 = 1e-4;
 ///
 /// All three trajectories begin at the present step.
 pub fn acceptance(prediction: &Trajectory, old_prediction: &Trajectory, proposal: &Trajectory) -> f64 {
-    if proposal.squared_distance(old_prediction) < NOTHING_ASKED {
+    if proposal.squared_distance(old_prediction) < MIN_ASKED_DEVIATION_M2 {
         return 1.0;
     }
     let moved = prediction.squared_distance(old_prediction);
     let missed = prediction.squared_distance(proposal);
-    (moved + REGULARISATION) / (moved + missed + REGULARISATION)
+    (moved + SHARE_REGULARISATION_M2) / (moved + missed + SHARE_REGULARISATION_M2)
 }
 
 #[cfg(test)]

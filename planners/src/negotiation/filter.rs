@@ -10,11 +10,11 @@ use crate::trajectory::{Optimiser, Optimum, Robust, Violation};
 use crate::{Agent, Scene};
 
 /// Slack that a conservative plan may need after the step.
-const SLACK: f64 = 2e-3;
+const MAX_VIOLATION: f64 = 2e-3;
 /// It may also need this much more than the retreat needs now.
-const GROWTH: f64 = 1.2;
+const MAX_VIOLATION_GROWTH: f64 = 1.2;
 /// A proposal that itself violates safety by this much is refused.
-const OWN_SLACK: f64 = 0.05;
+const MAX_OWN_VIOLATION: f64 = 0.05;
 
 #[derive(Clone, Debug)]
 pub(super) struct Filter {
@@ -30,14 +30,14 @@ impl Default for Filter {
 impl Filter {
     /// Whether the first input of `optimum` may be applied.
     pub(super) fn admits(&mut self, scene: &Scene, optimum: &Optimum, retreat: &Optimum) -> bool {
-        if optimum.cost.violation(Violation::Safety) > OWN_SLACK {
+        if optimum.cost.violation(Violation::Safety) > MAX_OWN_VIOLATION {
             return false;
         }
         let next = successor(scene, optimum);
         let others: Vec<&Agent> = next.others.iter().collect();
         let [brake, accelerate] = extremes(&next);
         let guesses = [vec![retreat.trajectory(0).shifted().inputs], vec![brake], vec![accelerate]];
-        let allowed = SLACK.max(GROWTH * retreat.cost.violation(Violation::Safety));
+        let allowed = MAX_VIOLATION.max(MAX_VIOLATION_GROWTH * retreat.cost.violation(Violation::Safety));
         self.optimiser
             .best_of(&problem(&next, &others), &guesses, false)
             .is_ok_and(|optimum| optimum.cost.violation(Violation::Safety) <= allowed)

@@ -10,7 +10,7 @@ use crate::encounter::is_settled;
 use crate::{Agent, Scene};
 
 /// An acceptance below this counts as a refusal.
-const REFUSAL: f64 = 0.5;
+const REFUSAL_ACCEPTANCE: f64 = 0.5;
 
 /// The order in which vehicles are asked, and how long the present one has not accepted.
 #[derive(Clone, Debug, Default)]
@@ -55,8 +55,8 @@ impl PartnerSelection {
 
     /// Records the latest acceptance. After too many steps without progress the present vehicle is not asked again.
     pub(super) fn record(&mut self, accepted: f64, settings: &Settings) {
-        let no_progress =
-            accepted < REFUSAL && self.last_acceptance.is_some_and(|last| accepted - last <= settings.epsilon);
+        let no_progress = accepted < REFUSAL_ACCEPTANCE
+            && self.last_acceptance.is_some_and(|last| accepted - last <= settings.epsilon);
         self.steps_without_progress = if no_progress { self.steps_without_progress + 1 } else { 0 };
         self.last_acceptance = Some(accepted);
         if self.steps_without_progress >= settings.patience_steps {

@@ -18,9 +18,9 @@ use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, Term};
 use crate::{Agent, Axes, Bicycle, Goal, Scene};
 
 /// Diagonal of `D` on (x, y, θ, v).
-const DEVIATION: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
+const DEVIATION_WEIGHTS: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
 /// Weight of the other's changes of input.
-const OTHER_COMFORT: f64 = 1e-2;
+const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 
 /// What solves the negotiation problem.
 pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
@@ -68,9 +68,9 @@ fn partner_terms(scene: &Scene, partner: &Agent, share: f64) -> [Term; 3] {
     let states = &partner.prediction.states;
     let last = states.last().copied().unwrap_or(partner.state);
     let targets = (1..=scene.horizon).map(|t| states.get(t).copied().unwrap_or(last)).collect();
-    let weights = DEVIATION.map(|d| share * d);
+    let weights = DEVIATION_WEIGHTS.map(|d| share * d);
     [
-        Term::Comfort(Comfort { vehicle: 1, weights: [OTHER_COMFORT; 2] }),
+        Term::Comfort(Comfort { vehicle: 1, weights: [OTHER_COMFORT_WEIGHT; 2] }),
         Term::Tracking(Tracking { vehicle: 1, weights, axes: Axes::WORLD, targets }),
         Term::RoadEdge(RoadEdge { vehicle: 1, body: partner.body, corridor: partner.corridor }),
     ]

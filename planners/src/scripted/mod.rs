@@ -49,7 +49,7 @@ pub struct Scripted {
 }
 
 /// Orders begin this much early, for times that are sums of steps \[s\].
-const PUNCTUAL_S: f64 = 1e-9;
+const TIME_TOLERANCE_S: f64 = 1e-9;
 
 impl Scripted {
     /// A driver at the beginning of its script.
@@ -82,7 +82,8 @@ impl Scripted {
 
     /// The order that rules at a time, of those that `speaks` picks; of orders at one time, the last.
     fn latest(&self, time_s: f64, speaks: impl Fn(&Order) -> bool) -> Option<&Order> {
-        let begun = self.settings.script.iter().filter(|order| speaks(order) && order.from_s <= time_s + PUNCTUAL_S);
+        let begun =
+            self.settings.script.iter().filter(|order| speaks(order) && order.from_s <= time_s + TIME_TOLERANCE_S);
         begun.max_by(|a, b| a.from_s.total_cmp(&b.from_s))
     }
 }
