@@ -7,7 +7,7 @@ use serde::Serialize;
 /// The key figures of a day; their serialisation is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DayFigures {
-    /// The figures in BOPTEST's meaning.
+    /// The key figures, as defined by BOPTEST.
     #[serde(flatten)]
     pub figures: KeyFigures,
     /// How much dearer the day was than the cheapest one that knows everything beforehand; not for large buildings.

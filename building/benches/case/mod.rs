@@ -19,7 +19,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// A controller after its first day, with a building of so many rooms.
+    /// Returns a controller after its first day, for a grid of `rows` by `columns` rooms.
     pub fn new(controller: Controller, rows: usize, columns: usize) -> Self {
         let model = Model::euler(&Network::grid(rows, columns), STEP_S).expect("stable");
         let n = rows * columns;

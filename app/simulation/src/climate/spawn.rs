@@ -74,7 +74,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     Ok(())
 }
 
-/// The people in so many zones of a scenario.
+/// Returns the people of a scenario with `zones` zones.
 pub fn people(scenario: &Scenario, zones: usize) -> People {
     scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ PEOPLE)
 }

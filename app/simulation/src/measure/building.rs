@@ -14,8 +14,8 @@ use crate::components::Present;
 use crate::day::{DayFigures, ExchangeFigures};
 use crate::frame::{BuildingFrame, Frame};
 
-/// Up to so many inputs a day (zones times steps) the day's optimum and the convergence of learning are worked out: they
-/// take time in the cube of it.
+/// Largest number of inputs a day (zones times steps) for which the day's optimum and the convergence of learning are
+/// computed: their time grows with its cube.
 const MOST_INPUTS: usize = 500;
 
 /// Why a day had no plan of its own.

@@ -16,7 +16,7 @@ const COASTS: f64 = 0.1;
 /// An acceptance probability from which on a proposal is accepted, and one below which it is refused.
 const ACCEPTED: f64 = 0.8;
 const REFUSED: f64 = 0.2;
-/// So many zones are named; the others are counted.
+/// Largest number of zones that an event names; it counts the others.
 const NAMED: usize = 3;
 /// Who speaks for the building in the log.
 const BUILDING: &str = "building";
