@@ -1,4 +1,4 @@
-//! What designing a day costs: the whole morning of each controller, feedback included.
+//! What designing a day costs: the whole day-ahead design of each controller, feedback included.
 //!
 //! ```sh
 //! cargo bench -p interplay-building --bench design
@@ -40,7 +40,7 @@ fn designs(criterion: &mut Criterion) {
         group.bench_function(format!("{} {}", controller.kind(), rows * columns), |bencher| {
             bencher.iter_batched(
                 || case.regulator.clone(),
-                |mut regulator| black_box(case.morning(&mut regulator)),
+                |mut regulator| black_box(case.plan_day_ahead(&mut regulator)),
                 BatchSize::LargeInput,
             );
         });

@@ -4,7 +4,7 @@
 //! cargo run --release -p interplay-building --example growth [OUT.svg]
 //! ```
 //!
-//! Times are processor times of the whole morning of a day that follows one day of experience, feedback included: what it
+//! Times are processor times of the whole design of a day that follows one day of experience, feedback included: what it
 //! takes on one core that has nothing else to do. They are averages of as many repetitions as fit into a second.
 
 #![allow(clippy::print_stdout, reason = "an example talks to its user")]
@@ -63,12 +63,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Processor time of a morning \[s\].
+/// Processor time of a day-ahead design \[s\].
 fn seconds(case: &Case) -> Result<f64, Box<dyn std::error::Error>> {
     let began = processor_s()?;
     let mut count = 0.0;
     loop {
-        hint::black_box(case.morning(&mut case.regulator.clone()));
+        hint::black_box(case.plan_day_ahead(&mut case.regulator.clone()));
         count += 1.0;
         let passed = processor_s()? - began;
         if passed >= ENOUGH_S {

@@ -137,7 +137,7 @@ struct Meeting {
 }
 
 impl Occupancy {
-    /// The people of so many zones.
+    /// Returns the people of `zones` zones.
     pub fn people(&self, zones: usize, seed: u64) -> People {
         let mut random = Random::new(seed, 0);
         let Deviation { least_bias, greatest_bias, .. } = self.deviation;

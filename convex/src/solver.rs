@@ -94,7 +94,7 @@ impl Solver {
         }
     }
 
-    /// Solves with steps of at most so much of the way to the boundary of the cones.
+    /// Solves with steps of at most the fraction `step` of the way to the boundary of the cones.
     fn attempt_with(&mut self, step: f64) -> Result<ConicSolution, SolveError> {
         let usual = self.backend_settings.clone();
         let short = DefaultSettings { max_step_fraction: step, ..usual.clone() };

@@ -74,8 +74,8 @@ impl WeatherConfig {
         }
     }
 
-    /// The weather as functions of the time since the first midnight, for so many days. `None` only for an EPW file of
-    /// a scenario that was not loaded.
+    /// Returns the weather over `days` days as functions of the time since the first midnight. `None` only for an EPW
+    /// file of a scenario that was not loaded.
     pub fn days(&self, days: usize, seed: u64) -> Option<Weather> {
         match self {
             WeatherConfig::Synthetic(synthetic) => Some(synthetic.climate.weather(seed, days)),

@@ -20,7 +20,7 @@ const MAX_FILE_BYTES: u64 = 1 << 27;
 /// Errors in weather are listed after those in the scenario.
 const RANK: usize = 1000;
 
-/// Reads an EPW file, and sees that it covers so many days of simulation.
+/// Reads an EPW file and checks that it covers `days` days of simulation.
 pub(crate) fn attach(file: &mut EpwFile, days: usize, tree: &TomlNode) -> Result<(), Fault> {
     let place = tree.place_of("weather.file");
     let (title, text) = read(&file.file, place)?;

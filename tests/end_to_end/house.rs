@@ -226,8 +226,18 @@ fn every_room_takes_the_lints_of_the_workspace() {
     }
 }
 
-/// What is recorded, reported and measured of planners and controllers they declare themselves: none of their words stands in
-/// the code that shows it. Comments and tests may name them.
+/// Whether a line names a variant of an enumeration, as in `Driver::Human`, or imports them. Methods are no variants.
+fn names_variant(line: &str, enumeration: &str) -> bool {
+    line.match_indices(&format!("{enumeration}::")).any(|(at, path)| {
+        let before = line[..at].chars().next_back();
+        let after = line[at + path.len()..].chars().next();
+        before.is_none_or(|character| !character.is_alphanumeric() && character != '_')
+            && after.is_some_and(|character| character.is_uppercase() || "{*".contains(character))
+    })
+}
+
+/// Planners and controllers declare themselves what is recorded, reported and measured of them: the code that shows it
+/// contains none of their words, and no variant of `Driver` or `Controller`. Comments and tests may name them.
 #[test]
 fn recorder_report_and_measures_name_no_planner_and_no_controller() {
     let kinds = ["negotiation", "bayesian", "game", "cooperative", "conservative", "idm", "scripted", "acceptance"];
@@ -247,6 +257,9 @@ fn recorder_report_and_measures_name_no_planner_and_no_controller() {
         for line in shown.lines().filter(|line| !line.trim_start().starts_with("//")) {
             for word in kinds.iter().chain(&controllers) {
                 assert!(!line.contains(&format!("\"{word}")), "{} names {word}: {line}", file.display());
+            }
+            for list in ["Controller", "Driver"] {
+                assert!(!names_variant(line, list), "{} names a variant of {list}: {line}", file.display());
             }
         }
     }

@@ -52,8 +52,8 @@ impl Identify {
                 return ExitStatus::BadInput;
             }
         };
-        let told = self.tell(&found);
-        if let Err(error) = told {
+        let printed = self.print_findings(&found);
+        if let Err(error) = printed {
             print_error(&format!("Error: {error}"));
             return ExitStatus::Unfinished;
         }
@@ -75,7 +75,7 @@ impl Identify {
     }
 
     /// Prints what was found, and draws it if that is asked for.
-    fn tell(&self, found: &Identification) -> Result<(), CommandError> {
+    fn print_findings(&self, found: &Identification) -> Result<(), CommandError> {
         if let Some(folder) = &self.out {
             let written = plot::identification(folder, found)?;
             print_error(&format!("{} plots in {}", written.len(), folder.display()));

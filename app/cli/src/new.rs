@@ -14,7 +14,7 @@ use crate::output::{print, print_error, print_load_error};
 use crate::schema;
 
 /// What editors complete from, beside the scenario.
-const SCHEMA: &str = "interplay.schema.json";
+const SCHEMA_FILE: &str = "interplay.schema.json";
 
 /// Write a commented scenario file to start from: every key with what it means, its unit and its default.
 ///
@@ -28,7 +28,7 @@ pub(crate) struct New {
     file: PathBuf,
 
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
-    #[arg(long, value_name = "NAME|FILE", default_value = crate::run::DEFAULT)]
+    #[arg(long, value_name = "NAME|FILE", default_value = crate::run::DEFAULT_SCENARIO)]
     from: String,
 }
 
@@ -71,12 +71,12 @@ impl New {
         let words = ["interplay", "new", &self.file.to_string_lossy(), "--from", &self.from].map(str::to_owned);
         let command = shell::line(words.iter().map(String::as_str));
         let head = format!(
-            "#:schema {SCHEMA}\n# Written by `{command}`.\n\
+            "#:schema {SCHEMA_FILE}\n# Written by `{command}`.\n\
              # Lines such as `#key = value` show defaults, or examples where there is none: recorded away the `#` to change them,\n\
              # and that of the `#[table]` above them.\n\n"
         );
         create(&self.file, &(head + &scenario))?;
-        let schema = folder.join(SCHEMA);
+        let schema = folder.join(SCHEMA_FILE);
         if schema.exists() { Ok(()) } else { create(&schema, &schema::text()) }
     }
 }

@@ -60,7 +60,7 @@ impl Reproduce {
             print_error(&format!("Error: cannot write {}: {error}", page.display()));
             return ExitStatus::Unfinished;
         }
-        tell(&made, &page, began.elapsed().as_secs_f64());
+        print_outcomes(&made, &page, began.elapsed().as_secs_f64());
         ending(&made)
     }
 }
@@ -87,7 +87,7 @@ fn page_of(made: &[EntryOutcome]) -> Page {
     }
 }
 
-fn tell(made: &[EntryOutcome], page: &Path, wall_s: f64) {
+fn print_outcomes(made: &[EntryOutcome], page: &Path, wall_s: f64) {
     for made in made {
         let entry: &Entry = made.entry;
         match &made.outcome {

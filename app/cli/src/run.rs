@@ -28,7 +28,7 @@ use crate::watch::WatchedFiles;
     interplay run intersection/nice --report my-report     (pictures and a page)")]
 pub(crate) struct Run {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
-    #[arg(value_name = "NAME|FILE", default_value = DEFAULT)]
+    #[arg(value_name = "NAME|FILE", default_value = DEFAULT_SCENARIO)]
     scenario: Option<String>,
 
     #[arg(long, value_name = "KIND", help = planner_help())]
@@ -70,7 +70,7 @@ pub(crate) struct Run {
 }
 
 /// What is run, and started from, unless something else is asked for.
-pub(crate) const DEFAULT: &str = "lane-change/front-nice";
+pub(crate) const DEFAULT_SCENARIO: &str = "lane-change/front-nice";
 
 impl Run {
     pub(crate) fn execute(self) -> ExitStatus {
@@ -110,11 +110,11 @@ impl Run {
                 return ExitStatus::Unfinished;
             }
         };
-        let told = self.footprints(&name, scenario, watchers).and_then(|recorded| {
+        let passed = self.simulate(&name, scenario, watchers).and_then(|recorded| {
             self.page(&name, &recorded)?;
-            self.tell(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
+            self.print_report(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
         });
-        match told {
+        match passed {
             Ok(passed) => {
                 if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
                     print_error(&format!("recorded to {}", path.display()));
@@ -130,22 +130,22 @@ impl Run {
 
     /// What is run, as it was asked for.
     fn scenario(&self) -> &str {
-        self.scenario.as_deref().unwrap_or(DEFAULT)
+        self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO)
     }
 
-    /// Runs it; its frames are kept if a page is to be drawn of them.
-    fn footprints(
+    /// Runs the scenario; the frames are kept if a page is to be drawn of them.
+    fn simulate(
         &self,
         name: &str,
         scenario: Scenario,
         mut watchers: Vec<Box<dyn Watcher>>,
     ) -> Result<RecordedRun, CommandError> {
-        let camera = FrameLog::default();
+        let frame_log = FrameLog::default();
         if self.report.is_some() {
-            watchers.push(Box::new(camera.clone()));
+            watchers.push(Box::new(frame_log.clone()));
         }
         let report = run(name, &scenario, watchers)?;
-        Ok(RecordedRun { label: String::new(), command: self.words(), scenario, frames: camera.frames(), report })
+        Ok(RecordedRun { label: String::new(), command: self.words(), scenario, frames: frame_log.frames(), report })
     }
 
     /// Draws the page, if that is asked for.
@@ -160,7 +160,7 @@ impl Run {
     }
 
     /// Prints the report as it was asked for.
-    fn tell(&self, title: &str, report: &Report) -> Result<(), CommandError> {
+    fn print_report(&self, title: &str, report: &Report) -> Result<(), CommandError> {
         let text = if self.json { json("the report", report)? } else { summary(title, report) };
         print(&text);
         Ok(())

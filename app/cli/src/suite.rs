@@ -55,7 +55,7 @@ impl Suite {
         for (name, error) in cases.iter().filter_map(|case| Some((&case.name, case.outcome.as_ref().err()?))) {
             print_error(&format!("{name} could not be finished: {error}"));
         }
-        match self.tell(&cases, began.elapsed().as_secs_f64()) {
+        match self.print_results(&cases, began.elapsed().as_secs_f64()) {
             Ok(()) => ending(&cases),
             Err(error) => {
                 print_error(&error.to_string());
@@ -115,7 +115,7 @@ impl Suite {
     }
 
     /// Prints and writes the results as it was asked for.
-    fn tell(&self, cases: &[Case], wall_s: f64) -> Result<(), CommandError> {
+    fn print_results(&self, cases: &[Case], wall_s: f64) -> Result<(), CommandError> {
         let reports: Vec<&Report> = cases.iter().filter_map(|case| case.outcome.as_ref().ok()).collect();
         print(&if self.json { json("the reports", &reports)? } else { table(cases, wall_s) });
         let Some(path) = &self.junit else { return Ok(()) };

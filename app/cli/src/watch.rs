@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime};
 use interplay_scenarios::files;
 
 /// Time between two looks.
-const LOOK: Duration = Duration::from_millis(200);
+const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
 /// The files of a scenario as they were when it was last looked at.
 #[derive(Debug, PartialEq, Eq)]
@@ -35,12 +35,12 @@ impl WatchedFiles {
     /// Waits until any of the files has changed and is left alone again: editors write in several steps.
     pub fn wait(self) -> WatchedFiles {
         loop {
-            sleep(LOOK);
+            sleep(POLL_INTERVAL);
             let now = WatchedFiles::look(&self.scenario);
             if now == self || now.is_empty() {
                 continue;
             }
-            sleep(LOOK);
+            sleep(POLL_INTERVAL);
             let later = WatchedFiles::look(&self.scenario);
             if later == now {
                 return later;

@@ -26,12 +26,12 @@ pub struct Motion {
     pub crashed: bool,
 }
 
-/// What a vehicle is like.
+/// The parameters of a vehicle that do not change during a run.
 #[derive(Component, Clone, Copy, Debug)]
-pub struct Physique {
+pub struct VehicleParameters {
     /// Its body.
     pub body: Body,
-    /// What it can do.
+    /// The limits of its inputs and speed.
     pub limits: Limits,
     /// The road it may use.
     pub corridor: Corridor,
@@ -42,7 +42,7 @@ pub struct Physique {
 pub struct VehicleGoal {
     /// Its goal.
     pub goal: Goal,
-    /// What it tells the others of it, if anything.
+    /// The goal that it communicates to the others, if any.
     pub shared: Option<Goal>,
 }
 
@@ -92,9 +92,9 @@ pub fn to_nanosecond(time_s: f64) -> f64 {
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Sensed(pub Traffic);
 
-/// The tick in the making.
+/// The frame of the current tick, which the phases fill in.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Present(pub Frame);
+pub struct CurrentFrame(pub Frame);
 
 #[cfg(test)]
 mod tests {

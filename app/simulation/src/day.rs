@@ -7,7 +7,7 @@ use serde::Serialize;
 /// The key figures of a day; their serialisation is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DayFigures {
-    /// The figures in BOPTEST's meaning.
+    /// The key figures, as defined by BOPTEST.
     #[serde(flatten)]
     pub figures: KeyFigures,
     /// How much dearer the day was than the cheapest one that knows everything beforehand; not for large buildings.
@@ -46,7 +46,7 @@ pub struct ExchangeFigures {
 
 impl ExchangeFigures {
     /// A rise by less than this share is rounding.
-    const ROUNDING: f64 = 1e-9;
+    const COST_ROUNDING_SHARE: f64 = 1e-9;
 
     /// Sums an exchange up; `None` if not even the first guess has a cost.
     pub fn of(exchange: &Exchange) -> Option<Self> {
@@ -57,7 +57,7 @@ impl ExchangeFigures {
             undelivered: exchange.undelivered,
             first_cost: *costs.first()?,
             cost: *costs.last()?,
-            never_rises: costs.windows(2).all(|pair| pair[1] <= pair[0] * (1.0 + Self::ROUNDING)),
+            never_rises: costs.windows(2).all(|pair| pair[1] <= pair[0] * (1.0 + Self::COST_ROUNDING_SHARE)),
             centralised_cost: exchange.centralised,
         })
     }

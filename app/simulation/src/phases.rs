@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 
-use crate::{act, climate, measure, moments, physics, plan, predict, sense, watch};
+use crate::{act, climate, measure, physics, plan, predict, sense, time_points, watch};
 
 /// One tick, phase by phase. Data flows one way: nothing upstream knows anything downstream.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,12 +49,12 @@ pub fn schedule() -> Schedule {
             physics::step.in_set(Physics),
             measure::measure.in_set(Measure),
         )
-            .run_if(moments::vehicles),
+            .run_if(time_points::vehicles),
         (
             (climate::disturb, climate::control, climate::balance, climate::learn).chain().in_set(Climate),
             measure::measure_building.in_set(Measure).after(measure::measure),
         )
-            .run_if(moments::building),
+            .run_if(time_points::building),
         watch::show.in_set(Record),
     ));
     schedule

@@ -6,18 +6,18 @@ use std::time::Instant;
 use bevy_ecs::prelude::*;
 use interplay_planners::traffic::{Decision, Origin};
 
-use crate::components::{Committed, Driving, Identity, Present, Sensed};
+use crate::components::{Committed, CurrentFrame, Driving, Identity, Sensed};
 use crate::frame::{Event, Frame, Level};
 
 /// Lets every driver decide.
 pub fn plan(
     mut vehicles: Query<(&Identity, &mut Driving, &mut Committed)>,
     mut sensed: ResMut<Sensed>,
-    mut present: ResMut<Present>,
+    mut current_frame: ResMut<CurrentFrame>,
 ) {
     let mut drivers: Vec<_> = vehicles.iter_mut().collect();
     drivers.sort_by_key(|(identity, ..)| identity.index);
-    let (traffic, frame) = (&mut sensed.0, &mut present.0);
+    let (traffic, frame) = (&mut sensed.0, &mut current_frame.0);
     let decisions = traffic.plan(|index, scene| {
         let began = Instant::now();
         let outcome = drivers[index].1.planner.plan(scene);

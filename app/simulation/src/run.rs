@@ -8,11 +8,11 @@ use interplay_scenarios::Scenario;
 use thiserror::Error;
 
 use crate::climate::{Building, BuildingError};
-use crate::components::Present;
+use crate::components::CurrentFrame;
 use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
-use crate::moments::moments;
 use crate::report::Report;
+use crate::time_points::time_points;
 use crate::watch::{WatchError, Watcher, Watchers};
 use crate::{phases, spawn};
 
@@ -50,9 +50,9 @@ pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> 
     let mut schedule = phases::schedule();
     let built = schedule.initialize(&mut world);
     built.map_err(|error| RunError::Loop(error.to_string(schedule.graph(), &world)))?;
-    for (tick, moment) in moments(scenario).enumerate() {
-        world.resource_mut::<Present>().0 = Frame { tick, time_s: moment.time_s, ..Frame::default() };
-        world.insert_resource(moment);
+    for (tick, time_point) in time_points(scenario).enumerate() {
+        world.resource_mut::<CurrentFrame>().0 = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
+        world.insert_resource(time_point);
         schedule.run(&mut world);
         if let Some(mut building) = world.get_resource_mut::<Building>()
             && let Some(reason) = building.failure.take()

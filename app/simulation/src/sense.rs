@@ -4,26 +4,28 @@ use bevy_ecs::prelude::*;
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
 
-use crate::components::{Clock, Committed, Driving, Identity, Motion, Physique, Present, Sensed, VehicleGoal};
+use crate::components::{
+    Clock, Committed, CurrentFrame, Driving, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
+};
 use crate::frame::{Frame, VehicleFrame};
 
 /// Fills [`Sensed`] and opens the tick's [`Frame`].
 pub fn sense(
-    vehicles: Query<(&Identity, &Motion, &Physique, &VehicleGoal, &Driving, &Committed)>,
+    vehicles: Query<(&Identity, &Motion, &VehicleParameters, &VehicleGoal, &Driving, &Committed)>,
     clock: Res<Clock>,
     mut sensed: ResMut<Sensed>,
-    mut present: ResMut<Present>,
+    mut current_frame: ResMut<CurrentFrame>,
 ) {
     let mut sorted: Vec<_> = vehicles.iter().collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
-    let road_users = sorted.iter().map(|(identity, motion, physique, objective, driving, committed)| RoadUser {
+    let road_users = sorted.iter().map(|(identity, motion, parameters, objective, driving, committed)| RoadUser {
         agent: Agent {
             name: identity.name.clone(),
             state: motion.state,
             previous_input: motion.input,
-            body: physique.body,
-            limits: physique.limits,
-            corridor: physique.corridor,
+            body: parameters.body,
+            limits: parameters.limits,
+            corridor: parameters.corridor,
             prediction: Trajectory::default(),
             shared_goal: objective.shared,
         },
@@ -39,5 +41,6 @@ pub fn sense(
         state: motion.state,
         ..VehicleFrame::default()
     });
-    present.0 = Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: frames.collect(), ..Frame::default() };
+    current_frame.0 =
+        Frame { tick: clock.tick, time_s: clock.time_s(), vehicles: frames.collect(), ..Frame::default() };
 }

@@ -5,10 +5,12 @@ use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
 
 use crate::climate::{self, BuildingError};
-use crate::components::{Clock, Committed, Driving, Identity, Motion, Physique, Present, Sensed, VehicleGoal};
+use crate::components::{
+    Clock, Committed, CurrentFrame, Driving, Identity, Motion, Sensed, VehicleGoal, VehicleParameters,
+};
 use crate::measure::{BuildingMeasures, Measures};
-use crate::moments::Moment;
 use crate::physics::{Physics, VehicleBody};
+use crate::time_points::TimePoint;
 use crate::watch::{Watcher, Watchers};
 
 /// A world with everything that the scenario names, seen by `watchers`.
@@ -29,7 +31,11 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
         world.spawn((
             Identity { index, name: vehicle.name.clone() },
             Motion { state, input: Input::default(), crashed: false },
-            Physique { body: vehicle.body, limits: vehicle.limits, corridor: scenario.road.corridor(vehicle.road) },
+            VehicleParameters {
+                body: vehicle.body,
+                limits: vehicle.limits,
+                corridor: scenario.road.corridor(vehicle.road),
+            },
             VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             Driving { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },
             Committed::default(),
@@ -37,9 +43,9 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
         ));
     }
     world.insert_resource(Clock { tick: 0, step_s: scenario.step_s, horizon: scenario.horizon_steps });
-    world.insert_resource(Moment { time_s: 0.0, vehicles: true, building: false });
+    world.insert_resource(TimePoint { time_s: 0.0, vehicles: true, building: false });
     world.insert_resource(Sensed::default());
-    world.insert_resource(Present::default());
+    world.insert_resource(CurrentFrame::default());
     world.insert_resource(Measures::new(scenario));
     world.insert_resource(physics);
     world.insert_resource(Watchers::new(watchers));

@@ -4,7 +4,7 @@ use std::error::Error;
 
 use bevy_ecs::prelude::*;
 
-use crate::components::Present;
+use crate::components::CurrentFrame;
 use crate::frame::Frame;
 
 /// Why a watcher could not keep what it was shown.
@@ -53,10 +53,10 @@ impl Watchers {
 }
 
 /// Shows the tick to everybody.
-pub fn show(present: Res<Present>, mut watchers: ResMut<Watchers>) {
+pub fn show(current_frame: Res<CurrentFrame>, mut watchers: ResMut<Watchers>) {
     let Watchers { watchers, failure } = &mut *watchers;
     for watcher in watchers {
-        if let Err(error) = watcher.tick(&present.0) {
+        if let Err(error) = watcher.tick(&current_frame.0) {
             failure.get_or_insert(error);
         }
     }

@@ -1,4 +1,4 @@
-//! A morning to be planned: what a design costs is measured on it.
+//! A day to be planned ahead, on which the time of a design is measured.
 
 use interplay_building::comfort::{Setpoints, Targets};
 use interplay_building::control::{Control, Controller, DayAhead, Disturbance, Regulator};
@@ -9,7 +9,7 @@ use interplay_building::network::Network;
 const STEP_S: f64 = 1800.0;
 const STEPS: usize = 48;
 
-/// A controller after its first day, and its second day_ahead.
+/// A controller after its first day, and its second day.
 pub struct Case {
     /// The controller.
     pub regulator: Regulator,
@@ -19,7 +19,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// A controller after its first day, with a building of so many rooms.
+    /// Returns a controller after its first day, for a grid of `rows` by `columns` rooms.
     pub fn new(controller: Controller, rows: usize, columns: usize) -> Self {
         let model = Model::euler(&Network::grid(rows, columns), STEP_S).expect("stable");
         let n = rows * columns;
@@ -37,7 +37,7 @@ impl Case {
     }
 
     /// Plans the second day; what it is expected to cost.
-    pub fn morning(&self, regulator: &mut Regulator) -> f64 {
+    pub fn plan_day_ahead(&self, regulator: &mut Regulator) -> f64 {
         let day_ahead =
             DayAhead { initial_c: &self.initial_c, targets: &self.targets, forecast: &self.day, actual: None };
         regulator.start_of_day(&day_ahead).expect("shapes fit");

@@ -13,6 +13,7 @@ use super::pid::PidSettings;
 use super::regulator::{ControllerKind, Regulator};
 use super::thermostat::ThermostatSettings;
 use crate::discretise::Model;
+use crate::lifted::Lifted;
 
 /// The controller of a building with its settings; `kind` in a scenario file chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -63,6 +64,15 @@ impl Controller {
     /// What to look for in a run with this kind of controller, as the end of a sentence that begins with "Look for:".
     pub fn look_for(&self) -> &'static str {
         self.settings().look_for()
+    }
+
+    /// The spectral radius of the map from the errors of one day to those of the next, for equal days and no feedback.
+    /// Below 1 the errors vanish in the end. `lifted` is the model of a day.
+    ///
+    /// Returns `None` if the settings do not determine it: the kind does not learn, or it describes each day's
+    /// convergence in its [`Design`](super::Design). Takes time in the cube of zones times steps.
+    pub fn spectral_radius(&self, lifted: &Lifted) -> Option<f64> {
+        self.settings().spectral_radius(lifted)
     }
 
     /// A controller of this kind before its first day. `model` is the controller's model of the building, `steps` the number

@@ -139,6 +139,10 @@ impl ControllerKind for LearningSettings {
         "day by day the temperatures come closer to the wanted ones when people arrive, and the cost falls"
     }
 
+    fn spectral_radius(&self, lifted: &Lifted) -> Option<f64> {
+        Some(self.convergence(lifted).spectral_radius)
+    }
+
     fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
         Ok(Regulator::new(Learning::new(*self, Lifted::new(model, steps))?))
     }

@@ -6,6 +6,7 @@ use super::design::Design;
 use super::error::ControlError;
 use super::interface::{Control, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
+use crate::lifted::Lifted;
 
 /// The settings of one kind of controller.
 pub trait ControllerKind {
@@ -19,6 +20,12 @@ pub trait ControllerKind {
 
     /// What to look for in a run, as the end of a sentence that begins with "Look for:".
     fn look_for(&self) -> &'static str;
+
+    /// The spectral radius of the map from the errors of one day to those of the next, for equal days and no feedback.
+    /// `None` if the settings do not determine it. `lifted` is the model of a day.
+    fn spectral_radius(&self, _lifted: &Lifted) -> Option<f64> {
+        None
+    }
 
     /// A controller of this kind before its first day. `model` is the controller's model of the building, `steps` the number
     /// of steps of a day.

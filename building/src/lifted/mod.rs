@@ -33,7 +33,7 @@ pub struct Lifted {
 }
 
 impl Lifted {
-    /// The horizon of so many steps.
+    /// Lifts the model over a horizon of `steps` steps.
     pub fn new(model: &Model, steps: usize) -> Self {
         Self { model: model.clone(), steps, zone_gain: ZoneGain::of(model) }
     }

@@ -73,8 +73,8 @@ struct Storm {
 }
 
 impl Climate {
-    /// The weather of so many days from a seed; the same days come first, however many there are. There is a day before
-    /// the first, at negative times, for forecasts by persistence.
+    /// Returns the weather of `days` days from a seed. The first days do not depend on `days`. Forecasts by persistence
+    /// use the day before the first, at negative times.
     pub fn weather(&self, seed: u64, days: usize) -> Weather {
         let mut ambient_c = Vec::with_capacity((days + 1) * INTERVALS_PER_DAY);
         let mut sun_w_per_m2 = Vec::with_capacity(ambient_c.capacity());

@@ -11,9 +11,9 @@ use crate::plot::style::{self, BLUE, Dash, LIMIT, LineStyle, ORANGE, WANTED};
 use crate::plot::{Curve, Panel, Panels};
 
 /// The most zones that are drawn one by one.
-pub const MOST_ZONES: usize = 4;
+pub const MAX_DRAWN_ZONES: usize = 4;
 /// The most days that are drawn one by one.
-const MOST_DAYS: usize = 5;
+const MAX_DRAWN_DAYS: usize = 5;
 
 /// The steps of a building.
 fn steps(recorded: &RecordedRun) -> impl Iterator<Item = &BuildingFrame> {
@@ -32,14 +32,14 @@ fn network(recorded: &RecordedRun) -> Option<Network> {
 /// The days that are drawn one by one: all, or the first of them and the last.
 fn days(recorded: &RecordedRun) -> Vec<usize> {
     let count = steps(recorded).last().map_or(0, |step| step.day + 1);
-    let first = (0..count).take(if count > MOST_DAYS { MOST_DAYS - 1 } else { count });
-    first.chain((count > MOST_DAYS).then(|| count - 1)).collect()
+    let first = (0..count).take(if count > MAX_DRAWN_DAYS { MAX_DRAWN_DAYS - 1 } else { count });
+    first.chain((count > MAX_DRAWN_DAYS).then(|| count - 1)).collect()
 }
 
 /// The first zones of a building.
 pub fn first_zones(recorded: &RecordedRun) -> Vec<usize> {
     let zones = steps(recorded).next().map_or(0, |step| step.zones.len());
-    (0..zones.min(MOST_ZONES)).collect()
+    (0..zones.min(MAX_DRAWN_ZONES)).collect()
 }
 
 /// A value of a zone over a day, at the hours of `hour`.
@@ -55,7 +55,7 @@ pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pan
     let panel = |&zone: &usize| {
         let mut curves: Vec<Curve> = days(recorded)
             .into_iter()
-            .zip(style::inks())
+            .zip(style::line_styles())
             .map(|(day, style)| {
                 let points = day_of(recorded, day, zone, |now| now.temperature_c);
                 Curve::new(format!("day {}", day + 1), style, points)
@@ -82,7 +82,7 @@ pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pan
 pub fn inputs(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
     let limits_kw = network(recorded).map(|network| network.limits_kw().to_vec()).unwrap_or_default();
     let panel = |&zone: &usize| {
-        let curves = days(recorded).into_iter().zip(style::inks()).map(|(day, style)| {
+        let curves = days(recorded).into_iter().zip(style::line_styles()).map(|(day, style)| {
             let points = day_of(recorded, day, zone, |now| now.heat_kw);
             Curve::held(format!("day {}", day + 1), style, &points, step_h(recorded))
         });
@@ -113,7 +113,7 @@ pub fn costs(title: &str, recorded_runs: &[&RecordedRun]) -> Panels {
         let points = days.enumerate().map(|(day, figures)| [day as f64 + 1.0, figures.figures.cost]).collect();
         Curve::new(recorded.label.as_str(), style, points).marked()
     };
-    let mut curves: Vec<Curve> = recorded_runs.iter().zip(style::inks()).map(curve).collect();
+    let mut curves: Vec<Curve> = recorded_runs.iter().zip(style::line_styles()).map(curve).collect();
     if let [recorded] = recorded_runs {
         let days = recorded.report.building.iter().flat_map(|building| &building.iterations).enumerate();
         let least = days.filter_map(|(day, figures)| Some([day as f64 + 1.0, figures.figures.cost - figures.regret?]));
@@ -201,7 +201,7 @@ pub fn rounds(title: &str, recorded: &RecordedRun) -> Panels {
     let exchanges = steps(recorded).filter_map(|step| Some((step.day, step.design.as_ref()?.exchange.as_ref()?)));
     let exchanges: Vec<(usize, &Exchange)> = exchanges.filter(|(_, exchange)| exchange.costs.len() > 1).collect();
     let mut curves = Vec::new();
-    for ((day, exchange), style) in exchanges.iter().zip(style::inks()) {
+    for ((day, exchange), style) in exchanges.iter().zip(style::line_styles()) {
         let points = exchange.costs.iter().enumerate().map(|(round, cost)| [round as f64, *cost]);
         curves.push(Curve::new(format!("day {}", day + 1), style, points.collect()));
         if let Some(centralised) = exchange.centralised {

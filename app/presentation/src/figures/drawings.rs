@@ -16,8 +16,12 @@ pub(super) fn footprints_and_planner_panels(
     recorded_runs: &[&RecordedRun],
 ) -> Result<FigureContent, FigureError> {
     let mut content = footprints(entry, recorded_runs)?;
-    let mind = driving::reasons("What the ego has in mind", recorded_runs[0], recorded_runs[0].scenario.ego_index());
-    content.pictures.extend(mind.map(|panels| panels.drawing()));
+    let planner_panels = driving::reasons(
+        "What the ego's planner believes and intends",
+        recorded_runs[0],
+        recorded_runs[0].scenario.ego_index(),
+    );
+    content.pictures.extend(planner_panels.map(|panels| panels.drawing()));
     Ok(content)
 }
 

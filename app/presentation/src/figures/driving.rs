@@ -9,16 +9,16 @@ use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
 use crate::plot::{Curve, FootprintPlot, FootprintSnapshot, Panel, Panels, Strip};
 
 /// How many snapshots a picture of footprints has: in strips, and on one map.
-const MOMENTS: [usize; 2] = [8, 12];
+const SNAPSHOT_COUNTS: [usize; 2] = [8, 12];
 /// How long a picture of footprints goes on after the last vehicle has reached its goal \[s\].
-const AFTERWARDS_S: f64 = 1.5;
-/// Beyond its end, where a ramp is drawn as the edge of the road \[m\].
-const FAR_M: f64 = 1e4;
+const TIME_AFTER_GOALS_S: f64 = 1.5;
+/// Where the edge of the road that a ramp leads to ends, beyond everything that is drawn \[m\].
+const RAMP_EDGE_END_M: f64 = 1e4;
 
 /// The line style of every vehicle, in the scenario's order: the ego's is orange.
-pub fn inks(scenario: &Scenario) -> Vec<LineStyle> {
+pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {
     let ego = scenario.ego_index();
-    let mut others = style::inks().filter(|style| style.colour != ORANGE);
+    let mut others = style::line_styles().filter(|style| style.colour != ORANGE);
     let mut other = || others.next().unwrap_or(LineStyle::new(BLUE, Dash::Solid));
     (0..scenario.vehicles.len())
         .map(|index| if index == ego { LineStyle::new(ORANGE, Dash::Solid) } else { other() })
@@ -30,7 +30,7 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     let RecordedRun { scenario, frames, .. } = recorded;
     let roads = roads(scenario);
     let parallel = roads.iter().all(|road| road.heading_rad == roads[0].heading_rad);
-    let count = MOMENTS[usize::from(!parallel)];
+    let count = SNAPSHOT_COUNTS[usize::from(!parallel)];
     let ego = scenario.ego_index();
     let mut order: Vec<usize> = (0..scenario.vehicles.len()).collect();
     order.sort_by_key(|&index| index != ego);
@@ -42,12 +42,12 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
             .map(|&index| scenario.vehicles[index].body.corners(&state(recorded, tick, index)))
             .collect(),
     };
-    let inks = inks(scenario);
+    let line_styles = line_styles(scenario);
     let last = ticks.last().copied().unwrap_or_default();
     FootprintPlot {
         title: title.to_owned(),
         roads,
-        cast: order.iter().map(|&index| (who(&scenario.vehicles[index]), inks[index].colour)).collect(),
+        vehicles: order.iter().map(|&index| (who(&scenario.vehicles[index]), line_styles[index].colour)).collect(),
         snapshots: ticks.into_iter().map(snapshot).collect(),
         path: (0..=last.min(frames.len()))
             .map(|tick| (time_s(recorded, tick), state(recorded, tick, ego).position()))
@@ -59,7 +59,7 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
 fn ticks(recorded: &RecordedRun, count: usize) -> Vec<usize> {
     let completed = recorded.report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s);
     let step_s = recorded.scenario.step_s;
-    let last = (completed.fold(0.0, f64::max) + AFTERWARDS_S) / step_s;
+    let last = (completed.fold(0.0, f64::max) + TIME_AFTER_GOALS_S) / step_s;
     let whole = recorded.report.vehicles.get(recorded.scenario.ego_index()).is_none_or(|ego| ego.completed_s.is_none());
     let end = if whole { recorded.frames.len() } else { (last.round() as usize).min(recorded.frames.len()) };
     let every = end.div_ceil(count.max(2) - 1).max(1);
@@ -100,8 +100,8 @@ fn strip(road: &Road, vehicle: &Vehicle) -> Strip {
         let start = end.end_m - 8.0 * end.taper_m;
         let samples = (0..=80).map(|i| start + f64::from(i) * 0.1 * end.taper_m);
         let edge = samples.map(|along| [along, corridor.right_edge_m(along)]);
-        edge.chain([[end.end_m, corridor.right_m + end.height_m], [FAR_M, corridor.right_m + end.height_m]])
-            .chain([[FAR_M, corridor.right_m], [start, corridor.right_m]])
+        edge.chain([[end.end_m, corridor.right_m + end.height_m], [RAMP_EDGE_END_M, corridor.right_m + end.height_m]])
+            .chain([[RAMP_EDGE_END_M, corridor.right_m], [start, corridor.right_m]])
             .collect()
     });
     Strip {
@@ -147,7 +147,7 @@ fn over_time(title: &str, panels: Vec<Panel>) -> Panels {
 /// A curve for each vehicle, of its state and its acceleration.
 fn each_vehicle(recorded: &RecordedRun, name: &str, value: fn(&State, f64) -> f64) -> Panel {
     let mut panel = Panel { name: name.to_owned(), ..Panel::default() };
-    let vehicles = recorded.scenario.vehicles.iter().zip(inks(&recorded.scenario));
+    let vehicles = recorded.scenario.vehicles.iter().zip(line_styles(&recorded.scenario));
     for ((index, (vehicle, style)), seen) in vehicles.enumerate().zip(&recorded.report.vehicles) {
         let points = vehicle_frames(recorded).map(|frame| {
             let vehicle = &frame.vehicles[index];
@@ -167,7 +167,7 @@ pub fn reasons(title: &str, recorded: &RecordedRun, index: usize) -> Option<Pane
     let mut panels = Vec::new();
     for plot in recorded.scenario.vehicles[index].driver.explanation().plots {
         let mut curves = Vec::new();
-        for (quantity, style) in plot.quantities.iter().zip(style::inks()) {
+        for (quantity, style) in plot.quantities.iter().zip(style::line_styles()) {
             let value = |frame: &Frame| frame.vehicles[index].plan.value_of(quantity).unwrap_or(f64::NAN);
             let points: Vec<[f64; 2]> = vehicle_frames(recorded).map(|frame| [frame.time_s, value(frame)]).collect();
             if points.iter().any(|point| point[1].is_finite()) {

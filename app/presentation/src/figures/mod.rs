@@ -63,7 +63,7 @@ pub fn steps(entries: &[&'static Entry]) -> usize {
     runs(entries).len() + entries.len()
 }
 
-/// Makes the entries in parallel and writes their pictures into a folder; `advance` is told of every step that is done.
+/// Makes the entries in parallel and writes their pictures into a folder; `advance` is called after every step.
 /// They come in the order in which they were asked for.
 pub fn make(entries: &[&'static Entry], folder: &Path, advance: &(dyn Fn() + Sync)) -> Vec<EntryOutcome> {
     let run = |spec: &RunSpec| {
@@ -112,7 +112,7 @@ fn make_one(entry: &'static Entry, recorded_runs: &RecordedRuns, folder: &Path) 
         let mut content = (entry.draw)(entry, &drawn)?;
         let beside: Vec<&RecordedRun> = beside.into_iter().flatten().collect();
         if entry.kind == Kind::Figure {
-            content.words.extend(told(&drawn, &beside));
+            content.words.extend(outcomes(&drawn, &beside));
             let measured: Vec<&RecordedRun> = drawn.into_iter().chain(beside).collect();
             content.tables.extend(measures::side_by_side(&measured));
         }
@@ -123,11 +123,11 @@ fn make_one(entry: &'static Entry, recorded_runs: &RecordedRuns, folder: &Path) 
 }
 
 /// What came of the run that is drawn, and what each of the others changes.
-fn told(drawn: &[&RecordedRun], beside: &[&RecordedRun]) -> Vec<(String, String)> {
+fn outcomes(drawn: &[&RecordedRun], beside: &[&RecordedRun]) -> Vec<(String, String)> {
     let Some((first, others)) = drawn.split_first() else { return Vec::new() };
     let changes = others.iter().chain(beside).filter_map(|other| sentences::difference(first, other));
     let changes: Vec<String> = changes.collect();
-    let mut told = vec![("Here".to_owned(), sentences::outcome(first))];
-    told.extend((!changes.is_empty()).then(|| ("Beside it".to_owned(), changes.join(" "))));
-    told
+    let mut words = vec![("Here".to_owned(), sentences::outcome(first))];
+    words.extend((!changes.is_empty()).then(|| ("Beside it".to_owned(), changes.join(" "))));
+    words
 }

@@ -13,7 +13,7 @@ use super::error::FigureError;
 /// A run that a figure needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RunSpec {
-    /// What tells it apart from the others of its figure.
+    /// What distinguishes it from the others of its figure.
     pub label: &'static str,
     /// Name of the authored scenario.
     pub scenario: &'static str,
@@ -33,7 +33,7 @@ pub struct RunOutcome {
 /// A run and all that was seen of it.
 #[derive(Clone, Debug)]
 pub struct RecordedRun {
-    /// What tells it apart from others beside it.
+    /// What distinguishes it from others beside it.
     pub label: String,
     /// The words of the command that runs the same.
     pub command: Vec<String>,
@@ -65,9 +65,9 @@ impl RecordedRun {
     /// # Errors
     /// [`RunError`].
     pub fn of(name: &str, scenario: Scenario, command: Vec<String>, label: &str) -> Result<RecordedRun, RunError> {
-        let camera = FrameLog::default();
-        let report = run(name, &scenario, vec![Box::new(camera.clone())])?;
-        Ok(RecordedRun { label: label.to_owned(), command, scenario, frames: camera.frames(), report })
+        let frame_log = FrameLog::default();
+        let report = run(name, &scenario, vec![Box::new(frame_log.clone())])?;
+        Ok(RecordedRun { label: label.to_owned(), command, scenario, frames: frame_log.frames(), report })
     }
 }
 

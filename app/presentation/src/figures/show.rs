@@ -12,7 +12,8 @@ pub(super) fn show(recorded: &RecordedRun) -> FigureContent {
         content.pictures.push(driving::footprints("Footprints at equal steps of time", recorded).drawing());
         content.pictures.push(driving::motion("Speeds, gap and accelerations", recorded).drawing());
         for (index, vehicle) in recorded.scenario.vehicles.iter().enumerate() {
-            let title = format!("What {} ({}) has in mind", vehicle.name, vehicle.driver.kind());
+            let title =
+                format!("What the planner of {} ({}) believes and intends", vehicle.name, vehicle.driver.kind());
             content.pictures.extend(driving::reasons(&title, recorded, index).map(|panels| panels.drawing()));
         }
     }

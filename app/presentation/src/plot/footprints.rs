@@ -1,7 +1,7 @@
 //! Footprints at equal steps of time, numbered, on their roads.
 //!
-//! Where all roads run the same way, each moment is a strip of its own below the one before ([`FootprintPlot::strips`]): vehicles
-//! in one lane would cover one another otherwise. Where roads cross, all moments are in one plan ([`FootprintPlot::plan`]).
+//! Where all roads run the same way, each snapshot is a strip below the one before ([`FootprintPlot::strips`]): vehicles
+//! in one lane would cover one another otherwise. Where roads cross, all snapshots are in one plan ([`FootprintPlot::plan`]).
 
 mod body;
 mod plan;
@@ -15,7 +15,7 @@ const WIDTH: f64 = 1400.0;
 const MARGIN: f64 = 30.0;
 const TITLE: f64 = 48.0;
 /// Points of a path are not closer than this: whole pixels would make it ragged \[px\].
-const NEAREST: f64 = 16.0;
+const MIN_PATH_SPACING: f64 = 16.0;
 /// The path of the ego, as the source draws it.
 const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 
@@ -26,9 +26,9 @@ pub struct FootprintPlot {
     pub title: String,
     /// The roads.
     pub roads: Vec<Strip>,
-    /// Who drives: name and colour.
-    pub cast: Vec<(String, Colour)>,
-    /// The moments, in order.
+    /// The vehicles, each with its label and colour.
+    pub vehicles: Vec<(String, Colour)>,
+    /// The snapshots, in order of time.
     pub snapshots: Vec<FootprintSnapshot>,
     /// Where the ego's centre was, with the time \[s\].
     pub path: Vec<(f64, [f64; 2])>,
@@ -47,7 +47,7 @@ pub struct Strip {
     pub shoulder_m: Vec<[f64; 2]>,
 }
 
-/// One moment.
+/// The vehicles at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FootprintSnapshot {
     /// When it is \[s\].
@@ -65,10 +65,10 @@ impl FootprintPlot {
 
     fn legend(&self) -> Legend {
         let mut legend = Legend::default();
-        for (name, colour) in &self.cast {
+        for (name, colour) in &self.vehicles {
             legend.add(Sample::Patch(*colour), name);
         }
-        let who = self.cast.first().map_or("", |(name, _)| name.split(':').next().unwrap_or(name));
+        let who = self.vehicles.first().map_or("", |(name, _)| name.split(':').next().unwrap_or(name));
         legend.add(Sample::Line(PATH), &format!("path of {who}"));
         legend
     }
@@ -90,7 +90,7 @@ impl FootprintPlot {
         let mut pixels: Vec<[f64; 2]> = Vec::new();
         for (_, point) in self.path.iter().take_while(|(time_s, _)| *time_s <= until_s + 1e-9) {
             let pixel = place(*point);
-            if pixels.last().is_none_or(|last| distance(*last, pixel) >= NEAREST) {
+            if pixels.last().is_none_or(|last| distance(*last, pixel) >= MIN_PATH_SPACING) {
                 pixels.push(pixel);
             }
         }
@@ -125,13 +125,13 @@ mod tests {
         FootprintPlot {
             title: "Drive".to_owned(),
             roads: vec![Strip { edges_m: [0.0, 7.0], dividers_m: vec![3.5], ..Strip::default() }],
-            cast: vec![("ego: human".to_owned(), ORANGE), ("front: human".to_owned(), BLUE)],
+            vehicles: vec![("ego: human".to_owned(), ORANGE), ("front: human".to_owned(), BLUE)],
             snapshots: (0..8).map(snapshot).collect(),
             path: (0..8).map(|i| (f64::from(i), [place(i), 1.75])).collect(),
         }
     }
 
-    /// However long the drive, every footprint of every moment is seen, large enough, and its number can be read.
+    /// However long the drive, every footprint of every snapshot is seen, large enough, and its number can be read.
     #[test]
     fn short_and_long_drives_show_every_footprint() {
         for length_m in [20.0, 100.0, 2000.0] {
@@ -150,7 +150,7 @@ mod tests {
         }
     }
 
-    /// Where roads cross, all moments are in one plan, as large in x as in y.
+    /// Where roads cross, all snapshots are in one plan, as large in x as in y.
     #[test]
     fn a_crossing_is_drawn_to_scale() {
         let mut footprints = drive(20.0);

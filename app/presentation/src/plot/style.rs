@@ -83,9 +83,9 @@ pub const LIMIT: LineStyle = LineStyle::new(VERMILLION, Dash::Short).thin();
 /// Something wanted or expected, beside what came of it.
 pub const WANTED: LineStyle = LineStyle::new(BLACK, Dash::Long).thin();
 
-/// Inks of several things of one kind, told apart by colour and by dashes; they begin again after the last.
-pub fn inks() -> impl Iterator<Item = LineStyle> {
-    let inks = [
+/// Line styles of several curves of one kind, which differ in colour and dashes; the sequence repeats after the last.
+pub fn line_styles() -> impl Iterator<Item = LineStyle> {
+    let line_styles = [
         LineStyle::new(ORANGE, Dash::Solid),
         LineStyle::new(BLUE, Dash::Long),
         LineStyle::new(GREEN, Dash::Mixed),
@@ -93,5 +93,5 @@ pub fn inks() -> impl Iterator<Item = LineStyle> {
         LineStyle::new(SKY, Dash::Solid),
         LineStyle::new(BLACK, Dash::Long),
     ];
-    inks.into_iter().cycle()
+    line_styles.into_iter().cycle()
 }

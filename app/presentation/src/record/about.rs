@@ -7,7 +7,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::building;
 use super::markdown::code;
-use super::palette::{FAILURE, VehicleColour};
+use super::palette::{FAILURE, NamedColour};
 use super::planner_panels;
 
 /// Logs the text beside the pictures.
@@ -17,7 +17,7 @@ use super::planner_panels;
 pub fn about(
     stream: &RecordingStream,
     scenario: &Scenario,
-    vehicle_colours: &[VehicleColour],
+    vehicle_colours: &[NamedColour],
     command: Option<&str>,
 ) -> RecordingStreamResult<()> {
     let driving = (!scenario.vehicles.is_empty()).then(|| description(scenario, vehicle_colours, command));
@@ -27,7 +27,7 @@ pub fn about(
     stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
 }
 
-fn description(scenario: &Scenario, vehicle_colours: &[VehicleColour], command: Option<&str>) -> String {
+fn description(scenario: &Scenario, vehicle_colours: &[NamedColour], command: Option<&str>) -> String {
     let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
     let figure = scenario.figure.as_ref().map(|figure| format!(" (figure {figure})")).unwrap_or_default();
     let who: String = scenario
@@ -49,13 +49,13 @@ fn description(scenario: &Scenario, vehicle_colours: &[VehicleColour], command: 
     )
 }
 
-fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: VehicleColour) -> String {
+fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: NamedColour) -> String {
     let target = vehicle.target(&scenario.road);
-    let wish = match vehicle.goal.lane {
+    let goal = match vehicle.goal.lane {
         Some(lane) => format!("lane {lane} at {:.2} m/s", target.speed_mps),
         None => format!("{:.2} m/s", target.speed_mps),
     };
-    format!("| **{}** | {} | {} | {wish} |\n", vehicle.name, vehicle_colour.word, vehicle.driver.kind())
+    format!("| **{}** | {} | {} | {goal} |\n", vehicle.name, vehicle_colour.word, vehicle.driver.kind())
 }
 
 #[cfg(test)]

@@ -73,8 +73,8 @@ impl View {
     }
 }
 
-/// Sends the layout to the viewer or the file behind `stream`, to be shown at once with its clock in the state `play`, so much
-/// faster than real time.
+/// Sends the layout to the viewer or the file behind `stream`, with its clock in the state `play`. The
+/// viewer plays at `speed` times real time.
 ///
 /// # Errors
 /// If Rerun refuses a component.

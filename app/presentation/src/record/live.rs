@@ -9,8 +9,8 @@ use rerun::external::re_uri::ProxyUri;
 
 use super::error::{RecordError, ViewerAddressError};
 
-/// How long to wait for a viewer.
-const PATIENCE: Duration = Duration::from_secs(2);
+/// The time that a viewer has to accept the connection.
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// The address of a Rerun viewer, such as `rerun+http://127.0.0.1:9876/proxy`, which is where a viewer on this machine
 /// listens unless it is told otherwise.
@@ -32,7 +32,7 @@ impl Viewer {
         let address = (origin.host.to_string().trim_matches(['[', ']']).to_owned(), origin.port);
         let reached = address.to_socket_addrs().and_then(|mut found| {
             let first = found.next().ok_or(std::io::ErrorKind::NotFound)?;
-            TcpStream::connect_timeout(&first, PATIENCE)
+            TcpStream::connect_timeout(&first, CONNECT_TIMEOUT)
         });
         let refuse = |reason: std::io::Error| RecordError::NoViewer {
             address: format!("{}:{}", origin.host, origin.port),

@@ -63,13 +63,13 @@ pub fn viewer_version() -> String {
 }
 
 /// What the viewer calls the sort of recording; it keeps one layout for each.
-const APPLICATION: &str = "interplay";
+const APPLICATION_ID: &str = "interplay";
 /// How much faster than real time a building without vehicles is played: three hours a second.
-const DAYS: f64 = 3.0 * 3600.0;
-/// How long a viewer may take to receive the rest.
-const PATIENCE: Duration = Duration::from_secs(2);
-/// A recording into a file is cut into pieces by size only, not by the wall's clock.
-const NEVER: Duration = Duration::from_secs(24 * 3600);
+const BUILDING_PLAYBACK_SPEED: f64 = 3.0 * 3600.0;
+/// The time that a viewer has to receive the rest of a recording.
+const FLUSH_TIMEOUT: Duration = Duration::from_secs(2);
+/// Time after which a small piece of a recording is written into a file. It exceeds any run, so that only size counts.
+const FLUSH_INTERVAL: Duration = Duration::from_secs(24 * 3600);
 
 /// Where a recording goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -105,11 +105,11 @@ impl Recorder {
     /// # Errors
     /// [`RecordError::Unwritable`] or [`RecordError::NoViewer`], before anything is simulated.
     pub fn begin(scenario: &Scenario, name: &str, sink: &Sink) -> Result<Recorder, RecordError> {
-        let builder = RecordingStreamBuilder::new(APPLICATION).enabled(true);
+        let builder = RecordingStreamBuilder::new(APPLICATION_ID).enabled(true);
         let (stream, output) = match sink {
             Sink::File(path) => {
                 file::check(path)?;
-                let pieces = ChunkBatcherConfig { flush_tick: NEVER, ..ChunkBatcherConfig::DEFAULT };
+                let pieces = ChunkBatcherConfig { flush_tick: FLUSH_INTERVAL, ..ChunkBatcherConfig::DEFAULT };
                 let (stream, content) =
                     builder.recording_id(identity(scenario, name)).batcher_config(pieces).memory()?;
                 (stream, Output::File { path: path.clone(), content })
@@ -184,7 +184,7 @@ impl Recorder {
                 file::write(path, &content.drain_as_bytes().map_err(|error| RecordError::Broken(Box::new(error)))?)
             }
             Output::Live { .. } => {
-                self.stream.flush_with_timeout(PATIENCE).map_err(|error| RecordError::Broken(Box::new(error)))
+                self.stream.flush_with_timeout(FLUSH_TIMEOUT).map_err(|error| RecordError::Broken(Box::new(error)))
             }
         }
     }
@@ -203,12 +203,12 @@ impl Recorder {
             Some(building_layer) if self.scenario.vehicles.is_empty() => building_layer,
             Some(building_layer) => LayoutNode::Row(vec![(1.0, driving()), (1.0, building_layer)]),
         };
-        let speed = if self.scenario.vehicles.is_empty() { DAYS } else { 1.0 };
+        let speed = if self.scenario.vehicles.is_empty() { BUILDING_PLAYBACK_SPEED } else { 1.0 };
         let play = match self.output {
             Output::File { .. } => PlayState::Playing,
             Output::Live { .. } => PlayState::Following,
         };
-        Ok(blueprint::send(&self.stream, APPLICATION, &panel, (play, speed))?)
+        Ok(blueprint::send(&self.stream, APPLICATION_ID, &panel, (play, speed))?)
     }
 }
 

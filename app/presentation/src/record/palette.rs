@@ -16,23 +16,23 @@ const OTHERS: [([u8; 3], &str); 5] = [
 ];
 
 /// Something went wrong: a plan that is only a fallback. Vermillion, which no vehicle has.
-pub const FAILURE: VehicleColour = VehicleColour { rgb: [0xD5, 0x5E, 0x00], word: "vermillion" };
+pub const FAILURE: NamedColour = NamedColour { rgb: [0xD5, 0x5E, 0x00], word: "vermillion" };
 /// The surface of the road.
-pub const ASPHALT: VehicleColour = VehicleColour { rgb: [0x2B, 0x2E, 0x33], word: "grey" };
+pub const ASPHALT: NamedColour = NamedColour { rgb: [0x2B, 0x2E, 0x33], word: "grey" };
 /// Edges and lane markings.
-pub const MARKING: VehicleColour = VehicleColour { rgb: [0xA8, 0xAC, 0xB3], word: "light grey" };
+pub const MARKING: NamedColour = NamedColour { rgb: [0xA8, 0xAC, 0xB3], word: "light grey" };
 /// What belongs to nobody.
-pub const NEUTRAL: VehicleColour = VehicleColour { rgb: [0xDD, 0xDD, 0xDD], word: "white" };
+pub const NEUTRAL: NamedColour = NamedColour { rgb: [0xDD, 0xDD, 0xDD], word: "white" };
 
 /// A colour with the word that a legend uses for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct VehicleColour {
+pub struct NamedColour {
     rgb: [u8; 3],
     /// What people call it.
     pub word: &'static str,
 }
 
-impl VehicleColour {
+impl NamedColour {
     /// The colour, opaque.
     pub fn solid(self) -> Color {
         self.veiled(0xFF)
@@ -52,28 +52,28 @@ impl VehicleColour {
 }
 
 /// One colour a vehicle, in the scenario's order.
-pub fn vehicle_colours(scenario: &Scenario) -> Vec<VehicleColour> {
+pub fn vehicle_colours(scenario: &Scenario) -> Vec<NamedColour> {
     let ego = scenario.ego_index();
     let mut others = OTHERS.iter().cycle();
     (0..scenario.vehicles.len())
         .map(|index| match (index == ego, others.clone().next()) {
             (false, Some(&(rgb, word))) => {
                 others.next();
-                VehicleColour { rgb, word }
+                NamedColour { rgb, word }
             }
-            _ => VehicleColour { rgb: EGO, word: "orange" },
+            _ => NamedColour { rgb: EGO, word: "orange" },
         })
         .collect()
 }
 
 /// Colours of a planner's numbers, by their place among those that share a panel.
-pub fn series(index: usize) -> VehicleColour {
+pub fn series(index: usize) -> NamedColour {
     let palette = [
-        VehicleColour { rgb: [0x00, 0x9E, 0x73], word: "green" },
-        VehicleColour { rgb: EGO, word: "orange" },
-        VehicleColour { rgb: [0x56, 0xB4, 0xE9], word: "sky blue" },
-        VehicleColour { rgb: [0xCC, 0x79, 0xA7], word: "purple" },
-        VehicleColour { rgb: [0xF0, 0xE4, 0x42], word: "yellow" },
+        NamedColour { rgb: [0x00, 0x9E, 0x73], word: "green" },
+        NamedColour { rgb: EGO, word: "orange" },
+        NamedColour { rgb: [0x56, 0xB4, 0xE9], word: "sky blue" },
+        NamedColour { rgb: [0xCC, 0x79, 0xA7], word: "purple" },
+        NamedColour { rgb: [0xF0, 0xE4, 0x42], word: "yellow" },
         NEUTRAL,
         FAILURE,
     ];

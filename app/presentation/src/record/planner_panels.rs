@@ -5,7 +5,7 @@ use interplay_planners::diagnostic::{COMMON_PANEL, DiagnosticPanel, DiagnosticQu
 use interplay_scenarios::{Scenario, Vehicle};
 
 /// Space above and below a curve that runs along its bound, as a share of the range.
-const MARGIN: f64 = 0.05;
+const RANGE_MARGIN_SHARE: f64 = 0.05;
 
 /// A panel of a recording.
 pub struct PlannerPanel {
@@ -19,7 +19,7 @@ impl PlannerPanel {
     /// The ends of the vertical axis, where the range of the numbers is known.
     pub fn axis(&self) -> Option<[f64; 2]> {
         let [low, high] = self.content.bounds()?;
-        let margin = MARGIN * (high - low);
+        let margin = RANGE_MARGIN_SHARE * (high - low);
         Some([low - margin, high + margin])
     }
 }

@@ -8,7 +8,7 @@ use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::palette::{self, FAILURE, NEUTRAL, VehicleColour};
+use super::palette::{self, FAILURE, NEUTRAL, NamedColour};
 use super::planner_panels::{place, slug};
 use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
 use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
@@ -51,7 +51,7 @@ impl Plots {
     pub fn begin(
         stream: &RecordingStream,
         scenario: &Scenario,
-        vehicle_colours: &[VehicleColour],
+        vehicle_colours: &[NamedColour],
     ) -> RecordingStreamResult<Plots> {
         let kind = |index: usize| scenario.vehicles[index].driver.kind();
         let mut planners = Vec::new();
@@ -121,8 +121,8 @@ impl Plots {
                 if !self.seen.contains(&path) {
                     let name = quantity.name;
                     let label = if end.is_empty() { name.to_owned() } else { format!("{name}, {}", vehicle.name) };
-                    let vehicle_colour = palette::series(place(explanation, quantity).unwrap_or_default());
-                    style(stream, &path, &label, vehicle_colour.solid(), quantity.is_switch())?;
+                    let series_colour = palette::series(place(explanation, quantity).unwrap_or_default());
+                    style(stream, &path, &label, series_colour.solid(), quantity.is_switch())?;
                     self.seen.insert(path.clone());
                 }
                 stream.log(path, &Scalars::single(*value))?;
@@ -133,30 +133,31 @@ impl Plots {
 
     fn events(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
         for event in &frame.events {
-            self.say(stream, event.level, &format!("{}: {}", event.vehicle, event.text))?;
+            self.log_text(stream, event.level, &format!("{}: {}", event.vehicle, event.text))?;
         }
         for vehicle in &frame.vehicles {
-            let told = frame.events.iter().any(|event| event.vehicle == vehicle.name && event.level != Level::Note);
+            let is_logged =
+                frame.events.iter().any(|event| event.vehicle == vehicle.name && event.level != Level::Note);
             let fallback = match vehicle.origin {
                 Origin::Planned | Origin::Crashed => continue,
                 Origin::Continued => "no plan: the previous one goes on",
                 Origin::Braking => "no plan: full braking",
             };
-            if !told {
-                self.say(stream, Level::Warning, &format!("{}: {fallback}", vehicle.name))?;
+            if !is_logged {
+                self.log_text(stream, Level::Warning, &format!("{}: {fallback}", vehicle.name))?;
             }
         }
         Ok(())
     }
 
-    fn say(&mut self, stream: &RecordingStream, level: Level, text: &str) -> RecordingStreamResult<()> {
-        let (level, vehicle_colour) = match level {
+    fn log_text(&mut self, stream: &RecordingStream, level: Level, text: &str) -> RecordingStreamResult<()> {
+        let (level, colour) = match level {
             Level::Note => (TextLogLevel::INFO, NEUTRAL),
             Level::Warning => (TextLogLevel::WARN, FAILURE),
             Level::Alarm => (TextLogLevel::ERROR, FAILURE),
         };
         self.seen.insert(LOG.to_owned());
-        stream.log(LOG, &TextLog::new(text).with_level(level).with_color(vehicle_colour.solid()))
+        stream.log(LOG, &TextLog::new(text).with_level(level).with_color(colour.solid()))
     }
 }
 

@@ -70,8 +70,8 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
             ..Default::default()
         }
     });
-    let told = Event { vehicle: "ego".to_owned(), level: Level::Warning, text: "no plan".to_owned() };
-    let events = if tick == 7 { vec![told] } else { Vec::new() };
+    let warning = Event { vehicle: "ego".to_owned(), level: Level::Warning, text: "no plan".to_owned() };
+    let events = if tick == 7 { vec![warning] } else { Vec::new() };
     Frame {
         tick,
         time_s: 0.1 * tick as f64,

@@ -5,7 +5,7 @@ use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::palette::{FAILURE, NEUTRAL, VehicleColour};
+use super::palette::{FAILURE, NEUTRAL, NamedColour};
 use super::re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
 use super::re_sdk_types::components::Radius;
 use super::road::turn;
@@ -18,15 +18,15 @@ const FILL_LINES: u8 = 7;
 
 /// All vehicles, in the scenario's order.
 pub struct VehicleLayer {
-    performers: Vec<Performer>,
+    vehicles: Vec<DrawnVehicle>,
     ego: usize,
 }
 
 /// One vehicle as it is drawn.
-struct Performer {
+struct DrawnVehicle {
     /// `world/vehicle/<name>`.
     path: String,
-    vehicle_colour: VehicleColour,
+    vehicle_colour: NamedColour,
     body: Body,
     road_heading_rad: f64,
     last: Option<State>,
@@ -41,21 +41,21 @@ impl VehicleLayer {
     pub fn begin(
         stream: &RecordingStream,
         scenario: &Scenario,
-        vehicle_colours: &[VehicleColour],
+        vehicle_colours: &[NamedColour],
     ) -> RecordingStreamResult<VehicleLayer> {
         let ego = scenario.ego_index();
-        let mut performers = Vec::new();
+        let mut vehicles = Vec::new();
         for (vehicle, vehicle_colour) in scenario.vehicles.iter().zip(vehicle_colours) {
             let path = format!("world/vehicle/{}", vehicle.name);
             let road_heading_rad = scenario.road.heading_rad(vehicle.road);
             let (vehicle_colour, body) = (*vehicle_colour, vehicle.body);
-            let performer = Performer { path, vehicle_colour, body, road_heading_rad, last: None, asks: false };
-            performer.dress(stream)?;
-            performers.push(performer);
+            let drawn = DrawnVehicle { path, vehicle_colour, body, road_heading_rad, last: None, asks: false };
+            drawn.log_style(stream)?;
+            vehicles.push(drawn);
         }
         if let Some(vehicle) = scenario.ego() {
             let half_axes = [vehicle.safety.along_m as f32, vehicle.safety.across_m as f32];
-            for (_, other) in performers.iter().enumerate().filter(|(index, _)| *index != ego) {
+            for (_, other) in vehicles.iter().enumerate().filter(|(index, _)| *index != ego) {
                 let ellipse = Ellipses2D::from_half_sizes([half_axes])
                     .with_colors([NEUTRAL.veiled(90)])
                     .with_line_radii([Radius::new_ui_points(0.8)])
@@ -63,7 +63,7 @@ impl VehicleLayer {
                 stream.log_static(format!("{}/safety", other.path), &ellipse)?;
             }
         }
-        Ok(VehicleLayer { performers, ego })
+        Ok(VehicleLayer { vehicles, ego })
     }
 
     /// Logs one tick.
@@ -71,28 +71,28 @@ impl VehicleLayer {
     /// # Errors
     /// If Rerun refuses a component.
     pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
-        for (index, (performer, vehicle)) in self.performers.iter_mut().zip(&frame.vehicles).enumerate() {
-            performer.act(stream, vehicle)?;
+        for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
+            drawn.log_tick(stream, vehicle)?;
             if index == self.ego {
-                let (sin, cos) = performer.road_heading_rad.sin_cos();
+                let (sin, cos) = drawn.road_heading_rad.sin_cos();
                 let along = vehicle.state.x_m * cos + vehicle.state.y_m * sin;
                 let here = [(along * cos) as f32, (-along * sin) as f32, 0.0];
                 stream.log(FOLLOW, &Transform3D::update_fields().with_translation(here))?;
             } else {
-                let place = pose(&State { heading_rad: performer.road_heading_rad, ..vehicle.state });
-                stream.log(format!("{}/safety", performer.path), &place)?;
+                let place = pose(&State { heading_rad: drawn.road_heading_rad, ..vehicle.state });
+                stream.log(format!("{}/safety", drawn.path), &place)?;
             }
         }
         Ok(())
     }
 }
 
-impl Performer {
+impl DrawnVehicle {
     fn at(&self, part: &str) -> String {
         format!("{}/{part}", self.path)
     }
 
-    fn dress(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    fn log_style(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         let style = |opacity: u8, points: f32, order: f32| {
             LineStrips2D::update_fields()
                 .with_colors([self.vehicle_colour.veiled(opacity)])
@@ -118,7 +118,7 @@ impl Performer {
         stream.log_static(self.at("label"), &label.with_radii([Radius::new_ui_points(0.0)]).with_draw_order(8.0))
     }
 
-    fn act(&mut self, stream: &RecordingStream, vehicle: &VehicleFrame) -> RecordingStreamResult<()> {
+    fn log_tick(&mut self, stream: &RecordingStream, vehicle: &VehicleFrame) -> RecordingStreamResult<()> {
         let state = &vehicle.state;
         stream.log(self.at("body"), &pose(state))?;
         let words = format!("{} {:.2} m/s", vehicle.name, state.speed_mps);
@@ -128,8 +128,8 @@ impl Performer {
         if let Some(last) = self.last.replace(*state) {
             stream.log(self.at("trace"), &strips([vec![point(&last), point(state)]]))?;
         }
-        let vehicle_colour = if vehicle.origin == Origin::Planned { self.vehicle_colour } else { FAILURE };
-        let plan = strips([points(&vehicle.plan.trajectory)]).with_colors([vehicle_colour.solid()]);
+        let plan_colour = if vehicle.origin == Origin::Planned { self.vehicle_colour } else { FAILURE };
+        let plan = strips([points(&vehicle.plan.trajectory)]).with_colors([plan_colour.solid()]);
         stream.log(self.at("plan"), &plan)?;
         stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction)))?;
         let asks = vehicle.plan.proposal.as_ref().map(|proposal| points(&proposal.trajectory));

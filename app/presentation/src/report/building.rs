@@ -9,7 +9,7 @@ use interplay_simulation::report::BuildingReport;
 use super::columns::{Align, lines};
 
 /// The most days that a summary lists.
-const LISTED: usize = 14;
+const MAX_LISTED_DAYS: usize = 14;
 
 /// The days as a table.
 pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
@@ -21,7 +21,7 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
     }
     write_days(text, &building.iterations)?;
     write_exchange(text, building)?;
-    for Fallback { day, reason } in building.fallbacks.iter().take(LISTED) {
+    for Fallback { day, reason } in building.fallbacks.iter().take(MAX_LISTED_DAYS) {
         writeln!(text, "  day {day} repeated the one before: {reason}")?;
     }
     Ok(())
@@ -45,11 +45,12 @@ fn write_days(text: &mut String, days: &[DayFigures]) -> std::fmt::Result {
             format!("{:.2}", 1e3 * day.design_s),
         ]
     };
-    let left_out = days.len().saturating_sub(LISTED);
-    let is_listed = |index: usize| left_out == 0 || !(LISTED / 2..days.len() - LISTED / 2).contains(&index);
+    let left_out = days.len().saturating_sub(MAX_LISTED_DAYS);
+    let is_listed =
+        |index: usize| left_out == 0 || !(MAX_LISTED_DAYS / 2..days.len() - MAX_LISTED_DAYS / 2).contains(&index);
     let listed = days.iter().enumerate().filter(|(index, _)| is_listed(*index)).map(row);
     for (index, line) in lines(&header.collect::<Vec<_>>(), listed).iter().enumerate() {
-        if left_out > 0 && index == 1 + LISTED / 2 {
+        if left_out > 0 && index == 1 + MAX_LISTED_DAYS / 2 {
             writeln!(text, "     …  {left_out} more in --json")?;
         }
         writeln!(text, "  {line}")?;

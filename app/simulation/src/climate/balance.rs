@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use interplay_building::day::Heat;
 
 use super::{Building, Equipment, Gains, Node, Temperature};
-use crate::components::Present;
+use crate::components::CurrentFrame;
 use crate::frame::{BuildingFrame, ZoneFrame};
 
 /// Moves every temperature by a step, and writes down what led there. Nothing moves when the controller has failed.
@@ -12,7 +12,7 @@ pub fn balance(
     mut nodes: Query<(&Node, &mut Temperature)>,
     zones: Query<(&Node, &Equipment, &Gains)>,
     mut building: ResMut<Building>,
-    mut present: ResMut<Present>,
+    mut current_frame: ResMut<CurrentFrame>,
 ) {
     if building.failure.is_some() {
         return;
@@ -46,7 +46,7 @@ pub fn balance(
         heat_kw: heat.applied_kw[index],
         gains_kw: gains_kw[index],
     };
-    present.0.building = Some(BuildingFrame {
+    current_frame.0.building = Some(BuildingFrame {
         day,
         step,
         zones: (0..count).map(zone).collect(),

@@ -8,17 +8,17 @@ use interplay_building::control::ControlError;
 use interplay_building::day::{Day, Heat};
 
 use super::{Building, Equipment, Node, Temperature};
-use crate::components::Present;
+use crate::components::CurrentFrame;
 use crate::frame::{Event, Level};
 
-/// Who speaks in the log.
-const SPEAKER: &str = "controller";
+/// Source of the log entry.
+const CONTROLLER_SOURCE: &str = "controller";
 
 /// Asks the controller for the heat of every zone.
 pub fn control(
     mut zones: Query<(&Node, &Temperature, &mut Equipment)>,
     mut building: ResMut<Building>,
-    mut present: ResMut<Present>,
+    mut current_frame: ResMut<CurrentFrame>,
 ) {
     let (_, step) = building.date();
     let mut temperatures_c = vec![0.0; building.targets.zones];
@@ -36,7 +36,7 @@ pub fn control(
     }
     if let (0, Some(why)) = (step, &building.today.record.design.fallback) {
         let text = format!("no plan for this day, which repeats the one before: {why}");
-        present.0.events.push(Event { vehicle: SPEAKER.to_owned(), level: Level::Warning, text });
+        current_frame.0.events.push(Event { vehicle: CONTROLLER_SOURCE.to_owned(), level: Level::Warning, text });
     }
 }
 

@@ -12,9 +12,9 @@ use thiserror::Error;
 
 use super::{Building, Equipment, Gains, Node, Temperature};
 
-/// Kinds of chance, so that weather, people and forecasts of one seed have nothing to do with one another.
-const PEOPLE: u64 = 1 << 40;
-const FORECAST: u64 = 2 << 40;
+/// Bits that are flipped in the seed, so that weather, occupancy and forecasts of one seed are independent.
+const OCCUPANCY_SEED_BIT: u64 = 1 << 40;
+const FORECAST_SEED_BIT: u64 = 2 << 40;
 
 /// Why a scenario gives no building. One that was loaded has been checked for all of this.
 #[derive(Debug, Error)]
@@ -60,7 +60,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
         surroundings: Surroundings {
             weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
             forecast: weather.forecast(),
-            forecast_seed: scenario.seed ^ FORECAST,
+            forecast_seed: scenario.seed ^ FORECAST_SEED_BIT,
             people: people(scenario, zones),
         },
         regulator: scenario.controller().regulator(&believed, steps)?,
@@ -74,7 +74,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     Ok(())
 }
 
-/// The people in so many zones of a scenario.
+/// Returns the people of a scenario with `zones` zones.
 pub fn people(scenario: &Scenario, zones: usize) -> People {
-    scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ PEOPLE)
+    scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ OCCUPANCY_SEED_BIT)
 }

@@ -10,13 +10,13 @@ use xxhash_rust::xxh3::Xxh3;
 
 use super::milestones::Today;
 use crate::climate::Building;
-use crate::components::Present;
+use crate::components::CurrentFrame;
 use crate::day::{DayFigures, ExchangeFigures};
 use crate::frame::{BuildingFrame, Frame};
 
-/// Up to so many inputs a day (zones times steps) the day's optimum and the convergence of learning are worked out: they
-/// take time in the cube of it.
-const MOST_INPUTS: usize = 500;
+/// The optimum of a day and the convergence of learning are computed for at most this many inputs a day (zones times
+/// steps): they take time in the cube of it.
+const MAX_ANALYSED_INPUTS: usize = 500;
 
 /// Why a day had no plan of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -61,14 +61,9 @@ pub struct BuildingMeasures {
 impl BuildingMeasures {
     /// Nothing measured yet.
     pub fn new(building: &Building, controller: &Controller) -> Self {
-        let small = building.targets.reference_c.len() <= MOST_INPUTS;
+        let small = building.targets.reference_c.len() <= MAX_ANALYSED_INPUTS;
         let lifted = small.then(|| Lifted::new(&building.model, building.steps_per_day()));
-        let spectral_radius = match (controller, &lifted) {
-            (Controller::IterativeLearning(learning), Some(lifted)) => {
-                Some(learning.convergence(lifted).spectral_radius)
-            }
-            _ => None,
-        };
+        let spectral_radius = lifted.as_ref().and_then(|lifted| controller.spectral_radius(lifted));
         BuildingMeasures {
             days: Vec::new(),
             fallbacks: Vec::new(),
@@ -135,8 +130,12 @@ fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
 }
 
 /// Feeds the step into the digests, and measures the day when it is over.
-pub fn measure_building(building: Res<Building>, mut present: ResMut<Present>, mut measures: ResMut<BuildingMeasures>) {
-    let Frame { building: Some(frame), events, .. } = &mut present.0 else { return };
+pub fn measure_building(
+    building: Res<Building>,
+    mut current_frame: ResMut<CurrentFrame>,
+    mut measures: ResMut<BuildingMeasures>,
+) {
+    let Frame { building: Some(frame), events, .. } = &mut current_frame.0 else { return };
     measures.digest(frame);
     events.extend(measures.today.observe(frame, &building));
     if frame.step + 1 == building.steps_per_day() {

@@ -4,7 +4,7 @@ use interplay_planners::{Body, Corridor, State};
 use interplay_scenarios::{Road, Vehicle};
 
 /// The share of the lane's width by which the centre of the goal may be missed.
-const TOLERANCE: f64 = 0.15;
+const LATERAL_TOLERANCE_SHARE: f64 = 0.15;
 
 /// On a road of parallel lanes a vehicle has completed its task once its centre is within 15 % of a lane's width of the
 /// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone.
@@ -37,7 +37,7 @@ impl Completion {
             Some([_, end_m]) => Task::Cross { end_m, body: vehicle.body },
             None => Task::Lane {
                 lateral_m: corridor.across(vehicle.target(road).position()),
-                tolerance_m: TOLERANCE * road.lane_width_m(),
+                tolerance_m: LATERAL_TOLERANCE_SHARE * road.lane_width_m(),
             },
         };
         let mut completion = Completion { corridor, task, has_task: false, completed_s: None };
@@ -58,7 +58,7 @@ impl Completion {
         matches!(self.task, Task::Cross { .. })
     }
 
-    /// Looks at one moment; says whether the goal is reached in it.
+    /// Looks at one time; returns whether the goal is reached then.
     pub fn observe(&mut self, state: &State, time_s: f64) -> bool {
         let reached = self.has_task && self.completed_s.is_none() && self.is_there(state);
         if reached {

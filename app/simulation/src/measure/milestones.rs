@@ -1,7 +1,7 @@
-//! Moments worth a line in the log that no planner tells of: who brakes, who accepts, who has arrived; heat at its limit,
+//! Events for the log that no planner reports: who brakes, who accepts, who has arrived; heat at its limit,
 //! comfort that was missed.
 //!
-//! Each is told when it begins, and again only after it has ended.
+//! Each is logged when it begins, and again only after it has ended.
 
 use interplay_planners::Limits;
 use interplay_scenarios::Scenario;
@@ -9,17 +9,17 @@ use interplay_scenarios::Scenario;
 use crate::climate::Building;
 use crate::frame::{BuildingFrame, Event, Frame, Level, VehicleFrame};
 
-/// From this share of its strongest braking on, a vehicle brakes.
-const BRAKES: f64 = 0.4;
-/// Below this share of it, it has stopped to.
-const COASTS: f64 = 0.1;
-/// An acceptance probability from which on a proposal is accepted, and one below which it is refused.
-const ACCEPTED: f64 = 0.8;
-const REFUSED: f64 = 0.2;
-/// So many zones are named; the others are counted.
-const NAMED: usize = 3;
-/// Who speaks for the building in the log.
-const BUILDING: &str = "building";
+/// A vehicle begins to brake above this share of its strongest deceleration.
+const BRAKING_BEGINS_SHARE: f64 = 0.4;
+/// A vehicle has stopped braking at or below this share of its strongest deceleration.
+const BRAKING_ENDS_SHARE: f64 = 0.1;
+/// A proposal counts as accepted from the first acceptance probability on, and as refused up to the second.
+const MIN_ACCEPTED_PROBABILITY: f64 = 0.8;
+const MAX_REFUSED_PROBABILITY: f64 = 0.2;
+/// At most this many zones are named; the others are counted.
+const MAX_NAMED_ZONES: usize = 3;
+/// Source of the log entry.
+const BUILDING_SOURCE: &str = "building";
 
 /// What vehicles are known to do.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub struct Milestones {
 }
 
 impl Milestones {
-    /// Nothing told yet.
+    /// Nothing logged yet.
     pub fn new(scenario: &Scenario) -> Milestones {
         let limits: Vec<Limits> = scenario.vehicles.iter().map(|vehicle| vehicle.limits).collect();
         Milestones { brakes: vec![false; limits.len()], accepted: vec![None; limits.len()], limits }
@@ -49,20 +49,20 @@ impl Milestones {
     fn braking(&mut self, index: usize, vehicle: &VehicleFrame) -> Option<Event> {
         let share = vehicle.input.acceleration_mps2 / self.limits[index].acceleration_min_mps2;
         let braked = self.brakes[index];
-        self.brakes[index] = share > if braked { COASTS } else { BRAKES };
+        self.brakes[index] = share > if braked { BRAKING_ENDS_SHARE } else { BRAKING_BEGINS_SHARE };
         (self.brakes[index] && !braked).then(|| note(&vehicle.name, "brakes"))
     }
 
-    /// How the other takes a proposal. One that asks for nothing new counts as accepted and is not told of.
+    /// How the other takes a proposal. One that asks for nothing new counts as accepted and is not logged.
     fn answer(&mut self, index: usize, vehicle: &VehicleFrame) -> Option<Event> {
         let Some(proposal) = &vehicle.plan.proposal else {
             self.accepted[index] = None;
             return None;
         };
         let acceptance = proposal.acceptance?;
-        let now = if acceptance >= ACCEPTED {
+        let now = if acceptance >= MIN_ACCEPTED_PROBABILITY {
             true
-        } else if acceptance <= REFUSED {
+        } else if acceptance <= MAX_REFUSED_PROBABILITY {
             false
         } else {
             return None;
@@ -87,7 +87,7 @@ fn note(vehicle: &str, text: &str) -> Event {
     Event { vehicle: vehicle.to_owned(), level: Level::Note, text: text.to_owned() }
 }
 
-/// What was told of a building today.
+/// What was logged of a building today.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Today {
     limited: bool,
@@ -104,15 +104,15 @@ impl Today {
         let network = building.model.network();
         let (names, limits_kw, targets) = (network.names(), network.limits_kw(), &building.targets);
         let zones = || frame.zones.iter().enumerate();
-        let mut told = Vec::new();
+        let mut events = Vec::new();
         let limited =
             zones().filter(|(index, zone)| zone.requested_kw.abs() >= limits_kw[*index] && zone.heat_kw != 0.0);
         let limited: Vec<&str> = limited.map(|(index, _)| names[index].as_str()).collect();
         if !limited.is_empty() && !self.limited {
             self.limited = true;
-            told.push(note(
-                BUILDING,
-                &format!("{}: heat at its limit in {}", moment(frame, building), listed(&limited)),
+            events.push(note(
+                BUILDING_SOURCE,
+                &format!("{}: heat at its limit in {}", day_and_time(frame, building), listed(&limited)),
             ));
         }
         let references_c = &targets.reference_c[frame.step * targets.zones..];
@@ -122,25 +122,29 @@ impl Today {
         let missed: Vec<&str> = missed.map(|(index, _)| names[index].as_str()).collect();
         if !missed.is_empty() && !self.uncomfortable {
             self.uncomfortable = true;
-            told.push(note(
-                BUILDING,
-                &format!("{}: people there, and outside the comfort band {}", moment(frame, building), listed(&missed)),
+            events.push(note(
+                BUILDING_SOURCE,
+                &format!(
+                    "{}: people there, and outside the comfort band {}",
+                    day_and_time(frame, building),
+                    listed(&missed)
+                ),
             ));
         }
-        told
+        events
     }
 }
 
 /// The day, from 1, and the time of day at the end of a step.
-fn moment(frame: &BuildingFrame, building: &Building) -> String {
+fn day_and_time(frame: &BuildingFrame, building: &Building) -> String {
     let minutes = ((frame.step + 1) as f64 * building.model.step_s() / 60.0).round() as usize;
     format!("day {}, {}:{:02}", frame.day + 1, minutes / 60, minutes % 60)
 }
 
 /// Some names, and how many more there are.
 fn listed(names: &[&str]) -> String {
-    let shown = names[..names.len().min(NAMED)].join(", ");
-    let more = names.len().saturating_sub(NAMED);
+    let shown = names[..names.len().min(MAX_NAMED_ZONES)].join(", ");
+    let more = names.len().saturating_sub(MAX_NAMED_ZONES);
     if more == 0 { shown } else { format!("{shown} and {more} more") }
 }
 
@@ -163,7 +167,7 @@ mod tests {
         Frame { vehicles: vec![vehicle], ..Frame::default() }
     }
 
-    fn told(frames: &[Frame]) -> Vec<(usize, String)> {
+    fn logged(frames: &[Frame]) -> Vec<(usize, String)> {
         let mut milestones = Milestones::new(&load("lane-change/front-nice", &[]).expect("authored"));
         let frames = frames.iter().enumerate();
         let events = frames.flat_map(|(at, frame)| milestones.observe(frame).into_iter().map(move |event| (at, event)));
@@ -171,17 +175,17 @@ mod tests {
     }
 
     #[test]
-    fn braking_is_told_once_until_it_has_ended() {
-        let said = told(&[0.0, -0.5, -0.3, -0.6, 0.0, -0.3, -0.41].map(|a| tick(a, None)));
+    fn braking_is_logged_once_until_it_has_ended() {
+        let said = logged(&[0.0, -0.5, -0.3, -0.6, 0.0, -0.3, -0.41].map(|a| tick(a, None)));
         assert_eq!(said, [(1, "ego brakes".to_owned()), (6, "ego brakes".to_owned())]);
     }
 
     #[test]
-    fn answers_are_told_when_they_change() {
-        let said = told(&[1.0, 0.5, 0.1, 0.15, 0.5, 0.9, 1.0].map(|p| tick(0.0, Some(p))));
+    fn answers_are_logged_when_they_change() {
+        let said = logged(&[1.0, 0.5, 0.1, 0.15, 0.5, 0.9, 1.0].map(|p| tick(0.0, Some(p))));
         let (refused, accepted) = ("front does not do what ego proposes", "front does what ego proposes");
         assert_eq!(said, [(2, refused.to_owned()), (5, accepted.to_owned())]);
-        let again = told(&[tick(0.0, Some(0.1)), tick(0.0, None), tick(0.0, Some(0.9)), tick(0.0, Some(0.1))]);
+        let again = logged(&[tick(0.0, Some(0.1)), tick(0.0, None), tick(0.0, Some(0.9)), tick(0.0, Some(0.1))]);
         assert_eq!(again.len(), 2, "{again:?}");
     }
 

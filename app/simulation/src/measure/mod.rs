@@ -22,7 +22,7 @@ pub use milestones::Milestones;
 pub use planning::Planning;
 pub use speed::SpeedRange;
 
-use crate::components::{Clock, Identity, Motion, Present};
+use crate::components::{Clock, CurrentFrame, Identity, Motion};
 use crate::frame::Collision;
 
 /// Everything that is measured in a run.
@@ -79,10 +79,10 @@ impl Measures {
 pub fn measure(
     vehicles: Query<(&Identity, &Motion)>,
     clock: Res<Clock>,
-    mut present: ResMut<Present>,
+    mut current_frame: ResMut<CurrentFrame>,
     mut measures: ResMut<Measures>,
 ) {
-    let frame = &mut present.0;
+    let frame = &mut current_frame.0;
     let measures = &mut *measures;
     let mut after: Vec<State> = frame.vehicles.iter().map(|vehicle| vehicle.state).collect();
     for (identity, motion) in &vehicles {

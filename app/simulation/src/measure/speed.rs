@@ -15,7 +15,7 @@ impl SpeedRange {
         SpeedRange { min_mps: speed_mps, max_mps: speed_mps }
     }
 
-    /// Looks at one moment.
+    /// Looks at one time.
     pub fn observe(&mut self, speed_mps: f64) {
         self.min_mps = self.min_mps.min(speed_mps);
         self.max_mps = self.max_mps.max(speed_mps);

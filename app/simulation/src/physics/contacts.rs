@@ -11,7 +11,7 @@ use rapier2d::prelude::{
 use super::footprint::length_m;
 
 /// Mass of a vehicle per area of its footprint, that of a passenger car \[kg/m²\].
-const AREAL_DENSITY: f64 = 185.0;
+const AREAL_DENSITY_KG_PER_M2: f64 = 185.0;
 
 /// Two vehicles that begin to touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,7 @@ impl EventHandler for Contacts {
 
 /// Mass of a vehicle: that of a passenger car, by the area of the footprint \[kg\].
 pub(super) fn mass_kg(body: &Body) -> f64 {
-    AREAL_DENSITY * length_m(body) * body.width_m
+    AREAL_DENSITY_KG_PER_M2 * length_m(body) * body.width_m
 }
 
 /// How hard two vehicles meet that have no dynamics \[N s\]. Rapier gives kinematic bodies no mass and so no impulse: it is

@@ -6,7 +6,7 @@ use interplay_scenarios::{Dynamic, Plant, Scenario, from_text};
 
 use super::step;
 use super::tyres::GRAVITY_MPS2;
-use crate::components::{Motion, Present};
+use crate::components::{CurrentFrame, Motion};
 use crate::frame::Collision;
 use crate::spawn;
 
@@ -49,7 +49,7 @@ fn drive(plant: Dynamic, starts: &[State], inputs: &[Input], ticks: usize) -> (V
         world.run_system_once(step).expect("physics runs");
         all.push(world.query::<&Motion>().iter(&world).map(|motion| motion.state).collect());
     }
-    (all, world.resource::<Present>().0.collisions.clone())
+    (all, world.resource::<CurrentFrame>().0.collisions.clone())
 }
 
 /// One car alone.
@@ -176,12 +176,12 @@ fn on_ice_a_crash_conserves_momentum_and_angular_momentum() {
     let mut world = spawn::world(&scenario(plant, &starts), Vec::new()).expect("no building");
     world.run_system_once(step).expect("physics runs");
     let before = super::momentum(&world);
-    assert!(world.resource::<Present>().0.collisions.is_empty() && before[0] > 1.0, "{before:?}");
+    assert!(world.resource::<CurrentFrame>().0.collisions.is_empty() && before[0] > 1.0, "{before:?}");
     for _ in 0..4 {
         world.run_system_once(step).expect("physics runs");
     }
     let after = super::momentum(&world);
-    let collisions = &world.resource::<Present>().0.collisions;
+    let collisions = &world.resource::<CurrentFrame>().0.collisions;
     assert_eq!(collisions.len(), 1, "{collisions:?}");
     for (was, is) in before.into_iter().zip(after) {
         assert!((was - is).abs() < 1e-3 * before[0].abs(), "{before:?} {after:?}");

@@ -27,7 +27,7 @@ impl EgoGap {
         self.smallest_m
     }
 
-    /// Looks at one moment of the tick.
+    /// Looks at one time within the tick.
     pub fn observe(&mut self, states: &[State]) {
         let (Some(body), Some(state)) = (self.bodies.get(self.ego), states.get(self.ego)) else { return };
         let others = self.bodies.iter().zip(states).enumerate().filter(|(index, _)| *index != self.ego);

@@ -27,7 +27,7 @@ use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, Phy
 
 pub use footprint::gap_m;
 
-use crate::components::{Clock, Identity, Motion, Physique, Present};
+use crate::components::{Clock, CurrentFrame, Identity, Motion, VehicleParameters};
 use crate::frame::{Collision, Event, Level};
 use dynamic::DynamicPlant;
 use footprint::{centre, length_m, shape};
@@ -89,21 +89,21 @@ impl Physics {
 
 /// Moves every vehicle by one tick and turns contacts into collisions.
 pub fn step(
-    mut vehicles: Query<(&Identity, &Physique, &mut Motion, &VehicleBody)>,
+    mut vehicles: Query<(&Identity, &VehicleParameters, &mut Motion, &VehicleBody)>,
     mut physics: ResMut<Physics>,
     mut clock: ResMut<Clock>,
-    mut present: ResMut<Present>,
+    mut current_frame: ResMut<CurrentFrame>,
 ) {
     let mut sorted: Vec<_> = vehicles.iter_mut().collect();
     sorted.sort_by_key(|(identity, ..)| identity.index);
-    let moving = |(_, physique, motion, body): &(&Identity, &Physique, Mut<Motion>, &VehicleBody)| Moving {
+    let moving = |(_, parameters, motion, body): &(&Identity, &VehicleParameters, Mut<Motion>, &VehicleBody)| Moving {
         handle: body.0,
-        body: physique.body,
+        body: parameters.body,
         state: motion.state,
         input: motion.input,
     };
     let moving: Vec<Moving> = sorted.iter().map(moving).collect();
-    let frame = &mut present.0;
+    let frame = &mut current_frame.0;
     let Physics { world, dynamic, gap } = &mut *physics;
     let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
     frame.gap_m = gap.begin(&before);

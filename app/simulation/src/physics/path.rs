@@ -11,9 +11,9 @@ use interplay_planners::{Body, State};
 use super::footprint::{gap_m, radius_m};
 
 /// The shortest step between two looks, in ticks: how finely a contact is timed.
-pub(super) const SHORTEST: f64 = 1e-3;
-/// The longest: gaps are looked at so often, however far away everybody is.
-const LONGEST: f64 = 0.25;
+pub(super) const MIN_STEP_TICKS: f64 = 1e-3;
+/// The longest step between two looks, in ticks, however far apart the vehicles are.
+const MAX_STEP_TICKS: f64 = 0.25;
 
 /// The motion of one vehicle during a tick.
 pub(super) struct Path {
@@ -44,7 +44,7 @@ impl Path {
 /// The share of the tick at which to look next, if the last look was at `share`.
 pub(super) fn next_look(paths: &[Path], share: f64) -> f64 {
     let states: Vec<State> = paths.iter().map(|path| path.at(share)).collect();
-    let mut step = LONGEST;
+    let mut step = MAX_STEP_TICKS;
     for (index, (a, a_state)) in paths.iter().zip(&states).enumerate() {
         for (b, b_state) in paths.iter().zip(&states).skip(index + 1) {
             let (approach, gap) = (a.approach_m(b), gap_m((&a.body, a_state), (&b.body, b_state)));
@@ -54,5 +54,5 @@ pub(super) fn next_look(paths: &[Path], share: f64) -> f64 {
             }
         }
     }
-    (share + step.max(SHORTEST)).min(1.0)
+    (share + step.max(MIN_STEP_TICKS)).min(1.0)
 }

@@ -4,9 +4,9 @@ use bevy_ecs::system::RunSystemOnce;
 use interplay_planners::{Body, State};
 use interplay_scenarios::from_text;
 
-use super::path::SHORTEST;
+use super::path::MIN_STEP_TICKS;
 use super::step;
-use crate::components::{Motion, Present};
+use crate::components::{CurrentFrame, Motion};
 use crate::frame::Collision;
 use crate::spawn;
 
@@ -32,14 +32,14 @@ fn roll(starts: [State; 2], ticks: usize) -> (Vec<Collision>, f64) {
     let mut smallest_m = f64::INFINITY;
     for _ in 0..ticks {
         world.run_system_once(step).expect("physics runs");
-        smallest_m = smallest_m.min(world.resource::<Present>().0.smallest_gap_m.expect("there are two"));
+        smallest_m = smallest_m.min(world.resource::<CurrentFrame>().0.smallest_gap_m.expect("there are two"));
     }
     let ends: Vec<State> = world.query::<&Motion>().iter(&world).map(|motion| motion.state).collect();
     for (start, end) in starts.iter().zip(&ends) {
         let far = start.speed_mps * STEP_S * ticks as f64;
         assert!(((end.x_m - start.x_m).hypot(end.y_m - start.y_m) - far.abs()).abs() < 1e-9, "{start:?} {end:?}");
     }
-    (world.resource::<Present>().0.collisions.clone(), smallest_m)
+    (world.resource::<CurrentFrame>().0.collisions.clone(), smallest_m)
 }
 
 fn at(x_m: f64, y_m: f64, heading_rad: f64, speed_mps: f64) -> State {
@@ -63,7 +63,7 @@ fn a_collision_from_behind_is_timed_to_a_thousandth_of_a_tick() {
             let (collisions, smallest_m) = roll(starts, ticks);
             let [collision] = collisions.as_slice() else { panic!("{gap_m} m at {speed_mps} m/s: {collisions:?}") };
             let late_s = collision.time_s - touch_s;
-            assert!((-2e-5..=SHORTEST * STEP_S + 2e-5).contains(&late_s), "{late_s} s late at {speed_mps} m/s");
+            assert!((-2e-5..=MIN_STEP_TICKS * STEP_S + 2e-5).contains(&late_s), "{late_s} s late at {speed_mps} m/s");
             assert_eq!((collision.between.clone(), smallest_m), (["a".to_owned(), "b".to_owned()], 0.0));
             let reduced = 0.5 * 185.0 * length_m() * Body::default().width_m;
             assert!((collision.impulse_ns / (reduced * speed_mps) - 1.0).abs() < 1e-6, "{}", collision.impulse_ns);
@@ -92,7 +92,7 @@ fn corners_that_meet_for_an_instant_collide_and_corners_that_miss_do_not() {
     };
     let (collisions, smallest_m) = roll(starts(-0.02), 10);
     assert_eq!((collisions.len(), smallest_m), (1, 0.0), "{collisions:?}");
-    assert!((collisions[0].time_s - (0.5 + (to_clear_m - 0.02) / speed_mps)).abs() < 2.0 * SHORTEST * STEP_S);
+    assert!((collisions[0].time_s - (0.5 + (to_clear_m - 0.02) / speed_mps)).abs() < 2.0 * MIN_STEP_TICKS * STEP_S);
     let (collisions, smallest_m) = roll(starts(0.01), 10);
     assert!(collisions.is_empty(), "{collisions:?}");
     let nearest_m = 0.01 * 0.5_f64.sqrt();

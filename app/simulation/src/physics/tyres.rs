@@ -31,7 +31,7 @@ use interplay_scenarios::Dynamic;
 /// Acceleration of gravity \[m/s²\].
 pub(super) const GRAVITY_MPS2: f64 = 9.81;
 /// Sweeps of Gauss and Seidel over the two lateral impulses; each leaves a fifth of the error or less.
-const SWEEPS: usize = 12;
+const GAUSS_SEIDEL_SWEEPS: usize = 12;
 
 /// A velocity, or an impulse, along and across the vehicle and about its mass centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -140,7 +140,7 @@ impl Chassis {
     fn lateral(&self, free: &Planar, slips: &[Planar; 2], compliance: [f64; 2], most_ns: [f64; 2]) -> [f64; 2] {
         let responses = [self.response(&slips[0]), self.response(&slips[1])];
         let mut impulses_ns = [0.0; 2];
-        for _ in 0..SWEEPS {
+        for _ in 0..GAUSS_SEIDEL_SWEEPS {
             for i in 0..2 {
                 let other = impulses_ns[1 - i] * slips[i].dot(&responses[1 - i]);
                 let wanted = -(slips[i].dot(free) + other) / (slips[i].dot(&responses[i]) + compliance[i]);

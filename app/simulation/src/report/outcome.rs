@@ -43,7 +43,7 @@ pub struct Report {
 }
 
 /// Keys of the serialisation that are about vehicles.
-const DRIVING: [&str; 5] = ["phase_digests", "collisions", "min_gap_m", "order", "vehicles"];
+const VEHICLE_KEYS: [&str; 5] = ["phase_digests", "collisions", "min_gap_m", "order", "vehicles"];
 
 impl Serialize for Report {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -52,7 +52,7 @@ impl Serialize for Report {
         }
         let mut whole = Report::serialize(self, serde_json::value::Serializer).map_err(serde::ser::Error::custom)?;
         if let Some(object) = whole.as_object_mut() {
-            object.retain(|key, _| !DRIVING.contains(&key.as_str()));
+            object.retain(|key, _| !VEHICLE_KEYS.contains(&key.as_str()));
         }
         whole.serialize(serializer)
     }

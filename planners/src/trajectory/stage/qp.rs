@@ -147,7 +147,7 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// So many times as far.
+    /// Returns the reach multiplied by `factor`.
     pub(crate) fn times(self, factor: f64) -> Reach {
         Reach { state: self.state.map(|reach| factor * reach), input: self.input.map(|reach| factor * reach) }
     }

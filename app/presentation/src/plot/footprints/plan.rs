@@ -1,4 +1,4 @@
-//! All moments in one plan, for roads that cross.
+//! All snapshots in one plan, for roads that cross.
 
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE, MEDIUM, SMALL, Side};
@@ -9,12 +9,12 @@ const LEFT: f64 = 92.0;
 const TICKS: f64 = 34.0;
 const ACROSS: f64 = 38.0;
 /// The highest plan \[px\].
-const HIGHEST: f64 = 900.0;
+const MAX_PLAN_HEIGHT: f64 = 900.0;
 /// Footprints whose centres are closer than this share of their length get one number together.
-const CLOSE: f64 = 0.45;
+const SHARED_NUMBER_DISTANCE: f64 = 0.45;
 
 /// What numbers are read against: earlier footprints are pale.
-const UNDERNEATH: Colour = PAPER;
+const NUMBER_BACKGROUND: Colour = PAPER;
 
 /// From metres to pixels.
 struct Map {
@@ -40,7 +40,7 @@ impl Map {
 }
 
 impl FootprintPlot {
-    /// The crossing from above, with every footprint of every moment.
+    /// The crossing from above, with every footprint of every snapshot.
     pub fn plan(&self) -> Drawing {
         let margin = 0.5 * self.longest_m();
         let [low, high] = self.bounds();
@@ -49,7 +49,7 @@ impl FootprintPlot {
         let steps = self.snapshots.get(1).map_or(0.0, |snapshot| snapshot.time_s - self.snapshots[0].time_s);
         let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 84.0;
         let wide = (WIDTH - LEFT - MARGIN) / (high_m[0] - low_m[0]);
-        let scale = wide.min(HIGHEST / (high_m[1] - low_m[1]));
+        let scale = wide.min(MAX_PLAN_HEIGHT / (high_m[1] - low_m[1]));
         let [across, upwards] = [0, 1].map(|axis| (high_m[axis] - low_m[axis]) * scale);
         let left = LEFT + 0.5 * (WIDTH - LEFT - MARGIN - across);
         let map = Map { low_m, high_m, scale, left, bottom: head + upwards };
@@ -69,23 +69,25 @@ impl FootprintPlot {
     fn draw_footprints(&self, drawing: &mut Drawing, map: &Map) {
         let last = self.snapshots.len().saturating_sub(1).max(1) as f64;
         for (index, snapshot) in self.snapshots.iter().enumerate() {
-            for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.cast) {
+            for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.vehicles) {
                 body::draw(drawing, body.map(|corner| map.place(corner)), *colour, 0.45 + 0.5 * index as f64 / last);
             }
         }
-        for who in 0..self.cast.len() {
+        for who in 0..self.vehicles.len() {
             let bodies: Vec<_> = self.snapshots.iter().filter_map(|snapshot| snapshot.bodies.get(who)).collect();
             let mates = self.mates(who);
             let mut first = 0;
             while first < bodies.len() {
-                let near = |body: &[[f64; 2]; 4]| distance(body[0], bodies[first][0]) < CLOSE * self.longest_m();
+                let near = |body: &[[f64; 2]; 4]| {
+                    distance(body[0], bodies[first][0]) < SHARED_NUMBER_DISTANCE * self.longest_m()
+                };
                 let count = bodies[first..].iter().take_while(|body| near(body)).count().max(1);
                 let last = first + count - 1;
                 let words = if count == 1 { format!("{}", first + 1) } else { format!("{}–{}", first + 1, last + 1) };
                 let corners = bodies[last].map(|corner| map.place(corner));
                 match mates.iter().position(|&mate| mate == who) {
                     Some(place) if mates.len() > 1 => body::number_beside(drawing, corners, place % 2 == 0, &words),
-                    _ => body::number(drawing, corners, UNDERNEATH, &words),
+                    _ => body::number(drawing, corners, NUMBER_BACKGROUND, &words),
                 }
                 first += count;
             }
@@ -109,7 +111,7 @@ impl FootprintPlot {
             let ((along, lateral), (others, beside)) = (lane(*a), lane(*b));
             distance(along, others) < 0.1 && (lateral - beside).abs() < 0.5 * width
         };
-        (0..self.cast.len()).filter(same).collect()
+        (0..self.vehicles.len()).filter(same).collect()
     }
 }
 

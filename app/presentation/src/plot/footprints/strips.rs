@@ -1,21 +1,21 @@
-//! One strip of road a moment, below the one before.
+//! One strip of road per snapshot, below the one before.
 
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE, MEDIUM, SMALL, Side};
 use super::super::style::{Dash, GREY, LineStyle, PAPER, SURFACE};
 use super::{FootprintPlot, MARGIN, PATH, TITLE, WIDTH, body};
 
-/// Space for the number and the time of a moment \[px\].
+/// Space for the number and the time of a snapshot \[px\].
 const LEFT: f64 = 150.0;
 const BETWEEN: f64 = 16.0;
 const TICKS: f64 = 36.0;
 const ACROSS: f64 = 38.0;
 /// A body shorter than this cannot be seen: the strips then move along with the ego \[px\].
-const SHORTEST: f64 = 40.0;
-/// How long it is then.
-const COMFORTABLE: f64 = 64.0;
+const MIN_BODY_LENGTH: f64 = 40.0;
+/// The length of a body in strips that move along with the ego \[px\].
+const FOLLOWED_BODY_LENGTH: f64 = 64.0;
 /// The highest strip \[px\].
-const HIGHEST: f64 = 150.0;
+const MAX_STRIP_HEIGHT: f64 = 150.0;
 
 /// What part of the road the strips show, and how large.
 struct Window {
@@ -43,9 +43,9 @@ impl Window {
         let (margin, longest) = (0.5 * footprints.longest_m(), footprints.longest_m());
         let space = WIDTH - LEFT - MARGIN;
         let whole = space / (to - from + 2.0 * margin);
-        let height = HIGHEST / (edges_m[1] - edges_m[0]);
-        if whole * longest < SHORTEST {
-            let scale = (COMFORTABLE / longest).min(height);
+        let height = MAX_STRIP_HEIGHT / (edges_m[1] - edges_m[0]);
+        if whole * longest < MIN_BODY_LENGTH {
+            let scale = (FOLLOWED_BODY_LENGTH / longest).min(height);
             return Window { scale, length_m: space / scale, start_m: -0.5 * space / scale, moves: true, edges_m };
         }
         let scale = whole.min(height);
@@ -58,7 +58,7 @@ impl Window {
 }
 
 impl FootprintPlot {
-    /// Moments one below the other, all of the same part of the road, or of the part around the ego.
+    /// Snapshots one below the other, all of the same part of the road, or of the part around the ego.
     pub fn strips(&self) -> Drawing {
         let window = Window::of(self);
         let legend = self.legend();
@@ -115,7 +115,7 @@ impl FootprintPlot {
         let path = self.path_pixels(snapshot.time_s, point).into_iter();
         drawing.line(path.filter(|[x, _]| (LEFT..=WIDTH - MARGIN).contains(x)).collect(), PATH);
         let number = format!("{}", index + 1);
-        for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.cast) {
+        for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.vehicles) {
             let x = body.map(|corner| LEFT + (corner[0] - shift_m - window.start_m) * window.scale);
             if x.iter().all(|x| (LEFT..=WIDTH - MARGIN).contains(x)) {
                 let corners = body.map(place);

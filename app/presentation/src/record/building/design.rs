@@ -62,23 +62,17 @@ impl DesignPlots {
             return Ok(DesignPlots::default());
         }
         for (place, &index) in shown.iter().enumerate() {
-            let (vehicle_colour, name) = (palette::series(place), &names[index]);
-            style(stream, &of(LEARNED, index), name, vehicle_colour.solid(), 1.5)?;
-            style(stream, &(of(GAIN, index) + "/own"), &format!("{name}: own error"), vehicle_colour.solid(), 2.0)?;
-            style(
-                stream,
-                &(of(GAIN, index) + "/others"),
-                &format!("{name}: others'"),
-                vehicle_colour.veiled(130),
-                1.5,
-            )?;
+            let (series_colour, name) = (palette::series(place), &names[index]);
+            style(stream, &of(LEARNED, index), name, series_colour.solid(), 1.5)?;
+            style(stream, &(of(GAIN, index) + "/own"), &format!("{name}: own error"), series_colour.solid(), 2.0)?;
+            style(stream, &(of(GAIN, index) + "/others"), &format!("{name}: others'"), series_colour.veiled(130), 1.5)?;
         }
-        for (name, words, vehicle_colour) in [
+        for (name, words, series_colour) in [
             ("one", "limit of convergence", FAILURE),
             ("spectral-radius", "spectral radius", palette::series(0)),
             ("largest-singular-value", "largest singular value", NEUTRAL),
         ] {
-            style(stream, &format!("{CONVERGENCE}/{name}"), words, vehicle_colour.solid(), 1.5)?;
+            style(stream, &format!("{CONVERGENCE}/{name}"), words, series_colour.solid(), 1.5)?;
         }
         Ok(DesignPlots { learns, ..DesignPlots::default() })
     }

@@ -16,11 +16,11 @@ const OUTDOORS: usize = 8;
 /// Picture elements between floors.
 const BETWEEN_FLOORS: usize = 6;
 /// How far from the wanted temperatures the colours end \[K\].
-const REACH_K: f64 = 5.0;
+const COLOUR_RANGE_K: f64 = 5.0;
 /// In more rooms than this a label has no space for a name.
-const NAMED: usize = 16;
+const MAX_NAMED_ROOMS: usize = 16;
 /// In more rooms than this there is no space for labels.
-const LABELLED: usize = 144;
+const MAX_LABELLED_ROOMS: usize = 144;
 
 /// How the floor plan is drawn.
 pub struct FloorPlanLayer {
@@ -57,14 +57,14 @@ impl FloorPlanLayer {
         let [width, height] = self.size();
         let pixels = self.pixels(frame, [width, height]);
         stream.log("building/plan/rooms", &Image::from_rgb24(pixels, [width as u32, height as u32]))?;
-        let few = names.len() <= NAMED;
+        let few = names.len() <= MAX_NAMED_ROOMS;
         let words = |(name, zone): (&String, &ZoneFrame)| match zone.reference_c {
             Some(wanted_c) if few => format!("{name}\n{:.1} °C\nwanted {wanted_c:.1}", zone.temperature_c),
             None if few => format!("{name}\n{:.1} °C", zone.temperature_c),
             _ => format!("{:.1}", zone.temperature_c),
         };
         let outdoors = format!("outdoors {:.1} °C", frame.ambient_c);
-        let labelled = if names.len() <= LABELLED { names.len() } else { 0 };
+        let labelled = if names.len() <= MAX_LABELLED_ROOMS { names.len() } else { 0 };
         let labels = names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]);
         let centre = |index: usize| self.corner(index).map(|place| (place + ROOM / 2) as f32);
         let places = (0..labelled).map(centre).chain([[0.5 * width as f32, 0.5 * OUTDOORS as f32]]);
@@ -118,7 +118,7 @@ impl FloorPlanLayer {
         const COLD: [f64; 3] = [30.0, 90.0, 190.0];
         const MIDDLE: [f64; 3] = [95.0, 100.0, 95.0];
         const WARM: [f64; 3] = [200.0, 60.0, 20.0];
-        let share = ((temperature_c - self.middle_c) / REACH_K).clamp(-1.0, 1.0);
+        let share = ((temperature_c - self.middle_c) / COLOUR_RANGE_K).clamp(-1.0, 1.0);
         let end = if share < 0.0 { COLD } else { WARM };
         std::array::from_fn(|part| (MIDDLE[part] + share.abs() * (end[part] - MIDDLE[part])) as u8)
     }

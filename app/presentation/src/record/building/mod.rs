@@ -32,7 +32,7 @@ use series::ZonePlots;
 pub const ITERATION: &str = "iteration";
 
 /// The most zones whose temperatures have a plot of their own.
-const SHOWN: usize = 4;
+const MAX_PLOTTED_ZONES: usize = 4;
 
 /// What a recording must know of a building.
 pub struct BuildingLayer {
@@ -89,10 +89,10 @@ impl BuildingLayer {
 
 /// The zones that have plots: all of a few, otherwise some from the first to the last.
 fn shown(zones: usize) -> Vec<usize> {
-    if zones <= SHOWN {
+    if zones <= MAX_PLOTTED_ZONES {
         return (0..zones).collect();
     }
-    (0..SHOWN).map(|index| index * (zones - 1) / (SHOWN - 1)).collect()
+    (0..MAX_PLOTTED_ZONES).map(|index| index * (zones - 1) / (MAX_PLOTTED_ZONES - 1)).collect()
 }
 
 #[cfg(test)]

@@ -34,12 +34,12 @@ impl ZonePlots {
         band_k: f64,
     ) -> RecordingStreamResult<ZonePlots> {
         for (place, &index) in shown.iter().enumerate() {
-            let vehicle_colour = palette::series(place);
-            style(stream, &zone(index, "temperature"), "temperature", vehicle_colour.solid(), 2.0)?;
+            let series_colour = palette::series(place);
+            style(stream, &zone(index, "temperature"), "temperature", series_colour.solid(), 2.0)?;
             style(stream, &zone(index, "reference"), "wanted", NEUTRAL.solid(), 1.5)?;
             style(stream, &zone(index, "band/low"), "comfort, low", MARKING.veiled(150), 1.0)?;
             style(stream, &zone(index, "band/high"), "comfort, high", MARKING.veiled(150), 1.0)?;
-            style(stream, &zone(index, "heat"), &names[index], vehicle_colour.solid(), 1.5)?;
+            style(stream, &zone(index, "heat"), &names[index], series_colour.solid(), 1.5)?;
         }
         for (end, name) in [("low", "limit of cooling"), ("high", "limit of heating")] {
             style(stream, &format!("building/limit/{end}"), name, FAILURE.solid(), 1.0)?;

@@ -20,7 +20,7 @@ const MIN_CENTRING_RATIO: f64 = 1e-2;
 const INPUT_REGULARIZATION: f64 = 1e-3;
 /// A derivative of the Lagrangian over the inputs below this is treated as zero.
 const STATIONARITY_TOLERANCE: f64 = 1e-8;
-/// After so many steps that bring the derivative no nearer to zero the iteration ends as it is.
+/// Largest number of steps after convergence that reduce the derivative to [`STATIONARITY_TOLERANCE`].
 const MAX_STEPS_WITHOUT_GAIN: usize = 2;
 /// Largest number of iterations.
 const ITERATION_LIMIT: usize = 50;

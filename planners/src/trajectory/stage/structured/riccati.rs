@@ -39,17 +39,17 @@ pub(super) struct VehicleHessian {
 /// Hessian over the difference `p_i − p_j` of two vehicles' positions at one stage: xx, xy, yy.
 pub(super) type PairHessian = [f64; 3];
 
-/// How many pairs so many vehicles make.
+/// Returns the number of pairs among `vehicles` vehicles.
 pub(super) const fn pairs_among(vehicles: usize) -> usize {
     vehicles * vehicles.saturating_sub(1) / 2
 }
 
-/// All pairs among so many vehicles, the larger index first, in the order in which their Hessians are kept.
+/// Returns all pairs among `vehicles` vehicles, the larger index first, in the order in which their Hessians are kept.
 pub(super) fn pairs(vehicles: usize) -> impl Iterator<Item = [usize; 2]> {
     (0..vehicles).flat_map(|i| (0..i).map(move |j| [i, j]))
 }
 
-/// Where the Hessian of a pair is kept among those of its stage.
+/// Returns the index of a pair's Hessian among those of its stage.
 pub(super) fn pair_index(a: usize, b: usize) -> usize {
     let (i, j) = (a.max(b), a.min(b));
     pairs_among(i) + j

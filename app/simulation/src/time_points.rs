@@ -1,13 +1,13 @@
-//! Moments: vehicles and building have a clock each, and the loop runs whenever one of them strikes.
+//! Time points: vehicles and building have a clock each, and the loop runs at every time point of either clock.
 
 use bevy_ecs::prelude::*;
 use interplay_scenarios::Scenario;
 
 use crate::components::to_nanosecond;
 
-/// A moment at which something happens.
+/// A time at which a tick of the vehicles or a step of the building begins.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
+pub struct TimePoint {
     /// Simulated time \[s\].
     pub time_s: f64,
     /// Whether it begins a tick of the vehicles.
@@ -16,8 +16,8 @@ pub struct Moment {
     pub building: bool,
 }
 
-/// Every moment of a scenario, in order.
-pub fn moments(scenario: &Scenario) -> impl Iterator<Item = Moment> + use<> {
+/// Every time point of a scenario, in order.
+pub fn time_points(scenario: &Scenario) -> impl Iterator<Item = TimePoint> + use<> {
     let building_step_s = scenario.building.as_ref().map_or(1.0, |building| building.step_s);
     let steps = scenario.building.as_ref().map_or(0, |building| scenario.days() * building.steps_per_day());
     let (step_s, ticks) = (scenario.step_s, scenario.tick_count());
@@ -30,18 +30,18 @@ pub fn moments(scenario: &Scenario) -> impl Iterator<Item = Moment> + use<> {
         let (vehicles, building) = (vehicles_s == Some(time_s), building_s == Some(time_s));
         tick += usize::from(vehicles);
         step += usize::from(building);
-        Some(Moment { time_s, vehicles, building })
+        Some(TimePoint { time_s, vehicles, building })
     })
 }
 
 /// Whether vehicles drive now.
-pub fn vehicles(moment: Res<Moment>) -> bool {
-    moment.vehicles
+pub fn vehicles(time_point: Res<TimePoint>) -> bool {
+    time_point.vehicles
 }
 
 /// Whether the building takes a step now.
-pub fn building(moment: Res<Moment>) -> bool {
-    moment.building
+pub fn building(time_point: Res<TimePoint>) -> bool {
+    time_point.building
 }
 
 #[cfg(test)]
@@ -50,9 +50,9 @@ mod tests {
 
     use super::*;
 
-    fn of(text: &str) -> Vec<Moment> {
+    fn of(text: &str) -> Vec<TimePoint> {
         let scenario = from_text("clocks.toml", &format!("title = 'a'\nshows = 'b'\n{text}"), &[]);
-        moments(&scenario.expect("a scenario without fault")).collect()
+        time_points(&scenario.expect("a scenario without fault")).collect()
     }
 
     #[test]
@@ -61,12 +61,13 @@ mod tests {
         let (alone, house) =
             (of(&format!("duration_s = 2000\nstep_s = 450\n{car}")), of("building = {}\niterations = 2"));
         assert_eq!((alone.len(), house.len()), (4, 96));
-        assert!(alone.iter().all(|moment| moment.vehicles && !moment.building));
+        assert!(alone.iter().all(|time_point| time_point.vehicles && !time_point.building));
         let both =
             of(&format!("duration_s = 2000\nstep_s = 450\nbuilding = {{ step_s = 900 }}\niterations = 1\n{car}"));
-        let times: Vec<f64> = both[..5].iter().map(|moment| moment.time_s).collect();
+        let times: Vec<f64> = both[..5].iter().map(|time_point| time_point.time_s).collect();
         assert_eq!(times, [0.0, 450.0, 900.0, 1350.0, 1800.0]);
-        let marks: Vec<(bool, bool)> = both[..5].iter().map(|moment| (moment.vehicles, moment.building)).collect();
+        let marks: Vec<(bool, bool)> =
+            both[..5].iter().map(|time_point| (time_point.vehicles, time_point.building)).collect();
         assert_eq!(marks, [(true, true), (true, false), (true, true), (true, false), (false, true)]);
         assert_eq!(both.len(), 2 + 96);
         assert!(both.windows(2).all(|pair| pair[0].time_s < pair[1].time_s));
