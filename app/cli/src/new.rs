@@ -72,7 +72,7 @@ impl New {
         let command = shell::line(words.iter().map(String::as_str));
         let head = format!(
             "#:schema {SCHEMA_FILE}\n# Written by `{command}`.\n\
-             # Lines such as `#key = value` show defaults, or examples where there is none: recorded away the `#` to change them,\n\
+             # Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\
              # and that of the `#[table]` above them.\n\n"
         );
         create(&self.file, &(head + &scenario))?;
