@@ -21,6 +21,12 @@ pub(crate) fn check(tree: &TomlNode) -> Vec<Fault> {
 /// The largest whole number of a setting, unless its type is `u64`.
 const MAX_INTEGER: i128 = 1_000_000_000;
 
+/// Whether a number is within the bounds of its own key. Where it is not, they are what a reader needs, and not the limit of
+/// all settings.
+fn admits(schema: SchemaNode, number: f64) -> bool {
+    schema.bounds().all(|bound| bound.admits(number))
+}
+
 /// Where the checker is, as `--set` would address it.
 #[derive(Clone, Default)]
 struct Path(String);
@@ -148,7 +154,7 @@ impl Checker {
     fn integer(&mut self, node: &TomlNode, integer: i128, schema: SchemaNode, path: &Path) {
         let is_long = schema.keyword("format").is_some_and(|format| format == "uint64");
         let largest = if is_long { u64::MAX.into() } else { MAX_INTEGER };
-        if integer > largest {
+        if integer > largest && admits(schema, integer as f64) {
             let message = format!("{} must be at most {largest}", quoted(&path.0));
             self.refuse(&node.place, "too large", message, schema.description());
         } else {
@@ -158,12 +164,12 @@ impl Checker {
 
     fn number(&mut self, node: &TomlNode, number: f64, schema: SchemaNode, path: &Path) {
         match Bound::of_every_setting().into_iter().find(|bound| !bound.admits(number)) {
-            Some(bound) => {
+            Some(bound) if bound == Bound::Finite || admits(schema, number) => {
                 let label = if bound == Bound::Finite { "not finite" } else { "too large" };
                 let message = format!("{} must be {bound}", quoted(&path.0));
                 self.refuse(&node.place, label, message, schema.description());
             }
-            None => self.range(node, number, schema, path),
+            _ => self.range(node, number, schema, path),
         }
     }
 

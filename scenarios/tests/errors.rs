@@ -142,6 +142,8 @@ fn numbers() {
         &["`vehicle.ego.driver.beta` must be below 1"],
     );
     refusal(&mut errors, "horizon_too_long", &[("[road]", "horizon_steps = 201\n[road]")], &["at most 200"]);
+    let horizon = [("[road]", "horizon_steps = 999999999999\n[road]")];
+    refusal(&mut errors, "horizon_beyond_every_limit", &horizon, &["at most 200, not 999999999999"]);
     let seed = [("[road]", "seed = 99999999999999999999999999999999999999999999\n[road]")];
     refusal(&mut errors, "seed_too_large", &seed, &["`seed` must be at most 18446744073709551615"]);
     insta::assert_snapshot!("numbers", errors.0);
