@@ -159,7 +159,6 @@ impl TelemetryProblem {
     }
 }
 
-/// Names for a message, a long list cut.
 /// The known word that is nearest to an unknown one, both of which the TOML reader puts between backticks: "unknown field `a`,
 /// expected one of `b`, `c`".
 fn meant(reason: &str) -> Option<&str> {
@@ -170,6 +169,7 @@ fn meant(reason: &str) -> Option<&str> {
     (edits <= 1 + unknown.len() / 3).then_some(known)
 }
 
+/// Names for a message; a long list is cut.
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
     let shown: Vec<_> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();

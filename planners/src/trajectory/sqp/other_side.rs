@@ -22,11 +22,9 @@ use super::optimum::Optimum;
 use super::step_problem::row_terms;
 use crate::Axes;
 use crate::trajectory::problem::Problem;
-use crate::trajectory::stage::{Row, RowBlock, StageSolver};
+use crate::trajectory::stage::{ACTIVE_MULTIPLIER, Row, RowBlock, StageSolver};
 use crate::vehicle::OrientedEllipse;
 
-/// A multiplier above this makes a row active.
-const ACTIVE_MULTIPLIER: f64 = 1e-6;
 /// A promised cost is followed if it is below this multiple of the optimum at hand; tangents make the promise too dear.
 const MAX_PROMISED_COST_RATIO: f64 = 1.01;
 /// Above this multiple of the optimum at hand the other side is treated as out of reach.

@@ -17,6 +17,7 @@ pub use adjoint::Costates;
 pub(super) use adjoint::fill_costates;
 pub use qp::{Hessian, Interval, Reach, Row, RowBlock, StageQp, StateCost, TrajectoryRow, VehicleStages};
 pub use robust::Robust;
+pub(crate) use solution::ACTIVE_MULTIPLIER;
 pub use solution::StageSolution;
 pub use solver::{StageError, StageSolver};
 pub use sparse::Sparse;

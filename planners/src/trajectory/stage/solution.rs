@@ -2,6 +2,9 @@
 
 use super::qp::{Reach, StageQp};
 
+/// A row with a multiplier above this is active.
+pub(crate) const ACTIVE_MULTIPLIER: f64 = 1e-6;
+
 /// The optimum of a [`StageQp`] with its multipliers (all non-negative).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StageSolution {
@@ -31,9 +34,7 @@ impl StageSolution {
         let trajectories = self.trajectory_multipliers.iter_mut();
         trajectories.zip(&before.trajectory_multipliers).for_each(|(now, was)| mix(now, was));
     }
-}
 
-impl StageSolution {
     /// Whether there are multipliers for a problem of this shape.
     pub(crate) fn fits(&self, problem: &StageQp) -> bool {
         self.inputs.len() == problem.vehicles.len()

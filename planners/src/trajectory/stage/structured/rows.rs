@@ -2,7 +2,7 @@
 
 use crate::trajectory::penalty::Penalty;
 use crate::trajectory::stage::qp::{Reach, StageQp};
-use crate::trajectory::stage::solution::StageSolution;
+use crate::trajectory::stage::solution::{ACTIVE_MULTIPLIER, StageSolution};
 
 /// Values over states and inputs of all vehicles, indexed `k * M + vehicle`.
 #[derive(Clone, Debug, Default)]
@@ -120,9 +120,6 @@ pub(super) struct Inequalities {
     far_bounds: Vec<Bound>,
     far_rows: Vec<Inequality>,
 }
-
-/// A multiplier above this belongs to a row that matters.
-const ACTIVE_MULTIPLIER: f64 = 1e-6;
 
 impl Inequalities {
     /// Lists the inequalities of a problem. Rows whose violation costs nothing are left out, and with a `reach` those that
