@@ -8,8 +8,9 @@
 //! - what scenarios demand of drivers: [`unsuited`]
 //! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
-//! - how the workspace is built: [`house`], [`modules`]
+//! - how the workspace is built: [`architecture`], [`modules`]
 
+mod architecture;
 mod authored;
 mod authoring;
 mod bad_input;
@@ -22,7 +23,6 @@ mod documents;
 mod failures;
 mod figures;
 mod film;
-mod house;
 mod laws;
 mod learning;
 mod measures;

@@ -20,7 +20,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{Attribute, Item, UseTree, Visibility};
 
-use crate::house::{members, root};
+use crate::architecture::{members, root};
 
 /// Public types of one name in several modules of the workspace, and why that is no confusion.
 const SHARED_NAMES: &[(&str, &str)] =

@@ -1,5 +1,5 @@
-//! The rules of the house: who may depend on whom, who names which library, how long a file may be, and that nothing is
-//! built twice.
+//! The rules of this repository: which crate may depend on which, which folder may name which library, how long a file may
+//! be, and that no dependency is built twice.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::{env, fs};
 
 use toml::Table;
 
-/// Each room and the rooms that it may depend on. Data flows one way.
+/// Each crate and the crates that it may depend on. Data flows one way.
 const ARROWS: &[(&str, &[&str])] = &[
     ("convex", &[]),
     ("planners", &["convex"]),
@@ -20,7 +20,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tests", &["planners", "building", "scenarios", "app/simulation", "app/cli"]),
 ];
 
-/// Libraries that only one room may depend on.
+/// Libraries that only one crate may depend on.
 const OWNERS: &[(&str, &str)] = &[
     ("clarabel", "convex"),
     ("bevy", "app/simulation"),
@@ -32,7 +32,8 @@ const OWNERS: &[(&str, &str)] = &[
     ("clap", "app/cli"),
 ];
 
-/// Libraries that only one folder of their room may name. Cargo keeps them in the room; within it, only this does.
+/// Libraries that only one folder of their crate may name. Cargo limits a library to the crate that depends on it; this list
+/// limits it to a folder.
 const PARTS: &[(&str, &str)] = &[
     ("rapier2d", "app/simulation/src/physics"),
     ("parry2d", "app/simulation/src/physics"),
@@ -46,7 +47,7 @@ const FILE_LINES: usize = 400;
 const FUNCTION_LINES: usize = 60;
 
 pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the tests are a room of the house")
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the tests are a crate of the repository")
 }
 
 fn manifest(folder: &Path) -> Table {
@@ -61,7 +62,7 @@ pub fn members() -> Vec<String> {
     members.iter().map(|member| member.as_str().expect("a path").to_owned()).collect()
 }
 
-/// All that a room depends on, for whatever purpose and on whatever target.
+/// All dependencies of a crate: normal, development and build dependencies, for every target.
 fn dependencies(table: &Table) -> Vec<String> {
     let mut found = Vec::new();
     for (key, value) in table {
@@ -74,12 +75,12 @@ fn dependencies(table: &Table) -> Vec<String> {
     found
 }
 
-/// The room that a package of the workspace lives in.
-fn room(package: &str) -> Option<String> {
+/// The folder of a package of the workspace.
+fn crate_folder(package: &str) -> Option<String> {
     members().into_iter().find(|member| manifest(&root().join(member))["package"]["name"].as_str() == Some(package))
 }
 
-/// The Rust files below a folder, without what a build leaves there.
+/// The Rust files below a folder, sorted.
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
@@ -103,19 +104,19 @@ fn read(path: &Path) -> String {
 }
 
 #[test]
-fn every_room_has_its_place() {
-    let mut rooms: Vec<&str> = ARROWS.iter().map(|(room, _)| *room).collect();
+fn every_crate_has_its_arrows() {
+    let mut crates: Vec<&str> = ARROWS.iter().map(|(folder, _)| *folder).collect();
     let mut members = members();
-    rooms.sort_unstable();
+    crates.sort_unstable();
     members.sort_unstable();
-    assert_eq!(members, rooms, "a new room needs a line in ARROWS");
+    assert_eq!(members, crates, "a new crate needs a line in ARROWS");
 }
 
 #[test]
 fn arrows_point_one_way() {
     for (name, allowed) in ARROWS {
         for dependency in dependencies(&manifest(&root().join(name))) {
-            if let Some(other) = room(&dependency) {
+            if let Some(other) = crate_folder(&dependency) {
                 assert!(allowed.contains(&other.as_str()), "{name} must not depend on {other}");
             }
         }
@@ -141,11 +142,11 @@ fn every_engine_has_one_owner() {
 }
 
 #[test]
-fn inside_a_room_only_one_folder_names_an_engine() {
+fn inside_a_crate_only_one_folder_names_an_engine() {
     for (library, owner) in PARTS {
-        let (room, _) = owner.split_once("/src/").expect("a folder of sources");
+        let (folder, _) = owner.split_once("/src/").expect("a folder of sources");
         let mut named = false;
-        for file in rust_files(&root().join(room)) {
+        for file in rust_files(&root().join(folder)) {
             let text = read(&file);
             let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
             let names = code.filter(|line| has_word(line, library)).count() > 0;
@@ -194,8 +195,8 @@ fn functions_are_short() {
     }
 }
 
-/// `cargo test` after `cargo run` builds no dependency again: with the tests' own dependencies in the tree, every crate of
-/// the application keeps its features.
+/// `cargo test` after `cargo run` builds no dependency again: with the dependencies of the tests in the tree, every
+/// dependency of the application keeps its features.
 #[test]
 fn tests_do_not_change_how_dependencies_are_built() {
     let [built, tested] =
@@ -217,16 +218,16 @@ fn packages_with_features(tree: &[&str]) -> BTreeSet<String> {
     text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
 }
 
-/// Lints are set once; a room that leaves them out would be silently lax.
+/// Lints are set once, in the workspace. A crate that does not inherit them would be checked with the defaults only.
 #[test]
-fn every_room_takes_the_lints_of_the_workspace() {
+fn every_crate_takes_the_lints_of_the_workspace() {
     for member in members() {
         let manifest = manifest(&root().join(&member));
         assert_eq!(manifest["lints"]["workspace"].as_bool(), Some(true), "{member}");
     }
 }
 
-/// Whether a line names a variant of an enumeration, as in `Driver::Human`, or imports them. Methods are no variants.
+/// Whether a line names a variant of an enumeration, as in `Driver::Human`, or imports variants. Methods do not count.
 fn names_variant(line: &str, enumeration: &str) -> bool {
     line.match_indices(&format!("{enumeration}::")).any(|(at, path)| {
         let before = line[..at].chars().next_back();
@@ -236,8 +237,8 @@ fn names_variant(line: &str, enumeration: &str) -> bool {
     })
 }
 
-/// Planners and controllers declare themselves what is recorded, reported and measured of them: the code that shows it
-/// contains none of their words, and no variant of `Driver` or `Controller`. Comments and tests may name them.
+/// Planners and controllers declare which of their quantities are recorded, reported and measured. So the code that shows
+/// these quantities names no planner, no controller, and no variant of `Driver` or `Controller`. Comments and tests may.
 #[test]
 fn recorder_report_and_measures_name_no_planner_and_no_controller() {
     let kinds = ["negotiation", "bayesian", "game", "cooperative", "conservative", "idm", "scripted", "acceptance"];
