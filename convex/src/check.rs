@@ -1,7 +1,7 @@
 //! What a [`Program`] must satisfy before anything is solved. Every refusal names the place.
 
 use crate::program::{BlockRows, Program};
-use crate::{Cone, ProblemError};
+use crate::{Cone, ProblemError, ProblemPlace, RowPlace};
 
 /// Refuses a problem whose shape is malformed: no variables, names used twice, variables of another problem,
 /// rows that do not divide into cones.
@@ -13,11 +13,11 @@ pub(crate) fn shape(program: &Program) -> Result<(), ProblemError> {
     distinct_names(program.groups.iter().map(|group| group.name.as_ref()))?;
     distinct_names(program.blocks.iter().map(|block| block.name.as_ref()))?;
     for &(i, j) in &program.quadratic.position {
-        known(i.max(j), count, || "the quadratic cost".to_owned())?;
+        known(i.max(j), count, || ProblemPlace::QuadraticCost)?;
     }
     for block in &program.blocks {
         for &(row, variable) in &block.entries.position {
-            known(variable, count, || place_of(block, row))?;
+            known(variable, count, || ProblemPlace::Row(row_place(block, row)))?;
         }
         let rows = block.right_hand_side.len();
         let dimension = block.cone.rows_of_one(rows);
@@ -37,24 +37,21 @@ pub(crate) fn shape(program: &Program) -> Result<(), ProblemError> {
 pub(crate) fn values(program: &Program) -> Result<(), ProblemError> {
     let count = program.variable_count();
     for (&(i, j), &value) in program.quadratic.position.iter().zip(&program.quadratic.value) {
-        finite(value, || {
-            let (i, j) = (program.variable_name(i), program.variable_name(j));
-            format!("the quadratic cost of {i} and {j}")
-        })?;
+        finite(value, || ProblemPlace::QuadraticCostOf(program.variable_place(i), program.variable_place(j)))?;
     }
     for &(i, value) in &program.linear {
-        known(i, count, || "the linear cost".to_owned())?;
-        finite(value, || format!("the linear cost of {}", program.variable_name(i)))?;
+        known(i, count, || ProblemPlace::LinearCost)?;
+        finite(value, || ProblemPlace::LinearCostOf(program.variable_place(i)))?;
     }
     for block in &program.blocks {
         for (&(row, variable), &value) in block.entries.position.iter().zip(&block.entries.value) {
             finite(value, || {
-                let variable = program.variable_name(variable);
-                format!("the coefficient of {variable} in {}", place_of(block, row))
+                let variable = program.variable_place(variable);
+                ProblemPlace::Coefficient { variable, row: row_place(block, row) }
             })?;
         }
         for (row, &value) in block.right_hand_side.iter().enumerate() {
-            finite(value, || format!("the right-hand side of {}", place_of(block, row)))?;
+            finite(value, || ProblemPlace::RightHandSide(row_place(block, row)))?;
         }
     }
     nonnegative_diagonal(program)
@@ -71,22 +68,22 @@ fn nonnegative_diagonal(program: &Program) -> Result<(), ProblemError> {
         largest = largest.max(value.abs());
     }
     match diagonal.iter().position(|&value| value < -1e-12 * largest) {
-        Some(i) => Err(ProblemError::NegativeCurvature { variable: program.variable_name(i), value: diagonal[i] }),
+        Some(i) => Err(ProblemError::NegativeCurvature { variable: program.variable_place(i), value: diagonal[i] }),
         None => Ok(()),
     }
 }
 
 /// Refuses `program` when its variables, blocks or entries are not those of `other`.
 pub(crate) fn same_pattern(program: &Program, other: &Program) -> Result<(), ProblemError> {
-    let changed = |place: String| Err(ProblemError::PatternChanged { place });
+    let changed = |place: ProblemPlace| Err(ProblemError::PatternChanged { place });
     if program.groups != other.groups {
-        return changed("the list of variables".to_owned());
+        return changed(ProblemPlace::Variables);
     }
     if program.blocks.len() != other.blocks.len() {
-        return changed("the list of blocks".to_owned());
+        return changed(ProblemPlace::Blocks);
     }
     if program.quadratic.position != other.quadratic.position {
-        return changed("the quadratic cost".to_owned());
+        return changed(ProblemPlace::QuadraticCost);
     }
     for (block, other) in program.blocks.iter().zip(&other.blocks) {
         let same = block.name == other.name
@@ -94,7 +91,7 @@ pub(crate) fn same_pattern(program: &Program, other: &Program) -> Result<(), Pro
             && block.right_hand_side.len() == other.right_hand_side.len()
             && block.entries.position == other.entries.position;
         if !same {
-            return changed(format!("block `{}`", block.name));
+            return changed(ProblemPlace::Block { name: block.name.to_string() });
         }
     }
     Ok(())
@@ -109,7 +106,7 @@ fn distinct_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<(), Proble
     }
 }
 
-fn known(index: usize, count: usize, place: impl Fn() -> String) -> Result<(), ProblemError> {
+fn known(index: usize, count: usize, place: impl Fn() -> ProblemPlace) -> Result<(), ProblemError> {
     if index < count {
         Ok(())
     } else {
@@ -118,7 +115,7 @@ fn known(index: usize, count: usize, place: impl Fn() -> String) -> Result<(), P
     }
 }
 
-fn finite(value: f64, place: impl Fn() -> String) -> Result<(), ProblemError> {
+fn finite(value: f64, place: impl Fn() -> ProblemPlace) -> Result<(), ProblemError> {
     if value.is_finite() {
         Ok(())
     } else {
@@ -127,6 +124,6 @@ fn finite(value: f64, place: impl Fn() -> String) -> Result<(), ProblemError> {
     }
 }
 
-fn place_of(block: &BlockRows, row: usize) -> String {
-    format!("row {row} of block `{}`", block.name)
+fn row_place(block: &BlockRows, row: usize) -> RowPlace {
+    RowPlace { block: block.name.to_string(), row }
 }

@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use crate::place::{ProblemPlace, VariablePlace};
+
 /// The problem, or the settings, are malformed: nothing was solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProblemError {
@@ -19,7 +21,7 @@ pub enum ProblemError {
     #[error("{place} uses variable number {index}, but the problem has {count}: the handle is another problem's")]
     NoSuchVariable {
         /// The cost or row.
-        place: String,
+        place: ProblemPlace,
         /// The position of the variable, from zero.
         index: usize,
         /// How many variables there are.
@@ -29,7 +31,7 @@ pub enum ProblemError {
     #[error("{place} is {value}: every number of a problem must be finite")]
     NotFinite {
         /// The cost or row.
-        place: String,
+        place: ProblemPlace,
         /// The offending number.
         value: f64,
     },
@@ -46,8 +48,8 @@ pub enum ProblemError {
     /// The quadratic cost curves downwards along one variable, so it is not convex.
     #[error("the quadratic cost of {variable} is {value}: a convex cost needs at least zero")]
     NegativeCurvature {
-        /// The variable, as `name[index]`.
-        variable: String,
+        /// The variable.
+        variable: VariablePlace,
         /// The diagonal entry of P.
         value: f64,
     },
@@ -55,7 +57,7 @@ pub enum ProblemError {
     #[error("{place} differs in shape from the problem this solver was built for: build a new solver")]
     PatternChanged {
         /// The first place that differs.
-        place: String,
+        place: ProblemPlace,
     },
     /// A setting is out of range.
     #[error("setting `{name}` is {value}: it must be {wanted}")]

@@ -62,6 +62,7 @@ mod error;
 pub mod kkt;
 mod lapack;
 mod norm;
+mod place;
 mod program;
 mod settings;
 mod solution;
@@ -71,6 +72,7 @@ mod standard;
 
 pub use cone::{Cone, triangle};
 pub use error::{ProblemError, SolveError, Status};
+pub use place::{ProblemPlace, RowPlace, VariablePlace};
 pub use program::{Block, Program, Variable, Variables};
 pub use settings::SolverSettings;
 pub use solution::{ConicSolution, residuals};

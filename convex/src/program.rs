@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use crate::Cone;
+use crate::VariablePlace;
 
 /// One scalar variable of a [`Program`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -196,11 +197,13 @@ impl Program {
         self.blocks.iter().map(|block| block.right_hand_side.len()).sum()
     }
 
-    /// The variable at a position, as `name[index]`.
-    pub(crate) fn variable_name(&self, index: usize) -> String {
-        self.groups.iter().find(|group| group.variables.range().contains(&index)).map_or_else(
-            || format!("variable number {index}"),
-            |group| format!("{}[{}]", group.name, index - group.variables.start),
-        )
+    /// The group and the position in it of a variable of this problem.
+    ///
+    /// # Panics
+    /// When the problem has no such variable, which [`check::shape`](crate::check::shape) rules out.
+    pub(crate) fn variable_place(&self, index: usize) -> VariablePlace {
+        let group = self.groups.iter().find(|group| group.variables.range().contains(&index));
+        let group = group.expect("the shape of the problem was checked");
+        VariablePlace { group: group.name.to_string(), index: index - group.variables.start }
     }
 }

@@ -1,7 +1,8 @@
 //! Every way a problem can end: solved, infeasible, unbounded, unsolved, refused.
 
 use interplay_convex::{
-    Block, ConicSolution, ProblemError, Program, SolveError, Solver, SolverSettings, Status, Variables,
+    Block, ConicSolution, ProblemError, ProblemPlace, Program, RowPlace, SolveError, Solver, SolverSettings, Status,
+    VariablePlace, Variables,
 };
 
 fn solver(program: &Program) -> Solver {
@@ -252,17 +253,17 @@ fn variables_of_another_problem_are_refused() {
     let clean = program.clone();
 
     program.row(limit, [(x.at(0), 1.0), (foreign, 1.0)], 1.0);
-    let place = "row 1 of block `limit`".to_owned();
+    let place = ProblemPlace::Row(RowPlace { block: "limit".into(), row: 1 });
     assert_eq!(refusal(&program), ProblemError::NoSuchVariable { place, index: 8, count: 2 });
 
     let mut program = clean.clone();
     program.quadratic(foreign, x.at(0), 1.0);
-    let place = "the quadratic cost".to_owned();
+    let place = ProblemPlace::QuadraticCost;
     assert_eq!(refusal(&program), ProblemError::NoSuchVariable { place, index: 8, count: 2 });
 
     let mut program = clean;
     program.linear(foreign, 1.0);
-    let place = "the linear cost".to_owned();
+    let place = ProblemPlace::LinearCost;
     assert_eq!(refusal(&program), ProblemError::NoSuchVariable { place, index: 8, count: 2 });
 }
 
@@ -275,13 +276,23 @@ fn numbers_that_are_not_finite_are_refused_where_they_stand() {
         program.quadratic(x.at(0), x.at(1), p);
         program.linear(x.at(1), q);
         program.row(limit, [(x.at(1), a)], b);
-        refusal(&program).to_string()
+        refusal(&program)
     };
     let (nan, inf) = (f64::NAN, f64::INFINITY);
-    assert!(write(nan, 0.0, 0.0, 0.0).starts_with("the quadratic cost of speed[0] and speed[1] is NaN"));
-    assert!(write(0.0, inf, 0.0, 0.0).starts_with("the linear cost of speed[1] is inf"));
-    assert!(write(0.0, 0.0, nan, 0.0).starts_with("the coefficient of speed[1] in row 0 of block `limit`"));
-    assert!(write(0.0, 0.0, 0.0, inf).starts_with("the right-hand side of row 0 of block `limit`"));
+    let speed = |index| VariablePlace { group: "speed".into(), index };
+    let row = || RowPlace { block: "limit".into(), row: 0 };
+    let stands = |error: ProblemError, want: ProblemPlace, shown: &str| {
+        assert_eq!(error.to_string(), format!("{shown}: every number of a problem must be finite"));
+        assert!(matches!(error, ProblemError::NotFinite { place, .. } if place == want), "not at {want:?}");
+    };
+    let quadratic = ProblemPlace::QuadraticCostOf(speed(0), speed(1));
+    stands(write(nan, 0.0, 0.0, 0.0), quadratic, "the quadratic cost of speed[0] and speed[1] is NaN");
+    let linear = ProblemPlace::LinearCostOf(speed(1));
+    stands(write(0.0, inf, 0.0, 0.0), linear, "the linear cost of speed[1] is inf");
+    let coefficient = ProblemPlace::Coefficient { variable: speed(1), row: row() };
+    stands(write(0.0, 0.0, nan, 0.0), coefficient, "the coefficient of speed[1] in row 0 of block `limit` is NaN");
+    let right_hand_side = ProblemPlace::RightHandSide(row());
+    stands(write(0.0, 0.0, 0.0, inf), right_hand_side, "the right-hand side of row 0 of block `limit` is inf");
 }
 
 #[test]
@@ -290,7 +301,7 @@ fn a_cost_that_curves_downwards_is_refused() {
     let x = program.variables("x", 3);
     program.quadratic(x.at(2), x.at(2), 1.0);
     program.quadratic(x.at(2), x.at(2), -1.5);
-    let want = ProblemError::NegativeCurvature { variable: "x[2]".into(), value: -0.5 };
+    let want = ProblemError::NegativeCurvature { variable: VariablePlace { group: "x".into(), index: 2 }, value: -0.5 };
     assert_eq!(refusal(&program), want);
 }
 

@@ -1,6 +1,6 @@
 //! What an update may change, and what it refuses.
 
-use interplay_convex::{Block, Cone, ProblemError, Program, Solver, SolverSettings, Variables};
+use interplay_convex::{Block, Cone, ProblemError, ProblemPlace, Program, Solver, SolverSettings, Variables};
 
 /// min ½(x − target)² + 0·xy with y = x and x ≤ limit.
 struct Follow {
@@ -80,29 +80,29 @@ fn a_changed_pattern_is_refused_by_place_and_changes_nothing() {
     let follow = Follow::new();
     let mut solver = follow.solver();
     let before = solver.solve();
-    let mut refused = |change: &dyn Fn(&mut Program), want: &str| {
+    let mut refused = |change: &dyn Fn(&mut Program), place: ProblemPlace| {
         let mut program = follow.program.clone();
         change(&mut program);
-        let place = want.to_owned();
         assert_eq!(solver.update(&program), Err(ProblemError::PatternChanged { place }));
     };
     let (x, y) = (follow.x.at(0), follow.x.at(1));
+    let block = |name: &str| ProblemPlace::Block { name: name.to_owned() };
     refused(
         &|p| {
             p.variables("more", 1);
         },
-        "the list of variables",
+        ProblemPlace::Variables,
     );
     refused(
         &|p| {
             p.equal("more");
         },
-        "the list of blocks",
+        ProblemPlace::Blocks,
     );
-    refused(&|p| p.quadratic(y, y, 0.0), "the quadratic cost");
-    refused(&|p| p.row(follow.limit, [(x, 1.0)], 1.0), "block `limit`");
-    refused(&|p| p.row(follow.same, [(x, 1.0)], 1.0), "block `same`");
-    refused(&Program::clear, "the quadratic cost");
+    refused(&|p| p.quadratic(y, y, 0.0), ProblemPlace::QuadraticCost);
+    refused(&|p| p.row(follow.limit, [(x, 1.0)], 1.0), block("limit"));
+    refused(&|p| p.row(follow.same, [(x, 1.0)], 1.0), block("same"));
+    refused(&Program::clear, ProblemPlace::QuadraticCost);
     assert_eq!(solver.solve(), before);
 }
 
@@ -117,7 +117,7 @@ fn a_changed_cone_is_refused_though_its_rows_are_the_same() {
     };
     let inequality = program(Cone::Nonnegative);
     let mut solver = Solver::new(&inequality, &SolverSettings::default()).expect("well-formed");
-    let place = "block `limit`".to_owned();
+    let place = ProblemPlace::Block { name: "limit".to_owned() };
     let refusal = solver.update(&program(Cone::Zero));
     assert_eq!(refusal, Err(ProblemError::PatternChanged { place }));
     assert_eq!(solver.update(&inequality), Ok(()));
