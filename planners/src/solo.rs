@@ -1,24 +1,26 @@
-//! How a vehicle that decides alone finds its plan: from the last one, and where that leads nowhere, from full braking and
-//! full acceleration.
+//! Plans of one vehicle: the starting guesses are the last plan and, if that gives no optimum, full braking and full
+//! acceleration.
 
 use crate::predict::steady;
 use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust};
 use crate::{Input, Scene, Trajectory};
 
-/// A plan with the problem that it solves.
+/// An optimum with the problem that it solves.
 #[derive(Clone, Debug)]
 pub(crate) struct Solved {
     pub problem: Problem,
     pub optimum: Optimum,
-    /// Why it is not the problem that was posed.
+    /// Why another problem was solved than the one that was posed; `None` if it is the same.
     pub event: Option<String>,
 }
 
-/// The cheapest optimum from the last plan, one step later, and in trouble or every `look_around_every` steps (0: never)
-/// from the extremes too.
+/// Solves a problem from the last plan, shifted by one step.
+///
+/// If that fails or ends on a violated safety ellipse or road edge, and every `look_around_every` steps (0: never), it also
+/// starts from full braking and full acceleration. Returns the cheapest optimum.
 ///
 /// # Errors
-/// [`DescentError`] if none of the guesses leads to an optimum.
+/// [`DescentError`] if no starting guess leads to an optimum.
 pub(crate) fn solve(
     optimiser: &mut Optimiser<Robust>,
     scene: &Scene,
@@ -31,14 +33,14 @@ pub(crate) fn solve(
     Ok(Solved { problem, optimum, event: None })
 }
 
-/// Inputs that brake or accelerate as hard as the vehicle can, straight on.
+/// Full braking and full acceleration, both without steering.
 pub(crate) fn extremes(scene: &Scene) -> [Vec<Input>; 2] {
     let limits = &scene.ego.limits;
     [limits.acceleration_min_mps2, limits.acceleration_max_mps2]
         .map(|acceleration| steady(&scene.ego.state, acceleration, limits, scene.horizon, scene.step_s))
 }
 
-/// The last plan one step later, full braking and full acceleration.
+/// The last plan shifted by one step, full braking, and full acceleration.
 fn guesses(scene: &Scene, last: Option<&Trajectory>) -> [Vec<Vec<Input>>; 3] {
     let keep = last.map_or_else(Vec::new, Trajectory::later_inputs);
     let [brake, accelerate] = extremes(scene);

@@ -9,7 +9,8 @@
 //! 3. prices impressions by what the other's best reply to them is worth (`value`, eq. 7.18, 7.19);
 //! 4. solves for its own trajectory only (`signal`, eq. 7.23-7.26).
 //!
-//! The other's plan is a hard obstacle, as for the conservative planner: persuasion is in the cost.
+//! The safety ellipse around the other's plan is a soft constraint with an exact penalty, as for the conservative planner.
+//! Persuasion enters the cost only.
 
 mod belief;
 pub mod diagnostics;

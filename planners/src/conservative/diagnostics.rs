@@ -1,9 +1,9 @@
-//! What the conservative planner reports: what every planner does that optimises a trajectory.
+//! The diagnostics of the conservative planner: those of every planner that optimises a trajectory.
 
 use crate::diagnostic::Explanation;
 
 /// How the planner explains its plans.
 pub const EXPLANATION: Explanation = Explanation {
-    guide: "**Conservative.** It asks nobody: look at how many steps of its plan lie at a safety ellipse.",
+    guide: "**Conservative.** The others' predictions are constraints: see how many steps of the plan touch a safety ellipse.",
     ..Explanation::NONE
 };

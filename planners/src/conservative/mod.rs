@@ -1,4 +1,7 @@
-//! The conservative baseline (eq. 6.13): the others' predictions are constraints, whoever has the right of way.
+//! The conservative baseline (eq. 6.13): the ego keeps out of the safety ellipses around the others' predicted positions.
+//!
+//! The predictions are fixed. The ego assumes that nobody reacts to it, whoever has the right of way. Each ellipse is a soft
+//! constraint with an exact penalty ([`Penalty::EXACT`](crate::trajectory::Penalty::EXACT)), so it holds wherever it can.
 
 pub mod diagnostics;
 mod retreat;
@@ -13,7 +16,7 @@ use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
 
-/// A conservative planner with the plan it made last.
+/// A conservative planner, with its last plan.
 #[derive(Clone, Debug)]
 pub struct Conservative {
     settings: Settings,
@@ -21,7 +24,7 @@ pub struct Conservative {
     last: Option<Trajectory>,
 }
 
-/// The conservative problem for the planning vehicle among given others.
+/// The conservative problem of the planning vehicle, with the predictions of `others` as constraints.
 pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     terms.extend(scene.hard_keep_outs(others.iter().copied()));
@@ -29,20 +32,20 @@ pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
 }
 
 impl Conservative {
-    /// A planner that has not planned yet.
+    /// A planner without a last plan.
     pub fn new(settings: Settings) -> Self {
         Conservative { settings, optimiser: Optimiser::resuming(Robust::default()), last: None }
     }
 
-    /// Plans around the predictions of all others.
+    /// Plans with the predictions of all other vehicles as constraints.
     ///
     /// # Errors
-    /// [`PlanError`] if none of the guesses leads to an optimum.
+    /// [`PlanError`] if no starting guess leads to an optimum.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         Ok(answer(&self.optimise(scene)?))
     }
 
-    /// The same as [`Conservative::plan`], with the problem that it solves.
+    /// As [`Conservative::plan`], but returns the optimum together with the problem that it solves.
     pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Solved, DescentError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let others: Vec<&Agent> = scene.others.iter().collect();
@@ -54,7 +57,7 @@ impl Conservative {
     }
 }
 
-/// A conservative plan with its cost and with what holds it back.
+/// Turns a solved problem into a plan. Its diagnostics are the cost, the violation of safety, and the active constraints.
 pub(crate) fn answer(Solved { problem, optimum, event }: &Solved) -> Plan {
     let cost = &optimum.cost;
     let mut diagnostics: Vec<Diagnostic> =

@@ -1,14 +1,14 @@
-//! What other planners do when their own problem leads nowhere: they ask nothing of anybody.
+//! The fallback of other planners: the conservative problem, when their own problem has no optimum.
 
 use super::problem;
 use crate::solo::{self, Solved};
 use crate::trajectory::{DescentError, Optimiser, Problem, Robust};
 use crate::{Agent, Scene, Trajectory};
 
-/// The optimum of a problem ([`solo::solve`]), or if there is none, that of the conservative problem.
+/// Solves `problem` ([`solo::solve`]). If that fails, solves the conservative problem instead.
 ///
 /// # Errors
-/// That of the conservative problem.
+/// The error of the conservative problem.
 pub(crate) fn solve_or_retreat(
     optimiser: &mut Optimiser<Robust>,
     scene: &Scene,
@@ -20,10 +20,10 @@ pub(crate) fn solve_or_retreat(
         .or_else(|error| retreat(optimiser, scene, last, &error))
 }
 
-/// The conservative plan, because of an error.
+/// Solves the conservative problem. The event of the result states the error `because` of which it is solved.
 ///
 /// # Errors
-/// That of the conservative problem.
+/// The error of the conservative problem.
 pub(crate) fn retreat(
     optimiser: &mut Optimiser<Robust>,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! What a scenario file may say about the conservative planner.
+//! The settings of the conservative planner in a scenario file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,19 +1,20 @@
-//! Cooperation (section 6.2): one problem for all vehicles that share it.
+//! Cooperation (section 6.2): all vehicles with this driver solve one joint problem.
 //!
 //! ```text
-//! minimise  Σ_i 1/Z_i Σ_t (‖x_i − x_i,des‖²_Q + ‖Δu_i‖²_R)        (6.6)
-//! such that everybody obeys the bicycle, its bounds and its road, and all keep apart    (6.7-6.11)
+//! minimise    Σ_i 1/Z_i Σ_t (‖x_i − x_i,des‖²_Q + ‖Δu_i‖²_R)                                           (6.6)
+//! subject to  the bicycle model, bounds and road of each vehicle, and the safety ellipses of each pair    (6.7-6.11)
 //! ```
 //!
-//! Its solutions are Pareto optimal: with positive weights `1/Z_i`, nobody can be served better without somebody being served
-//! worse. The source's two vehicles are one case of any number.
+//! `x_i` is the state of vehicle `i`, `x_i,des` its desired state, `Δu_i` the change of its input from step to step, `Q`
+//! and `R` its weights, and `Z_i` its normaliser. With positive weights `1/Z_i` a global optimum is Pareto optimal: no cost
+//! can fall unless another rises. The source has two vehicles; here any number may cooperate.
 //!
-//! Nobody is in charge. Every vehicle with this driver tells the others what it wants ([`Agent::shared_goal`]), solves the
-//! same problem in the same way, and drives its own part of the solution. As everything is deterministic and the vehicles
-//! are ordered by name, all solutions are the same, bit for bit, as long as all know the same.
+//! The planner is decentralised. Every vehicle publishes its goal ([`Agent::shared_goal`]), solves the joint problem itself, and
+//! applies its own part of the solution. The computation is deterministic and the vehicles are ordered by name, so all
+//! solutions are bit-identical as long as all vehicles have the same information.
 //!
-//! Who goes first is decided by the starting guess, so at the first step every order of "one accelerates, the others brake"
-//! is tried.
+//! The starting guess determines which vehicle goes first. So at the first step the planner tries, for each vehicle, the guess
+//! in which it accelerates and the others brake.
 
 pub mod diagnostics;
 mod problem;
@@ -30,17 +31,17 @@ use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 
-/// A cooperating planner with the joint plan it made last.
+/// A cooperative planner, with its last joint plan.
 #[derive(Clone, Debug)]
 pub struct Cooperative {
     settings: Settings,
     optimiser: Optimiser<Robust>,
-    /// Everybody's name and part.
+    /// The last trajectory of each cooperating vehicle, with its name.
     last: Vec<(String, Trajectory)>,
 }
 
 impl Settings {
-    /// What a vehicle with these settings tells the others: its goal, weighted with `1/Z_i`.
+    /// The goal that a vehicle with these settings publishes: its own goal with weights divided by its normaliser `Z_i`.
     pub fn shared_goal(&self, goal: &Goal) -> Goal {
         let share = 1.0 / self.normaliser;
         let (tracking, comfort) = (goal.tracking.map(|q| share * q), goal.comfort.map(|r| share * r));
@@ -49,12 +50,12 @@ impl Settings {
 }
 
 impl Cooperative {
-    /// A planner that has not planned yet.
+    /// A planner without a last plan.
     pub fn new(settings: Settings) -> Self {
         Cooperative { settings, optimiser: Optimiser::resuming(Robust::default()), last: Vec::new() }
     }
 
-    /// Plans everybody's moves and answers with the own ones.
+    /// Solves the joint problem and returns the plan of the ego.
     ///
     /// # Errors
     /// [`PlanError`] if neither the joint problem nor the conservative one can be solved.
@@ -84,7 +85,7 @@ impl Cooperative {
         }
     }
 
-    /// The last plan one step later, then everybody in turn going first.
+    /// The last joint plan shifted by one step; then one guess for each vehicle, in which it accelerates and the others brake.
     fn guesses(&self, scene: &Scene, cooperators: &[Cooperator]) -> Vec<Vec<Vec<Input>>> {
         let keep = self.last.iter().map(|(_, trajectory)| trajectory.later_inputs()).collect();
         let firmly = |agent: &Agent, first: bool| {

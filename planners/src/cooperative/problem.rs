@@ -1,19 +1,19 @@
-//! The joint trajectory problem of the vehicles that share it (eq. 6.6-6.12).
+//! The joint trajectory problem of the cooperating vehicles (eq. 6.6-6.12).
 
 use crate::trajectory::terms::{KeepOut, Separation};
 use crate::trajectory::{Penalty, Problem, Term};
 use crate::{Agent, Goal, Scene};
 
-/// A vehicle that shares the problem, with what it wants; `Q` and `R` are divided by its `Z_i`.
+/// A vehicle of the joint problem, with its goal. The weights `Q` and `R` of the goal are divided by its normaliser `Z_i`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cooperator {
     /// The vehicle.
     pub agent: Agent,
-    /// What it wants.
+    /// Its goal.
     pub goal: Goal,
 }
 
-/// Everybody who shares the problem, by name: the same list, in every bit, whoever makes it.
+/// All vehicles of the joint problem, sorted by name. Each of them computes a bit-identical list.
 pub fn cooperators(scene: &Scene, own: Goal) -> Vec<Cooperator> {
     let others = scene.others.iter().filter_map(|agent| Some((agent, agent.shared_goal?)));
     let everybody = others.chain([(&scene.ego, own)]);
@@ -22,11 +22,12 @@ pub fn cooperators(scene: &Scene, own: Goal) -> Vec<Cooperator> {
     found
 }
 
-/// The joint problem: all inputs of all cooperators are decided, and everybody else's prediction is a hard obstacle, as for
-/// the conservative planner. (The source has two vehicles and nobody else.)
+/// The joint problem: the inputs of all cooperators are decision variables. The safety ellipses around the predictions of all
+/// other vehicles are soft constraints with an exact penalty, as for the conservative planner. (The source has two vehicles
+/// and no others.)
 ///
-/// Each pair keeps apart once for every ellipse that says something new: with equal ellipses on one road, "the first keeps
-/// out of the second's" is "the second keeps out of the first's".
+/// A pair has two separation constraints, one for the ellipse of each vehicle. If both ellipses have the same size and
+/// direction, the two constraints are equal, and only one is kept.
 pub fn problem(scene: &Scene, cooperators: &[Cooperator]) -> Problem {
     let mut strangers: Vec<&Agent> = scene.others.iter().filter(|agent| agent.shared_goal.is_none()).collect();
     strangers.sort_by(|a, b| a.name.cmp(&b.name));
@@ -52,7 +53,7 @@ pub fn problem(scene: &Scene, cooperators: &[Cooperator]) -> Problem {
     Problem { horizon: scene.horizon, participants, terms }
 }
 
-/// Whether two vehicles' ellipses are the same seen from either.
+/// Whether the safety ellipses of two vehicles are equal.
 fn is_mutual(a: &Cooperator, b: &Cooperator) -> bool {
     a.goal.safety == b.goal.safety && a.agent.corridor.heading_rad == b.agent.corridor.heading_rad
 }

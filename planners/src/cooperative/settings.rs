@@ -1,4 +1,4 @@
-//! What a scenario file may say about cooperating vehicles.
+//! The settings of the cooperative planner in a scenario file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What the others will do, and simple motions to start a search from.
+//! Predictions of other vehicles, and simple motions that serve as starting guesses.
 
 use std::borrow::Cow;
 
@@ -28,7 +28,7 @@ impl Prediction {
         }
     }
 
-    /// The same moment with the others expected to do what this prediction says.
+    /// The scene with the others' motions predicted in this way.
     pub fn applied_to(self, scene: &Scene) -> Cow<'_, Scene> {
         match self {
             Prediction::Plan => Cow::Borrowed(scene),
@@ -43,7 +43,7 @@ impl Prediction {
     }
 }
 
-/// The straight line that a vehicle would drive with its present heading and speed.
+/// The motion of a vehicle that keeps its present heading and speed.
 pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajectory {
     let (sin, cos) = libm::sincos(state.heading_rad);
     let states = (0..=horizon).map(|t| {
@@ -53,7 +53,7 @@ pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajecto
     Trajectory { states: states.collect(), inputs: vec![Input::default(); horizon] }
 }
 
-/// Inputs that drive straight on with a constant acceleration, as far as the speed limits let it.
+/// Inputs of a constant acceleration without steering. The acceleration is reduced where the speed would leave its limits.
 pub fn steady(state: &State, acceleration_mps2: f64, limits: &Limits, horizon: usize, step_s: f64) -> Vec<Input> {
     let mut speed = state.speed_mps;
     let inputs = (0..horizon).map(|_| {
