@@ -1,4 +1,4 @@
-//! What a [`Program`] must satisfy before anything is solved. Every refusal names the place.
+//! Checks of a [`Program`] before it is solved. Every error names the variable, row or block that is wrong.
 
 use crate::program::{BlockRows, Program};
 use crate::{Cone, ProblemError, ProblemPlace, RowPlace};
@@ -33,7 +33,7 @@ pub(crate) fn shape(program: &Program) -> Result<(), ProblemError> {
 
 /// Refuses numbers that are not finite, linear costs of variables of another problem, and a quadratic cost
 /// with a negative diagonal entry. (That the diagonal is not negative is necessary for convexity; that P as a
-/// whole is positive semidefinite is the caller's to ensure, since its proof costs a factorisation.)
+/// whole is positive semidefinite is not checked, because that costs a factorisation: the caller must ensure it.)
 pub(crate) fn values(program: &Program) -> Result<(), ProblemError> {
     let count = program.variable_count();
     for (&(i, j), &value) in program.quadratic.position.iter().zip(&program.quadratic.value) {
@@ -57,7 +57,7 @@ pub(crate) fn values(program: &Program) -> Result<(), ProblemError> {
     nonnegative_diagonal(program)
 }
 
-/// Refuses a diagonal entry of P that is negative beyond the rounding errors of its parts.
+/// Refuses a diagonal entry of P below −1e-12 times the largest entry; a smaller negative value is a rounding error.
 fn nonnegative_diagonal(program: &Program) -> Result<(), ProblemError> {
     let mut diagonal = vec![0.0; program.variable_count()];
     let mut largest = 0.0_f64;

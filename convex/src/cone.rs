@@ -10,7 +10,7 @@
 use crate::lapack;
 use crate::norm::{euclidean, largest};
 
-/// What a block of rows asks of its slack s = b − Ax.
+/// The cone that must contain the slack s = b − Ax of a block of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cone {
@@ -30,15 +30,16 @@ pub enum Cone {
     },
 }
 
-/// How a symmetric matrix of an order becomes rows: the upper triangle by columns, as (i, j, weight) with i ≤ j. A row is
-/// the entry times its weight, 1 on the diagonal and √2 beside it, so that the inner product of two stacked matrices is
-/// the trace of their product.
+/// The stacking of a symmetric matrix into rows: its upper triangle by columns, as (i, j, weight) with i ≤ j.
+///
+/// A row is the entry times its weight, which is 1 on the diagonal and √2 elsewhere. So the inner product of two stacked
+/// matrices is the trace of their product.
 pub fn triangle(order: usize) -> impl Iterator<Item = (usize, usize, f64)> {
     (0..order).flat_map(|j| (0..=j).map(move |i| (i, j, if i == j { 1.0 } else { std::f64::consts::SQRT_2 })))
 }
 
 impl Cone {
-    /// Rows of one cone of this kind, when it stands for several of them in a block of `rows` rows.
+    /// The number of rows of one cone of this kind, in a block of `rows` rows.
     pub(crate) fn rows_of_one(self, rows: usize) -> usize {
         match self {
             Self::Zero | Self::Nonnegative => rows,
@@ -65,8 +66,8 @@ impl Cone {
         }
     }
 
-    /// How far `s` and `z` are from being complementary: the largest |sᵢzᵢ| of the inequality rows, |sᵀz| of
-    /// one second-order or semidefinite cone. An equality has nothing to complement: its violation is a primal residual.
+    /// Violation of complementarity of `s` and `z`: the largest |sᵢzᵢ| of inequality rows, or |sᵀz| of one second-order or
+    /// semidefinite cone. It is zero for equalities, whose violation is a primal residual.
     pub(crate) fn complementarity(self, s: &[f64], z: &[f64]) -> f64 {
         let products = s.iter().zip(z).map(|(s, z)| s * z);
         match self {

@@ -1,6 +1,6 @@
-//! Optimality and infeasibility, checked from the problem's data rather than on the solver's word.
+//! Residuals of optimality and infeasibility, computed from the problem's data and independently of the solver.
 //!
-//! With s = b − Ax, a pair (x, z) is optimal exactly when
+//! For the problem min ½xᵀPx + qᵀx subject to s = b − Ax ∈ K, with the dual cone K*, a pair (x, z) is optimal exactly when
 //!
 //! | condition | residual |
 //! |---|---|
@@ -9,8 +9,8 @@
 //! | dual feasibility: z ∈ K* | largest distance of a cone's part of z to the dual cone |
 //! | complementarity: sᵀz = 0, cone by cone | largest \|sᵀz\| of one cone (of one row for inequalities) |
 //!
-//! Each residual is divided by max(1, the largest magnitude that took part in it), so that a residual of 1e-8
-//! means eight digits for large data and eight decimals for small data.
+//! Each residual is divided by max(1, the largest magnitude among its terms). So a residual of 1e-8 is relative for large
+//! data and absolute for small data.
 
 use std::ops::Range;
 
@@ -21,13 +21,13 @@ use crate::standard::StandardForm;
 /// The four residuals of the optimality conditions, relative as described in [`crate::kkt`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residuals {
-    /// Of Px + q + Aᵀz = 0.
+    /// Residual of Px + q + Aᵀz = 0.
     pub stationarity: f64,
-    /// Of b − Ax ∈ K.
+    /// Residual of b − Ax ∈ K.
     pub primal: f64,
-    /// Of z ∈ K*.
+    /// Residual of z ∈ K*.
     pub dual: f64,
-    /// Of (b − Ax)ᵀz = 0, cone by cone.
+    /// Residual of (b − Ax)ᵀz = 0, cone by cone.
     pub complementarity: f64,
 }
 
@@ -35,18 +35,18 @@ impl Residuals {
     /// The largest of the four.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        // `f64::max` would let a NaN pass for a small residual.
+        // `f64::max` ignores a NaN, which would then count as a small residual.
         let all = [self.stationarity, self.primal, self.dual, self.complementarity];
         all.into_iter().fold(0.0, |worst, v| if v > worst || v.is_nan() { v } else { worst })
     }
 }
 
-/// The residuals of a pair (x, z), with the slack and the cost that they were computed from.
+/// The residuals of a pair (x, z), with the slack and the cost from which they were computed.
 pub(crate) struct OptimalityCheck {
     pub(crate) residuals: Residuals,
-    /// s = b − Ax.
+    /// The slack s = b − Ax.
     pub(crate) slack: Vec<f64>,
-    /// ½xᵀPx + qᵀx.
+    /// The cost ½xᵀPx + qᵀx.
     pub(crate) objective: f64,
 }
 
@@ -70,9 +70,10 @@ pub(crate) fn of(form: &StandardForm, x: &[f64], z: &[f64]) -> OptimalityCheck {
     OptimalityCheck { residuals, slack, objective: objectives[0] }
 }
 
-/// How far z, once scaled to bᵀz = −1, is from proving that no x is feasible: the largest of ‖Aᵀz‖∞ and of
-/// the distance of z to K*. Infinite when bᵀz ≥ 0. For z ∈ K*, every feasible x has (Aᵀz)ᵀx ≤ bᵀz = −1, so a
-/// residual ρ proves that there is none with ‖x‖₁ < 1/ρ.
+/// Residual of a certificate z of infeasibility, scaled to bᵀz = −1: the larger of ‖Aᵀz‖∞ and the distance of z to K*.
+///
+/// Infinite when bᵀz ≥ 0. For z ∈ K*, every feasible x satisfies (Aᵀz)ᵀx ≤ bᵀz = −1. So a residual ρ proves that there
+/// is no feasible x with ‖x‖₁ < 1/ρ.
 pub(crate) fn infeasibility(form: &StandardForm, z: &[f64]) -> f64 {
     let gain = -dot(&form.b, z);
     let atz = form.a.transposed_times(z);
@@ -80,8 +81,8 @@ pub(crate) fn infeasibility(form: &StandardForm, z: &[f64]) -> f64 {
     relative(magnitude(&atz).max(outside), gain)
 }
 
-/// How far x, once scaled to qᵀx = −1, is from a direction of unlimited descent: the largest of ‖Px‖∞ and of
-/// the distance of −Ax to K. Infinite when qᵀx ≥ 0.
+/// Residual of a certificate x of unboundedness, a direction of unlimited descent scaled to qᵀx = −1: the larger of ‖Px‖∞
+/// and the distance of −Ax to K. Infinite when qᵀx ≥ 0.
 pub(crate) fn unboundedness(form: &StandardForm, x: &[f64]) -> f64 {
     let gain = -dot(&form.q, x);
     let px = form.p.symmetric_times(x);

@@ -1,4 +1,4 @@
-//! SparseColumns convex problems, built by name and solved into a [`Result`].
+//! Sparse convex problems with named variables and rows. Solving one returns a [`Result`].
 //!
 //! # The problem
 //!
@@ -15,8 +15,8 @@
 //! P x + q + Aᵀz = 0,    sᵀz = 0,
 //! ```
 //!
-//! so the dual of an inequality is at least zero, and raising b by one lowers the optimal cost by z (to first
-//! order). [`kkt`] checks these conditions from the problem's data.
+//! so the dual of an inequality is at least zero, and raising b by one lowers the optimal cost by z, to first
+//! order. [`kkt`] checks these conditions from the problem's data.
 //!
 //! # Use
 //!
@@ -46,15 +46,15 @@
 //! # }
 //! ```
 //!
-//! To solve the same shape again, [`Program::clear`] and write the new numbers at the same positions in the
-//! same order, then [`Solver::update`]: the ordering and symbolic factorisation are kept, a changed pattern
-//! is refused, and the result is bit for bit that of a new solver.
+//! To solve another problem with the same sparsity pattern, call [`Program::clear`], write the new numbers at the same
+//! positions in the same order, and call [`Solver::update`]. It keeps the ordering and the symbolic factorisation, and
+//! refuses a changed pattern. The result is bit-identical to that of a new solver.
 //!
 //! # Outcomes
 //!
-//! [`Solver::new`] and [`Solver::update`] refuse a malformed problem ([`ProblemError`]). [`Solver::solve`]
-//! returns a solution or says why there is none ([`SolveError`]): infeasible and unbounded come with a
-//! certificate and the names involved, anything else is unsolved, with the [`Status`] and the iterations.
+//! [`Solver::new`] and [`Solver::update`] refuse a malformed problem ([`ProblemError`]). [`Solver::solve`] returns a
+//! solution, or a [`SolveError`]. The errors "infeasible" and "unbounded" contain a certificate and the names of the
+//! variables or rows in it. Any other failure is "unsolved", with the [`Status`] and the number of iterations.
 
 mod check;
 mod cone;

@@ -1,4 +1,4 @@
-//! Inner product and norms. A NaN is never lost: it makes the result NaN.
+//! Inner product and norms. If an entry is NaN, the result is NaN.
 
 /// aᵀb.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -15,7 +15,7 @@ pub(crate) fn magnitude(vector: &[f64]) -> f64 {
     largest(vector.iter().map(|v| v.abs()))
 }
 
-/// The largest of `values` and zero. (`f64::max` would pass over a NaN.)
+/// The largest of `values` and zero; NaN if one of them is NaN (`f64::max` would ignore it).
 pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |largest, v| if v > largest || v.is_nan() { v } else { largest })
 }

@@ -1,4 +1,4 @@
-//! A problem written down by name: variables, cost, blocks of rows.
+//! A convex problem with named groups of variables and named blocks of rows.
 
 use std::borrow::Cow;
 
@@ -27,7 +27,7 @@ impl Variables {
         Variable(self.start + index)
     }
 
-    /// How many variables the group has.
+    /// The number of variables in the group.
     #[must_use]
     pub fn count(self) -> usize {
         self.count
@@ -43,19 +43,18 @@ impl Variables {
     }
 }
 
-/// A named block of rows of a [`Program`]: where its rows are added and its duals are read.
+/// The handle of a named block of rows of a [`Program`], used to add its rows and to read its duals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Block(pub(crate) usize);
 
-/// A convex problem, min ½xᵀPx + qᵀx subject to b − Ax ∈ K, written by name.
+/// A convex problem, min ½xᵀPx + qᵀx subject to b − Ax ∈ K, with named variables and rows.
 ///
-/// Variables and blocks are declared once. Costs and rows may then be written, forgotten with
-/// [`Program::clear`] and written anew as often as wanted, without allocating; a [`Solver`](crate::Solver)
-/// follows such changes cheaply as long as the same positions are written in the same order. A value of
-/// zero keeps its place in the pattern, so write it rather than skip it.
+/// Variables and blocks are declared once. Costs and rows may then be written, removed with [`Program::clear`] and written
+/// again without allocation. A [`Solver`](crate::Solver) can be updated cheaply if the same positions are written in the same
+/// order. Write zeros too: they keep their position in the pattern.
 ///
 /// Nothing is checked here: [`Solver::new`](crate::Solver::new) and
-/// [`Solver::update`](crate::Solver::update) check everything and name the place.
+/// [`Solver::update`](crate::Solver::update) check everything and name what is wrong.
 #[derive(Debug, Clone, Default)]
 pub struct Program {
     pub(crate) groups: Vec<Group>,
@@ -82,7 +81,7 @@ pub(crate) struct BlockRows {
     pub(crate) right_hand_side: Vec<f64>,
 }
 
-/// Positions apart from values, so that two patterns compare without looking at values.
+/// Entries with positions and values in separate lists, so that two patterns are compared without their values.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Entries {
     pub(crate) position: Vec<(usize, usize)>,
@@ -117,18 +116,18 @@ impl Program {
         variables
     }
 
-    /// Declares a block of equalities: each row says aᵀx = b.
+    /// Declares a block of equalities: each row is aᵀx = b.
     pub fn equal(&mut self, name: impl Into<Cow<'static, str>>) -> Block {
         self.block(name, Cone::Zero)
     }
 
-    /// Declares a block of inequalities: each row says aᵀx ≤ b.
+    /// Declares a block of inequalities: each row is aᵀx ≤ b.
     pub fn at_most(&mut self, name: impl Into<Cow<'static, str>>) -> Block {
         self.block(name, Cone::Nonnegative)
     }
 
     /// Declares a block of second-order cones: each group of `dimension` consecutive rows, with
-    /// sᵢ = bᵢ − aᵢᵀx, says ‖(s₁, …)‖₂ ≤ s₀.
+    /// sᵢ = bᵢ − aᵢᵀx, is the constraint ‖(s₁, …)‖₂ ≤ s₀.
     pub fn second_order(&mut self, name: impl Into<Cow<'static, str>>, dimension: usize) -> Block {
         self.block(name, Cone::SecondOrder { dimension })
     }
@@ -175,7 +174,7 @@ impl Program {
         self.linear.push((i.0, value));
     }
 
-    /// Forgets every cost and every row, and keeps the variables, the blocks, their handles and the memory.
+    /// Removes every cost and every row. Keeps the variables, the blocks, their handles and the allocated memory.
     pub fn clear(&mut self) {
         self.quadratic.clear();
         self.linear.clear();
@@ -185,13 +184,13 @@ impl Program {
         }
     }
 
-    /// How many scalar variables were declared.
+    /// The number of declared scalar variables.
     #[must_use]
     pub fn variable_count(&self) -> usize {
         self.groups.last().map_or(0, |group| group.variables.range().end)
     }
 
-    /// How many rows all blocks have together.
+    /// The total number of rows of all blocks.
     #[must_use]
     pub fn row_count(&self) -> usize {
         self.blocks.iter().map(|block| block.right_hand_side.len()).sum()

@@ -1,4 +1,4 @@
-//! How accurately to solve, and when to give up.
+//! Accuracy and iteration limit of the solver.
 
 use crate::ProblemError;
 
@@ -10,7 +10,7 @@ pub struct SolverSettings {
     /// Tolerance at which a result that the solver itself calls "almost" is still accepted, provided that
     /// its residuals, recomputed from the problem's data ([`crate::kkt`]), stay below it. Default 1e-6.
     pub accepted_tolerance: f64,
-    /// Interior-point iterations after which the solver gives up. Default 200.
+    /// Maximum number of interior-point iterations. Default 200.
     pub iteration_limit: u32,
 }
 
@@ -21,7 +21,7 @@ impl Default for SolverSettings {
 }
 
 impl SolverSettings {
-    /// Refuses settings under which nothing can be solved.
+    /// Refuses settings with which no problem can be solved.
     pub(crate) fn check(&self) -> Result<(), ProblemError> {
         let tolerances = [("tolerance", self.tolerance), ("accepted_tolerance", self.accepted_tolerance)];
         for (name, value) in tolerances {

@@ -1,4 +1,4 @@
-//! The answer to a problem, read by the handles that the problem gave out.
+//! The solution of a problem, read by the handles of its variables and blocks.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,18 +9,18 @@ use crate::{Block, ProblemError, Program, Variable, Variables};
 
 /// An optimal point x with its duals z.
 ///
-/// The readers panic when given a handle of a problem with more variables or blocks, like a slice.
+/// The methods that take a handle panic if the handle belongs to a problem with more variables or blocks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConicSolution {
     pub(crate) x: Vec<f64>,
     pub(crate) z: Vec<f64>,
     pub(crate) slack: Vec<f64>,
     pub(crate) blocks: Arc<[Range<usize>]>,
-    /// ½xᵀPx + qᵀx.
+    /// The optimal cost ½xᵀPx + qᵀx.
     pub objective: f64,
     /// Interior-point iterations.
     pub iterations: u32,
-    /// How well (x, z) satisfies the optimality conditions, computed from the problem's data.
+    /// Residuals of (x, z) in the optimality conditions, computed from the problem's data.
     pub residuals: Residuals,
     /// Whether the solver stopped short of [`SolverSettings::tolerance`](crate::SolverSettings::tolerance), and the point
     /// was accepted because its residuals are below
@@ -47,7 +47,7 @@ impl ConicSolution {
         &self.z[self.blocks[block.0].clone()]
     }
 
-    /// The slacks b − Ax of a block's rows: zero where an inequality binds.
+    /// The slacks b − Ax of a block's rows: zero where an inequality is active.
     #[must_use]
     pub fn slack(&self, block: Block) -> &[f64] {
         &self.slack[self.blocks[block.0].clone()]
@@ -66,13 +66,13 @@ impl ConicSolution {
     }
 }
 
-/// The residuals of `solution` as an answer to `program`.
+/// The residuals of `solution` in the optimality conditions of `program`.
 ///
 /// # Errors
 /// As [`Solver::new`](crate::Solver::new), when `program` is malformed.
 ///
 /// # Panics
-/// When `solution` answers a problem of other sizes.
+/// When `solution` belongs to a problem of other sizes.
 pub fn residuals(program: &Program, solution: &ConicSolution) -> Result<Residuals, ProblemError> {
     let form = StandardForm::new(program)?;
     Ok(kkt::of(&form, solution.point(), solution.duals()).residuals)

@@ -1,11 +1,11 @@
-//! The interior-point solver: the one place that names Clarabel.
+//! The interior-point solver. Only this module names Clarabel.
 //!
 //! Clarabel orders and factorises one KKT matrix whose pattern is that of P, A and the cones. The ordering
 //! and the symbolic factorisation are made once in [`Solver::new`]; [`Solver::update`] changes numbers only.
 //!
 //! Clarabel's own data update keeps the scaling (equilibration) of the first data, so that a result would
-//! depend on the solver's past. Here every update scales the new data afresh, which costs a few passes over
-//! the entries. Thus an updated solver and a new one return the same result, bit for bit.
+//! depend on earlier data. Here every update computes the scaling of the new data, which costs a few passes over
+//! the entries. So an updated solver and a new one return bit-identical results.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::traits::ProblemData;
@@ -16,10 +16,10 @@ use crate::sparse::SparseColumns;
 use crate::standard::StandardForm;
 use crate::{Cone, ConicSolution, ProblemError, Program, SolveError, SolverSettings, Status, kkt};
 
-/// The share of the way to the boundary of the cones that a step may go where the usual 0.99 stalls.
+/// Largest step, as a fraction of the step to the boundary of the cones, in the second attempt after 0.99 has stalled.
 const SHORT_STEP: f64 = 0.9;
 
-/// A problem ready to be solved, and to be solved again with other numbers in the same pattern.
+/// A problem in the form that Clarabel solves. It can be solved again with other numbers in the same pattern.
 pub struct Solver {
     form: StandardForm,
     backend: DefaultSolver<f64>,
@@ -31,7 +31,7 @@ impl Solver {
     /// Checks `program`, finds its pattern and prepares the factorisation.
     ///
     /// # Errors
-    /// [`ProblemError`] when the problem or the settings are malformed; the error names the place.
+    /// [`ProblemError`] when the problem or the settings are malformed; the error names the variable, row or setting.
     pub fn new(program: &Program, settings: &SolverSettings) -> Result<Self, ProblemError> {
         settings.check()?;
         let form = StandardForm::new(program)?;
@@ -61,26 +61,25 @@ impl Solver {
         Ok(solver)
     }
 
-    /// Takes the numbers of `program`, which must have the variables, blocks and entries (positions, in the
+    /// Replaces the numbers by those of `program`, which must have the variables, blocks and entries (positions, in the
     /// order written) of the program this solver was built for.
     ///
     /// # Errors
-    /// [`ProblemError::PatternChanged`] when it has not, [`ProblemError::NotFinite`],
+    /// [`ProblemError::PatternChanged`] when they differ, [`ProblemError::NotFinite`],
     /// [`ProblemError::NoSuchVariable`] or [`ProblemError::NegativeCurvature`] when a number is not
-    /// acceptable. The solver then still holds the problem it held before.
+    /// acceptable. The solver then keeps its previous problem.
     pub fn update(&mut self, program: &Program) -> Result<(), ProblemError> {
         self.form.refill(program)?;
         self.load()
     }
 
-    /// Solves the problem last given. The result depends on that problem and the settings only.
+    /// Solves the present problem. The result depends only on that problem and the settings.
     ///
-    /// The solver's verdict is believed when it was reached at full tolerance. A verdict that the solver
-    /// itself calls "almost" (its limits were reached near a solution or a certificate) is accepted only if
-    /// the residuals recomputed from the data are below
-    /// [`SolverSettings::accepted_tolerance`]; those of a certificate are taken at bᵀz = −1 or qᵀx = −1.
+    /// A result that Clarabel reports at full tolerance is accepted. A result that Clarabel itself calls "almost" (a limit was
+    /// reached near a solution or a certificate) is accepted only if its residuals, recomputed from the data, are below
+    /// [`SolverSettings::accepted_tolerance`]. Residuals of a certificate are scaled to bᵀz = −1 or qᵀx = −1.
     ///
-    /// Where it stalls the problem is solved once more with shorter steps, which keep farther from the cones' boundaries.
+    /// If Clarabel stalls, the problem is solved once more with shorter steps, which stay farther from the cones' boundaries.
     ///
     /// # Errors
     /// [`SolveError`]: infeasible or unbounded, with a certificate, or unsolved, with the reason.
@@ -98,7 +97,7 @@ impl Solver {
     fn attempt_with(&mut self, step: f64) -> Result<ConicSolution, SolveError> {
         let usual = self.backend_settings.clone();
         let short = DefaultSettings { max_step_fraction: step, ..usual.clone() };
-        // A step's length may be changed at any time.
+        // Clarabel allows a change of this setting at any time.
         let changed = self.backend.update_settings(short);
         let outcome = self.attempt();
         let restored = self.backend.update_settings(usual);
@@ -143,7 +142,7 @@ impl Solver {
         Err(SolveError::Unsolved { status, iterations })
     }
 
-    /// Hands the standard form to Clarabel: raw numbers, fresh scaling, then the KKT matrix from both.
+    /// Passes the standard form to Clarabel: first the numbers, then their scaling, then the KKT matrix computed from both.
     fn load(&mut self) -> Result<(), ProblemError> {
         let data = &mut self.backend.data;
         data.P.nzval.copy_from_slice(&self.form.p.value);
@@ -154,8 +153,8 @@ impl Solver {
         data.equilibration.e.fill(1.0);
         data.equilibration.c = 1.0;
         data.equilibrate(&self.backend.cones, &self.backend_settings);
-        // An empty update leaves the data alone, and refreshes what Clarabel derives from it: the KKT matrix
-        // from P and A, the norms of q and b.
+        // An empty update does not change the data, but Clarabel then recomputes what it derives from them: the KKT
+        // matrix from P and A, and the norms of q and b.
         let unchanged: [f64; 0] = [];
         self.backend.update_data(&unchanged, &unchanged, &unchanged, &unchanged).map_err(refused)
     }
@@ -202,7 +201,7 @@ impl std::fmt::Debug for Solver {
     }
 }
 
-/// One thread, no clock, no output, and nothing that would change the pattern.
+/// Clarabel's settings: one thread, no time limit, no output, and no transformation that would change the pattern.
 fn backend_settings(settings: &SolverSettings) -> DefaultSettings<f64> {
     DefaultSettings {
         max_iter: settings.iteration_limit,

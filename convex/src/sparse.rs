@@ -1,16 +1,16 @@
-//! Compressed sparse columns whose values can be filled again in place.
+//! Matrices in compressed sparse column format, whose values can be replaced in place.
 //!
-//! The pattern is found once from a list of (row, column) entries; entries at one position share a slot and
-//! add up. Filling is then a single pass over the entries' values, with no sorting and no allocation.
+//! The pattern is computed once from a list of (row, column) entries. The values of entries at the same position are added.
+//! Replacing the values is a single pass over them, without sorting or allocation.
 
-/// A sparse matrix by columns: the entries of column j are `start[j]..start[j + 1]`, rows ascending.
+/// A sparse matrix by columns. The entries of column j have the indices `start[j]..start[j + 1]`, sorted by row.
 #[derive(Debug, Clone)]
 pub(crate) struct SparseColumns {
     pub(crate) rows: usize,
     pub(crate) start: Vec<usize>,
     pub(crate) row: Vec<usize>,
     pub(crate) value: Vec<f64>,
-    /// Where the k-th entry of the list adds its value.
+    /// For the k-th entry of the list, the index of the stored value to which it is added.
     slot: Vec<usize>,
 }
 

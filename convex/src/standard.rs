@@ -1,4 +1,4 @@
-//! From a [`Program`] to the standard form (P, q, A, b, K), and again for each refill of the same pattern.
+//! The standard form (P, q, A, b, K) of a [`Program`], and its update with new numbers in the same pattern.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use crate::program::Program;
 use crate::sparse::SparseColumns;
 use crate::{Cone, ProblemError, check};
 
-/// min ½xᵀPx + qᵀx subject to b − Ax ∈ K, with the rows of the blocks stacked in their order.
+/// min ½xᵀPx + qᵀx subject to b − Ax ∈ K. There are n variables and m rows; the rows of the blocks are stacked in order.
 #[derive(Debug, Clone)]
 pub(crate) struct StandardForm {
     /// Upper triangle of P, n × n.
@@ -19,11 +19,11 @@ pub(crate) struct StandardForm {
     pub(crate) a: SparseColumns,
     /// b, m numbers.
     pub(crate) b: Vec<f64>,
-    /// K as a product of single cones, each with its rows.
+    /// K as a product of cones, each with the range of its rows.
     pub(crate) cones: Vec<(Cone, Range<usize>)>,
     /// The rows of each block.
     pub(crate) blocks: Arc<[Range<usize>]>,
-    /// The problem this was made from: its pattern and names (its values are those of the first time).
+    /// The program of which this is the standard form. Only its pattern and names are used: its numbers are not updated.
     source: Program,
 }
 
@@ -64,7 +64,7 @@ impl StandardForm {
         Ok(form)
     }
 
-    /// Takes the values of a program of the same pattern. On an error nothing has changed.
+    /// Replaces the numbers by those of a program with the same pattern. On an error nothing is changed.
     pub(crate) fn refill(&mut self, program: &Program) -> Result<(), ProblemError> {
         check::same_pattern(program, &self.source)?;
         self.fill(program)
@@ -86,8 +86,8 @@ impl StandardForm {
         Ok(())
     }
 
-    /// Names of the blocks that carry `dual` (m numbers): those with a row whose weight, |zᵢ| times the
-    /// largest number of the row, is above a thousandth of the largest weight.
+    /// Names of the blocks that contribute notably to the certificate `dual` (m numbers). The weight of a row is |zᵢ| times
+    /// its largest coefficient; a block is named if one of its weights is above a thousandth of the largest weight.
     pub(crate) fn blocks_in(&self, dual: &[f64]) -> Vec<String> {
         let mut weights: Vec<f64> = self.b.iter().map(|b| b.abs()).collect();
         for (row, _, value) in self.a.entries() {
@@ -100,15 +100,14 @@ impl StandardForm {
         carriers(&weights, blocks.map(|(block, range)| (block.name.as_ref(), range.clone())))
     }
 
-    /// Names of the groups of variables with a number of `direction` (n numbers) above a thousandth of the
-    /// largest.
+    /// Names of the groups of variables with an entry of `direction` (n numbers) above a thousandth of the largest.
     pub(crate) fn groups_in(&self, direction: &[f64]) -> Vec<String> {
         let groups = self.source.groups.iter();
         carriers(direction, groups.map(|group| (group.name.as_ref(), group.variables.range())))
     }
 }
 
-/// The names of the parts of `weights` that hold a number above a thousandth of the largest.
+/// Names of the parts of `weights` with an entry above a thousandth of the largest.
 fn carriers<'a>(weights: &[f64], parts: impl Iterator<Item = (&'a str, Range<usize>)>) -> Vec<String> {
     let negligible = 1e-3 * magnitude(weights);
     parts

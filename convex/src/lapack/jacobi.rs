@@ -1,10 +1,10 @@
-//! Eigenvalues and singular values by plane rotations (Jacobi). Slower than what large matrices need, and as accurate as
-//! any.
+//! Eigenvalues and singular values by Jacobi's plane rotations. The method is too slow for large matrices, but highly
+//! accurate.
 
-/// Sweeps after which rotations stop; matrices of order 100 need about ten.
+/// Maximum number of sweeps; matrices of order 100 need about ten.
 const SWEEPS: usize = 60;
 
-/// An orthogonal diagonalisation or a singular value decomposition did not converge: some entry is not finite.
+/// The error that a diagonalisation or a singular value decomposition did not converge, because an entry is not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct NotConverged;
 
@@ -83,7 +83,7 @@ pub(super) fn tall_svd(m: usize, n: usize, mut a: Vec<f64>) -> Result<SingularVa
     if a.iter().any(|value| !value.is_finite()) {
         return Err(NotConverged);
     }
-    // What an inner product of columns that are orthogonal may round to.
+    // Largest rounding error of the inner product of two orthogonal columns.
     let rows_epsilon = f64::EPSILON * m as f64;
     let mut converged = false;
     for _ in 0..SWEEPS {
@@ -133,7 +133,7 @@ fn complement(m: usize, basis: &[f64]) -> Vec<f64> {
     for axis in 0..m {
         let mut candidate = vec![0.0; m];
         candidate[axis] = 1.0;
-        // Twice is enough.
+        // Orthogonalising twice removes the rounding errors of the first time.
         for _ in 0..2 {
             for column in basis.chunks_exact(m) {
                 let part = dot(column, &candidate);

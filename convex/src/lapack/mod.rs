@@ -1,10 +1,10 @@
 //! The BLAS and LAPACK routines that Clarabel calls for its cone of positive semidefinite matrices, in Rust.
 //!
-//! Clarabel links them by their Fortran names. Usually a system library answers; here this module does, so that the build
-//! needs no Fortran compiler, no library and no download. The matrices are tiny (twice the number of zones), so the
-//! routines are the plainest that are accurate: written-out products, Cholesky, LU with pivoting, and Jacobi rotations
-//! for eigenvalues and singular values. Plain loops also round the same on every processor, which libraries that choose
-//! their instructions at run time do not.
+//! Clarabel links them by their Fortran names. Usually a system library provides them. Here this module does, so that the
+//! build needs no Fortran compiler, no library and no download. The matrices are small (their order is twice the number of
+//! zones), so the simplest accurate algorithms suffice: products by loops, Cholesky, LU with pivoting, and Jacobi rotations
+//! for eigenvalues and singular values. Plain loops also give bit-identical results on every processor; libraries that
+//! choose their instructions at run time do not.
 //!
 //! [`symbols`] is the only module with `unsafe`: it turns pointers into slices and calls the safe code beside it.
 //! Matrices are slices by columns with a leading dimension, as in Fortran: entry (i, j) is `a[i + j * ld]`.
@@ -26,7 +26,7 @@ pub(crate) enum Triangle {
 }
 
 impl Triangle {
-    /// From the first letter of Fortran's word.
+    /// The triangle that a Fortran argument names by its first letter, `U` or `L`.
     fn of(letter: u8) -> Option<Self> {
         match letter.to_ascii_uppercase() {
             b'U' => Some(Self::Upper),

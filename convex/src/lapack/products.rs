@@ -1,4 +1,4 @@
-//! Products of matrices (BLAS). As there, β = 0 means that the old values are not read.
+//! Matrix products of BLAS. As in BLAS, old values are not read if β = 0.
 
 use super::{Operand, Triangle};
 
@@ -26,7 +26,7 @@ pub(super) fn gemm(
     }
 }
 
-/// y ← α op(A) x + β y, where op(A) has `rows` rows; x and y have a number at every stride.
+/// y ← α op(A) x + β y, where op(A) has `rows` rows; the entries of x are `stride_x` apart, those of y `stride_y`.
 pub(super) fn gemv(
     (rows, columns): (usize, usize),
     alpha: f64,

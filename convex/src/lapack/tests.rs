@@ -1,4 +1,4 @@
-//! Every symbol, called by its Fortran name on random numbers, against its definition.
+//! Calls every symbol by its Fortran name with random numbers, and compares the result with its definition.
 
 #![allow(unsafe_code, reason = "the symbols are called as a foreign interface calls them")]
 
@@ -11,7 +11,7 @@ use super::symbols::*;
 
 const LOOSE: usize = 2;
 
-/// A matrix stored with columns further apart than needed; what lies between is NaN.
+/// A matrix with a leading dimension larger than its number of rows; the entries between the columns are NaN.
 fn stored(matrix: &DMatrix<f64>) -> (Vec<f64>, c_int) {
     let ld = matrix.nrows() + LOOSE;
     let mut entries = vec![f64::NAN; ld * matrix.ncols()];

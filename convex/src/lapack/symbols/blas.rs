@@ -1,4 +1,4 @@
-//! Products: of BLAS.
+//! The products of BLAS.
 
 use std::ffi::{c_char, c_int};
 

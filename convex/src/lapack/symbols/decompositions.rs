@@ -1,4 +1,4 @@
-//! Systems of equations, eigenvalues and singular values: of LAPACK.
+//! The LAPACK routines for systems of equations, eigenvalues and singular values.
 
 use std::ffi::{c_char, c_int};
 use std::slice::from_raw_parts_mut;
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn dgesvd_(
             _ => 0,
         };
         if *lwork == -1 {
-            // No workspace is needed; LAPACK's answer is at least one.
+            // No workspace is needed, but LAPACK returns a size of at least one.
             *work = 1.0;
         }
         if *lwork == -1 || *info != 0 {

@@ -1,8 +1,8 @@
-//! The Fortran names, as their callers know them: every argument is a pointer, matrices are by columns.
+//! The symbols under their Fortran names. Every argument is a pointer; matrices are stored by columns.
 //!
 //! The contract is that of the reference BLAS and LAPACK, as far as Clarabel uses it: strides are positive, singular
-//! vectors are the economic ones (`S`), eigenvalues are all (`A`). Anything else gets LAPACK's `info` for an illegal
-//! argument, or, where there is no `info`, ends the program with a message, as the reference does.
+//! vectors are the economic ones (`S`), eigenvalues are all (`A`). Any other argument returns LAPACK's `info` for an
+//! illegal argument. Routines without `info` end the program with a message, as the reference does.
 
 #![allow(
     unsafe_code,
@@ -20,23 +20,23 @@ use super::Triangle;
 #[cfg(test)]
 pub(super) use {blas::*, decompositions::*};
 
-/// A matrix of `columns` columns, `ld` apart, of `rows` rows each: its first to its last entry.
+/// A matrix of `rows` × `columns` entries with leading dimension `ld`, as a slice from its first to its last entry.
 ///
 /// # Safety
 /// These entries are readable and not written meanwhile.
 unsafe fn matrix<'a>(start: *const f64, rows: usize, columns: usize, ld: usize) -> &'a [f64] {
     let length = extent(rows, columns, ld);
-    // SAFETY: the caller vouches for the entries; an empty slice needs none.
+    // SAFETY: the caller guarantees the entries; an empty slice needs none.
     if length == 0 { &[] } else { unsafe { from_raw_parts(start, length) } }
 }
 
-/// Like [`matrix`], to be written.
+/// As [`matrix`], but writable.
 ///
 /// # Safety
 /// These entries are readable and writable, and nobody else uses them meanwhile.
 unsafe fn matrix_mut<'a>(start: *mut f64, rows: usize, columns: usize, ld: usize) -> &'a mut [f64] {
     let length = extent(rows, columns, ld);
-    // SAFETY: the caller vouches for the entries; an empty slice needs none.
+    // SAFETY: the caller guarantees the entries; an empty slice needs none.
     if length == 0 { &mut [] } else { unsafe { from_raw_parts_mut(start, length) } }
 }
 
