@@ -12,7 +12,7 @@ use crate::human::{self, Human};
 use crate::idm::{self, Idm};
 use crate::negotiation::{self, Negotiation};
 use crate::scripted::{self, Scripted};
-use crate::{Goal, Plan, PlanError, Scene};
+use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
 
 /// The driver of a vehicle with its settings; `kind` in a scenario file chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -113,6 +113,18 @@ impl Driver {
         match self {
             Driver::Cooperative(settings) => Some(settings.shared_goal(goal)),
             _ => None,
+        }
+    }
+
+    /// Checks settings that depend on each other or on the horizon.
+    ///
+    /// # Errors
+    /// [`DriverSettingError`] names the setting that does not fit.
+    pub fn check(&self, horizon_steps: usize) -> Result<(), DriverSettingError> {
+        match self {
+            Driver::Negotiation(settings) => settings.check(horizon_steps),
+            Driver::Bayesian(settings) => settings.check(),
+            _ => Ok(()),
         }
     }
 

@@ -4,7 +4,7 @@
 //! with which nothing is left to settle is skipped: one that drives ahead in the ego's target lane, or that has crossed, or
 //! that the ego has crossed before.
 
-use crate::{Agent, Scene};
+use crate::{Agent, PlanEvent, PlanEventKind, Scene};
 
 /// Paths that meet at a smaller angle than this run side by side \[rad\].
 const PARALLEL_RAD: f64 = 0.1;
@@ -81,10 +81,15 @@ impl PartnerSequence {
 
 impl PartnerChoice<'_> {
     /// What to say about a change: "`does` NAME", or that nobody is left `to_do` it with.
-    pub(crate) fn event(&self, does: &str, to_do: &str) -> Option<String> {
-        let found = |partner: &Agent| format!("{does} {}", partner.name);
-        self.is_new.then(|| self.partner.map_or_else(|| format!("nobody left {to_do}"), found))
+    pub(crate) fn event(&self, does: &str, to_do: &str) -> Option<PlanEvent> {
+        self.is_new.then(|| partner_event(self.partner.map(|partner| &*partner.name), does, to_do))
     }
+}
+
+/// A planner turns to a partner: "`does` NAME", or nobody is left `to_do` it with.
+pub(crate) fn partner_event(partner: Option<&str>, does: &str, to_do: &str) -> PlanEvent {
+    let text = partner.map_or_else(|| format!("nobody left {to_do}"), |name| format!("{does} {name}"));
+    PlanEvent { kind: PlanEventKind::Partner(partner.map(str::to_owned)), text }
 }
 
 #[cfg(test)]
@@ -125,7 +130,7 @@ mod tests {
             scene.goal.target.y_m = 0.4;
             let choice = partner.choose(&scene, 0.2);
             let name = choice.partner.map(|partner| partner.name.clone());
-            (name, choice.is_first, choice.steps, choice.event("asks", "to ask"))
+            (name, choice.is_first, choice.steps, choice.event("asks", "to ask").map(|event| event.text))
         };
         let named_front = Some("front".to_owned());
         assert_eq!(meet(-0.4, -1.7), (named_front.clone(), true, 0, Some("asks front".to_owned())));

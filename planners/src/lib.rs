@@ -22,6 +22,7 @@ pub mod conservative;
 pub mod cooperative;
 pub mod diagnostic;
 mod driver;
+mod driver_setting;
 mod encounter;
 #[cfg(test)]
 mod fixture;
@@ -42,7 +43,8 @@ pub mod vehicle;
 
 pub use diagnostic::Diagnostic;
 pub use driver::{Driver, Planner};
-pub use plan::{Plan, PlanError, Proposal};
+pub use driver_setting::DriverSettingError;
+pub use plan::{Plan, PlanError, PlanEvent, PlanEventKind, Proposal};
 pub use road::{Axes, Corridor, LaneEnd};
 pub use scene::{Agent, Goal, Scene};
 pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

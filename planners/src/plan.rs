@@ -15,10 +15,37 @@ pub struct Plan {
     pub proposal: Option<Proposal>,
     /// Numbers that explain it, in a fixed order for one planner.
     pub diagnostics: Vec<Diagnostic>,
-    /// What happened in this step, in words.
-    pub events: Vec<String>,
+    /// What happened in this step.
+    pub events: Vec<PlanEvent>,
     /// The work of all optimisations behind the plan.
     pub statistics: Statistics,
+}
+
+/// Something that happened while a planner planned.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanEvent {
+    /// What kind of event it is, for programs.
+    pub kind: PlanEventKind,
+    /// What happened, in words for people.
+    pub text: String,
+}
+
+/// The kinds of event that a program may have to tell apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PlanEventKind {
+    /// The planner turns to another vehicle, by its name; to none if nobody is left.
+    Partner(Option<String>),
+    /// The planner's own problem has no solution, and the plan is the conservative one.
+    Retreat,
+    /// Any other event.
+    Note,
+}
+
+impl PlanEvent {
+    /// An event that no program has to tell apart.
+    pub fn note(text: impl Into<String>) -> Self {
+        PlanEvent { kind: PlanEventKind::Note, text: text.into() }
+    }
 }
 
 /// The motion that a planner would like another vehicle to choose.

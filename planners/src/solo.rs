@@ -3,7 +3,7 @@
 
 use crate::predict::steady;
 use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust};
-use crate::{Input, Scene, Trajectory};
+use crate::{Input, PlanEvent, Scene, Trajectory};
 
 /// An optimum with the problem that it solves.
 #[derive(Clone, Debug)]
@@ -11,7 +11,7 @@ pub(crate) struct Solved {
     pub problem: Problem,
     pub optimum: Optimum,
     /// Why another problem was solved than the one that was posed; `None` if it is the same.
-    pub event: Option<String>,
+    pub event: Option<PlanEvent>,
 }
 
 /// Solves a problem from the last plan, shifted by one step.

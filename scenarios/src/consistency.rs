@@ -4,7 +4,7 @@
 
 mod building;
 
-use interplay_planners::{Driver, State};
+use interplay_planners::State;
 
 use crate::error::{Fault, Place, quoted};
 use crate::nearest::suggestion;
@@ -163,24 +163,10 @@ impl Checker<'_> {
     }
 
     fn driver(&mut self, index: usize, vehicle: &Vehicle) {
-        let (name, path) = (&vehicle.name, format!("vehicle.{index}.driver"));
-        match &vehicle.driver {
-            Driver::Negotiation(negotiation) if negotiation.settled_steps >= self.scenario.horizon_steps => {
-                let (settled, horizon) = (negotiation.settled_steps, self.scenario.horizon_steps);
-                let message = format!(
-                    "`vehicle.{name}.driver.settled_steps` ({settled}) must be below `horizon_steps` ({horizon})"
-                );
-                let help =
-                    "a plan must reach beyond the steps during which the other is assumed to follow the prediction";
-                self.refuse(&format!("{path}.settled_steps"), "too long", message, help);
-            }
-            Driver::Bayesian(bayesian) if bayesian.w_1_min > bayesian.w_1_max => {
-                let (least, most) = (bayesian.w_1_min, bayesian.w_1_max);
-                let message = format!("`vehicle.{name}.driver.w_1_min` ({least}) is above `w_1_max` ({most})");
-                self.refuse(&format!("{path}.w_1_min"), "above the largest", message, "");
-            }
-            _ => {}
-        }
+        let Err(error) = vehicle.driver.check(self.scenario.horizon_steps) else { return };
+        let key = error.key();
+        let message = format!("`vehicle.{}.driver.{key}` {error}", vehicle.name);
+        self.refuse(&format!("vehicle.{index}.driver.{key}"), error.label(), message, &error.remedy());
     }
 
     fn starts(&mut self) {

@@ -41,7 +41,7 @@ pub fn plan(
 fn note(decision: &Decision, frame: &mut Frame) {
     let vehicle = &frame.vehicles[decision.vehicle].name;
     let event = |level, text| Event { vehicle: vehicle.clone(), level, text };
-    frame.events.extend(decision.plan.events.iter().map(|text| event(Level::Note, text.clone())));
+    frame.events.extend(decision.plan.events.iter().map(|happened| event(Level::Note, happened.text.clone())));
     if let Some(failure) = &decision.failure {
         let instead = if decision.origin == Origin::Continued { "continues its previous plan" } else { "brakes" };
         frame.events.push(event(Level::Warning, format!("no plan ({failure}); {instead}")));

@@ -5,7 +5,7 @@ use interplay_planners::diagnostic::COST;
 use interplay_planners::game::diagnostics::{EXPRESSED_FROM, EXPRESSED_TO};
 use interplay_planners::trajectory::terms::MeanSpeed;
 use interplay_planners::trajectory::{Iterate, Penalty, Problem};
-use interplay_planners::{Agent, Input, Plan, Trajectory, bayesian, cooperative, game};
+use interplay_planners::{Agent, Input, Plan, PlanEventKind, Trajectory, bayesian, cooperative, game};
 
 use crate::closed_loop::Decision;
 use crate::negotiation_replay::Posed;
@@ -28,7 +28,9 @@ impl StatedProblems {
     pub fn bayesian(&mut self, decision: &Decision, settings: &bayesian::Settings) -> Result<Option<Posed>> {
         let (scene, plan) = (decision.scene, decision.plan);
         for event in &plan.events {
-            self.partner = event.strip_prefix("persuades ").map(str::to_owned);
+            if let PlanEventKind::Partner(partner) = &event.kind {
+                self.partner.clone_from(partner);
+            }
         }
         let partner = scene.others.iter().find(|other| Some(&other.name) == self.partner.as_ref());
         if retreats(plan) || partner.is_none() {
@@ -82,7 +84,7 @@ impl StatedProblems {
 }
 
 fn retreats(plan: &Plan) -> bool {
-    plan.events.iter().any(|event| event.starts_with("conservative plan"))
+    plan.events.iter().any(|event| event.kind == PlanEventKind::Retreat)
 }
 
 fn keep(last: Option<&Trajectory>) -> Vec<Input> {

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::DriverSettingError;
 use crate::predict::Prediction;
 
 /// Which value of the other's best reply enters the ego's cost.
@@ -70,5 +71,16 @@ impl Default for Settings {
             prediction: Prediction::Plan,
             look_around_every: 0,
         }
+    }
+}
+
+impl Settings {
+    /// Checks that the range of `w_1` is not empty.
+    pub(crate) fn check(&self) -> Result<(), DriverSettingError> {
+        let (lower, upper) = (self.w_1_min, self.w_1_max);
+        if lower <= upper {
+            return Ok(());
+        }
+        Err(DriverSettingError::BoundsCrossed { key: "w_1_min", lower, upper_key: "w_1_max", upper })
     }
 }

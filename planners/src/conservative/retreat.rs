@@ -3,7 +3,7 @@
 use super::problem;
 use crate::solo::{self, Solved};
 use crate::trajectory::{DescentError, Optimiser, Problem, Robust};
-use crate::{Agent, Scene, Trajectory};
+use crate::{Agent, PlanEvent, PlanEventKind, Scene, Trajectory};
 
 /// Solves `problem` ([`solo::solve`]). If that fails, solves the conservative problem instead.
 ///
@@ -32,5 +32,6 @@ pub(crate) fn retreat(
 ) -> Result<Solved, DescentError> {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let solved = solo::solve(optimiser, scene, problem(scene, &others), last, 0)?;
-    Ok(Solved { event: Some(format!("conservative plan: {because}")), ..solved })
+    let event = PlanEvent { kind: PlanEventKind::Retreat, text: format!("conservative plan: {because}") };
+    Ok(Solved { event: Some(event), ..solved })
 }

@@ -12,7 +12,7 @@ mod settings;
 pub use settings::{Mobil, Settings};
 
 use crate::steering::{admissible, roll_out, steer};
-use crate::{Input, Plan, PlanError, Scene};
+use crate::{Input, Plan, PlanError, PlanEvent, Scene};
 use car_following::Leader;
 use diagnostics::{GAP, INCENTIVE, LANE};
 use lanes::{Lanes, leader};
@@ -55,7 +55,10 @@ impl Idm {
         let ahead = leader(scene, &lanes, choice.lane, &own.state, 0);
         let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
         diagnostics.extend(ahead.map(|leader| GAP.is(leader.gap_m)));
-        let events = (choice.lane != now).then(|| format!("changes to lane {}", choice.lane)).into_iter().collect();
+        let events = (choice.lane != now)
+            .then(|| PlanEvent::note(format!("changes to lane {}", choice.lane)))
+            .into_iter()
+            .collect();
         Ok(Plan { trajectory, diagnostics, events, ..Plan::default() })
     }
 }

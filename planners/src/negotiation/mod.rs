@@ -29,11 +29,12 @@ pub use settings::Settings;
 
 use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, SAFETY_SLACK};
+use crate::encounter::partner_event;
 use crate::solo::{Solved, extremes};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
-use crate::{Agent, Input, Plan, PlanError, Proposal, Scene};
+use crate::{Agent, Input, Plan, PlanError, PlanEvent, Proposal, Scene};
 use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
 use partner_selection::PartnerSelection;
@@ -81,7 +82,7 @@ impl Negotiation {
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
             Err(error) => {
-                events.push(format!("no proposal: {error}"));
+                events.push(PlanEvent::note(format!("no proposal: {error}")));
                 return Ok(Plan { events, ..conservative::answer(&retreat?) });
             }
         };
@@ -94,16 +95,13 @@ impl Negotiation {
     }
 
     /// Chooses the vehicle to negotiate with; notes a change as an event.
-    fn choose<'a>(&mut self, scene: &'a Scene, events: &mut Vec<String>) -> Option<&'a Agent> {
+    fn choose<'a>(&mut self, scene: &'a Scene, events: &mut Vec<PlanEvent>) -> Option<&'a Agent> {
         let before = self.selection.current().map(str::to_owned);
         let partner = self.selection.choose(scene, &self.settings);
         let now = partner.map(|partner| partner.name.clone());
         if before != now {
             self.negotiation = NegotiationState::default();
-            events.push(match &now {
-                Some(name) => format!("asks {name}"),
-                None => "nobody left to ask".to_owned(),
-            });
+            events.push(partner_event(now.as_deref(), "asks", "to ask"));
         }
         partner
     }
@@ -181,14 +179,14 @@ impl Negotiation {
     /// Replaces the plan by the retreat where the filter demands it.
     fn filter(&mut self, scene: &Scene, retreat: &Result<Solved, PlanError>, optimum: &Optimum, plan: &mut Plan) {
         let Ok(Solved { optimum: retreat, .. }) = retreat else {
-            plan.events.push("no conservative plan to retreat to".to_owned());
+            plan.events.push(PlanEvent::note("no conservative plan to retreat to"));
             return;
         };
         plan.statistics.add(&retreat.statistics);
         let refused = self.settings.safety_filter && !self.filter.admits(scene, optimum, retreat);
         if refused {
             plan.trajectory = retreat.trajectory(0);
-            plan.events.push("safety filter: conservative input".to_owned());
+            plan.events.push(PlanEvent::note("safety filter: conservative input"));
         }
         plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused))));
     }

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::DriverSettingError;
 use crate::predict::Prediction;
 
 /// Negotiation with concession and persuasion (chapter 6).
@@ -69,5 +70,20 @@ impl Default for Settings {
             look_across: true,
             prediction: Prediction::Plan,
         }
+    }
+}
+
+impl Settings {
+    /// Checks that plans reach beyond the steps during which the other is assumed to follow its prediction.
+    pub(crate) fn check(&self, horizon_steps: usize) -> Result<(), DriverSettingError> {
+        if self.settled_steps < horizon_steps {
+            return Ok(());
+        }
+        Err(DriverSettingError::BeyondHorizon {
+            key: "settled_steps",
+            steps: self.settled_steps,
+            horizon_steps,
+            because: "a plan must reach beyond the steps during which the other is assumed to follow the prediction",
+        })
     }
 }
