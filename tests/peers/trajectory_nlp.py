@@ -66,7 +66,7 @@ def shape_of(problem):
         for v in problem["vehicles"]
     )
     pairs = tuple(tuple(s["pair"]) for s in problem.get("separations", []))
-    return problem["horizon"], vehicles, pairs, problem.get("leaning") is not None
+    return problem["horizon"], vehicles, pairs, problem.get("persuasion") is not None
 
 
 class Programme:
@@ -77,7 +77,7 @@ class Programme:
     TIP = 1e-4
 
     def __init__(self, shape):
-        self.horizon, self.vehicles, self.pairs, self.leans = shape
+        self.horizon, self.vehicles, self.pairs, self.has_persuasion = shape
         self.unknowns, self.parameters, self.rows = [], [], []
         self.cost = 0
         self.soft_rows = []
@@ -87,8 +87,8 @@ class Programme:
             form, price = self.parameter(f"pair{j}", 3), self.parameter(f"pair{j}price", 2)
             for t in range(1, self.horizon + 1):
                 self.soft(outside(self.paths[of][0][t], self.paths[of_other][0][t], form), price)
-        if self.leans:
-            self.lean()
+        if self.has_persuasion:
+            self.persuade()
         slacks = ca.SX.sym("slack", len(self.soft_rows))
         for j, (row, price) in enumerate(self.soft_rows):
             self.rows.append(row + slacks[j])
@@ -164,11 +164,11 @@ class Programme:
         for j, sign in enumerate([1] * bounds[0] + [-1] * bounds[1]):
             self.soft(sign * (mean - limits[j]), price)
 
-    def lean(self):
+    def persuade(self):
         """Eq. 6.23, corrected: both norms squared."""
         n = self.horizon
         toward, away = self.parameter("toward", 2, n), self.parameter("away", 2, n)
-        strength, price = self.parameter("strength", 1), self.parameter("leaning_price", 2)
+        strength, price = self.parameter("strength", 1), self.parameter("persuasion_price", 2)
         value = 0
         for t in range(n):
             position = self.paths[0][0][t][:2]
@@ -196,10 +196,10 @@ class Programme:
                           f"mean_price{i}": mean["penalty"]}
         for j, s in enumerate(problem.get("separations", [])):
             found |= {f"pair{j}": s["shape"], f"pair{j}price": s["penalty"]}
-        if self.leans:
-            lean = problem["leaning"]
-            found |= {"toward": lean["toward"], "away": lean["away"], "strength": [lean["strength"]],
-                      "leaning_price": lean["penalty"]}
+        if self.has_persuasion:
+            row = problem["persuasion"]
+            found |= {"toward": row["toward"], "away": row["away"], "strength": [row["strength"]],
+                      "persuasion_price": row["penalty"]}
         return np.concatenate([np.ravel(np.asarray(found[name], float)) for name, _ in self.parameters])
 
     def bounds(self, problem):

@@ -44,7 +44,7 @@ pub struct Recorded {
     pub separations: Vec<Apart>,
     /// The persuasion constraint.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub leaning: Option<Lean>,
+    pub persuasion: Option<PersuasionRow>,
     /// Per vehicle, `(a, δ)` at `t = 0…N−1`; shorter ones are filled up with zeros.
     pub guess: Vec<Vec<[f64; 2]>>,
     /// What the plan of the step before leaves to this one, if there was one.
@@ -142,10 +142,10 @@ pub struct Apart {
 
 /// The persuasion constraint.
 #[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Lean {
-    /// Reference to lean towards at `t = 0…N−1`.
+pub struct PersuasionRow {
+    /// Reference to stay near at `t = 0…N−1`.
     pub toward: Vec<[f64; 2]>,
-    /// Reference to lean away from at `t = 0…N−1`.
+    /// Reference to keep away from at `t = 0…N−1`.
     pub away: Vec<[f64; 2]>,
     /// `α`.
     pub strength: f64,
@@ -165,8 +165,10 @@ impl Recorded {
                 problem,
                 |term| if let Term::Separation(term) = term { Some(Apart::new(term)) } else { None },
             ),
-            leaning: find(problem, |term| if let Term::Persuasion(term) = term { Some(Lean::new(term)) } else { None })
-                .pop(),
+            persuasion: find(problem, |term| {
+                if let Term::Persuasion(term) = term { Some(PersuasionRow::new(term)) } else { None }
+            })
+            .pop(),
             guess: guess.iter().map(|inputs| inputs.iter().map(|input| input.to_array()).collect()).collect(),
             memory: WarmStartRecord::new(memory),
         }
@@ -176,7 +178,7 @@ impl Recorded {
     pub fn problem(&self) -> Problem {
         let own = self.vehicles.iter().enumerate().flat_map(|(index, vehicle)| vehicle.terms(index, self.horizon));
         let pairs = self.separations.iter().map(|pair| Term::Separation(pair.separation()));
-        let persuasion = self.leaning.iter().map(|leaning| Term::Persuasion(leaning.persuasion()));
+        let persuasion = self.persuasion.iter().map(|row| Term::Persuasion(row.persuasion()));
         Problem {
             horizon: self.horizon,
             participants: self.vehicles.iter().map(|vehicle| vehicle.participant(self.step_s)).collect(),
@@ -355,9 +357,9 @@ impl Apart {
     }
 }
 
-impl Lean {
+impl PersuasionRow {
     fn new(of: &Persuasion) -> Self {
-        Lean {
+        PersuasionRow {
             toward: of.toward.clone(),
             away: of.away.clone(),
             strength: of.strength,
