@@ -26,6 +26,7 @@ mod expect;
 mod files;
 mod load;
 mod merge;
+mod name;
 mod nearest;
 mod overrides;
 mod plant;

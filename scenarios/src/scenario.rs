@@ -15,6 +15,7 @@ use serde_json::json;
 
 use crate::building::BuildingConfig;
 use crate::expect::Expect;
+use crate::name;
 use crate::plant::Plant;
 use crate::road::{Branch, Road};
 use crate::start_jitter::StartJitter;
@@ -155,9 +156,6 @@ impl Scenario {
     }
 }
 
-/// The form of a name, which becomes part of paths.
-pub(crate) const NAME_PATTERN: &str = "^[a-z0-9_-]{1,64}$";
-
 /// The name that makes a vehicle the ego.
 pub(crate) const EGO: &str = "ego";
 
@@ -166,7 +164,7 @@ pub(crate) const EGO: &str = "ego";
 #[serde(deny_unknown_fields)]
 pub struct Vehicle {
     /// Its name, unique in the file; it becomes part of paths in the recording.
-    #[schemars(extend("pattern" = NAME_PATTERN), example = &"ego")]
+    #[schemars(extend("pattern" = name::pattern()), example = &"ego")]
     pub name: String,
     /// The road it drives on; by default the one along x, and there is another at intersections only.
     #[serde(default)]

@@ -7,6 +7,7 @@ use interplay_building::bounds::Bound;
 use serde_json::Value as Json;
 
 use crate::error::{Fault, Place, quoted};
+use crate::name;
 use crate::nearest::{listed, suggestion};
 use crate::schema::{self, SchemaNode, quantity_of, unit_of};
 use crate::tree::{Table, TomlNode, TomlValue, kind_of};
@@ -144,10 +145,9 @@ impl Checker {
             let message = format!("{} must not be empty", quoted(&path.0));
             self.refuse(&node.place, "empty", message, "");
         }
-        if schema.keyword("pattern").is_some() && !is_name(text) {
+        if schema.keyword("pattern").is_some() && !name::is_name(text) {
             let message = format!("{} is not a name", quoted(text));
-            let help = "a name has 1 to 64 lower-case letters, digits, `_` or `-`";
-            self.refuse(&node.place, "not a name", message, help);
+            self.refuse(&node.place, "not a name", message, name::in_words());
         }
     }
 
@@ -225,16 +225,9 @@ fn entries(count: u64) -> &'static str {
     if count == 1 { "entry" } else { "entries" }
 }
 
-/// Whether a text is what [`NAME_PATTERN`](crate::scenario::NAME_PATTERN) says.
-fn is_name(text: &str) -> bool {
-    let fits = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_' || byte == b'-';
-    (1..=64).contains(&text.len()) && text.bytes().all(fits)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::NAME_PATTERN;
 
     /// Keywords that the check obeys, and those that only inform.
     const UNDERSTOOD: &str = "$ref $defs oneOf const enum type properties required additionalProperties items minItems \
@@ -252,7 +245,7 @@ mod tests {
                     ("oneOf", Json::Array(alternatives)) => alternatives.iter().for_each(walk),
                     ("items", below) => walk(below),
                     ("additionalProperties", value) => assert_eq!(value, false),
-                    ("pattern", value) => assert_eq!(value, NAME_PATTERN),
+                    ("pattern", value) => assert_eq!(value, &name::pattern()),
                     ("type", value) => assert!(value.is_string(), "{value}"),
                     _ => {}
                 }

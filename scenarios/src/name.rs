@@ -1,0 +1,51 @@
+//! The form of a name, which becomes part of paths: of recordings, and of `--set`.
+//!
+//! It is stated here once. The schema's pattern, the check and the words of an error follow from it.
+
+use std::ops::RangeInclusive;
+
+/// The characters of a name, and what they are called.
+const CHARACTERS: [(RangeInclusive<char>, &str); 4] =
+    [('a'..='z', "lower-case letters"), ('0'..='9', "digits"), ('_'..='_', "`_`"), ('-'..='-', "`-`")];
+
+/// How many characters a name has at most; it has at least one.
+const MAX_CHARACTERS: usize = 64;
+
+/// Whether a text is a name.
+pub(crate) fn is_name(text: &str) -> bool {
+    let fits = |character: char| CHARACTERS.iter().any(|(range, _)| range.contains(&character));
+    (1..=MAX_CHARACTERS).contains(&text.chars().count()) && text.chars().all(fits)
+}
+
+/// The form as a regular expression, for the schema.
+pub(crate) fn pattern() -> String {
+    let written = |(range, _): &(RangeInclusive<char>, &str)| match (range.start(), range.end()) {
+        (first, last) if first == last => first.to_string(),
+        (first, last) => format!("{first}-{last}"),
+    };
+    let class: String = CHARACTERS.iter().map(written).collect();
+    format!("^[{class}]{{1,{MAX_CHARACTERS}}}$")
+}
+
+/// The form in words, for errors.
+pub(crate) fn in_words() -> String {
+    let [most @ .., last] = CHARACTERS.map(|(_, words)| words);
+    format!("a name has 1 to {MAX_CHARACTERS} {} or {last}", most.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pattern_words_and_check_are_of_one_form() {
+        assert_eq!(pattern(), "^[a-z0-9_-]{1,64}$");
+        assert_eq!(in_words(), "a name has 1 to 64 lower-case letters, digits, `_` or `-`");
+        for name in ["ego", "front-2", "_", &"a".repeat(64)] {
+            assert!(is_name(name), "{name}");
+        }
+        for other in ["", "Ego", "a b", "ä", "a.b", "a{", &"a".repeat(65)] {
+            assert!(!is_name(other), "{other}");
+        }
+    }
+}
