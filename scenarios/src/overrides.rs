@@ -44,11 +44,14 @@ impl Override {
             }
             Override::Planner(kind) => {
                 let place = whole("--planner", kind);
+                if !has_vehicles(root) {
+                    return Err(no_vehicles(root, &place));
+                }
                 let path = ["vehicle", &ego_name(root), "driver", "kind"];
                 (steps_of(&path, &place), TomlNode { place, value: TomlValue::Text(kind.clone()) })
             }
         };
-        lay(Some(schema::complete()), root, &steps, value)
+        lay(Some(schema::complete()), root, (&steps, 0), value)
     }
 }
 
@@ -95,6 +98,21 @@ fn value_of(document: &Arc<Document>, offset: usize, written: &str) -> TomlNode 
     parse_value(document, offset, value).unwrap_or_else(text)
 }
 
+/// Whether `vehicle` has entries; what is no list is left for the check to refuse.
+fn has_vehicles(root: &Table) -> bool {
+    root.get("vehicle").is_some_and(|entry| !entry.node.is_empty_list())
+}
+
+/// The refusal of `--planner` for a scenario without vehicles.
+fn no_vehicles(root: &Table, place: &Place) -> Fault {
+    let message = "the scenario has no vehicles, so `--planner` has nothing to change";
+    let fault = Fault::at(place, "no vehicle to drive", message);
+    if root.contains_key("building") {
+        return fault.help("the building has a controller, which `--set controller.kind=KIND` chooses");
+    }
+    fault.help("add a `[[vehicle]]`, or name another scenario: `interplay list` shows them")
+}
+
 fn ego_name(root: &Table) -> String {
     let Some(TomlValue::Array(vehicles)) = root.get("vehicle").map(|entry| &entry.node.value) else {
         return EGO.to_owned();
@@ -104,22 +122,28 @@ fn ego_name(root: &Table) -> String {
     ego.map_or(EGO, |name| *name).to_owned()
 }
 
-/// Lays a value over a table at the end of a path, making the tables on the way that are not there yet.
-fn lay(schema: Option<SchemaNode>, table: &mut Table, steps: &[Step], value: TomlNode) -> Result<(), Fault> {
-    let [step, rest @ ..] = steps else { return Ok(()) };
-    if rest.is_empty() {
+/// The steps of a path, and how many of them are behind.
+type Progress<'a> = (&'a [Step], usize);
+
+/// Lays a value over a table at the end of a path, making the tables and lists on the way that are not there yet.
+fn lay(schema: Option<SchemaNode>, table: &mut Table, path: Progress<'_>, value: TomlNode) -> Result<(), Fault> {
+    let (steps, done) = path;
+    let Some(step) = steps.get(done) else { return Ok(()) };
+    if done + 1 == steps.len() {
         let change = Table::from([(step.word.clone(), TomlEntry { key: step.place.clone(), node: value })]);
         *table = merge_tables(schema, std::mem::take(table), change);
         return Ok(());
     }
     let property = schema.and_then(|table| table.property(&step.word));
+    let is_list = property.is_some_and(|property| property.type_name() == Some("array"));
+    let empty = if is_list { TomlValue::Array(Vec::new()) } else { TomlValue::Table(Table::new()) };
     let entry = table.entry(step.word.clone()).or_insert_with(|| TomlEntry {
         key: step.place.clone(),
-        node: TomlNode { place: step.place.clone(), value: TomlValue::Table(Table::new()) },
+        node: TomlNode { place: step.place.clone(), value: empty },
     });
     match &mut entry.node.value {
-        TomlValue::Table(table) => lay(property, table, rest, value),
-        TomlValue::Array(items) => lay_in_list(property.and_then(SchemaNode::entries), items, step, rest, value),
+        TomlValue::Table(table) => lay(property, table, (steps, done + 1), value),
+        TomlValue::Array(items) => lay_in_list(property.and_then(SchemaNode::entries), items, (steps, done + 1), value),
         other => {
             let message = format!("{} is {}, not a table", quoted(&step.word), kind_of(other));
             Err(Fault::at(&step.place, "nothing is below this", message))
@@ -127,26 +151,49 @@ fn lay(schema: Option<SchemaNode>, table: &mut Table, steps: &[Step], value: Tom
     }
 }
 
-/// Lays a value over the entry of a list that the first step names; `schema` is that of an entry.
+/// Lays a value over the entry of a list that the next step names; `schema` is that of an entry.
 fn lay_in_list(
     schema: Option<SchemaNode>,
     items: &mut [TomlNode],
-    list: &Step,
-    steps: &[Step],
+    path: Progress<'_>,
     value: TomlNode,
 ) -> Result<(), Fault> {
-    let [step, rest @ ..] = steps else { return Ok(()) };
+    let (steps, done) = path;
+    let Some(step) = steps.get(done) else { return Ok(()) };
     let labels: Vec<String> = items.iter().filter_map(|item| item.label().map(str::to_owned)).collect();
     let Some(item) = items.iter_mut().find(|item| item.label() == Some(step.word.as_str())) else {
-        let known: Vec<&str> = labels.iter().map(String::as_str).collect();
-        let message = format!("there is no {} in {}", quoted(&step.word), quoted(&list.word));
-        return Err(Fault::at(&step.place, "unknown", message).help(suggestion(&step.word, "there are", &known)));
+        return Err(no_such_entry(path, &labels));
     };
-    match &mut item.value {
-        TomlValue::Table(table) if !rest.is_empty() => lay(schema, table, rest, value),
-        _ => {
-            *item = value;
+    match (&mut item.value, value.value) {
+        (TomlValue::Table(table), over) if done + 1 < steps.len() => {
+            lay(schema, table, (steps, done + 1), TomlNode { value: over, ..value })
+        }
+        (TomlValue::Table(table), TomlValue::Table(over)) => {
+            *table = merge_tables(schema, std::mem::take(table), over);
             Ok(())
         }
+        (_, other) => {
+            let message = format!("{} must be a table, not {}", quoted(&written(path)), kind_of(&other));
+            let help = format!("set one of its keys, as `{}.KEY=VALUE`", written(path));
+            Err(Fault::at(&value.place, "not a table", message).help(help))
+        }
     }
+}
+
+/// The refusal of a step that names no entry of the list before it.
+fn no_such_entry((steps, done): Progress<'_>, labels: &[String]) -> Fault {
+    let (step, list) = (&steps[done], written((steps, done - 1)));
+    let message = format!("there is no {} in {}", quoted(&step.word), quoted(&list));
+    let known: Vec<&str> = labels.iter().map(String::as_str).collect();
+    let help = match known.as_slice() {
+        [] => format!("the scenario has no entries in {}", quoted(&list)),
+        known => suggestion(&step.word, "there are", known),
+    };
+    Fault::at(&step.place, "unknown", message).help(help)
+}
+
+/// The path up to and with the next step, as it is written.
+fn written((steps, done): Progress<'_>) -> String {
+    let words: Vec<&str> = steps.iter().take(done + 1).map(|step| step.word.as_str()).collect();
+    words.join(".")
 }

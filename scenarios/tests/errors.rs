@@ -362,6 +362,7 @@ fn overrides() {
     errors.error("set_too_deep", set(&format!("{}=1", "a.".repeat(100_000))), &["no key of a scenario"]);
     let planner = from_text("good.toml", GOOD, &[Override::Planner("negotiate".to_owned())]);
     errors.error("unknown_planner", planner, &["--planner:1:1", "`negotiation`?"]);
+    errors.error("set_entry_to_a_number", set("vehicle.ego=5"), &["--set:1:13", "`vehicle.ego` must be a table"]);
     insta::assert_snapshot!("overrides", errors.0);
 }
 

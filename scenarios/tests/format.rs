@@ -108,6 +108,14 @@ fn overrides_change_what_they_name_in_their_order() {
 }
 
 #[test]
+fn a_table_set_on_a_vehicle_changes_only_the_keys_that_it_states() {
+    let changed = least("", &[set("vehicle.car={ goal = { speed_mps = 0.5 } }")]);
+    let mut expected = least("", &[]);
+    expected.vehicles[0].goal.speed_mps = Some(0.5);
+    assert_eq!(changed, expected);
+}
+
+#[test]
 fn another_planner_keeps_the_settings_that_it_knows() {
     let every_third = Override::Set("vehicle.ego.driver.look_around_every=3".to_owned());
     let conservative = Override::Planner("conservative".to_owned());

@@ -3,7 +3,7 @@
 mod common;
 
 use common::Catalogue;
-use interplay_scenarios::from_text;
+use interplay_scenarios::{Override, from_text};
 
 /// A building without fault, for the cases to spoil.
 const GOOD: &str = r#"title = "An office and a store"
@@ -123,6 +123,24 @@ fn days_and_controllers() {
     let none = "extends = 'lane-change/front-nice'\ntitle = 'a'\niterations = 3";
     errors.error("only_for_buildings", from_text("bad.toml", none, &[]), &["there is no building", "`[building]`"]);
     insta::assert_snapshot!("days_and_controllers", errors.0);
+}
+
+/// A flag that is about vehicles says that there are none.
+#[test]
+fn flags_for_vehicles() {
+    let mut errors = Catalogue::default();
+    let with = |text: &str, change: Override| from_text("good.toml", text, &[change]);
+    let planner = || Override::Planner("idm".to_owned());
+    let none = "the scenario has no vehicles, so `--planner` has nothing to change";
+    errors.error("planner", with(GOOD, planner()), &["--planner:1:1", none, "`--set controller.kind=KIND`"]);
+    let empty = format!("vehicle = []\n{GOOD}");
+    errors.error("planner_of_an_empty_list", with(&empty, planner()), &["--planner:1:1", none]);
+    let nothing = with("title = 'a'\nshows = 'b'", planner());
+    errors.error("planner_of_nothing", nothing, &["--planner:1:1", none, "`[[vehicle]]`"]);
+    let set = with(GOOD, Override::Set("vehicle.ego.goal.lane=1".to_owned()));
+    errors.error("set", set, &["--set:1:9", "there is no `ego` in `vehicle`", "no entries"]);
+    with(GOOD, Override::Set("controller.kind=iterative-learning".to_owned())).expect("what the help says works");
+    insta::assert_snapshot!("flags_for_vehicles", errors.0);
 }
 
 /// Each error points at the key that it is about, also where only the building crate can find it.

@@ -137,6 +137,7 @@ fn a_bad_path_of_a_change() {
     refused(&set("vehicle.ego.gaol.lane=1"), &["--set", "unknown key `gaol`", "did you mean `goal`"]);
     refused(&set("vehicle.egg.goal.lane=1"), &["--set", "there is no `egg` in `vehicle`", "did you mean `ego`"]);
     refused(&set("vehicle.ego.goal.lane"), &["--set"]);
+    refused(&set("vehicle.ego=5"), &["--set", "`vehicle.ego` must be a table, not a whole number"]);
     refused(&set("duration_s=nan"), &["--set", "`duration_s` must be a finite number"]);
 }
 
@@ -144,6 +145,9 @@ fn a_bad_path_of_a_change() {
 fn a_bad_word_for_a_planner() {
     let outcome = interplay(&scratch("bad-planner"), &["run", "--planner", "conservativ", "--no-record"]);
     refused(&outcome, &["--planner", "conservativ", "did you mean `conservative`"]);
+    let folder = scratch("planner-without-vehicles");
+    let outcome = interplay(&folder, &["run", "building/distributed", "--planner", "idm", "--no-record"]);
+    refused(&outcome, &["--planner", "the scenario has no vehicles, so `--planner` has nothing to change"]);
 }
 
 #[test]
