@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::Trajectory;
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
-use crate::trajectory::{DescentError, StageError, Statistics};
+use crate::trajectory::{DescentError, Problem, StageError, Statistics};
 
 /// What a vehicle will do, what it asks of another, and why.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +17,8 @@ pub struct Plan {
     pub diagnostics: Vec<Diagnostic>,
     /// What happened in this step.
     pub events: Vec<PlanEvent>,
+    /// The trajectory problem that the plan solves, for whoever checks it; none of a planner that poses none.
+    pub problem: Option<Box<Problem>>,
     /// The work of all optimisations behind the plan.
     pub statistics: Statistics,
 }

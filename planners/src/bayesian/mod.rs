@@ -76,7 +76,8 @@ impl Bayesian {
         }
         self.last = Some(trajectory.clone());
         let events = choice.event("persuades", "to persuade").into_iter().chain(event).collect();
-        Ok(Plan { trajectory, proposal: None, diagnostics, events, statistics: optimum.statistics })
+        let (problem, statistics) = (Some(Box::new(problem)), optimum.statistics);
+        Ok(Plan { trajectory, proposal: None, diagnostics, events, problem, statistics })
     }
 
     /// Updates the belief about the vehicle to persuade.

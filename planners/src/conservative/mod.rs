@@ -42,7 +42,7 @@ impl Conservative {
     /// # Errors
     /// [`PlanError`] if no starting guess leads to an optimum.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        Ok(answer(&self.optimise(scene)?))
+        Ok(answer(self.optimise(scene)?))
     }
 
     /// As [`Conservative::plan`], but returns the optimum together with the problem that it solves.
@@ -58,16 +58,17 @@ impl Conservative {
 }
 
 /// Turns a solved problem into a plan. Its diagnostics are the cost, the violation of safety, and the active constraints.
-pub(crate) fn answer(Solved { problem, optimum, event }: &Solved) -> Plan {
+pub(crate) fn answer(Solved { problem, optimum, event }: Solved) -> Plan {
     let cost = &optimum.cost;
     let mut diagnostics: Vec<Diagnostic> =
         vec![COST.is(cost.total), SAFETY_SLACK.is(cost.violation(Violation::Safety))];
-    diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
+    diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),
         proposal: None,
         diagnostics,
-        events: event.iter().cloned().collect(),
+        events: event.into_iter().collect(),
+        problem: Some(Box::new(problem)),
         statistics: optimum.statistics,
     }
 }

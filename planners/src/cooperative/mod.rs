@@ -75,12 +75,13 @@ impl Cooperative {
             Ok(optimum) => {
                 let parts = cooperators.iter().enumerate();
                 self.last = parts.map(|(i, part)| (part.agent.name.clone(), optimum.trajectory(i))).collect();
-                Ok(self.answer(&problem, &optimum, own))
+                let answer = self.answer(&problem, &optimum, own);
+                Ok(Plan { problem: Some(Box::new(problem)), ..answer })
             }
             Err(error) => {
                 let last = std::mem::take(&mut self.last);
                 let last = last.get(own).map(|(_, trajectory)| trajectory);
-                Ok(conservative::answer(&conservative::retreat(&mut self.optimiser, scene, last, &error)?))
+                Ok(conservative::answer(conservative::retreat(&mut self.optimiser, scene, last, &error)?))
             }
         }
     }
@@ -114,6 +115,6 @@ impl Cooperative {
         ];
         diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
-        Plan { trajectory, proposal, diagnostics, events: Vec::new(), statistics: optimum.statistics }
+        Plan { trajectory, proposal, diagnostics, statistics: optimum.statistics, ..Plan::default() }
     }
 }

@@ -113,7 +113,8 @@ impl Game {
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
         let events = choice.event("plays with", "to play with").into_iter().chain(event).collect();
-        Ok(Plan { trajectory, proposal: None, diagnostics, events, statistics: optimum.statistics })
+        let (problem, statistics) = (Some(Box::new(problem)), optimum.statistics);
+        Ok(Plan { trajectory, proposal: None, diagnostics, events, problem, statistics })
     }
 
     /// Renews both beliefs; returns what the ego shows.

@@ -68,12 +68,14 @@ impl Human {
         let hurried = closing::hurried(scene, self.settings.closing_mps);
         let scene = hurried.as_ref().unwrap_or(scene);
         let yielded_to = yielded_to(scene, &self.settings);
-        let (best, statistics) = self.decide(&problem(scene, &self.settings), &yielded_to, scene)?;
+        let problem = problem(scene, &self.settings);
+        let (best, statistics) = self.decide(&problem, &yielded_to, scene)?;
         let trajectory = best.trajectory(0);
         self.last = Some(trajectory.clone());
         Ok(Plan {
             trajectory,
             diagnostics: vec![diagnostics::SAFETY_WEIGHT.is(self.settings.weight())],
+            problem: Some(Box::new(problem)),
             statistics,
             ..Plan::default()
         })

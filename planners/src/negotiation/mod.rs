@@ -74,7 +74,7 @@ impl Negotiation {
         let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
         let Some(partner) = self.choose(scene, &mut events) else {
-            return Ok(Plan { events, ..conservative::answer(&retreat?) });
+            return Ok(Plan { events, ..conservative::answer(retreat?) });
         };
         let accepted = self.update_acceptance(partner);
         let persuasion = persuasion::next_constraint(&self.settings, self.negotiation.last.as_ref(), accepted);
@@ -83,13 +83,14 @@ impl Negotiation {
             Ok(solved) => solved,
             Err(error) => {
                 events.push(PlanEvent::note(format!("no proposal: {error}")));
-                return Ok(Plan { events, ..conservative::answer(&retreat?) });
+                return Ok(Plan { events, ..conservative::answer(retreat?) });
             }
         };
         self.remember(&optimum, &retreat, partner);
         let mut plan = self.to_plan(&optimum, partner, accepted, persuasion.as_ref());
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
+        plan.problem = Some(Box::new(problem));
         self.filter(scene, &retreat, &optimum, &mut plan);
         Ok(plan)
     }
@@ -158,6 +159,7 @@ impl Negotiation {
         let active = persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory));
         Plan {
             trajectory,
+            statistics: optimum.statistics,
             proposal: Some(Proposal {
                 to: partner.name.clone(),
                 trajectory: optimum.trajectory(1),
@@ -171,8 +173,7 @@ impl Negotiation {
                 COST.is(optimum.cost.total),
                 SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
             ],
-            events: Vec::new(),
-            statistics: optimum.statistics,
+            ..Plan::default()
         }
     }
 

@@ -77,6 +77,14 @@ impl DynamicsCurvature {
     }
 }
 
+impl Bicycle {
+    /// The steering angle at which the vehicle turns at a rate \[rad\] (not clamped to its limits).
+    pub fn steering_for(&self, rate_radps: f64, speed_mps: f64) -> f64 {
+        let sin_slip = (self.rear_axle_m * rate_radps / speed_mps).clamp(-0.9, 0.9);
+        libm::atan(sin_slip / (1.0 - sin_slip * sin_slip).sqrt() / self.rear_share)
+    }
+}
+
 /// Sine and cosine of the direction of motion `φ` and of the slip angle `β`, with the derivatives of `β`.
 struct Slip {
     sin_course: f64,

@@ -30,6 +30,7 @@ mod line_search;
 mod optimiser;
 mod optimum;
 mod other_side;
+mod passing_orders;
 mod starts;
 mod step_problem;
 mod step_solver;

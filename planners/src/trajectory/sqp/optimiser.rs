@@ -76,6 +76,17 @@ impl<S: StageSolver> Optimiser<S> {
         Ok(self.compare(found, bar))
     }
 
+    pub(super) fn explore_on_cold(
+        &mut self,
+        problem: &Problem,
+        iterate: Iterate,
+        bar: Bar,
+    ) -> Result<Exploration, DescentError> {
+        let now = self.descent.begin(problem, iterate)?;
+        let found = self.descent.run(problem, now, false, bar.give_up_above(), &self.tolerances)?;
+        Ok(self.compare(found, bar))
+    }
+
     fn resume(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
         let mut now = self.descent.begin(problem, problem.start(guess))?;
         let warm = self.resumes && self.warm_start.fits(&self.descent.steps.problem.qp);

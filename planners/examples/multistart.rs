@@ -1,0 +1,161 @@
+//! How often a search from random starts finds a cheaper plan than a planner did.
+//!
+//! ```sh
+//! cargo run --release -p interplay-planners --example multistart -- [WORD ...]
+//! ```
+//!
+//! drives every family of scenarios from perturbed starts with every planner, in closed loop. At each step the problem that a
+//! driver poses is solved from 30 random starts besides; a row for each family and driver says in how many of its problems the
+//! cheapest of them costs less than the plan by more than a thousandth (of 1 + cost), and how long the plans took.
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::time::Instant;
+
+use common::Random;
+use common::world::{Vehicle, begin, intersection, lane_change, lane_keeping, ramp_merge};
+use interplay_planners::human::Style::{self, Nice, Tough};
+use interplay_planners::trajectory::{Optimiser, Problem, Robust};
+use interplay_planners::{Driver, Input, Plan, bayesian, conservative, cooperative, game, negotiation};
+
+const STARTS: u64 = 30;
+const SEEDS: u64 = 4;
+const CHEAPER: f64 = 1e-3;
+
+#[derive(Default)]
+struct Tally {
+    problems: usize,
+    beaten: Vec<(f64, String)>,
+    plan_ms: Vec<f64>,
+}
+
+fn main() -> std::io::Result<()> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let mut out = std::io::stdout();
+    let mut tallies: BTreeMap<String, Tally> = BTreeMap::new();
+    for (family, pose) in families() {
+        for ego in egos() {
+            let name = format!("{family}/{}", ego.kind());
+            if !words.is_empty() && !words.iter().all(|word| name.contains(word)) {
+                continue;
+            }
+            for seed in 0..SEEDS {
+                let mut vehicles = pose(ego.clone());
+                perturb(&mut vehicles, seed);
+                if let Driver::Cooperative(_) = ego {
+                    vehicles[1].drive(ego.clone());
+                }
+                drive(&name, seed, &vehicles, &mut tallies);
+            }
+        }
+    }
+    let mut total: BTreeMap<String, (usize, usize)> = BTreeMap::new();
+    for (name, mut tally) in tallies {
+        let Tally { problems, beaten, plan_ms } = &mut tally;
+        plan_ms.sort_by(f64::total_cmp);
+        let at = |share: f64| plan_ms[((plan_ms.len() - 1) as f64 * share) as usize];
+        beaten.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let worst: Vec<String> = beaten.iter().take(3).map(|(gain, id)| format!("{gain:.3} {id}")).collect();
+        let (count, of) = (beaten.len(), *problems);
+        let (low, mid, most) = (at(0.5), at(0.99), at(1.0));
+        writeln!(out, "| {name} | {count} of {of} | {low:.3} | {mid:.3} | {most:.3} | {} |", worst.join("; "))?;
+        let kind = name.rsplit('/').next().unwrap_or_default().to_owned();
+        let entry = total.entry(kind).or_default();
+        *entry = (entry.0 + count, entry.1 + of);
+    }
+    writeln!(out, "{total:?}")
+}
+
+type Pose = Box<dyn Fn(Driver) -> Vec<Vehicle>>;
+
+fn families() -> Vec<(String, Pose)> {
+    let pairs: [(&str, [Style; 2]); 3] =
+        [("nice-nice", [Nice, Nice]), ("tough-nice", [Tough, Nice]), ("tough-tough", [Tough, Tough])];
+    let mut found: Vec<(String, Pose)> = Vec::new();
+    for (styles, pair) in pairs {
+        found.push((format!("lane-change/{styles}"), Box::new(move |ego| lane_change(ego, pair))));
+        found.push((format!("ramp-merge/{styles}"), Box::new(move |ego| ramp_merge(ego, pair))));
+    }
+    for (style, one, away_m) in [("nice", Nice, 1.9), ("tough", Tough, 1.75)] {
+        found.push((format!("lane-keeping/{style}"), Box::new(move |ego| lane_keeping(ego, one))));
+        found.push((format!("intersection/{style}"), Box::new(move |ego| intersection(ego, one, away_m))));
+    }
+    found
+}
+
+fn egos() -> Vec<Driver> {
+    vec![
+        Driver::Conservative(conservative::Settings::default()),
+        Driver::Negotiation(negotiation::Settings::default()),
+        Driver::Bayesian(bayesian::Settings::default()),
+        Driver::Game(game::Settings::default()),
+        Driver::Cooperative(cooperative::Settings::default()),
+    ]
+}
+
+fn perturb(vehicles: &mut [Vehicle], seed: u64) {
+    let mut random = Random(1000 + seed);
+    for vehicle in vehicles {
+        let (sin, cos) = vehicle.agent.state.heading_rad.sin_cos();
+        let along = random.between(-0.3, 0.3);
+        vehicle.agent.state.x_m += along * cos;
+        vehicle.agent.state.y_m += along * sin;
+        vehicle.agent.state.speed_mps += random.between(-0.1, 0.1);
+    }
+}
+
+fn drive(name: &str, seed: u64, vehicles: &[Vehicle], tallies: &mut BTreeMap<String, Tally>) {
+    let (mut traffic, mut planners) = begin(vehicles);
+    let every: u64 = std::env::var("EVERY").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
+    for tick in 0..80 {
+        traffic.drive(|index, scene| {
+            let began = Instant::now();
+            let plan = planners[index].plan(scene)?;
+            let took = 1e3 * began.elapsed().as_secs_f64();
+            let kind = vehicles[index].driver.kind();
+            let family = name.rsplit_once('/').map_or(name, |(family, _)| family);
+            let tally = tallies.entry(format!("{family}/{kind}")).or_default();
+            tally.plan_ms.push(took);
+            if let Some(problem) = plan.problem.as_deref().filter(|_| (index == 0 || kind != "cooperative") && tick % every == 0 && tick < 50) {
+                tally.problems += 1;
+                let cost = cost_of(problem, &plan);
+                let found = cheapest(problem, seed * 1000 + tick);
+                let gain = (cost - found) / (1.0 + cost.abs());
+                if gain > CHEAPER {
+                    let text = format!("{name}/{seed}/{tick}/{} {cost:.4} {found:.4}", scene.ego.name);
+                    tally.beaten.push((gain, text));
+                }
+            }
+            Ok(plan)
+        });
+    }
+}
+
+/// What a plan with its proposal costs in the problem that it solves.
+fn cost_of(problem: &Problem, plan: &Plan) -> f64 {
+    use interplay_planners::diagnostic::COST;
+    plan.value_of(&COST).unwrap_or_else(|| problem.cost_of(&[plan.trajectory.inputs.clone()]))
+}
+
+fn cheapest(problem: &Problem, seed: u64) -> f64 {
+    let mut random = Random(seed);
+    let mut best = f64::INFINITY;
+    for _ in 0..STARTS {
+        let guess: Vec<Vec<Input>> = problem.participants.iter().map(|_| random_inputs(&mut random)).collect();
+        if let Ok(optimum) = Optimiser::resuming(Robust::default()).descend(problem, &guess) {
+            best = best.min(optimum.cost.total);
+        }
+    }
+    best
+}
+
+/// Five pieces of random acceleration and steering.
+fn random_inputs(random: &mut Random) -> Vec<Input> {
+    let pieces: Vec<Input> = (0..5)
+        .map(|_| Input { acceleration_mps2: random.between(-1.2, 1.2), steering_rad: random.between(-0.4, 0.4) })
+        .collect();
+    (0..30).map(|t| pieces[t / 6]).collect()
+}

@@ -1,0 +1,148 @@
+//! Passing orders: which classes of motion a problem has, and which of them holds the cheapest plan.
+//!
+//! A descent ends in the optimum of the class where it began: before or behind another vehicle, to its left or to its right.
+//! Which class is the cheapest no descent can tell. So before a plan is made the classes are enumerated:
+//!
+//! 1. A plan that touches no ellipse and violates nothing has no rival: without ellipses the problem has one optimum.
+//! 2. Otherwise simple motions ([`motions`]) are rolled out and sorted into classes ([`class`]). The cheapest of each other
+//!    class represents it; classes out of reach have no representative.
+//! 3. Each class is bounded by what one Gauss-Newton step from its representative promises. Where that is less than the plan
+//!    at hand costs, a descent begins there.
+//! 4. The cheapest optimum wins if it saves at least [`MIN_COST_ADVANTAGE`] of `1 + cost`: the hysteresis between plans that
+//!    are equally good.
+//!
+//! Where every other class is far dearer than the plan, the next few plans go without the comparison.
+
+mod class;
+mod motions;
+
+pub use class::PassingClass;
+
+use super::exploration::{Bar, Exploration};
+use super::optimiser::Optimiser;
+use super::optimum::{DescentError, Optimum, RunnerUp};
+use crate::Input;
+use crate::trajectory::iterate::Iterate;
+use crate::trajectory::problem::Problem;
+use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
+use motions::for_each_motion;
+
+/// Another class replaces the plan at hand if it saves this share of `1 + cost`.
+pub const MIN_COST_ADVANTAGE: f64 = 1e-3;
+/// Most classes that are examined for one plan, the cheapest representatives first.
+const MAX_CLASSES: usize = 6;
+/// With every other class dearer than this multiple of the plan, the comparison rests.
+const FAR_COST_RATIO: f64 = 2.0;
+/// Number of plans without a comparison then.
+const PLANS_AT_REST: usize = 3;
+
+/// The cheapest motion of a class.
+struct Representative {
+    class: PassingClass,
+    cost: f64,
+    iterate: Iterate,
+}
+
+impl<S: StageSolver> Optimiser<S> {
+    /// The cheapest plan: descends from a guess (per participant, inputs), which decides a first class of motion, then compares it
+    /// with the other classes unless [`Optimiser::compares_passing_orders`] is off.
+    ///
+    /// # Errors
+    /// That of the descent from the guess, if no class has an optimum.
+    pub fn optimise(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
+        let found = self.descend(problem, guess);
+        let trusted = self.tolerances.trust(&found);
+        if trusted && !(self.compares_passing_orders && self.has_rivals(problem)) {
+            return found;
+        }
+        if trusted && self.warm_start.plans_at_rest > 0 {
+            self.warm_start.plans_at_rest -= 1;
+            return found;
+        }
+        self.compare_classes(problem, found)
+    }
+
+    /// Whether the optimum of the last descent touches an ellipse.
+    fn has_rivals(&self, problem: &Problem) -> bool {
+        let mut block = 0;
+        for rows in problem.row_terms() {
+            let multipliers = self.warm_start.multipliers.row_multipliers.get(block);
+            let touches = |row: &Vec<f64>| row.iter().any(|multiplier| *multiplier > ACTIVE_MULTIPLIER);
+            if rows.ellipse().is_some() && multipliers.is_some_and(touches) {
+                return true;
+            }
+            block += rows.rows_per_stage();
+        }
+        false
+    }
+
+    /// The cheapest of what a descent found and the optima of other classes.
+    fn compare_classes(
+        &mut self,
+        problem: &Problem,
+        mut best: Result<Optimum, DescentError>,
+    ) -> Result<Optimum, DescentError> {
+        let held = best.as_ref().ok().map(|optimum| (PassingClass::of(problem, &optimum.iterate), optimum));
+        let rivals = representatives(problem, held);
+        let mut cheapest_promise = f64::INFINITY;
+        for Representative { iterate, .. } in rivals.into_iter().take(MAX_CLASSES) {
+            let bar = self.bar(&best);
+            match self.explore_class(problem, iterate, bar) {
+                Ok(Exploration::Cheaper(found)) => match &mut best {
+                    Ok(held) => {
+                        cheapest_promise = cheapest_promise.min(held.cost.total);
+                        held.give_way(found);
+                    }
+                    Err(_) => best = Ok(found),
+                },
+                Ok(Exploration::Dearer(found)) => {
+                    cheapest_promise = cheapest_promise.min(found.cost.total);
+                    if let Ok(held) = &mut best {
+                        held.note_rival(found);
+                    }
+                }
+                Err(DescentError::NotBelow { promised, .. }) => cheapest_promise = cheapest_promise.min(promised),
+                Err(_) => {}
+            }
+        }
+        if let Ok(held) = &best
+            && cheapest_promise > FAR_COST_RATIO * held.cost.total
+        {
+            self.warm_start.plans_at_rest = PLANS_AT_REST;
+        }
+        best
+    }
+
+    /// What an optimum of another class has to beat. In trouble no hysteresis holds, and nothing is given up early.
+    fn bar(&self, best: &Result<Optimum, DescentError>) -> Bar {
+        match best {
+            Ok(held) if self.tolerances.trust(best) => {
+                Bar { cost: held.cost.total - MIN_COST_ADVANTAGE * (1.0 + held.cost.total.abs()), gives_up: true }
+            }
+            Ok(held) => Bar { cost: held.bar(), gives_up: false },
+            Err(_) => Bar { cost: f64::INFINITY, gives_up: false },
+        }
+    }
+}
+
+/// The cheapest motion of each class but the plan's, the cheapest first.
+fn representatives(problem: &Problem, held: Option<(PassingClass, &Optimum)>) -> Vec<Representative> {
+    let mut found: Vec<Representative> = Vec::new();
+    for_each_motion(problem, held.map(|(_, optimum)| &optimum.iterate), |iterate| {
+        let class = PassingClass::of(problem, iterate);
+        if held.is_some_and(|(own, _)| own == class) {
+            return;
+        }
+        let cost = problem.cost(iterate).total;
+        match found.iter_mut().find(|known| known.class == class) {
+            Some(known) if known.cost <= cost => {}
+            Some(known) => {
+                known.cost = cost;
+                known.iterate.clone_from(iterate);
+            }
+            None => found.push(Representative { class, cost, iterate: iterate.clone() }),
+        }
+    });
+    found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    found
+}

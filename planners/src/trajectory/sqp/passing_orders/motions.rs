@@ -1,0 +1,128 @@
+//! Simple motions: the representatives of the classes.
+//!
+//! A vehicle brakes, keeps its speed or accelerates as hard as it can, and steers to its goal's lateral position or keeps its
+//! own. Of several deciding vehicles one after the other does each of these while the others go on as planned, brake, or
+//! accelerate.
+
+use crate::steering::LateralControl;
+use crate::trajectory::iterate::Iterate;
+use crate::trajectory::participant::Participant;
+use crate::trajectory::problem::Problem;
+use crate::trajectory::terms::{Term, Tracking};
+use crate::{Input, State};
+
+/// Accelerations as shares of the strongest braking and acceleration.
+const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
+/// What the others do while one vehicle's motions are tried: brake or accelerate.
+const OTHERS_ACCELERATION_SHARES: [f64; 2] = [-1.0, 1.0];
+
+/// Inputs and states of one vehicle.
+#[derive(Clone, Debug)]
+struct Motion {
+    inputs: Vec<Input>,
+    states: Vec<State>,
+}
+
+/// Calls `visit` with every combination of simple motions. `planned` is the motion that everybody plans so far.
+pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut visit: impl FnMut(&Iterate)) {
+    let count = problem.participants.len();
+    let planned: Vec<Motion> = (0..count).map(|vehicle| planned_motion(problem, planned, vehicle)).collect();
+    let mut joint = Iterate {
+        inputs: planned.iter().map(|motion| motion.inputs.clone()).collect(),
+        states: planned.iter().map(|motion| motion.states.clone()).collect(),
+    };
+    let mut set = |joint: &mut Iterate, vehicle: usize, motion: &Motion| {
+        joint.inputs[vehicle].clone_from(&motion.inputs);
+        joint.states[vehicle].clone_from(&motion.states);
+    };
+    for vehicle in 0..count {
+        let own = motions(problem, vehicle);
+        for others in std::iter::once(None).chain(OTHERS_ACCELERATION_SHARES.map(Some)).take(if count > 1 { 3 } else { 1 })
+        {
+            for other in (0..count).filter(|other| *other != vehicle) {
+                let motion = others.and_then(|share| simple_motion(problem, other, share, false));
+                set(&mut joint, other, motion.as_ref().unwrap_or(&planned[other]));
+            }
+            let with_planned = (others.is_some() && vehicle == 0).then_some(&planned[0]);
+            for motion in own.iter().chain(with_planned) {
+                set(&mut joint, vehicle, motion);
+                visit(&joint);
+            }
+        }
+        set(&mut joint, vehicle, &planned[vehicle]);
+    }
+}
+
+/// The motion that a vehicle plans so far; without a plan it keeps its speed.
+fn planned_motion(problem: &Problem, planned: Option<&Iterate>, vehicle: usize) -> Motion {
+    match planned {
+        Some(planned) => {
+            Motion { inputs: planned.inputs[vehicle].clone(), states: planned.states[vehicle].clone() }
+        }
+        None => simple_motion(problem, vehicle, 0.0, false).unwrap_or_else(|| {
+            let participant = &problem.participants[vehicle];
+            let inputs = participant.admissible(&[], problem.horizon);
+            let mut states = Vec::new();
+            participant.model.roll_out(&participant.start, &inputs, &mut states);
+            Motion { inputs, states }
+        }),
+    }
+}
+
+/// The simple motions of one vehicle.
+fn motions(problem: &Problem, vehicle: usize) -> Vec<Motion> {
+    let ways = ACCELERATION_SHARES.into_iter().flat_map(|share| [(share, true), (share, false)]);
+    ways.filter_map(|(share, to_goal)| simple_motion(problem, vehicle, share, to_goal)).collect()
+}
+
+/// A share of the strongest acceleration (of the strongest braking where it is negative) and the lateral position of the goal
+/// or of now; nothing for a vehicle without a goal, or where the two positions are the same.
+fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -> Option<Motion> {
+    let participant = &problem.participants[vehicle];
+    let tracking = tracking(problem, vehicle)?;
+    let across = |state: &State| tracking.axes.components(state.position())[1];
+    let (target, here) = (tracking.targets.last()?, across(&participant.start));
+    let wanted = across(target);
+    let is_far = (wanted - here).abs() > 0.1 * participant.model.wheelbase_m();
+    if to_goal && !(is_far && tracking.weights[1] > 0.0) {
+        return None;
+    }
+    let control = LateralControl {
+        model: participant.model,
+        axes: tracking.axes,
+        heading_rad: target.heading_rad,
+        lateral_m: if to_goal { wanted } else { here },
+        steering_max_rad: participant.limits.steering_max_rad,
+    };
+    let limits = &participant.limits;
+    let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
+    let (mut inputs, mut states) = (Vec::with_capacity(problem.horizon), Vec::with_capacity(problem.horizon + 1));
+    let mut state = participant.start;
+    states.push(state);
+    for t in 0..problem.horizon {
+        let input = participant.known_inputs.get(t).copied().unwrap_or_else(|| Input {
+            acceleration_mps2: reachable(participant, t, &state, share * bound),
+            steering_rad: control.steering_rad(&state),
+        });
+        state = participant.model.step(&state, &input);
+        inputs.push(input);
+        states.push(state);
+    }
+    Some(Motion { inputs, states })
+}
+
+/// The acceleration nearest to a wanted one that keeps the speed within its bounds.
+fn reachable(participant: &Participant, t: usize, state: &State, wanted_mps2: f64) -> f64 {
+    let ([slowest, fastest], limits) = (participant.speed_bounds(t + 1), &participant.limits);
+    let step = participant.model.step_s();
+    let low = limits.acceleration_min_mps2.max((slowest - state.speed_mps) / step);
+    let high = limits.acceleration_max_mps2.min((fastest - state.speed_mps) / step);
+    wanted_mps2.min(high).max(low)
+}
+
+fn tracking(problem: &Problem, vehicle: usize) -> Option<&Tracking> {
+    problem.terms.iter().find_map(|term| match term {
+        Term::Tracking(tracking) if tracking.vehicle == vehicle => Some(tracking),
+        _ => None,
+    })
+}
