@@ -63,6 +63,7 @@ pub mod day;
 pub mod discretise;
 pub mod identify;
 pub mod lifted;
+pub mod nearest;
 pub mod network;
 pub mod occupancy;
 pub mod random;

@@ -24,7 +24,7 @@ pub enum Driver {
     Idm(idm::Settings),
     /// Does what the scenario says.
     Scripted(scripted::Settings),
-    /// Baseline: the others' plans are hard constraints (eq. 6.13).
+    /// Baseline: keeps out of the safety ellipses around the others' plans (eq. 6.13).
     Conservative(conservative::Settings),
     /// Negotiation with concession and persuasion (chapter 6).
     Negotiation(negotiation::Settings),

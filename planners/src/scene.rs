@@ -120,7 +120,7 @@ impl Scene {
     }
 
     /// The ellipses around the predictions of others that must not be entered, each along its road (eq. 6.13).
-    pub fn hard_keep_outs<'a>(&self, others: impl IntoIterator<Item = &'a Agent>) -> impl Iterator<Item = Term> {
+    pub fn exact_keep_outs<'a>(&self, others: impl IntoIterator<Item = &'a Agent>) -> impl Iterator<Item = Term> {
         others
             .into_iter()
             .map(|other| Term::KeepOut(self.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT)))

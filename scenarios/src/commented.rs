@@ -8,11 +8,11 @@ use std::fs;
 use std::path::Path;
 
 use interplay_building::bounds::Bound;
+use interplay_building::nearest::listed;
 use serde_json::{Map, Value as Json};
 
 use crate::error::LoadError;
 use crate::load::{load, tree};
-use crate::nearest::listed;
 use crate::schema::{self, Concern, SchemaNode};
 use crate::tree::{TomlNode, TomlValue};
 use crate::weather_file::is_embedded_weather;

@@ -4,10 +4,10 @@
 
 mod building;
 
+use interplay_building::nearest::suggestion;
 use interplay_planners::State;
 
 use crate::error::{Fault, Place, quoted};
-use crate::nearest::suggestion;
 use crate::road::{Branch, Road};
 use crate::scenario::{Scenario, Vehicle};
 use crate::tree::TomlNode;

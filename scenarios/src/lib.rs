@@ -27,7 +27,6 @@ mod files;
 mod load;
 mod merge;
 mod name;
-mod nearest;
 mod overrides;
 mod plant;
 mod road;

@@ -5,9 +5,10 @@
 
 use std::sync::Arc;
 
+use interplay_building::nearest::suggestion;
+
 use crate::error::{Document, Fault, Place, quoted};
 use crate::merge::merge_tables;
-use crate::nearest::suggestion;
 use crate::scenario::EGO;
 use crate::schema::{self, SchemaNode};
 use crate::tree::{Table, TomlEntry, TomlNode, TomlValue, kind_of, parse_value};

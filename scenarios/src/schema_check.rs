@@ -4,11 +4,11 @@
 //! of the format what is wrong and what would work.
 
 use interplay_building::bounds::Bound;
+use interplay_building::nearest::{listed, suggestion};
 use serde_json::Value as Json;
 
 use crate::error::{Fault, Place, quoted};
 use crate::name;
-use crate::nearest::{listed, suggestion};
 use crate::schema::{self, SchemaNode, quantity_of, unit_of};
 use crate::tree::{Table, TomlNode, TomlValue, kind_of};
 

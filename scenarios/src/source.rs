@@ -5,9 +5,10 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use interplay_building::nearest::nearest;
+
 use crate::embedded::{self, Embedded};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
-use crate::nearest::nearest;
 
 /// The largest file that is read; a scenario takes a few kilobytes.
 const MAX_FILE_BYTES: u64 = 1 << 20;

@@ -5,11 +5,11 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use interplay_building::nearest::suggestion;
 use interplay_building::weather::Epw;
 
 use crate::building::DAY_S;
 use crate::error::{Document, Fault, Place, quoted};
-use crate::nearest::suggestion;
 use crate::tree::TomlNode;
 use crate::weather::EpwFile;
 

@@ -225,8 +225,8 @@ fn the_errata_name_tests_that_exist() {
         .flat_map(|cell| cell.split('`').skip(1).step_by(2))
         .collect();
     let mut sources = String::new();
-    for room in ["planners/src", "planners/tests", "building/src", "building/tests"] {
-        gather(&root().join(room), &mut sources);
+    for folder in ["planners/src", "planners/tests", "building/src", "building/tests"] {
+        gather(&root().join(folder), &mut sources);
     }
     for test in &named {
         let found = sources.split("#[test]").skip(1).any(|rest| rest.trim_start().starts_with(&format!("fn {test}(")));
@@ -236,7 +236,7 @@ fn the_errata_name_tests_that_exist() {
 }
 
 fn gather(folder: &Path, into: &mut String) {
-    for entry in fs::read_dir(folder).expect("a room") {
+    for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("readable").path();
         if path.is_dir() {
             gather(&path, into);

@@ -375,8 +375,12 @@ fn spoilt_telemetry_is_refused_where_it_is_spoilt() {
         fs::write(folder.join("room.toml"), mapping).expect("written");
         refused(&interplay(&folder, &["identify", "room.csv"]), pieces);
     };
-    mapped(&mapping.replace("step_s", "step_min"), &["room.toml:", "step_min"]);
-    mapped(&mapping.replace("\"kw\"", "\"kilowatt\""), &["room.toml:", "kilowatt"]);
+    mapped(&mapping.replace("step_s", "step_min"), &["room.toml:", "unknown key `step_min` in `time`", "`step_s`?"]);
+    mapped(&mapping.replace("\"kw\"", "\"kilowatt\""), &["room.toml:", "cannot be `kilowatt`"]);
+    let line = mapping.lines().position(|line| line.starts_with("bandwidth_h = ")).expect("every setting is written");
+    let bandwidth = mapping.lines().nth(line).expect("it is there");
+    let place = format!("room.toml:{}:15: ", line + 1);
+    mapped(&mapping.replace(bandwidth, "bandwidth_h = 0.001"), &[&place, "`identify.bandwidth_h` is 0.001"]);
     fs::remove_file(folder.join("room.toml")).expect("it was there");
     refused(&interplay(&folder, &["identify", "room.csv"]), &["room.toml", "--mapping"]);
     refused(&interplay(&folder, &["identify", "none.csv"]), &["none.csv"]);

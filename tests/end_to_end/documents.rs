@@ -118,6 +118,6 @@ fn the_documents_speak_of_files_that_exist() {
 
 /// Whether a quoted word is a path of this repository, from its root.
 fn is_path(word: &str) -> bool {
-    let rooms = ["convex/", "planners/", "scenarios/", "app/", "tests/", "docs/", ".ci/", "assets/"];
-    rooms.iter().any(|room| word.starts_with(room)) && !word.contains(char::is_whitespace)
+    let folders = ["convex/", "planners/", "scenarios/", "app/", "tests/", "docs/", ".ci/", "assets/"];
+    folders.iter().any(|folder| word.starts_with(folder)) && !word.contains(char::is_whitespace)
 }

@@ -43,7 +43,7 @@ pub use smoothing::local_linear;
 pub use telemetry::{
     AirFlowUnit, Boundary, BoundaryColumns, Gaps, HeatColumns, IrradianceUnit, Mapping, MeasuredWall, MeasuredZone,
     Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem,
-    TemperatureUnit, TimeAxis, WaterFlowUnit, ZoneColumns,
+    TemperatureUnit, TimeAxis, ValueShape, WaterFlowUnit, ZoneColumns,
 };
 
 use std::ops::Range;

@@ -27,7 +27,7 @@ pub struct Conservative {
 /// The conservative problem of the planning vehicle, with the predictions of `others` as constraints.
 pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
-    terms.extend(scene.hard_keep_outs(others.iter().copied()));
+    terms.extend(scene.exact_keep_outs(others.iter().copied()));
     Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
 }
 

@@ -41,7 +41,7 @@ pub fn problem(
     let Goal { tracking, comfort, .. } = scene.goal;
     let goal = Goal { tracking: tracking.map(|q| share * q), comfort: comfort.map(|r| share * r), ..scene.goal };
     let mut terms = scene.own_terms(0, &goal);
-    terms.extend(scene.hard_keep_outs(scene.others.iter().filter(|other| other.name != partner.name)));
+    terms.extend(scene.exact_keep_outs(scene.others.iter().filter(|other| other.name != partner.name)));
     terms.extend(partner_terms(scene, partner, (1.0 - weight) / settings.other_normaliser));
     let ellipse = scene.goal.safety.oriented(partner.corridor.heading_rad);
     terms.push(Term::Separation(Separation { vehicle: 0, from: 1, ellipse, penalty: Penalty::EXACT }));

@@ -161,14 +161,8 @@ impl Recorded {
             horizon: problem.horizon,
             step_s: problem.participants[0].model.step_s(),
             vehicles: (0..problem.participants.len()).map(|vehicle| Vehicle::new(problem, vehicle)).collect(),
-            separations: find(
-                problem,
-                |term| if let Term::Separation(term) = term { Some(Apart::new(term)) } else { None },
-            ),
-            persuasion: find(problem, |term| {
-                if let Term::Persuasion(term) = term { Some(PersuasionRow::new(term)) } else { None }
-            })
-            .pop(),
+            separations: find(problem, Apart::of),
+            persuasion: find(problem, PersuasionRow::of).pop(),
             guess: guess.iter().map(|inputs| inputs.iter().map(|input| input.to_array()).collect()).collect(),
             memory: WarmStartRecord::new(memory),
         }
@@ -342,9 +336,10 @@ impl Mean {
 }
 
 impl Apart {
-    fn new(of: &Separation) -> Self {
+    fn of(term: &Term) -> Option<Self> {
+        let Term::Separation(of) = term else { return None };
         let penalty = [of.penalty.linear, of.penalty.quadratic];
-        Apart { pair: [of.vehicle, of.from], shape: shape(&of.ellipse), penalty }
+        Some(Apart { pair: [of.vehicle, of.from], shape: shape(&of.ellipse), penalty })
     }
 
     fn separation(&self) -> Separation {
@@ -358,13 +353,9 @@ impl Apart {
 }
 
 impl PersuasionRow {
-    fn new(of: &Persuasion) -> Self {
-        PersuasionRow {
-            toward: of.toward.clone(),
-            away: of.away.clone(),
-            strength: of.strength,
-            penalty: [of.penalty.linear, of.penalty.quadratic],
-        }
+    fn of(term: &Term) -> Option<Self> {
+        let Term::Persuasion(Persuasion { toward, away, strength, penalty, .. }) = term.clone() else { return None };
+        Some(PersuasionRow { toward, away, strength, penalty: [penalty.linear, penalty.quadratic] })
     }
 
     fn persuasion(&self) -> Persuasion {

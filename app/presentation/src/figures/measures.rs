@@ -1,11 +1,11 @@
-//! What was measured of runs, as tables of words.
+//! The measures of runs, as tables.
 
 use interplay_simulation::report::{BuildingReport, Report};
 
 use super::recorded_run::RecordedRun;
 use crate::plot::TextTable;
 
-/// The runs side by side: what tells whether they are what the source shows.
+/// The measures of several runs, side by side, for comparison with the source.
 pub fn side_by_side(recorded_runs: &[&RecordedRun]) -> Vec<TextTable> {
     let mut tables = Vec::new();
     let drives: Vec<&&RecordedRun> =

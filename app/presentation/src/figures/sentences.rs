@@ -1,14 +1,14 @@
-//! What came of runs, in a sentence.
+//! The outcome of runs, in a sentence.
 
 use super::recorded_run::RecordedRun;
 
-/// Of a goal that is not reached, or was from the start.
-const NEVER: &str = "never";
+/// In place of the time at which a goal is reached: it is not reached, or was reached from the start.
+const GOAL_NOT_REACHED: &str = "never";
 
-/// What a run came to.
+/// The outcome of a run.
 pub fn outcome(recorded: &RecordedRun) -> String {
     let mut sentences = vec![recorded.scenario.shows.trim_end_matches('.').to_owned()];
-    let known = facts(recorded).into_iter().filter(|(_, value)| value != NEVER);
+    let known = facts(recorded).into_iter().filter(|(_, value)| value != GOAL_NOT_REACHED);
     sentences.extend(known.map(|(what, value)| format!("{what} {value}")));
     let mut text = sentences.remove(0);
     text.push_str(". ");
@@ -17,7 +17,7 @@ pub fn outcome(recorded: &RecordedRun) -> String {
     text
 }
 
-/// What another run changes, if anything that counts.
+/// The facts of another run that differ from those of this one.
 pub fn difference(recorded: &RecordedRun, beside: &RecordedRun) -> Option<String> {
     let changed: Vec<String> = facts(recorded)
         .into_iter()
@@ -29,12 +29,12 @@ pub fn difference(recorded: &RecordedRun, beside: &RecordedRun) -> Option<String
     (!beside.label.is_empty()).then(|| format!("{}: {result}.", capitalised(&beside.label)))
 }
 
-/// What counts of a run, always in the same order.
+/// The facts of a run that are compared, always in the same order.
 fn facts(recorded: &RecordedRun) -> Vec<(String, String)> {
     let mut facts = Vec::new();
     let report = &recorded.report;
     if let Some(ego) = report.vehicles.get(recorded.scenario.ego_index()) {
-        let goal = ego.completed_s.map_or_else(|| NEVER.to_owned(), |time_s| format!("at {time_s:.1} s"));
+        let goal = ego.completed_s.map_or_else(|| GOAL_NOT_REACHED.to_owned(), |time_s| format!("at {time_s:.1} s"));
         facts.push((format!("{} reaches its goal", ego.name), goal));
         facts.push(("order at the end".to_owned(), report.order.join(", ")));
         let gap = report.min_gap_m.map_or_else(|| "none".to_owned(), |gap_m| format!("{gap_m:.2} m"));
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_run_is_told_from_another_by_what_counts() {
+    fn runs_differ_by_the_facts_that_are_compared() {
         let recorded =
             |label, sets| RunSpec { label, scenario: "lane-change/front-nice", sets }.record().expect("a run");
         let (nice, other) =

@@ -1,8 +1,8 @@
-//! Axes: from values to pixels, and round numbers to write beside them.
+//! Axes: the map from values to pixels, and round values for ticks.
 
 use std::ops::Range;
 
-/// From values to pixels.
+/// The map from values to pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
     values: Range<f64>,
@@ -12,22 +12,22 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis that takes the ends of `values` to `pixels`.
+    /// A linear axis that maps the ends of `values` to `pixels`.
     pub fn new(values: Range<f64>, pixels: [f64; 2]) -> Axis {
         Axis { values, pixels, logarithmic: false, every: None }
     }
 
-    /// The same by logarithms, if all values are above 0.
+    /// The same axis with a logarithmic scale, if all values are above 0.
     pub fn logarithmic(self) -> Axis {
         Axis { logarithmic: self.values.start > 0.0, ..self }
     }
 
-    /// The same with marks at multiples of a value, if there is one.
+    /// The same axis with ticks at multiples of a value, if one is given.
     pub fn every(self, every: Option<f64>) -> Axis {
         Axis { every, ..self }
     }
 
-    /// Where a value lies; beyond the ends it stays there.
+    /// The pixel of a value, clamped to the ends of the axis.
     pub fn pixel(&self, value: f64) -> f64 {
         let Range { start, end } = self.values;
         let share = if self.logarithmic {
@@ -38,7 +38,7 @@ impl Axis {
         self.pixels[0] + share.clamp(0.0, 1.0) * (self.pixels[1] - self.pixels[0])
     }
 
-    /// Round values within the ends, about one every `spacing` pixels, and what is written beside them.
+    /// Ticks: round values within the ends, about one every `spacing` pixels, with their labels.
     pub fn ticks(&self, spacing: f64) -> Vec<(f64, String)> {
         let Range { start, end } = self.values;
         if self.logarithmic {
@@ -58,7 +58,7 @@ impl Axis {
     }
 }
 
-/// The next of 1, 2, 2.5 and 5 times a power of ten.
+/// The smallest of 1, 2, 2.5 and 5 times a power of ten that is at least `least`.
 fn round_step(least: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(least)));
     let factor = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().find(|factor| factor * power >= least * (1.0 - 1e-9));

@@ -1,7 +1,7 @@
 //! A drawing: a picture as a list of marks in pixels, from the back to the front.
 //!
-//! Every drawing is a pure function from numbers to a [`Drawing`]; only here it meets Plotters, which turns the same marks into
-//! SVG and into PNG.
+//! Every drawing is a pure function from numbers to a [`Drawing`]. Only this module passes it to Plotters, which draws the
+//! same marks as SVG and as PNG.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -10,14 +10,15 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::style::{BLACK, Colour, Dash, LineStyle};
 use super::{Drawn, FONT, Figure};
 
-/// Size of text on ticks and bodies \[px\].
-pub const SMALL: f64 = 22.0;
-/// Size of text in legends and beside axes \[px\].
-pub const MEDIUM: f64 = 24.0;
-/// Size of titles \[px\].
-pub const LARGE: f64 = 29.0;
-/// Where a line turns by more than this it is drawn in two pieces: wide lines get spikes on sharp corners otherwise.
-const SHARP_COS: f64 = 0.7;
+/// Size of text on ticks and bodies.
+pub const SMALL_TEXT_PX: f64 = 22.0;
+/// Size of text in legends and beside axes.
+pub const MEDIUM_TEXT_PX: f64 = 24.0;
+/// Size of titles.
+pub const LARGE_TEXT_PX: f64 = 29.0;
+/// Smallest cosine of the angle by which a line turns at a point without being split there. At sharper corners Plotters would
+/// draw spikes on wide lines.
+const MIN_UNSPLIT_TURN_COS: f64 = 0.7;
 
 /// A picture to be saved.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +40,7 @@ pub(super) enum Mark {
     Text { at: [f64; 2], words: String, size: f64, colour: Colour, side: Side },
 }
 
-/// Which part of a text lies where it is put; upright always the middle.
+/// Horizontal alignment: the part of a text that lies at its place. Vertically this is always the middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Left,
@@ -242,7 +243,7 @@ fn split_at_corners(points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
 fn is_sharp(before: [f64; 2], here: [f64; 2], after: [f64; 2]) -> bool {
     let (a, b) = ([here[0] - before[0], here[1] - before[1]], [after[0] - here[0], after[1] - here[1]]);
     let lengths = libm::hypot(a[0], a[1]) * libm::hypot(b[0], b[1]);
-    a[0] * b[0] + a[1] * b[1] < SHARP_COS * lengths
+    a[0] * b[0] + a[1] * b[1] < MIN_UNSPLIT_TURN_COS * lengths
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Footprints at equal steps of time, numbered, on their roads.
+//! Numbered footprints of vehicles at equal time steps, on their roads.
 //!
 //! Where all roads run the same way, each snapshot is a strip below the one before ([`FootprintPlot::strips`]): vehicles
 //! in one lane would cover one another otherwise. Where roads cross, all snapshots are in one plan ([`FootprintPlot::plan`]).
@@ -11,11 +11,14 @@ use super::drawing::Drawing;
 use super::legend::{Legend, Sample};
 use super::style::{Colour, Dash, LineStyle, VERMILLION};
 
-const WIDTH: f64 = 1400.0;
-const MARGIN: f64 = 30.0;
-const TITLE: f64 = 48.0;
-/// Points of a path are not closer than this: whole pixels would make it ragged \[px\].
-const MIN_PATH_SPACING: f64 = 16.0;
+/// Width of the picture.
+const WIDTH_PX: f64 = 1400.0;
+/// Space at the sides of the picture.
+const MARGIN_PX: f64 = 30.0;
+/// Height of the line with the title.
+const TITLE_HEIGHT_PX: f64 = 48.0;
+/// Smallest distance of two points of a path: closer points are rounded to whole pixels and make the line ragged.
+const MIN_PATH_SPACING_PX: f64 = 16.0;
 /// The path of the ego, as the source draws it.
 const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 
@@ -43,7 +46,7 @@ pub struct Strip {
     pub edges_m: [f64; 2],
     /// Lateral coordinates of the lines between its lanes.
     pub dividers_m: Vec<f64>,
-    /// What is no road although it lies between the edges: a polygon in the frame of the picture.
+    /// The area between the edges that is not road, beside a ramp that ends: a polygon in the frame of the picture.
     pub shoulder_m: Vec<[f64; 2]>,
 }
 
@@ -52,7 +55,7 @@ pub struct Strip {
 pub struct FootprintSnapshot {
     /// When it is \[s\].
     pub time_s: f64,
-    /// Who is where: the corners of each body, front right, front left, rear right, rear left.
+    /// The corners of each vehicle's body: front right, front left, rear right, rear left.
     pub bodies: Vec<[[f64; 2]; 4]>,
 }
 
@@ -90,7 +93,7 @@ impl FootprintPlot {
         let mut pixels: Vec<[f64; 2]> = Vec::new();
         for (_, point) in self.path.iter().take_while(|(time_s, _)| *time_s <= until_s + 1e-9) {
             let pixel = place(*point);
-            if pixels.last().is_none_or(|last| distance(*last, pixel) >= MIN_PATH_SPACING) {
+            if pixels.last().is_none_or(|last| distance(*last, pixel) >= MIN_PATH_SPACING_PX) {
                 pixels.push(pixel);
             }
         }

@@ -1,4 +1,4 @@
-//! Three figures of each zone of an identification: how it fits, what it leaves, and whether that is white.
+//! Three figures for each zone of an identification: the fit, the residuals, and their autocorrelation.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -15,15 +15,15 @@ const DAY_S: f64 = 86_400.0;
 
 type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// Writes fit, residuals and autocorrelation of every zone into a folder, and says where.
+/// Writes fit, residuals and autocorrelation of every zone into a folder. Returns the paths of the files.
 ///
 /// # Errors
-/// [`PlotError`] if the disk refuses a file.
+/// [`PlotError`] if a file cannot be written.
 pub fn identification(folder: &Path, found: &Identification) -> Result<Vec<PathBuf>, PlotError> {
     make_folder(folder)?;
     let mut written = Vec::new();
     for (number, (series, zone)) in found.series.iter().zip(&found.report.zones).enumerate() {
-        // A zone may be called anything; its number keeps names apart that look alike as names of files.
+        // The name of a zone may have any characters. The number keeps the file names unique after they are replaced.
         let plain = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
         let name = format!("{}-{}", number + 1, series.name.chars().map(plain).collect::<String>());
         written.extend(save(folder, &format!("{name}-fit"), &Fit(series))?);
@@ -34,7 +34,7 @@ pub fn identification(folder: &Path, found: &Identification) -> Result<Vec<PathB
     Ok(written)
 }
 
-/// Axes with a title, the first thing of every figure.
+/// Draws the axes and the title of a figure.
 fn chart<'a, B: DrawingBackend>(
     area: &'a DrawingArea<B, Shift>,
     title: &str,
@@ -96,7 +96,7 @@ fn line<B: DrawingBackend>(
     Ok(())
 }
 
-/// A dashed upright where the rows begin that were not trained on.
+/// A dashed vertical line at the first row that was not used for training.
 fn test_start<B: DrawingBackend>(chart: &mut Chart<'_, B>, series: &ZoneSeries, y: &Range<f64>) -> Drawn<B> {
     let Some(time_s) = series.time_s.get(series.test_start) else { return Ok(()) };
     let day = time_s / DAY_S;
@@ -106,7 +106,7 @@ fn test_start<B: DrawingBackend>(chart: &mut Chart<'_, B>, series: &ZoneSeries, 
     Ok(())
 }
 
-/// With space for a legend above.
+/// Extends the y range to leave space for a legend at the top.
 fn with_legend(y: Range<f64>) -> Range<f64> {
     y.start..y.end + 0.3 * (y.end - y.start)
 }
@@ -115,7 +115,7 @@ fn days(series: &ZoneSeries) -> Range<f64> {
     range(series.time_s.iter().map(|time_s| time_s / DAY_S))
 }
 
-/// Measured temperature, and what the model makes of it when it runs freely.
+/// Measured temperature, and the temperature of the model in a free run.
 struct Fit<'a>(&'a ZoneSeries);
 
 impl Figure for Fit<'_> {
@@ -134,7 +134,7 @@ impl Figure for Fit<'_> {
     }
 }
 
-/// What the one-step prediction leaves.
+/// Residuals of the one-step prediction.
 struct Residuals<'a>(&'a ZoneSeries);
 
 impl Figure for Residuals<'_> {

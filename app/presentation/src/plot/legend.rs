@@ -1,22 +1,25 @@
-//! Legends: above the plots, where they hide nothing.
+//! Legends, which are drawn above the plots so that they cover nothing.
 
-use super::drawing::{Drawing, MEDIUM, Side, width_of};
+use super::drawing::{Drawing, MEDIUM_TEXT_PX, Side, width_of};
 use super::style::{Colour, LineStyle};
 
-/// What stands for a thing in a legend.
+/// The sample of an entry of a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Sample {
-    /// A piece of its line.
+    /// A line in its style.
     Line(LineStyle),
-    /// A piece of its surface.
+    /// A rectangle in its colour.
     Patch(Colour),
 }
 
-/// Height of a row of a legend \[px\].
-const ROW: f64 = 34.0;
-const SAMPLE: f64 = 46.0;
-const GAP: f64 = 10.0;
-const BETWEEN: f64 = 34.0;
+/// Height of a row of entries.
+const ROW_HEIGHT_PX: f64 = 34.0;
+/// Width of the sample of a line or surface.
+const SAMPLE_WIDTH_PX: f64 = 46.0;
+/// Space between a sample and its name, and below the legend.
+const GAP_PX: f64 = 10.0;
+/// Space between two entries in a row.
+const ENTRY_SPACING_PX: f64 = 34.0;
 
 /// The names of what a picture shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,35 +47,35 @@ impl Legend {
         samples().any(|(index, sample)| samples().take(index).any(|(_, before)| before == sample))
     }
 
-    /// Each entry with its row and where it begins, in a space that is `width` wide.
+    /// The row and the x coordinate of each entry, if the width is at most `width` pixels.
     fn places(&self, width: f64) -> Vec<(usize, f64)> {
         let (mut row, mut x) = (0, 0.0);
         let place = |(_, name): &(Sample, String)| {
-            let wide = SAMPLE + GAP + width_of(name, MEDIUM);
+            let wide = SAMPLE_WIDTH_PX + GAP_PX + width_of(name, MEDIUM_TEXT_PX);
             if x > 0.0 && x + wide > width {
                 (row, x) = (row + 1, 0.0);
             }
             let place = (row, x);
-            x += wide + BETWEEN;
+            x += wide + ENTRY_SPACING_PX;
             place
         };
         self.entries.iter().map(place).collect()
     }
 
-    /// How high it is in a space that is `width` wide.
+    /// Its height in pixels if its width is at most `width`.
     pub fn height(&self, width: f64) -> f64 {
-        self.places(width).last().map_or(0.0, |(row, _)| (row + 1) as f64 * ROW + GAP)
+        self.places(width).last().map_or(0.0, |(row, _)| (row + 1) as f64 * ROW_HEIGHT_PX + GAP_PX)
     }
 
-    /// Draws it with its upper left corner at a place.
+    /// Draws it with its upper left corner at the given place.
     pub fn draw(&self, drawing: &mut Drawing, [left, top]: [f64; 2], width: f64) {
         for ((sample, name), (row, x)) in self.entries.iter().zip(self.places(width)) {
-            let (x, y) = (left + x, top + (row as f64 + 0.5) * ROW);
+            let (x, y) = (left + x, top + (row as f64 + 0.5) * ROW_HEIGHT_PX);
             match sample {
-                Sample::Line(style) => drawing.line(vec![[x, y], [x + SAMPLE, y]], *style),
-                Sample::Patch(colour) => drawing.block([x, y - 10.0], [x + SAMPLE, y + 10.0], *colour),
+                Sample::Line(style) => drawing.line(vec![[x, y], [x + SAMPLE_WIDTH_PX, y]], *style),
+                Sample::Patch(colour) => drawing.block([x, y - 10.0], [x + SAMPLE_WIDTH_PX, y + 10.0], *colour),
             }
-            drawing.text([x + SAMPLE + GAP, y], Side::Left, MEDIUM, name.as_str());
+            drawing.text([x + SAMPLE_WIDTH_PX + GAP_PX, y], Side::Left, MEDIUM_TEXT_PX, name.as_str());
         }
     }
 }

@@ -1,7 +1,7 @@
-//! The one room that names Plotters: figures as SVG and PNG, labelled with a font inside the binary.
+//! Figures as SVG and PNG, with a font inside the binary. Only this module names Plotters.
 //!
-//! A figure is drawn by one function for both, so that the two show the same. Most are a [`Drawing`], which pure functions
-//! make: [`Panels`] of curves, a [`FootprintPlot`] of footprints, a [`TextTable`] of words.
+//! One function draws both, so they show the same. Most figures are a [`Drawing`], the result of a pure function:
+//! [`Panels`] of curves, a [`FootprintPlot`] of footprints, or a [`TextTable`] of words.
 
 mod axis;
 mod drawing;
@@ -29,13 +29,13 @@ pub use identification::identification;
 pub use panels::{Curve, Panel, Panels};
 pub use table::TextTable;
 
-/// Width and height of a figure \[points, and pixels of the PNG\].
-const SIZE: (u32, u32) = (1200, 520);
+/// Width and height of a figure: pixels of the PNG, and points of the SVG.
+const SIZE_PX: (u32, u32) = (1200, 520);
 /// The font of all labels.
 const FONT: &str = "sans-serif";
 static FONT_BYTES: &[u8] = include_bytes!("../../../../assets/fonts/DejaVuSans.ttf");
 
-/// Colours of Okabe and Ito, which survive colour blindness.
+/// Colours of Okabe and Ito, which colour-blind readers can distinguish.
 const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
 const GREEN: RGBColor = RGBColor(0x00, 0x9E, 0x73);
@@ -44,12 +44,12 @@ const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
 /// Why a figure was not made.
 #[derive(Debug, Error)]
 pub enum PlotError {
-    /// The disk refuses it.
+    /// A file or folder cannot be written.
     #[error("cannot write the plots to {}: {reason}; name another folder", folder.display())]
     Unwritable {
-        /// Where they should go.
+        /// The folder.
         folder: PathBuf,
-        /// What the system says.
+        /// The message of the operating system.
         reason: io::Error,
     },
     /// The drawing itself failed.
@@ -57,31 +57,31 @@ pub enum PlotError {
     Drawing {
         /// The figure.
         name: String,
-        /// What Plotters says.
+        /// The message of Plotters.
         reason: String,
     },
 }
 
-/// What drawing returns, whatever it is drawn on.
+/// The result of drawing on any backend.
 type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
-/// A figure that can be drawn on anything.
+/// A figure that can be drawn on any backend.
 trait Figure {
     /// Width and height \[points, and pixels of the PNG\].
     fn size(&self) -> (u32, u32) {
-        SIZE
+        SIZE_PX
     }
 
     /// Draws it.
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B>;
 }
 
-/// Makes the folder in which plots go.
+/// Creates the folder for the plots.
 fn make_folder(folder: &Path) -> Result<(), PlotError> {
     fs::create_dir_all(folder).map_err(|reason| PlotError::Unwritable { folder: folder.to_owned(), reason })
 }
 
-/// Makes the font known to Plotters, once; whether that works.
+/// Registers the font in Plotters, once. Returns whether it is registered.
 fn register() -> bool {
     static REGISTERED: LazyLock<bool> = LazyLock::new(|| register_font(FONT, FontStyle::Normal, FONT_BYTES).is_ok());
     *REGISTERED
@@ -123,7 +123,7 @@ fn pixels(name: &str, figure: &impl Figure) -> Result<Vec<u8>, PlotError> {
     Ok(pixels)
 }
 
-/// Writes pixels as PNG. Plotters could, too, with a second version of the image library that Rerun has.
+/// Writes pixels as PNG. Plotters' own encoder would add a second version of the `image` crate, beside Rerun's.
 fn write_png(path: &Path, (width, height): (u32, u32), pixels: &[u8]) -> Result<(), png::EncodingError> {
     let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), width, height);
     encoder.set_color(png::ColorType::Rgb);
@@ -142,7 +142,7 @@ impl Drawing {
         svg("the picture", self)
     }
 
-    /// Writes `name.svg` and `name.png` into a folder, which is made if it is not there; says where.
+    /// Writes `name.svg` and `name.png` into a folder, which is created if necessary. Returns their paths.
     ///
     /// # Errors
     /// [`PlotError`].

@@ -1,31 +1,38 @@
-//! Panels: plots of curves over a common kind of axis, in rows and columns, with one legend for all.
+//! Panels: plots of curves over the same x axis, in rows and columns, with one legend for all.
 
 use std::ops::Range;
 
 use super::axis::Axis;
-use super::drawing::{Drawing, LARGE, MEDIUM, SMALL, Side};
+use super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::legend::{Legend, Sample};
 use super::range;
 use super::style::{Dash, GREY, LIMIT, LineStyle, PALE, SURFACE};
 
-const WIDTH: f64 = 1400.0;
-const LEFT: f64 = 92.0;
-const RIGHT: f64 = 30.0;
-const TITLE: f64 = 48.0;
-const NAME: f64 = 40.0;
-const TICKS: f64 = 34.0;
-const ACROSS: f64 = 38.0;
+/// Width of the picture.
+const WIDTH_PX: f64 = 1400.0;
+/// Space at the left of each plot, for the tick labels of its y axis.
+const LEFT_MARGIN_PX: f64 = 92.0;
+/// Space at the right of each plot.
+const RIGHT_MARGIN_PX: f64 = 30.0;
+/// Height of the line with the title.
+const TITLE_HEIGHT_PX: f64 = 48.0;
+/// Height of the line with the name of a plot, above it.
+const PANEL_NAME_HEIGHT_PX: f64 = 40.0;
+/// Height of the tick labels of the x axis.
+const TICK_LABEL_HEIGHT_PX: f64 = 34.0;
+/// Height of the line with the name of the x axis.
+const X_LABEL_HEIGHT_PX: f64 = 38.0;
 
 /// Plots in rows and columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panels {
-    /// What the whole shows.
+    /// The title of the picture.
     pub title: String,
-    /// What runs across, with its unit; the same for all.
+    /// The name of the x axis with its unit, the same for all plots.
     pub across: String,
-    /// How many are side by side; 0 counts as 1.
+    /// The number of columns; 0 counts as 1.
     pub columns: usize,
-    /// Distance of the marks across, such as hours of a day; round numbers without it.
+    /// Distance of the ticks of the x axis, such as 6 for hours of a day. `None`: a round number is chosen.
     pub every: Option<f64>,
     /// The plots, by rows.
     pub panels: Vec<Panel>,
@@ -34,19 +41,19 @@ pub struct Panels {
 /// One plot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
-    /// What runs upwards, with its unit.
+    /// The name of the y axis with its unit.
     pub name: String,
-    /// What is drawn.
+    /// The curves.
     pub curves: Vec<Curve>,
-    /// Horizontal lines that must not be passed, and their name.
+    /// Limits, drawn as horizontal lines, each with its name.
     pub limits: Vec<(f64, String)>,
-    /// Parts of the way across that are shaded, such as working hours, and their name.
+    /// Intervals of the x axis that are shaded, such as working hours, and their name.
     pub shaded: (Vec<[f64; 2]>, String),
-    /// Uprights: something happened.
+    /// Vertical lines at events, each with its x value, style and name.
     pub snapshots: Vec<(f64, LineStyle, String)>,
-    /// Values that must be visible even if no curve reaches them.
+    /// Values that the y axis includes even if no curve reaches them.
     pub reaches: Vec<f64>,
-    /// Whether upwards goes by logarithms.
+    /// Whether the y axis is logarithmic.
     pub logarithmic: bool,
 }
 
@@ -74,7 +81,7 @@ impl Curve {
         Curve { marked: true, ..self }
     }
 
-    /// A value that holds for `step` from each place on, and then jumps.
+    /// A piecewise constant curve: each value holds for `step` from its x value on.
     pub fn held(name: impl Into<String>, style: LineStyle, points: &[[f64; 2]], step: f64) -> Curve {
         Curve::new(name, style, points.iter().flat_map(|&[x, y]| [[x, y], [x + step, y]]).collect())
     }
@@ -90,7 +97,7 @@ struct Frame {
     bottom: f64,
 }
 
-/// Around what hardly changes, room enough for readable marks.
+/// Widens the range of nearly constant values, so that tick labels differ.
 fn with_room(values: Range<f64>) -> Range<f64> {
     let middle = 0.5 * (values.start + values.end);
     let room = if middle.abs() < 1e-9 { 0.1 } else { 0.1 * middle.abs() };
@@ -108,41 +115,46 @@ impl Panels {
             2 => 300.0,
             _ => 200.0,
         };
-        let cell = WIDTH / columns as f64;
+        let cell = WIDTH_PX / columns as f64;
         let common = self.common_legend();
         let legend = common.clone().unwrap_or_default();
         let names = match common {
-            Some(_) => NAME,
-            None => NAME + self.highest_legend(cell - LEFT - RIGHT),
+            Some(_) => PANEL_NAME_HEIGHT_PX,
+            None => PANEL_NAME_HEIGHT_PX + self.highest_legend(cell - LEFT_MARGIN_PX - RIGHT_MARGIN_PX),
         };
-        let head = TITLE + legend.height(WIDTH - 2.0 * RIGHT) + 6.0;
-        let row_height = names + plot_height + TICKS;
-        let mut drawing = Drawing::new(WIDTH, head + rows as f64 * row_height + ACROSS + 8.0);
-        drawing.text([RIGHT, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
-        legend.draw(&mut drawing, [RIGHT, TITLE], WIDTH - 2.0 * RIGHT);
+        let head = TITLE_HEIGHT_PX + legend.height(WIDTH_PX - 2.0 * RIGHT_MARGIN_PX) + 6.0;
+        let row_height = names + plot_height + TICK_LABEL_HEIGHT_PX;
+        let mut drawing = Drawing::new(WIDTH_PX, head + rows as f64 * row_height + X_LABEL_HEIGHT_PX + 8.0);
+        drawing.text([RIGHT_MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
+        legend.draw(&mut drawing, [RIGHT_MARGIN_PX, TITLE_HEIGHT_PX], WIDTH_PX - 2.0 * RIGHT_MARGIN_PX);
         let values = self.values_across();
         for (index, panel) in self.panels.iter().enumerate() {
             let (row, column) = (index / columns, index % columns);
-            let (left, right) = (column as f64 * cell + LEFT, (column + 1) as f64 * cell - RIGHT);
+            let (left, right) = (column as f64 * cell + LEFT_MARGIN_PX, (column + 1) as f64 * cell - RIGHT_MARGIN_PX);
             let top = head + row as f64 * row_height + names;
             let bottom = top + plot_height;
             let y = Axis::new(panel.values(), [bottom, top]);
             let y = if panel.logarithmic { y.logarithmic() } else { y };
             let x = Axis::new(values.clone(), [left, right]).every(self.every);
             panel.draw(&mut drawing, &Frame { x, y, left, right, top, bottom });
-            drawing.text([left - 70.0, top - names + 0.5 * NAME], Side::Left, MEDIUM, panel.name.as_str());
+            drawing.text(
+                [left - 70.0, top - names + 0.5 * PANEL_NAME_HEIGHT_PX],
+                Side::Left,
+                MEDIUM_TEXT_PX,
+                panel.name.as_str(),
+            );
             if common.is_none() {
-                panel.legend().draw(&mut drawing, [left, top - names + NAME], right - left);
+                panel.legend().draw(&mut drawing, [left, top - names + PANEL_NAME_HEIGHT_PX], right - left);
             }
             if index + columns >= self.panels.len() {
-                let middle = [0.5 * (left + right), bottom + TICKS + 0.5 * ACROSS];
-                drawing.text(middle, Side::Middle, MEDIUM, self.across.as_str());
+                let middle = [0.5 * (left + right), bottom + TICK_LABEL_HEIGHT_PX + 0.5 * X_LABEL_HEIGHT_PX];
+                drawing.text(middle, Side::Middle, MEDIUM_TEXT_PX, self.across.as_str());
             }
         }
         drawing
     }
 
-    /// One legend for all plots, unless a line means different things in them.
+    /// One legend for all plots; `None` if a line style has different meanings in different plots.
     fn common_legend(&self) -> Option<Legend> {
         let mut legend = Legend::default();
         for panel in &self.panels {
@@ -155,7 +167,7 @@ impl Panels {
         self.panels.iter().map(|panel| panel.legend().height(width)).fold(0.0, f64::max)
     }
 
-    /// What is visible across; curves touch the sides.
+    /// The range of the x axis: exactly that of the curves.
     fn values_across(&self) -> Range<f64> {
         let points = self.panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points);
         let finite = points.filter(|point| point[1].is_finite()).map(|point| point[0]);
@@ -222,12 +234,12 @@ impl Panel {
         for (value, words) in x.ticks(105.0) {
             let at = x.pixel(value);
             drawing.line(vec![[at, *top], [at, *bottom]], grid);
-            drawing.text([at, bottom + 0.5 * TICKS], Side::Middle, SMALL, words);
+            drawing.text([at, bottom + 0.5 * TICK_LABEL_HEIGHT_PX], Side::Middle, SMALL_TEXT_PX, words);
         }
         for (value, words) in y.ticks(42.0) {
             let at = y.pixel(value);
             drawing.line(vec![[*left, at], [*right, at]], grid);
-            drawing.text([left - 10.0, at], Side::Right, SMALL, words);
+            drawing.text([left - 10.0, at], Side::Right, SMALL_TEXT_PX, words);
         }
         drawing.line(vec![[*left, *top], [*left, *bottom]], axis);
         drawing.line(vec![[*left, *bottom], [*right, *bottom]], axis);

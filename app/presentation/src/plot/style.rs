@@ -1,12 +1,12 @@
-//! Colours and line styles: the palette of Okabe and Ito, which survives colour blindness, and a dash pattern with each
-//! colour, which survives a printer without colours.
+//! Colours and line styles: the palette of Okabe and Ito, which colour-blind readers can distinguish, and a dash pattern for
+//! each colour, so that prints in grey are legible.
 
 /// A colour, red, green and blue.
 pub type Colour = [u8; 3];
 
 /// Text and axes.
 pub const BLACK: Colour = [0x1A, 0x1A, 0x1A];
-/// What matters less: forecasts, the past, the shoulder of the road.
+/// Less important things: forecasts, the past, the shoulder of the road.
 pub const GREY: Colour = [0x80, 0x80, 0x80];
 /// Grid lines.
 pub const PALE: Colour = [0xDD, 0xDD, 0xDD];
@@ -24,22 +24,22 @@ const GREEN: Colour = [0x00, 0x9E, 0x73];
 const PURPLE: Colour = [0xCC, 0x79, 0xA7];
 const SKY: Colour = [0x56, 0xB4, 0xE9];
 
-/// How a line is broken.
+/// The dash pattern of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dash {
-    /// Not at all.
+    /// A solid line.
     #[default]
     Solid,
-    /// Into long pieces.
+    /// Long dashes.
     Long,
-    /// Into short ones.
+    /// Short dashes.
     Short,
-    /// Into long and short ones in turn.
+    /// Long and short dashes in turn.
     Mixed,
 }
 
 impl Dash {
-    /// Lengths of pieces and gaps in turn \[px\]; empty for a solid line.
+    /// Lengths of dashes and gaps in turn \[px\]; empty for a solid line.
     pub fn pattern(self) -> &'static [f64] {
         match self {
             Dash::Solid => &[],
@@ -55,9 +55,9 @@ impl Dash {
 pub struct LineStyle {
     /// Its colour.
     pub colour: Colour,
-    /// How it is broken.
+    /// Its dash pattern.
     pub dash: Dash,
-    /// How wide it is \[px\].
+    /// Its width \[px\].
     pub width: u32,
 }
 
@@ -67,12 +67,12 @@ impl LineStyle {
         LineStyle { colour, dash, width: 3 }
     }
 
-    /// The same, thin.
+    /// The same style with a thin line.
     pub const fn thin(self) -> LineStyle {
         LineStyle { width: 2, ..self }
     }
 
-    /// The same, broken otherwise.
+    /// The same style with another dash pattern.
     pub const fn dashed(self, dash: Dash) -> LineStyle {
         LineStyle { dash, ..self }
     }
@@ -80,7 +80,7 @@ impl LineStyle {
 
 /// A limit that must not be passed.
 pub const LIMIT: LineStyle = LineStyle::new(VERMILLION, Dash::Short).thin();
-/// Something wanted or expected, beside what came of it.
+/// A reference or a prediction, drawn beside the actual value.
 pub const WANTED: LineStyle = LineStyle::new(BLACK, Dash::Long).thin();
 
 /// Line styles of several curves of one kind, which differ in colour and dashes; the sequence repeats after the last.

@@ -1,19 +1,23 @@
-//! Sheets: tables as pictures.
+//! Tables as pictures.
 
-use super::drawing::{Drawing, LARGE, MEDIUM, Side, width_of};
+use super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, Side, width_of};
 use super::style::{Dash, GREY, LineStyle, SURFACE};
 
-const MARGIN: f64 = 30.0;
-const TITLE: f64 = 56.0;
-const ROW: f64 = 42.0;
-const BETWEEN: f64 = 44.0;
+/// Space at the sides of the picture.
+const MARGIN_PX: f64 = 30.0;
+/// Height of the line with the title.
+const TITLE_HEIGHT_PX: f64 = 56.0;
+/// Height of a row.
+const ROW_HEIGHT_PX: f64 = 42.0;
+/// Space between two columns.
+const COLUMN_SPACING_PX: f64 = 44.0;
 
 /// A table of words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextTable {
-    /// What it is.
+    /// The title.
     pub title: String,
-    /// What stands above the columns.
+    /// The names of the columns.
     pub header: Vec<String>,
     /// The rows.
     pub rows: Vec<Vec<String>>,
@@ -29,27 +33,32 @@ impl TextTable {
     /// The picture.
     pub fn drawing(&self) -> Drawing {
         let widths: Vec<f64> = (0..self.header.len()).map(|column| self.column_width(column)).collect();
-        let table: f64 = widths.iter().map(|width| width + BETWEEN).sum();
-        let width = (2.0 * MARGIN + table).max(2.0 * MARGIN + width_of(&self.title, LARGE)).max(700.0);
-        let height = TITLE + (self.rows.len() + 1) as f64 * ROW + 0.5 * MARGIN;
+        let table: f64 = widths.iter().map(|width| width + COLUMN_SPACING_PX).sum();
+        let width = (2.0 * MARGIN_PX + table).max(2.0 * MARGIN_PX + width_of(&self.title, LARGE_TEXT_PX)).max(700.0);
+        let height = TITLE_HEIGHT_PX + (self.rows.len() + 1) as f64 * ROW_HEIGHT_PX + 0.5 * MARGIN_PX;
         let mut drawing = Drawing::new(width, height);
-        drawing.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
-        drawing.block([MARGIN, TITLE], [width - MARGIN, TITLE + ROW], SURFACE);
+        drawing.text([MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
+        drawing.block([MARGIN_PX, TITLE_HEIGHT_PX], [width - MARGIN_PX, TITLE_HEIGHT_PX + ROW_HEIGHT_PX], SURFACE);
         for (row, words) in std::iter::once(&self.header).chain(&self.rows).enumerate() {
-            let (mut x, y) = (MARGIN + 0.5 * BETWEEN, TITLE + (row as f64 + 0.5) * ROW);
+            let (mut x, y) =
+                (MARGIN_PX + 0.5 * COLUMN_SPACING_PX, TITLE_HEIGHT_PX + (row as f64 + 0.5) * ROW_HEIGHT_PX);
             for (word, width) in words.iter().zip(&widths) {
-                drawing.text([x, y], Side::Left, MEDIUM, word.as_str());
-                x += width + BETWEEN;
+                drawing.text([x, y], Side::Left, MEDIUM_TEXT_PX, word.as_str());
+                x += width + COLUMN_SPACING_PX;
             }
         }
-        for line in [TITLE, TITLE + ROW, TITLE + (self.rows.len() + 1) as f64 * ROW] {
-            drawing.line(vec![[MARGIN, line], [width - MARGIN, line]], LineStyle::new(GREY, Dash::Solid).thin());
+        for line in [
+            TITLE_HEIGHT_PX,
+            TITLE_HEIGHT_PX + ROW_HEIGHT_PX,
+            TITLE_HEIGHT_PX + (self.rows.len() + 1) as f64 * ROW_HEIGHT_PX,
+        ] {
+            drawing.line(vec![[MARGIN_PX, line], [width - MARGIN_PX, line]], LineStyle::new(GREY, Dash::Solid).thin());
         }
         drawing
     }
 
     fn column_width(&self, column: usize) -> f64 {
         let words = std::iter::once(&self.header).chain(&self.rows).filter_map(|row| row.get(column));
-        words.map(|word| width_of(word, MEDIUM)).fold(0.0, f64::max)
+        words.map(|word| width_of(word, MEDIUM_TEXT_PX)).fold(0.0, f64::max)
     }
 }

@@ -12,8 +12,8 @@ use super::error::{RecordError, ViewerAddressError};
 /// The time that a viewer has to accept the connection.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(2);
 
-/// The address of a Rerun viewer, such as `rerun+http://127.0.0.1:9876/proxy`, which is where a viewer on this machine
-/// listens unless it is told otherwise.
+/// The address of a Rerun viewer, such as `rerun+http://127.0.0.1:9876/proxy`, the default address of a
+/// viewer on this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Viewer(ProxyUri);
 

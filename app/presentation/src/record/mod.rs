@@ -1,4 +1,4 @@
-//! The one room that names Rerun: a run becomes a recording that opens ready to read.
+//! Recordings of runs, with a layout for the viewer. Only this module names Rerun.
 //!
 //! A recording has two timelines, simulated time ([`SIM_TIME`]) and ticks ([`TICK`]), and no clock of the wall, so
 //! that two recordings of one run can be compared. Entities have names, never numbers:
@@ -222,7 +222,7 @@ impl Watcher for Recorder {
     }
 }
 
-/// A name for the recording that tells runs of one scenario by different drivers apart.
+/// The name of the recording, which distinguishes runs of one scenario with different drivers.
 fn identity(scenario: &Scenario, name: &str) -> String {
     let mut drivers: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.driver.kind()).collect();
     let controller = scenario.controller();

@@ -91,7 +91,7 @@ impl DynamicPlant {
         (states, found)
     }
 
-    /// Where a body is; its heading is told without jumps from what it was `before`.
+    /// The state of a body. Its heading is unwrapped: it differs from the heading `before` by at most π.
     fn sense(&self, world: &PhysicsWorld, handle: RigidBodyHandle, before: &State) -> State {
         let Some(body) = world.bodies.get(handle) else { return *before };
         let (place, heading, velocity) = (body.translation(), heading_rad(body), velocity(body));

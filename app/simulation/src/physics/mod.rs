@@ -1,4 +1,4 @@
-//! Physics: the one room that names Rapier and Parry.
+//! Physics: the one folder that names Rapier and Parry.
 //!
 //! With the kinematic plant every vehicle follows the bicycle model exactly (`kinematic`). Within a tick the bodies are looked
 //! at as often as it takes to miss no contact (`path`); each time Rapier finds who begins to touch, and Parry the distances

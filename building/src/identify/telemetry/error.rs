@@ -2,6 +2,11 @@
 
 use std::fmt;
 
+use super::value_shape::ValueShape;
+use crate::bounds::Bound;
+use crate::nearest::suggestion;
+use crate::setting::{SettingError, SettingKey};
+
 /// A mapping or a table that cannot be read.
 ///
 /// Shown as `file:line:column: what is wrong; what would work`. Line and column count from 1, the column in characters; both
@@ -26,11 +31,59 @@ impl TelemetryError {
 /// What is wrong with a mapping or a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TelemetryProblem {
-    /// The mapping is not TOML of the expected form.
-    #[error("the mapping cannot be read: {reason}")]
-    Mapping {
+    /// The mapping is not TOML.
+    #[error("not valid TOML: {reason}")]
+    Syntax {
         /// The TOML reader's words.
         reason: String,
+    },
+    /// A table of the mapping has a key that is not known.
+    #[error("unknown key `{key}`{}", within(.table))]
+    UnknownKey {
+        /// The table; entries of lists are called by their `name`, else by their number, as `zone.living.heat.0`.
+        table: SettingKey,
+        /// The key.
+        key: String,
+        /// The keys that the table may have.
+        known: Vec<String>,
+    },
+    /// A key of the mapping that has no default is not stated.
+    #[error("`{key}` is missing")]
+    MissingKey {
+        /// The key, its table as in [`TelemetryProblem::UnknownKey`].
+        key: SettingKey,
+        /// What its value must be.
+        wanted: ValueShape,
+    },
+    /// The value of a key is of the wrong type.
+    #[error("`{key}` must be {wanted}, not {found}")]
+    WrongType {
+        /// The key, its table as in [`TelemetryProblem::UnknownKey`].
+        key: SettingKey,
+        /// What its value must be.
+        wanted: ValueShape,
+        /// What it is.
+        found: String,
+    },
+    /// The value of a key is none of the words that it may be.
+    #[error("`{key}` cannot be `{word}`")]
+    UnknownWord {
+        /// The key, its table as in [`TelemetryProblem::UnknownKey`].
+        key: SettingKey,
+        /// Its value.
+        word: String,
+        /// The words that it may be.
+        known: Vec<String>,
+    },
+    /// A number of the mapping breaks its bounds.
+    #[error("`{key}` is {value}")]
+    Setting {
+        /// The key, its table as in [`TelemetryProblem::UnknownKey`].
+        key: SettingKey,
+        /// Its value.
+        value: f64,
+        /// What it breaks.
+        bound: Bound,
     },
     /// A field of the mapping makes no sense.
     #[error("{field} is {value}")]
@@ -128,13 +181,21 @@ pub enum TelemetryProblem {
 }
 
 impl TelemetryProblem {
+    /// A setting out of range, in the table of that key.
+    pub(super) fn setting(table: &SettingKey, error: &SettingError) -> Self {
+        Self::Setting { key: table.key(error.key.as_str()), value: error.value, bound: error.bound }
+    }
+
     /// What would work instead.
     pub fn remedy(&self) -> String {
         match self {
-            Self::Mapping { reason } => match meant(reason) {
-                Some(known) => format!("did you mean `{known}`?"),
-                None => "`interplay identify --help` shows a mapping, docs/identification.md every key".into(),
-            },
+            Self::Syntax { .. } | Self::WrongType { .. } => {
+                "`interplay identify --help` shows a mapping, docs/identification.md every key".into()
+            }
+            Self::UnknownKey { key, known, .. } => suggestion(key, "the keys here are", known),
+            Self::MissingKey { wanted, .. } => format!("it must be {wanted}"),
+            Self::UnknownWord { word, known, .. } => suggestion(word, "choose from", known),
+            Self::Setting { bound, .. } => format!("it must be {bound}"),
             Self::Field { wanted, .. } => format!("it must be {wanted}"),
             Self::Name { known, .. } => format!("known names: {}", listed(known)),
             Self::Empty => "it needs a header and at least two rows".into(),
@@ -159,14 +220,9 @@ impl TelemetryProblem {
     }
 }
 
-/// The known word that is nearest to an unknown one, both of which the TOML reader puts between backticks: "unknown field `a`,
-/// expected one of `b`, `c`".
-fn meant(reason: &str) -> Option<&str> {
-    let words = reason.strip_prefix("unknown ")?;
-    let mut words = words.split('`').skip(1).step_by(2);
-    let unknown = words.next().filter(|word| word.len() < 100)?;
-    let (edits, known) = words.map(|known| (strsim::osa_distance(unknown, known), known)).min()?;
-    (edits <= 1 + unknown.len() / 3).then_some(known)
+/// Where an unknown key stands; nothing for the outermost table.
+fn within(table: &SettingKey) -> String {
+    if *table == SettingKey::default() { String::new() } else { format!(" in `{table}`") }
 }
 
 /// Names for a message; a long list is cut.

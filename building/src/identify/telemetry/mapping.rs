@@ -26,10 +26,13 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use toml::de::DeTable;
 
 use super::error::{TelemetryError, TelemetryProblem};
+use super::form;
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
 use crate::identify::IdentifySettings;
+use crate::setting::SettingKey;
 
 /// Which column is which quantity. Unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -188,20 +191,44 @@ impl Mapping {
     /// Reads a mapping; `file` is its name for messages.
     ///
     /// # Errors
-    /// [`TelemetryError`] when the text is not TOML of this form, or a field makes no sense.
+    /// [`TelemetryError`], with line and column, when the text is not TOML of this form, or a value makes no sense.
     pub fn parse(file: &str, text: &str) -> Result<Self, TelemetryError> {
-        let mapping: Self = toml::from_str(text).map_err(|error| {
-            let place = error.span().map(|span| line_and_column(text, span.start));
+        let refused = |offset: Option<usize>, problem| {
+            TelemetryError::new(file, offset.map(|offset| line_and_column(text, offset)), problem)
+        };
+        let unreadable = |error: toml::de::Error| {
             let reason = error.message().trim().replace('\n', ", ");
-            TelemetryError::new(file, place, TelemetryProblem::Mapping { reason })
+            refused(error.span().map(|span| span.start), TelemetryProblem::Syntax { reason })
+        };
+        let document = DeTable::parse(text).map_err(unreadable)?;
+        form::check::<Self>(&document).map_err(|(offset, problem)| refused(Some(offset), problem))?;
+        let mapping: Self = toml::from_str(text).map_err(unreadable)?;
+        mapping.check().map_err(|(keys, problem)| {
+            let stated = keys.iter().find_map(|key| form::place_of(document.get_ref(), key.as_str()));
+            refused(stated, problem)
         })?;
-        mapping.check().map_err(|problem| TelemetryError::new(file, None, problem))?;
         Ok(mapping)
     }
 
     /// Checks what the form alone cannot.
-    fn check(&self) -> Result<(), TelemetryProblem> {
-        let field = |field, value: String, wanted| Err(TelemetryProblem::Field { field, value, wanted });
+    fn check(&self) -> Result<(), Refusal> {
+        self.check_fields()?;
+        for (index, zone) in self.zones.iter().enumerate() {
+            let list = SettingKey::from("zone").entry(index).key("heat");
+            zone.check_heat().map_err(|(heat, key, problem)| (vec![list.entry(heat).key(key)], problem))?;
+        }
+        self.check_names()?;
+        self.identify.check(self.time.step_s).map_err(|error| {
+            let problem = TelemetryProblem::setting(&"identify".into(), &error);
+            // The default does not fit the sampling time where the key is not stated.
+            (vec![SettingKey::from("identify").key(error.key.as_str()), "time.step_s".into()], problem)
+        })
+    }
+
+    fn check_fields(&self) -> Result<(), Refusal> {
+        let field = |field: &'static str, value: String, wanted| {
+            Err((vec![field.into()], TelemetryProblem::Field { field, value, wanted }))
+        };
         if !(self.time.step_s.is_finite() && self.time.step_s > 0.0) {
             return field("time.step_s", self.time.step_s.to_string(), "a positive number of seconds");
         }
@@ -209,58 +236,69 @@ impl Mapping {
             return field("table.decimal", format!("`{}`", self.table.decimal), "`.` or `,`");
         }
         if !self.table.separator.is_ascii() || self.table.separator == self.table.decimal {
+            let (field, value) = ("table.separator", format!("`{}`", self.table.separator));
             let wanted = "one ASCII character other than the decimal sign";
-            return field("table.separator", format!("`{}`", self.table.separator), wanted);
+            let keys = vec![field.into(), "table.decimal".into()];
+            return Err((keys, TelemetryProblem::Field { field, value, wanted }));
         }
         if self.zones.is_empty() {
             return field("zone", "empty".into(), "at least one table [[zone]]");
         }
-        for zone in &self.zones {
-            for heat in &zone.heat {
-                let HeatColumns::Power { factor, unit, .. } = heat else { continue };
-                if !factor.is_finite() || *factor == 0.0 {
-                    return field("heat.factor", factor.to_string(), "a finite number other than 0");
-                }
-                if *unit == PowerUnit::Unknown && zone.heat.len() > 1 {
-                    let value = format!("`unknown` beside other heat of zone `{}`", zone.name);
-                    return field(
-                        "heat.unit",
-                        value,
-                        "a known unit, or the zone's only heat: their sum would mean nothing",
-                    );
-                }
-            }
-        }
-        self.check_names()
+        Ok(())
     }
 
-    fn check_names(&self) -> Result<(), TelemetryProblem> {
-        let names: Vec<&String> =
-            self.zones.iter().map(|zone| &zone.name).chain(self.boundaries.iter().map(|other| &other.name)).collect();
-        let wrong = |field, name: &str, fault| {
+    fn check_names(&self) -> Result<(), Refusal> {
+        let key = |list: &str, index| SettingKey::from(list).entry(index).key("name");
+        let zones = self.zones.iter().enumerate().map(|(index, zone)| (&zone.name, key("zone", index)));
+        let others = self.boundaries.iter().enumerate().map(|(index, other)| (&other.name, key("boundary", index)));
+        let (names, keys): (Vec<&String>, Vec<SettingKey>) = zones.chain(others).unzip();
+        let wrong = |key: SettingKey, field, name: &str, fault| {
             let known = names.iter().map(|&name| name.clone()).collect();
-            Err(TelemetryProblem::Name { field, name: name.into(), fault, known })
+            Err((vec![key], TelemetryProblem::Name { field, name: name.into(), fault, known }))
         };
         for (i, name) in names.iter().enumerate() {
             if names[..i].contains(name) {
-                return wrong("zone and boundary", name, "used twice");
+                return wrong(keys[i].clone(), "zone and boundary", name, "used twice");
             }
         }
+        let is_zone = |name: &String| self.zones.iter().any(|zone| zone.name == *name);
         for (i, [one, other]) in self.walls.iter().enumerate() {
-            for name in [one, other] {
+            let wall = SettingKey::from("walls").entry(i);
+            for (side, name) in [one, other].into_iter().enumerate() {
                 if !names.contains(&name) {
-                    return wrong("walls", name, "unknown");
+                    return wrong(wall.entry(side), "walls", name, "unknown");
                 }
             }
             if one == other {
-                return wrong("walls", one, "on both sides of one wall");
+                return wrong(wall, "walls", one, "on both sides of one wall");
             }
-            let is_zone = |name: &String| self.zones.iter().any(|zone| zone.name == *name);
             if !is_zone(one) && !is_zone(other) {
-                return wrong("walls", one, "a boundary, and so is the other side: one must be a zone");
+                return wrong(wall, "walls", one, "a boundary, and so is the other side: one must be a zone");
             }
             if self.walls[..i].iter().any(|[a, b]| (a, b) == (one, other) || (b, a) == (one, other)) {
-                return wrong("walls", one, "paired twice with the same other side");
+                return wrong(wall, "walls", one, "paired twice with the same other side");
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What is wrong, and the keys that could be blamed for it, numbered throughout; the first one that is stated is.
+type Refusal = (Vec<SettingKey>, TelemetryProblem);
+
+impl ZoneColumns {
+    /// Checks the heat of the zone; the error has the number of the entry and its key.
+    fn check_heat(&self) -> Result<(), (usize, &'static str, TelemetryProblem)> {
+        for (index, heat) in self.heat.iter().enumerate() {
+            let HeatColumns::Power { factor, unit, .. } = heat else { continue };
+            if !factor.is_finite() || *factor == 0.0 {
+                let (field, value, wanted) = ("heat.factor", factor.to_string(), "a finite number other than 0");
+                return Err((index, "factor", TelemetryProblem::Field { field, value, wanted }));
+            }
+            if *unit == PowerUnit::Unknown && self.heat.len() > 1 {
+                let value = format!("`unknown` beside other heat of zone `{}`", self.name);
+                let wanted = "a known unit, or the zone's only heat: their sum would mean nothing";
+                return Err((index, "unit", TelemetryProblem::Field { field: "heat.unit", value, wanted }));
             }
         }
         Ok(())

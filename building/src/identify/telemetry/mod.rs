@@ -5,17 +5,20 @@
 //! filter runs across.
 
 mod error;
+mod form;
 mod mapping;
 mod measurements;
 mod read;
 mod table;
 mod units;
+mod value_shape;
 mod write;
 
 pub use error::{TelemetryError, TelemetryProblem};
 pub use mapping::{BoundaryColumns, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns};
 pub use measurements::{Boundary, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 pub use units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
+pub use value_shape::ValueShape;
 
 impl Telemetry {
     /// Reads a table as `mapping` says; `file` is its name for messages.

@@ -1,6 +1,6 @@
 //! A footprint: a filled rectangle with a windscreen and a number.
 
-use super::super::drawing::{Drawing, SMALL, Side, width_of};
+use super::super::drawing::{Drawing, SMALL_TEXT_PX, Side, width_of};
 use super::super::style::{BLACK, Colour, Dash, LineStyle, PAPER};
 use super::distance;
 
@@ -29,10 +29,14 @@ pub(super) fn number_beside(drawing: &mut Drawing, corners: [[f64; 2]; 4], right
         |axis: usize, sign: f64| corners.iter().map(|corner| sign * corner[axis]).fold(f64::NEG_INFINITY, f64::max);
     let lies = (corners[0][0] - corners[2][0]).abs() > (corners[0][1] - corners[2][1]).abs();
     match (lies, right) {
-        (true, true) => drawing.text([middle(0), end(1, 1.0) + 0.5 * SMALL], Side::Middle, SMALL, words),
-        (true, false) => drawing.text([middle(0), -end(1, -1.0) - 0.45 * SMALL], Side::Middle, SMALL, words),
-        (false, true) => drawing.text([end(0, 1.0) + 4.0, middle(1)], Side::Left, SMALL, words),
-        (false, false) => drawing.text([-end(0, -1.0) - 4.0, middle(1)], Side::Right, SMALL, words),
+        (true, true) => {
+            drawing.text([middle(0), end(1, 1.0) + 0.5 * SMALL_TEXT_PX], Side::Middle, SMALL_TEXT_PX, words)
+        }
+        (true, false) => {
+            drawing.text([middle(0), -end(1, -1.0) - 0.45 * SMALL_TEXT_PX], Side::Middle, SMALL_TEXT_PX, words)
+        }
+        (false, true) => drawing.text([end(0, 1.0) + 4.0, middle(1)], Side::Left, SMALL_TEXT_PX, words),
+        (false, false) => drawing.text([-end(0, -1.0) - 4.0, middle(1)], Side::Right, SMALL_TEXT_PX, words),
     }
 }
 
@@ -42,12 +46,14 @@ pub(super) fn number(drawing: &mut Drawing, corners: [[f64; 2]; 4], colour: Colo
     let (length, width) = (distance(corners[0], corners[2]), distance(corners[0], corners[1]));
     let lies = (corners[0][0] - corners[2][0]).abs() > (corners[0][1] - corners[2][1]).abs();
     let [across, upwards] = if lies { [length, width] } else { [width, length] };
-    let fits = width_of(words, SMALL) < 0.85 * across && 0.8 * SMALL < upwards;
-    let above = corners.iter().map(|corner| corner[1]).fold(f64::INFINITY, f64::min) - 0.45 * SMALL;
+    let fits = width_of(words, SMALL_TEXT_PX) < 0.85 * across && 0.8 * SMALL_TEXT_PX < upwards;
+    let above = corners.iter().map(|corner| corner[1]).fold(f64::INFINITY, f64::min) - 0.45 * SMALL_TEXT_PX;
     let beside = corners.iter().map(|corner| corner[0]).fold(f64::NEG_INFINITY, f64::max) + 4.0;
     match (fits, lies) {
-        (true, _) => drawing.coloured_text([middle(0), middle(1)], Side::Middle, SMALL, words, readable_on(colour)),
-        (false, true) => drawing.text([middle(0), above], Side::Middle, SMALL, words),
-        (false, false) => drawing.text([beside, middle(1)], Side::Left, SMALL, words),
+        (true, _) => {
+            drawing.coloured_text([middle(0), middle(1)], Side::Middle, SMALL_TEXT_PX, words, readable_on(colour))
+        }
+        (false, true) => drawing.text([middle(0), above], Side::Middle, SMALL_TEXT_PX, words),
+        (false, false) => drawing.text([beside, middle(1)], Side::Left, SMALL_TEXT_PX, words),
     }
 }

@@ -1,19 +1,22 @@
 //! All snapshots in one plan, for roads that cross.
 
 use super::super::axis::Axis;
-use super::super::drawing::{Drawing, LARGE, MEDIUM, SMALL, Side};
+use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER, SURFACE};
-use super::{FootprintPlot, MARGIN, PATH, Strip, TITLE, WIDTH, body, distance};
+use super::{FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, body, distance};
 
-const LEFT: f64 = 92.0;
-const TICKS: f64 = 34.0;
-const ACROSS: f64 = 38.0;
-/// The highest plan \[px\].
-const MAX_PLAN_HEIGHT: f64 = 900.0;
+/// Space at the left of the plan, for the tick labels of the y axis.
+const LEFT_MARGIN_PX: f64 = 92.0;
+/// Height of the tick labels of the x axis.
+const TICK_LABEL_HEIGHT_PX: f64 = 34.0;
+/// Height of the line with the name of the x axis.
+const X_LABEL_HEIGHT_PX: f64 = 38.0;
+/// Largest height of the plan.
+const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
 /// Footprints whose centres are closer than this share of their length get one number together.
-const SHARED_NUMBER_DISTANCE: f64 = 0.45;
+const SHARED_NUMBER_DISTANCE_RATIO: f64 = 0.45;
 
-/// What numbers are read against: earlier footprints are pale.
+/// The background for which the colour of numbers is chosen: earlier footprints are pale.
 const NUMBER_BACKGROUND: Colour = PAPER;
 
 /// From metres to pixels.
@@ -47,17 +50,17 @@ impl FootprintPlot {
         let (low_m, high_m) = (low.map(|value| value - margin), high.map(|value| value + margin));
         let legend = self.legend();
         let steps = self.snapshots.get(1).map_or(0.0, |snapshot| snapshot.time_s - self.snapshots[0].time_s);
-        let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 84.0;
-        let wide = (WIDTH - LEFT - MARGIN) / (high_m[0] - low_m[0]);
-        let scale = wide.min(MAX_PLAN_HEIGHT / (high_m[1] - low_m[1]));
+        let head = TITLE_HEIGHT_PX + legend.height(WIDTH_PX - 2.0 * MARGIN_PX) + 84.0;
+        let wide = (WIDTH_PX - LEFT_MARGIN_PX - MARGIN_PX) / (high_m[0] - low_m[0]);
+        let scale = wide.min(MAX_PLAN_HEIGHT_PX / (high_m[1] - low_m[1]));
         let [across, upwards] = [0, 1].map(|axis| (high_m[axis] - low_m[axis]) * scale);
-        let left = LEFT + 0.5 * (WIDTH - LEFT - MARGIN - across);
+        let left = LEFT_MARGIN_PX + 0.5 * (WIDTH_PX - LEFT_MARGIN_PX - MARGIN_PX - across);
         let map = Map { low_m, high_m, scale, left, bottom: head + upwards };
-        let mut drawing = Drawing::new(WIDTH, head + upwards + TICKS + ACROSS + 8.0);
-        drawing.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
-        legend.draw(&mut drawing, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
+        let mut drawing = Drawing::new(WIDTH_PX, head + upwards + TICK_LABEL_HEIGHT_PX + X_LABEL_HEIGHT_PX + 8.0);
+        drawing.text([MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
+        legend.draw(&mut drawing, [MARGIN_PX, TITLE_HEIGHT_PX], WIDTH_PX - 2.0 * MARGIN_PX);
         let words = format!("footprint 1 at 0 s, then one every {steps:.1} s");
-        drawing.text([MARGIN, head - 66.0], Side::Left, MEDIUM, words);
+        drawing.text([MARGIN_PX, head - 66.0], Side::Left, MEDIUM_TEXT_PX, words);
         self.roads.iter().for_each(|road| map.draw_road(&mut drawing, road));
         self.roads.iter().for_each(|road| map.draw_lines(&mut drawing, road));
         map.draw_axes(&mut drawing);
@@ -79,7 +82,7 @@ impl FootprintPlot {
             let mut first = 0;
             while first < bodies.len() {
                 let near = |body: &[[f64; 2]; 4]| {
-                    distance(body[0], bodies[first][0]) < SHARED_NUMBER_DISTANCE * self.longest_m()
+                    distance(body[0], bodies[first][0]) < SHARED_NUMBER_DISTANCE_RATIO * self.longest_m()
                 };
                 let count = bodies[first..].iter().take_while(|body| near(body)).count().max(1);
                 let last = first + count - 1;
@@ -96,7 +99,7 @@ impl FootprintPlot {
 }
 
 impl FootprintPlot {
-    /// Everybody who starts in the lane of `who`: their footprints lie on one another, and numbers must not.
+    /// The vehicles that start in the lane of `who`. Their footprints overlap, so their numbers are drawn beside them.
     fn mates(&self, who: usize) -> Vec<usize> {
         let Some(start) = self.snapshots.first() else { return Vec::new() };
         let lane = |[front_right, front_left, rear_right, _]: [[f64; 2]; 4]| {
@@ -151,15 +154,20 @@ impl Map {
         let (x, y) = (Axis::new(x, [left, right]), Axis::new(y, [bottom, top]));
         for (value, words) in x.ticks(105.0) {
             drawing.line(vec![[x.pixel(value), bottom], [x.pixel(value), bottom + 8.0]], axis);
-            drawing.text([x.pixel(value), bottom + 0.65 * TICKS], Side::Middle, SMALL, words);
+            drawing.text([x.pixel(value), bottom + 0.65 * TICK_LABEL_HEIGHT_PX], Side::Middle, SMALL_TEXT_PX, words);
         }
         for (value, words) in y.ticks(80.0) {
             drawing.line(vec![[left - 8.0, y.pixel(value)], [left, y.pixel(value)]], axis);
-            drawing.text([left - 14.0, y.pixel(value)], Side::Right, SMALL, words);
+            drawing.text([left - 14.0, y.pixel(value)], Side::Right, SMALL_TEXT_PX, words);
         }
         drawing.line(vec![[left, top], [left, bottom], [right, bottom]], axis);
-        drawing.text([left - 14.0, top - 20.0], Side::Right, MEDIUM, "y [m]");
-        drawing.text([0.5 * (left + right), bottom + TICKS + 0.5 * ACROSS], Side::Middle, MEDIUM, "x [m]");
+        drawing.text([left - 14.0, top - 20.0], Side::Right, MEDIUM_TEXT_PX, "y [m]");
+        drawing.text(
+            [0.5 * (left + right), bottom + TICK_LABEL_HEIGHT_PX + 0.5 * X_LABEL_HEIGHT_PX],
+            Side::Middle,
+            MEDIUM_TEXT_PX,
+            "x [m]",
+        );
     }
 }
 

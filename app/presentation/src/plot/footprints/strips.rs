@@ -1,29 +1,32 @@
 //! One strip of road per snapshot, below the one before.
 
 use super::super::axis::Axis;
-use super::super::drawing::{Drawing, LARGE, MEDIUM, SMALL, Side};
+use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::super::style::{Dash, GREY, LineStyle, PAPER, SURFACE};
-use super::{FootprintPlot, MARGIN, PATH, TITLE, WIDTH, body};
+use super::{FootprintPlot, MARGIN_PX, PATH, TITLE_HEIGHT_PX, WIDTH_PX, body};
 
-/// Space for the number and the time of a snapshot \[px\].
-const LEFT: f64 = 150.0;
-const BETWEEN: f64 = 16.0;
-const TICKS: f64 = 36.0;
-const ACROSS: f64 = 38.0;
-/// A body shorter than this cannot be seen: the strips then move along with the ego \[px\].
-const MIN_BODY_LENGTH: f64 = 40.0;
-/// The length of a body in strips that move along with the ego \[px\].
-const FOLLOWED_BODY_LENGTH: f64 = 64.0;
-/// The highest strip \[px\].
-const MAX_STRIP_HEIGHT: f64 = 150.0;
+/// Space at the left of each strip, for the number and the time of its snapshot.
+const LEFT_MARGIN_PX: f64 = 150.0;
+/// Space between two strips.
+const STRIP_SPACING_PX: f64 = 16.0;
+/// Height of the tick labels of the x axis.
+const TICK_LABEL_HEIGHT_PX: f64 = 36.0;
+/// Height of the line with the name of the x axis.
+const X_LABEL_HEIGHT_PX: f64 = 38.0;
+/// Smallest length of a body that is visible. If bodies would be shorter, the strips move along with the ego.
+const MIN_BODY_LENGTH_PX: f64 = 40.0;
+/// The length of the longest body in strips that move along with the ego.
+const FOLLOWED_BODY_LENGTH_PX: f64 = 64.0;
+/// Largest height of a strip.
+const MAX_STRIP_HEIGHT_PX: f64 = 150.0;
 
-/// What part of the road the strips show, and how large.
+/// The part of the road that the strips show, and its scale.
 struct Window {
     /// Pixels per metre.
     scale: f64,
-    /// How much road is visible \[m\].
+    /// Length of the visible part \[m\].
     length_m: f64,
-    /// Where the visible part begins: on the road, or before the ego.
+    /// Where the visible part begins: a coordinate along the road, or relative to the ego if it moves \[m\].
     start_m: f64,
     /// Whether it moves along with the ego.
     moves: bool,
@@ -41,11 +44,11 @@ impl Window {
             edges_m = [0.0, 1.0];
         }
         let (margin, longest) = (0.5 * footprints.longest_m(), footprints.longest_m());
-        let space = WIDTH - LEFT - MARGIN;
+        let space = WIDTH_PX - LEFT_MARGIN_PX - MARGIN_PX;
         let whole = space / (to - from + 2.0 * margin);
-        let height = MAX_STRIP_HEIGHT / (edges_m[1] - edges_m[0]);
-        if whole * longest < MIN_BODY_LENGTH {
-            let scale = (FOLLOWED_BODY_LENGTH / longest).min(height);
+        let height = MAX_STRIP_HEIGHT_PX / (edges_m[1] - edges_m[0]);
+        if whole * longest < MIN_BODY_LENGTH_PX {
+            let scale = (FOLLOWED_BODY_LENGTH_PX / longest).min(height);
             return Window { scale, length_m: space / scale, start_m: -0.5 * space / scale, moves: true, edges_m };
         }
         let scale = whole.min(height);
@@ -62,27 +65,28 @@ impl FootprintPlot {
     pub fn strips(&self) -> Drawing {
         let window = Window::of(self);
         let legend = self.legend();
-        let head = TITLE + legend.height(WIDTH - 2.0 * MARGIN) + 22.0;
-        let row = window.height() + BETWEEN;
+        let head = TITLE_HEIGHT_PX + legend.height(WIDTH_PX - 2.0 * MARGIN_PX) + 22.0;
+        let row = window.height() + STRIP_SPACING_PX;
         let bottom = head + self.snapshots.len() as f64 * row;
-        let mut drawing = Drawing::new(WIDTH, bottom + TICKS + ACROSS + 8.0);
-        drawing.text([MARGIN, 0.5 * TITLE], Side::Left, LARGE, self.title.as_str());
-        legend.draw(&mut drawing, [MARGIN, TITLE], WIDTH - 2.0 * MARGIN);
+        let mut drawing = Drawing::new(WIDTH_PX, bottom + TICK_LABEL_HEIGHT_PX + X_LABEL_HEIGHT_PX + 8.0);
+        drawing.text([MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
+        legend.draw(&mut drawing, [MARGIN_PX, TITLE_HEIGHT_PX], WIDTH_PX - 2.0 * MARGIN_PX);
         for index in 0..self.snapshots.len() {
             self.draw_strip(&mut drawing, &window, index, head + index as f64 * row);
         }
-        let axis = Axis::new(window.start_m..window.start_m + window.length_m, [LEFT, WIDTH - MARGIN]);
+        let axis = Axis::new(window.start_m..window.start_m + window.length_m, [LEFT_MARGIN_PX, WIDTH_PX - MARGIN_PX]);
         for (value, words) in axis.ticks(105.0) {
             let x = axis.pixel(value);
             drawing.line(
-                vec![[x, bottom - BETWEEN], [x, bottom - BETWEEN + 8.0]],
+                vec![[x, bottom - STRIP_SPACING_PX], [x, bottom - STRIP_SPACING_PX + 8.0]],
                 LineStyle::new(GREY, Dash::Solid).thin(),
             );
-            drawing.text([x, bottom + 0.3 * TICKS], Side::Middle, SMALL, words);
+            drawing.text([x, bottom + 0.3 * TICK_LABEL_HEIGHT_PX], Side::Middle, SMALL_TEXT_PX, words);
         }
         let across = if window.moves { "place along the road, from the ego [m]" } else { "place along the road [m]" };
-        let middle = [0.5 * (LEFT + WIDTH - MARGIN), bottom + TICKS + 0.4 * ACROSS];
-        drawing.text(middle, Side::Middle, MEDIUM, across);
+        let middle =
+            [0.5 * (LEFT_MARGIN_PX + WIDTH_PX - MARGIN_PX), bottom + TICK_LABEL_HEIGHT_PX + 0.4 * X_LABEL_HEIGHT_PX];
+        drawing.text(middle, Side::Middle, MEDIUM_TEXT_PX, across);
         drawing
     }
 
@@ -92,39 +96,43 @@ impl FootprintPlot {
         let shift_m = if window.moves { snapshot.bodies.first().map_or(0.0, centre) } else { 0.0 };
         let bottom = top + window.height();
         let point = |[x, y]: [f64; 2]| {
-            let along = LEFT + (x - shift_m - window.start_m) * window.scale;
+            let along = LEFT_MARGIN_PX + (x - shift_m - window.start_m) * window.scale;
             [along, bottom - (y - window.edges_m[0]) * window.scale]
         };
         let place = |at: [f64; 2]| {
             let [x, y] = point(at);
-            [x.clamp(LEFT, WIDTH - MARGIN), y]
+            [x.clamp(LEFT_MARGIN_PX, WIDTH_PX - MARGIN_PX), y]
         };
-        drawing.block([LEFT, top], [WIDTH - MARGIN, bottom], SURFACE);
+        drawing.block([LEFT_MARGIN_PX, top], [WIDTH_PX - MARGIN_PX, bottom], SURFACE);
         for road in &self.roads {
             if !road.shoulder_m.is_empty() {
                 drawing.fill(road.shoulder_m.iter().map(|&point| place(point)).collect(), PAPER, 1.0);
             }
             for &lateral_m in &road.dividers_m {
                 let y = place([0.0, lateral_m])[1];
-                drawing.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], LineStyle::new(GREY, Dash::Long).thin());
+                drawing.line(
+                    vec![[LEFT_MARGIN_PX, y], [WIDTH_PX - MARGIN_PX, y]],
+                    LineStyle::new(GREY, Dash::Long).thin(),
+                );
             }
         }
         for y in [top, bottom] {
-            drawing.line(vec![[LEFT, y], [WIDTH - MARGIN, y]], LineStyle::new(GREY, Dash::Solid).thin());
+            drawing
+                .line(vec![[LEFT_MARGIN_PX, y], [WIDTH_PX - MARGIN_PX, y]], LineStyle::new(GREY, Dash::Solid).thin());
         }
         let path = self.path_pixels(snapshot.time_s, point).into_iter();
-        drawing.line(path.filter(|[x, _]| (LEFT..=WIDTH - MARGIN).contains(x)).collect(), PATH);
+        drawing.line(path.filter(|[x, _]| (LEFT_MARGIN_PX..=WIDTH_PX - MARGIN_PX).contains(x)).collect(), PATH);
         let number = format!("{}", index + 1);
         for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.vehicles) {
-            let x = body.map(|corner| LEFT + (corner[0] - shift_m - window.start_m) * window.scale);
-            if x.iter().all(|x| (LEFT..=WIDTH - MARGIN).contains(x)) {
+            let x = body.map(|corner| LEFT_MARGIN_PX + (corner[0] - shift_m - window.start_m) * window.scale);
+            if x.iter().all(|x| (LEFT_MARGIN_PX..=WIDTH_PX - MARGIN_PX).contains(x)) {
                 let corners = body.map(place);
                 body::draw(drawing, corners, *colour, 1.0);
                 body::number(drawing, corners, *colour, &number);
             }
         }
         let middle = 0.5 * (top + bottom);
-        drawing.text([MARGIN, middle], Side::Left, LARGE, number);
-        drawing.text([LEFT - 14.0, middle], Side::Right, SMALL, format!("{:.1} s", snapshot.time_s));
+        drawing.text([MARGIN_PX, middle], Side::Left, LARGE_TEXT_PX, number);
+        drawing.text([LEFT_MARGIN_PX - 14.0, middle], Side::Right, SMALL_TEXT_PX, format!("{:.1} s", snapshot.time_s));
     }
 }

@@ -9,13 +9,15 @@ use super::super::palette::NEUTRAL;
 use super::super::re_sdk_types::archetypes::{Image, Points2D};
 use super::super::re_sdk_types::components::Radius;
 
-/// Picture elements of a room from wall to wall, of a wall, and of the strip outdoors.
-const ROOM: usize = 24;
-const WALL: usize = 1;
-const OUTDOORS: usize = 8;
-/// Picture elements between floors.
-const BETWEEN_FLOORS: usize = 6;
-/// How far from the wanted temperatures the colours end \[K\].
+/// Width of a room, from wall to wall.
+const ROOM_PX: usize = 24;
+/// Width of a wall.
+const WALL_PX: usize = 1;
+/// Width of the strip around the building that stands for the outdoor air.
+const OUTDOORS_PX: usize = 8;
+/// Space between two floors.
+const BETWEEN_FLOORS_PX: usize = 6;
+/// Distance from the reference temperature at which the colour scale ends \[K\].
 const COLOUR_RANGE_K: f64 = 5.0;
 /// In more rooms than this a label has no space for a name.
 const MAX_NAMED_ROOMS: usize = 16;
@@ -66,8 +68,8 @@ impl FloorPlanLayer {
         let outdoors = format!("outdoors {:.1} °C", frame.ambient_c);
         let labelled = if names.len() <= MAX_LABELLED_ROOMS { names.len() } else { 0 };
         let labels = names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]);
-        let centre = |index: usize| self.corner(index).map(|place| (place + ROOM / 2) as f32);
-        let places = (0..labelled).map(centre).chain([[0.5 * width as f32, 0.5 * OUTDOORS as f32]]);
+        let centre = |index: usize| self.corner(index).map(|place| (place + ROOM_PX / 2) as f32);
+        let places = (0..labelled).map(centre).chain([[0.5 * width as f32, 0.5 * OUTDOORS_PX as f32]]);
         let labels = Points2D::update_fields().with_positions(places).with_labels(labels).with_show_labels(true);
         stream.log("building/plan/labels", &labels)
     }
@@ -83,7 +85,7 @@ impl FloorPlanLayer {
     fn size(&self) -> [usize; 2] {
         let FloorPlan { columns, rows, floors } = self.rooms;
         let along = |blocks: usize, rooms: usize| {
-            2 * OUTDOORS + blocks * (rooms * (ROOM + WALL) - WALL) + (blocks - 1) * BETWEEN_FLOORS
+            2 * OUTDOORS_PX + blocks * (rooms * (ROOM_PX + WALL_PX) - WALL_PX) + (blocks - 1) * BETWEEN_FLOORS_PX
         };
         [along(self.across(), columns), along(floors.div_ceil(self.across()), rows)]
     }
@@ -93,7 +95,9 @@ impl FloorPlanLayer {
         let FloorPlan { columns, rows, .. } = self.rooms;
         let (floor, room) = (index / (rows * columns), index % (rows * columns));
         let along = |block: usize, rooms: usize, room: usize| {
-            OUTDOORS + block * (rooms * (ROOM + WALL) - WALL + BETWEEN_FLOORS) + room * (ROOM + WALL)
+            OUTDOORS_PX
+                + block * (rooms * (ROOM_PX + WALL_PX) - WALL_PX + BETWEEN_FLOORS_PX)
+                + room * (ROOM_PX + WALL_PX)
         };
         [along(floor % self.across(), columns, room % columns), along(floor / self.across(), rows, room / columns)]
     }
@@ -105,9 +109,9 @@ impl FloorPlanLayer {
         for (index, zone) in frame.zones.iter().enumerate() {
             let [left, top] = self.corner(index);
             let colour = self.colour(zone.temperature_c);
-            for row in top..top + ROOM {
+            for row in top..top + ROOM_PX {
                 let first = 3 * (row * width + left);
-                pixels[first..first + 3 * ROOM].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&colour));
+                pixels[first..first + 3 * ROOM_PX].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&colour));
             }
         }
         pixels
@@ -143,11 +147,15 @@ mod tests {
         let frame =
             BuildingFrame { day: 0, step: 0, zones, ambient_c: 25.0, forecast_c: 25.0, design: None, figures: None };
         let [width, height] = plan.size();
-        assert_eq!([width, height], [2 * OUTDOORS + 2 * ROOM + WALL; 2], "two columns, the second row half empty");
+        assert_eq!(
+            [width, height],
+            [2 * OUTDOORS_PX + 2 * ROOM_PX + WALL_PX; 2],
+            "two columns, the second row half empty"
+        );
         let pixels = plan.pixels(&frame, [width, height]);
         assert_eq!(pixels.len(), 3 * width * height);
         let at = |x: usize, y: usize| [0, 1, 2].map(|part| pixels[3 * (y * width + x) + part]);
-        let (first, second) = (OUTDOORS + 3, OUTDOORS + ROOM + WALL + 3);
+        let (first, second) = (OUTDOORS_PX + 3, OUTDOORS_PX + ROOM_PX + WALL_PX + 3);
         assert_eq!(at(first, first), [30, 90, 190], "cold");
         assert_eq!(at(second, first), [95, 100, 95], "neither");
         assert_eq!(at(first, second), [200, 60, 20], "warm");
@@ -163,12 +171,12 @@ mod tests {
         let mut covered = vec![0; width * height];
         for index in 0..400 {
             let [left, top] = plan.corner(index);
-            for (x, y) in (0..ROOM).flat_map(|x| (0..ROOM).map(move |y| (x, y))) {
+            for (x, y) in (0..ROOM_PX).flat_map(|x| (0..ROOM_PX).map(move |y| (x, y))) {
                 covered[(top + y) * width + left + x] += 1;
             }
         }
-        assert_eq!(covered.iter().sum::<i32>(), (400 * ROOM * ROOM) as i32);
+        assert_eq!(covered.iter().sum::<i32>(), (400 * ROOM_PX * ROOM_PX) as i32);
         assert_eq!(covered.iter().max(), Some(&1));
-        assert_eq!(plan.corner(399), [width - OUTDOORS - ROOM; 2]);
+        assert_eq!(plan.corner(399), [width - OUTDOORS_PX - ROOM_PX; 2]);
     }
 }

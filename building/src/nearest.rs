@@ -1,7 +1,7 @@
-//! The known word that an unknown one was probably meant to be.
+//! The known word that an unknown one was probably meant to be, for errors about keys, names and words.
 
 /// The candidate with the fewest edits from `word`, if those are few enough to be a slip.
-pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Longer than any word we know: not a slip, and the distance would take long.
     if word.len() > 100 {
         return None;
@@ -13,16 +13,16 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
 }
 
 /// `did you mean …?` if a word is near, otherwise the list of all.
-pub(crate) fn suggestion(word: &str, what: &str, candidates: &[&str]) -> String {
-    match nearest(word, candidates.iter().copied()) {
+pub fn suggestion(word: &str, what: &str, candidates: &[impl AsRef<str>]) -> String {
+    match nearest(word, candidates.iter().map(AsRef::as_ref)) {
         Some(best) => format!("did you mean `{best}`?"),
         None => format!("{what}: {}", listed(candidates)),
     }
 }
 
 /// Words in backticks, separated by commas.
-pub(crate) fn listed(words: &[&str]) -> String {
-    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+pub fn listed(words: &[impl AsRef<str>]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("`{}`", word.as_ref())).collect();
     quoted.join(", ")
 }
 

@@ -1,0 +1,232 @@
+//! The form of a mapping's document: keys, types, words and bounds, held to the JSON Schema of its type.
+//!
+//! The schema is generated from the type, so that what is known of a key stands on its field and nowhere else.
+
+use schemars::{JsonSchema, SchemaGenerator};
+use serde_json::Value as Json;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::TelemetryProblem;
+use super::value_shape::ValueShape;
+use crate::bounds::Bound;
+use crate::setting::SettingKey;
+
+/// Holds a document to the schema of `T`.
+///
+/// # Errors
+/// The first problem in the order of the text, and the byte at which it is written. A missing key comes last: it often is one
+/// of the unknown keys, misspelt.
+pub(super) fn check<T: JsonSchema>(document: &Spanned<DeTable<'_>>) -> Result<(), (usize, TelemetryProblem)> {
+    let root = SchemaGenerator::default().into_root_schema_for::<T>().to_value();
+    let mut checker = Checker { problems: Vec::new() };
+    checker.table(document.span().start, document.get_ref(), Schema::new(&root, &root), &SettingKey::default());
+    let order = |(offset, problem): &(usize, TelemetryProblem)| {
+        (matches!(problem, TelemetryProblem::MissingKey { .. }), *offset)
+    };
+    checker.problems.into_iter().min_by_key(order).map_or(Ok(()), Err)
+}
+
+/// The byte at which the value of a key such as `zone.0.heat.1.factor` is written; `None` if the document does not state it.
+pub(super) fn place_of(document: &DeTable<'_>, key: &str) -> Option<usize> {
+    let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
+    let mut value = document.get(first)?;
+    for step in rest.into_iter().flat_map(|rest| rest.split('.')) {
+        value = match value.get_ref() {
+            DeValue::Table(table) => table.get(step)?,
+            DeValue::Array(items) => items.get(step.parse::<usize>().ok()?)?,
+            _ => return None,
+        };
+    }
+    Some(value.span().start)
+}
+
+/// A part of the schema, without references and without the alternative of being absent.
+#[derive(Clone, Copy)]
+struct Schema<'a> {
+    root: &'a Json,
+    stated: &'a Json,
+}
+
+impl<'a> Schema<'a> {
+    fn new(root: &'a Json, stated: &'a Json) -> Self {
+        let present = stated["anyOf"].as_array().and_then(|all| all.iter().find(|one| one["type"] != "null"));
+        let stated = present.unwrap_or(stated);
+        let definition = stated["$ref"].as_str().and_then(|path| root.pointer(path.strip_prefix('#')?));
+        Self { root, stated: definition.unwrap_or(stated) }
+    }
+
+    fn type_name(self) -> Option<&'a str> {
+        let present = |types: &'a Vec<Json>| types.iter().filter_map(Json::as_str).find(|name| *name != "null");
+        self.stated["type"].as_str().or_else(|| self.stated["type"].as_array().and_then(present))
+    }
+
+    fn number(self, keyword: &str) -> Option<usize> {
+        usize::try_from(self.stated[keyword].as_u64()?).ok()
+    }
+
+    fn keys(self) -> Vec<String> {
+        self.stated["properties"].as_object().into_iter().flatten().map(|(key, _)| key.clone()).collect()
+    }
+
+    fn property(self, key: &str) -> Option<Self> {
+        self.stated["properties"].get(key).map(|stated| Self::new(self.root, stated))
+    }
+
+    fn required(self) -> impl Iterator<Item = &'a str> {
+        self.stated["required"].as_array().into_iter().flatten().filter_map(Json::as_str)
+    }
+
+    fn alternatives(self) -> impl Iterator<Item = Self> {
+        let all = self.stated["oneOf"].as_array().into_iter().flatten();
+        all.map(move |stated| Self { stated, ..self })
+    }
+
+    /// The words from which a text is chosen.
+    fn words(self) -> Vec<String> {
+        self.alternatives().filter_map(|one| one.stated["const"].as_str()).map(str::to_owned).collect()
+    }
+
+    /// The `kind` of a table that has several, where this is one of them.
+    fn kind(self) -> Option<&'a str> {
+        self.stated["properties"]["kind"]["const"].as_str()
+    }
+
+    fn kinds(self) -> Vec<String> {
+        self.alternatives().filter_map(Self::kind).map(str::to_owned).collect()
+    }
+
+    /// What a value must be.
+    fn shape(self) -> ValueShape {
+        let (words, kinds) = (self.words(), self.kinds());
+        match self.type_name() {
+            _ if !words.is_empty() => ValueShape::OneOf { words },
+            _ if !kinds.is_empty() => ValueShape::TableOfAKind { kinds },
+            Some("object") => ValueShape::Table { keys: self.keys() },
+            Some("array") => ValueShape::List { entries: self.number("minItems") },
+            Some("string") if self.number("maxLength") == Some(1) => ValueShape::Character,
+            Some("string") => ValueShape::Text,
+            Some("boolean") => ValueShape::Truth,
+            Some("integer") => ValueShape::WholeNumber,
+            _ => ValueShape::Number,
+        }
+    }
+}
+
+struct Checker {
+    problems: Vec<(usize, TelemetryProblem)>,
+}
+
+impl Checker {
+    fn value(&mut self, value: &Spanned<DeValue<'_>>, schema: Schema<'_>, key: &SettingKey) {
+        let offset = value.span().start;
+        match (schema.shape(), value.get_ref()) {
+            (ValueShape::OneOf { words }, DeValue::String(word)) => self.word(offset, word, words, key),
+            (ValueShape::TableOfAKind { kinds }, DeValue::Table(table)) => {
+                self.table_of_a_kind(offset, table, schema, kinds, key);
+            }
+            (ValueShape::Table { .. }, DeValue::Table(table)) => self.table(offset, table, schema, key),
+            (ValueShape::List { entries }, DeValue::Array(items))
+                if entries.is_none_or(|wanted| wanted == items.len()) =>
+            {
+                let schema = Schema::new(schema.root, &schema.stated["items"]);
+                for (index, item) in items.iter().enumerate() {
+                    self.value(item, schema, &entry_key(key, index, item.get_ref()));
+                }
+            }
+            (ValueShape::Character, DeValue::String(text)) if text.chars().count() == 1 => {}
+            (ValueShape::Text, DeValue::String(_)) | (ValueShape::Truth, DeValue::Boolean(_)) => {}
+            (ValueShape::WholeNumber | ValueShape::Number, DeValue::Integer(integer)) => {
+                let number =
+                    i128::from_str_radix(integer.as_str(), integer.radix()).map_or(f64::INFINITY, |whole| whole as f64);
+                self.number(offset, number, schema, key);
+            }
+            (ValueShape::Number, DeValue::Float(float)) => {
+                self.number(offset, float.as_str().parse().unwrap_or(f64::NAN), schema, key);
+            }
+            (wanted, other) => {
+                let found = written(other, &wanted);
+                self.problems.push((offset, TelemetryProblem::WrongType { key: key.clone(), wanted, found }));
+            }
+        }
+    }
+
+    fn table(&mut self, offset: usize, table: &DeTable<'_>, schema: Schema<'_>, key: &SettingKey) {
+        for (name, value) in table {
+            match schema.property(name.get_ref()) {
+                Some(property) => self.value(value, property, &key.key(name.get_ref())),
+                None => {
+                    let (table, key) = (key.clone(), name.get_ref().to_string());
+                    let problem = TelemetryProblem::UnknownKey { table, key, known: schema.keys() };
+                    self.problems.push((name.span().start, problem));
+                }
+            }
+        }
+        for name in schema.required().filter(|name| !table.contains_key(*name)) {
+            let wanted = schema.property(name).map_or(ValueShape::Text, Schema::shape);
+            self.problems.push((offset, TelemetryProblem::MissingKey { key: key.key(name), wanted }));
+        }
+    }
+
+    /// A table whose `kind` says which keys it has.
+    fn table_of_a_kind(
+        &mut self,
+        offset: usize,
+        table: &DeTable<'_>,
+        schema: Schema<'_>,
+        kinds: Vec<String>,
+        key: &SettingKey,
+    ) {
+        let Some(kind) = table.get("kind") else {
+            let wanted = ValueShape::OneOf { words: kinds };
+            return self.problems.push((offset, TelemetryProblem::MissingKey { key: key.key("kind"), wanted }));
+        };
+        let fitting =
+            kind.get_ref().as_str().and_then(|word| schema.alternatives().find(|one| one.kind() == Some(word)));
+        match (fitting, kind.get_ref()) {
+            (Some(schema), _) => self.table(offset, table, schema, key),
+            (None, DeValue::String(word)) => self.word(kind.span().start, word, kinds, &key.key("kind")),
+            (None, other) => {
+                let wanted = ValueShape::OneOf { words: kinds };
+                let found = written(other, &wanted);
+                let problem = TelemetryProblem::WrongType { key: key.key("kind"), wanted, found };
+                self.problems.push((kind.span().start, problem));
+            }
+        }
+    }
+
+    fn word(&mut self, offset: usize, word: &str, known: Vec<String>, key: &SettingKey) {
+        if !known.iter().any(|known| known == word) {
+            let problem = TelemetryProblem::UnknownWord { key: key.clone(), word: word.to_owned(), known };
+            self.problems.push((offset, problem));
+        }
+    }
+
+    fn number(&mut self, offset: usize, value: f64, schema: Schema<'_>, key: &SettingKey) {
+        // A finite number beyond its own bounds is answered with them, not with the limits of all numbers.
+        let mut bounds = [Bound::Finite].into_iter().chain(Bound::of(schema.stated)).chain(Bound::of_every_setting());
+        if let Some(bound) = bounds.find(|bound| !bound.admits(value)) {
+            self.problems.push((offset, TelemetryProblem::Setting { key: key.clone(), value, bound }));
+        }
+    }
+}
+
+/// The key of an entry of a list: a table is called by its `name`, anything else by its number.
+fn entry_key(list: &SettingKey, index: usize, entry: &DeValue<'_>) -> SettingKey {
+    let name = entry.as_table().and_then(|table| table.get("name")?.get_ref().as_str());
+    name.map_or_else(|| list.entry(index), |name| list.key(name))
+}
+
+/// A value of the wrong type, in the words of an error.
+fn written(value: &DeValue<'_>, wanted: &ValueShape) -> String {
+    match value {
+        DeValue::String(text) => format!("the text `{text}`"),
+        DeValue::Integer(integer) => format!("the number {}", integer.as_str()),
+        DeValue::Float(float) => format!("the number {}", float.as_str()),
+        DeValue::Boolean(truth) => format!("`{truth}`"),
+        DeValue::Datetime(_) => "a date".into(),
+        DeValue::Array(items) if matches!(wanted, ValueShape::List { .. }) => format!("of {}", items.len()),
+        DeValue::Array(_) => "a list".into(),
+        DeValue::Table(_) => "a table".into(),
+    }
+}
