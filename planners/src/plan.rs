@@ -98,7 +98,7 @@ impl From<DescentError> for PlanError {
             DescentError::NotConverged(statistics) => {
                 PlanError::Unsolved { status: error.to_string(), iterations: statistics.programmes }
             }
-            DescentError::NotBelow(_) => PlanError::Unsolved { status: error.to_string(), iterations: 0 },
+            DescentError::NotBelow { .. } => PlanError::Unsolved { status: error.to_string(), iterations: 0 },
             DescentError::NotFinite => PlanError::BadInput(error.to_string()),
         }
     }

@@ -23,16 +23,36 @@ const MAX_SIN_SLIP: f64 = 0.9;
 
 /// The steering angle that leads to a lateral position on the agent's road \[rad\].
 pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
-    let speed = state.speed_mps.max(MIN_STEERING_SPEED_MPS);
-    let error = agent.corridor.across(state.position()) - lateral_m;
-    let heading = state.heading_rad - agent.corridor.heading_rad;
-    let wanted = (-error / (2.0 * TIME_CONSTANT_S * speed)).clamp(-MAX_ANGLE_TO_ROAD_RAD, MAX_ANGLE_TO_ROAD_RAD);
-    let rate = 2.0 / TIME_CONSTANT_S * (wanted - heading);
-    let rear = agent.body.rear_axle_m;
-    let sin_slip = (rear * rate / speed).clamp(-MAX_SIN_SLIP, MAX_SIN_SLIP);
-    let tan_slip = sin_slip / (1.0 - sin_slip * sin_slip).sqrt();
-    let limit = agent.limits.steering_max_rad;
-    libm::atan(agent.body.wheelbase_m() / rear * tan_slip).clamp(-limit, limit)
+    let geometry = SteeringGeometry {
+        rear_axle_m: agent.body.rear_axle_m,
+        wheelbase_m: agent.body.wheelbase_m(),
+        steering_max_rad: agent.limits.steering_max_rad,
+    };
+    let error_m = agent.corridor.across(state.position()) - lateral_m;
+    geometry.correct(error_m, state.heading_rad - agent.corridor.heading_rad, state.speed_mps)
+}
+
+/// What the steering angle of a vehicle depends on besides its motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SteeringGeometry {
+    /// From the mass centre to the rear axle \[m\].
+    pub rear_axle_m: f64,
+    /// Between the axles \[m\].
+    pub wheelbase_m: f64,
+    /// Largest angle \[rad\].
+    pub steering_max_rad: f64,
+}
+
+impl SteeringGeometry {
+    /// The steering angle that corrects a lateral error and a heading error at a speed \[rad\].
+    pub fn correct(&self, error_m: f64, heading_error_rad: f64, speed_mps: f64) -> f64 {
+        let speed = speed_mps.max(MIN_STEERING_SPEED_MPS);
+        let wanted = (-error_m / (2.0 * TIME_CONSTANT_S * speed)).clamp(-MAX_ANGLE_TO_ROAD_RAD, MAX_ANGLE_TO_ROAD_RAD);
+        let rate = 2.0 / TIME_CONSTANT_S * (wanted - heading_error_rad);
+        let sin_slip = (self.rear_axle_m * rate / speed).clamp(-MAX_SIN_SLIP, MAX_SIN_SLIP);
+        let tan_slip = sin_slip / (1.0 - sin_slip * sin_slip).sqrt();
+        libm::atan(self.wheelbase_m / self.rear_axle_m * tan_slip).clamp(-self.steering_max_rad, self.steering_max_rad)
+    }
 }
 
 /// The acceleration nearest to a wanted one that keeps acceleration and speed within their limits \[m/s²\].

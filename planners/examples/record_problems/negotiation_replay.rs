@@ -3,7 +3,6 @@
 use interplay_planners::conservative::{self, Conservative};
 use interplay_planners::diagnostic::COST;
 use interplay_planners::negotiation::{self, Concession, Settings, acceptance};
-use interplay_planners::predict::steady;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Agent, Input, Plan, Scene, Trajectory};
 
@@ -36,10 +35,10 @@ struct Round {
 impl NegotiationReplay {
     /// The view of a planner that has not negotiated yet.
     pub fn new(settings: Settings) -> Self {
-        let look_around_every = settings.look_around_every;
+        let passing_orders = settings.passing_orders;
         NegotiationReplay {
             settings,
-            retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
+            retreat: Conservative::new(conservative::Settings { passing_orders, ..Default::default() }),
             optimiser: negotiation::optimiser(&settings),
             state: None,
         }
@@ -76,11 +75,7 @@ impl NegotiationReplay {
                 keep = unasked;
             }
         }
-        let mut guesses = vec![keep.clone()];
-        guesses.extend(extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]));
-        let every = self.settings.look_around_every;
-        let look_around = every > 0 && scene.tick.is_multiple_of(every);
-        let optimum = self.optimiser.best_of(&problem, &guesses, look_around)?;
+        let optimum = self.optimiser.optimise(&problem, &keep)?;
         if optimum.cost.total != stated(plan, &COST)? {
             return Err(format!("tick {}: the rebuilt negotiation costs {}", scene.tick, optimum.cost.total).into());
         }
@@ -101,10 +96,4 @@ fn update_acceptance(state: &mut NegotiationState, partner: &Agent, settings: &S
     let accepted = acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted());
     state.concession.concede(accepted, settings.beta, settings.weight_floor);
     accepted
-}
-
-fn extremes(scene: &Scene) -> [Vec<Input>; 2] {
-    let limits = &scene.ego.limits;
-    [limits.acceleration_min_mps2, limits.acceleration_max_mps2]
-        .map(|acceleration| steady(&scene.ego.state, acceleration, limits, scene.horizon, scene.step_s))
 }

@@ -28,7 +28,7 @@ impl WarmStartReplay {
         *last = tick;
         let warm_start = optimiser.warm_start.clone();
         // One that fails leaves nothing to the next.
-        let _ = optimiser.best_of(problem, std::slice::from_ref(guess), false);
+        let _ = optimiser.optimise(problem, guess);
         Ok(warm_start)
     }
 }

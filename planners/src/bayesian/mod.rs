@@ -49,7 +49,7 @@ impl Bayesian {
     pub fn new(settings: Settings) -> Self {
         Bayesian {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()),
+            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
             partner: PartnerSequence::default(),
             belief: PersuasionBelief::initial(&settings),
             partner_plan: None,
@@ -66,9 +66,8 @@ impl Bayesian {
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
         self.observe(&choice);
         let problem = problem(scene, choice.partner, &self.belief, &self.settings);
-        let every = self.settings.look_around_every;
         let Solved { problem, optimum, event } =
-            conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+            conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref())?;
         let diagnostics = self.diagnostics(&problem, &optimum);
         let trajectory = optimum.trajectory(0);
         if let Some(before) = &self.last {

@@ -34,7 +34,7 @@ pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
 impl Conservative {
     /// A planner without a last plan.
     pub fn new(settings: Settings) -> Self {
-        Conservative { settings, optimiser: Optimiser::resuming(Robust::default()), last: None }
+        Conservative { settings, optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders), last: None }
     }
 
     /// Plans with the predictions of all other vehicles as constraints.
@@ -50,8 +50,7 @@ impl Conservative {
         let scene = &self.settings.prediction.applied_to(scene);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let problem = problem(scene, &others);
-        let every = self.settings.look_around_every;
-        let solved = solo::solve(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+        let solved = solo::solve(&mut self.optimiser, problem, self.last.as_ref())?;
         self.last = Some(solved.optimum.trajectory(0));
         Ok(solved)
     }

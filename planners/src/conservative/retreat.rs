@@ -14,10 +14,8 @@ pub(crate) fn solve_or_retreat(
     scene: &Scene,
     problem: Problem,
     last: Option<&Trajectory>,
-    look_around_every: usize,
 ) -> Result<Solved, DescentError> {
-    solo::solve(optimiser, scene, problem, last, look_around_every)
-        .or_else(|error| retreat(optimiser, scene, last, &error))
+    solo::solve(optimiser, problem, last).or_else(|error| retreat(optimiser, scene, last, &error))
 }
 
 /// Solves the conservative problem. The event of the result states the error `because` of which it is solved.
@@ -31,7 +29,7 @@ pub(crate) fn retreat(
     because: &DescentError,
 ) -> Result<Solved, DescentError> {
     let others: Vec<&Agent> = scene.others.iter().collect();
-    let solved = solo::solve(optimiser, scene, problem(scene, &others), last, 0)?;
+    let solved = solo::solve(optimiser, problem(scene, &others), last)?;
     let event = PlanEvent { kind: PlanEventKind::Retreat, text: format!("conservative plan: {because}") };
     Ok(Solved { event: Some(event), ..solved })
 }

@@ -6,12 +6,18 @@ use serde::{Deserialize, Serialize};
 use crate::predict::Prediction;
 
 /// The conservative baseline (eq. 6.13).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
-    /// improved without trouble; 0 tries them only in trouble.
-    pub look_around_every: usize,
+    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
+    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    pub passing_orders: bool,
     /// What the others are expected to do.
     pub prediction: Prediction,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { passing_orders: true, prediction: Prediction::Plan }
+    }
 }

@@ -25,10 +25,9 @@ pub use settings::Settings;
 
 use crate::conservative;
 use crate::diagnostic::{COST, SAFETY_SLACK};
-use crate::predict::steady;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
-use crate::{Agent, Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
+use crate::{Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 
 /// A cooperative planner, with its last joint plan.
@@ -52,7 +51,7 @@ impl Settings {
 impl Cooperative {
     /// A planner without a last plan.
     pub fn new(settings: Settings) -> Self {
-        Cooperative { settings, optimiser: Optimiser::resuming(Robust::default()), last: Vec::new() }
+        Cooperative { settings, optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders), last: Vec::new() }
     }
 
     /// Solves the joint problem and returns the plan of the ego.
@@ -69,9 +68,8 @@ impl Cooperative {
             self.last.clear();
         }
         let problem = problem(scene, &cooperators);
-        let every = self.settings.look_around_every;
-        let look_around = !known || (every > 0 && scene.tick.is_multiple_of(every));
-        match self.optimiser.best_of(&problem, &self.guesses(scene, &cooperators), look_around) {
+        let keep: Vec<Vec<Input>> = self.last.iter().map(|(_, trajectory)| trajectory.later_inputs()).collect();
+        match self.optimiser.optimise(&problem, &keep) {
             Ok(optimum) => {
                 let parts = cooperators.iter().enumerate();
                 self.last = parts.map(|(i, part)| (part.agent.name.clone(), optimum.trajectory(i))).collect();
@@ -84,21 +82,6 @@ impl Cooperative {
                 Ok(conservative::answer(conservative::retreat(&mut self.optimiser, scene, last, &error)?))
             }
         }
-    }
-
-    /// The last joint plan shifted by one step; then one guess for each vehicle, in which it accelerates and the others brake.
-    fn guesses(&self, scene: &Scene, cooperators: &[Cooperator]) -> Vec<Vec<Vec<Input>>> {
-        let keep = self.last.iter().map(|(_, trajectory)| trajectory.later_inputs()).collect();
-        let firmly = |agent: &Agent, first: bool| {
-            let limits = &agent.limits;
-            let bound = if first { limits.acceleration_max_mps2 } else { limits.acceleration_min_mps2 };
-            steady(&agent.state, bound, limits, scene.horizon, scene.step_s)
-        };
-        let orders = (0..cooperators.len()).map(|first| {
-            let everybody = cooperators.iter().enumerate();
-            everybody.map(|(i, cooperator)| firmly(&cooperator.agent, i == first)).collect()
-        });
-        std::iter::once(keep).chain(orders).collect()
     }
 
     fn answer(&self, problem: &Problem, optimum: &Optimum, own: usize) -> Plan {

@@ -14,13 +14,13 @@ pub struct Settings {
     pub normaliser: f64,
     /// What vehicles that do not cooperate are expected to do.
     pub prediction: Prediction,
-    /// Every how many steps all orders of going first are tried as starting guesses even though the last plan improved
-    /// without trouble; 0 tries them at the first step and in trouble.
-    pub look_around_every: usize,
+    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
+    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    pub passing_orders: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { normaliser: 1.0, prediction: Prediction::Plan, look_around_every: 0 }
+        Settings { normaliser: 1.0, prediction: Prediction::Plan, passing_orders: true }
     }
 }

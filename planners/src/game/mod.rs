@@ -77,7 +77,7 @@ impl Game {
         Game {
             settings,
             theory: TabulatedTheory::new(settings.prospect),
-            optimiser: Optimiser::resuming(Robust::default()),
+            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
             partner: PartnerSequence::default(),
             intentions: Intentions::default(),
             last: None,
@@ -105,9 +105,8 @@ impl Game {
             round = Some(played);
         }
         let problem = problem(scene, expressed);
-        let every = self.settings.look_around_every;
         let Solved { problem, optimum, event } =
-            conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref(), every)?;
+            conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref())?;
         let expressed = expressed.filter(|_| event.is_none());
         let diagnostics = self.diagnostics(scene, round.as_ref(), expressed.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);

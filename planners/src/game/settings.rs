@@ -72,9 +72,9 @@ pub struct Settings {
     pub clear_lead_m: f64,
     /// What the others are expected to do.
     pub prediction: Prediction,
-    /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
-    /// improved without trouble; 0 tries them only in trouble.
-    pub look_around_every: usize,
+    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
+    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    pub passing_orders: bool,
 }
 
 impl Default for Settings {
@@ -97,7 +97,7 @@ impl Default for Settings {
             later_expression_s: 2.5,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
-            look_around_every: 0,
+            passing_orders: true,
         }
     }
 }

@@ -14,9 +14,8 @@
 //!
 //! One who closes gaps (`closing`) wants to be faster while somebody is about to cut in ahead of it.
 //!
-//! The source only says that nice drivers have a higher safety weight (section 6.5). Ties between going first and yielding
-//! are decided by the initial guess, so a driver who reconsiders tries all three: the last plan, braking and accelerating.
-//! Where the last plan, improved, keeps clear of everybody there is no tie: it would be the same without them.
+//! The source only says that nice drivers have a higher safety weight (section 6.5). Going first and yielding are two classes
+//! of motion, which the optimiser compares.
 
 mod closing;
 pub mod diagnostics;
@@ -26,15 +25,9 @@ pub use settings::{Settings, Style};
 
 use crate::predict::steady;
 use crate::trajectory::terms::KeepOut;
-use crate::trajectory::{
-    Bar, DescentError, Exploration, Optimiser, Optimum, Penalty, Problem, Robust, Statistics, Term,
-};
+use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 
-/// Acceleration of the guesses to yield and to pass \[m/s²\] as a share of the limits.
-const GUESSED_ACCELERATION_RATIO: f64 = 1.0;
-/// A plan whose `d²` exceeds 1 by this much everywhere is contested by nobody.
-const UNCONTESTED_MARGIN: f64 = 0.1;
 /// The very first guess brakes with this share of the strongest braking.
 const FIRST_BRAKING_RATIO: f64 = 0.3;
 /// Length of the ellipse around the car ahead that is not entered while brakes can help, as a share of the safety ellipse. A
@@ -43,8 +36,6 @@ const LEADER_LENGTH_RATIO: f64 = 0.7;
 /// Width of the same ellipse as a multiple of the safety ellipse: the driver stops behind rather than swerve into a lane where
 /// it yields to nobody.
 const LEADER_WIDTH_RATIO: f64 = 4.0;
-/// Another plan replaces the improved last one if it is cheaper by this share.
-const MIN_COST_ADVANTAGE: f64 = 1e-3;
 
 /// A human driver with the plan it made last.
 #[derive(Clone, Debug)]
@@ -57,7 +48,7 @@ pub struct Human {
 impl Human {
     /// A driver who has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Human { settings, optimiser: Optimiser::resuming(Robust::default()), last: None }
+        Human { settings, optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders), last: None }
     }
 
     /// Plans the next move.
@@ -67,53 +58,17 @@ impl Human {
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let hurried = closing::hurried(scene, self.settings.closing_mps);
         let scene = hurried.as_ref().unwrap_or(scene);
-        let yielded_to = yielded_to(scene, &self.settings);
         let problem = problem(scene, &self.settings);
-        let (best, statistics) = self.decide(&problem, &yielded_to, scene)?;
-        let trajectory = best.trajectory(0);
+        let optimum = self.optimiser.optimise(&problem, &[guess(scene, self.last.as_ref())])?;
+        let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
         Ok(Plan {
             trajectory,
             diagnostics: vec![diagnostics::SAFETY_WEIGHT.is(self.settings.weight())],
             problem: Some(Box::new(problem)),
-            statistics,
+            statistics: optimum.statistics,
             ..Plan::default()
         })
-    }
-
-    /// The cheapest of keeping on, yielding and passing; the latter two only where somebody that the driver yields to is near the plan.
-    fn decide(
-        &mut self,
-        problem: &Problem,
-        yielded_to: &[KeepOut],
-        scene: &Scene,
-    ) -> Result<(Optimum, Statistics), DescentError> {
-        let steady = |share| steadily(scene, share);
-        let keep = guess(scene, self.last.as_ref());
-        let mut best = self.optimiser.descend(problem, &[keep]);
-        let mut statistics = best.as_ref().map(|optimum| optimum.statistics).unwrap_or_default();
-        let contested = best.as_ref().is_ok_and(|optimum| {
-            yielded_to.iter().any(|keep_out| keep_out.intrusion(&optimum.iterate.states[0]) > -UNCONTESTED_MARGIN)
-        });
-        let trusted = self.optimiser.tolerances.trust(&best);
-        if !trusted || (self.settings.reconsiders && contested) {
-            let mut guesses: Vec<Vec<Input>> =
-                vec![steady(-GUESSED_ACCELERATION_RATIO), steady(GUESSED_ACCELERATION_RATIO)];
-            if !trusted {
-                guesses.insert(0, steady(0.0));
-            }
-            for guess in guesses {
-                let margin = |held: &Optimum| held.cost.total - MIN_COST_ADVANTAGE * (1.0 + held.cost.total);
-                // In trouble nothing is given up early.
-                let bar = Bar { cost: best.as_ref().map_or(f64::INFINITY, margin), gives_up: trusted };
-                let Ok(found) = self.optimiser.explore(problem, &[guess], bar) else { continue };
-                statistics.add(found.statistics());
-                if let Exploration::Cheaper(optimum) = found {
-                    best = Ok(optimum);
-                }
-            }
-        }
-        best.map(|optimum| (optimum, statistics))
     }
 }
 

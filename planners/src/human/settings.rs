@@ -42,8 +42,9 @@ pub struct Settings {
     /// \[m/s\].
     #[schemars(range(min = 0.0))]
     pub closing_mps: f64,
-    /// Whether keeping on, yielding and passing are all weighed at every step, or only the last plan improved.
-    pub reconsiders: bool,
+    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
+    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    pub passing_orders: bool,
     /// What others are expected to do that might cut in or cross: by default what their present heading and speed say, so
     /// that a nudge is seen, and not what they plan. The car ahead is always expected to follow its plan.
     pub prediction: Prediction,
@@ -56,7 +57,7 @@ impl Default for Settings {
             safety_weight: None,
             following_weight: 20.0,
             closing_mps: 0.0,
-            reconsiders: true,
+            passing_orders: true,
             prediction: Prediction::ConstantVelocity,
         }
     }

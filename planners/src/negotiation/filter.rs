@@ -5,7 +5,6 @@
 //! intervention is recorded.
 
 use crate::conservative::problem;
-use crate::solo::extremes;
 use crate::trajectory::{Optimiser, Optimum, Robust, Violation};
 use crate::{Agent, Scene};
 
@@ -35,11 +34,10 @@ impl Filter {
         }
         let next = successor(scene, optimum);
         let others: Vec<&Agent> = next.others.iter().collect();
-        let [brake, accelerate] = extremes(&next);
-        let guesses = [vec![retreat.trajectory(0).shifted().inputs], vec![brake], vec![accelerate]];
+        let keep = retreat.trajectory(0).shifted().inputs;
         let allowed = MAX_VIOLATION.max(MAX_VIOLATION_GROWTH * retreat.cost.violation(Violation::Safety));
         self.optimiser
-            .best_of(&problem(&next, &others), &guesses, false)
+            .optimise(&problem(&next, &others), &[keep])
             .is_ok_and(|optimum| optimum.cost.violation(Violation::Safety) <= allowed)
     }
 }

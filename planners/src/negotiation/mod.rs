@@ -21,7 +21,7 @@ mod proposal;
 mod settings;
 mod state;
 
-pub use acceptance::acceptance;
+pub use acceptance::{Acceptance, printed_acceptance, willingness};
 pub use concession::Concession;
 pub use persuasion::persuasion;
 pub use proposal::{optimiser, problem};
@@ -30,7 +30,7 @@ pub use settings::Settings;
 use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::partner_event;
-use crate::solo::{Solved, extremes};
+use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
@@ -54,10 +54,10 @@ pub struct Negotiation {
 impl Negotiation {
     /// A planner that has not negotiated yet.
     pub fn new(settings: Settings) -> Self {
-        let look_around_every = settings.look_around_every;
+        let passing_orders = settings.passing_orders;
         Negotiation {
             settings,
-            retreat: Conservative::new(conservative::Settings { look_around_every, ..Default::default() }),
+            retreat: Conservative::new(conservative::Settings { passing_orders, ..Default::default() }),
             filter: Filter::default(),
             optimiser: optimiser(&settings),
             selection: PartnerSelection::default(),
@@ -76,7 +76,7 @@ impl Negotiation {
         let Some(partner) = self.choose(scene, &mut events) else {
             return Ok(Plan { events, ..conservative::answer(retreat?) });
         };
-        let accepted = self.update_acceptance(partner);
+        let accepted = self.update_acceptance(scene, partner);
         let persuasion = persuasion::next_constraint(&self.settings, self.negotiation.last.as_ref(), accepted);
         let outcome = self.propose(scene, partner, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
@@ -108,14 +108,12 @@ impl Negotiation {
     }
 
     /// How far the last proposal was accepted; the ego concedes accordingly. Before the first proposal it is 1.
-    fn update_acceptance(&mut self, partner: &Agent) -> f64 {
-        let accepted = self
-            .negotiation
-            .last
-            .as_ref()
-            .map(|round| acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted()));
+    fn update_acceptance(&mut self, scene: &Scene, partner: &Agent) -> f64 {
+        let accepted = self.negotiation.acceptance(self.settings.acceptance, scene, partner);
         if let Some(accepted) = accepted {
-            self.negotiation.concession.concede(accepted, self.settings.beta, self.settings.weight_floor);
+            if self.settings.concession {
+                self.negotiation.concession.concede(accepted, self.settings.beta, self.settings.weight_floor);
+            }
             self.selection.record(accepted, &self.settings);
         }
         accepted.unwrap_or(1.0)
@@ -125,10 +123,7 @@ impl Negotiation {
     fn propose(&mut self, scene: &Scene, partner: &Agent, persuasion: Option<Persuasion>) -> Result<Solved, PlanError> {
         let problem = problem(scene, partner, self.negotiation.concession.weight(), persuasion, &self.settings);
         let keep = self.guess(&problem, partner);
-        let [brake, accelerate] = extremes(scene).map(|own| vec![own, partner.prediction.inputs.clone()]);
-        let every = self.settings.look_around_every;
-        let look_around = every > 0 && scene.tick.is_multiple_of(every);
-        let optimum = self.optimiser.best_of(&problem, &[keep, brake, accelerate], look_around)?;
+        let optimum = self.optimiser.optimise(&problem, &keep)?;
         Ok(Solved { problem, optimum, event: None })
     }
 
@@ -145,6 +140,10 @@ impl Negotiation {
 
     /// Keeps what this round led to for the next one.
     fn remember(&mut self, optimum: &Optimum, retreat: &Result<Solved, PlanError>, partner: &Agent) {
+        self.negotiation.first_plan = Some(match self.negotiation.first_plan.take() {
+            Some(plan) => plan.shifted(),
+            None => partner.prediction.shifted(),
+        });
         self.negotiation.last = Some(NegotiationRound {
             cooperative: optimum.trajectory(0),
             conservative: retreat.as_ref().ok().map(|retreat| retreat.optimum.trajectory(0)),

@@ -24,9 +24,7 @@ const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 
 /// What solves the negotiation problem.
 pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
-    let mut optimiser = Optimiser::resuming(Robust::default());
-    optimiser.looks_to_other_sides = settings.look_across;
-    optimiser
+    Optimiser::resuming(Robust::default()).comparing(settings.passing_orders)
 }
 
 /// The negotiation problem: participant 0 is the ego, participant 1 the `partner`; `weight` is the concession weight `w`.

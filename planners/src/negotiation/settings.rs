@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::DriverSettingError;
+use super::acceptance::Acceptance;
 use crate::predict::Prediction;
 
 /// Negotiation with concession and persuasion (chapter 6).
@@ -38,16 +39,17 @@ pub struct Settings {
     /// Smallest weight `w` of the ego's cost (eq. 6.18 never lets it recover).
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub weight_floor: f64,
+    /// What counts as acceptance.
+    pub acceptance: Acceptance,
+    /// Whether the ego concedes (eq. 6.18); without it the weight of its own cost stays at 0.5.
+    pub concession: bool,
     /// Whether the persuasion constraint is imposed (eq. 6.23).
     pub persuasion: bool,
     /// Whether the negotiated input is applied only if a conservative plan still exists after it.
     pub safety_filter: bool,
-    /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
-    /// improved without trouble; 0 tries them only in trouble.
-    pub look_around_every: usize,
-    /// Whether, at every step, the plan is compared with one on the other side of each vehicle whose ellipse it touches, and
-    /// the cheaper one is followed. Without it a plan stays on the side where it began, for half the time.
-    pub look_across: bool,
+    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
+    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    pub passing_orders: bool,
     /// What the others are expected to do. At constant velocity nobody ever seems to accept a proposal.
     pub prediction: Prediction,
 }
@@ -64,10 +66,11 @@ impl Default for Settings {
             ego_normaliser: 1.0,
             other_normaliser: 100.0,
             weight_floor: 0.02,
+            acceptance: Acceptance::Willingness,
+            concession: true,
             persuasion: true,
             safety_filter: true,
-            look_around_every: 0,
-            look_across: true,
+            passing_orders: true,
             prediction: Prediction::Plan,
         }
     }

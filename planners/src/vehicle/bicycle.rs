@@ -77,14 +77,6 @@ impl DynamicsCurvature {
     }
 }
 
-impl Bicycle {
-    /// The steering angle at which the vehicle turns at a rate \[rad\] (not clamped to its limits).
-    pub fn steering_for(&self, rate_radps: f64, speed_mps: f64) -> f64 {
-        let sin_slip = (self.rear_axle_m * rate_radps / speed_mps).clamp(-0.9, 0.9);
-        libm::atan(sin_slip / (1.0 - sin_slip * sin_slip).sqrt() / self.rear_share)
-    }
-}
-
 /// Sine and cosine of the direction of motion `φ` and of the slip angle `β`, with the derivatives of `β`.
 struct Slip {
     sin_course: f64,
@@ -104,6 +96,16 @@ impl Bicycle {
     /// The time step `T` \[s\].
     pub fn step_s(&self) -> f64 {
         self.step_s
+    }
+
+    /// Distance from the mass centre to the rear axle, `L_r` \[m\].
+    pub fn rear_axle_m(&self) -> f64 {
+        self.rear_axle_m
+    }
+
+    /// Distance between the axles, `L` \[m\].
+    pub fn wheelbase_m(&self) -> f64 {
+        self.rear_axle_m / self.rear_share
     }
 
     fn slip(&self, heading_rad: f64, steering_rad: f64) -> Slip {

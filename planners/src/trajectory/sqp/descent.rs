@@ -41,7 +41,7 @@ impl<S: StageSolver> Descent<S> {
         }
         self.search.restart();
         self.steps.problem.linearize(problem, &iterate);
-        Ok(Optimum { iterate, cost, statistics: Statistics { starts: 1, ..Statistics::default() } })
+        Ok(Optimum { iterate, cost, statistics: Statistics { starts: 1, ..Statistics::default() }, runner_up: None })
     }
 
     /// Begins with what an earlier descent has left, one stage later. Returns whether nothing is left to do.
@@ -79,8 +79,10 @@ impl<S: StageSolver> Descent<S> {
             self.previous_step.clone_from(&self.steps.step);
             self.steps.solve_for_direction(problem, &mut now, warm, damping)?;
             let promised = -self.steps.problem.qp.change(&self.steps.step);
-            if now.cost.total - MAX_GAIN_PER_PROMISE * (1.0 + damping) * promised.max(0.0) > below {
-                return Err(DescentError::NotBelow(below));
+            // A cold first step is a Gauss-Newton step from a motion far from optimal: it is taken at its word.
+            let gain = if warm { MAX_GAIN_PER_PROMISE * (1.0 + damping) } else { 1.0 };
+            if now.cost.total - gain * promised.max(0.0) > below {
+                return Err(DescentError::NotBelow { bar: below, promised: now.cost.total - promised });
             }
             let predicted = self.search.predict(&self.steps, &now.cost, promised);
             let little = predicted <= tolerances.decrease * (1.0 + now.cost.total.abs());

@@ -1,10 +1,10 @@
-//! Explorations: descents in search of something cheaper than what is at hand.
+//! Explorations: descents in another class of motion, in search of something cheaper than what is at hand.
 
-use super::optimum::{Optimum, Statistics};
+use super::optimum::{Optimum, RunnerUp};
 
 /// What an exploration has to beat.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bar {
+pub(super) struct Bar {
     /// An optimum is kept if it costs less than this.
     pub cost: f64,
     /// Whether the exploration is given up as soon as nothing suggests that it will.
@@ -13,39 +13,36 @@ pub struct Bar {
 
 /// What an exploration found.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Exploration {
+pub(super) enum Exploration {
     /// An optimum below the bar; the next descent resumes from it.
     Cheaper(Optimum),
-    /// An optimum that is not: only its work counts.
-    Dearer(Statistics),
+    /// An optimum that is not.
+    Dearer(Optimum),
 }
 
 impl Bar {
-    pub(super) fn give_up_above(&self) -> f64 {
+    pub fn give_up_above(&self) -> f64 {
         if self.gives_up { self.cost } else { f64::INFINITY }
     }
 }
 
-impl Exploration {
-    /// The work that it took.
-    pub fn statistics(&self) -> &Statistics {
-        match self {
-            Exploration::Cheaper(optimum) => &optimum.statistics,
-            Exploration::Dearer(statistics) => statistics,
-        }
+impl Optimum {
+    /// Gives way to a cheaper optimum of another class and becomes its runner-up.
+    pub(super) fn give_way(&mut self, found: Optimum) {
+        let held = std::mem::replace(self, found);
+        let mut work = held.statistics;
+        work.add(&self.statistics);
+        self.statistics = super::Statistics { residual: self.statistics.residual, ..work };
+        self.runner_up = Some(Box::new(RunnerUp { cost: held.cost.total, iterate: held.iterate }));
     }
 
-    /// Replaces `best` if the exploration found something cheaper; its work is counted either way.
-    pub(super) fn improve(self, best: &mut Optimum) {
-        let mut work = best.statistics;
-        work.add(self.statistics());
-        let residual = match self {
-            Exploration::Cheaper(found) => {
-                *best = found;
-                best.statistics.residual
-            }
-            Exploration::Dearer(_) => best.statistics.residual,
-        };
-        best.statistics = Statistics { residual, ..work };
+    /// Notes a dearer optimum of another class, which is the runner-up if there is no cheaper one.
+    pub(super) fn note_rival(&mut self, rival: Optimum) {
+        let mut work = self.statistics;
+        work.add(&rival.statistics);
+        self.statistics = super::Statistics { residual: self.statistics.residual, ..work };
+        if self.runner_up.as_ref().is_none_or(|known| rival.cost.total < known.cost) {
+            self.runner_up = Some(Box::new(RunnerUp { cost: rival.cost.total, iterate: rival.iterate }));
+        }
     }
 }

@@ -21,23 +21,21 @@
 //! first step has the exact Hessian already, and where the shifted plan is optimal there is no step. Steps also tell the next
 //! one how far to look for rows that matter ([`Reach`](super::Reach)).
 //!
-//! [`Optimiser::best_of`] descends from several guesses, and to the other sides of ellipses; an [`Exploration`] is a descent
-//! that only counts if it ends below what is at hand.
+//! [`Optimiser::optimise`] compares the passing orders that a problem allows; an [`Exploration`] is a descent that only counts
+//! if it ends below what is at hand.
 
 mod descent;
 mod exploration;
 mod line_search;
 mod optimiser;
 mod optimum;
-mod other_side;
 mod passing_orders;
-mod starts;
 mod step_problem;
 mod step_solver;
 mod warm_start;
 
-pub use exploration::{Bar, Exploration};
 pub use optimiser::Optimiser;
-pub use optimum::{DescentError, Optimum, Statistics, Tolerances};
+pub use optimum::{DescentError, Optimum, RunnerUp, Statistics, Tolerances};
+pub use passing_orders::{MIN_COST_ADVANTAGE, PassingClass};
 pub use step_problem::StepProblem;
 pub use warm_start::WarmStart;

@@ -16,8 +16,8 @@ pub struct Optimiser<S> {
     pub tolerances: Tolerances,
     /// Whether a descent begins with what the one before has left, if the problem has the same shape.
     pub resumes: bool,
-    /// Whether [`Optimiser::best_of`] looks to the other side of the ellipses that an optimum touches.
-    pub looks_to_other_sides: bool,
+    /// Whether [`Optimiser::optimise`] compares the classes of motion.
+    pub compares_passing_orders: bool,
     /// What the descent whose optimum was kept last has left.
     pub warm_start: WarmStart,
     pub(super) descent: Descent<S>,
@@ -26,7 +26,7 @@ pub struct Optimiser<S> {
 impl<S: StageSolver + Default> Optimiser<S> {
     /// An optimiser with the default tolerances.
     pub fn new(solver: S) -> Self {
-        let mut optimiser = Optimiser::default();
+        let mut optimiser = Optimiser { compares_passing_orders: true, ..Optimiser::default() };
         optimiser.descent.steps.solver = solver;
         optimiser
     }
@@ -36,6 +36,11 @@ impl<S: StageSolver + Default> Optimiser<S> {
     pub fn resuming(solver: S) -> Self {
         let tolerances = Tolerances { residual: 1e-7, decrease: 1e-9, ..Tolerances::default() };
         Optimiser { tolerances, resumes: true, ..Optimiser::new(solver) }
+    }
+
+    /// This optimiser, with or without the comparison of passing orders.
+    pub fn comparing(self, compares_passing_orders: bool) -> Self {
+        Optimiser { compares_passing_orders, ..self }
     }
 }
 
@@ -54,37 +59,24 @@ impl<S: StageSolver> Optimiser<S> {
         outcome
     }
 
-    /// Descends from a guess that has nothing to do with what was planned before, in search of a cheaper optimum.
+    /// Descends from a motion of another class in search of a cheaper optimum. It is given up after the first step already if
+    /// that does not promise one.
     ///
     /// # Errors
     /// As [`Optimiser::descend`], and [`DescentError::NotBelow`] if it was given up.
-    pub fn explore(&mut self, problem: &Problem, guess: &[Vec<Input>], bar: Bar) -> Result<Exploration, DescentError> {
-        let now = self.descent.begin(problem, problem.start(guess))?;
-        let found = self.descent.run(problem, now, false, bar.give_up_above(), &self.tolerances)?;
-        Ok(self.compare(found, bar))
-    }
-
-    /// Explores from an iterate, with the multipliers of the last step.
-    pub(super) fn explore_on(
+    pub(super) fn explore_class(
         &mut self,
         problem: &Problem,
-        iterate: Iterate,
+        from: Iterate,
         bar: Bar,
     ) -> Result<Exploration, DescentError> {
-        let now = self.descent.begin(problem, iterate)?;
-        let found = self.descent.run(problem, now, true, bar.give_up_above(), &self.tolerances)?;
-        Ok(self.compare(found, bar))
-    }
-
-    pub(super) fn explore_on_cold(
-        &mut self,
-        problem: &Problem,
-        iterate: Iterate,
-        bar: Bar,
-    ) -> Result<Exploration, DescentError> {
-        let now = self.descent.begin(problem, iterate)?;
+        let now = self.descent.begin(problem, from)?;
         let found = self.descent.run(problem, now, false, bar.give_up_above(), &self.tolerances)?;
-        Ok(self.compare(found, bar))
+        if found.cost.total < bar.cost {
+            self.descent.leave(&mut self.warm_start);
+            return Ok(Exploration::Cheaper(found));
+        }
+        Ok(Exploration::Dearer(found))
     }
 
     fn resume(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
@@ -94,13 +86,5 @@ impl<S: StageSolver> Optimiser<S> {
             return Ok(now);
         }
         self.descent.run(problem, now, warm, f64::INFINITY, &self.tolerances)
-    }
-
-    fn compare(&mut self, found: Optimum, bar: Bar) -> Exploration {
-        if found.cost.total < bar.cost {
-            self.descent.leave(&mut self.warm_start);
-            return Exploration::Cheaper(found);
-        }
-        Exploration::Dearer(found.statistics)
     }
 }

@@ -58,6 +58,17 @@ pub struct Optimum {
     pub cost: Cost,
     /// How it was found.
     pub statistics: Statistics,
+    /// The cheapest optimum of another class of motion, if one was looked for and reached.
+    pub runner_up: Option<Box<RunnerUp>>,
+}
+
+/// An optimum of another class of motion than the one that was chosen.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunnerUp {
+    /// What it costs.
+    pub cost: f64,
+    /// Its inputs and states.
+    pub iterate: Iterate,
 }
 
 /// Why no optimum was found.
@@ -75,8 +86,13 @@ pub enum DescentError {
     #[error("not converged after {} programmes: residual {:.1e}", .0.programmes, .0.residual)]
     NotConverged(Statistics),
     /// An exploration that was given up: even many times what its steps promise would not end below the cost to beat.
-    #[error("no optimum below a cost of {0} in sight")]
-    NotBelow(f64),
+    #[error("no optimum below a cost of {bar} in sight: {promised} is promised")]
+    NotBelow {
+        /// The cost to beat.
+        bar: f64,
+        /// The cost that the last step promised.
+        promised: f64,
+    },
     /// The problem holds a number that is not finite.
     #[error("the problem has a cost that is not a number")]
     NotFinite,

@@ -114,7 +114,7 @@ impl StepProblem {
     /// correction. Gradients and costs stay those of the iterate.
     pub(super) fn move_rows(&mut self, problem: &Problem, trial: &Iterate, step: &StageSolution) {
         let (mut at, mut room) = (0, [PoseExpansion::default(); MAX_ROWS_PER_STAGE]);
-        for rows in row_terms(problem) {
+        for rows in problem.row_terms() {
             let group = at..at + rows.rows_per_stage();
             at = group.end;
             let Subject { vehicle, other } = rows.subject();
@@ -134,24 +134,16 @@ impl StepProblem {
 
     /// One block for each row of each term, in the order of the terms.
     fn expand_rows(&mut self, problem: &Problem, iterate: &Iterate) {
-        let count = row_terms(problem).map(|rows| rows.rows_per_stage()).sum();
+        let count = problem.row_terms().map(|rows| rows.rows_per_stage()).sum();
         self.qp.blocks.resize_with(count, RowBlock::default);
         self.row_hessians.resize_with(count, Vec::new);
         let mut at = 0;
-        for rows in row_terms(problem) {
+        for rows in problem.row_terms() {
             let group = at..at + rows.rows_per_stage();
             at = group.end;
             expand_term(problem, rows, iterate, &mut self.qp.blocks[group.clone()], &mut self.row_hessians[group]);
         }
     }
-}
-
-/// The terms that are stage rows. Each has as many blocks in the programme as rows at a stage, in this order.
-pub(super) fn row_terms(problem: &Problem) -> impl Iterator<Item = &dyn RowTerm> {
-    problem.terms.iter().filter_map(|term| match term.shape() {
-        Shape::Rows(rows) => Some(rows),
-        _ => None,
-    })
 }
 
 fn expand_term(

@@ -12,8 +12,8 @@ pub struct WarmStart {
     pub multipliers: StageSolution,
     /// How far the descent's first step was expected to go from where it began.
     pub reach: Option<Reach>,
-    /// Per block of rows, for how many more plans the other side of its ellipse is not looked at.
-    pub plans_without_look: Vec<usize>,
+    /// For how many more plans the passing orders are not compared.
+    pub plans_at_rest: usize,
 }
 
 impl WarmStart {

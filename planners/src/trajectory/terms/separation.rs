@@ -41,6 +41,11 @@ impl RowTerm for Separation {
         Some(&self.ellipse)
     }
 
+    fn relative_position(&self, stage: usize, iterate: &Iterate) -> Option<[f64; 2]> {
+        let ([x, y], [centre_x, centre_y]) = (iterate.states[self.vehicle][stage + 1].position(), iterate.states[self.from][stage + 1].position());
+        Some([x - centre_x, y - centre_y])
+    }
+
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
         let position = |vehicle: usize| iterate.states[vehicle][stage + 1].position();
         rows[0] = expand(&self.ellipse, position(self.vehicle), position(self.from));

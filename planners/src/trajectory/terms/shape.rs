@@ -67,6 +67,11 @@ pub(in crate::trajectory) trait RowTerm {
         None
     }
 
+    /// For a row around an ellipse, the position relative to its centre at a stage \[m\].
+    fn relative_position(&self, _stage: usize, _iterate: &Iterate) -> Option<[f64; 2]> {
+        None
+    }
+
     /// `c_t` with its derivatives at a stage, for each of the [`RowTerm::rows_per_stage`] rows. For a pair the gradient
     /// over the other's position is the negative.
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]);

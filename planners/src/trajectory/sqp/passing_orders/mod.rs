@@ -20,7 +20,7 @@ pub use class::PassingClass;
 
 use super::exploration::{Bar, Exploration};
 use super::optimiser::Optimiser;
-use super::optimum::{DescentError, Optimum, RunnerUp};
+use super::optimum::{DescentError, Optimum};
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;

@@ -4,7 +4,7 @@
 //! own. Of several deciding vehicles one after the other does each of these while the others go on as planned, brake, or
 //! accelerate.
 
-use crate::steering::LateralControl;
+use crate::steering::SteeringGeometry;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::participant::Participant;
 use crate::trajectory::problem::Problem;
@@ -31,7 +31,7 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
         inputs: planned.iter().map(|motion| motion.inputs.clone()).collect(),
         states: planned.iter().map(|motion| motion.states.clone()).collect(),
     };
-    let mut set = |joint: &mut Iterate, vehicle: usize, motion: &Motion| {
+    let set = |joint: &mut Iterate, vehicle: usize, motion: &Motion| {
         joint.inputs[vehicle].clone_from(&motion.inputs);
         joint.states[vehicle].clone_from(&motion.states);
     };
@@ -87,12 +87,14 @@ fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -
     if to_goal && !(is_far && tracking.weights[1] > 0.0) {
         return None;
     }
-    let control = LateralControl {
-        model: participant.model,
-        axes: tracking.axes,
-        heading_rad: target.heading_rad,
-        lateral_m: if to_goal { wanted } else { here },
+    let geometry = SteeringGeometry {
+        rear_axle_m: participant.model.rear_axle_m(),
+        wheelbase_m: participant.model.wheelbase_m(),
         steering_max_rad: participant.limits.steering_max_rad,
+    };
+    let lateral_m = if to_goal { wanted } else { here };
+    let steer = |state: &State| {
+        geometry.correct(across(state) - lateral_m, state.heading_rad - target.heading_rad, state.speed_mps)
     };
     let limits = &participant.limits;
     let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
@@ -102,7 +104,7 @@ fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -
     for t in 0..problem.horizon {
         let input = participant.known_inputs.get(t).copied().unwrap_or_else(|| Input {
             acceleration_mps2: reachable(participant, t, &state, share * bound),
-            steering_rad: control.steering_rad(&state),
+            steering_rad: steer(&state),
         });
         state = participant.model.step(&state, &input);
         inputs.push(input);

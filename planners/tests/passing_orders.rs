@@ -36,10 +36,10 @@ fn swerve(side: f64) -> Vec<Vec<Input>> {
 
 /// The optimum from a guess and what it costs, alone and looking across.
 fn optima(problem: &Problem, guess: &[Vec<Input>]) -> Option<[f64; 2]> {
-    let mut optimiser = Optimiser::new(Robust::default());
-    let alone = optimiser.best_of(problem, &[guess.to_vec()], false).ok()?;
-    optimiser.looks_to_other_sides = true;
-    let across = optimiser.best_of(problem, &[guess.to_vec()], false).ok()?;
+    let mut optimiser = Optimiser::new(Robust::default()).comparing(false);
+    let alone = optimiser.optimise(problem, guess).ok()?;
+    optimiser.compares_passing_orders = true;
+    let across = optimiser.optimise(problem, guess).ok()?;
     Some([alone.cost.total, across.cost.total])
 }
 
