@@ -19,8 +19,9 @@ const MIN_UNDAMPED_SHARE: f64 = 0.1;
 const POLISH_TOLERANCE: f64 = 1e-14;
 /// A KKT residual above this is worth polishing.
 const POLISHED_RESIDUAL: f64 = 1e-6;
-/// An exploration goes on while this multiple of what a step promises would lead below the cost to beat.
-const MAX_GAIN_PER_PROMISE: f64 = 10.0;
+/// An exploration goes on while this multiple of what a step promises would lead below the cost to beat. On the recorded
+/// problems 1 misses one cheaper class in ten, and 3 costs five times the time of 2 without finding more.
+const MAX_GAIN_PER_PROMISE: f64 = 2.0;
 
 /// A descent and the memory that it needs; nothing is allocated once it has its size.
 #[derive(Clone, Debug, Default)]
@@ -79,10 +80,9 @@ impl<S: StageSolver> Descent<S> {
             self.previous_step.clone_from(&self.steps.step);
             self.steps.solve_for_direction(problem, &mut now, warm, damping)?;
             let promised = -self.steps.problem.qp.change(&self.steps.step);
-            // A cold first step is a Gauss-Newton step from a motion far from optimal: it is taken at its word.
-            let gain = if warm { MAX_GAIN_PER_PROMISE * (1.0 + damping) } else { 1.0 };
-            if now.cost.total - gain * promised.max(0.0) > below {
-                return Err(DescentError::NotBelow { bar: below, promised: now.cost.total - promised });
+            let expected = now.cost.total - MAX_GAIN_PER_PROMISE * (1.0 + damping) * promised.max(0.0);
+            if expected > below {
+                return Err(DescentError::NotBelow { bar: below, expected });
             }
             let predicted = self.search.predict(&self.steps, &now.cost, promised);
             let little = predicted <= tolerances.decrease * (1.0 + now.cost.total.abs());

@@ -9,6 +9,9 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::StageSolver;
 
+/// Most steps of a descent in another class of motion.
+const EXPLORATION_LIMIT: usize = 40;
+
 /// A trajectory optimiser: a stage solver and the memory that a descent needs.
 #[derive(Clone, Debug, Default)]
 pub struct Optimiser<S> {
@@ -71,7 +74,8 @@ impl<S: StageSolver> Optimiser<S> {
         bar: Bar,
     ) -> Result<Exploration, DescentError> {
         let now = self.descent.begin(problem, from)?;
-        let found = self.descent.run(problem, now, false, bar.give_up_above(), &self.tolerances)?;
+        let tolerances = Tolerances { iteration_limit: EXPLORATION_LIMIT, ..self.tolerances };
+        let found = self.descent.run(problem, now, false, bar.give_up_above(), &tolerances)?;
         if found.cost.total < bar.cost {
             self.descent.leave(&mut self.warm_start);
             return Ok(Exploration::Cheaper(found));

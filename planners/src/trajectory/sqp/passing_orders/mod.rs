@@ -32,9 +32,9 @@ pub const MIN_COST_ADVANTAGE: f64 = 1e-3;
 /// Most classes that are examined for one plan, the cheapest representatives first.
 const MAX_CLASSES: usize = 6;
 /// With every other class dearer than this multiple of the plan, the comparison rests.
-const FAR_COST_RATIO: f64 = 2.0;
+const FAR_COST_RATIO: f64 = 3.0;
 /// Number of plans without a comparison then.
-const PLANS_AT_REST: usize = 3;
+const PLANS_AT_REST: usize = 2;
 
 /// The cheapest motion of a class.
 struct Representative {
@@ -84,42 +84,42 @@ impl<S: StageSolver> Optimiser<S> {
     ) -> Result<Optimum, DescentError> {
         let held = best.as_ref().ok().map(|optimum| (PassingClass::of(problem, &optimum.iterate), optimum));
         let rivals = representatives(problem, held);
-        let mut cheapest_promise = f64::INFINITY;
+        let mut cheapest_rival = f64::INFINITY;
         for Representative { iterate, .. } in rivals.into_iter().take(MAX_CLASSES) {
             let bar = self.bar(&best);
             match self.explore_class(problem, iterate, bar) {
                 Ok(Exploration::Cheaper(found)) => match &mut best {
                     Ok(held) => {
-                        cheapest_promise = cheapest_promise.min(held.cost.total);
+                        cheapest_rival = cheapest_rival.min(held.cost.total);
                         held.give_way(found);
                     }
                     Err(_) => best = Ok(found),
                 },
                 Ok(Exploration::Dearer(found)) => {
-                    cheapest_promise = cheapest_promise.min(found.cost.total);
+                    cheapest_rival = cheapest_rival.min(found.cost.total);
                     if let Ok(held) = &mut best {
                         held.note_rival(found);
                     }
                 }
-                Err(DescentError::NotBelow { promised, .. }) => cheapest_promise = cheapest_promise.min(promised),
+                Err(DescentError::NotBelow { expected, .. }) => cheapest_rival = cheapest_rival.min(expected),
                 Err(_) => {}
             }
         }
         if let Ok(held) = &best
-            && cheapest_promise > FAR_COST_RATIO * held.cost.total
+            && cheapest_rival > FAR_COST_RATIO * held.cost.total
         {
             self.warm_start.plans_at_rest = PLANS_AT_REST;
         }
         best
     }
 
-    /// What an optimum of another class has to beat. In trouble no hysteresis holds, and nothing is given up early.
+    /// What an optimum of another class has to beat. In trouble no hysteresis holds.
     fn bar(&self, best: &Result<Optimum, DescentError>) -> Bar {
         match best {
             Ok(held) if self.tolerances.trust(best) => {
                 Bar { cost: held.cost.total - MIN_COST_ADVANTAGE * (1.0 + held.cost.total.abs()), gives_up: true }
             }
-            Ok(held) => Bar { cost: held.bar(), gives_up: false },
+            Ok(held) => Bar { cost: held.bar(), gives_up: true },
             Err(_) => Bar { cost: f64::INFINITY, gives_up: false },
         }
     }
