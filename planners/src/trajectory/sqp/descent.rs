@@ -80,9 +80,10 @@ impl<S: StageSolver> Descent<S> {
             self.previous_step.clone_from(&self.steps.step);
             self.steps.solve_for_direction(problem, &mut now, warm, damping)?;
             let promised = -self.steps.problem.qp.change(&self.steps.step);
-            let expected = now.cost.total - MAX_GAIN_PER_PROMISE * (1.0 + damping) * promised.max(0.0);
-            if expected > below {
-                return Err(DescentError::NotBelow { bar: below, expected });
+            let at_best = now.cost.total - MAX_GAIN_PER_PROMISE * (1.0 + damping) * promised.max(0.0);
+            if at_best > below {
+                let expected = now.cost.total - promised.max(0.0);
+                return Err(DescentError::NotBelow { bar: below, expected, statistics: now.statistics });
             }
             let predicted = self.search.predict(&self.steps, &now.cost, promised);
             let little = predicted <= tolerances.decrease * (1.0 + now.cost.total.abs());

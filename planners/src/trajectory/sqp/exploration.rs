@@ -1,6 +1,6 @@
 //! Explorations: descents in another class of motion, in search of something cheaper than what is at hand.
 
-use super::optimum::{Optimum, RunnerUp};
+use super::optimum::{Optimum, RunnerUp, Statistics};
 
 /// What an exploration has to beat.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,15 +32,20 @@ impl Optimum {
         let held = std::mem::replace(self, found);
         let mut work = held.statistics;
         work.add(&self.statistics);
-        self.statistics = super::Statistics { residual: self.statistics.residual, ..work };
+        self.statistics = Statistics { residual: self.statistics.residual, ..work };
         self.runner_up = Some(Box::new(RunnerUp { cost: held.cost.total, iterate: held.iterate }));
+    }
+
+    /// Counts the work of an exploration that led nowhere.
+    pub(super) fn count(&mut self, work: &Statistics) {
+        let residual = self.statistics.residual;
+        self.statistics.add(work);
+        self.statistics.residual = residual;
     }
 
     /// Notes a dearer optimum of another class, which is the runner-up if there is no cheaper one.
     pub(super) fn note_rival(&mut self, rival: Optimum) {
-        let mut work = self.statistics;
-        work.add(&rival.statistics);
-        self.statistics = super::Statistics { residual: self.statistics.residual, ..work };
+        self.count(&rival.statistics);
         if self.runner_up.as_ref().is_none_or(|known| rival.cost.total < known.cost) {
             self.runner_up = Some(Box::new(RunnerUp { cost: rival.cost.total, iterate: rival.iterate }));
         }

@@ -10,7 +10,7 @@ use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::StageSolver;
 
 /// Most steps of a descent in another class of motion.
-const EXPLORATION_LIMIT: usize = 40;
+const EXPLORATION_LIMIT: usize = 20;
 
 /// A trajectory optimiser: a stage solver and the memory that a descent needs.
 #[derive(Clone, Debug, Default)]

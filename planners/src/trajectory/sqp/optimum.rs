@@ -86,12 +86,14 @@ pub enum DescentError {
     #[error("not converged after {} programmes: residual {:.1e}", .0.programmes, .0.residual)]
     NotConverged(Statistics),
     /// An exploration that was given up: even many times what its steps promise would not end below the cost to beat.
-    #[error("no optimum below a cost of {bar} in sight: {expected} is expected")]
+    #[error("no optimum below a cost of {bar} in sight: {expected} is promised")]
     NotBelow {
         /// The cost to beat.
         bar: f64,
-        /// The cost that the last step gave reason to expect, at best.
+        /// The cost that the last step promised.
         expected: f64,
+        /// The work that it took.
+        statistics: Statistics,
     },
     /// The problem holds a number that is not finite.
     #[error("the problem has a cost that is not a number")]

@@ -30,11 +30,16 @@ use motions::for_each_motion;
 /// Another class replaces the plan at hand if it saves this share of `1 + cost`.
 pub const MIN_COST_ADVANTAGE: f64 = 1e-3;
 /// Most classes that are examined for one plan, the cheapest representatives first.
-const MAX_CLASSES: usize = 6;
-/// With every other class dearer than this multiple of the plan, the comparison rests.
-const FAR_COST_RATIO: f64 = 3.0;
-/// Number of plans without a comparison then.
-const PLANS_AT_REST: usize = 2;
+const MAX_CLASSES: usize = 4;
+/// For how many plans a class is not examined again that was dearer than the plan at hand by at least this ratio.
+const RESTS: [(f64, usize); 3] = [(3.0, 4), (1.5, 2), (1.1, 1)];
+
+/// A class that was examined and is not to be examined again for a while.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestingClass {
+    class: PassingClass,
+    plans: usize,
+}
 
 /// The cheapest motion of a class.
 struct Representative {
@@ -53,10 +58,6 @@ impl<S: StageSolver> Optimiser<S> {
         let found = self.descend(problem, guess);
         let trusted = self.tolerances.trust(&found);
         if trusted && !(self.compares_passing_orders && self.has_rivals(problem)) {
-            return found;
-        }
-        if trusted && self.warm_start.plans_at_rest > 0 {
-            self.warm_start.plans_at_rest -= 1;
             return found;
         }
         self.compare_classes(problem, found)
@@ -83,32 +84,45 @@ impl<S: StageSolver> Optimiser<S> {
         mut best: Result<Optimum, DescentError>,
     ) -> Result<Optimum, DescentError> {
         let held = best.as_ref().ok().map(|optimum| (PassingClass::of(problem, &optimum.iterate), optimum));
-        let rivals = representatives(problem, held);
-        let mut cheapest_rival = f64::INFINITY;
-        for Representative { iterate, .. } in rivals.into_iter().take(MAX_CLASSES) {
-            let bar = self.bar(&best);
-            match self.explore_class(problem, iterate, bar) {
-                Ok(Exploration::Cheaper(found)) => match &mut best {
-                    Ok(held) => {
-                        cheapest_rival = cheapest_rival.min(held.cost.total);
-                        held.give_way(found);
-                    }
-                    Err(_) => best = Ok(found),
-                },
-                Ok(Exploration::Dearer(found)) => {
-                    cheapest_rival = cheapest_rival.min(found.cost.total);
-                    if let Ok(held) = &mut best {
-                        held.note_rival(found);
-                    }
-                }
-                Err(DescentError::NotBelow { expected, .. }) => cheapest_rival = cheapest_rival.min(expected),
-                Err(_) => {}
+        if self.tolerances.trust(&best) && !self.warm_start.resting_classes.is_empty() {
+            let resting = &mut self.warm_start.resting_classes;
+            resting.iter_mut().for_each(|class| class.plans -= 1);
+            resting.retain(|class| class.plans > 0);
+            if !resting.is_empty() {
+                return best;
             }
         }
-        if let Ok(held) = &best
-            && cheapest_rival > FAR_COST_RATIO * held.cost.total
-        {
-            self.warm_start.plans_at_rest = PLANS_AT_REST;
+        let rivals = representatives(problem, held);
+        let mut nearest = f64::INFINITY;
+        for Representative { class, iterate, .. } in rivals.into_iter().take(MAX_CLASSES) {
+            let bar = self.bar(&best);
+            if bar.cost <= 0.0 {
+                // No cost is negative: the plan cannot be beaten by more than the hysteresis.
+                break;
+            }
+            let explored = self.explore_class(problem, iterate, bar);
+            let _ = class;
+            let cost = match &explored {
+                Ok(Exploration::Cheaper(_)) => 0.0,
+                Ok(Exploration::Dearer(found)) => found.cost.total,
+                Err(DescentError::NotBelow { expected, .. }) => *expected,
+                Err(_) => f64::INFINITY,
+            };
+            nearest = nearest.min(cost);
+            match (explored, &mut best) {
+                (Ok(Exploration::Cheaper(found)), Ok(held)) => held.give_way(found),
+                (Ok(Exploration::Cheaper(found)), best) => *best = Ok(found),
+                (Ok(Exploration::Dearer(found)), Ok(held)) => held.note_rival(found),
+                (Err(DescentError::NotBelow { statistics, .. }), Ok(held)) => held.count(&statistics),
+                _ => {}
+            }
+        }
+        if let Ok(held) = &best {
+            let rest = RESTS.into_iter().find(|(ratio, _)| nearest > ratio * held.cost.total);
+            self.warm_start.resting_classes.clear();
+            if let Some((_, plans)) = rest {
+                self.warm_start.resting_classes.push(RestingClass { class: PassingClass::default(), plans });
+            }
         }
         best
     }

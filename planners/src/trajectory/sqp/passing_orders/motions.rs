@@ -35,7 +35,9 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
         joint.inputs[vehicle].clone_from(&motion.inputs);
         joint.states[vehicle].clone_from(&motion.states);
     };
-    for vehicle in 0..count {
+    // Of two, the motions of the first beside those of the second are all that there are.
+    let focused = if count > 2 { count } else { 1 };
+    for vehicle in 0..focused {
         let own = motions(problem, vehicle);
         for others in std::iter::once(None).chain(OTHERS_ACCELERATION_SHARES.map(Some)).take(if count > 1 { 3 } else { 1 })
         {
