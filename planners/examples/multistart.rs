@@ -119,8 +119,19 @@ fn drive(name: &str, seed: u64, vehicles: &[Vehicle], tallies: &mut BTreeMap<Str
             let family = name.rsplit_once('/').map_or(name, |(family, _)| family);
             let tally = tallies.entry(format!("{family}/{kind}")).or_default();
             tally.plan_ms.push(took);
-            if std::env::var("TRACE").is_ok() && index == 0 { eprintln!("{tick} {took:.2} ms {:?} {:?} {:?}", plan.statistics, plan.value_of(&interplay_planners::diagnostic::COST), plan.events.iter().map(|event| event.text.clone()).collect::<Vec<_>>()); }
-            if let Some(problem) = plan.problem.as_deref().filter(|_| (index == 0 || kind != "cooperative") && tick % every == 0 && tick < 50) {
+            if std::env::var("TRACE").is_ok() && index == 0 {
+                eprintln!(
+                    "{tick} {took:.2} ms {:?} {:?} {:?}",
+                    plan.statistics,
+                    plan.value_of(&interplay_planners::diagnostic::COST),
+                    plan.events.iter().map(|event| event.text.clone()).collect::<Vec<_>>()
+                );
+            }
+            if let Some(problem) = plan
+                .problem
+                .as_deref()
+                .filter(|_| (index == 0 || kind != "cooperative") && tick % every == 0 && tick < 50)
+            {
                 tally.problems += 1;
                 let cost = cost_of(problem, &plan);
                 let found = cheapest(problem, seed * 1000 + tick);

@@ -89,8 +89,7 @@ fn solve_all<S: StageSolver>(
         let guess = starts.get(&recorded.id).map_or_else(|| recorded.guess(), inputs);
         let memory = recorded.memory();
         let remember = |optimiser: &mut Optimiser<S>| optimiser.warm_start = memory.clone();
-        let (outcome, time_ms) =
-            timed(repeats, &mut optimiser, remember, |it| it.optimise(&problem, &guess));
+        let (outcome, time_ms) = timed(repeats, &mut optimiser, remember, |it| it.optimise(&problem, &guess));
         Outcome::new(recorded.id.clone(), start_cost(&problem, &guess), outcome, time_ms)
     };
     problems.iter().map(&mut solve).collect()

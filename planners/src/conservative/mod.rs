@@ -34,7 +34,11 @@ pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
 impl Conservative {
     /// A planner without a last plan.
     pub fn new(settings: Settings) -> Self {
-        Conservative { settings, optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders), last: None }
+        Conservative {
+            settings,
+            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            last: None,
+        }
     }
 
     /// Plans with the predictions of all other vehicles as constraints.

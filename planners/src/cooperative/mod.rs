@@ -51,7 +51,11 @@ impl Settings {
 impl Cooperative {
     /// A planner without a last plan.
     pub fn new(settings: Settings) -> Self {
-        Cooperative { settings, optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders), last: Vec::new() }
+        Cooperative {
+            settings,
+            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            last: Vec::new(),
+        }
     }
 
     /// Solves the joint problem and returns the plan of the ego.

@@ -48,7 +48,11 @@ pub struct Human {
 impl Human {
     /// A driver who has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        Human { settings, optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders), last: None }
+        Human {
+            settings,
+            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            last: None,
+        }
     }
 
     /// Plans the next move.

@@ -22,7 +22,7 @@ pub(super) struct Filter {
 
 impl Default for Filter {
     fn default() -> Self {
-        Filter { optimiser: Optimiser::resuming(Robust::default()) }
+        Filter { optimiser: Optimiser::resuming(Robust::default()).comparing(false) }
     }
 }
 

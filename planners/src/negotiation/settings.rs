@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::DriverSettingError;
 use super::acceptance::Acceptance;
+use crate::DriverSettingError;
 use crate::predict::Prediction;
 
 /// Negotiation with concession and persuasion (chapter 6).

@@ -20,7 +20,8 @@ pub use participant::Participant;
 pub use penalty::Penalty;
 pub use problem::Problem;
 pub use sqp::{
-    DescentError, MIN_COST_ADVANTAGE, Optimiser, Optimum, PassingClass, RunnerUp, Statistics, StepProblem, Tolerances, WarmStart,
+    DescentError, MIN_COST_ADVANTAGE, Optimiser, Optimum, PassingClass, RunnerUp, Statistics, StepProblem, Tolerances,
+    WarmStart,
 };
 pub use stage::{
     Costates, Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,

@@ -13,7 +13,7 @@ pub struct WarmStart {
     /// How far the descent's first step was expected to go from where it began.
     pub reach: Option<Reach>,
     /// For how many more plans the passing orders are not compared.
-    pub resting_classes: Vec<super::passing_orders::RestingClass>,
+    pub plans_at_rest: usize,
 }
 
 impl WarmStart {

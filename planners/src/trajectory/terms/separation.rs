@@ -42,7 +42,8 @@ impl RowTerm for Separation {
     }
 
     fn relative_position(&self, stage: usize, iterate: &Iterate) -> Option<[f64; 2]> {
-        let ([x, y], [centre_x, centre_y]) = (iterate.states[self.vehicle][stage + 1].position(), iterate.states[self.from][stage + 1].position());
+        let ([x, y], [centre_x, centre_y]) =
+            (iterate.states[self.vehicle][stage + 1].position(), iterate.states[self.from][stage + 1].position());
         Some([x - centre_x, y - centre_y])
     }
 

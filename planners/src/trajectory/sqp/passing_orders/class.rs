@@ -83,7 +83,8 @@ mod tests {
 
     #[test]
     fn passing_on_the_left_and_on_the_right_end_a_full_turn_apart() {
-        let (left, right) = ([[-2.0, 0.1], [-1.0, 1.5], [1.0, 1.5], [2.0, 0.1]], [[-2.0, 0.1], [0.0, -1.5], [2.0, 0.1]]);
+        let (left, right) =
+            ([[-2.0, 0.1], [-1.0, 1.5], [1.0, 1.5], [2.0, 0.1]], [[-2.0, 0.1], [0.0, -1.5], [2.0, 0.1]]);
         assert_eq!((reached(&left), reached(&right)), (0, 4));
         assert_eq!(reached(&left[..2]), 1, "beside it");
         assert_eq!(reached(&left[..1]), 2, "behind it");

@@ -11,7 +11,8 @@
 //! 4. The cheapest optimum wins if it saves at least [`MIN_COST_ADVANTAGE`] of `1 + cost`: the hysteresis between plans that
 //!    are equally good.
 //!
-//! Where every other class is far dearer than the plan, the next few plans go without the comparison.
+//! After a comparison that changed nothing the next few plans go without one, more of them where every other class is far
+//! dearer: an order that becomes cheaper is taken two plans later at most, four where it was far from it.
 
 mod class;
 mod motions;
@@ -31,15 +32,10 @@ use motions::for_each_motion;
 pub const MIN_COST_ADVANTAGE: f64 = 1e-3;
 /// Most classes that are examined for one plan, the cheapest representatives first.
 const MAX_CLASSES: usize = 4;
-/// For how many plans a class is not examined again that was dearer than the plan at hand by at least this ratio.
-const RESTS: [(f64, usize); 3] = [(3.0, 4), (1.5, 2), (1.1, 1)];
-
-/// A class that was examined and is not to be examined again for a while.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RestingClass {
-    class: PassingClass,
-    plans: usize,
-}
+/// With every other class dearer than this multiple of the plan, the comparison rests longer.
+const FAR_COST_RATIO: f64 = 2.0;
+/// Number of plans without a comparison after one that changed nothing, and after one that found all others far dearer.
+const PLANS_AT_REST: [usize; 2] = [2, 4];
 
 /// The cheapest motion of a class.
 struct Representative {
@@ -58,6 +54,10 @@ impl<S: StageSolver> Optimiser<S> {
         let found = self.descend(problem, guess);
         let trusted = self.tolerances.trust(&found);
         if trusted && !(self.compares_passing_orders && self.has_rivals(problem)) {
+            return found;
+        }
+        if trusted && self.warm_start.plans_at_rest > 0 {
+            self.warm_start.plans_at_rest -= 1;
             return found;
         }
         self.compare_classes(problem, found)
@@ -84,46 +84,34 @@ impl<S: StageSolver> Optimiser<S> {
         mut best: Result<Optimum, DescentError>,
     ) -> Result<Optimum, DescentError> {
         let held = best.as_ref().ok().map(|optimum| (PassingClass::of(problem, &optimum.iterate), optimum));
-        if self.tolerances.trust(&best) && !self.warm_start.resting_classes.is_empty() {
-            let resting = &mut self.warm_start.resting_classes;
-            resting.iter_mut().for_each(|class| class.plans -= 1);
-            resting.retain(|class| class.plans > 0);
-            if !resting.is_empty() {
-                return best;
-            }
-        }
-        let rivals = representatives(problem, held);
-        let mut nearest = f64::INFINITY;
-        for Representative { class, iterate, .. } in rivals.into_iter().take(MAX_CLASSES) {
+        let (mut nearest, mut has_changed) = (f64::INFINITY, held.is_none());
+        for Representative { iterate, .. } in representatives(problem, held).into_iter().take(MAX_CLASSES) {
             let bar = self.bar(&best);
             if bar.cost <= 0.0 {
                 // No cost is negative: the plan cannot be beaten by more than the hysteresis.
                 break;
             }
-            let explored = self.explore_class(problem, iterate, bar);
-            let _ = class;
-            let cost = match &explored {
-                Ok(Exploration::Cheaper(_)) => 0.0,
-                Ok(Exploration::Dearer(found)) => found.cost.total,
-                Err(DescentError::NotBelow { expected, .. }) => *expected,
-                Err(_) => f64::INFINITY,
-            };
-            nearest = nearest.min(cost);
-            match (explored, &mut best) {
-                (Ok(Exploration::Cheaper(found)), Ok(held)) => held.give_way(found),
-                (Ok(Exploration::Cheaper(found)), best) => *best = Ok(found),
-                (Ok(Exploration::Dearer(found)), Ok(held)) => held.note_rival(found),
-                (Err(DescentError::NotBelow { statistics, .. }), Ok(held)) => held.count(&statistics),
+            match (self.explore_class(problem, iterate, bar), &mut best) {
+                (Ok(Exploration::Cheaper(found)), best) => {
+                    has_changed = true;
+                    match best {
+                        Ok(held) => held.give_way(found),
+                        Err(_) => *best = Ok(found),
+                    }
+                }
+                (Ok(Exploration::Dearer(found)), Ok(held)) => {
+                    nearest = nearest.min(found.cost.total);
+                    held.note_rival(found);
+                }
+                (Err(DescentError::NotBelow { statistics, expected, .. }), Ok(held)) => {
+                    nearest = nearest.min(expected);
+                    held.count(&statistics);
+                }
                 _ => {}
             }
         }
-        if let Ok(held) = &best {
-            let rest = RESTS.into_iter().find(|(ratio, _)| nearest > ratio * held.cost.total);
-            self.warm_start.resting_classes.clear();
-            if let Some((_, plans)) = rest {
-                self.warm_start.resting_classes.push(RestingClass { class: PassingClass::default(), plans });
-            }
-        }
+        let is_far = best.as_ref().is_ok_and(|held| nearest > FAR_COST_RATIO * held.cost.total);
+        self.warm_start.plans_at_rest = if has_changed { 0 } else { PLANS_AT_REST[usize::from(is_far)] };
         best
     }
 

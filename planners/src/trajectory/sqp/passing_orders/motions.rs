@@ -39,7 +39,8 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
     let focused = if count > 2 { count } else { 1 };
     for vehicle in 0..focused {
         let own = motions(problem, vehicle);
-        for others in std::iter::once(None).chain(OTHERS_ACCELERATION_SHARES.map(Some)).take(if count > 1 { 3 } else { 1 })
+        for others in
+            std::iter::once(None).chain(OTHERS_ACCELERATION_SHARES.map(Some)).take(if count > 1 { 3 } else { 1 })
         {
             for other in (0..count).filter(|other| *other != vehicle) {
                 let motion = others.and_then(|share| simple_motion(problem, other, share, false));
@@ -58,9 +59,7 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
 /// The motion that a vehicle plans so far; without a plan it keeps its speed.
 fn planned_motion(problem: &Problem, planned: Option<&Iterate>, vehicle: usize) -> Motion {
     match planned {
-        Some(planned) => {
-            Motion { inputs: planned.inputs[vehicle].clone(), states: planned.states[vehicle].clone() }
-        }
+        Some(planned) => Motion { inputs: planned.inputs[vehicle].clone(), states: planned.states[vehicle].clone() },
         None => simple_motion(problem, vehicle, 0.0, false).unwrap_or_else(|| {
             let participant = &problem.participants[vehicle];
             let inputs = participant.admissible(&[], problem.horizon);
