@@ -14,6 +14,7 @@ pub struct Settings {
     pub beta: f64,
     /// How much acceptance strengthens persuasion, `γ` of `α = 1 + γ p_a` (eq. 6.20); 0 or more.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
+    #[schemars(extend("x-mechanism" = { "reinforcement": 0.0 }))]
     pub gamma: f64,
     /// A rise of the acceptance probability of at most this much counts as no progress, `ε`.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
@@ -36,16 +37,20 @@ pub struct Settings {
     pub other_normaliser: f64,
     /// Smallest weight `w` of the ego's cost (eq. 6.18 never lets it recover).
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
+    #[schemars(extend("x-mechanism" = { "concession": 1.0 }))]
     pub weight_floor: f64,
     /// Whether the persuasion constraint is imposed (eq. 6.23).
+    #[schemars(extend("x-mechanism" = { "persuasion": false }))]
     pub persuasion: bool,
     /// Whether the negotiated input is applied only if a conservative plan still exists after it.
+    #[schemars(extend("x-mechanism" = { "safety filter": false }))]
     pub safety_filter: bool,
     /// Every how many steps full braking and full acceleration are tried as starting guesses even though the last plan
     /// improved without trouble; 0 tries them only in trouble.
     pub look_around_every: usize,
     /// Whether, at every step, the plan is compared with one on the other side of each vehicle whose ellipse it touches, and
     /// the cheaper one is followed. Without it a plan stays on the side where it began, for half the time.
+    #[schemars(extend("x-mechanism" = { "look across": false }))]
     pub look_across: bool,
     /// What the others are expected to do. At constant velocity nobody ever seems to accept a proposal.
     pub prediction: Prediction,

@@ -1,0 +1,90 @@
+//! What the outcome of a drive depends on, as a table and a few sentences.
+
+use std::fmt::Write;
+
+use interplay_simulation::why::{WhyReport, WhyRun};
+
+use super::columns::{Align, lines};
+
+/// A line for every run, and below them in words what the order, the times and the expectations depend on.
+pub fn why(title: &str, report: &WhyReport) -> String {
+    let mut text = String::new();
+    // Writing to a String cannot fail.
+    let _ = write_why(&mut text, title, report);
+    text
+}
+
+fn write_why(text: &mut String, title: &str, report: &WhyReport) -> std::fmt::Result {
+    use Align::{Left, Right};
+    writeln!(text, "{title}  [{}]", report.scenario)?;
+    let names = report.runs.iter().take(1).flat_map(|run| &run.vehicles).map(|vehicle| format!("{} s", vehicle.name));
+    let names: Vec<String> = names.collect();
+    let mut header = vec![("what is changed", Left), ("order", Left)];
+    header.extend(names.iter().map(|name| (name.as_str(), Right)));
+    header.extend([("gap m", Right), ("expectations", Left)]);
+    lines(&header, report.runs.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))?;
+    writeln!(text, "\n{}", conclusion(report))
+}
+
+fn row(run: &WhyRun) -> Vec<String> {
+    let change = run.change.clone().unwrap_or_else(|| "nothing".to_owned());
+    let mut row = vec![change, run.order.join(", ")];
+    let time = |time_s: Option<f64>| time_s.map_or_else(|| "-".to_owned(), |time_s| format!("{time_s:.1}"));
+    row.extend(run.vehicles.iter().map(|vehicle| time(vehicle.completed_s)));
+    row.push(run.min_gap_m.map_or_else(|| "-".to_owned(), |gap_m| format!("{gap_m:.3}")));
+    let mut verdict = match run.expectations_hold {
+        None => "none stated".to_owned(),
+        Some(true) => "hold".to_owned(),
+        Some(false) => format!("FAIL: {}", run.failed.join(", ")),
+    };
+    if run.collisions > 0 {
+        verdict += "; COLLISION";
+    }
+    if run.plan_failures > 0 {
+        verdict += &format!("; {} failed {}", run.plan_failures, if run.plan_failures == 1 { "plan" } else { "plans" });
+    }
+    row.push(verdict);
+    row
+}
+
+/// What the table shows, in sentences.
+fn conclusion(report: &WhyReport) -> String {
+    let mut sentences = vec![match report.order_depends_on.as_slice() {
+        [] => "The order is the same in all of these runs.".to_owned(),
+        factors => format!("The order depends on {}.", joined(factors, "and")),
+    }];
+    if !report.order_depends_on.is_empty() && !report.order_does_not_depend_on.is_empty() {
+        sentences.push(format!("It does not depend on {}.", joined(&report.order_does_not_depend_on, "or")));
+    }
+    if !report.times_depend_on.is_empty() {
+        let factors = joined(&report.times_depend_on, "and");
+        sentences.push(format!("In the same order, somebody arrives at another time depending on {factors}."));
+    }
+    if !report.expectations_depend_on.is_empty() {
+        let factors = joined(&report.expectations_depend_on, "and");
+        sentences.push(format!("Whether the expectations hold depends on {factors}."));
+    }
+    sentences.join("\n")
+}
+
+/// Words in a row: "a, b and c".
+fn joined(words: &[String], last: &str) -> String {
+    match words {
+        [] => String::new(),
+        [only] => only.clone(),
+        [first @ .., end] => format!("{} {last} {end}", first.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_joined_as_in_a_sentence() {
+        let words = ["a", "b", "c"].map(str::to_owned);
+        assert_eq!(joined(&words[..1], "and"), "a");
+        assert_eq!(joined(&words[..2], "and"), "a and b");
+        assert_eq!(joined(&words, "or"), "a, b or c");
+    }
+}
