@@ -20,7 +20,7 @@ const PLANNERS: [&str; 3] = ["conservative", "cooperative", "idm"];
 /// One change of a scenario, and the changed scenario.
 #[derive(Clone, Debug)]
 pub struct StandardChange {
-    /// On what the outcome depends if this change changes it, such as "the style of front".
+    /// On what the outcome depends if this change changes it, such as "front's style".
     pub factor: String,
     /// What is changed, such as "front: style = tough".
     pub change: String,
@@ -86,23 +86,23 @@ fn word(style: Style) -> &'static str {
 fn style_change(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
     let word = word(style);
     let set = format!("vehicle.{name}.driver.style=\"{word}\"");
-    (format!("the style of {name}"), format!("{name}: style = {word}"), set)
+    (format!("{name}'s style"), format!("{name}: style = {word}"), set)
 }
 
 fn human(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
     let word = word(style);
     let set = format!("vehicle.{name}.driver={{ kind = \"human\", style = \"{word}\" }}");
-    (format!("the driver of {name}"), format!("{name}: driver = human, {word}"), set)
+    (format!("{name}'s driver"), format!("{name}: driver = human, {word}"), set)
 }
 
 fn planner_change(Vehicle { name, .. }: &Vehicle, kind: &str) -> Change {
     let set = format!("vehicle.{name}.driver.kind=\"{kind}\"");
-    (format!("the planner of {name}"), format!("{name}: planner = {kind}"), set)
+    (format!("{name}'s planner"), format!("{name}: planner = {kind}"), set)
 }
 
 fn prediction_change(Vehicle { name, .. }: &Vehicle, word: &str) -> Change {
     let set = format!("vehicle.{name}.driver.prediction=\"{word}\"");
-    (format!("what {name} knows of the others' plans"), format!("{name}: prediction = {word}"), set)
+    (format!("{name}'s knowledge of plans"), format!("{name}: prediction = {word}"), set)
 }
 
 /// Switches a mechanism off, if this setting is one and it is on.
@@ -111,7 +111,7 @@ fn mechanism_change(vehicle: &Vehicle, key: &str, property: SchemaNode, value: &
     let name = &vehicle.name;
     let set = format!("vehicle.{name}.driver.{key}={}", toml_of(off));
     let change = format!("{name}: {key} = {}", toml_of(off));
-    (value != off).then(|| (format!("the {mechanism} of {name}"), change, set))
+    (value != off).then(|| (format!("{name}'s {mechanism}"), change, set))
 }
 
 /// A JSON value as TOML, on one line.

@@ -3,6 +3,7 @@
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`authoring`], [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
+//! - what would have happened: [`counterfactuals`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
 //! - what scenarios demand of drivers: [`unsuited`]
@@ -17,6 +18,7 @@ mod book;
 mod building;
 mod collisions;
 mod command;
+mod counterfactuals;
 mod determinism;
 mod documents;
 mod failures;

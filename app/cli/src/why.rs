@@ -57,7 +57,11 @@ impl Why {
             return ExitStatus::BadInput;
         }
         let printed = self.run(&scenario, &changes).and_then(|report| {
-            print(&if self.json { json("the results", &report)? } else { report::why(&scenario.title, &report) });
+            print(&if self.json {
+                json("the results", &report)?
+            } else {
+                report::why(&scenario.title, &self.words(), &report)
+            });
             Ok(())
         });
         match printed {
@@ -67,6 +71,12 @@ impl Why {
                 ExitStatus::Unfinished
             }
         }
+    }
+
+    /// The words that run the scenario itself.
+    fn words(&self) -> Vec<String> {
+        let sets = self.sets.iter().flat_map(|change| ["--set".to_owned(), change.clone()]);
+        ["interplay", "run", &self.scenario].map(str::to_owned).into_iter().chain(sets).collect()
     }
 
     fn load(&self) -> Result<(Scenario, Vec<StandardChange>), LoadError> {

@@ -5,16 +5,18 @@ use std::fmt::Write;
 use interplay_simulation::why::{WhyReport, WhyRun};
 
 use super::columns::{Align, lines};
+use crate::shell;
 
-/// A line for every run, and below them in words what the order, the times and the expectations depend on.
-pub fn why(title: &str, report: &WhyReport) -> String {
+/// A line for every run, and below them in words what the order, the times and the expectations depend on; `command` are the
+/// words that run the scenario itself.
+pub fn why(title: &str, command: &[String], report: &WhyReport) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
-    let _ = write_why(&mut text, title, report);
+    let _ = write_why(&mut text, title, command, report);
     text
 }
 
-fn write_why(text: &mut String, title: &str, report: &WhyReport) -> std::fmt::Result {
+fn write_why(text: &mut String, title: &str, command: &[String], report: &WhyReport) -> std::fmt::Result {
     use Align::{Left, Right};
     writeln!(text, "{title}  [{}]", report.scenario)?;
     let names = report.runs.iter().take(1).flat_map(|run| &run.vehicles).map(|vehicle| format!("{} s", vehicle.name));
@@ -23,7 +25,11 @@ fn write_why(text: &mut String, title: &str, report: &WhyReport) -> std::fmt::Re
     header.extend(names.iter().map(|name| (name.as_str(), Right)));
     header.extend([("gap m", Right), ("expectations", Left)]);
     lines(&header, report.runs.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))?;
-    writeln!(text, "\n{}", conclusion(report))
+    writeln!(text, "\n{}", conclusion(report))?;
+    // The most instructive of the runs: the first in another order.
+    let Some(run) = report.runs.iter().find(|run| run.order_differs).or(report.runs.last()) else { return Ok(()) };
+    let set = run.set.iter().flat_map(|set| ["--set", set]);
+    writeln!(text, "To see one of these runs: {}", shell::line(command.iter().map(String::as_str).chain(set)))
 }
 
 fn row(run: &WhyRun) -> Vec<String> {
@@ -51,27 +57,42 @@ fn row(run: &WhyRun) -> Vec<String> {
 fn conclusion(report: &WhyReport) -> String {
     let mut sentences = vec![match report.order_depends_on.as_slice() {
         [] => "The order is the same in all of these runs.".to_owned(),
-        factors => format!("The order depends on {}.", joined(factors, "and")),
+        factors => format!("The order depends on {}.", grouped(factors, "and")),
     }];
     if !report.order_depends_on.is_empty() && !report.order_does_not_depend_on.is_empty() {
-        sentences.push(format!("It does not depend on {}.", joined(&report.order_does_not_depend_on, "or")));
+        sentences.push(format!("It does not depend on {}.", grouped(&report.order_does_not_depend_on, "or")));
     }
     if !report.times_depend_on.is_empty() {
-        let factors = joined(&report.times_depend_on, "and");
+        let factors = grouped(&report.times_depend_on, "and");
         sentences.push(format!("In the same order, somebody arrives at another time depending on {factors}."));
     }
     if !report.expectations_depend_on.is_empty() {
-        let factors = joined(&report.expectations_depend_on, "and");
+        let factors = grouped(&report.expectations_depend_on, "and");
         sentences.push(format!("Whether the expectations hold depends on {factors}."));
     }
     sentences.join("\n")
 }
 
+/// Factors in a row, those of one vehicle together: "ego's planner and persuasion, and front's style".
+fn grouped(factors: &[String], last: &str) -> String {
+    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
+    for factor in factors {
+        let (owner, aspect) = factor.split_once("'s ").unwrap_or(("", factor));
+        match groups.iter_mut().find(|(known, _)| *known == owner) {
+            Some((_, aspects)) => aspects.push(aspect),
+            None => groups.push((owner, vec![aspect])),
+        }
+    }
+    let words: Vec<String> =
+        groups.iter().map(|(owner, aspects)| format!("{owner}'s {}", joined(aspects, last))).collect();
+    words.join(&format!(", {last} "))
+}
+
 /// Words in a row: "a, b and c".
-fn joined(words: &[String], last: &str) -> String {
+fn joined(words: &[&str], last: &str) -> String {
     match words {
         [] => String::new(),
-        [only] => only.clone(),
+        [only] => (*only).to_owned(),
         [first @ .., end] => format!("{} {last} {end}", first.join(", ")),
     }
 }
@@ -81,10 +102,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_are_joined_as_in_a_sentence() {
-        let words = ["a", "b", "c"].map(str::to_owned);
-        assert_eq!(joined(&words[..1], "and"), "a");
-        assert_eq!(joined(&words[..2], "and"), "a and b");
-        assert_eq!(joined(&words, "or"), "a, b or c");
+    fn factors_are_listed_vehicle_by_vehicle() {
+        let grouped =
+            |factors: &[&str], last| grouped(&factors.iter().map(|&one| one.to_owned()).collect::<Vec<_>>(), last);
+        assert_eq!(grouped(&["front's style"], "and"), "front's style");
+        assert_eq!(grouped(&["ego's planner", "ego's persuasion"], "and"), "ego's planner and persuasion");
+        let all = ["ego's a", "ego's b", "rear's style", "ego's c"];
+        assert_eq!(grouped(&all, "or"), "ego's a, b or c, or rear's style");
     }
 }
