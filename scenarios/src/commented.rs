@@ -198,6 +198,7 @@ fn toml(value: &Json) -> String {
         Json::Number(number) => number.to_string(),
         Json::String(text) => toml::Value::String(text.clone()).to_string(),
         Json::Array(items) => format!("[{}]", items.iter().map(toml).collect::<Vec<_>>().join(", ")),
+        Json::Object(table) if table.is_empty() => "{}".to_owned(),
         Json::Object(table) => {
             let pair = |(key, value): (&String, &Json)| {
                 let is_bare = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b"_-".contains(&b));

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use interplay_scenarios::{embedded, load};
+use interplay_scenarios::load;
 use interplay_simulation::run::{run, run_with_counterfactuals};
 use serde_json::{Value, json};
 
@@ -187,9 +187,11 @@ fn why_says_what_the_order_depends_on() {
         "Intersection, crossing driver nice  [intersection/nice]\n  what is changed ",
         "\n  nothing  ",
         "\n  ego: planner = conservative ",
+        "\n  ego: without concession (weight_floor = 1.0) ",
         "\n  crossing: style = tough ",
         "FAIL: order, completes.ego",
         "\nThe order depends on ego's planner and knowledge of plans, and crossing's style.\nIt does not depend on ego's ",
+        "\nWhether the expectations hold depends on the same factors.\n",
         "\nTo see one of these runs: interplay run intersection/nice --set 'vehicle.ego.driver.kind=\"conservative\"'\n",
     ] {
         assert!(outcome.stdout.contains(piece), "{piece:?} is not in\n{}", outcome.stdout);
@@ -232,26 +234,4 @@ fn why_refuses_what_it_cannot_change() {
     assert!(building.stderr.contains("has no vehicles"), "{building:?}");
     let missing = interplay(&folder, &["why", "nowhere"]);
     assert_eq!(missing.code, Some(2), "{missing:?}");
-}
-
-/// The suite runs the counterfactuals of the authored scenarios: there are some, and they hold.
-#[test]
-fn authored_counterfactuals_hold() {
-    let folder = scratch("counterfactual-authored");
-    let with: Vec<&str> = embedded()
-        .iter()
-        .map(|file| file.name)
-        .filter(|name| !load(name, &[]).expect("authored").counterfactuals.is_empty())
-        .collect();
-    assert!(with.len() >= 2, "{with:?}");
-    let outcome = interplay(&folder, &[&["suite", "--json"], &with[..]].concat());
-    assert_eq!(outcome.code, Some(0), "{outcome:?}");
-    for (report, name) in outcome.json().as_array().expect("a list").iter().zip(&with) {
-        let stated = load(name, &[]).expect("authored").counterfactuals;
-        let judged = report["counterfactuals"].as_array().expect("a list");
-        assert_eq!(judged.len(), stated.len(), "{name}");
-        for (one, stated) in judged.iter().zip(&stated) {
-            assert_eq!((&one["name"], &one["passed"]), (&json!(stated.name), &json!(true)), "{name}");
-        }
-    }
 }

@@ -79,9 +79,25 @@ fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: NamedColour) -> S
 #[cfg(test)]
 mod tests {
     use interplay_scenarios::load;
+    use interplay_simulation::run::run_with_counterfactuals;
 
     use super::super::palette::vehicle_colours;
-    use super::description;
+    use super::{description, verdicts};
+
+    #[test]
+    fn every_counterfactual_has_a_line() {
+        let scenario = load("intersection/nice", &[]).expect("embedded");
+        let mut report = run_with_counterfactuals("nice", &scenario, Vec::new()).expect("a run");
+        let text = verdicts(&report.counterfactuals);
+        assert!(text.contains("\n- Who asks nobody crosses second: held (order crossing, ego)\n"), "{text}");
+        let one = &mut report.counterfactuals[0];
+        (one.passed, one.expectations[0].passed) = (false, false);
+        let text = verdicts(&report.counterfactuals);
+        assert!(
+            text.contains("second: **failed** (order crossing, ego) `order_differs: want true, got true`\n"),
+            "{text}"
+        );
+    }
 
     #[test]
     fn the_text_says_how_to_repeat_the_run() {

@@ -63,13 +63,15 @@ fn conclusion(report: &WhyReport) -> String {
         sentences.push(format!("It does not depend on {}.", grouped(&report.order_does_not_depend_on, "or")));
     }
     if !report.times_depend_on.is_empty() {
-        let factors = grouped(&report.times_depend_on, "and");
-        sentences.push(format!("In the same order, somebody arrives at another time depending on {factors}."));
+        sentences.push(format!("The times of arrival depend on {} too.", grouped(&report.times_depend_on, "and")));
     }
-    if !report.expectations_depend_on.is_empty() {
-        let factors = grouped(&report.expectations_depend_on, "and");
-        sentences.push(format!("Whether the expectations hold depends on {factors}."));
-    }
+    sentences.extend(match report.expectations_depend_on.as_slice() {
+        [] => None,
+        factors if factors == report.order_depends_on => {
+            Some("Whether the expectations hold depends on the same factors.".to_owned())
+        }
+        factors => Some(format!("Whether the expectations hold depends on {}.", grouped(factors, "and"))),
+    });
     sentences.join("\n")
 }
 
