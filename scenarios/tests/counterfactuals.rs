@@ -130,7 +130,7 @@ fn whatever_is_wrong_with_a_counterfactual_is_located_before_anything_runs() {
     case(
         "bad_place",
         "set = { vehicle.crossing.start.x_m = 9.0 }",
-        &["mine.toml:6:32", "in the counterfactual", "outside"],
+        &["mine.toml:6:26", "in the counterfactual", "outside"],
     );
     case("no_path", "set = { 'vehicle..goal' = 1 }", &["mine.toml:6:", "not the path of a setting"]);
     case("own_expectations", "set = { 'expect.order' = [] }", &["mine.toml:6:9", "[counterfactual.expect]"]);
