@@ -59,23 +59,18 @@ pub(crate) fn lay_planner(root: &mut Table, node: TomlNode) -> Result<(), Fault>
 }
 
 /// Lays a table over a scenario whose keys are paths as `--set` has them, or tables below one another that spell them.
+/// Returns what is wrong with it; the scenario is then changed in part.
 pub(crate) fn lay_paths(root: &mut Table, set: Table) -> Vec<Fault> {
-    let mut found = Ok(Vec::new());
+    let mut faults = Vec::new();
     for (key, entry) in set {
-        let assignments = assignments(Some(schema::complete()), &[], &key, entry);
-        found = match (found, assignments) {
-            (Ok(before), Ok(more)) => Ok([before, more].concat()),
-            (Err(before), Err(more)) => Err([before, more].concat()),
-            (Err(faults), Ok(_)) | (Ok(_), Err(faults)) => Err(faults),
-        };
+        match assignments(Some(schema::complete()), &[], &key, entry) {
+            Ok(all) => faults.extend(
+                all.into_iter().filter_map(|(steps, value)| lay(Some(schema::complete()), root, &steps, value).err()),
+            ),
+            Err(fault) => faults.push(fault),
+        }
     }
-    match found {
-        Err(faults) => faults,
-        Ok(all) => all
-            .into_iter()
-            .filter_map(|(steps, value)| lay(Some(schema::complete()), root, &steps, value).err())
-            .collect(),
-    }
+    faults
 }
 
 /// The paths and values that an entry of such a table stands for; `schema` is that of the table into which the steps before
@@ -85,7 +80,7 @@ fn assignments(
     before: &[Step],
     key: &str,
     entry: TomlEntry,
-) -> Result<Vec<(Vec<Step>, TomlNode)>, Vec<Fault>> {
+) -> Result<Vec<(Vec<Step>, TomlNode)>, Fault> {
     let mut steps = before.to_vec();
     let (mut schema, mut in_list) = (schema, false);
     // A quoted key is longer than its text by its quotes; with escapes in it, the whole of it is underlined.
@@ -100,7 +95,7 @@ fn assignments(
         if word.trim().is_empty() || steps.len() == MAX_PATH_STEPS {
             let message = format!("{} is not the path of a setting", quoted(key));
             let example = "write for example `\"vehicle.ego.goal.speed_mps\" = 1.2`";
-            return Err(vec![Fault::at(&place, "here", message).help(example)]);
+            return Err(Fault::at(&place, "here", message).help(example));
         }
         in_list = schema.is_some_and(|schema| schema.entries().is_some());
         schema = schema.and_then(|schema| schema.entries().or_else(|| schema.property(word.trim())));

@@ -1,7 +1,7 @@
 //! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
 //!
 //! - the style of each human, nice or tough; instead of another driver who minds nobody's wishes, a human of either style;
-//! - the planner of each interactive vehicle: conservative, cooperative, or the intelligent driver model;
+//! - the planner of each interactive vehicle: negotiation, conservative, cooperative, or the intelligent driver model;
 //! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
 //! - whether a vehicle knows the plans of the others, or expects constant velocities.
 
@@ -15,7 +15,7 @@ use crate::scenario::{Scenario, Vehicle};
 use crate::schema::{self, SchemaNode};
 
 /// The planners that an interactive vehicle is given instead of its own.
-const PLANNERS: [&str; 3] = ["conservative", "cooperative", "idm"];
+const PLANNERS: [&str; 4] = ["negotiation", "conservative", "cooperative", "idm"];
 
 /// One change of a scenario, and the changed scenario.
 #[derive(Clone, Debug)]

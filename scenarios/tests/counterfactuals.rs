@@ -4,7 +4,7 @@ mod common;
 
 use common::Catalogue;
 use interplay_planners::{Driver, human::Style};
-use interplay_scenarios::{Override, Scenario, from_text, load};
+use interplay_scenarios::{Override, Scenario, embedded, from_text, load, standard_changes};
 
 /// A variant with one counterfactual, whose table is `stated`.
 fn variant(stated: &str) -> String {
@@ -174,4 +174,21 @@ fn a_building_has_counterfactuals_too() {
     let order = "set = { 'controller.kind' = 'thermostat' }\nexpect.order_differs = true";
     errors.error("order", stated(order), &["mine.toml:7:", "there are no vehicles"]);
     errors.error("planner", stated("planner = 'idm'\nexpect.order_differs = true"), &["there are no vehicles"]);
+}
+
+/// Each change of the standard list is a scenario that differs from its origin in this one thing.
+#[test]
+fn standard_changes_fit_every_authored_scenario() {
+    for file in embedded() {
+        let scenario = load(file.name, &[]).expect("authored");
+        let changes = standard_changes(file.name, &scenario, &[]);
+        let changes = changes.unwrap_or_else(|error| panic!("{}: {:?}", file.name, error.faults()));
+        assert_eq!(changes.is_empty(), scenario.vehicles.is_empty(), "{}", file.name);
+        for one in changes {
+            let pairs = one.scenario.vehicles.iter().zip(&scenario.vehicles);
+            assert_eq!(pairs.filter(|(a, b)| a != b).count(), 1, "{}: {}", file.name, one.change);
+            assert_eq!(one.scenario.expect, scenario.expect, "{}: {}", file.name, one.change);
+            assert!(one.scenario.counterfactuals.is_empty() && !one.factor.is_empty(), "{}: {}", file.name, one.change);
+        }
+    }
 }
