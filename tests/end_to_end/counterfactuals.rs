@@ -191,7 +191,7 @@ fn why_says_what_the_order_depends_on() {
         "\n  crossing: style = tough ",
         "FAIL: order, completes.ego",
         "\nThe order depends on ego's planner and knowledge of plans, and crossing's style.\nIt does not depend on ego's ",
-        "\nWhether the expectations hold depends on the same factors.\n",
+        "\nWhether the expectations hold depends on the same factors as the order.\n",
         "\nTo see one of these runs: interplay run intersection/nice --set 'vehicle.ego.driver.kind=\"conservative\"'\n",
     ] {
         assert!(outcome.stdout.contains(piece), "{piece:?} is not in\n{}", outcome.stdout);

@@ -68,7 +68,7 @@ fn conclusion(report: &WhyReport) -> String {
     sentences.extend(match report.expectations_depend_on.as_slice() {
         [] => None,
         factors if factors == report.order_depends_on => {
-            Some("Whether the expectations hold depends on the same factors.".to_owned())
+            Some("Whether the expectations hold depends on the same factors as the order.".to_owned())
         }
         factors => Some(format!("Whether the expectations hold depends on {}.", grouped(factors, "and"))),
     });
