@@ -84,9 +84,11 @@ impl Writer {
             let live = live && stated.is_some();
             let is_new = |table: &Map<String, Json>| !self.explained.contains(&table_type(property, table));
             let is_list = property.table_entries().is_some();
-            if !is_list && shown.as_object().is_some_and(is_new) || is_list && (first || !is_empty(shown)) {
+            let is_inline = property.holds_paths();
+            if !is_list && !is_inline && shown.as_object().is_some_and(is_new) || is_list && (first || !is_empty(shown))
+            {
                 sections.push(Section { path: below, schema: property, value: shown, live });
-            } else if !is_list && (stated.is_some() || !shown.is_object()) {
+            } else if !is_list && (stated.is_some() || is_inline || !shown.is_object()) {
                 if first && key != "kind" {
                     self.explain(property);
                 }
@@ -181,7 +183,7 @@ fn is_empty(value: &Json) -> bool {
 
 /// A value as TOML, on one line, a table in the order of its schema.
 fn inline(property: SchemaNode, value: &Json) -> String {
-    let Json::Object(table) = value else { return toml(value) };
+    let Some(table) = value.as_object().filter(|_| !property.holds_paths()) else { return toml(value) };
     let pairs = keys(property, table).filter_map(|(key, below)| Some((key, below, table.get(key)?)));
     let pairs: Vec<String> = pairs.map(|(key, below, value)| format!("{key} = {}", inline(below, value))).collect();
     format!("{{ {} }}", pairs.join(", "))
@@ -196,9 +198,14 @@ fn toml(value: &Json) -> String {
         Json::Number(number) => number.to_string(),
         Json::String(text) => toml::Value::String(text.clone()).to_string(),
         Json::Array(items) => format!("[{}]", items.iter().map(toml).collect::<Vec<_>>().join(", ")),
+        Json::Object(table) if table.is_empty() => "{}".to_owned(),
         Json::Object(table) => {
-            let pairs: Vec<String> = table.iter().map(|(key, value)| format!("{key} = {}", toml(value))).collect();
-            format!("{{ {} }}", pairs.join(", "))
+            let pair = |(key, value): (&String, &Json)| {
+                let is_bare = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b"_-".contains(&b));
+                let key = if is_bare { key.clone() } else { toml(&Json::String(key.clone())) };
+                format!("{key} = {}", toml(value))
+            };
+            format!("{{ {} }}", table.iter().map(pair).collect::<Vec<_>>().join(", "))
         }
     }
 }

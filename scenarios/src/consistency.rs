@@ -3,6 +3,7 @@
 //! By now every key has the right type and range; the tree says where each is written.
 
 mod building;
+pub(crate) mod counterfactual;
 
 use interplay_building::nearest::suggestion;
 use interplay_planners::State;

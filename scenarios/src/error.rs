@@ -31,6 +31,15 @@ impl Document {
         Arc::new(Document { name: name.into(), text: text.chars().map(masked).collect(), rank })
     }
 
+    /// The same text with another rank.
+    pub fn ranked(&self, rank: usize) -> Arc<Document> {
+        Arc::new(Document { name: self.name.clone(), text: self.text.clone(), rank })
+    }
+
+    fn has_same_text(&self, other: &Document) -> bool {
+        std::ptr::eq(self, other) || (self.name == other.name && self.text == other.text)
+    }
+
     /// Line and column of a byte offset, both from 1, the column in characters.
     fn line_and_column(&self, offset: usize) -> (usize, usize) {
         let before = &self.text[..self.text.floor_char_boundary(offset)];
@@ -133,7 +142,7 @@ impl Fault {
 
     /// With a second place, shown if it is in the same document.
     pub(crate) fn also(mut self, other: &Place, label: &str) -> Fault {
-        if self.place.as_ref().is_some_and(|place| Arc::ptr_eq(&place.document, &other.document)) {
+        if self.place.as_ref().is_some_and(|place| place.document.has_same_text(&other.document)) {
             self.labels.push(LabeledSpan::new_with_span(Some(label.to_owned()), other.underlined()));
         }
         self
@@ -142,6 +151,11 @@ impl Fault {
     /// The same fault, blamed on the text that led there.
     pub(crate) fn moved_to(self, place: &Place) -> Fault {
         Fault { help: self.help, ..Fault::at(place, "from here", self.message) }
+    }
+
+    /// The same fault, of a run that differs from the scenario's own.
+    pub(crate) fn in_counterfactual(self, name: &str) -> Fault {
+        Fault { message: format!("in the counterfactual {}: {}", quoted(name), self.message), ..self }
     }
 
     /// What is wrong.

@@ -1,8 +1,10 @@
 //! What makes a run pass. Each key that is present is one expectation; what is absent is not judged.
 
+use std::collections::BTreeSet;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde_json::{Value as Json, json};
 
 /// The expectations of a scenario.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -33,6 +35,75 @@ pub struct Expect {
     /// What the building must achieve.
     #[schemars(example = json!({ "after_iterations": 2 }), extend("x-concerns" = "building"))]
     pub building: Option<BuildingExpect>,
+}
+
+/// The expectations of a counterfactual: those that a scenario may state, and comparisons with the scenario's own run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct CounterfactualExpect {
+    /// Whether the vehicles are in another order than in the scenario's own run (`true`), or in the same (`false`).
+    #[schemars(example = true, extend("x-concerns" = "vehicles"))]
+    pub order_differs: Option<bool>,
+    /// Vehicles that reach their goal later than in the scenario's own run, or never.
+    #[schemars(example = json!([{ "vehicle": "ego", "by_s": 0.3 }]), extend("x-concerns" = "vehicles"))]
+    pub later: Vec<CompletionShift>,
+    /// Vehicles that reach their goal earlier than in the scenario's own run.
+    #[schemars(example = json!([{ "vehicle": "front", "by_s": 0.3 }]), extend("x-concerns" = "vehicles"))]
+    pub earlier: Vec<CompletionShift>,
+    /// The expectations of the scenario that fail in this run, and no others: keys of its `[expect]`, those about a vehicle
+    /// with its name.
+    #[schemars(example = vec!["order", "completes.ego"])]
+    pub breaks: Option<Vec<String>>,
+    /// What is judged as in the scenario's own `[expect]`.
+    #[serde(flatten)]
+    pub plain: Expect,
+}
+
+/// A vehicle reaches its goal at another time than in the scenario's own run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CompletionShift {
+    /// Name of the vehicle.
+    #[schemars(example = &"ego")]
+    pub vehicle: String,
+    /// The least difference between both times \[s\].
+    #[schemars(range(min = 0.001), example = 0.3)]
+    pub by_s: f64,
+}
+
+impl Expect {
+    /// The names under which reports list these expectations, such as `order`, `completes.ego`, `speed.ego.max_above_mps` and
+    /// `building.energy_kwh_at_most`; without repetition.
+    pub fn names(&self) -> BTreeSet<String> {
+        let mut names = BTreeSet::new();
+        let whole = serde_json::to_value(self).unwrap_or_default();
+        for (key, value) in whole.as_object().into_iter().flatten().filter(|(_, value)| !value.is_null()) {
+            match (key.as_str(), value) {
+                ("completes", Json::Array(items)) => names.extend(items.iter().map(|item| named("completes", item))),
+                ("speed", Json::Array(items)) => {
+                    let bounds = items.iter().flat_map(|item| stated(item).map(move |key| (named("speed", item), key)));
+                    names.extend(bounds.filter(|(_, key)| key != "vehicle").map(|(name, key)| format!("{name}.{key}")));
+                }
+                ("building", building) => {
+                    let bounds = stated(building).filter(|key| key != "after_iterations");
+                    names.extend(bounds.map(|key| format!("building.{key}")));
+                }
+                (key, _) => drop(names.insert(key.to_owned())),
+            }
+        }
+        names
+    }
+}
+
+/// The name of an expectation about a vehicle.
+fn named(key: &str, item: &Json) -> String {
+    format!("{key}.{}", item["vehicle"].as_str().unwrap_or_default())
+}
+
+/// The keys of a table that have a value.
+fn stated(table: &Json) -> impl Iterator<Item = String> {
+    let entries = table.as_object().into_iter().flatten();
+    entries.filter(|(_, value)| !value.is_null()).map(|(key, _)| key.clone())
 }
 
 /// Bounds on the key figures of a building. Each is judged on every day after `after_iterations`: the worst one counts.

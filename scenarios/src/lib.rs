@@ -6,6 +6,7 @@
 //! text -> tree with places -> merged with what it extends -> changed by --set
 //!      -> checked against the JSON Schema (keys, types, ranges)
 //!      -> Scenario -> checked for meaning (positions, names, times)
+//!      -> and the same for the changed scenario of every counterfactual
 //! ```
 //!
 //! The schema that [`schema`] publishes for editors is the one that the loader checks against, so the two cannot
@@ -18,8 +19,10 @@
 //! ```
 
 mod building;
+mod changed;
 mod commented;
 mod consistency;
+mod counterfactual;
 mod embedded;
 mod error;
 mod expect;
@@ -34,6 +37,7 @@ mod scenario;
 mod schema;
 mod schema_check;
 mod source;
+mod standard_changes;
 mod start_jitter;
 mod tree;
 mod weather;
@@ -41,9 +45,10 @@ mod weather_file;
 
 pub use building::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use commented::commented;
+pub use counterfactual::Counterfactual;
 pub use embedded::{Embedded, embedded};
 pub use error::{Fault, LoadError};
-pub use expect::{BuildingExpect, Completes, Expect, ExpectedSpeed};
+pub use expect::{BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedSpeed};
 pub use files::files;
 pub use load::{from_text, load};
 pub use overrides::Override;
@@ -52,5 +57,6 @@ pub use road::{Branch, Intersection, Lanes, RampMerge, Road};
 pub use scenario::{GoalConfig, Scenario, Vehicle, Weights};
 pub use schema::{driver_kinds, schema};
 pub use source::Source;
+pub use standard_changes::{StandardChange, standard_changes};
 pub use start_jitter::StartJitter;
 pub use weather::{EpwFile, Synthetic, WeatherConfig};

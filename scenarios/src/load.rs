@@ -7,7 +7,7 @@ use crate::scenario::Scenario;
 use crate::source::Source;
 use crate::tree::{self, Table, TomlNode, TomlValue};
 use crate::weather::WeatherConfig;
-use crate::{consistency, schema, schema_check, weather_file};
+use crate::{changed, consistency, schema, schema_check, weather_file};
 
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;
@@ -42,25 +42,66 @@ pub fn from_text(name: &str, text: &str, overrides: &[Override]) -> Result<Scena
 
 fn finish(name: &str, mut tree: TomlNode, overrides: &[Override]) -> Result<Scenario, LoadError> {
     let refused = |faults| LoadError::new(name, faults);
+    let as_written = tree.clone();
     if let TomlValue::Table(root) = &mut tree.value {
         let faults: Vec<Fault> = overrides.iter().filter_map(|change| change.apply(root).err()).collect();
         if !faults.is_empty() {
             return Err(refused(faults));
         }
     }
-    let faults = schema_check::check(&tree);
+    let mut scenario = assemble(&tree).map_err(refused)?;
+    let as_written = Some(&as_written).filter(|_| !overrides.is_empty());
+    let faults = assemble_counterfactuals(&mut scenario, &tree, as_written);
+    if faults.is_empty() { Ok(scenario) } else { Err(refused(faults)) }
+}
+
+/// The scenario that a whole tree describes, but for what its counterfactuals run.
+fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
+    let faults = schema_check::check(tree);
     if !faults.is_empty() {
-        return Err(refused(faults));
+        return Err(faults);
     }
     let mut scenario: Scenario = serde_json::from_value(tree.to_json())
-        .map_err(|error| refused(vec![Fault::at(&tree.place, "in this file", error.to_string())]))?;
+        .map_err(|error| vec![Fault::at(&tree.place, "in this file", error.to_string())])?;
     let days = scenario.days();
     let unread = match &mut scenario.weather {
-        Some(WeatherConfig::Epw(file)) => weather_file::attach(file, days, &tree).err(),
+        Some(WeatherConfig::Epw(file)) => weather_file::attach(file, days, tree).err(),
         Some(WeatherConfig::Synthetic(_)) | None => None,
     };
-    let faults: Vec<Fault> = consistency::check(&scenario, &tree).into_iter().chain(unread).collect();
-    if faults.is_empty() { Ok(scenario) } else { Err(refused(faults)) }
+    let faults: Vec<Fault> = consistency::check(&scenario, tree).into_iter().chain(unread).collect();
+    if faults.is_empty() { Ok(scenario) } else { Err(faults) }
+}
+
+/// Makes the scenario that each counterfactual runs; returns what is wrong with them. One that flags have made impossible is
+/// left out: `as_written` is the tree without these flags, if there are any.
+fn assemble_counterfactuals(scenario: &mut Scenario, tree: &TomlNode, as_written: Option<&TomlNode>) -> Vec<Fault> {
+    let assembled = |tree: &TomlNode, index: usize| {
+        let stated = tree.at(&format!("counterfactual.{index}")).and_then(TomlNode::table);
+        stated.map_or_else(|| Err(Vec::new()), |stated| changed::tree(tree, stated).and_then(|tree| assemble(&tree)))
+    };
+    let (mut faults, mut changed) = (Vec::new(), Vec::new());
+    for (index, counterfactual) in scenario.counterfactuals.iter().enumerate() {
+        match assembled(tree, index) {
+            Ok(scenario) => changed.push(Ok(scenario)),
+            Err(found) if as_written.is_some_and(|tree| assembled(tree, index).is_ok()) => {
+                changed.push(Err(found.first().map(|fault| fault.message().to_owned()).unwrap_or_default()));
+            }
+            Err(found) => faults.extend(found.into_iter().map(|fault| fault.in_counterfactual(&counterfactual.name))),
+        }
+    }
+    if faults.is_empty() {
+        scenario.changed = changed.iter().flatten().cloned().collect();
+    }
+    faults.extend(consistency::counterfactual::check(scenario, tree, as_written.is_none()));
+    if faults.is_empty() {
+        for (counterfactual, outcome) in std::mem::take(&mut scenario.counterfactuals).into_iter().zip(changed) {
+            match outcome {
+                Ok(_) => scenario.counterfactuals.push(counterfactual),
+                Err(reason) => scenario.left_out.push([counterfactual.name, reason]),
+            }
+        }
+    }
+    faults
 }
 
 /// Reads a source and all that it extends.
@@ -100,9 +141,11 @@ fn extended(source: &Source, mut node: TomlNode, chain: &mut Vec<Source>) -> Res
     Ok(node)
 }
 
-/// What a file takes over from the one that it extends: all but the figure, since a variant is another picture.
+/// What a file takes over from the one that it extends: all but the figure, since a variant is another picture, and the
+/// counterfactuals, which say what that one's outcome is owed to.
 fn inherited(mut under: Table) -> Table {
     under.remove("figure");
+    under.remove("counterfactual");
     under
 }
 

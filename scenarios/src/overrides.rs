@@ -1,7 +1,7 @@
 //! Changes of a scenario from the command line, such as `--set vehicle.ego.goal.speed_mps=1.2`.
 //!
 //! A change is laid over the file like a file over the one it extends, and then checked like it. Its document is the
-//! text of the flag, so errors point into the flag.
+//! text of the flag, so errors point into the flag. The changes of a counterfactual are laid over it in the same way.
 
 use std::sync::Arc;
 
@@ -28,7 +28,8 @@ pub enum Override {
     Planner(String),
 }
 
-/// One word of a path and where it stands in the flag.
+/// One word of a path and where it stands in the flag or in the file.
+#[derive(Clone)]
 struct Step {
     word: String,
     place: Place,
@@ -48,11 +49,73 @@ impl Override {
                 if !has_vehicles(root) {
                     return Err(no_vehicles(root, &place));
                 }
-                let path = ["vehicle", &ego_name(root), "driver", "kind"];
-                (steps_of(&path, &place), TomlNode { place, value: TomlValue::Text(kind.clone()) })
+                return lay_planner(root, TomlNode { place, value: TomlValue::Text(kind.clone()) });
             }
         };
         lay(Some(schema::complete()), root, (&steps, 0), value)
+    }
+}
+
+/// Lays the kind of driver that `node` holds over that of the ego.
+pub(crate) fn lay_planner(root: &mut Table, node: TomlNode) -> Result<(), Fault> {
+    let steps = steps_of(&["vehicle", &ego_name(root), "driver", "kind"], &node.place);
+    lay(Some(schema::complete()), root, (&steps, 0), node)
+}
+
+/// Lays a table over a scenario whose keys are paths as `--set` has them, or tables below one another that spell them.
+/// Returns what is wrong with it; the scenario is then changed in part.
+pub(crate) fn lay_paths(root: &mut Table, set: Table) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (key, entry) in set {
+        match assignments(Some(schema::complete()), &[], &key, entry) {
+            Ok(all) => faults.extend(
+                all.into_iter().filter_map(|(steps, value)| lay(Some(schema::complete()), root, (&steps, 0), value).err()),
+            ),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    faults
+}
+
+/// The paths and values that an entry of such a table stands for; `schema` is that of the table into which the steps before
+/// lead, or of the list.
+fn assignments(
+    schema: Option<SchemaNode>,
+    before: &[Step],
+    key: &str,
+    entry: TomlEntry,
+) -> Result<Vec<(Vec<Step>, TomlNode)>, Fault> {
+    let mut steps = before.to_vec();
+    let (mut schema, mut in_list) = (schema, false);
+    // A quoted key is longer than its text by its quotes; with escapes in it, the whole of it is underlined.
+    let quotes = entry.key.span.len().saturating_sub(key.len());
+    let mut offset = entry.key.span.start + usize::from(quotes > 0);
+    for word in key.split('.') {
+        let place = match quotes {
+            0 | 2 => Place::new(&entry.key.document, offset..offset + word.len()),
+            _ => entry.key.clone(),
+        };
+        offset += word.len() + 1;
+        if word.trim().is_empty() || steps.len() == MAX_PATH_STEPS {
+            let message = format!("{} is not the path of a setting", quoted(key));
+            let example = "write for example `\"vehicle.ego.goal.speed_mps\" = 1.2`";
+            return Err(Fault::at(&place, "here", message).help(example));
+        }
+        in_list = schema.is_some_and(|schema| schema.entries().is_some());
+        schema = schema.and_then(|schema| schema.entries().or_else(|| schema.property(word.trim())));
+        steps.push(Step { word: word.trim().to_owned(), place });
+    }
+    let is_list = schema.is_some_and(|schema| schema.entries().is_some());
+    match entry.node.value {
+        // A list takes entries by name, and an entry keeps what is not stated.
+        TomlValue::Table(table) if is_list || in_list => {
+            let mut all = Vec::new();
+            for (key, entry) in table {
+                all.extend(assignments(schema, &steps, &key, entry)?);
+            }
+            Ok(all)
+        }
+        value => Ok(vec![(steps, TomlNode { place: entry.node.place, value })]),
     }
 }
 

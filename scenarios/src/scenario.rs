@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::building::BuildingConfig;
+use crate::counterfactual::Counterfactual;
 use crate::expect::Expect;
 use crate::name;
 use crate::plant::Plant;
@@ -93,6 +94,16 @@ pub struct Scenario {
     /// The conditions under which the run passes; none by default.
     #[serde(default)]
     pub expect: Expect,
+    /// Runs beside this one in which something is changed, one `[[counterfactual]]` each. A variant does not inherit them.
+    #[serde(rename = "counterfactual", default)]
+    #[schemars(length(max = 64))]
+    pub counterfactuals: Vec<Counterfactual>,
+    /// The changed scenario of each counterfactual, once the file is loaded; its expectations are the counterfactual's.
+    #[serde(skip)]
+    pub changed: Vec<Scenario>,
+    /// Counterfactuals that flags have made impossible, each with the reason: a setting that another planner does not have.
+    #[serde(skip)]
+    pub left_out: Vec<[String; 2]>,
 }
 
 /// How many days are simulated unless the scenario says so.
@@ -135,6 +146,11 @@ impl Scenario {
             return 0;
         }
         (self.duration_s / self.step_s).round() as usize
+    }
+
+    /// The counterfactuals of a loaded scenario, each with the scenario that is run for it.
+    pub fn counterfactual_runs(&self) -> impl Iterator<Item = (&Counterfactual, &Scenario)> {
+        self.counterfactuals.iter().zip(&self.changed)
     }
 
     /// How many days of the building are simulated; 0 without a building.

@@ -6,6 +6,8 @@
 //! - `x-unit`: the unit of a number whose key does not end with one ([`units`]),
 //! - `x-excludes`: keys that may not stand beside it,
 //! - `x-concerns`: `vehicles` or `building`, for what means nothing without them,
+//! - `x-mechanism`: the mechanism of a planner that it switches off, with the value that does so,
+//! - `x-paths`: its keys are paths of other settings,
 //! - `x-merge-by`: the key by which a variant's entries of a list are merged with its parent's.
 //!
 //! [`complete`] describes a whole scenario, all that it extends included. [`schema`] describes one file, which may leave to

@@ -117,13 +117,13 @@ fn a_table_set_on_a_vehicle_changes_only_the_keys_that_it_states() {
 
 #[test]
 fn another_planner_keeps_the_settings_that_it_knows() {
-    let every_third = Override::Set("vehicle.ego.driver.look_around_every=3".to_owned());
+    let one_class = Override::Set("vehicle.ego.driver.passing_orders=false".to_owned());
     let conservative = Override::Planner("conservative".to_owned());
-    let scenario = load("lane-change/front-nice", &[every_third, conservative]).expect("a planner");
+    let scenario = load("lane-change/front-nice", &[one_class, conservative]).expect("a planner");
     let Some(Driver::Conservative(settings)) = scenario.ego().map(|ego| &ego.driver) else {
         panic!("not conservative")
     };
-    assert_eq!(settings.look_around_every, 3);
+    assert!(!settings.passing_orders);
     let same = load("lane-change/front-nice", &[Override::Planner("negotiation".to_owned())]).expect("a planner");
     assert_eq!(same, load("lane-change/front-nice", &[]).expect("authored"));
     let first = least("", &[Override::Planner("conservative".to_owned())]);

@@ -78,7 +78,7 @@ fn a_collision_fails_the_run_and_is_told() {
 /// With room to stop outside the safety ellipse (0.35 m from bumper to bumper) a careful driver stops.
 #[test]
 fn a_car_that_can_stop_does_not_collide() {
-    let driver = "driver = { kind = \"conservative\", look_around_every = 1 }";
+    let driver = "driver = { kind = \"conservative\" }";
     let careful = unavoidable(1.6).replace("speed_mps = 1.5 }", &format!("speed_mps = 1.5 }}\n{driver}"));
     let film = film("stops", Scenario { duration_s: 5.0, ..scenario(&careful) });
     assert!(film.report.collisions.is_empty(), "{:?}", film.report.collisions);

@@ -3,6 +3,7 @@
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`authoring`], [`documents`], [`book`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
+//! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
 //! - what scenarios demand of drivers: [`unsuited`]
@@ -18,6 +19,7 @@ mod book;
 mod building;
 mod collisions;
 mod command;
+mod counterfactuals;
 mod determinism;
 mod documents;
 mod failures;
@@ -27,6 +29,7 @@ mod laws;
 mod learning;
 mod measures;
 mod modules;
+mod mutation;
 mod output;
 mod own;
 mod plants;

@@ -26,7 +26,8 @@ fn the_report_has_the_keys_of_the_contract() {
     assert_eq!(outcome.stderr, "");
     has_keys(
         &report,
-        "scenario passed seed simulated_s wall_s digest phase_digests collisions min_gap_m order vehicles expectations",
+        "scenario passed seed simulated_s wall_s digest phase_digests collisions min_gap_m order vehicles expectations \
+         counterfactuals",
     );
     assert_eq!(report["scenario"], "lane-change/front-nice");
     assert_eq!(report["seed"], 5);
@@ -119,7 +120,7 @@ fn check_accepts_every_authored_scenario_as_a_file() {
 #[test]
 fn every_help_has_an_example() {
     let folder = scratch("help");
-    for subcommand in ["run", "list", "check"] {
+    for subcommand in ["run", "list", "check", "suite", "why"] {
         let outcome = interplay(&folder, &[subcommand, "--help"]);
         assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
         assert!(outcome.stdout.contains(&format!("\n  interplay {subcommand}")), "{}", outcome.stdout);

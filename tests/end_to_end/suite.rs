@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use interplay_scenarios::embedded;
+use interplay_scenarios::{embedded, load};
 use serde_json::Value;
 
 use crate::command::{contents, interplay, scratch};
@@ -39,6 +39,9 @@ fn without_arguments_every_embedded_scenario_runs_as_it_runs_alone() {
             None => interplay(&folder, &["run", name, "--no-record", "--json"]).json()["digest"].clone(),
         };
         assert_eq!((&report["digest"], &report["passed"]), (&alone, &Value::Bool(true)), "{name}");
+        let claimed = load(name, &[]).expect("authored").counterfactuals.len();
+        let judged = report["counterfactuals"].as_array().expect("an array");
+        assert!(judged.len() == claimed && judged.iter().all(|one| one["passed"] == true), "{name}: {judged:?}");
     }
     assert_eq!(contents(&folder), Vec::<String>::new(), "a suite records nothing");
 }

@@ -18,8 +18,10 @@ mod reproduce;
 mod run;
 mod schema;
 mod suite;
+mod threads;
 mod view;
 mod watch;
+mod why;
 
 use std::process::ExitCode;
 
@@ -41,6 +43,7 @@ enum Command {
     List(list::List),
     Check(check::Check),
     Suite(suite::Suite),
+    Why(why::Why),
     New(new::New),
     Schema(schema::Schema),
     View(view::View),
@@ -59,6 +62,7 @@ pub fn main() -> ExitCode {
         Some(Command::List(command)) => command.execute(),
         Some(Command::Check(command)) => command.execute(),
         Some(Command::Suite(command)) => command.execute(),
+        Some(Command::Why(command)) => command.execute(),
         Some(Command::New(command)) => command.execute(),
         Some(Command::Schema(command)) => command.execute(),
         Some(Command::View(command)) => command.execute(),

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use interplay_presentation::figures::{FrameLog, RecordedRun, run_page};
-use interplay_presentation::record::{RecordError, Recorder, Sink, Viewer};
+use interplay_presentation::record::{OpenRecording, RecordError, Recorder, Sink, Viewer};
 use interplay_presentation::report::summary;
 use interplay_presentation::shell;
 use interplay_scenarios::{Override, Scenario, driver_kinds, load};
 use interplay_simulation::report::Report;
-use interplay_simulation::run::run;
+use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
 use thiserror::Error;
 
@@ -102,15 +102,18 @@ impl Run {
                 return ExitStatus::BadInput;
             }
         };
+        for [counterfactual, reason] in &scenario.left_out {
+            print_error(&format!("the counterfactual \"{counterfactual}\" does not fit the flags: {reason}"));
+        }
         let name = short_name(self.scenario());
-        let watchers = match self.watchers(&scenario, &name) {
-            Ok(watchers) => watchers,
+        let recording = match self.begin_recording(&scenario, &name) {
+            Ok(recording) => recording,
             Err(error) => {
                 print_error(&error.to_string());
                 return ExitStatus::Unfinished;
             }
         };
-        let passed = self.simulate(&name, scenario, watchers).and_then(|recorded| {
+        let passed = self.simulate(&name, scenario, recording).and_then(|recorded| {
             self.page(&name, &recorded)?;
             self.print_report(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
         });
@@ -133,18 +136,23 @@ impl Run {
         self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO)
     }
 
-    /// Runs the scenario; the frames are kept if a page is to be drawn of them.
+    /// Runs the scenario and its counterfactuals, and ends the recording; the frames are kept if a page is to be drawn of them.
     fn simulate(
         &self,
         name: &str,
         scenario: Scenario,
-        mut watchers: Vec<Box<dyn Watcher>>,
+        recording: Option<OpenRecording>,
     ) -> Result<RecordedRun, CommandError> {
         let frame_log = FrameLog::default();
+        let mut watchers: Vec<Box<dyn Watcher>> = Vec::new();
+        if let Some(recording) = &recording {
+            watchers.push(Box::new(recording.clone()));
+        }
         if self.report.is_some() {
             watchers.push(Box::new(frame_log.clone()));
         }
-        let report = run(name, &scenario, watchers)?;
+        let report = run_with_counterfactuals(name, &scenario, watchers)?;
+        recording.map_or(Ok(()), |recording| recording.close(&report))?;
         Ok(RecordedRun { label: String::new(), command: self.words(), scenario, frames: frame_log.frames(), report })
     }
 
@@ -196,15 +204,15 @@ impl Run {
         (!self.no_record).then(|| self.record.clone().unwrap_or_else(default))
     }
 
-    fn watchers(&self, scenario: &Scenario, name: &str) -> Result<Vec<Box<dyn Watcher>>, RecordError> {
+    fn begin_recording(&self, scenario: &Scenario, name: &str) -> Result<Option<OpenRecording>, RecordError> {
         let sink = match &self.connect {
             Some(viewer) => Some(Sink::Live(viewer.clone().map_or_else(Viewer::here, Ok)?)),
             None => self.recording(name).map(Sink::File),
         };
-        let Some(sink) = sink else { return Ok(Vec::new()) };
-        let recorder = Recorder::begin(scenario, name, &sink)?;
+        let Some(sink) = sink else { return Ok(None) };
+        let mut recorder = Recorder::begin(scenario, name, &sink)?;
         recorder.repeat_with(&self.command())?;
-        Ok(vec![Box::new(recorder)])
+        Ok(Some(OpenRecording::new(recorder)))
     }
 }
 

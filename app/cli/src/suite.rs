@@ -8,7 +8,7 @@ use clap::Args;
 use interplay_presentation::report::{Case, junit, table};
 use interplay_scenarios::{Scenario, embedded, load};
 use interplay_simulation::report::Report;
-use interplay_simulation::run::run;
+use interplay_simulation::run::run_with_counterfactuals;
 use rayon::prelude::*;
 
 use crate::error::CommandError;
@@ -16,6 +16,7 @@ use crate::exit_status::ExitStatus;
 use crate::files::{self, ScenarioArgument};
 use crate::output::{json, print, print_error, print_load_error};
 use crate::progress::Progress;
+use crate::threads::pool;
 
 /// Run many scenarios side by side and say which of them do what they should.
 #[derive(Debug, Args)]
@@ -100,12 +101,10 @@ impl Suite {
 
     /// Runs every scenario in a world of its own; the cases come in the order of the scenarios.
     fn run(&self, scenarios: &[(String, Scenario)]) -> Result<Vec<Case>, CommandError> {
-        let jobs = self.jobs.map_or(0, NonZeroUsize::get);
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
-        let pool = pool.map_err(|reason| CommandError::Threads { jobs, reason })?;
+        let pool = pool(self.jobs)?;
         let progress = Progress::of(scenarios.len());
         let case = |(name, scenario): &(String, Scenario)| {
-            let outcome = run(name, scenario, Vec::new());
+            let outcome = run_with_counterfactuals(name, scenario, Vec::new());
             progress.advance();
             Case { name: name.clone(), outcome }
         };
@@ -143,7 +142,7 @@ fn ending(cases: &[Case]) -> ExitStatus {
 
 #[cfg(test)]
 mod tests {
-    use interplay_simulation::run::RunError;
+    use interplay_simulation::run::{RunError, run};
 
     use super::*;
 

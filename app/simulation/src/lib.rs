@@ -23,3 +23,4 @@ pub mod sense;
 pub mod spawn;
 pub mod time_points;
 pub mod watch;
+pub mod why;

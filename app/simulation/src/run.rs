@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 use interplay_building::control::ControlError;
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{Counterfactual, Scenario};
+use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::climate::{Building, BuildingError};
@@ -32,6 +33,14 @@ pub enum RunError {
         day: usize,
         /// Why.
         reason: ControlError,
+    },
+    /// A run beside the scenario's own could not be finished.
+    #[error("the counterfactual \"{name}\" could not be finished: {reason}")]
+    Counterfactual {
+        /// What it claims.
+        name: String,
+        /// Why.
+        reason: Box<RunError>,
     },
     /// The loop itself is broken.
     #[error("the loop could not be built: {0}")]
@@ -65,4 +74,26 @@ pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> 
     watchers.finish().map_err(RunError::Watch)?;
     let measures = (world.resource::<Measures>(), world.get_resource::<BuildingMeasures>());
     Ok(Report::new(name, scenario, measures, wall_s))
+}
+
+/// Runs `scenario` as [`run`] does, then its counterfactuals side by side, and judges all of them. The scenario's own run is
+/// the same bit for bit with and without them; watchers see nothing else.
+///
+/// # Errors
+/// As [`run`]; [`RunError::Counterfactual`] if one of the other runs cannot be finished.
+pub fn run_with_counterfactuals(
+    name: &str,
+    scenario: &Scenario,
+    watchers: Vec<Box<dyn Watcher>>,
+) -> Result<Report, RunError> {
+    let mut report = run(name, scenario, watchers)?;
+    let pairs: Vec<(&Counterfactual, &Scenario)> = scenario.counterfactual_runs().collect();
+    let other = |(counterfactual, changed): &(&Counterfactual, &Scenario)| {
+        let unfinished =
+            |reason| RunError::Counterfactual { name: counterfactual.name.clone(), reason: Box::new(reason) };
+        run(name, changed, Vec::new()).map_err(unfinished)
+    };
+    let runs = pairs.par_iter().with_max_len(1).map(other).collect::<Result<Vec<Report>, RunError>>()?;
+    report.judge_counterfactuals(scenario, runs);
+    Ok(report)
 }

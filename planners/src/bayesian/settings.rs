@@ -31,6 +31,7 @@ pub struct Settings {
     /// Weight of the other's wish to keep away from the ego, `w_4` of eq. 7.8. At 0.1 the ego hardly persuades; a large one
     /// makes it chase the other.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
+    #[schemars(extend("x-mechanism" = { "persuasion": 0.0 }))]
     pub w_4: f64,
     /// Mean change of the other's plan at which its believed `w_1` has fallen to 1/e of its range, `β_0` \[m\].
     #[schemars(range(min = 0.000001))]
@@ -53,6 +54,7 @@ pub struct Settings {
     pub prediction: Prediction,
     /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
     /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
     pub passing_orders: bool,
 }
 

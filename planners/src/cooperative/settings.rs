@@ -16,6 +16,7 @@ pub struct Settings {
     pub prediction: Prediction,
     /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
     /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
     pub passing_orders: bool,
 }
 

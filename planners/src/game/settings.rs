@@ -28,6 +28,7 @@ pub struct Settings {
     #[schemars(range(min = 0.001), extend("x-unit" = "dimensionless"))]
     pub accident: f64,
     /// How people value uncertain outcomes.
+    #[schemars(extend("x-mechanism" = { "prospect theory": ProspectTheory::EXPECTED }))]
     pub prospect: ProspectTheory,
     /// Distance that a vehicle keeps when the manoeuvre is done, `d_s` of eq. 8.3 \[m\].
     #[schemars(range(min = 0.001))]
@@ -56,6 +57,7 @@ pub struct Settings {
     pub arrival_max_s: f64,
     /// Share of the way to ½ that beliefs fade in a step.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
+    #[schemars(extend("x-mechanism" = { "forgetting": 0.0 }))]
     pub forgetting: f64,
     /// Width of the interval of intentions that the ego expresses, `ε_p` of eq. 8.11.
     #[schemars(range(min = 0.0, max = 0.9), extend("x-unit" = "dimensionless"))]
@@ -63,6 +65,7 @@ pub struct Settings {
     /// What a mean speed outside the expressed interval costs per m/s and step: 0.5 on one road, 1.5 on a ramp, 50 at an
     /// intersection.
     #[schemars(range(min = 0.0), extend("x-unit" = "s/m"))]
+    #[schemars(extend("x-mechanism" = { "expression of intention": 0.0 }))]
     pub slack_weight: f64,
     /// How long the ego expresses its intention to a vehicle that is not the first one it meets \[s\].
     #[schemars(range(min = 0.0))]
@@ -74,6 +77,7 @@ pub struct Settings {
     pub prediction: Prediction,
     /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
     /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
     pub passing_orders: bool,
 }
 

@@ -44,6 +44,7 @@ pub struct Settings {
     pub closing_mps: f64,
     /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
     /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
     pub passing_orders: bool,
     /// What others are expected to do that might cut in or cross: by default what their present heading and speed say, so
     /// that a nudge is seen, and not what they plan. The car ahead is always expected to follow its plan.

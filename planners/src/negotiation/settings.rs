@@ -16,6 +16,7 @@ pub struct Settings {
     pub beta: f64,
     /// How much acceptance strengthens persuasion, `γ` of `α = 1 + γ p_a` (eq. 6.20); 0 or more.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
+    #[schemars(extend("x-mechanism" = { "reinforcement": 0.0 }))]
     pub gamma: f64,
     /// A rise of the acceptance probability of at most this much counts as no progress, `ε`.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
@@ -42,13 +43,17 @@ pub struct Settings {
     /// What counts as acceptance.
     pub acceptance: Acceptance,
     /// Whether the ego concedes (eq. 6.18); without it the weight of its own cost stays at 0.5.
+    #[schemars(extend("x-mechanism" = { "concession": false }))]
     pub concession: bool,
     /// Whether the persuasion constraint is imposed (eq. 6.23).
+    #[schemars(extend("x-mechanism" = { "persuasion": false }))]
     pub persuasion: bool,
     /// Whether the negotiated input is applied only if a conservative plan still exists after it.
+    #[schemars(extend("x-mechanism" = { "safety filter": false }))]
     pub safety_filter: bool,
     /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
     /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
     pub passing_orders: bool,
     /// What the others are expected to do. At constant velocity nobody ever seems to accept a proposal.
     pub prediction: Prediction,

@@ -94,6 +94,17 @@ impl SchemaNode {
         self.stated.get("x-merge-by")?.as_str()
     }
 
+    /// Whether the keys of this table are paths of settings, as `--set` has them.
+    pub fn holds_paths(self) -> bool {
+        self.stated.get("x-paths").is_some()
+    }
+
+    /// The mechanism of a planner that this setting switches off: its name, and the value with which it is off.
+    pub fn mechanism(self) -> Option<(&'static str, &'static Json)> {
+        let stated = self.stated.get("x-mechanism")?.as_object()?;
+        stated.iter().next().map(|(name, off)| (name.as_str(), off))
+    }
+
     /// Pairs of keys of this table that may not stand side by side. Each pair is stated on the first of them.
     pub fn exclusions(self) -> impl Iterator<Item = (&'static str, &'static str)> {
         self.properties().flat_map(|(key, property)| {

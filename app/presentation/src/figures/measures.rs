@@ -1,6 +1,6 @@
 //! The measures of runs, as tables.
 
-use interplay_simulation::report::{BuildingReport, Report};
+use interplay_simulation::report::{BuildingReport, CounterfactualReport, Report};
 
 use super::recorded_run::RecordedRun;
 use crate::plot::TextTable;
@@ -117,4 +117,23 @@ pub fn expected(report: &Report) -> TextTable {
     };
     let rows = report.expectations.iter().map(row).collect();
     TextTable::new("Expectations", ["what", "wanted", "measured", ""], rows)
+}
+
+/// Every counterfactual of a run: what it claims, and what came of it.
+pub fn counterfactuals(report: &Report) -> TextTable {
+    let row = |one: &CounterfactualReport| {
+        let run = &one.run;
+        let completed = run.vehicles.iter().filter_map(|vehicle| Some((&vehicle.name, vehicle.completed_s?)));
+        let completed: Vec<String> = completed.map(|(name, time_s)| format!("{name} {time_s:.1}")).collect();
+        let failed: Vec<String> = one.failed().map(ToString::to_string).collect();
+        [
+            one.name.clone(),
+            one.order.join(", "),
+            completed.join(", "),
+            run.min_gap_m.map_or_else(|| "–".to_owned(), |gap_m| format!("{gap_m:.3}")),
+            if one.passed { "held".to_owned() } else { format!("FAILED: {}", failed.join("; ")) },
+        ]
+    };
+    let header = ["with something changed", "order at the end", "reaches its goal [s]", "smallest gap [m]", ""];
+    TextTable::new("Counterfactuals", header, report.counterfactuals.iter().map(row).collect())
 }

@@ -56,7 +56,8 @@ pub fn run_page(recorded: &RecordedRun, folder: &Path, files: Vec<(String, Strin
 
 /// The part of the page that shows a run of its own; `files` lie beside the page.
 fn run_section(recorded: &RecordedRun, content: &FigureContent, files: Vec<(String, String)>) -> Section {
-    let held = (!recorded.report.expectations.is_empty()).then_some(recorded.report.passed);
+    let is_judged = !recorded.report.expectations.is_empty() || !recorded.report.counterfactuals.is_empty();
+    let held = is_judged.then_some(recorded.report.passed);
     let ran = RunOutcome { command: recorded.command.clone(), held };
     let mut section = Section {
         id: "run".to_owned(),

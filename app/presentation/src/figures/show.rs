@@ -28,5 +28,8 @@ pub(super) fn show(recorded: &RecordedRun) -> FigureContent {
     if !recorded.report.expectations.is_empty() {
         content.tables.push(measures::expected(&recorded.report));
     }
+    if !recorded.report.counterfactuals.is_empty() {
+        content.tables.push(measures::counterfactuals(&recorded.report));
+    }
     content
 }

@@ -3,6 +3,7 @@
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
 use interplay_scenarios::{Scenario, Vehicle};
+use interplay_simulation::report::CounterfactualReport;
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::building;
@@ -19,11 +20,13 @@ pub fn about(
     scenario: &Scenario,
     vehicle_colours: &[NamedColour],
     command: Option<&str>,
+    counterfactuals: &[CounterfactualReport],
 ) -> RecordingStreamResult<()> {
     let driving = (!scenario.vehicles.is_empty()).then(|| description(scenario, vehicle_colours, command));
     let command = command.filter(|_| driving.is_none());
     let building = scenario.building.is_some().then(|| building::about(scenario, command));
-    let text = driving.into_iter().chain(building).collect::<Vec<_>>().join("\n\n");
+    let verdicts = (!counterfactuals.is_empty()).then(|| verdicts(counterfactuals));
+    let text = driving.into_iter().chain(building).chain(verdicts).collect::<Vec<_>>().join("\n\n");
     stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
 }
 
@@ -49,6 +52,21 @@ fn description(scenario: &Scenario, vehicle_colours: &[NamedColour], command: Op
     )
 }
 
+/// What became of the counterfactuals, a line each.
+fn verdicts(counterfactuals: &[CounterfactualReport]) -> String {
+    let lines: String = counterfactuals
+        .iter()
+        .map(|one| {
+            let verdict = if one.passed { "held" } else { "**failed**" };
+            let order = if one.order.is_empty() { String::new() } else { format!(" (order {})", one.order.join(", ")) };
+            let failed: Vec<String> = one.failed().map(|expectation| code(&expectation.to_string())).collect();
+            let failed = if failed.is_empty() { String::new() } else { format!(" {}", failed.join("; ")) };
+            format!("- {}: {verdict}{order}{failed}\n", one.name)
+        })
+        .collect();
+    format!("**Counterfactuals**, runs beside this one in which something is changed:\n\n{lines}")
+}
+
 fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: NamedColour) -> String {
     let target = vehicle.target(&scenario.road);
     let goal = match vehicle.goal.lane {
@@ -61,9 +79,25 @@ fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: NamedColour) -> S
 #[cfg(test)]
 mod tests {
     use interplay_scenarios::load;
+    use interplay_simulation::run::run_with_counterfactuals;
 
     use super::super::palette::vehicle_colours;
-    use super::description;
+    use super::{description, verdicts};
+
+    #[test]
+    fn every_counterfactual_has_a_line() {
+        let scenario = load("intersection/nice", &[]).expect("embedded");
+        let mut report = run_with_counterfactuals("nice", &scenario, Vec::new()).expect("a run");
+        let text = verdicts(&report.counterfactuals);
+        assert!(text.contains("\n- Who asks nobody crosses second: held (order crossing, ego)\n"), "{text}");
+        let one = &mut report.counterfactuals[0];
+        (one.passed, one.expectations[0].passed) = (false, false);
+        let text = verdicts(&report.counterfactuals);
+        assert!(
+            text.contains("second: **failed** (order crossing, ego) `order_differs: want true, got true`\n"),
+            "{text}"
+        );
+    }
 
     #[test]
     fn the_text_says_how_to_repeat_the_run() {

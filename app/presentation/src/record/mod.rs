@@ -23,6 +23,7 @@ mod file;
 mod layout;
 mod live;
 mod markdown;
+mod open;
 mod palette;
 mod panels;
 mod planner_panels;
@@ -46,12 +47,14 @@ use rerun::{RecordingStream, RecordingStreamBuilder};
 
 pub use error::{RecordError, ViewerAddressError};
 pub use live::Viewer;
+pub use open::OpenRecording;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
 pub use timelines::{SIM_TIME, TICK};
 use vehicles::VehicleLayer;
 
 use interplay_simulation::frame::Frame;
+use interplay_simulation::report::CounterfactualReport;
 use interplay_simulation::watch::{WatchError, Watcher};
 
 /// The first bytes of every recording in a file.
@@ -88,6 +91,8 @@ pub struct Recorder {
     vehicles: VehicleLayer,
     plots: Plots,
     building_layer: Option<BuildingLayer>,
+    /// What a reader types to get the run again.
+    command: Option<String>,
     /// Longitudinal coordinates between which somebody was \[m\].
     driven_m: Option<[f64; 2]>,
 }
@@ -128,20 +133,28 @@ impl Recorder {
         if !scenario.vehicles.is_empty() {
             road::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
         }
-        about::about(&stream, scenario, &vehicle_colours, None)?;
+        about::about(&stream, scenario, &vehicle_colours, None, &[])?;
         let vehicles = VehicleLayer::begin(&stream, scenario, &vehicle_colours)?;
         let plots = Plots::begin(&stream, scenario, &vehicle_colours)?;
         let building_layer = BuildingLayer::begin(&stream, scenario)?;
-        Ok(Recorder { stream, output, scenario: scenario.clone(), vehicles, plots, building_layer, driven_m: None })
+        let scenario = scenario.clone();
+        Ok(Recorder { stream, output, scenario, vehicles, plots, building_layer, command: None, driven_m: None })
     }
 
     /// Adds to the text of the recording what a reader types to get the run again.
     ///
     /// # Errors
     /// [`RecordError::Broken`] if Rerun refuses the text.
-    pub fn repeat_with(&self, command: &str) -> Result<(), RecordError> {
+    pub fn repeat_with(&mut self, command: &str) -> Result<(), RecordError> {
+        self.command = Some(command.to_owned());
+        self.describe(&[])
+    }
+
+    /// Writes the text of the recording anew, with what became of the counterfactuals.
+    fn describe(&self, counterfactuals: &[CounterfactualReport]) -> Result<(), RecordError> {
         let vehicle_colours = palette::vehicle_colours(&self.scenario);
-        Ok(about::about(&self.stream, &self.scenario, &vehicle_colours, Some(command))?)
+        let command = self.command.as_deref();
+        Ok(about::about(&self.stream, &self.scenario, &vehicle_colours, command, counterfactuals)?)
     }
 
     /// Records one tick.

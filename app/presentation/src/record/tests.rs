@@ -301,3 +301,21 @@ fn every_vehicle_up_to_six_has_a_colour_of_its_own() {
         vehicle_colours.iter().map(|vehicle_colour| vehicle_colour.word).collect();
     assert_eq!((vehicle_colours.len(), words.len(), vehicle_colours[0].word), (6, 6, "orange"));
 }
+
+/// What became of counterfactuals is known when the run is over: until then the recording stays open.
+#[test]
+fn an_open_recording_is_written_when_it_is_closed() {
+    let folder = Folder::new("open");
+    let path = folder.0.join("run.rrd");
+    let scenario = load("intersection/nice", &[]).expect("embedded");
+    let recorder = || Recorder::begin(&scenario, "nice", &Sink::File(path.clone())).expect("writable");
+    let recording = OpenRecording::new(recorder());
+    let watchers: Vec<Box<dyn Watcher>> = vec![Box::new(recording.clone())];
+    let report = interplay_simulation::run::run("nice", &scenario, watchers).expect("a run");
+    assert!(!path.exists(), "the run is over, and the recording is not");
+    recording.close(&report).expect("writable");
+    assert!(fs::read(&path).expect("there").starts_with(&MAGIC));
+    fs::remove_file(&path).expect("there");
+    drop(OpenRecording::new(recorder()));
+    assert!(!path.exists(), "dropped unfinished, it leaves no file");
+}

@@ -1,8 +1,9 @@
-//! Many runs as JUnit XML, which build servers show: a test case for every run, a failure for what was not as expected,
+//! Many runs as JUnit XML, which build servers show: a test case for every run, counterfactuals included, a failure for what was not as expected,
 //! an error for a run that could not be finished.
 
 use std::time::Duration;
 
+use interplay_simulation::report::Expectation;
 use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite, XmlString};
 
 use super::Case;
@@ -13,32 +14,42 @@ use super::Case;
 /// [`SerializeError`] if the writer of XML refuses a text.
 pub fn junit(cases: &[Case], wall_s: f64) -> Result<String, SerializeError> {
     let mut suite = TestSuite::new("scenarios");
-    suite.set_time(seconds(wall_s)).add_test_cases(cases.iter().map(test_case));
+    suite.set_time(seconds(wall_s)).add_test_cases(cases.iter().flat_map(test_cases));
     let mut report = Report::new("interplay");
     report.set_time(seconds(wall_s)).add_test_suite(suite);
     report.to_string()
 }
 
-/// `family/name` is the case `name` of the class `family`.
-fn test_case(case: &Case) -> TestCase {
+/// `family/name` is the case `name` of the class `family`; each of its counterfactuals is the case `name: claim` of that class.
+fn test_cases(case: &Case) -> Vec<TestCase> {
     let (family, name) = case.name.rsplit_once('/').unwrap_or(("scenarios", &case.name));
-    let failed: Vec<String> = case.failed().map(ToString::to_string).collect();
-    let status = match &case.outcome {
-        Ok(_) if failed.is_empty() => TestCaseStatus::success(),
-        Ok(_) => {
-            let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-            status.set_message(text(&failed[0])).set_description(text(&failed.join("\n")));
-            status
-        }
+    let (status, time_s) = match &case.outcome {
+        Ok(report) => (failures(&mut case.failed()), report.wall_s),
         Err(error) => {
             let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
             status.set_message(text(&error.to_string()));
-            status
+            (status, 0.0)
         }
     };
+    let others = case.counterfactuals().map(|one| {
+        let name = format!("{name}: {}", one.name);
+        test_case(family, &name, failures(&mut one.failed()), one.run.wall_s)
+    });
+    std::iter::once(test_case(family, name, status, time_s)).chain(others).collect()
+}
+
+/// A failure for whatever did not hold.
+fn failures(failed: &mut dyn Iterator<Item = &Expectation>) -> TestCaseStatus {
+    let failed: Vec<String> = failed.map(ToString::to_string).collect();
+    let Some(first) = failed.first() else { return TestCaseStatus::success() };
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+    status.set_message(text(first)).set_description(text(&failed.join("\n")));
+    status
+}
+
+fn test_case(class: &str, name: &str, status: TestCaseStatus, time_s: f64) -> TestCase {
     let mut test_case = TestCase::new(text(name), status);
-    let time_s = case.outcome.as_ref().map_or(0.0, |report| report.wall_s);
-    test_case.set_classname(text(family)).set_time(seconds(time_s));
+    test_case.set_classname(text(class)).set_time(seconds(time_s));
     test_case
 }
 

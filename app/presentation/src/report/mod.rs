@@ -6,8 +6,10 @@ mod identification;
 mod junit;
 mod suite;
 mod summary;
+mod why;
 
 pub use identification::identification;
 pub use junit::junit;
 pub use suite::{Case, table};
 pub use summary::summary;
+pub use why::why;

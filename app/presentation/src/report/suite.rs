@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use interplay_simulation::report::{Expectation, Report};
+use interplay_simulation::report::{CounterfactualReport, Expectation, Report};
 use interplay_simulation::run::RunError;
 
 use super::columns::{Align, lines};
@@ -17,23 +17,53 @@ pub struct Case {
 }
 
 impl Case {
-    /// The expectations that did not hold.
+    /// The expectations of the scenario's own run that did not hold.
     pub(super) fn failed(&self) -> impl Iterator<Item = &Expectation> {
         let all = self.outcome.iter().flat_map(|report| &report.expectations);
         all.filter(|expectation| !expectation.passed)
     }
 
+    /// The runs beside the scenario's own.
+    pub(super) fn counterfactuals(&self) -> impl Iterator<Item = &CounterfactualReport> {
+        self.outcome.iter().flat_map(|report| &report.counterfactuals)
+    }
+
+    /// The word for how the scenario's own run ended.
     fn verdict(&self) -> &'static str {
         match &self.outcome {
             Err(_) => "UNFINISHED",
-            Ok(report) if !report.passed => "FAILED",
+            Ok(_) if self.failed().next().is_some() => "FAILED",
             Ok(report) if report.expectations.is_empty() => "nothing expected",
             Ok(_) => "passed",
         }
     }
+
+    /// The rows of the table: one for the scenario's own run, one below it for each counterfactual.
+    fn rows(&self) -> Vec<Vec<String>> {
+        let mut first = vec![self.name.clone(), self.verdict().to_owned()];
+        first.extend(self.outcome.iter().flat_map(figures));
+        let others = self.counterfactuals().map(|one| {
+            let verdict = if one.passed { "passed" } else { "FAILED" };
+            [format!("  if: {}", one.name), verdict.to_owned()].into_iter().chain(figures(&one.run)).collect()
+        });
+        std::iter::once(first).chain(others).collect()
+    }
+
+    /// What failed in the run of each of these rows.
+    fn failures(&self) -> Vec<Vec<String>> {
+        let words = |failed: &mut dyn Iterator<Item = &Expectation>| failed.map(ToString::to_string).collect();
+        let others = self.counterfactuals().map(|one| words(&mut one.failed()));
+        std::iter::once(words(&mut self.failed())).chain(others).collect()
+    }
 }
 
-/// A line for every run, below it whatever failed, and at the end how many passed; the suite took `wall_s` seconds.
+/// The figures of a run in its row.
+fn figures(report: &Report) -> [String; 3] {
+    let gap = report.min_gap_m.map_or_else(|| "-".to_owned(), |gap| format!("{gap:.3}"));
+    [report.collisions.len().to_string(), gap, format!("{:.2}", report.wall_s)]
+}
+
+/// A line for every run, those of counterfactuals below the scenario's own, below each whatever failed, and at the end how many passed; the suite took `wall_s` seconds.
 pub fn table(cases: &[Case], wall_s: f64) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
@@ -45,22 +75,17 @@ fn write_table(text: &mut String, cases: &[Case], wall_s: f64) -> std::fmt::Resu
     use Align::{Left, Right};
     let header =
         [("scenario", Left), ("outcome", Left), ("collisions", Right), ("smallest gap m", Right), ("time s", Right)];
-    let row = |case: &Case| {
-        let mut row = vec![case.name.clone(), case.verdict().to_owned()];
-        if let Ok(report) = &case.outcome {
-            let gap = report.min_gap_m.map_or_else(|| "-".to_owned(), |gap| format!("{gap:.3}"));
-            row.extend([report.collisions.len().to_string(), gap, format!("{:.2}", report.wall_s)]);
-        }
-        row
-    };
-    let lines = lines(&header, cases.iter().map(row));
+    let lines = lines(&header, cases.iter().flat_map(Case::rows));
     lines.iter().take(1).try_for_each(|header| writeln!(text, "{header}"))?;
-    for (case, line) in cases.iter().zip(&lines[1..]) {
-        match &case.outcome {
-            Ok(_) => writeln!(text, "{line}")?,
-            Err(error) => writeln!(text, "{line}  {error}")?,
+    let mut lines = lines[1..].iter();
+    for case in cases {
+        for (failures, line) in case.failures().iter().zip(&mut lines) {
+            match &case.outcome {
+                Ok(_) => writeln!(text, "{line}")?,
+                Err(error) => writeln!(text, "{line}  {error}")?,
+            }
+            failures.iter().try_for_each(|failed| writeln!(text, "  FAIL {failed}"))?;
         }
-        case.failed().try_for_each(|failed| writeln!(text, "  FAIL {failed}"))?;
     }
     let passed = cases.iter().filter(|case| case.outcome.as_ref().is_ok_and(|report| report.passed)).count();
     let verdict = if passed == cases.len() { "PASSED" } else { "FAILED" };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use interplay_simulation::report::{Report, VehicleReport};
+use interplay_simulation::report::{CounterfactualReport, Report, VehicleReport};
 
 use super::building;
 use super::columns::{Align, lines};
@@ -29,7 +29,8 @@ fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::R
     if let Some(building) = &report.building {
         building::write(text, building)?;
     }
-    write_expectations(text, report)
+    write_expectations(text, report)?;
+    write_counterfactuals(text, &report.counterfactuals)
 }
 
 fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
@@ -63,6 +64,27 @@ fn write_expectations(text: &mut String, report: &Report) -> std::fmt::Result {
         0 => writeln!(text, "  PASSED: all {} expectations held", report.expectations.len()),
         _ => writeln!(text, "  FAILED: {failed} of {} expectations", report.expectations.len()),
     }
+}
+
+fn write_counterfactuals(text: &mut String, counterfactuals: &[CounterfactualReport]) -> std::fmt::Result {
+    if counterfactuals.is_empty() {
+        return Ok(());
+    }
+    writeln!(text, "  counterfactuals, with something changed:")?;
+    for one in counterfactuals {
+        let mark = if one.passed { "ok  " } else { "FAIL" };
+        let order = if one.order.is_empty() { String::new() } else { format!(" (order: {})", one.order.join(", ")) };
+        writeln!(text, "  {mark} {}{order}", one.name)?;
+        one.failed().try_for_each(|failed| writeln!(text, "         {failed}"))?;
+    }
+    match counterfactuals.iter().filter(|one| !one.passed).count() {
+        0 => writeln!(text, "  PASSED: {} did as claimed", all_of(counterfactuals.len())),
+        failed => writeln!(text, "  FAILED: {failed} of {} counterfactuals", counterfactuals.len()),
+    }
+}
+
+fn all_of(count: usize) -> String {
+    if count == 1 { "the counterfactual".to_owned() } else { format!("all {count} counterfactuals") }
 }
 
 fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Result {

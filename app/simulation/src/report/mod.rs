@@ -1,16 +1,17 @@
 //! What a run amounts to: figures, and whether the scenario's expectations held.
 
 mod building;
+mod counterfactual;
 mod expectation;
 mod judge;
 mod outcome;
 
-use interplay_scenarios::{Scenario, Vehicle};
+use interplay_scenarios::{Expect, Scenario, Vehicle};
 use xxhash_rust::xxh3::xxh3_128;
 
 pub use building::BuildingReport;
 pub use expectation::Expectation;
-pub use outcome::{PlansReport, Report, VehicleReport};
+pub use outcome::{CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use crate::components::to_nanosecond;
 use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
@@ -43,10 +44,25 @@ impl Report {
             vehicles,
             building,
             expectations: Vec::new(),
+            counterfactuals: Vec::new(),
         };
         report.expectations = judge::judge(&scenario.expect, &report);
         report.passed = report.expectations.iter().all(|expectation| expectation.passed);
         report
+    }
+
+    /// Judges the counterfactuals of `scenario` by their runs, which come in the scenario's order.
+    pub fn judge_counterfactuals(&mut self, scenario: &Scenario, runs: Vec<Report>) {
+        let counterfactuals = scenario.counterfactuals.iter().zip(runs);
+        self.counterfactuals = counterfactuals
+            .map(|(stated, run)| counterfactual::judge_counterfactual(stated, (scenario, self), run))
+            .collect();
+        self.passed &= self.counterfactuals.iter().all(|counterfactual| counterfactual.passed);
+    }
+
+    /// The expectations of a scenario as this run fulfils them, whatever was expected of it.
+    pub fn judged_by(&self, expect: &Expect) -> Vec<Expectation> {
+        judge::judge(expect, self)
     }
 }
 

@@ -15,7 +15,7 @@ use crate::measure::{PhaseDigests, VehicleMeasures};
 pub struct Report {
     /// Name of the scenario.
     pub scenario: String,
-    /// Whether every expectation held.
+    /// Whether every expectation held, those of counterfactuals included.
     pub passed: bool,
     /// The seed of the run.
     pub seed: u64,
@@ -40,6 +40,26 @@ pub struct Report {
     pub building: Option<BuildingReport>,
     /// What was expected.
     pub expectations: Vec<Expectation>,
+    /// The runs beside this one in which something was changed; none before they are judged.
+    pub counterfactuals: Vec<CounterfactualReport>,
+}
+
+/// The outcome of one counterfactual.
+#[derive(Clone, Debug, Serialize)]
+pub struct CounterfactualReport {
+    /// What it claims.
+    pub name: String,
+    /// Whether every expectation of it held.
+    pub passed: bool,
+    /// Names from first to last, as in [`Report::order`].
+    pub order: Vec<String>,
+    /// What was expected of it.
+    pub expectations: Vec<Expectation>,
+    /// Digest of all states, bit for bit.
+    pub digest: String,
+    /// The run itself.
+    #[serde(skip)]
+    pub run: Box<Report>,
 }
 
 /// Keys of the serialisation that are about vehicles.
@@ -99,6 +119,13 @@ impl Report {
     /// The outcome for the vehicle of that name.
     pub fn vehicle(&self, name: &str) -> Option<&VehicleReport> {
         self.vehicles.iter().find(|vehicle| vehicle.name == name)
+    }
+}
+
+impl CounterfactualReport {
+    /// The expectations that did not hold.
+    pub fn failed(&self) -> impl Iterator<Item = &Expectation> {
+        self.expectations.iter().filter(|expectation| !expectation.passed)
     }
 }
 

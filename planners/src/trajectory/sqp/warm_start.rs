@@ -14,6 +14,8 @@ pub struct WarmStart {
     pub reach: Option<Reach>,
     /// For how many more plans the passing orders are not compared.
     pub plans_at_rest: usize,
+    /// What the last plan cost whose passing orders could have been compared.
+    pub last_cost: f64,
 }
 
 impl WarmStart {

@@ -32,6 +32,8 @@ use motions::for_each_motion;
 pub const MIN_COST_ADVANTAGE: f64 = 1e-3;
 /// Most classes that are examined for one plan, the cheapest representatives first.
 const MAX_CLASSES: usize = 4;
+/// A plan that costs this multiple of the one before is compared at once: somebody did what was not expected.
+const MAX_COST_GROWTH: f64 = 1.1;
 /// With every other class dearer than this multiple of the plan, the comparison rests longer.
 const FAR_COST_RATIO: f64 = 2.0;
 /// Number of plans without a comparison after one that changed nothing, and after one that found all others far dearer.
@@ -56,7 +58,10 @@ impl<S: StageSolver> Optimiser<S> {
         if trusted && !(self.compares_passing_orders && self.has_rivals(problem)) {
             return found;
         }
-        if trusted && self.warm_start.plans_at_rest > 0 {
+        let cost = found.as_ref().map_or(f64::INFINITY, |optimum| optimum.cost.total);
+        let has_jumped = cost > MAX_COST_GROWTH * self.warm_start.last_cost;
+        self.warm_start.last_cost = cost;
+        if trusted && !has_jumped && self.warm_start.plans_at_rest > 0 {
             self.warm_start.plans_at_rest -= 1;
             return found;
         }

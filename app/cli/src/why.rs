@@ -1,0 +1,97 @@
+//! `interplay why`
+
+use std::num::NonZeroUsize;
+
+use clap::Args;
+use interplay_presentation::report;
+use interplay_scenarios::{LoadError, Override, Scenario, StandardChange, load, standard_changes};
+use interplay_simulation::why::{WhyReport, why};
+
+use crate::error::CommandError;
+use crate::exit_status::ExitStatus;
+use crate::files::short_name;
+use crate::output::{json, print, print_error, print_load_error};
+use crate::progress::Progress;
+use crate::threads::pool;
+
+/// Find out what the outcome of a drive depends on: run it again with one thing changed at a time.
+#[derive(Debug, Args)]
+#[command(after_help = "The changes: each human's style; the planner of each interactive vehicle, and each of its \
+    mechanisms switched off; whether a vehicle knows the others' plans. Counterfactuals of the file are not run.\n\n\
+    Examples:\n  \
+    interplay why lane-change/front-nice\n  \
+    interplay why my.toml --set vehicle.ego.goal.speed_mps=1.2 --json")]
+pub(crate) struct Why {
+    /// Name of an embedded scenario (see `interplay list`) or path of a scenario file, with vehicles
+    #[arg(value_name = "NAME|FILE")]
+    scenario: String,
+
+    /// Change one value of the scenario in all runs; may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    sets: Vec<String>,
+
+    /// How many run at a time [default: one for each core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+
+    /// Print the results as one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+impl Why {
+    pub(crate) fn execute(self) -> ExitStatus {
+        let (scenario, changes) = match self.load() {
+            Ok(loaded) => loaded,
+            Err(error) => {
+                print_load_error(error);
+                return ExitStatus::BadInput;
+            }
+        };
+        if scenario.vehicles.is_empty() {
+            print_error(&format!(
+                "`interplay why` changes drivers, and `{}` has no vehicles; to compare controllers, state a \
+                 `[[counterfactual]]` for each",
+                self.scenario
+            ));
+            return ExitStatus::BadInput;
+        }
+        let printed = self.run(&scenario, &changes).and_then(|report| {
+            print(&if self.json {
+                json("the results", &report)?
+            } else {
+                report::why(&scenario.title, &self.words(), &report)
+            });
+            Ok(())
+        });
+        match printed {
+            Ok(()) => ExitStatus::Well,
+            Err(error) => {
+                print_error(&error.to_string());
+                ExitStatus::Unfinished
+            }
+        }
+    }
+
+    /// The words that run the scenario itself.
+    fn words(&self) -> Vec<String> {
+        let sets = self.sets.iter().flat_map(|change| ["--set".to_owned(), change.clone()]);
+        ["interplay", "run", &self.scenario].map(str::to_owned).into_iter().chain(sets).collect()
+    }
+
+    fn load(&self) -> Result<(Scenario, Vec<StandardChange>), LoadError> {
+        let overrides: Vec<Override> = self.sets.iter().cloned().map(Override::Set).collect();
+        let scenario = load(&self.scenario, &overrides)?;
+        let changes = standard_changes(&self.scenario, &scenario, &overrides)?;
+        Ok((scenario, changes))
+    }
+
+    fn run(&self, scenario: &Scenario, changes: &[StandardChange]) -> Result<WhyReport, CommandError> {
+        let pool = pool(self.jobs)?;
+        let progress = Progress::of(1 + changes.len());
+        let name = short_name(&self.scenario);
+        let report = pool.install(|| why(&name, scenario, changes, &|| progress.advance()));
+        progress.clear();
+        Ok(report?)
+    }
+}

@@ -1,0 +1,196 @@
+//! What the outcome of a drive depends on: the scenario's own run beside runs in each of which one thing is changed.
+
+use interplay_scenarios::{Scenario, StandardChange};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::report::Report;
+use crate::run::{RunError, run};
+
+/// The smallest change of a completion time that is spoken of \[s\].
+const NOTICEABLE_S: f64 = 0.3;
+
+/// The scenario's own run and the changed ones; its serialisation is what `interplay why --json` prints.
+#[derive(Clone, Debug, Serialize)]
+pub struct WhyReport {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// The seed of all runs, unless a change concerns it.
+    pub seed: u64,
+    /// Factors of which at least one change gives another order.
+    pub order_depends_on: Vec<String>,
+    /// Factors of which no change gives another order.
+    pub order_does_not_depend_on: Vec<String>,
+    /// Factors of which at least one change makes an expectation fail; none if the scenario's own run does not pass.
+    pub expectations_depend_on: Vec<String>,
+    /// Factors that leave the order alone, but move somebody's completion by at least 0.3 s, or prevent it.
+    pub times_depend_on: Vec<String>,
+    /// The scenario's own run, then the changed ones.
+    pub runs: Vec<WhyRun>,
+}
+
+/// One run and what it amounts to.
+#[derive(Clone, Debug, Serialize)]
+pub struct WhyRun {
+    /// What is changed; none in the scenario's own run.
+    pub change: Option<String>,
+    /// On what the outcome depends if this run differs.
+    pub factor: Option<String>,
+    /// The change as arguments of `--set`.
+    pub set: Vec<String>,
+    /// Names from first to last.
+    pub order: Vec<String>,
+    /// Whether this is another order than in the scenario's own run.
+    pub order_differs: bool,
+    /// When each vehicle reached its goal.
+    pub vehicles: Vec<Arrival>,
+    /// Smallest distance of the ego's footprint to another \[m\].
+    pub min_gap_m: Option<f64>,
+    /// How many pairs touched.
+    pub collisions: usize,
+    /// Plans that failed, over all vehicles.
+    pub plan_failures: usize,
+    /// Whether the scenario's expectations hold in this run; none if it has no expectations.
+    pub expectations_hold: Option<bool>,
+    /// The expectations that do not.
+    pub failed: Vec<String>,
+    /// Digest of all states, bit for bit.
+    pub digest: String,
+}
+
+/// When a vehicle reached its goal.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Arrival {
+    /// Its name.
+    pub name: String,
+    /// When \[s\].
+    pub completed_s: Option<f64>,
+}
+
+impl WhyRun {
+    fn new(report: &Report, main: &Report, change: Option<&StandardChange>) -> WhyRun {
+        let failed = report.expectations.iter().filter(|one| !one.passed).map(|one| one.what.clone());
+        let arrival = |vehicle: &crate::report::VehicleReport| Arrival {
+            name: vehicle.name.clone(),
+            completed_s: vehicle.completed_s,
+        };
+        WhyRun {
+            change: change.map(|change| change.change.clone()),
+            factor: change.map(|change| change.factor.clone()),
+            set: change.map(|change| change.sets.clone()).unwrap_or_default(),
+            order: report.order.clone(),
+            order_differs: report.order != main.order,
+            vehicles: report.vehicles.iter().map(arrival).collect(),
+            min_gap_m: report.min_gap_m,
+            collisions: report.collisions.len(),
+            plan_failures: report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum(),
+            expectations_hold: (!report.expectations.is_empty()).then_some(report.passed),
+            failed: failed.collect(),
+            digest: report.digest.clone(),
+        }
+    }
+
+    /// Whether somebody arrives noticeably earlier or later than in another run, or in one of both only.
+    fn times_differ(&self, main: &WhyRun) -> bool {
+        let mut pairs = self.vehicles.iter().zip(&main.vehicles);
+        pairs.any(|(here, there)| match (here.completed_s, there.completed_s) {
+            (Some(here), Some(there)) => (here - there).abs() >= NOTICEABLE_S - 1e-9,
+            (None, None) => false,
+            _ => true,
+        })
+    }
+}
+
+/// Runs a scenario, called `name`, and its changed forms side by side; `advance` is called after every run.
+///
+/// # Errors
+/// [`RunError`], if one of the runs cannot be finished.
+pub fn why(
+    name: &str,
+    scenario: &Scenario,
+    changes: &[StandardChange],
+    advance: &(dyn Fn() + Sync),
+) -> Result<WhyReport, RunError> {
+    let all: Vec<&Scenario> = std::iter::once(scenario).chain(changes.iter().map(|change| &change.scenario)).collect();
+    let one = |scenario: &&Scenario| {
+        let report = run(name, scenario, Vec::new());
+        advance();
+        report
+    };
+    let reports = all.par_iter().with_max_len(1).map(one).collect::<Result<Vec<Report>, RunError>>()?;
+    let changed = std::iter::once(None).chain(changes.iter().map(Some));
+    let runs = reports.iter().zip(changed).map(|(report, change)| WhyRun::new(report, &reports[0], change)).collect();
+    Ok(conclude(name, scenario.seed, runs))
+}
+
+/// Sorts the factors; the first run is the scenario's own.
+fn conclude(name: &str, seed: u64, runs: Vec<WhyRun>) -> WhyReport {
+    let factors = |matters: &dyn Fn(&WhyRun) -> bool| {
+        let mut found: Vec<String> = Vec::new();
+        for factor in runs.iter().filter(|run| matters(run)).filter_map(|run| run.factor.as_ref()) {
+            if !found.contains(factor) {
+                found.push(factor.clone());
+            }
+        }
+        found
+    };
+    let order_depends_on = factors(&|run| run.order_differs);
+    let mut others = factors(&|_| true);
+    others.retain(|factor| !order_depends_on.contains(factor));
+    let passes = runs.first().and_then(|main| main.expectations_hold) == Some(true);
+    let mut times = factors(&|run| runs.first().is_some_and(|main| run.times_differ(main)));
+    times.retain(|factor| !order_depends_on.contains(factor));
+    WhyReport {
+        scenario: name.to_owned(),
+        seed,
+        expectations_depend_on: factors(&|run| passes && run.expectations_hold == Some(false)),
+        order_depends_on,
+        order_does_not_depend_on: others,
+        times_depend_on: times,
+        runs,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run_of(factor: Option<&str>, order: &str, completed_s: Option<f64>, holds: bool) -> WhyRun {
+        WhyRun {
+            change: factor.map(str::to_owned),
+            factor: factor.map(str::to_owned),
+            set: Vec::new(),
+            order: order.split(' ').map(str::to_owned).collect(),
+            order_differs: order != "a b",
+            vehicles: vec![Arrival { name: "a".to_owned(), completed_s }],
+            min_gap_m: None,
+            collisions: 0,
+            plan_failures: 0,
+            expectations_hold: Some(holds),
+            failed: Vec::new(),
+            digest: String::new(),
+        }
+    }
+
+    /// A factor matters if any of its changes does, and is listed once.
+    #[test]
+    fn factors_are_sorted_by_what_they_change() {
+        let runs = |passes: bool| {
+            vec![
+                run_of(None, "a b", Some(2.0), passes),
+                run_of(Some("style"), "a b", Some(2.1), true),
+                run_of(Some("style"), "b a", Some(2.1), false),
+                run_of(Some("filter"), "a b", Some(2.3), true),
+                run_of(Some("belief"), "a b", None, false),
+                run_of(Some("gamma"), "a b", Some(1.9), true),
+            ]
+        };
+        let report = conclude("x", 1, runs(true));
+        assert_eq!(report.order_depends_on, ["style"]);
+        assert_eq!(report.order_does_not_depend_on, ["filter", "belief", "gamma"]);
+        assert_eq!(report.times_depend_on, ["filter", "belief"]);
+        assert_eq!(report.expectations_depend_on, ["style", "belief"]);
+        let failed = conclude("x", 1, runs(false));
+        assert!(failed.expectations_depend_on.is_empty(), "what fails anyhow depends on nothing");
+    }
+}

@@ -1,0 +1,110 @@
+//! The check of what counterfactuals say beside the scenarios that they run.
+
+use crate::counterfactual::Counterfactual;
+use crate::error::{Fault, quoted};
+use crate::expect::{CounterfactualExpect, Expect};
+use crate::nearest::suggestion;
+use crate::scenario::Scenario;
+use crate::tree::TomlNode;
+
+/// Everything that is wrong with the counterfactuals of a scenario, but for what they change. Unless it is `as_written`, flags
+/// may have removed what they refer to.
+pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, as_written: bool) -> Vec<Fault> {
+    let mut checker = Checker { scenario, tree, faults: Vec::new() };
+    for (index, counterfactual) in scenario.counterfactuals.iter().enumerate() {
+        checker.name(index, counterfactual);
+        checker.purpose(index, counterfactual, as_written);
+        checker.shifts(index, counterfactual);
+        if as_written {
+            checker.breaks(index, counterfactual);
+        }
+    }
+    checker.faults
+}
+
+struct Checker<'a> {
+    scenario: &'a Scenario,
+    tree: &'a TomlNode,
+    faults: Vec<Fault>,
+}
+
+impl Checker<'_> {
+    fn refuse(&mut self, path: &str, label: &str, message: String, help: impl Into<String>) {
+        let (fault, help) = (Fault::at(self.tree.place_of(path), label, message), help.into());
+        self.faults.push(if help.is_empty() { fault } else { fault.help(help) });
+    }
+
+    fn name(&mut self, index: usize, counterfactual: &Counterfactual) {
+        let earlier = self.scenario.counterfactuals[..index].iter().position(|other| other.name == counterfactual.name);
+        if let Some(first) = earlier {
+            let message = format!("two counterfactuals are called {}", quoted(&counterfactual.name));
+            let fault = Fault::at(self.tree.place_of(&format!("counterfactual.{index}.name")), "the second", message);
+            let fault = fault.also(self.tree.place_of(&format!("counterfactual.{first}.name")), "the first");
+            self.faults.push(fault.help("give each counterfactual a name of its own"));
+        }
+    }
+
+    /// Whether it changes something, and expects something of that.
+    fn purpose(&mut self, index: usize, counterfactual: &Counterfactual, as_written: bool) {
+        let (path, name) = (format!("counterfactual.{index}"), quoted(&counterfactual.name));
+        let changed = self.scenario.changed.get(index);
+        if counterfactual.planner.is_none() && counterfactual.set.is_empty() {
+            let help =
+                "state `planner = \"conservative\"`, or `set = { \"vehicle.ego.goal.speed_mps\" = 1.2 }`, for example";
+            self.refuse(&path, "no change", format!("the counterfactual {name} changes nothing"), help);
+        } else if as_written && changed.is_some_and(|changed| is_same_run(changed, self.scenario)) {
+            let help = "the scenario has these values already";
+            self.refuse(&path, "no change", format!("the counterfactual {name} changes nothing"), help);
+        }
+        if counterfactual.expect == CounterfactualExpect::default() {
+            let help = "state in `[counterfactual.expect]` what of `[expect]`, `order_differs`, `later`, `earlier` or `breaks`";
+            self.refuse(&path, "nothing expected", format!("the counterfactual {name} expects nothing"), help);
+        }
+        if self.scenario.vehicles.is_empty() && counterfactual.expect.order_differs.is_some() {
+            let message = "`order_differs` is stated, but there are no vehicles".to_owned();
+            self.refuse(&format!("{path}.expect.order_differs"), "for vehicles only", message, "");
+        }
+    }
+
+    /// Whether the vehicles of `later` and `earlier` exist.
+    fn shifts(&mut self, index: usize, counterfactual: &Counterfactual) {
+        let expect = &counterfactual.expect;
+        for (key, shifts) in [("later", &expect.later), ("earlier", &expect.earlier)] {
+            for (entry, shift) in shifts.iter().enumerate() {
+                if self.scenario.vehicle(&shift.vehicle).is_none() {
+                    let names: Vec<&str> = self.scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()).collect();
+                    let path = format!("counterfactual.{index}.expect.{key}.{entry}.vehicle");
+                    let message = format!("there is no vehicle {}", quoted(&shift.vehicle));
+                    let help = suggestion(&shift.vehicle, "the vehicles are", &names);
+                    self.refuse(&path, "unknown vehicle", message, help);
+                }
+            }
+        }
+    }
+
+    /// Whether the scenario states the expectations that are to fail.
+    fn breaks(&mut self, index: usize, counterfactual: &Counterfactual) {
+        let names = self.scenario.expect.names();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        for (entry, name) in counterfactual.expect.breaks.iter().flatten().enumerate() {
+            if !names.contains(&name.as_str()) {
+                let path = format!("counterfactual.{index}.expect.breaks.{entry}");
+                let message = format!("the scenario's own `[expect]` has no {}", quoted(name));
+                self.refuse(&path, "not expected", message, suggestion(name, "it has", &names));
+            }
+        }
+    }
+}
+
+/// Whether both scenarios are run alike, whatever is expected of them.
+fn is_same_run(one: &Scenario, other: &Scenario) -> bool {
+    let run = |scenario: &Scenario| Scenario {
+        figure: None,
+        expect: Expect::default(),
+        counterfactuals: Vec::new(),
+        changed: Vec::new(),
+        left_out: Vec::new(),
+        ..scenario.clone()
+    };
+    run(one) == run(other)
+}

@@ -1,0 +1,237 @@
+//! Runs beside a scenario's own in which something is changed: judged by `run` and `suite`, listed by `why`.
+
+use std::fs;
+use std::path::Path;
+
+use interplay_scenarios::load;
+use interplay_simulation::run::{run, run_with_counterfactuals};
+use serde_json::{Value, json};
+
+use crate::command::{Outcome, contents, interplay, scratch};
+use crate::film::FILMS;
+
+/// A scenario of two cars at an intersection, and what may follow from another planner.
+fn write(folder: &Path, name: &str, expect: &str) {
+    let text = format!(
+        "extends = 'intersection/nice'\ntitle = 'Mine'\n\n[[counterfactual]]\nname = 'who asks <nobody>'\n\
+         planner = 'conservative'\n\n[counterfactual.expect]\n{expect}\n"
+    );
+    fs::write(folder.join(name), text).expect("a scratch file can be written");
+}
+
+/// The expectations that hold for a conservative ego there.
+const TRUE: &str = "order_differs = true\nlater = [{ vehicle = 'ego', by_s = 1.0 }]\n\
+    earlier = [{ vehicle = 'crossing', by_s = 0.5 }]\nbreaks = ['order', 'completes.ego']\n\
+    no_collision = true\norder = ['crossing', 'ego']";
+
+fn run_file(folder: &Path, more: &[&str]) -> Outcome {
+    interplay(folder, &[&["run", "my.toml", "--no-record"], more].concat())
+}
+
+/// Names of the expectations of the only counterfactual, those that held and the others.
+fn judged(report: &Value) -> [Vec<&str>; 2] {
+    let all = report["counterfactuals"][0]["expectations"].as_array().expect("a list");
+    let those =
+        |passed: bool| all.iter().filter(move |one| one["passed"] == passed).filter_map(|one| one["what"].as_str());
+    [those(true).collect(), those(false).collect()]
+}
+
+#[test]
+fn a_counterfactual_is_judged_beside_the_run() {
+    let folder = scratch("counterfactual-held");
+    write(&folder, "my.toml", TRUE);
+    let outcome = run_file(&folder, &["--json"]);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""), "{outcome:?}");
+    let report = outcome.json();
+    let one = &report["counterfactuals"][0];
+    let keys: Vec<&str> = one.as_object().expect("an object").keys().map(String::as_str).collect();
+    assert_eq!(keys, ["name", "passed", "order", "expectations", "digest"]);
+    assert_eq!((&one["name"], &one["passed"]), (&json!("who asks <nobody>"), &json!(true)));
+    assert_eq!((&report["order"], &one["order"]), (&json!(["ego", "crossing"]), &json!(["crossing", "ego"])));
+    let held = ["order_differs", "later.ego", "earlier.crossing", "breaks", "no_collision", "order"];
+    assert_eq!(judged(&report), [held.to_vec(), Vec::new()]);
+    let flag = interplay(&folder, &["run", "intersection/nice", "--planner", "conservative", "--no-record", "--json"]);
+    assert_eq!(one["digest"], flag.json()["digest"], "the run that the flag makes");
+    let printed = run_file(&folder, &[]).stdout;
+    let lines = "  counterfactuals, with something changed:\n  ok   who asks <nobody> (order: crossing, ego)\n  \
+        PASSED: the counterfactual did as claimed\n";
+    assert!(printed.ends_with(lines), "{printed}");
+}
+
+#[test]
+fn a_counterfactual_that_fails_is_exit_code_1() {
+    let folder = scratch("counterfactual-failed");
+    let wrong = "order_differs = false\nlater = [{ vehicle = 'ego', by_s = 9.0 }]\n\
+        earlier = [{ vehicle = 'ego', by_s = 0.1 }]\nbreaks = []\norder = ['ego', 'crossing']";
+    write(&folder, "my.toml", wrong);
+    let outcome = run_file(&folder, &["--json"]);
+    let report = outcome.json();
+    assert_eq!((outcome.code, &report["passed"]), (Some(1), &json!(false)), "{outcome:?}");
+    assert_eq!(judged(&report), [Vec::new(), vec!["order_differs", "later.ego", "earlier.ego", "breaks", "order"]]);
+    let all = report["expectations"].as_array().expect("a list");
+    assert!(all.iter().all(|one| one["passed"] == true), "the scenario's own expectations hold");
+    let printed = run_file(&folder, &[]).stdout;
+    for piece in [
+        "  FAIL who asks <nobody> ",
+        "\n         breaks: want [], got [\"order\",\"completes.ego\"]\n",
+        "FAILED: 1 of 1 ",
+    ] {
+        assert!(printed.contains(piece), "{piece}: {printed}");
+    }
+}
+
+/// What flags change is changed in both runs; what they make impossible is left out, and said.
+#[test]
+fn flags_hold_for_counterfactuals_too() {
+    let folder = scratch("counterfactual-flags");
+    write(&folder, "my.toml", "order_differs = true");
+    let report = run_file(&folder, &["--set", "vehicle.crossing.driver.style=\"tough\"", "--json"]).json();
+    assert_eq!(report["order"], report["counterfactuals"][0]["order"], "nobody lets anybody go first");
+    assert_eq!(report["counterfactuals"][0]["passed"], false);
+    let text = fs::read_to_string(folder.join("my.toml")).expect("written");
+    let setting = text.replace("planner = 'conservative'", "set = { vehicle.ego.driver.persuasion = false }");
+    fs::write(folder.join("my.toml"), setting).expect("a scratch file can be written");
+    let outcome = run_file(&folder, &["--planner", "idm", "--json"]);
+    assert_eq!(outcome.json()["counterfactuals"], json!([]));
+    assert!(
+        outcome.stderr.starts_with("the counterfactual \"who asks <nobody>\" does not fit the flags: unknown key ")
+    );
+}
+
+#[test]
+fn a_wrong_counterfactual_is_refused_before_anything_runs() {
+    let folder = scratch("counterfactual-wrong");
+    write(&folder, "my.toml", "order_difers = true");
+    for arguments in [&["run", "my.toml"][..], &["suite", "my.toml", "--junit", "out.xml"], &["check", "my.toml"]] {
+        let outcome = interplay(&folder, arguments);
+        assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(2), ""), "{outcome:?}");
+        assert!(outcome.stderr.contains("my.toml:9:1") && outcome.stderr.contains("`order_differs`"), "{outcome:?}");
+    }
+    assert_eq!(contents(&folder), ["my.toml"], "nothing was run");
+}
+
+/// In a suite a counterfactual has a row, and a test case, of its own.
+#[test]
+fn a_suite_judges_counterfactuals() {
+    let folder = scratch("counterfactual-suite");
+    write(&folder, "good.toml", TRUE);
+    write(&folder, "bad.toml", "order_differs = false");
+    let outcome = interplay(&folder, &["suite", "good.toml", "bad.toml", "--junit", "out.xml"]);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(1), ""), "{outcome:?}");
+    let lines: Vec<&str> = outcome.stdout.lines().collect();
+    let starts = [
+        "scenario ",
+        "good ",
+        "  if: who asks <nobody>  passed ",
+        "bad ",
+        "  if: who asks <nobody>  FAILED ",
+        "  FAIL order_differs: want false, got true",
+        "FAILED: 1 of 2 did what they should",
+    ];
+    assert_eq!(lines.len(), starts.len(), "{}", outcome.stdout);
+    for (line, start) in lines.iter().zip(starts) {
+        assert!(line.starts_with(start), "`{line}` does not start with `{start}`");
+    }
+    let xml = fs::read_to_string(folder.join("out.xml")).expect("written");
+    assert!(xml.contains("tests=\"4\" skipped=\"0\" failures=\"1\" errors=\"0\""), "{xml}");
+    for piece in ["name=\"good: who asks &lt;nobody&gt;\"", "message=\"order_differs: want false, got true\""] {
+        assert_eq!(xml.matches(piece).count(), 1, "{piece}: {xml}");
+    }
+    let reports = interplay(&folder, &["suite", ".", "--json"]).json();
+    assert_eq!(reports[0]["counterfactuals"][0]["passed"], false);
+    assert_eq!(reports[1]["counterfactuals"][0]["passed"], true);
+}
+
+/// The page and the recording say what became of the counterfactuals.
+#[test]
+fn page_and_recording_have_a_line_for_each() {
+    let folder = scratch("counterfactual-page");
+    write(&folder, "my.toml", TRUE);
+    let outcome = interplay(&folder, &["run", "my.toml", "--report", "page"]);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    let page = fs::read_to_string(folder.join("page/index.html")).expect("a page");
+    assert!(page.contains("Counterfactuals") && page.contains("who asks &lt;nobody&gt;"));
+    let recording = fs::read(folder.join("page/recording.rrd")).expect("a recording");
+    assert!(!recording.is_empty());
+}
+
+/// Bit for bit, with and without counterfactuals: they run elsewhere.
+#[test]
+fn counterfactuals_leave_the_run_alone() {
+    let scenario = load("intersection/nice", &[]).expect("authored");
+    let alone = run("nice", &scenario, Vec::new()).expect("a run");
+    let beside = run_with_counterfactuals("nice", &scenario, Vec::new()).expect("a run");
+    assert_eq!((alone.digest, alone.phase_digests), (beside.digest, beside.phase_digests));
+    assert_eq!((alone.counterfactuals.len(), beside.counterfactuals.len()), (0, scenario.counterfactuals.len()));
+}
+
+/// `breaks` names expectations as reports do.
+#[test]
+fn the_names_of_expectations_are_those_of_reports() {
+    for film in FILMS.iter() {
+        let mut judged: Vec<&str> = film.report.expectations.iter().map(|one| one.what.as_str()).collect();
+        judged.sort_unstable();
+        judged.dedup();
+        assert!(judged.iter().copied().eq(film.scenario.expect.names().iter()), "{}: {judged:?}", film.name());
+    }
+    let house = load("building/four-room-ilc", &[]).expect("authored").expect.names();
+    assert!(house.iter().all(|name| name.starts_with("building.") && !name.contains("after_iterations")), "{house:?}");
+}
+
+#[test]
+fn why_says_what_the_order_depends_on() {
+    let folder = scratch("why");
+    let outcome = interplay(&folder, &["why", "intersection/nice"]);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""), "{outcome:?}");
+    for piece in [
+        "Intersection, crossing driver nice  [intersection/nice]\n  what is changed ",
+        "\n  nothing  ",
+        "\n  ego: planner = conservative ",
+        "\n  ego: without concession (weight_floor = 1.0) ",
+        "\n  crossing: style = tough ",
+        "FAIL: order, completes.ego",
+        "\nThe order depends on ego's planner and knowledge of plans, and crossing's style.\nIt does not depend on ego's ",
+        "\nWhether the expectations hold depends on the same factors as the order.\n",
+        "\nTo see one of these runs: interplay run intersection/nice --set 'vehicle.ego.driver.kind=\"conservative\"'\n",
+    ] {
+        assert!(outcome.stdout.contains(piece), "{piece:?} is not in\n{}", outcome.stdout);
+    }
+    let report = interplay(&folder, &["why", "intersection/nice", "--json", "--jobs", "2"]).json();
+    assert_eq!(report["order_depends_on"], json!(["ego's planner", "ego's knowledge of plans", "crossing's style"]));
+    let runs = report["runs"].as_array().expect("a list");
+    assert_eq!((&runs[0]["change"], &runs[0]["expectations_hold"]), (&Value::Null, &json!(true)));
+    for run in runs.iter().skip(1).take(3) {
+        let set = run["set"][0].as_str().expect("a flag");
+        let same = interplay(&folder, &["run", "intersection/nice", "--no-record", "--json", "--set", set]).json();
+        assert_eq!((&run["digest"], &run["order"]), (&same["digest"], &same["order"]), "{set}");
+    }
+    assert_eq!(contents(&folder), Vec::<String>::new());
+}
+
+/// Every planner that is declared to have mechanisms can be run without each of them.
+#[test]
+fn why_switches_off_every_mechanism() {
+    let folder = scratch("why-mechanisms");
+    for (name, mechanisms) in [
+        ("intersection/nice", &["reinforcement", "concession", "persuasion", "safety filter", "look across"][..]),
+        ("intersection/bayesian-nice", &["persuasion"]),
+        ("intersection/game-friendly", &["prospect theory", "expression of intention", "forgetting"]),
+    ] {
+        let report = interplay(&folder, &["why", name, "--json"]).json();
+        let factors: Vec<&str> =
+            report["runs"].as_array().expect("a list").iter().filter_map(|run| run["factor"].as_str()).collect();
+        for mechanism in mechanisms {
+            assert!(factors.contains(&format!("ego's {mechanism}").as_str()), "{name}: {mechanism} not in {factors:?}");
+        }
+    }
+}
+
+#[test]
+fn why_refuses_what_it_cannot_change() {
+    let folder = scratch("why-refuses");
+    let building = interplay(&folder, &["why", "building/four-room-pid"]);
+    assert_eq!((building.code, building.stdout.as_str()), (Some(2), ""), "{building:?}");
+    assert!(building.stderr.contains("has no vehicles"), "{building:?}");
+    let missing = interplay(&folder, &["why", "nowhere"]);
+    assert_eq!(missing.code, Some(2), "{missing:?}");
+}
