@@ -1,31 +1,40 @@
-//! The embedded lane changes in the loop of the application, with the bicycle as the plant.
+//! Lane changes, ramp merges and intersections in the loop of the application, with the bicycle as the plant.
 
-use interplay_planners::human::Style;
+use interplay_planners::human::Style::{self, Nice, Tough};
 use interplay_planners::{Driver, Plan, Scene, Trajectory};
 
 use crate::Result;
-use crate::world::{LANES, Vehicle, begin, human, vehicle};
+use crate::world::{Vehicle, begin, intersection, lane_change, ramp_merge};
 
-const TICKS: usize = 120;
+const TICKS: usize = 80;
 
-/// What sets the lane changes apart.
+/// Where the drivers meet.
 #[derive(Clone, Copy)]
-pub struct Scenario {
-    /// Its name.
-    pub name: &'static str,
-    front: Style,
-    rear: Style,
-    /// Where the front one starts \[m\]; the other is 1.3 m behind it.
-    front_x_m: f64,
-    /// How fast both drive \[m/s\].
-    speed_mps: f64,
+enum Place {
+    LaneChange([Style; 2]),
+    RampMerge([Style; 2]),
+    /// The crossing driver, how far it is from the ego's road and where the ego starts \[m\].
+    Intersection(Style, f64, f64),
 }
 
-/// The lane changes of `scenarios/files/lane-change/`.
-pub const SCENARIOS: [Scenario; 3] = [
-    Scenario { name: "front-nice", front: Style::Nice, rear: Style::Nice, front_x_m: -0.35, speed_mps: 1.25 },
-    Scenario { name: "front-tough", front: Style::Tough, rear: Style::Nice, front_x_m: -0.35, speed_mps: 1.25 },
-    Scenario { name: "both-tough", front: Style::Tough, rear: Style::Tough, front_x_m: -0.4, speed_mps: 1.4 },
+/// A scenario by its name.
+#[derive(Clone, Copy)]
+pub struct Scenario {
+    pub name: &'static str,
+    place: Place,
+}
+
+/// What is recorded.
+pub const SCENARIOS: [Scenario; 9] = [
+    Scenario { name: "front-nice", place: Place::LaneChange([Nice, Nice]) },
+    Scenario { name: "front-tough", place: Place::LaneChange([Tough, Nice]) },
+    Scenario { name: "both-tough", place: Place::LaneChange([Tough, Tough]) },
+    Scenario { name: "ramp-nice", place: Place::RampMerge([Nice, Nice]) },
+    Scenario { name: "ramp-tough", place: Place::RampMerge([Tough, Nice]) },
+    Scenario { name: "crossing-nice", place: Place::Intersection(Nice, 1.965, -2.4) },
+    Scenario { name: "crossing-tough", place: Place::Intersection(Tough, 1.965, -2.4) },
+    Scenario { name: "crossing-near-nice", place: Place::Intersection(Nice, 1.9, -2.0) },
+    Scenario { name: "crossing-near-tough", place: Place::Intersection(Tough, 1.75, -2.0) },
 ];
 
 /// One driver's decision.
@@ -36,23 +45,28 @@ pub struct Decision<'a> {
     pub scene: &'a Scene,
     /// What it planned the step before.
     pub last: Option<&'a Trajectory>,
+    /// What it proposed the step before.
+    pub last_proposal: Option<&'a Trajectory>,
     /// What it answered.
     pub plan: &'a Plan,
 }
 
 /// The vehicles of a scenario with `ego` as the ego's driver. A cooperative ego needs somebody to cooperate with: then it
-/// drives the front car too.
+/// drives the first of the others too.
 fn vehicles(scenario: &Scenario, ego: &Driver) -> Vec<Vehicle> {
-    let front = if matches!(ego, Driver::Cooperative(_)) { ego.clone() } else { human(scenario.front) };
-    let (steady, wants) = ([0.0, 4.0, 1.0, 1.0], [LANES[1], scenario.speed_mps]);
-    let driving = |name: &str, x_m: f64, driver: Driver| {
-        vehicle(name, [x_m, LANES[1], scenario.speed_mps], wants, steady, driver)
+    let mut vehicles = match scenario.place {
+        Place::LaneChange(styles) => lane_change(ego.clone(), styles),
+        Place::RampMerge(styles) => ramp_merge(ego.clone(), styles),
+        Place::Intersection(style, away_m, start_m) => {
+            let mut vehicles = intersection(ego.clone(), style, away_m);
+            vehicles[0].agent.state.x_m = start_m;
+            vehicles
+        }
     };
-    vec![
-        driving("front", scenario.front_x_m, front),
-        driving("rear", scenario.front_x_m - 1.3, human(scenario.rear)),
-        vehicle("ego", [0.0, LANES[0], 1.0], [LANES[1], 1.0], [0.0, 1.0, 0.5, 1.0], ego.clone()),
-    ]
+    if matches!(ego, Driver::Cooperative(_)) {
+        vehicles[1].drive(ego.clone());
+    }
+    vehicles
 }
 
 /// Drives a scenario with `ego` as the ego's driver and shows every decision to `watch`.
@@ -62,16 +76,23 @@ fn vehicles(scenario: &Scenario, ego: &Driver) -> Vec<Vehicle> {
 pub fn run(scenario: &Scenario, ego: &Driver, mut watch: impl FnMut(&Decision) -> Result<()>) -> Result<()> {
     let vehicles = vehicles(scenario, ego);
     let (mut traffic, mut planners) = begin(&vehicles);
-    let mut last: Vec<Option<Trajectory>> = vec![None; vehicles.len()];
+    let mut last: Vec<Option<Plan>> = vec![None; vehicles.len()];
     for _ in 0..TICKS {
         let mut watched = Ok(());
         let decisions = traffic.drive(|index, scene| {
             let plan = planners[index].plan(scene)?;
-            let decision = Decision { driver: &vehicles[index].driver, scene, last: last[index].as_ref(), plan: &plan };
+            let before = last[index].as_ref();
+            let decision = Decision {
+                driver: &vehicles[index].driver,
+                scene,
+                last: before.map(|plan| &plan.trajectory),
+                last_proposal: before.and_then(|plan| Some(&plan.proposal.as_ref()?.trajectory)),
+                plan: &plan,
+            };
             if watched.is_ok() {
                 watched = watch(&decision);
             }
-            last[index] = Some(plan.trajectory.clone());
+            last[index] = Some(plan.clone());
             Ok(plan)
         });
         watched?;

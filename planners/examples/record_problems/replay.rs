@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use interplay_planners::trajectory::{Optimiser, Robust, WarmStart};
 
-use crate::Result;
-use crate::negotiation_replay::Posed;
+use crate::{Posed, Result};
 use crate::recorded::optimiser;
 
 /// By the name of the vehicle, the tick of its last problem and an optimiser that has solved that problem.

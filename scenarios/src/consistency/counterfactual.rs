@@ -3,7 +3,7 @@
 use crate::counterfactual::Counterfactual;
 use crate::error::{Fault, quoted};
 use crate::expect::{CounterfactualExpect, Expect};
-use crate::nearest::suggestion;
+use interplay_building::nearest::suggestion;
 use crate::scenario::Scenario;
 use crate::tree::TomlNode;
 
