@@ -22,6 +22,8 @@ pub enum Bound {
     AtMost(f64),
     /// `exclusiveMaximum`.
     Below(f64),
+    /// `not = { const = … }`.
+    OtherThan(f64),
 }
 
 impl Bound {
@@ -34,6 +36,7 @@ impl Bound {
             Self::Above(bound) => value > bound,
             Self::AtMost(bound) => value <= bound,
             Self::Below(bound) => value < bound,
+            Self::OtherThan(bound) => value != bound,
         }
     }
 
@@ -45,6 +48,7 @@ impl Bound {
             bound("exclusiveMinimum").map(Self::Above),
             bound("maximum").map(Self::AtMost),
             bound("exclusiveMaximum").map(Self::Below),
+            schema["not"]["const"].as_f64().map(Self::OtherThan),
         ];
         stated.into_iter().flatten()
     }
@@ -64,6 +68,7 @@ impl fmt::Display for Bound {
             Self::Above(bound) => write!(f, "above {bound}"),
             Self::AtMost(bound) => write!(f, "at most {bound}"),
             Self::Below(bound) => write!(f, "below {bound}"),
+            Self::OtherThan(bound) => write!(f, "other than {bound}"),
         }
     }
 }

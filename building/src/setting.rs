@@ -24,6 +24,7 @@ use serde_json::Value as Json;
 use toml::Value as Toml;
 
 use crate::bounds::Bound;
+use crate::json_schema::{definition_of, kind_of};
 
 /// The key of a setting, relative to the table that is being read: names of nested tables and numbers of list entries
 /// (from zero) are joined by dots, as in `feedback.integral_kw_per_k_h` or `occupied_c.2`.
@@ -129,12 +130,11 @@ fn check_value(root: &Json, schema: &Json, value: &Toml, key: &SettingKey) -> Re
 
 /// The part of a schema that describes a value: without `$ref`, and of several kinds of table the one that it is.
 fn description_of<'a>(root: &'a Json, schema: &'a Json, value: &Toml) -> &'a Json {
-    let definition = schema["$ref"].as_str().and_then(|path| root.pointer(path.strip_prefix('#')?));
-    let schema = definition.unwrap_or(schema);
+    let schema = definition_of(root, schema);
     let alternatives = ["oneOf", "anyOf"].iter().filter_map(|keyword| schema[*keyword].as_array()).flatten();
     let kind = value.get("kind").and_then(Toml::as_str);
     let mut fitting = alternatives.filter(|one| {
-        let wanted = one.pointer("/properties/kind/const").and_then(Json::as_str);
+        let wanted = kind_of(one);
         one["type"] != "null" && (wanted.is_none() || wanted == kind)
     });
     fitting.next().map_or(schema, |alternative| description_of(root, alternative, value))

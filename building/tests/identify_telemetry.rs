@@ -234,7 +234,7 @@ fn a_value_of_the_wrong_type_is_told_what_is_wanted() {
         "4:8: `time` must be a table with `column`, `format`, `step_s`, `gaps`, `batch`, not the number 3",
     );
     wanted("900.0", "\"900\"", "9:10: `time.step_s` must be a number, not the text `900`");
-    wanted("\";\"", "\";;\"", "5:13: `table.separator` must be a text of one character, not the text `;;`");
+    wanted("\";\"", "\";;\"", "5:13: `table.separator` must be a text of one ASCII character, not the text `;;`");
     wanted("[[\"living\", \"outdoor\"]]", "\"living\"", "2:9: `walls` must be a list, not the text `living`");
     wanted("\"outdoor\"]]", "\"outdoor\", \"b\"]]", "2:10: `walls.0` must be a list of 2 entries, not of 3");
     wanted(
@@ -297,7 +297,7 @@ fn wrong_mappings_say_where_and_what() {
         broken("unit = \"w\"", "unit = \"kilowatt\""),
         "home.toml:18:48: `zone.living.heat.0.unit` cannot be `kilowatt`; choose from: `kw`, `w`, `unknown`"
     );
-    assert_eq!(broken("900.0", "0.0"), "home.toml:9:10: time.step_s is 0; it must be a positive number of seconds");
+    assert_eq!(broken("900.0", "0.0"), "home.toml:9:10: `time.step_s` is 0; it must be above 0");
     assert_eq!(
         broken("\"outdoor\"]]", "\"attic\"]]"),
         "home.toml:2:21: the name `attic` in walls is unknown; known names: `living`, `outdoor`"
@@ -306,12 +306,31 @@ fn wrong_mappings_say_where_and_what() {
     assert!(same.starts_with("home.toml:2:10: ") && same.contains("on both sides of one wall"), "{same}");
     let twice = broken("name = \"outdoor\"", "name = \"living\"");
     assert!(twice.starts_with("home.toml:12:8: ") && twice.contains("used twice"), "{twice}");
-    let separator = broken("\";\"", "\";\"\ndecimal = \";\"");
-    assert!(separator.starts_with("home.toml:6:11: table.decimal is `;`"), "{separator}");
+    assert_eq!(
+        broken("\";\"", "\";\"\ndecimal = \";\""),
+        "home.toml:6:11: `table.decimal` cannot be `;`; choose from: `.`, `,`"
+    );
+    let same = "`table.separator` is `,`; it must be another character than `table.decimal`";
+    assert_eq!(broken("\";\"", "\",\"\ndecimal = \",\""), format!("home.toml:5:13: {same}"));
+    assert_eq!(broken("separator = \";\"", "decimal = \",\""), format!("home.toml:5:11: {same}"));
+    assert!(
+        broken("\";\"", "\"–\"")
+            .starts_with("home.toml:5:13: `table.separator` must be a text of one ASCII character, not the text `–`; ")
+    );
     let mixed = broken("unit = \"w\" }", "unit = \"unknown\" }, { kind = \"power\", column = \"P\", unit = \"w\" }");
-    assert!(mixed.starts_with("home.toml:18:48: ") && mixed.contains("their sum would mean nothing"), "{mixed}");
-    let factor = broken("unit = \"w\" }", "unit = \"w\", factor = 0 }");
-    assert!(factor.starts_with("home.toml:18:62: heat.factor is 0"), "{factor}");
+    assert!(
+        mixed.starts_with("home.toml:18:48: `zone.living.heat.0.unit` is `unknown` beside")
+            && mixed.contains("their sum would mean nothing"),
+        "{mixed}"
+    );
+    assert_eq!(
+        broken("unit = \"w\" }", "unit = \"w\", factor = 0 }"),
+        "home.toml:18:62: `zone.living.heat.0.factor` is 0; it must be other than 0"
+    );
+    let zones = MAPPING.find("[[zone]]").expect("a zone");
+    let none = format!("zone = []\n{}", &MAPPING[..zones]);
+    let none = Mapping::parse("home.toml", &none).expect_err("no zone").to_string();
+    assert!(none.starts_with("home.toml:1:8: `zone` must be a list of at least 1 entry, not of 0; "), "{none}");
 }
 
 /// The check before reading and the reader itself accept the same documents.
@@ -330,12 +349,16 @@ fn what_the_check_lets_pass_can_be_read() {
         "\"w\"",
         "\"sun\"",
     ];
+    let mut refused = 0;
     for (place, value) in places.iter().flat_map(|place| values.map(|value| (place, value))) {
         let text = MAPPING.replacen(place, value, 1);
-        let Err(error) = Mapping::parse("home.toml", &text) else { continue };
-        assert!(!matches!(*error.problem, TelemetryProblem::Syntax { .. }), "{value} for {place}: {error}");
-        assert!(error.place.is_some(), "{value} for {place}: {error}");
+        if let Err(error) = Mapping::parse("home.toml", &text) {
+            assert!(!matches!(*error.problem, TelemetryProblem::Syntax { .. }), "{value} for {place}: {error}");
+            assert!(error.place.is_some(), "{value} for {place}: {error}");
+            refused += 1;
+        }
     }
+    assert_eq!((refused, places.len() * values.len()), (97, 108), "refused, and tried");
 }
 
 #[test]

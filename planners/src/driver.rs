@@ -90,7 +90,13 @@ impl Driver {
     pub fn description(&self) -> String {
         match self {
             Driver::Human(settings) => format!("{}, {}", self.kind(), settings.manner()),
-            _ => self.kind().to_owned(),
+            Driver::Idm(_)
+            | Driver::Scripted(_)
+            | Driver::Conservative(_)
+            | Driver::Negotiation(_)
+            | Driver::Bayesian(_)
+            | Driver::Game(_)
+            | Driver::Cooperative(_) => self.kind().to_owned(),
         }
     }
 
@@ -112,7 +118,13 @@ impl Driver {
     pub fn shared_goal(&self, goal: &Goal) -> Option<Goal> {
         match self {
             Driver::Cooperative(settings) => Some(settings.shared_goal(goal)),
-            _ => None,
+            Driver::Human(_)
+            | Driver::Idm(_)
+            | Driver::Scripted(_)
+            | Driver::Conservative(_)
+            | Driver::Negotiation(_)
+            | Driver::Bayesian(_)
+            | Driver::Game(_) => None,
         }
     }
 
@@ -124,13 +136,25 @@ impl Driver {
         match self {
             Driver::Negotiation(settings) => settings.check(horizon_steps),
             Driver::Bayesian(settings) => settings.check(),
-            _ => Ok(()),
+            Driver::Human(_)
+            | Driver::Idm(_)
+            | Driver::Scripted(_)
+            | Driver::Conservative(_)
+            | Driver::Game(_)
+            | Driver::Cooperative(_) => Ok(()),
         }
     }
 
     /// Whether the driver plans before those who rely on knowing its plan.
     pub fn goes_first(&self) -> bool {
-        matches!(self, Driver::Human(_) | Driver::Idm(_) | Driver::Scripted(_))
+        match self {
+            Driver::Human(_) | Driver::Idm(_) | Driver::Scripted(_) => true,
+            Driver::Conservative(_)
+            | Driver::Negotiation(_)
+            | Driver::Bayesian(_)
+            | Driver::Game(_)
+            | Driver::Cooperative(_) => false,
+        }
     }
 }
 

@@ -55,7 +55,7 @@ pub use overrides::Override;
 pub use plant::{Dynamic, Kinematic, Plant};
 pub use road::{Branch, Intersection, Lanes, RampMerge, Road};
 pub use scenario::{GoalConfig, Scenario, Vehicle, Weights};
-pub use schema::{driver_kinds, schema};
+pub use schema::{controller_kinds, driver_kinds, schema};
 pub use source::Source;
 pub use standard_changes::{StandardChange, standard_changes};
 pub use start_jitter::StartJitter;

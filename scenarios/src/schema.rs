@@ -18,11 +18,11 @@ mod units;
 
 use std::sync::LazyLock;
 
+use interplay_building::json_schema::kind_of;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json, json};
 
 use crate::scenario::Scenario;
-use node::kind_of;
 
 pub(crate) use node::{Concern, SchemaNode};
 pub(crate) use units::{quantity_of, unit_of};
@@ -43,6 +43,11 @@ pub(crate) fn complete() -> SchemaNode {
 pub fn driver_kinds() -> Vec<&'static str> {
     let vehicle = complete().property("vehicle").and_then(SchemaNode::entries);
     vehicle.and_then(|vehicle| vehicle.property("driver")).map(SchemaNode::kinds).unwrap_or_default()
+}
+
+/// The kinds of controllers that a building may have.
+pub fn controller_kinds() -> Vec<&'static str> {
+    complete().property("controller").map(SchemaNode::kinds).unwrap_or_default()
 }
 
 /// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat what that one states.

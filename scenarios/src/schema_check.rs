@@ -4,6 +4,7 @@
 //! of the format what is wrong and what would work.
 
 use interplay_building::bounds::Bound;
+use interplay_building::json_schema::type_in_words;
 use interplay_building::nearest::{listed, suggestion};
 use serde_json::Value as Json;
 
@@ -71,14 +72,7 @@ impl Checker {
     }
 
     fn wrong_type(&mut self, node: &TomlNode, wanted: Option<&str>, schema: SchemaNode, path: &Path) {
-        let wanted = match wanted {
-            Some("object") => "a table",
-            Some("array") => "a list",
-            Some("string") => "a text",
-            Some("boolean") => "true or false",
-            Some("integer") => "a whole number",
-            _ => "a number",
-        };
+        let wanted = type_in_words(wanted);
         let got = match &node.value {
             TomlValue::Text(text) => format!("the text {}", quoted(text)),
             TomlValue::Bool(truth) => format!("`{truth}`"),

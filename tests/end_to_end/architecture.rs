@@ -183,8 +183,7 @@ fn functions_are_short() {
         let lines: Vec<&str> = text.lines().collect();
         for (start, line) in lines.iter().enumerate() {
             let indent = line.len() - line.trim_start().len();
-            let opening = ["fn ", "pub fn ", "pub(crate) fn ", "pub(super) fn ", "const fn ", "pub const fn "];
-            if !opening.iter().any(|words| line.trim_start().starts_with(words)) || line.trim_end().ends_with('}') {
+            if !begins_function(line) || line.trim_end().ends_with('}') {
                 continue;
             }
             let brace = format!("{}}}", " ".repeat(indent));
@@ -192,6 +191,33 @@ fn functions_are_short() {
             let name = line.trim();
             assert!(length <= FUNCTION_LINES, "{}: {length} lines in `{name}`", file.display());
         }
+    }
+}
+
+/// Whether a line begins a function, whatever stands before `fn`.
+fn begins_function(line: &str) -> bool {
+    let line = line.trim_start();
+    // A restriction may have a path, as in `pub(in crate::plot)`.
+    let restricted = line.strip_prefix("pub(").and_then(|rest| rest.split_once(") ")).map(|(_, rest)| rest);
+    let rest = restricted.or_else(|| line.strip_prefix("pub ")).unwrap_or(line);
+    let mut words = rest
+        .split_whitespace()
+        .skip_while(|word| ["default", "const", "async", "unsafe", "extern"].contains(word) || word.starts_with('"'));
+    words.next() == Some("fn")
+}
+
+#[test]
+fn functions_are_found_whatever_stands_before_them() {
+    let before = ["", "pub ", "pub(crate) ", "pub(super) ", "pub(in crate::plot) ", "    "];
+    for (visibility, kind) in before.iter().flat_map(|visibility| {
+        ["", "const ", "unsafe ", "async ", "const unsafe ", "extern \"C\" ", "unsafe extern \"C\" "]
+            .map(|kind| (visibility, kind))
+    }) {
+        let line = format!("{visibility}{kind}fn f() {{");
+        assert!(begins_function(&line), "{line}");
+    }
+    for line in ["// fn f() {", "let fn_count = 1;", "pub struct S {", "F: Fn() {", "pub const LIMIT: f64 = 1.0;"] {
+        assert!(!begins_function(line), "{line}");
     }
 }
 
@@ -241,8 +267,11 @@ fn names_variant(line: &str, enumeration: &str) -> bool {
 /// these quantities names no planner, no controller, and no variant of `Driver` or `Controller`. Comments and tests may.
 #[test]
 fn recorder_report_and_measures_name_no_planner_and_no_controller() {
-    let kinds = ["negotiation", "bayesian", "game", "cooperative", "conservative", "idm", "scripted", "acceptance"];
-    let controllers = ["pid", "thermostat", "clairvoyant", "iterative", "concurrent", "distributed", "centralised"];
+    let kinds = interplay_scenarios::driver_kinds();
+    let controllers = interplay_scenarios::controller_kinds();
+    assert!(kinds.contains(&"negotiation") && controllers.contains(&"pid"), "{kinds:?}, {controllers:?}");
+    // Quantities that one planner alone reports, and one controller alone.
+    let quantities = ["acceptance", "centralised"];
     let folders = [
         "app/presentation/src/record",
         "app/presentation/src/report",
@@ -256,7 +285,7 @@ fn recorder_report_and_measures_name_no_planner_and_no_controller() {
             continue;
         }
         for line in shown.lines().filter(|line| !line.trim_start().starts_with("//")) {
-            for word in kinds.iter().chain(&controllers) {
+            for word in kinds.iter().chain(&controllers).chain(&quantities) {
                 assert!(!line.contains(&format!("\"{word}")), "{} names {word}: {line}", file.display());
             }
             for list in ["Controller", "Driver"] {

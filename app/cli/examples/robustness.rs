@@ -15,10 +15,11 @@
 use std::error::Error;
 
 use clap::Parser;
-use interplay_scenarios::{Override, Scenario, embedded, load};
+use interplay_scenarios::{LoadError, Override, Scenario, embedded, load};
 use interplay_simulation::report::Report;
-use interplay_simulation::run::run;
+use interplay_simulation::run::{RunError, run};
 use rayon::prelude::*;
+use thiserror::Error;
 
 /// Perturbs the starts of scenarios and prints which outcomes are kept, as a Markdown table.
 #[derive(Parser)]
@@ -38,6 +39,17 @@ struct Study {
 
 /// The largest changes of position and speed.
 const JITTER: [&str; 2] = ["start_jitter.position_m=0.1", "start_jitter.speed_mps=0.1"];
+
+/// Why a start has no outcome.
+#[derive(Debug, Error)]
+enum StudyError {
+    /// The scenario, or a change of it, is refused.
+    #[error(transparent)]
+    Scenario(#[from] LoadError),
+    /// The run failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
 
 /// What became of one start.
 struct Outcome {
@@ -103,12 +115,12 @@ impl Study {
 
     /// The outcomes of all seeds in their order, of the scenario's own planner or another.
     fn outcomes(&self, name: &str, planner: Option<&str>) -> Result<Vec<Outcome>, Box<dyn Error>> {
-        let outcome = |seed: u64| -> Result<Outcome, String> {
-            let scenario = load(name, &self.overrides(seed, planner)).map_err(|error| error.to_string())?;
-            let report = run(name, &scenario, Vec::new()).map_err(|error| error.to_string())?;
+        let outcome = |seed: u64| -> Result<Outcome, StudyError> {
+            let scenario = load(name, &self.overrides(seed, planner))?;
+            let report = run(name, &scenario, Vec::new())?;
             Ok(Outcome::of(&scenario, &report))
         };
-        let outcomes: Result<Vec<Outcome>, String> = (1..=self.seeds).into_par_iter().map(outcome).collect();
+        let outcomes: Result<Vec<Outcome>, StudyError> = (1..=self.seeds).into_par_iter().map(outcome).collect();
         Ok(outcomes?)
     }
 

@@ -58,10 +58,10 @@ mod tests {
     #[test]
     fn each_clock_strikes_at_its_own_times_and_both_at_once_where_they_meet() {
         let car = "vehicle = [{ name = 'a', start = { x_m = 0, y_m = 0.2, speed_mps = 0 } }]";
-        let (alone, house) =
+        let (vehicles, building) =
             (of(&format!("duration_s = 2000\nstep_s = 450\n{car}")), of("building = {}\niterations = 2"));
-        assert_eq!((alone.len(), house.len()), (4, 96));
-        assert!(alone.iter().all(|time_point| time_point.vehicles && !time_point.building));
+        assert_eq!((vehicles.len(), building.len()), (4, 96));
+        assert!(vehicles.iter().all(|time_point| time_point.vehicles && !time_point.building));
         let both =
             of(&format!("duration_s = 2000\nstep_s = 450\nbuilding = {{ step_s = 900 }}\niterations = 1\n{car}"));
         let times: Vec<f64> = both[..5].iter().map(|time_point| time_point.time_s).collect();

@@ -7,8 +7,9 @@ use interplay_convex::{ProblemError, SolveError};
 use crate::discretise::ModelError;
 use crate::setting::SettingError;
 
-/// The largest plausible magnitude of a temperature \[°C\] or of a heat flow \[kW\].
-const LARGEST_PLAUSIBLE: f64 = 1e6;
+/// Largest magnitude of a temperature \[°C\] or of a heat flow \[kW\]. Chosen far beyond any building; larger numbers are
+/// errors of the input.
+const MAX_TEMPERATURE_C_OR_HEAT_KW: f64 = 1e6;
 
 /// Why a controller cannot be started, or cannot plan a day.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -116,7 +117,7 @@ impl ControlError {
     pub(super) fn check_finite(what: &'static str, series: &[f64]) -> Result<(), Self> {
         match series
             .iter()
-            .position(|value| !matches!(value.abs().partial_cmp(&LARGEST_PLAUSIBLE), Some(Ordering::Less)))
+            .position(|value| !matches!(value.abs().partial_cmp(&MAX_TEMPERATURE_C_OR_HEAT_KW), Some(Ordering::Less)))
         {
             Some(index) => Err(Self::NotFinite { what, index, value: series[index] }),
             None => Ok(()),

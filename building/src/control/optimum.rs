@@ -19,7 +19,7 @@ use crate::discretise::{DENSE_NODES, Discretisation, Model};
 use crate::lifted::Lifted;
 
 /// Tolerance of the solver, tighter than its default: inputs near a limit are accurate to about its square root only.
-const TOLERANCE: f64 = 1e-10;
+const SOLVER_TOLERANCE: f64 = 1e-10;
 
 /// Cost of a kelvin beyond the comfort band while occupied.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +66,7 @@ pub fn optimum(
 }
 
 /// The margin of an input is at most this share of its limit, so that the plan keeps some power.
-const LARGEST_MARGIN: f64 = 0.95;
+const MAX_MARGIN_RATIO: f64 = 0.95;
 
 /// By how much a plan keeps within the limits of the day.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -83,7 +83,7 @@ pub(super) struct ConstraintTightening {
 pub(super) fn margins_kw(lifted: &Lifted, input_deviation_kw: &[f64], quantile: f64) -> Vec<f64> {
     let limits_kw = lifted.model().network().limits_kw();
     (input_deviation_kw.iter().enumerate())
-        .map(|(i, deviation_kw)| (quantile * deviation_kw).min(LARGEST_MARGIN * limits_kw[i % limits_kw.len()]))
+        .map(|(i, deviation_kw)| (quantile * deviation_kw).min(MAX_MARGIN_RATIO * limits_kw[i % limits_kw.len()]))
         .collect()
 }
 
@@ -110,7 +110,7 @@ pub(super) fn plan(
         return Err(ControlError::TooLarge { nodes, most: DENSE_NODES });
     }
     let posed = Posed::new(model, targets, free_c, penalty, tightening);
-    let settings = SolverSettings { tolerance: TOLERANCE, ..SolverSettings::default() };
+    let settings = SolverSettings { tolerance: SOLVER_TOLERANCE, ..SolverSettings::default() };
     let solution = Solver::new(&posed.program, &settings)?.solve()?;
 
     let mut heat_kw = solution.value(posed.input).to_vec();

@@ -107,11 +107,11 @@ pub fn lmi_margin(lmi: Lmi, closed: &DMatrix<f64>) -> Result<f64, ControlError> 
 /// The best decay rate that a vector f proves: min over f > 0 of maxᵢ Σⱼ |Mᵢⱼ| fⱼ / fᵢ, the spectral radius of |M|, by
 /// the power method. An upper bound for the spectral radius of M, and equal to it where M is nonnegative.
 pub fn positive_decay(closed: &DMatrix<f64>) -> f64 {
-    const ROUNDS: usize = 500;
+    const MAX_POWER_STEPS: usize = 500;
     let n = closed.nrows();
     let mut f = vec![1.0; n];
     let mut bound = f64::INFINITY;
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_POWER_STEPS {
         let moved: Vec<f64> = (0..n).map(|i| (0..n).map(|j| closed[(i, j)].abs() * f[j]).sum()).collect();
         bound = moved.iter().zip(&f).map(|(moved, f)| moved / f).fold(0.0, f64::max).min(bound);
         let largest = moved.iter().copied().fold(0.0, f64::max);

@@ -100,15 +100,16 @@ impl ChebyshevSeries {
 /// Chebyshev coefficients of an analytic function on [−1, 1], to the last digit: the function is interpolated in twice as
 /// many points until the last coefficients are rounding errors, and those are left out.
 fn chebyshev(f: impl Fn(f64) -> f64) -> Vec<f64> {
-    const FIRST: usize = 16;
-    const LAST: usize = 1 << 14;
-    let mut points = FIRST;
+    /// Number of points of the first interpolation, and of the last, which is taken as it is. The sums cost the square of it.
+    const MIN_POINTS: usize = 16;
+    const MAX_POINTS: usize = 1 << 14;
+    let mut points = MIN_POINTS;
     loop {
         let coefficients = interpolated(&f, points);
         let largest = coefficients.iter().fold(0.0_f64, |largest, a| largest.max(a.abs()));
         let negligible = 4.0 * f64::EPSILON * largest;
         let needed = coefficients.iter().rposition(|a| a.abs() > negligible).map_or(1, |last| last + 1);
-        if needed + points / 8 <= points || points >= LAST {
+        if needed + points / 8 <= points || points >= MAX_POINTS {
             return coefficients[..needed].to_vec();
         }
         points *= 2;

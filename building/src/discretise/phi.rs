@@ -14,15 +14,16 @@ pub(super) fn reached(z: f64) -> f64 {
 
 /// φ₂ for z ≥ 0.
 pub(super) fn mean(z: f64) -> f64 {
-    /// Below this the closed form cancels; the power series then needs no more terms than are summed.
-    const SMALL: f64 = 0.5;
-    const TERMS: u32 = 16;
-    if z > SMALL {
+    /// Up to this argument φ₂ is its power series: the closed form would lose more than two bits to cancellation, and the first
+    /// term left out of the series is below 10⁻¹⁹.
+    const MAX_SERIES_ARGUMENT: f64 = 0.5;
+    const SERIES_TERMS: u32 = 16;
+    if z > MAX_SERIES_ARGUMENT {
         return (z + libm::expm1(-z)) / (z * z);
     }
     let mut term = 0.5;
     let mut sum = term;
-    for k in 1..TERMS {
+    for k in 1..SERIES_TERMS {
         term *= -z / f64::from(k + 2);
         sum += term;
     }

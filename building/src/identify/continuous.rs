@@ -20,8 +20,9 @@ use super::normal::product;
 use super::regression::Coefficient;
 use super::telemetry::Telemetry;
 
-/// The series for K ends when its terms are below this.
-const TOLERANCE: f64 = 1e-15;
+/// The series for K ends when all entries of the power of M are below this. K is near the identity, so what follows is below its
+/// rounding errors.
+const MAX_OMITTED_POWER: f64 = 1e-15;
 const MOST_TERMS: i32 = 1000;
 
 /// The estimates of all zones as rates of the continuous network.
@@ -92,7 +93,7 @@ fn factor(loss: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         power = product(&power, loss);
         factor += &power / f64::from(term);
         match power.amax() {
-            size if size < TOLERANCE => return Some(factor),
+            size if size < MAX_OMITTED_POWER => return Some(factor),
             size if size > 1e3 => return None,
             _ => {}
         }

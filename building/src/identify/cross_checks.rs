@@ -13,8 +13,9 @@ use super::report::CrossCheck;
 use super::telemetry::Telemetry;
 use super::{Estimator, IdentifyError, IdentifySettings};
 
-/// Estimates that differ by more than this many standard errors of the difference dispute one another.
-const DISPUTE: f64 = 3.0;
+/// Estimates that differ by more than this many standard errors of the difference dispute one another. Normal errors alone
+/// exceed it in 0.3 % of the cases.
+const MAX_UNDISPUTED_STANDARD_ERRORS: f64 = 3.0;
 
 /// An estimate with its cross-checks.
 #[derive(Debug, Clone)]
@@ -68,7 +69,7 @@ impl CheckedEstimate {
             let (contrary, contrary_error) = of_coefficient(&other.estimate, index);
             let distance = (value - contrary).abs() / (error * error + contrary_error * contrary_error).sqrt();
             let (how, ratio) = (&other.how, contrary / value);
-            (distance > DISPUTE)
+            (distance > MAX_UNDISPUTED_STANDARD_ERRORS)
                 .then(|| format!("{how} {name} is {ratio:.2} times as large, {distance:.0} standard errors away"))
         })
     }

@@ -41,8 +41,8 @@ pub use report::{
 pub use settings::{Estimator, IdentifySettings};
 pub use smoothing::local_linear;
 pub use telemetry::{
-    AirFlowUnit, Boundary, BoundaryColumns, Gaps, HeatColumns, IrradianceUnit, Mapping, MeasuredWall, MeasuredZone,
-    Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem,
+    AirFlowUnit, Boundary, BoundaryColumns, DecimalSign, Gaps, HeatColumns, IrradianceUnit, Mapping, MeasuredWall,
+    MeasuredZone, Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem,
     TemperatureUnit, TimeAxis, ValueShape, WaterFlowUnit, ZoneColumns,
 };
 

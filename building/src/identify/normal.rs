@@ -18,8 +18,9 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 use super::regression::Regression;
 
-/// Eigenvalues of a Gram matrix with unit diagonal below this share of the largest are treated as zero.
-const SINGULAR: f64 = 1e-13;
+/// Smallest eigenvalue of a Gram matrix with unit diagonal, as a share of the largest, that is not treated as zero: about 450
+/// rounding units, above the rounding errors of the sums in its entries.
+const MIN_EIGENVALUE_RATIO: f64 = 1e-13;
 
 /// The log-likelihood of a linear regression with unit variance, up to a constant.
 pub(super) struct LogLikelihood {
@@ -112,7 +113,7 @@ pub(super) fn condition_number(regression: &Regression) -> f64 {
     let eigenvalues = SymmetricEigen::new(LogLikelihood::new(regression).gram).eigenvalues;
     let (low, high) = (eigenvalues.min(), eigenvalues.max());
     // Below rounding the smallest eigenvalue may even be negative.
-    if low <= SINGULAR * high { f64::INFINITY } else { (high / low).sqrt() }
+    if low <= MIN_EIGENVALUE_RATIO * high { f64::INFINITY } else { (high / low).sqrt() }
 }
 
 /// Covariance of least-squares coefficients when residuals are correlated over time and differ in size (Newey and West):
@@ -164,7 +165,7 @@ impl PseudoInverse {
     fn new(symmetric: &DMatrix<f64>) -> Self {
         let count = symmetric.nrows();
         let eigen = SymmetricEigen::new(symmetric.clone());
-        let threshold = SINGULAR * eigen.eigenvalues.max();
+        let threshold = MIN_EIGENVALUE_RATIO * eigen.eigenvalues.max();
         let (mut matrix, mut undetermined) = (DMatrix::zeros(count, count), vec![false; count]);
         for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
             if *value > threshold {
@@ -181,7 +182,7 @@ impl PseudoInverse {
 pub(super) fn positive_definite(matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     let factor = Cholesky::new(matrix)?;
     let pivots = factor.l_dirty().diagonal();
-    (pivots.iter().all(|pivot| *pivot * *pivot > SINGULAR)).then_some(factor)
+    (pivots.iter().all(|pivot| *pivot * *pivot > MIN_EIGENVALUE_RATIO)).then_some(factor)
 }
 
 /// The rows and columns `indices` of a symmetric matrix.

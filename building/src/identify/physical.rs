@@ -12,7 +12,7 @@
 use nalgebra::DMatrix;
 
 use super::cross_checks::CheckedEstimate;
-use super::diagnostics::{Confidence, INTERVAL, ParameterVerdict, judge};
+use super::diagnostics::{Confidence, ParameterVerdict, STANDARD_ERRORS_OF_95_PERCENT, judge};
 use super::estimate::Estimate;
 use super::regression::Coefficient;
 use super::report::Quantity;
@@ -51,7 +51,7 @@ impl Physical<'_> {
         let verdict =
             judge(&name, unconstrained, error, &entangled).disputed(self.checked.dispute(index, "it").as_deref());
         let known = verdict.confidence != Confidence::NotIdentifiable;
-        let end = |sign: f64| (unconstrained + sign * INTERVAL * error).max(0.0);
+        let end = |sign: f64| (unconstrained + sign * STANDARD_ERRORS_OF_95_PERCENT * error).max(0.0);
         Quantity {
             symbol: symbol.into(),
             unit: unit.into(),
@@ -190,7 +190,7 @@ impl Physical<'_> {
         let var_d = product(covariance, denominator, denominator);
         let between = product(covariance, numerator, denominator);
         let interval = fieller((n, d), (var_n, var_d, between));
-        if d <= INTERVAL * var_d.sqrt() {
+        if d <= STANDARD_ERRORS_OF_95_PERCENT * var_d.sqrt() {
             let bound = interval
                 .0
                 .map_or("nothing is known of it".into(), |low| format!("it is at least {low:.3} {}", labels.2));
@@ -229,7 +229,7 @@ fn product(covariance: &DMatrix<f64>, a: &Linear, b: &Linear) -> f64 {
 
 /// Fieller's interval of n/d, cut at zero; an end is `None` where there is no bound.
 fn fieller((n, d): (f64, f64), (var_n, var_d, between): (f64, f64, f64)) -> (Option<f64>, Option<f64>) {
-    let z2 = INTERVAL * INTERVAL;
+    let z2 = STANDARD_ERRORS_OF_95_PERCENT * STANDARD_ERRORS_OF_95_PERCENT;
     let (a, b, c) = (d * d - z2 * var_d, n * d - z2 * between, n * n - z2 * var_n);
     let root = (b * b - a * c).max(0.0).sqrt();
     if d > 0.0 && a > 0.0 {

@@ -1,7 +1,7 @@
 //! A wall between two zones has one resistance, which is estimated from either side: R_ij = a_i/b_ij = a_j/b_ji. Where the two
 //! estimates disagree, the network lacks a path of heat, such as air through a door or an unmeasured mass.
 
-use super::diagnostics::INTERVAL;
+use super::diagnostics::STANDARD_ERRORS_OF_95_PERCENT;
 use super::report::{Quantity, WallReport};
 
 /// The estimate of a wall's conductance from one side \[kW/K\].
@@ -47,7 +47,7 @@ fn combine(one: (f64, f64), other: (f64, f64)) -> (Option<(f64, f64)>, String) {
     let precision = (1.0 / (one.1 * one.1), 1.0 / (other.1 * other.1));
     let total = precision.0 + precision.1;
     let distance = (one.0 - other.0).abs() / (one.1 * one.1 + other.1 * other.1).sqrt();
-    if distance <= INTERVAL {
+    if distance <= STANDARD_ERRORS_OF_95_PERCENT {
         let mean = (one.0 * precision.0 + other.0 * precision.1) / total;
         return (Some((mean, 1.0 / total.sqrt())), format!("both sides agree ({distance:.1} standard errors apart)"));
     }

@@ -8,8 +8,9 @@
 //!
 //! A local *line*, unlike a local mean, is unbiased for trends, also at the ends of the data.
 
-/// How many bandwidths from its centre the kernel is cut off.
-const REACH: f64 = 4.0;
+/// Distance from its centre at which the kernel is cut off, in bandwidths; its weight there is exp(−8) = 3·10⁻⁴ of that at the
+/// centre.
+const CUTOFF_BANDWIDTHS: f64 = 4.0;
 
 /// The series minus its local-linear kernel smooth; `bandwidth` in samples.
 ///
@@ -24,7 +25,7 @@ pub fn local_linear(series: &[f64], bandwidth: f64) -> Vec<f64> {
         return series.to_vec();
     }
     // A line needs two neighbours on each side, even at the smallest bandwidth.
-    let reach = libm::ceil(REACH * bandwidth).clamp(2.0, series.len() as f64) as usize;
+    let reach = libm::ceil(CUTOFF_BANDWIDTHS * bandwidth).clamp(2.0, series.len() as f64) as usize;
     let weights: Vec<f64> = (0..=reach)
         .map(|distance| {
             let scaled = distance as f64 / bandwidth;

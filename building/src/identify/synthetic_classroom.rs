@@ -20,8 +20,8 @@ pub const OUTDOOR_K_PER_KW: f64 = 31.25;
 pub const ROOM_K_PER_KW: f64 = 62.5;
 /// Temperature beyond the rooms beside the classroom \[°C\].
 const BEYOND_C: f64 = 24.5;
-/// Steps of a day.
-const DAY: usize = 96;
+/// Steps of a day of 86,400 s, each of `STEP_S`.
+const STEPS_PER_DAY: usize = 96;
 
 /// What to simulate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -57,7 +57,7 @@ impl Default for Classroom {
 impl Classroom {
     /// The telemetry of the simulated classroom: zone `classroom` between boundaries `outdoor`, `room-b` and `room-c`.
     pub fn simulate(&self) -> Telemetry {
-        let rows = DAY * self.days + 1;
+        let rows = STEPS_PER_DAY * self.days + 1;
         let outdoor_c = outdoor(&mut Random::new(self.seed, 1), rows);
         let schedule_kw: Vec<f64> = (0..rows).map(|row| if occupied(row) { 0.32 } else { 0.02 }).collect();
         let disturbance_k = self.disturbance_k(&mut Random::new(self.seed, 2), rows);
@@ -202,7 +202,7 @@ fn gaussian_mean(window: &[f64], bandwidth: f64) -> f64 {
 
 /// Hour of the day at a row.
 fn hour(row: usize) -> f64 {
-    (row % DAY) as f64 * STEP_S / 3600.0
+    (row % STEPS_PER_DAY) as f64 * STEP_S / 3600.0
 }
 
 /// Whether classes are held.

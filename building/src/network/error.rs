@@ -149,10 +149,10 @@ impl fmt::Display for Remark {
 
 /// The first names of a list, for a message.
 fn quoted(names: &[String]) -> String {
-    const SHOWN: usize = 6;
-    let mut shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
-    if names.len() > SHOWN {
-        shown.push(format!("{} more", names.len() - SHOWN));
+    const MAX_LISTED_NAMES: usize = 6;
+    let mut shown: Vec<String> = names.iter().take(MAX_LISTED_NAMES).map(|name| format!("`{name}`")).collect();
+    if names.len() > MAX_LISTED_NAMES {
+        shown.push(format!("{} more", names.len() - MAX_LISTED_NAMES));
     }
     shown.join(", ")
 }

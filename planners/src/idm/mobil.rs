@@ -7,7 +7,7 @@
 //! ```
 //!
 //! where `c` is the vehicle itself, `n` the follower it would get, `o` the one it has, and a tilde means "after the change".
-//! The bias is the wish for the goal's lane: it speaks for lanes nearer to it and against others. What others want is not
+//! The bias favours the goal's lane: it is positive for lanes nearer to it and negative for others. What others want is not
 //! known: they are taken to be content with their present speeds.
 
 use super::Settings;

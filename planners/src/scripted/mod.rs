@@ -80,10 +80,10 @@ impl Scripted {
         Ok(Plan { trajectory, ..Plan::default() })
     }
 
-    /// The order that rules at a time, of those that `speaks` picks; of orders at one time, the last.
-    fn latest(&self, time_s: f64, speaks: impl Fn(&Order) -> bool) -> Option<&Order> {
+    /// The order that rules at a time, of those that `applies` accepts; of orders at one time, the last.
+    fn latest(&self, time_s: f64, applies: impl Fn(&Order) -> bool) -> Option<&Order> {
         let begun =
-            self.settings.script.iter().filter(|order| speaks(order) && order.from_s <= time_s + TIME_TOLERANCE_S);
+            self.settings.script.iter().filter(|order| applies(order) && order.from_s <= time_s + TIME_TOLERANCE_S);
         begun.max_by(|a, b| a.from_s.total_cmp(&b.from_s))
     }
 }
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn orders_are_carried_out_from_their_time_on_and_each_rules_what_it_speaks_of() {
+    fn orders_are_carried_out_from_their_time_on_and_each_sets_only_what_it_states() {
         let plan =
             driven(vec![order(1.0, Some(0.4), None), order(0.5, Some(1.2), None), order(0.8, None, Some(0.555))], 0);
         let at = |t: usize| plan.trajectory.states[t];

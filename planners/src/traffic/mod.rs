@@ -5,7 +5,7 @@
 //! ```text
 //! sense     the caller writes state, last input and damage of every road user into a `Traffic`
 //! predict   Traffic::predict          everybody is expected to continue its last plan, from where it really is
-//! plan      Traffic::plan             everybody decides, in `Traffic::planning_order`; failures fall back
+//! plan      Traffic::plan             everybody decides, in `planning_order`; failures fall back
 //! act       Traffic::applied_inputs   the first input of each plan, within the limits
 //! move      a plant of the caller, or the bicycle: Traffic::advance
 //! ```
@@ -21,14 +21,17 @@
 
 mod committed;
 mod limits;
-mod order;
+mod planning_order;
+mod road_user;
 #[cfg(test)]
 mod tests;
 
 pub use committed::{CommittedPlan, Origin};
 pub use limits::applied_input;
+pub use planning_order::planning_order;
+pub use road_user::RoadUser;
 
-use crate::{Agent, Bicycle, Goal, Input, Plan, PlanError, Scene};
+use crate::{Bicycle, Input, Plan, PlanError, Scene};
 
 /// Everybody on the road at the start of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,21 +46,6 @@ pub struct Traffic {
     pub road_users: Vec<RoadUser>,
 }
 
-/// One vehicle with all that the loop keeps of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RoadUser {
-    /// The vehicle as everybody sees it.
-    pub agent: Agent,
-    /// What it wants.
-    pub goal: Goal,
-    /// Whether it plans before, and publishes its plan to, those who do not.
-    pub goes_first: bool,
-    /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
-    pub is_crashed: bool,
-    /// What it decided last.
-    pub committed: CommittedPlan,
-}
-
 /// What one vehicle decided in a tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
@@ -69,13 +57,6 @@ pub struct Decision {
     pub origin: Origin,
     /// Why the planner found none, if it was asked and failed.
     pub failure: Option<PlanError>,
-}
-
-impl RoadUser {
-    /// A vehicle that has not planned yet.
-    pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
-        RoadUser { agent, goal, goes_first, is_crashed: false, committed: CommittedPlan::default() }
-    }
 }
 
 impl Traffic {
@@ -105,7 +86,7 @@ impl Traffic {
     /// `ask` is given the index of a vehicle and its scene, and answers with what the vehicle's planner does. Afterwards the
     /// predictions of those who go first are their plans.
     pub fn plan(&mut self, mut ask: impl FnMut(usize, &Scene) -> Result<Plan, PlanError>) -> Vec<Decision> {
-        let order = self.planning_order();
+        let order = planning_order(&self.road_users);
         order.into_iter().map(|vehicle| self.decide(vehicle, &mut ask)).collect()
     }
 

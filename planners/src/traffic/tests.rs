@@ -2,6 +2,7 @@
 
 use super::committed::rolled_out;
 use super::*;
+use crate::Agent;
 use crate::State;
 use crate::Trajectory;
 use crate::fixture::{agent, scene};
@@ -68,7 +69,7 @@ proptest! {
         let users: Vec<RoadUser> =
             users.iter().map(|(x, goes_first)| road_user("", f64::from(*x), *goes_first)).collect();
         let traffic = traffic(users);
-        let order = traffic.planning_order();
+        let order = planning_order(&traffic.road_users);
         let mut indices = order.clone();
         indices.sort_unstable();
         prop_assert!(indices.into_iter().eq(0..traffic.road_users.len()));

@@ -1,6 +1,7 @@
 //! A part of the schema, with what its keywords say as Rust types.
 
 use interplay_building::bounds::Bound;
+use interplay_building::json_schema::{definition_of, kind_of, words_of};
 use serde_json::Value as Json;
 
 /// What a key concerns that means nothing without it.
@@ -43,7 +44,7 @@ impl SchemaNode {
     }
 
     fn definition(self) -> &'static Json {
-        self.definition_name().and_then(|name| self.root.get("$defs")?.get(name)).unwrap_or(self.stated)
+        definition_of(self.root, self.stated)
     }
 
     /// What a keyword says here, or else in the definition.
@@ -115,9 +116,7 @@ impl SchemaNode {
 
     /// The words from which a text is chosen.
     pub fn words(self) -> Vec<&'static str> {
-        let plain = self.definition().get("enum").and_then(Json::as_array).into_iter().flatten();
-        let described = self.alternatives().filter_map(|one| one.get("const"));
-        plain.chain(described).filter_map(Json::as_str).collect()
+        words_of(self.definition()).collect()
     }
 
     /// The kinds of a table that has several.
@@ -161,11 +160,6 @@ impl SchemaNode {
     pub fn table_entries(self) -> Option<SchemaNode> {
         self.entries().filter(|entry| entry.properties().next().is_some())
     }
-}
-
-/// The `kind` that an alternative of a tagged table requires.
-pub(super) fn kind_of(alternative: &Json) -> Option<&str> {
-    alternative.get("properties")?.get("kind")?.get("const")?.as_str()
 }
 
 /// Whether two values are the same, whole numbers and others alike.

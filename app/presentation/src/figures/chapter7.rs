@@ -50,7 +50,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         kind: Kind::Figure,
         number: "7.3",
         title: "Bayesian persuasion, lane keeping, merging driver nice",
-        says: "The ego ignores the wish to merge and accelerates, to show its intention.",
+        says: "The ego does not let the merging driver in: it accelerates, to show its intention.",
         erratum: Some(DROPPED),
         runs: &[spec("lane-keeping/bayesian-nice")],
         beside: &[conservative("lane-keeping/bayesian-nice"), exact("lane-keeping/bayesian-nice")],

@@ -162,7 +162,7 @@ fn each_vehicle(recorded: &RecordedRun, name: &str, value: fn(&State, f64) -> f6
     panel
 }
 
-/// What a planner was thinking: its own numbers over time; none if it says nothing.
+/// The diagnostics of a vehicle's planner over time; `None` if the planner has no plots, or reported no values for them.
 pub fn reasons(title: &str, recorded: &RecordedRun, index: usize) -> Option<Panels> {
     let mut panels = Vec::new();
     for plot in recorded.scenario.vehicles[index].driver.explanation().plots {

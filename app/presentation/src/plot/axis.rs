@@ -76,6 +76,17 @@ fn decades(start: f64, end: f64) -> Vec<(f64, String)> {
     values.filter(|value| (start..=end).contains(value)).map(|value| (value, format!("{value}"))).collect()
 }
 
+/// Smallest and largest of the finite values, with a margin.
+pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Range<f64> {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    if low > high {
+        return 0.0..1.0;
+    }
+    let margin = (0.05 * (high - low)).max(1e-6);
+    low - margin..high + margin
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

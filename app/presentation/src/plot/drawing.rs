@@ -3,12 +3,14 @@
 //! Every drawing is a pure function from numbers to a [`Drawing`]. Only this module passes it to Plotters, which draws the
 //! same marks as SVG and as PNG.
 
+use std::path::{Path, PathBuf};
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::figure::{Drawn, FONT, Figure, PlotError, make_folder, register, save, svg};
 use super::style::{BLACK, Colour, Dash, LineStyle};
-use super::{Drawn, FONT, Figure};
 
 /// Size of text on ticks and bodies.
 pub const SMALL_TEXT_PX: f64 = 22.0;
@@ -118,6 +120,23 @@ impl Drawing {
         });
         words.collect()
     }
+
+    /// The picture as SVG.
+    ///
+    /// # Errors
+    /// [`PlotError::Drawing`].
+    pub fn svg(&self) -> Result<String, PlotError> {
+        svg("the picture", self)
+    }
+
+    /// Writes `name.svg` and `name.png` into a folder, which is created if necessary. Returns their paths.
+    ///
+    /// # Errors
+    /// [`PlotError`].
+    pub fn save(&self, folder: &Path, name: &str) -> Result<[PathBuf; 2], PlotError> {
+        make_folder(folder)?;
+        save(folder, name, self)
+    }
 }
 
 /// The words of a mark and what they cover: left, top, right, bottom.
@@ -135,7 +154,7 @@ fn text_box(mark: &Mark) -> Option<(&str, [f64; 4])> {
 
 /// How wide words are \[px\].
 pub(super) fn width_of(words: &str, size: f64) -> f64 {
-    super::register();
+    register();
     let measured = (FONT, size).into_font().box_size(words);
     measured.map_or(0.55 * size * words.chars().count() as f64, |(width, _)| f64::from(width))
 }

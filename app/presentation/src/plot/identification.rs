@@ -8,7 +8,14 @@ use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::{BLUE, Drawn, FONT, Figure, GREEN, GREY, ORANGE, PlotError, make_folder, range, save};
+use super::axis::range;
+use super::figure::{Drawn, FONT, Figure, PlotError, make_folder, save};
+
+/// Colours of Okabe and Ito, which colour-blind readers can distinguish.
+const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
+const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
+const GREEN: RGBColor = RGBColor(0x00, 0x9E, 0x73);
+const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
 
 /// A day \[s\].
 const DAY_S: f64 = 86_400.0;

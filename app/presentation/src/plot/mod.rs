@@ -5,6 +5,7 @@
 
 mod axis;
 mod drawing;
+mod figure;
 mod footprints;
 mod identification;
 mod legend;
@@ -12,153 +13,9 @@ mod panels;
 pub mod style;
 mod table;
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter};
-use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
-
-use plotters::coord::Shift;
-use plotters::drawing::DrawingAreaErrorKind;
-use plotters::prelude::*;
-use plotters::style::register_font;
-use thiserror::Error;
-
 pub use drawing::Drawing;
+pub use figure::PlotError;
 pub use footprints::{FootprintPlot, FootprintSnapshot, Strip};
 pub use identification::identification;
 pub use panels::{Curve, Panel, Panels};
 pub use table::TextTable;
-
-/// Width and height of a figure: pixels of the PNG, and points of the SVG.
-const SIZE_PX: (u32, u32) = (1200, 520);
-/// The font of all labels.
-const FONT: &str = "sans-serif";
-static FONT_BYTES: &[u8] = include_bytes!("../../../../assets/fonts/DejaVuSans.ttf");
-
-/// Colours of Okabe and Ito, which colour-blind readers can distinguish.
-const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
-const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
-const GREEN: RGBColor = RGBColor(0x00, 0x9E, 0x73);
-const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
-
-/// Why a figure was not made.
-#[derive(Debug, Error)]
-pub enum PlotError {
-    /// A file or folder cannot be written.
-    #[error("cannot write the plots to {}: {reason}; name another folder", folder.display())]
-    Unwritable {
-        /// The folder.
-        folder: PathBuf,
-        /// The message of the operating system.
-        reason: io::Error,
-    },
-    /// The drawing itself failed.
-    #[error("cannot draw {name}: {reason}")]
-    Drawing {
-        /// The figure.
-        name: String,
-        /// The message of Plotters.
-        reason: String,
-    },
-}
-
-/// The result of drawing on any backend.
-type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
-
-/// A figure that can be drawn on any backend.
-trait Figure {
-    /// Width and height \[points, and pixels of the PNG\].
-    fn size(&self) -> (u32, u32) {
-        SIZE_PX
-    }
-
-    /// Draws it.
-    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B>;
-}
-
-/// Creates the folder for the plots.
-fn make_folder(folder: &Path) -> Result<(), PlotError> {
-    fs::create_dir_all(folder).map_err(|reason| PlotError::Unwritable { folder: folder.to_owned(), reason })
-}
-
-/// Registers the font in Plotters, once. Returns whether it is registered.
-fn register() -> bool {
-    static REGISTERED: LazyLock<bool> = LazyLock::new(|| register_font(FONT, FontStyle::Normal, FONT_BYTES).is_ok());
-    *REGISTERED
-}
-
-/// The figure as SVG.
-fn svg(name: &str, figure: &impl Figure) -> Result<String, PlotError> {
-    let failed = |reason: String| PlotError::Drawing { name: name.to_owned(), reason };
-    if !register() {
-        return Err(failed("the font is broken".to_owned()));
-    }
-    let mut svg = String::new();
-    {
-        let area = SVGBackend::with_string(&mut svg, figure.size()).into_drawing_area();
-        figure.draw(&area).and_then(|()| area.present()).map_err(|error| failed(error.to_string()))?;
-    }
-    Ok(svg)
-}
-
-/// Writes `name.svg` and `name.png`.
-fn save(folder: &Path, name: &str, figure: &impl Figure) -> Result<[PathBuf; 2], PlotError> {
-    let [vector, raster] = ["svg", "png"].map(|ending| folder.join(format!("{name}.{ending}")));
-    let unwritable = |reason| PlotError::Unwritable { folder: folder.to_owned(), reason };
-    fs::write(&vector, svg(name, figure)?).map_err(unwritable)?;
-    let pixels = pixels(name, figure)?;
-    write_png(&raster, figure.size(), &pixels).map_err(|error| unwritable(io::Error::other(error)))?;
-    Ok([vector, raster])
-}
-
-/// The figure as red, green and blue bytes, row by row from the top.
-fn pixels(name: &str, figure: &impl Figure) -> Result<Vec<u8>, PlotError> {
-    let failed = |reason: String| PlotError::Drawing { name: name.to_owned(), reason };
-    let (width, height) = figure.size();
-    let mut pixels = vec![0; 3 * width as usize * height as usize];
-    {
-        let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
-        figure.draw(&area).and_then(|()| area.present()).map_err(|error| failed(error.to_string()))?;
-    }
-    Ok(pixels)
-}
-
-/// Writes pixels as PNG. Plotters' own encoder would add a second version of the `image` crate, beside Rerun's.
-fn write_png(path: &Path, (width, height): (u32, u32), pixels: &[u8]) -> Result<(), png::EncodingError> {
-    let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
-    writer.finish()
-}
-
-impl Drawing {
-    /// The picture as SVG.
-    ///
-    /// # Errors
-    /// [`PlotError::Drawing`].
-    pub fn svg(&self) -> Result<String, PlotError> {
-        svg("the picture", self)
-    }
-
-    /// Writes `name.svg` and `name.png` into a folder, which is created if necessary. Returns their paths.
-    ///
-    /// # Errors
-    /// [`PlotError`].
-    pub fn save(&self, folder: &Path, name: &str) -> Result<[PathBuf; 2], PlotError> {
-        make_folder(folder)?;
-        save(folder, name, self)
-    }
-}
-
-/// Smallest and largest of the finite values, with a margin.
-fn range(values: impl IntoIterator<Item = f64>) -> std::ops::Range<f64> {
-    let finite = values.into_iter().filter(|value| value.is_finite());
-    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-    if low > high {
-        return 0.0..1.0;
-    }
-    let margin = (0.05 * (high - low)).max(1e-6);
-    low - margin..high + margin
-}

@@ -2,10 +2,9 @@
 
 use std::ops::Range;
 
-use super::axis::Axis;
+use super::axis::{Axis, range};
 use super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::legend::{Legend, Sample};
-use super::range;
 use super::style::{Dash, GREY, LIMIT, LineStyle, PALE, SURFACE};
 
 /// Width of the picture.

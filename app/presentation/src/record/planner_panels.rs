@@ -67,7 +67,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use interplay_planners::diagnostic::{COMMON_QUANTITIES, ValueSet};
-    use interplay_scenarios::{Override, load};
+    use interplay_scenarios::{Override, driver_kinds, load};
 
     use super::*;
 
@@ -81,7 +81,7 @@ mod tests {
     /// Two curves of one planner would end up at one path.
     #[test]
     fn slugs_tell_the_quantities_of_a_planner_apart() {
-        for kind in ["negotiation", "bayesian", "game", "cooperative", "conservative", "human", "idm", "scripted"] {
+        for kind in driver_kinds() {
             let scenario =
                 load("lane-change/front-nice", &[Override::Planner(kind.to_owned())]).expect("every kind may drive");
             let (_, explanation) = explanations(&scenario)[0];

@@ -60,15 +60,15 @@ fn write_days(text: &mut String, days: &[DayFigures]) -> std::fmt::Result {
 
 /// How zones that plan together did on the last day.
 fn write_exchange(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
-    let Some(spoken) = building.iterations.last().and_then(|day| day.exchange) else { return Ok(()) };
-    let per_zone = spoken.messages as f64 / building.zones as f64;
-    write!(text, "  last plan: {} rounds, {per_zone:.0} messages a zone", spoken.rounds)?;
-    if spoken.undelivered > 0 {
-        write!(text, " ({} in all not delivered in time)", spoken.undelivered)?;
+    let Some(exchange) = building.iterations.last().and_then(|day| day.exchange) else { return Ok(()) };
+    let per_zone = exchange.messages as f64 / building.zones as f64;
+    write!(text, "  last plan: {} rounds, {per_zone:.0} messages a zone", exchange.rounds)?;
+    if exchange.undelivered > 0 {
+        write!(text, " ({} in all not delivered in time)", exchange.undelivered)?;
     }
-    write!(text, ", J from {:.2} to {:.2}", spoken.first_cost, spoken.cost)?;
-    if let Some(centralised) = spoken.centralised_cost {
-        write!(text, ", {:.3} % above the centralised {centralised:.2}", 100.0 * (spoken.cost / centralised - 1.0))?;
+    write!(text, ", J from {:.2} to {:.2}", exchange.first_cost, exchange.cost)?;
+    if let Some(centralised) = exchange.centralised_cost {
+        write!(text, ", {:.3} % above the centralised {centralised:.2}", 100.0 * (exchange.cost / centralised - 1.0))?;
     }
     writeln!(text)
 }

@@ -34,7 +34,7 @@ use footprint::{centre, length_m, shape};
 use gap::EgoGap;
 use moving::{Contact, Moving};
 
-/// From which distance on Rapier speaks of a contact, for vehicles of passenger cars' size \[m\].
+/// Largest distance of two bodies that Rapier reports as a contact, for vehicles of passenger cars' size \[m\].
 const TOUCHING_M: f32 = 1e-4;
 /// Friction coefficient between bodies that collide.
 const BODY_FRICTION: f32 = 0.3;

@@ -115,7 +115,8 @@ fn judge_building(expect: &BuildingExpect, report: &BuildingReport) -> Vec<Expec
         add("fallbacks_at_most", json!(most), json!(count), count <= most);
     }
     if let Some(want) = expect.exchange_never_rises {
-        let falls = !days.is_empty() && days.iter().all(|day| day.exchange.is_some_and(|spoken| spoken.never_rises));
+        let falls =
+            !days.is_empty() && days.iter().all(|day| day.exchange.is_some_and(|exchange| exchange.never_rises));
         add("exchange_never_rises", json!(want), json!(falls), want == falls);
     }
     judged
@@ -138,8 +139,8 @@ fn upper_bounds(expect: &BuildingExpect) -> [Bound; 8] {
         ("regret_at_most", expect.regret_at_most, |day, _| day.regret),
         ("spectral_radius_at_most", expect.spectral_radius_at_most, |day, _| day.spectral_radius),
         ("above_centralised_at_most", expect.above_centralised_at_most, |day, _| {
-            let spoken = day.exchange?;
-            Some(spoken.cost / spoken.centralised_cost? - 1.0)
+            let exchange = day.exchange?;
+            Some(exchange.cost / exchange.centralised_cost? - 1.0)
         }),
     ]
 }

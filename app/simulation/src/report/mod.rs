@@ -70,7 +70,7 @@ impl Report {
 fn simulated_s(scenario: &Scenario) -> f64 {
     let last = |step_s: f64, count: usize| to_nanosecond(step_s * count as f64);
     let building = scenario.building.as_ref();
-    let days_s = building.map_or(0.0, |house| last(house.step_s, scenario.days() * house.steps_per_day()));
+    let days_s = building.map_or(0.0, |building| last(building.step_s, scenario.days() * building.steps_per_day()));
     last(scenario.step_s, scenario.tick_count()).max(days_s)
 }
 

@@ -27,8 +27,9 @@ use crate::lifted::Lifted;
 
 /// The largest number of entries of all taps that is designed.
 pub const MOST_UNKNOWNS: usize = 1024;
-/// Keeps the normal equations definite.
-const RIDGE: f64 = 1e-9;
+/// Cost of the sum of the squares of all taps, which keeps the normal equations definite where a tap has no effect. It is taken
+/// off the reported cost again.
+const TAP_COST: f64 = 1e-9;
 /// The default of γ₂, as a multiple of its floor.
 const DEFAULT_GAMMA_2_RATIO: f64 = 4.6 / 3.6;
 
@@ -91,7 +92,7 @@ impl Responses {
                 gram[(i, j)] = value;
                 gram[(j, i)] = value;
             }
-            gram[(j, j)] += 2.0 * RIDGE;
+            gram[(j, j)] += 2.0 * TAP_COST;
         }
         let linear = DVector::from_fn(count, |i, _| 2.0 * error_weight * dot(&self.temperatures[i], &self.open));
         (gram, linear, error_weight * dot(&self.open, &self.open))
@@ -146,7 +147,7 @@ pub fn design(
     for (column, theta) in gram.column_iter().zip(&theta) {
         curved.axpy(*theta, &column, 1.0);
     }
-    let cost = 0.5 * theta.dot(&curved) + linear.dot(&theta) + constant - RIDGE * theta.norm_squared();
+    let cost = 0.5 * theta.dot(&curved) + linear.dot(&theta) + constant - TAP_COST * theta.norm_squared();
     Ok(FilterDesign { filter, cost, open_cost: constant })
 }
 

@@ -31,10 +31,11 @@ use crate::comfort::Targets;
 use crate::control::{BandPenalty, ControlError};
 use crate::lifted::Lifted;
 
-/// Responses below this share of a zone's own are left out of its curvature.
-const NEGLIGIBLE: f64 = 1e-6;
-/// Tries for the best step of a round.
-const TRIES: usize = 8;
+/// Smallest response of a zone that counts in another zone's curvature, as a share of that zone's own response.
+const MIN_RESPONSE_RATIO: f64 = 1e-6;
+/// Largest number of Newton steps to the best combination of two directions. The cost is piecewise quadratic, so they end after
+/// a few.
+const MAX_NEWTON_STEPS: usize = 8;
 
 /// What each zone knows beforehand: how a kilowatt of its own acts, and the curvature of the common cost in its inputs.
 #[derive(Clone, Debug)]
@@ -60,7 +61,7 @@ impl ZoneModels {
             let kernel = |j: usize| -> Vec<f64> { (0..steps).map(|t| responses[t * n + j]).collect() };
             let size = |kernel: &[f64]| kernel.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
             let own = kernel(i);
-            let least = NEGLIGIBLE * size(&own);
+            let least = MIN_RESPONSE_RATIO * size(&own);
             let mut curvature = DMatrix::from_diagonal_element(steps, steps, 2.0 * targets.input_weight);
             for j in 0..n {
                 let kernel = kernel(j);
@@ -308,7 +309,7 @@ impl Plane<'_> {
     /// The minimum by Newton's method: J is piecewise quadratic there.
     fn minimum(&self, sums: &mut usize) -> [f64; 2] {
         let mut x = [0.0, 0.0];
-        for _ in 0..TRIES {
+        for _ in 0..MAX_NEWTON_STEPS {
             *sums += 1;
             let (gradient, [a, b, c]) = self.expansion(x);
             let flat = self.inputs[1].is_empty();

@@ -12,8 +12,8 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-/// The largest number of Newton steps; the best point so far is then returned.
-const STEPS: usize = 60;
+/// Largest number of Newton steps; the best point so far is then returned. Chosen far above the few that are needed.
+const MAX_NEWTON_STEPS: usize = 60;
 
 /// A comfort bound: v and the row a, as a kernel that was hit `time` steps after the first input, times a sign.
 pub(super) struct Bound<'a> {
@@ -59,7 +59,7 @@ impl ZoneProblem<'_> {
             return None;
         }
         let mut d = vec![0.0; n];
-        for _ in 0..STEPS {
+        for _ in 0..MAX_NEWTON_STEPS {
             let gradient = self.gradient_at(&d);
             let free: Vec<usize> = (0..n)
                 .filter(|&i| !(d[i] <= self.low[i] && gradient[i] > 0.0 || d[i] >= self.high[i] && gradient[i] < 0.0))

@@ -25,12 +25,13 @@ use crate::control::optimum::{ConstraintTightening, margins_kw, plan};
 use crate::control::{ControlError, DayOptimum};
 use crate::lifted::Lifted;
 
-/// The largest number of rounds; the best round so far is then kept.
-const ROUNDS: usize = 60;
-/// Damping: the share of the new prices in the next ones.
-const DAMPING: f64 = 0.5;
-/// The rounds end when the cost changes by less than this share.
-const SETTLED: f64 = 1e-7;
+/// Largest number of rounds; the best round so far is then kept. Chosen to bound the time of the design.
+const MAX_ROUNDS: usize = 60;
+/// The share of the new prices in those of the next round. Chosen: it damps prices that overshoot from round to round.
+const NEW_PRICE_SHARE: f64 = 0.5;
+/// The rounds end when the cost changes by at most this share of it. Chosen well above the accuracy of the plan's solver
+/// (10⁻¹⁰).
+const MAX_FINAL_COST_CHANGE_RATIO: f64 = 1e-7;
 /// Standard deviations below this are treated as zero, and have no price \[kW\].
 const LEAST_DEVIATION_KW: f64 = 1e-9;
 
@@ -78,9 +79,9 @@ pub fn design(
     let mut price = vec![0.0; lifted.size()];
     let (mut best, mut next) = round(&price)?;
     let mut before = best.cost;
-    for rounds in 2..=ROUNDS {
+    for rounds in 2..=MAX_ROUNDS {
         for (price, next) in price.iter_mut().zip(&next) {
-            *price += DAMPING * (next - *price);
+            *price += NEW_PRICE_SHARE * (next - *price);
         }
         let (found, wanted) = round(&price)?;
         next = wanted;
@@ -91,7 +92,7 @@ pub fn design(
             best = found;
         }
         best = Joint { two_stage_cost, rounds, ..best };
-        if moved <= SETTLED * before {
+        if moved <= MAX_FINAL_COST_CHANGE_RATIO * before {
             break;
         }
     }

@@ -40,8 +40,9 @@ use projection::Projection;
 
 /// The largest number of inputs of a day for which the feedback is designed; its matrices have the square of that many entries.
 pub const MOST_UNKNOWNS: usize = 1200;
-/// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft.
-const GROWTH_COST: f64 = 1e3;
+/// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft. Chosen large beside the weights of
+/// temperatures and heat, so that errors grow only where they must.
+const ERROR_GROWTH_COST_PER_K: f64 = 1e3;
 
 /// The iterative design with its state.
 #[derive(Clone, Debug)]
@@ -181,7 +182,7 @@ impl Iterative {
     fn error_bound(&self, targets: &Targets) -> Option<ErrorBound> {
         let slack_cost = match self.settings.convergence {
             ErrorGrowth::Off => return None,
-            ErrorGrowth::Soft => Some(GROWTH_COST),
+            ErrorGrowth::Soft => Some(ERROR_GROWTH_COST_PER_K),
             ErrorGrowth::Hard => None,
         };
         let yesterday_c = &self.history.yesterday()?.temperatures_c;

@@ -24,8 +24,9 @@ use crate::lifted::Lifted;
 /// A linear combination of variables.
 type Terms = Vec<(Variable, f64)>;
 
-/// The margin by which a solution satisfies the matrix inequality.
-const INSIDE: f64 = 1e-4;
+/// The margin by which a solution satisfies the matrix inequality: chosen far above the tolerance of the solver, 10⁻⁸, so that
+/// the inequality holds despite it.
+const LMI_MARGIN: f64 = 1e-4;
 /// S is at least this times the identity.
 const LEAST_S: f64 = 1e-3;
 
@@ -92,7 +93,7 @@ impl<'a> Projection<'a> {
             let driven = (0..n).filter(|_| j < n).map(|k| (gain(k, j), -b[(i, k)]));
             drift.chain(driven).collect()
         };
-        certificate.inequality(&mut program, Lmi::Corrected { decay }, moved, Spare::Fixed(INSIDE));
+        certificate.inequality(&mut program, Lmi::Corrected { decay }, moved, Spare::Fixed(LMI_MARGIN));
         certificate.positive(&mut program, LEAST_S);
         certificate.unit_trace(&mut program);
         let scale: Vec<Variable> = fit.scale.iter().filter_map(|&(i, j)| certificate.f(i, j)).collect();
@@ -215,10 +216,11 @@ impl<'a> Projection<'a> {
     /// Pᵀ in its main directions: those that carry less than a thousandth of the largest variance are left out, because C*
     /// amplifies them most and they hardly occur.
     fn main_errors(&self) -> DMatrix<f64> {
-        const NEGLIGIBLE: f64 = 1e-3;
+        /// Smallest variance of a direction that is kept, as a share of the largest.
+        const MIN_VARIANCE_RATIO: f64 = 1e-3;
         let p = &self.response.temperatures_k;
         let eigen = p.tr_mul(p).symmetric_eigen();
-        let least = NEGLIGIBLE * eigen.eigenvalues.max();
+        let least = MIN_VARIANCE_RATIO * eigen.eigenvalues.max();
         let main: Vec<usize> = (0..p.ncols()).filter(|&k| eigen.eigenvalues[k] > least).collect();
         let transposed = p.transpose();
         let mut errors = DMatrix::zeros(main.len(), p.nrows());

@@ -19,10 +19,11 @@ use crate::identify::IdentifyError;
 use crate::identify::normal::{dot, positive_definite, robust_covariance};
 
 /// The largest moving-average coefficient. Beyond it, the inverse filter does not decay.
-const MOVING_AVERAGE_LIMIT: f64 = 0.98;
-const MOST_STEPS: usize = 200;
-/// A descent ends when a step lowers the sum by less than this share.
-const TOLERANCE: f64 = 1e-12;
+const MAX_MOVING_AVERAGE: f64 = 0.98;
+const MAX_STEPS: usize = 200;
+/// A descent ends when a step lowers the sum of squares by at most this share of it: far below what changes an estimate by a
+/// noticeable part of its standard error.
+const MAX_FINAL_GAIN_RATIO: f64 = 1e-12;
 /// First autoregressive coefficient and moving average at the starts.
 const STARTS: [(f64, f64); 4] = [(0.0, 0.0), (0.7, 0.0), (0.9, -0.5), (0.5, 0.5)];
 
@@ -124,7 +125,7 @@ impl<'a> Problem<'a> {
         }
         let (alpha, mu) = (self.autoregressive(&parameters), self.moving_average(&parameters));
         let innovations = whitened(&errors, alpha, mu, &self.segments);
-        let admissible = mu.abs() <= MOVING_AVERAGE_LIMIT && is_stable(alpha);
+        let admissible = mu.abs() <= MAX_MOVING_AVERAGE && is_stable(alpha);
         let cost = if admissible { dot(&innovations, &innovations) } else { f64::INFINITY };
         Point { parameters, errors, innovations, cost }
     }
@@ -147,13 +148,13 @@ impl<'a> Problem<'a> {
     fn descend(&self, start: Point) -> Point {
         let mut point = start;
         let mut damping = 1e-3;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let jacobian = self.jacobian(&point);
             let gram = gram(&jacobian);
             let gradient = DVector::from_fn(jacobian.len(), |i, _| -dot(&jacobian[i], &point.innovations));
             let Some(next) = self.lower(&point, &gram, &gradient, &mut damping) else { break };
             let gain = point.cost - next.cost;
-            let done = gain <= TOLERANCE * point.cost;
+            let done = gain <= MAX_FINAL_GAIN_RATIO * point.cost;
             point = next;
             if done {
                 break;

@@ -1,13 +1,14 @@
 //! Stability of an autoregression: all roots of 1 − α_1 z⁻¹ − … − α_r z⁻ʳ inside the unit circle.
 
-/// The largest reflection coefficient that an autoregression may have.
-const LIMIT: f64 = 0.9999;
+/// Largest magnitude of a reflection coefficient that is accepted as stable. At 1 the autoregression is unstable; with one
+/// coefficient of this value a disturbance decays by a factor e within 10,000 steps.
+const MAX_REFLECTION: f64 = 0.9999;
 
 /// Whether the autoregression is stable, by the step-down recursion: its reflection coefficients are below one.
 pub(in crate::identify) fn is_stable(autoregressive: &[f64]) -> bool {
     let mut coefficients = autoregressive.to_vec();
     while let Some(reflection) = coefficients.pop() {
-        if reflection.is_nan() || reflection.abs() > LIMIT {
+        if reflection.is_nan() || reflection.abs() > MAX_REFLECTION {
             return false;
         }
         let scale = 1.0 / (1.0 - reflection * reflection);

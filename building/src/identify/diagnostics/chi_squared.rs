@@ -27,15 +27,17 @@ fn series(shape: f64, x: f64) -> f64 {
 
 /// 1/(x+1−a − 1(1−a)/(x+3−a − 2(2−a)/(x+5−a − …))).
 fn fraction(shape: f64, x: f64) -> f64 {
-    const TINY: f64 = 1e-300;
+    /// Smallest magnitude of a denominator; zeros are replaced by it, as in the modified method of Lentz. Its inverse is still
+    /// finite.
+    const MIN_DENOMINATOR: f64 = 1e-300;
     let mut b = x + 1.0 - shape;
-    let mut c = 1.0 / TINY;
+    let mut c = 1.0 / MIN_DENOMINATOR;
     let mut d = 1.0 / b;
     let mut value = d;
     for n in 1..10_000 {
         let a = -f64::from(n) * (f64::from(n) - shape);
         b += 2.0;
-        let guarded = |x: f64| if x.abs() < TINY { TINY } else { x };
+        let guarded = |x: f64| if x.abs() < MIN_DENOMINATOR { MIN_DENOMINATOR } else { x };
         d = 1.0 / guarded(a * d + b);
         c = guarded(b + a / c);
         let factor = d * c;

@@ -8,5 +8,5 @@ mod whiteness;
 pub use verdict::{Confidence, ParameterVerdict};
 pub use whiteness::{LjungBox, Whiteness};
 
-pub(super) use verdict::{INTERVAL, judge};
+pub(super) use verdict::{STANDARD_ERRORS_OF_95_PERCENT, judge};
 pub(super) use whiteness::whiteness;

@@ -10,9 +10,9 @@ use std::f64::consts::PI;
 use rustfft::FftPlannerScalar;
 use rustfft::num_complex::Complex;
 
-/// The excess is rounded to one over this. The transform takes sines from the platform's library, whose last digit depends
-/// on the processor; rounding makes the reported number the same everywhere.
-const ROUNDING: f64 = 1e9;
+/// The excess is rounded to a multiple of one over this, nine decimals. The transform takes sines from the platform's library,
+/// whose last digit depends on the processor; rounding makes the reported number the same everywhere.
+const EXCESS_STEPS_PER_UNIT: f64 = 1e9;
 
 /// The normalised cumulated periodogram's boundary excess sum; zero for white noise. `None` for fewer than 16 values.
 pub(super) fn boundary_excess(series: &[f64]) -> Option<f64> {
@@ -31,7 +31,7 @@ pub(super) fn boundary_excess(series: &[f64]) -> Option<f64> {
         let line = 2.0 * index as f64 / series.len() as f64;
         excess += ((cumulated - line).abs() - band).max(0.0);
     }
-    Some((excess / count * ROUNDING).round() / ROUNDING)
+    Some((excess / count * EXCESS_STEPS_PER_UNIT).round() / EXCESS_STEPS_PER_UNIT)
 }
 
 /// The series about its mean, with a cosine taper over a tenth at each end.

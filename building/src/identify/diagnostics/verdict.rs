@@ -3,12 +3,14 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// How many standard errors make the interval of 95 %.
-pub(in crate::identify) const INTERVAL: f64 = 1.96;
-/// Standard errors above this share of the value make a coefficient weak.
-const WEAK: f64 = 0.25;
-/// Correlations above this make two coefficients hard to tell apart.
-const ENTANGLED: f64 = 0.95;
+/// Half the width of the interval of 95 %, in standard errors: the quantile 0.975 of the normal distribution.
+pub(in crate::identify) const STANDARD_ERRORS_OF_95_PERCENT: f64 = 1.96;
+/// Largest standard error, as a share of the value, of a coefficient that is not called weak. Chosen: the interval of 95 % is
+/// then about ±50 % of the value.
+const MAX_RELATIVE_STANDARD_ERROR: f64 = 0.25;
+/// Largest magnitude of the correlation of two estimates that are told apart. Two regressors so correlated inflate the variance
+/// of their coefficients tenfold, 1/(1 − 0.95²), the customary limit of collinearity.
+const MAX_SEPARABLE_CORRELATION: f64 = 0.95;
 
 /// Whether the data determine a coefficient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
@@ -67,21 +69,25 @@ pub(in crate::identify) fn judge(
                 "{name} cannot be identified: in these data its cause does not vary, or only together with another"
             ),
         ),
-        () if value < -INTERVAL * standard_error => (
+        () if value < -STANDARD_ERRORS_OF_95_PERCENT * standard_error => (
             Confidence::WrongSign,
             format!("{name} comes out negative, which cannot be: the model lacks something that moves with it"),
         ),
-        () if value < INTERVAL * standard_error => {
+        () if value < STANDARD_ERRORS_OF_95_PERCENT * standard_error => {
             (Confidence::NotDistinguishableFromZero, format!("{name} cannot be told apart from zero"))
         }
-        () if relative > WEAK => {
-            (Confidence::Weak, format!("{name} is there, but known only to ±{:.0} %", 100.0 * INTERVAL * relative))
-        }
-        () => (Confidence::Identified, format!("{name} is known to ±{:.1} %", 100.0 * INTERVAL * relative)),
+        () if relative > MAX_RELATIVE_STANDARD_ERROR => (
+            Confidence::Weak,
+            format!("{name} is there, but known only to ±{:.0} %", 100.0 * STANDARD_ERRORS_OF_95_PERCENT * relative),
+        ),
+        () => (
+            Confidence::Identified,
+            format!("{name} is known to ±{:.1} %", 100.0 * STANDARD_ERRORS_OF_95_PERCENT * relative),
+        ),
     };
     let strongest = entangled
         .iter()
-        .filter(|(_, correlation)| correlation.abs() > ENTANGLED)
+        .filter(|(_, correlation)| correlation.abs() > MAX_SEPARABLE_CORRELATION)
         .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     match strongest {
         Some((other, correlation)) if confidence != Confidence::NotIdentifiable => {

@@ -85,11 +85,11 @@ pub enum TelemetryProblem {
         /// What it breaks.
         bound: Bound,
     },
-    /// A field of the mapping makes no sense.
-    #[error("{field} is {value}")]
-    Field {
-        /// The field, as `time.step_s`.
-        field: &'static str,
+    /// The value of a key does not go together with that of another.
+    #[error("`{key}` is {value}")]
+    Conflict {
+        /// The key, its table as in [`TelemetryProblem::UnknownKey`].
+        key: SettingKey,
         /// Its value.
         value: String,
         /// What would work.
@@ -196,7 +196,7 @@ impl TelemetryProblem {
             Self::MissingKey { wanted, .. } => format!("it must be {wanted}"),
             Self::UnknownWord { word, known, .. } => suggestion(word, "choose from", known),
             Self::Setting { bound, .. } => format!("it must be {bound}"),
-            Self::Field { wanted, .. } => format!("it must be {wanted}"),
+            Self::Conflict { wanted, .. } => format!("it must be {wanted}"),
             Self::Name { known, .. } => format!("known names: {}", listed(known)),
             Self::Empty => "it needs a header and at least two rows".into(),
             Self::Column { header, .. } => {
@@ -227,9 +227,9 @@ fn within(table: &SettingKey) -> String {
 
 /// Names for a message; a long list is cut.
 fn listed(names: &[String]) -> String {
-    const SHOWN: usize = 12;
-    let shown: Vec<_> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
-    match names.len().checked_sub(SHOWN) {
+    const MAX_LISTED_NAMES: usize = 12;
+    let shown: Vec<_> = names.iter().take(MAX_LISTED_NAMES).map(|name| format!("`{name}`")).collect();
+    match names.len().checked_sub(MAX_LISTED_NAMES) {
         Some(more) if more > 0 => format!("{} and {more} more", shown.join(", ")),
         _ if shown.is_empty() => "none".into(),
         _ => shown.join(", "),

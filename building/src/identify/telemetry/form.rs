@@ -10,6 +10,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::TelemetryProblem;
 use super::value_shape::ValueShape;
 use crate::bounds::Bound;
+use crate::json_schema::{definition_of, kind_of, words_of};
 use crate::setting::SettingKey;
 
 /// Holds a document to the schema of `T`.
@@ -52,8 +53,7 @@ impl<'a> Schema<'a> {
     fn new(root: &'a Json, stated: &'a Json) -> Self {
         let present = stated["anyOf"].as_array().and_then(|all| all.iter().find(|one| one["type"] != "null"));
         let stated = present.unwrap_or(stated);
-        let definition = stated["$ref"].as_str().and_then(|path| root.pointer(path.strip_prefix('#')?));
-        Self { root, stated: definition.unwrap_or(stated) }
+        Self { root, stated: definition_of(root, stated) }
     }
 
     fn type_name(self) -> Option<&'a str> {
@@ -84,12 +84,12 @@ impl<'a> Schema<'a> {
 
     /// The words from which a text is chosen.
     fn words(self) -> Vec<String> {
-        self.alternatives().filter_map(|one| one.stated["const"].as_str()).map(str::to_owned).collect()
+        words_of(self.stated).map(str::to_owned).collect()
     }
 
     /// The `kind` of a table that has several, where this is one of them.
     fn kind(self) -> Option<&'a str> {
-        self.stated["properties"]["kind"]["const"].as_str()
+        kind_of(self.stated)
     }
 
     fn kinds(self) -> Vec<String> {
@@ -103,8 +103,13 @@ impl<'a> Schema<'a> {
             _ if !words.is_empty() => ValueShape::OneOf { words },
             _ if !kinds.is_empty() => ValueShape::TableOfAKind { kinds },
             Some("object") => ValueShape::Table { keys: self.keys() },
-            Some("array") => ValueShape::List { entries: self.number("minItems") },
-            Some("string") if self.number("maxLength") == Some(1) => ValueShape::Character,
+            Some("array") => {
+                let min_entries = self.number("minItems").unwrap_or_default();
+                ValueShape::List { min_entries, max_entries: self.number("maxItems") }
+            }
+            Some("string") if self.number("maxLength") == Some(1) => {
+                ValueShape::Character { ascii: self.stated["x-ascii"] == true }
+            }
             Some("string") => ValueShape::Text,
             Some("boolean") => ValueShape::Truth,
             Some("integer") => ValueShape::WholeNumber,
@@ -126,15 +131,16 @@ impl Checker {
                 self.table_of_a_kind(offset, table, schema, kinds, key);
             }
             (ValueShape::Table { .. }, DeValue::Table(table)) => self.table(offset, table, schema, key),
-            (ValueShape::List { entries }, DeValue::Array(items))
-                if entries.is_none_or(|wanted| wanted == items.len()) =>
+            (ValueShape::List { min_entries, max_entries }, DeValue::Array(items))
+                if (min_entries..=max_entries.unwrap_or(usize::MAX)).contains(&items.len()) =>
             {
                 let schema = Schema::new(schema.root, &schema.stated["items"]);
                 for (index, item) in items.iter().enumerate() {
                     self.value(item, schema, &entry_key(key, index, item.get_ref()));
                 }
             }
-            (ValueShape::Character, DeValue::String(text)) if text.chars().count() == 1 => {}
+            (ValueShape::Character { ascii }, DeValue::String(text))
+                if text.chars().count() == 1 && (text.is_ascii() || !ascii) => {}
             (ValueShape::Text, DeValue::String(_)) | (ValueShape::Truth, DeValue::Boolean(_)) => {}
             (ValueShape::WholeNumber | ValueShape::Number, DeValue::Integer(integer)) => {
                 let number =

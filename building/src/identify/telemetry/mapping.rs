@@ -48,6 +48,7 @@ pub struct Mapping {
     pub boundaries: Vec<BoundaryColumns>,
     /// The zones whose parameters are wanted.
     #[serde(rename = "zone")]
+    #[schemars(length(min = 1))]
     pub zones: Vec<ZoneColumns>,
     /// Pairs of names, zone and zone or zone and boundary, between which heat flows.
     pub walls: Vec<[String; 2]>,
@@ -60,10 +61,11 @@ pub struct Mapping {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TableForm {
-    /// What stands between fields.
+    /// What stands between fields: an ASCII character other than the decimal sign.
+    #[schemars(extend("x-ascii" = true))]
     pub separator: char,
-    /// The decimal sign, `.` or `,`.
-    pub decimal: char,
+    /// The decimal sign.
+    pub decimal: DecimalSign,
     /// Texts that stand for "no value", such as `NA`; an empty field always does.
     pub missing: Vec<String>,
     /// The unit of all temperatures.
@@ -72,7 +74,33 @@ pub struct TableForm {
 
 impl Default for TableForm {
     fn default() -> Self {
-        Self { separator: ',', decimal: '.', missing: Vec::new(), temperature_unit: TemperatureUnit::Celsius }
+        Self {
+            separator: ',',
+            decimal: DecimalSign::Point,
+            missing: Vec::new(),
+            temperature_unit: TemperatureUnit::Celsius,
+        }
+    }
+}
+
+/// The decimal sign of numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum DecimalSign {
+    /// `21.5`.
+    #[serde(rename = ".")]
+    Point,
+    /// `21,5`.
+    #[serde(rename = ",")]
+    Comma,
+}
+
+impl DecimalSign {
+    /// The sign.
+    pub fn character(self) -> char {
+        match self {
+            Self::Point => '.',
+            Self::Comma => ',',
+        }
     }
 }
 
@@ -87,6 +115,7 @@ pub struct TimeAxis {
     #[serde(default = "default_format")]
     pub format: String,
     /// Sampling time \[s\].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub step_s: f64,
     /// What to do about a gap in time or a missing value.
     #[serde(default)]
@@ -149,6 +178,7 @@ pub enum HeatColumns {
         unit: PowerUnit,
         /// What the column is multiplied by, −1 for a cooling power.
         #[serde(default = "one")]
+        #[schemars(extend("not" = { "const": 0.0 }))]
         factor: f64,
     },
     /// Air blown in: ṁ c_p (T_supply − T_zone), the control input of eq. 2.2.
@@ -212,10 +242,9 @@ impl Mapping {
 
     /// Checks what the form alone cannot.
     fn check(&self) -> Result<(), Refusal> {
-        self.check_fields()?;
+        self.check_separator()?;
         for (index, zone) in self.zones.iter().enumerate() {
-            let list = SettingKey::from("zone").entry(index).key("heat");
-            zone.check_heat().map_err(|(heat, key, problem)| (vec![list.entry(heat).key(key)], problem))?;
+            zone.check_heat(&SettingKey::from("zone").entry(index))?;
         }
         self.check_names()?;
         self.identify.check(self.time.step_s).map_err(|error| {
@@ -225,26 +254,16 @@ impl Mapping {
         })
     }
 
-    fn check_fields(&self) -> Result<(), Refusal> {
-        let field = |field: &'static str, value: String, wanted| {
-            Err((vec![field.into()], TelemetryProblem::Field { field, value, wanted }))
-        };
-        if !(self.time.step_s.is_finite() && self.time.step_s > 0.0) {
-            return field("time.step_s", self.time.step_s.to_string(), "a positive number of seconds");
+    fn check_separator(&self) -> Result<(), Refusal> {
+        let TableForm { separator, decimal, .. } = self.table;
+        if separator != decimal.character() {
+            return Ok(());
         }
-        if !matches!(self.table.decimal, '.' | ',') {
-            return field("table.decimal", format!("`{}`", self.table.decimal), "`.` or `,`");
-        }
-        if !self.table.separator.is_ascii() || self.table.separator == self.table.decimal {
-            let (field, value) = ("table.separator", format!("`{}`", self.table.separator));
-            let wanted = "one ASCII character other than the decimal sign";
-            let keys = vec![field.into(), "table.decimal".into()];
-            return Err((keys, TelemetryProblem::Field { field, value, wanted }));
-        }
-        if self.zones.is_empty() {
-            return field("zone", "empty".into(), "at least one table [[zone]]");
-        }
-        Ok(())
+        let key = SettingKey::from("table.separator");
+        let wanted = "another character than `table.decimal`";
+        let problem = TelemetryProblem::Conflict { key: key.clone(), value: format!("`{separator}`"), wanted };
+        // One of the two may be left out.
+        Err((vec![key, "table.decimal".into()], problem))
     }
 
     fn check_names(&self) -> Result<(), Refusal> {
@@ -287,21 +306,17 @@ impl Mapping {
 type Refusal = (Vec<SettingKey>, TelemetryProblem);
 
 impl ZoneColumns {
-    /// Checks the heat of the zone; the error has the number of the entry and its key.
-    fn check_heat(&self) -> Result<(), (usize, &'static str, TelemetryProblem)> {
-        for (index, heat) in self.heat.iter().enumerate() {
-            let HeatColumns::Power { factor, unit, .. } = heat else { continue };
-            if !factor.is_finite() || *factor == 0.0 {
-                let (field, value, wanted) = ("heat.factor", factor.to_string(), "a finite number other than 0");
-                return Err((index, "factor", TelemetryProblem::Field { field, value, wanted }));
-            }
-            if *unit == PowerUnit::Unknown && self.heat.len() > 1 {
-                let value = format!("`unknown` beside other heat of zone `{}`", self.name);
-                let wanted = "a known unit, or the zone's only heat: their sum would mean nothing";
-                return Err((index, "unit", TelemetryProblem::Field { field: "heat.unit", value, wanted }));
-            }
-        }
-        Ok(())
+    /// Refuses heat without a unit beside other heat; `numbered` is the key of this zone in the document.
+    fn check_heat(&self, numbered: &SettingKey) -> Result<(), Refusal> {
+        let is_unknown = |heat: &HeatColumns| matches!(heat, HeatColumns::Power { unit: PowerUnit::Unknown, .. });
+        let Some(index) = self.heat.iter().position(is_unknown).filter(|_| self.heat.len() > 1) else { return Ok(()) };
+        let unit_of = |zone: &SettingKey| zone.key("heat").entry(index).key("unit");
+        let problem = TelemetryProblem::Conflict {
+            key: unit_of(&SettingKey::from("zone").key(&self.name)),
+            value: format!("`unknown` beside other heat of zone `{}`", self.name),
+            wanted: "a known unit, or the zone's only heat: their sum would mean nothing",
+        };
+        Err((vec![unit_of(numbered)], problem))
     }
 }
 

@@ -15,7 +15,9 @@ mod value_shape;
 mod write;
 
 pub use error::{TelemetryError, TelemetryProblem};
-pub use mapping::{BoundaryColumns, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns};
+pub use mapping::{
+    BoundaryColumns, DecimalSign, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns,
+};
 pub use measurements::{Boundary, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 pub use units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
 pub use value_shape::ValueShape;

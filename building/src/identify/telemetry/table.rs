@@ -4,7 +4,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use jiff::civil::DateTime;
 
 use super::error::{TelemetryError, TelemetryProblem};
-use super::mapping::{Mapping, TableForm};
+use super::mapping::{DecimalSign, Mapping, TableForm};
 
 /// A table of text; every row has as many fields as the header.
 pub(super) struct Table<'a> {
@@ -32,7 +32,7 @@ impl<'a> Table<'a> {
         // Some programs write a byte-order mark first.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let lines = Lines::new(text);
-        // An ASCII separator was checked with the mapping.
+        // The schema of the mapping asks for an ASCII character.
         let separator = u8::try_from(form.separator).unwrap_or(b',');
         let mut reader =
             ReaderBuilder::new().delimiter(separator).trim(Trim::All).has_headers(false).from_reader(text.as_bytes());
@@ -78,8 +78,8 @@ impl<'a> Table<'a> {
             return Ok(None);
         }
         let parsed = match self.form.decimal {
-            '.' => text.parse::<f64>(),
-            sign => text.replace(sign, ".").parse(),
+            DecimalSign::Point => text.parse::<f64>(),
+            DecimalSign::Comma => text.replace(',', ".").parse(),
         };
         match parsed {
             Ok(value) if value.is_finite() => Ok(Some(value)),

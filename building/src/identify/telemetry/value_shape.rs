@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::json_schema::type_in_words;
 use crate::nearest::listed;
 
 /// What the value of a key must be, in plain words: `a table with …`, `one of …`, `a number`.
@@ -19,8 +20,10 @@ pub enum ValueShape {
     },
     /// A list.
     List {
-        /// How many entries it has, if that is fixed.
-        entries: Option<usize>,
+        /// The smallest number of entries.
+        min_entries: usize,
+        /// The largest number of entries, if there is one.
+        max_entries: Option<usize>,
     },
     /// One of several words.
     OneOf {
@@ -30,7 +33,10 @@ pub enum ValueShape {
     /// A text.
     Text,
     /// A text of one character.
-    Character,
+    Character {
+        /// Whether it must be one of ASCII.
+        ascii: bool,
+    },
     /// `true` or `false`.
     Truth,
     /// A whole number.
@@ -41,17 +47,31 @@ pub enum ValueShape {
 
 impl fmt::Display for ValueShape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let type_name = match self {
+            Self::TableOfAKind { kinds } => {
+                return write!(f, "a table whose `kind` is one of {}", listed(kinds));
+            }
+            Self::OneOf { words } => return write!(f, "one of {}", listed(words)),
+            Self::Character { ascii: true } => return write!(f, "a text of one ASCII character"),
+            Self::Character { ascii: false } => return write!(f, "a text of one character"),
+            Self::Table { .. } => "object",
+            Self::List { .. } => "array",
+            Self::Text => "string",
+            Self::Truth => "boolean",
+            Self::WholeNumber => "integer",
+            Self::Number => "number",
+        };
+        write!(f, "{}", type_in_words(Some(type_name)))?;
         match self {
-            Self::Table { keys } => write!(f, "a table with {}", listed(keys)),
-            Self::TableOfAKind { kinds } => write!(f, "a table whose `kind` is one of {}", listed(kinds)),
-            Self::List { entries: Some(entries) } => write!(f, "a list of {entries} entries"),
-            Self::List { entries: None } => write!(f, "a list"),
-            Self::OneOf { words } => write!(f, "one of {}", listed(words)),
-            Self::Text => write!(f, "a text"),
-            Self::Character => write!(f, "a text of one character"),
-            Self::Truth => write!(f, "true or false"),
-            Self::WholeNumber => write!(f, "a whole number"),
-            Self::Number => write!(f, "a number"),
+            Self::Table { keys } => write!(f, " with {}", listed(keys)),
+            Self::List { min_entries: min, max_entries: Some(max) } if min == max => write!(f, " of {}", entries(*min)),
+            Self::List { min_entries: min, max_entries: Some(max) } => write!(f, " of {min} to {}", entries(*max)),
+            Self::List { min_entries: min @ 1.., max_entries: None } => write!(f, " of at least {}", entries(*min)),
+            _ => Ok(()),
         }
     }
+}
+
+fn entries(count: usize) -> String {
+    if count == 1 { "1 entry".into() } else { format!("{count} entries") }
 }

@@ -2,9 +2,9 @@
 
 use super::super::drawing::{Drawing, SMALL_TEXT_PX, Side, width_of};
 use super::super::style::{BLACK, Colour, Dash, LineStyle, PAPER};
-use super::distance;
+use super::data::distance;
 
-/// Draws a footprint; corners are in pixels, in the order of [`super::FootprintSnapshot::bodies`].
+/// Draws a footprint; corners are in pixels, in the order of [`super::data::FootprintSnapshot::bodies`].
 pub(super) fn draw(drawing: &mut Drawing, corners: [[f64; 2]; 4], colour: Colour, opacity: f64) {
     let [front_right, front_left, rear_right, rear_left] = corners;
     let ring = vec![front_right, front_left, rear_left, rear_right];

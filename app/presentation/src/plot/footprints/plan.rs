@@ -3,7 +3,8 @@
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER, SURFACE};
-use super::{FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, body, distance};
+use super::body;
+use super::data::{FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, distance};
 
 /// Space at the left of the plan, for the tick labels of the y axis.
 const LEFT_MARGIN_PX: f64 = 92.0;

@@ -3,7 +3,8 @@
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::super::style::{Dash, GREY, LineStyle, PAPER, SURFACE};
-use super::{FootprintPlot, MARGIN_PX, PATH, TITLE_HEIGHT_PX, WIDTH_PX, body};
+use super::body;
+use super::data::{FootprintPlot, MARGIN_PX, PATH, TITLE_HEIGHT_PX, WIDTH_PX};
 
 /// Space at the left of each strip, for the number and the time of its snapshot.
 const LEFT_MARGIN_PX: f64 = 150.0;

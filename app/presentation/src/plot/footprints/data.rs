@@ -1,0 +1,99 @@
+//! Roads, vehicles and their footprints, and the sizes that all pictures of them share.
+
+use super::super::legend::{Legend, Sample};
+use super::super::style::{Colour, Dash, LineStyle, VERMILLION};
+
+/// Width of the picture.
+pub(super) const WIDTH_PX: f64 = 1400.0;
+/// Space at the sides of the picture.
+pub(super) const MARGIN_PX: f64 = 30.0;
+/// Height of the line with the title.
+pub(super) const TITLE_HEIGHT_PX: f64 = 48.0;
+/// Smallest distance of two points of a path: closer points are rounded to whole pixels and make the line ragged.
+const MIN_PATH_SPACING_PX: f64 = 16.0;
+/// The path of the ego, as the source draws it.
+pub(super) const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
+
+/// Vehicles at equal steps of time. Lengths are in metres, in a frame whose x axis runs along the main road.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FootprintPlot {
+    /// What it shows.
+    pub title: String,
+    /// The roads.
+    pub roads: Vec<Strip>,
+    /// The vehicles, each with its label and colour.
+    pub vehicles: Vec<(String, Colour)>,
+    /// The snapshots, in order of time.
+    pub snapshots: Vec<FootprintSnapshot>,
+    /// Where the ego's centre was, with the time \[s\].
+    pub path: Vec<(f64, [f64; 2])>,
+}
+
+/// A straight road.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Strip {
+    /// Its direction, counter-clockwise from x \[rad\].
+    pub heading_rad: f64,
+    /// Lateral coordinates of its right and its left edge.
+    pub edges_m: [f64; 2],
+    /// Lateral coordinates of the lines between its lanes.
+    pub dividers_m: Vec<f64>,
+    /// The area between the edges that is not road, beside a ramp that ends: a polygon in the frame of the picture.
+    pub shoulder_m: Vec<[f64; 2]>,
+}
+
+/// The vehicles at one time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FootprintSnapshot {
+    /// When it is \[s\].
+    pub time_s: f64,
+    /// The corners of each vehicle's body: front right, front left, rear right, rear left.
+    pub bodies: Vec<[[f64; 2]; 4]>,
+}
+
+impl FootprintPlot {
+    pub(super) fn legend(&self) -> Legend {
+        let mut legend = Legend::default();
+        for (name, colour) in &self.vehicles {
+            legend.add(Sample::Patch(*colour), name);
+        }
+        let who = self.vehicles.first().map_or("", |(name, _)| name.split(':').next().unwrap_or(name));
+        legend.add(Sample::Line(PATH), &format!("path of {who}"));
+        legend
+    }
+
+    /// Smallest and largest x and y of all bodies.
+    pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
+        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for point in self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().flatten()) {
+            for axis in 0..2 {
+                bounds[0][axis] = bounds[0][axis].min(point[axis]);
+                bounds[1][axis] = bounds[1][axis].max(point[axis]);
+            }
+        }
+        if bounds[0][0] <= bounds[1][0] { bounds } else { [[0.0; 2], [1.0; 2]] }
+    }
+
+    /// The path in pixels until a time, with no two points closer than a line can show.
+    pub(super) fn path_pixels(&self, until_s: f64, place: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
+        let mut pixels: Vec<[f64; 2]> = Vec::new();
+        for (_, point) in self.path.iter().take_while(|(time_s, _)| *time_s <= until_s + 1e-9) {
+            let pixel = place(*point);
+            if pixels.last().is_none_or(|last| distance(*last, pixel) >= MIN_PATH_SPACING_PX) {
+                pixels.push(pixel);
+            }
+        }
+        pixels
+    }
+
+    /// Length of the longest body.
+    pub(super) fn longest_m(&self) -> f64 {
+        let bodies = self.snapshots.iter().flat_map(|snapshot| &snapshot.bodies);
+        bodies.map(|body| distance(body[0], body[2])).fold(0.0, f64::max).max(1e-3)
+    }
+}
+
+/// The distance of two points.
+pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::hypot(a[0] - b[0], a[1] - b[1])
+}

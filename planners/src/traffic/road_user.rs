@@ -1,0 +1,26 @@
+//! A vehicle with all that the loop keeps of it.
+
+use super::committed::CommittedPlan;
+use crate::{Agent, Goal};
+
+/// One vehicle with all that the loop keeps of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoadUser {
+    /// The vehicle as everybody sees it.
+    pub agent: Agent,
+    /// What it wants.
+    pub goal: Goal,
+    /// Whether it plans before, and publishes its plan to, those who do not.
+    pub goes_first: bool,
+    /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
+    pub is_crashed: bool,
+    /// What it decided last.
+    pub committed: CommittedPlan,
+}
+
+impl RoadUser {
+    /// A vehicle that has not planned yet.
+    pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
+        RoadUser { agent, goal, goes_first, is_crashed: false, committed: CommittedPlan::default() }
+    }
+}
