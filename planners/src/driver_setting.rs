@@ -45,7 +45,7 @@ impl DriverSettingError {
     pub fn label(&self) -> &'static str {
         match self {
             DriverSettingError::BeyondHorizon { .. } => "too long",
-            DriverSettingError::BoundsCrossed { .. } => "above the largest",
+            DriverSettingError::BoundsCrossed { .. } => "too large",
         }
     }
 

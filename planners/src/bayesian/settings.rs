@@ -28,8 +28,8 @@ pub struct Settings {
     /// Largest weight that the other is believed to put on its own plan.
     #[schemars(range(min = 0.001), extend("x-unit" = "dimensionless"))]
     pub w_1_max: f64,
-    /// Weight of the other's wish to keep away from the ego, `w_4` of eq. 7.8. At 0.1 the ego hardly persuades; a large one
-    /// makes it chase the other.
+    /// Weight of the other's wish to keep away from the ego, `w_4` of eq. 7.8; at most `w_1_min`, by the source's condition
+    /// `w_1 ⪰ w_4`. At 0 the ego does not persuade; from 2 on it follows the other too closely to pass first.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     #[schemars(extend("x-mechanism" = { "persuasion": 0.0 }))]
     pub w_4: f64,
@@ -61,9 +61,9 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Settings {
-            w_1_min: 0.1,
-            w_1_max: 5.0,
-            w_4: 0.3,
+            w_1_min: 1.0,
+            w_1_max: 20.0,
+            w_4: 1.0,
             beta_0_m: 0.01,
             variance_per_change: 0.5,
             variance_max: 0.05,
@@ -77,12 +77,13 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Checks that the range of `w_1` is not empty.
+    /// Checks that the range of `w_1` is not empty and lies above `w_4`.
     pub(crate) fn check(&self) -> Result<(), DriverSettingError> {
-        let (lower, upper) = (self.w_1_min, self.w_1_max);
-        if lower <= upper {
-            return Ok(());
-        }
-        Err(DriverSettingError::BoundsCrossed { key: "w_1_min", lower, upper_key: "w_1_max", upper })
+        let ordered = |key, lower: f64, upper_key, upper: f64| match lower <= upper {
+            true => Ok(()),
+            false => Err(DriverSettingError::BoundsCrossed { key, lower, upper_key, upper }),
+        };
+        ordered("w_1_min", self.w_1_min, "w_1_max", self.w_1_max)?;
+        ordered("w_4", self.w_4, "w_1_min", self.w_1_min)
     }
 }

@@ -9,7 +9,7 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::StageSolver;
 
-/// Most steps of a descent in another class of motion.
+/// Most steps of a descent in another class of motion, where there is a plan to fall back on.
 const EXPLORATION_LIMIT: usize = 20;
 
 /// A trajectory optimiser: a stage solver and the memory that a descent needs.
@@ -74,7 +74,8 @@ impl<S: StageSolver> Optimiser<S> {
         bar: Bar,
     ) -> Result<Exploration, DescentError> {
         let now = self.descent.begin(problem, from)?;
-        let tolerances = Tolerances { iteration_limit: EXPLORATION_LIMIT, ..self.tolerances };
+        let limit = if bar.gives_up { EXPLORATION_LIMIT } else { self.tolerances.iteration_limit };
+        let tolerances = Tolerances { iteration_limit: limit, ..self.tolerances };
         let found = self.descent.run(problem, now, false, bar.give_up_above(), &tolerances)?;
         if found.cost.total < bar.cost {
             self.descent.leave(&mut self.warm_start);
