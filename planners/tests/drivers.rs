@@ -7,7 +7,13 @@ use interplay_planners::predict::{Prediction, constant_velocity};
 use interplay_planners::{Driver, Plan, Scene, State, conservative, human};
 use serde_json::json;
 
-const KINDS: [&str; 8] = ["human", "idm", "scripted", "conservative", "negotiation", "bayesian", "game", "cooperative"];
+/// The kinds of drivers, from the schema of scenario files.
+fn kinds() -> Vec<String> {
+    let schema = schemars::schema_for!(Driver).to_value();
+    let variants = schema["oneOf"].as_array().expect("one entry a kind");
+    let word = |variant: &serde_json::Value| variant["properties"]["kind"]["const"].as_str().map(str::to_owned);
+    variants.iter().map(|variant| word(variant).expect("every kind has its word")).collect()
+}
 
 fn driver(value: serde_json::Value) -> Result<Driver, serde_json::Error> {
     serde_json::from_value(value)
@@ -15,7 +21,7 @@ fn driver(value: serde_json::Value) -> Result<Driver, serde_json::Error> {
 
 #[test]
 fn every_kind_has_defaults_and_comes_back_as_it_was_written() {
-    for kind in KINDS {
+    for kind in kinds() {
         let read = driver(json!({ "kind": kind })).expect("every setting has a default");
         assert_eq!(read.kind(), kind);
         let written = serde_json::to_value(&read).expect("it can be written");
@@ -25,7 +31,7 @@ fn every_kind_has_defaults_and_comes_back_as_it_was_written() {
 
 #[test]
 fn unknown_settings_are_refused() {
-    for kind in KINDS {
+    for kind in kinds() {
         let error = driver(json!({ "kind": kind, "colour": 1 })).expect_err("nobody has a colour");
         assert!(error.to_string().contains("colour"), "{kind}: {error}");
     }

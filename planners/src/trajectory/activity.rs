@@ -52,14 +52,14 @@ impl Activity {
     }
 }
 
-/// Whether a row of a kind that speaks of a vehicle is active at a stage.
+/// Whether a row of a kind that concerns a vehicle is active at a stage.
 fn touches(problem: &Problem, iterate: &Iterate, vehicle: usize, stage: usize, kind: Violation) -> bool {
-    let speaks_of = |rows: &dyn RowTerm| {
+    let concerns_vehicle = |rows: &dyn RowTerm| {
         let subject = rows.subject();
         rows.violation() == Some(kind) && (subject.vehicle == vehicle || subject.other == Some(vehicle))
     };
     problem.terms.iter().any(|term| match term.shape() {
-        Shape::Rows(rows) if speaks_of(rows) => {
+        Shape::Rows(rows) if concerns_vehicle(rows) => {
             let mut expansions = [PoseExpansion::default(); MAX_ROWS_PER_STAGE];
             let expansions = &mut expansions[..rows.rows_per_stage()];
             rows.expand(stage, iterate, expansions);

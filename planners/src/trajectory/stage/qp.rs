@@ -9,7 +9,7 @@
 //!              + ½ (d_k, w_k)ᵀ C_k (d_k, w_k)                        curvature of the dynamics
 //!              + Σ_i r_i (Δū_{k,i} + w_{k,i} − w_{k−1,i})²           comfort, w_{first−1} = 0
 //!              + ½ μ Σ_i r_i w_{k,i}²                                damping, in the comfort's own scale
-//!              + Σ_rows  linear·s + quadratic·s² + ½ pᵀ K p          soft rows, p the position they speak of
+//!              + Σ_rows  linear·s + quadratic·s² + ½ pᵀ K p          soft rows, p the position they concern
 //! such that  c + ∇c·p + s ≥ 0,  s ≥ 0                                rows
 //!            lower ≤ w_k ≤ upper,  lower ≤ δv_{k+1} ≤ upper          boxes
 //!            c₀ + Σ_k b_k·(p, v)_{k+1} + Σ_k β_k ‖p_{k+1}‖² ≤ s    rows over a whole trajectory, a few at most
@@ -80,7 +80,7 @@ pub struct Row {
 /// The same soft row at every stage.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RowBlock {
-    /// Whose position the row speaks of.
+    /// Whose position the row concerns.
     pub vehicle: usize,
     /// For a pair: the vehicle whose position is subtracted.
     pub other: Option<usize>,

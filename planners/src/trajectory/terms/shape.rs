@@ -19,7 +19,7 @@ pub(in crate::trajectory) enum Shape<'a> {
     Trajectory(&'a dyn TrajectoryTerm),
 }
 
-/// Whose state a row speaks of.
+/// Whose state a row concerns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::trajectory) struct Subject {
     /// The vehicle.

@@ -1,11 +1,11 @@
 //! Second derivatives and gradient of the step problem, with what the inequalities add to them.
 
-use super::interior::Interior;
+use super::memory::Memory;
 use super::riccati::{PairHessian, VehicleHessian, pair_index, pairs_among};
 use crate::trajectory::stage::adjoint::curvature_gradient;
 use crate::trajectory::stage::qp::StageQp;
 
-impl<const W: usize, const Z: usize> Interior<W, Z> {
+impl<const W: usize> Memory<W> {
     /// Assembles the second derivatives with the weights `ω`.
     pub(super) fn assemble(&mut self, qp: &StageQp) {
         self.hessians.clone_from(&self.smooth_hessians);

@@ -1,8 +1,9 @@
 //! The interior-point iteration (see the parent module for the equations).
 
 use super::columns::{Columns, Start, larger};
-use super::riccati::{PairHessian, Riccati, VehicleHessian};
-use super::rows::{Inequalities, Point};
+use super::memory::Memory;
+use super::riccati::Riccati;
+use super::rows::Point;
 use super::trajectory_row::ExpandedTrajectoryRow;
 use crate::trajectory::stage::qp::{Hessian, Reach, StageQp};
 use crate::trajectory::stage::solution::StageSolution;
@@ -16,7 +17,7 @@ const ACCEPTED_RESIDUAL: f64 = 1e-7;
 const REFINEMENT_COMPLEMENTARITY: f64 = 1e-4;
 /// The iteration does not aim at a complementarity below this share of the tolerance.
 const MIN_CENTRING_RATIO: f64 = 1e-2;
-/// Weight on the inputs where the Hessian is singular but for rounding ([`Interior::input_regularization`]).
+/// Weight on the inputs where the Hessian is singular but for rounding ([`Memory::input_regularization`]).
 const INPUT_REGULARIZATION: f64 = 1e-3;
 /// A derivative of the Lagrangian over the inputs below this is treated as zero.
 const STATIONARITY_TOLERANCE: f64 = 1e-8;
@@ -55,35 +56,17 @@ impl StageSolver for Structured {
     }
 }
 
-/// The memory of one solver of `W/2` vehicles; nothing is allocated once it has its size.
+/// The solver of problems with `W/2` vehicles; nothing is allocated once its memory has its size.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Interior<const W: usize, const Z: usize> {
+struct Interior<const W: usize, const Z: usize> {
+    memory: Memory<W>,
     riccati: Riccati<W, Z>,
-    pub(super) inequalities: Inequalities,
-    pub(super) columns: Columns,
-    pub(super) hessians: Vec<VehicleHessian>,
-    pub(super) pairs: Vec<PairHessian>,
-    /// The part of them that stays the same.
-    pub(super) smooth_hessians: Vec<VehicleHessian>,
-    pub(super) smooth_pairs: Vec<PairHessian>,
-    /// Added to the Hessian over the inputs where it is singular but for rounding; steps are then a little short.
-    pub(super) input_regularization: f64,
-    /// Where the iteration stands.
-    pub(super) point: Point,
-    /// Its next step.
-    pub(super) step: Point,
-    /// What refinement adds to it.
+    /// What refinement adds to a step.
     correction: Point,
-    /// Gradient of the smooth cost at the point.
-    pub(super) cost_gradient: Point,
-    /// The same with the rows' pull.
-    pub(super) gradient: Point,
-    /// The rows over whole trajectories at the point.
-    pub(super) trajectory_rows: Vec<ExpandedTrajectoryRow>,
 }
 
 impl<const W: usize, const Z: usize> Interior<W, Z> {
-    pub(super) const VEHICLES: usize = W / 2;
+    const VEHICLES: usize = Memory::<W>::VEHICLES;
 
     fn solve(&mut self, qp: &StageQp, solution: &mut StageSolution, warm: bool) -> Result<(), StageError> {
         let warm = warm && solution.fits(qp);
@@ -98,13 +81,13 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
         }
         if matches!(outcome, Err(StageError::Unsolved { .. })) && qp.hessian == Hessian::GaussNewton {
-            self.input_regularization = INPUT_REGULARIZATION;
+            self.memory.input_regularization = INPUT_REGULARIZATION;
             outcome = self.attempt(qp, solution, Start::COLD, None, &mut iterations);
-            self.input_regularization = 0.0;
+            self.memory.input_regularization = 0.0;
         }
         solution.iterations = iterations;
         outcome?;
-        self.write(solution);
+        self.memory.write(solution);
         Ok(())
     }
 
@@ -120,7 +103,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         self.begin(qp, known, start, reach);
         let unsolved = |status, iterations| Err(StageError::Unsolved { status, iterations });
         match self.iterate(qp, iterations) {
-            Ok(()) if !self.inequalities.far_ones_hold(&self.point) => {
+            Ok(()) if !self.memory.inequalities.far_ones_hold(&self.memory.point) => {
                 unsolved("the solution is farther than expected".to_owned(), *iterations)
             }
             // Without curvature every problem is convex: it was rounding.
@@ -133,31 +116,32 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
 
     /// Lists the inequalities, and sets slacks and multipliers at the iterate itself.
     fn begin(&mut self, qp: &StageQp, known: &StageSolution, start: Start, reach: Option<&Reach>) {
-        self.inequalities.fill(qp, known, reach);
-        let rows = self.inequalities.bounds.len() + self.inequalities.rows.len() + qp.trajectory_rows.len();
-        let hard = rows - self.inequalities.weights.len();
-        self.columns.shape(hard, self.inequalities.weights.iter().copied());
-        self.trajectory_rows.resize_with(qp.trajectory_rows.len(), ExpandedTrajectoryRow::default);
-        self.trajectory_rows.iter_mut().zip(&qp.trajectory_rows).for_each(|(expanded, row)| expanded.shape_like(row));
-        self.point.clear(qp.horizon * Self::VEHICLES);
-        self.fill_smooth_hessians(qp);
-        self.refresh_values(qp);
-        self.columns.begin(start, &self.inequalities.multipliers);
+        let memory = &mut self.memory;
+        memory.inequalities.fill(qp, known, reach);
+        let rows = memory.inequalities.bounds.len() + memory.inequalities.rows.len() + qp.trajectory_rows.len();
+        let hard = rows - memory.inequalities.weights.len();
+        memory.columns.shape(hard, memory.inequalities.weights.iter().copied());
+        memory.trajectory_rows.resize_with(qp.trajectory_rows.len(), ExpandedTrajectoryRow::default);
+        memory.trajectory_rows.iter_mut().zip(&qp.trajectory_rows).for_each(|(expanded, row)| expanded.shape_like(row));
+        memory.point.clear(qp.horizon * Self::VEHICLES);
+        memory.fill_smooth_hessians(qp);
+        memory.refresh_values(qp);
+        memory.columns.begin(start, &memory.inequalities.multipliers);
     }
 
     /// Newton's method with predictor and corrector until every residual is small.
     fn iterate(&mut self, qp: &StageQp, iterations: &mut usize) -> Result<(), StageError> {
-        let count = self.columns.pairs().max(1) as f64;
+        let count = self.memory.columns.pairs().max(1) as f64;
         // The dual residual is linear in the unknowns, so every step of length α leaves 1 − α of it.
         let (mut dual_share, mut polished) = (1.0, 0);
         for _ in 0..ITERATION_LIMIT {
-            let (complementarity, primal) = self.columns.measure();
+            let (complementarity, primal) = self.memory.columns.measure();
             if complementarity < qp.tolerance
                 && primal < qp.tolerance
                 && dual_share < DUAL_TOLERANCE_RATIO * qp.tolerance
             {
                 // Multipliers come out of large weights with few digits; a step that is next to nothing cleans them.
-                if polished == MAX_STEPS_WITHOUT_GAIN || self.stationarity(qp) < STATIONARITY_TOLERANCE {
+                if polished == MAX_STEPS_WITHOUT_GAIN || self.memory.stationarity(qp) < STATIONARITY_TOLERANCE {
                     return Ok(());
                 }
                 polished += 1;
@@ -165,38 +149,38 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             if !complementarity.is_finite() {
                 break;
             }
-            let largest = self.columns.multiplier.iter().copied().fold(0.0, larger);
+            let largest = self.memory.columns.multiplier.iter().copied().fold(0.0, larger);
             if largest > INFEASIBLE_MULTIPLIER && primal > qp.tolerance.sqrt() {
                 return Err(StageError::Infeasible { iterations: *iterations });
             }
             *iterations += 1;
-            self.columns.weigh();
-            self.assemble(qp);
-            match self.riccati.factor(qp, &self.hessians, &self.pairs) {
+            self.memory.columns.weigh();
+            self.memory.assemble(qp);
+            match self.riccati.factor(qp, &self.memory.hessians, &self.memory.pairs) {
                 Err(_) if polished > 0 => return Ok(()),
                 outcome => outcome?,
             }
             self.respond(qp);
-            self.fill_cost_gradient(qp);
-            self.columns.aim(0.0, false);
+            self.memory.fill_cost_gradient(qp);
+            self.memory.columns.aim(0.0, false);
             self.newton(qp, false);
-            let affine = self.columns.step();
+            let affine = self.memory.columns.step();
             let share = if affine.ratio > 1.0 { 1.0 / affine.ratio } else { 1.0 };
             let left = complementarity + share * (affine.linear + share * affine.quadratic) / count;
             // Without any inequality there is nothing to centre; beyond the tolerance there is nothing to gain but rounding.
             let centring = if complementarity > 0.0 { (left / complementarity).powi(3) * complementarity } else { 0.0 };
             let centring = larger(centring, MIN_CENTRING_RATIO * qp.tolerance);
-            self.columns.aim(centring, true);
+            self.memory.columns.aim(centring, true);
             self.newton(qp, complementarity < REFINEMENT_COMPLEMENTARITY);
-            let ratio = self.columns.step().ratio;
+            let ratio = self.memory.columns.step().ratio;
             let boundary = 1.0 - complementarity.clamp(1e-6, 5e-3);
             let share = if ratio > boundary { boundary / ratio } else { 1.0 };
-            self.columns.advance(share);
-            self.point.add(share, &self.step);
+            self.memory.columns.advance(share);
+            self.memory.point.add(share, &self.memory.step);
             dual_share *= 1.0 - share;
-            self.refresh_values(qp);
+            self.memory.refresh_values(qp);
         }
-        let (complementarity, worst) = self.columns.measure();
+        let (complementarity, worst) = self.memory.columns.measure();
         if complementarity < ACCEPTED_RESIDUAL && worst < ACCEPTED_RESIDUAL && dual_share < ACCEPTED_RESIDUAL {
             return Ok(());
         }
@@ -204,32 +188,18 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         Err(StageError::Unsolved { status, iterations: *iterations })
     }
 
-    /// Every inequality at the point, and the gradients of rows over whole trajectories.
-    fn refresh_values(&mut self, qp: &StageQp) {
-        let (bounds, rows) = self.columns.value.split_at_mut(self.inequalities.bounds.len());
-        for (bound, value) in self.inequalities.bounds.iter().zip(bounds) {
-            *value = bound.room + bound.slope(&self.point);
-        }
-        let (rows, trajectories) = rows.split_at_mut(self.inequalities.rows.len());
-        for (row, value) in self.inequalities.rows.iter().zip(rows) {
-            *value = row.value + row.slope(&self.point.states);
-        }
-        for ((row, expanded), value) in qp.trajectory_rows.iter().zip(&mut self.trajectory_rows).zip(trajectories) {
-            *value = expanded.refresh(row, &self.point, Self::VEHICLES);
-        }
-    }
-
     /// `H⁻¹ v` of every row over a whole trajectory, for Sherman and Morrison.
     fn respond(&mut self, qp: &StageQp) {
-        let weights = &self.columns.weight[self.columns.len() - self.trajectory_rows.len()..];
-        for index in 0..self.trajectory_rows.len() {
-            let (before, after) = self.trajectory_rows.split_at_mut(index);
+        let memory = &mut self.memory;
+        let weights = &memory.columns.weight[memory.columns.len() - memory.trajectory_rows.len()..];
+        for index in 0..memory.trajectory_rows.len() {
+            let (before, after) = memory.trajectory_rows.split_at_mut(index);
             let expanded = &mut after[0];
-            self.gradient.clear(qp.horizon * Self::VEHICLES);
+            memory.gradient.clear(qp.horizon * Self::VEHICLES);
             // The gradient −v makes the solve return H⁻¹ v.
-            expanded.pull(-1.0, &mut self.gradient, Self::VEHICLES);
+            expanded.pull(-1.0, &mut memory.gradient, Self::VEHICLES);
             expanded.response.clear(qp.horizon * Self::VEHICLES);
-            self.riccati.solve(qp, &self.gradient, &mut expanded.response);
+            self.riccati.solve(qp, &memory.gradient, &mut expanded.response);
             for (earlier, weight) in before.iter().zip(weights) {
                 earlier.correct(*weight, &mut expanded.response, Self::VEHICLES);
             }
@@ -238,33 +208,20 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
 
     /// One Newton step towards the targets, if asked with a refinement; leaves its slopes in the columns.
     fn newton(&mut self, qp: &StageQp, refined: bool) {
-        self.fill_gradient(false);
-        self.step.states.resize(self.gradient.states.len(), [0.0; 4]);
-        self.step.inputs.resize(self.gradient.inputs.len(), [0.0; 2]);
-        self.riccati.solve(qp, &self.gradient, &mut self.step);
-        correct(&self.columns, &self.trajectory_rows, &mut self.step, Self::VEHICLES);
+        let memory = &mut self.memory;
+        memory.fill_gradient(false);
+        memory.step.states.resize(memory.gradient.states.len(), [0.0; 4]);
+        memory.step.inputs.resize(memory.gradient.inputs.len(), [0.0; 2]);
+        self.riccati.solve(qp, &memory.gradient, &mut memory.step);
+        correct(&memory.columns, &memory.trajectory_rows, &mut memory.step, Self::VEHICLES);
         if refined {
-            self.leave_residual(qp);
+            memory.leave_residual(qp);
             self.correction.clear(qp.horizon * Self::VEHICLES);
-            self.riccati.solve(qp, &self.gradient, &mut self.correction);
-            correct(&self.columns, &self.trajectory_rows, &mut self.correction, Self::VEHICLES);
-            self.step.add(1.0, &self.correction);
+            self.riccati.solve(qp, &memory.gradient, &mut self.correction);
+            correct(&memory.columns, &memory.trajectory_rows, &mut self.correction, Self::VEHICLES);
+            memory.step.add(1.0, &self.correction);
         }
-        self.fill_slopes();
-    }
-
-    fn fill_slopes(&mut self) {
-        let (bounds, rows) = self.columns.slope.split_at_mut(self.inequalities.bounds.len());
-        for (bound, slope) in self.inequalities.bounds.iter().zip(bounds) {
-            *slope = bound.slope(&self.step);
-        }
-        let (rows, trajectories) = rows.split_at_mut(self.inequalities.rows.len());
-        for (row, slope) in self.inequalities.rows.iter().zip(rows) {
-            *slope = row.slope(&self.step.states);
-        }
-        for (expanded, slope) in self.trajectory_rows.iter().zip(trajectories) {
-            *slope = -expanded.dot(&self.step, Self::VEHICLES);
-        }
+        memory.fill_slopes();
     }
 }
 

@@ -49,6 +49,7 @@
 mod assemble;
 mod columns;
 mod interior;
+mod memory;
 mod refine;
 mod riccati;
 mod rows;

@@ -10,13 +10,13 @@
 //! with the same factors.
 
 use super::columns::larger;
-use super::interior::Interior;
+use super::memory::Memory;
 use super::riccati::{PairHessian, VehicleHessian, pairs};
 use super::rows::Point;
 use crate::trajectory::stage::adjoint::curvature_gradient;
 use crate::trajectory::stage::qp::StageQp;
 
-impl<const W: usize, const Z: usize> Interior<W, Z> {
+impl<const W: usize> Memory<W> {
     /// Turns `gradient` into what the step leaves of it: zero over states, `ρ` over inputs.
     pub(super) fn leave_residual(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;

@@ -1,9 +1,9 @@
 //! From the columns back to the shape of a solution.
 
-use super::interior::Interior;
+use super::memory::Memory;
 use crate::trajectory::stage::solution::StageSolution;
 
-impl<const W: usize, const Z: usize> Interior<W, Z> {
+impl<const W: usize> Memory<W> {
     /// Copies point and multipliers into the solution's shape.
     pub(super) fn write(&self, solution: &mut StageSolution) {
         let vehicles = Self::VEHICLES;
