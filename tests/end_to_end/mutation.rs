@@ -42,3 +42,43 @@ fn authored_counterfactuals_do_as_they_claim() {
     let wrong: Vec<String> = wrong.collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
+
+/// Of every driving figure the other drivers' style decides the outcome, and where its planner is said to gain over the
+/// conservative one, the planner's own mechanism does. Its file must carry the counterfactuals that show it; the test above
+/// runs them.
+#[test]
+fn figures_carry_the_counterfactuals_that_prove_them() {
+    let mut figures = 0;
+    for file in embedded() {
+        let scenario = load(file.name, &[]).expect("authored");
+        if scenario.figure.is_none() || scenario.vehicles.is_empty() {
+            continue;
+        }
+        figures += 1;
+        let (own, ego) = (&scenario, scenario.ego_index());
+        let flips_a_style = |changed: &Scenario| {
+            let drivers = |scenario: &Scenario| {
+                let others = scenario.vehicles.iter().enumerate().filter(|(index, _)| *index != ego);
+                others.map(|(_, vehicle)| vehicle.driver.clone()).collect::<Vec<_>>()
+            };
+            drivers(changed) != drivers(own)
+        };
+        let changes_the_order = |changed: &Scenario| {
+            let expect = &changed.expect;
+            expect.order.as_ref().is_some_and(|order| Some(order) != own.expect.order.as_ref())
+                || expect.order_differs == Some(true)
+        };
+        let (kind, changed) = (own.vehicles[ego].driver.kind(), &own.changed);
+        assert!(changed.iter().any(|changed| flips_a_style(changed) && changes_the_order(changed)), "{}", file.name);
+        let is_conservative = |changed: &&Scenario| changed.vehicles[ego].driver.kind() == "conservative";
+        assert!(changed.iter().any(|changed| is_conservative(&changed)), "{}: beside the conservative planner", file.name);
+        if changed.iter().filter(is_conservative).any(changes_the_order) {
+            let has_mechanism_off = |changed: &Scenario| {
+                let driver = &changed.vehicles[ego].driver;
+                driver.kind() == kind && *driver != own.vehicles[ego].driver && changes_the_order(changed)
+            };
+            assert!(changed.iter().any(has_mechanism_off), "{}: the mechanism off", file.name);
+        }
+    }
+    assert_eq!(figures, 16);
+}

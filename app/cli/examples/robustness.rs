@@ -1,14 +1,16 @@
-//! How far the outcome of a scenario depends on its exact starts, and what its planner gains over the conservative one.
+//! How far the outcome of a scenario depends on its exact starts, and what it depends on besides.
 //!
 //! ```sh
-//! cargo run --release -p interplay --example robustness -- [NAME...] [--seeds 50] [--set PATH=VALUE]... > table.md
+//! cargo run --release -p interplay --example robustness -- [NAME...] [--starts 200] [--set PATH=VALUE]... > table.md
 //! ```
 //!
 //! Every scenario runs once with every seed 1, 2, …: each vehicle starts up to 0.1 m further ahead or behind on its road, and
-//! up to 0.1 m/s faster or slower, drawn from the seed. The scenario's planner and the conservative one meet the same
-//! starts, so their outcomes are compared in pairs. An outcome is kept if the order is the one that the scenario expects,
-//! nobody has touched anybody, and whoever is expected to complete its task has done so, at whatever time. Without names, the
-//! scenarios with a figure in chapters 6 to 8 run.
+//! up to 0.1 m/s faster or slower, drawn from the seed. From the same starts run the scenario's counterfactuals (the
+//! conservative planner, the planner's mechanism off, another driver's style), so outcomes are compared in pairs. Without
+//! names, the scenarios with a figure in chapters 6 to 8 and all ramp merges run.
+//!
+//! The outcome of a run is the place of the ego in the order and whether anybody touches anybody. A place nearer to the front
+//! without contact is better: going first where that is possible is no failure.
 
 #![allow(clippy::print_stdout, reason = "the table is the result")]
 
@@ -21,24 +23,23 @@ use interplay_simulation::run::{RunError, run};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Perturbs the starts of scenarios and prints which outcomes are kept, as a Markdown table.
+/// Perturbs the starts of scenarios and prints what their outcomes depend on, as a Markdown table.
 #[derive(Parser)]
 struct Study {
-    /// Scenarios [default: those with a figure]
+    /// Scenarios [default: those with a figure, and ramp merges]
     names: Vec<String>,
     /// How many starts
-    #[arg(long, default_value_t = 50)]
-    seeds: u64,
+    #[arg(long, default_value_t = 200)]
+    starts: u64,
     /// Changes of every scenario, as for `interplay run`
     #[arg(long = "set", value_name = "PATH=VALUE")]
     changes: Vec<String>,
-    /// Whom the scenario's planner is compared with
-    #[arg(long, default_value = "conservative")]
-    rival: String,
 }
 
 /// The largest changes of position and speed.
 const JITTER: [&str; 2] = ["start_jitter.position_m=0.1", "start_jitter.speed_mps=0.1"];
+/// The quantile of the normal distribution that bounds 95 % on both sides.
+const NORMAL_QUANTILE_95: f64 = 1.959_963_984_540_054;
 
 /// Why a start has no outcome.
 #[derive(Debug, Error)]
@@ -51,36 +52,43 @@ enum StudyError {
     Run(#[from] RunError),
 }
 
-/// What became of one start.
+/// What became of one run.
+#[derive(Clone, Copy)]
 struct Outcome {
-    kept: bool,
+    /// Whether the order is the one that the scenario expects.
+    as_expected: bool,
+    /// The place of the ego in the order, from 1; large where it has none.
+    place: usize,
     touched: bool,
     gap_m: f64,
     completed_s: Option<f64>,
-    speed_mps: [f64; 2],
+    failed_plans: usize,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut study = Study::parse();
     if study.names.is_empty() {
-        study.names = with_a_figure()?;
+        study.names = figures_and_ramps()?;
     }
     println!(
-        "| scenario | planner | kept | rival kept | won | lost | touched | smallest gap m | completed s | speed m/s |"
+        "| scenario | what is changed | order as in the figure, 95 % interval | ego nearer to the front / further back | p | \
+         touched | smallest gap m | ego done s | failed plans |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|");
     for name in &study.names {
-        println!("{}", study.row(name)?);
+        for row in study.rows(name)? {
+            println!("{row}");
+        }
     }
     Ok(())
 }
 
-/// The driving scenarios that reproduce a figure.
-fn with_a_figure() -> Result<Vec<String>, Box<dyn Error>> {
+/// The driving scenarios that reproduce a figure, and all ramp merges.
+fn figures_and_ramps() -> Result<Vec<String>, Box<dyn Error>> {
     let mut names = Vec::new();
     for file in embedded() {
         let scenario = load(file.name, &[])?;
-        if scenario.figure.is_some() && !scenario.vehicles.is_empty() {
+        if !scenario.vehicles.is_empty() && (scenario.figure.is_some() || file.name.starts_with("ramp-merge/")) {
             names.push(file.name.to_owned());
         }
     }
@@ -88,72 +96,98 @@ fn with_a_figure() -> Result<Vec<String>, Box<dyn Error>> {
 }
 
 impl Study {
-    /// One line of the table.
-    fn row(&self, name: &str) -> Result<String, Box<dyn Error>> {
-        let planner = load(name, &self.overrides(1, None))?.ego().map_or("", |ego| ego.driver.kind());
-        let own = self.outcomes(name, None)?;
-        let rival = self.outcomes(name, Some(&self.rival))?;
-        let share = |outcomes: &[Outcome]| {
-            100.0 * outcomes.iter().filter(|outcome| outcome.kept).count() as f64 / self.seeds as f64
-        };
-        let pairs = || own.iter().zip(&rival);
-        let won = pairs().filter(|(own, rival)| own.kept && !rival.kept).count();
-        let lost = pairs().filter(|(own, rival)| !own.kept && rival.kept).count();
-        let touched = own.iter().filter(|outcome| outcome.touched).count();
-        let gaps = own.iter().map(|outcome| outcome.gap_m).fold(f64::INFINITY, f64::min);
-        let rival_gaps = rival.iter().map(|outcome| outcome.gap_m).fold(f64::INFINITY, f64::min);
-        let done = span(own.iter().filter_map(|outcome| outcome.completed_s));
-        let slowest = span(own.iter().map(|outcome| outcome.speed_mps[0]));
-        let fastest = span(own.iter().map(|outcome| outcome.speed_mps[1]));
-        Ok(format!(
-            "| {name} | {planner} | {:.0} % | {:.0} % | {won} | {lost} | {touched} | {gaps:.3} ({rival_gaps:.3}) | {done} | \
-             {slowest}, {fastest} |",
-            share(&own),
-            share(&rival)
-        ))
+    /// A row for the scenario and one for each of its counterfactuals.
+    fn rows(&self, name: &str) -> Result<Vec<String>, Box<dyn Error>> {
+        let runs: Result<Vec<Vec<Outcome>>, StudyError> =
+            (1..=self.starts).into_par_iter().map(|seed| self.outcomes(name, seed)).collect();
+        let runs = runs?;
+        let scenario = load(name, &[])?;
+        let changes = scenario.counterfactuals.iter().map(|counterfactual| counterfactual.name.as_str());
+        let titles = std::iter::once("nothing").chain(changes);
+        let arm = |index: usize| runs.iter().map(|run| run[index]).collect::<Vec<Outcome>>();
+        let own = arm(0);
+        Ok(titles.enumerate().map(|(index, title)| row(name, title, &own, &arm(index))).collect())
     }
 
-    /// The outcomes of all seeds in their order, of the scenario's own planner or another.
-    fn outcomes(&self, name: &str, planner: Option<&str>) -> Result<Vec<Outcome>, Box<dyn Error>> {
-        let outcome = |seed: u64| -> Result<Outcome, StudyError> {
-            let scenario = load(name, &self.overrides(seed, planner))?;
-            let report = run(name, &scenario, Vec::new())?;
-            Ok(Outcome::of(&scenario, &report))
-        };
-        let outcomes: Result<Vec<Outcome>, StudyError> = (1..=self.seeds).into_par_iter().map(outcome).collect();
-        Ok(outcomes?)
-    }
-
-    fn overrides(&self, seed: u64, planner: Option<&str>) -> Vec<Override> {
+    /// The outcomes of one start: the scenario's own, then those of its counterfactuals.
+    fn outcomes(&self, name: &str, seed: u64) -> Result<Vec<Outcome>, StudyError> {
         let changes = JITTER.iter().copied().chain(self.changes.iter().map(String::as_str));
         let mut overrides: Vec<Override> = changes.map(|change| Override::Set(change.to_owned())).collect();
         overrides.push(Override::Seed(seed));
-        overrides.extend(planner.map(|kind| Override::Planner(kind.to_owned())));
-        overrides
+        let scenario = load(name, &overrides)?;
+        let all = std::iter::once(&scenario).chain(&scenario.changed);
+        all.map(|changed| Ok(Outcome::of(&scenario, &run(name, changed, Vec::new())?))).collect()
     }
 }
 
 impl Outcome {
     fn of(scenario: &Scenario, report: &Report) -> Outcome {
-        let expect = &scenario.expect;
-        let in_order =
-            expect.order.as_ref().is_none_or(|order| report.order.iter().filter(|name| order.contains(name)).eq(order));
-        let completed = |name: &str| report.vehicle(name).and_then(|vehicle| vehicle.completed_s);
-        let all_done = expect.completes.iter().all(|task| completed(&task.vehicle).is_some());
-        let touched = !report.collisions.is_empty();
+        let expected = scenario.expect.order.as_deref().unwrap_or_default();
+        let name = &scenario.vehicles[scenario.ego_index()].name;
         let ego = &report.vehicles[scenario.ego_index()];
+        let failed_plans = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
         Outcome {
-            kept: in_order && all_done && !touched,
-            touched,
+            as_expected: report.order.iter().filter(|name| expected.contains(name)).eq(expected),
+            place: report.order.iter().position(|found| found == name).map_or(usize::MAX, |index| index + 1),
+            touched: !report.collisions.is_empty(),
             gap_m: report.min_gap_m.unwrap_or(f64::INFINITY),
             completed_s: ego.completed_s,
-            speed_mps: [ego.min_speed_mps, ego.max_speed_mps],
+            failed_plans,
         }
+    }
+
+    /// Whether the ego does better than in another run from the same start.
+    fn is_better_than(&self, other: &Outcome) -> bool {
+        (self.touched, self.place) < (other.touched, other.place)
     }
 }
 
-/// The smallest and the largest of some numbers, as text.
-fn span(numbers: impl Iterator<Item = f64> + Clone) -> String {
-    let (low, high) = (numbers.clone().fold(f64::INFINITY, f64::min), numbers.fold(f64::NEG_INFINITY, f64::max));
-    if low > high { "-".to_owned() } else { format!("{low:.2}–{high:.2}") }
+/// One line of the table: an arm beside the scenario's own runs.
+fn row(name: &str, title: &str, own: &[Outcome], arm: &[Outcome]) -> String {
+    let (runs, kept) = (arm.len() as f64, arm.iter().filter(|outcome| outcome.as_expected && !outcome.touched).count());
+    let [low, high] = wilson_interval(kept as f64, runs);
+    let pairs = || arm.iter().zip(own);
+    let nearer = pairs().filter(|(arm, own)| arm.is_better_than(own)).count();
+    let further = pairs().filter(|(arm, own)| own.is_better_than(arm)).count();
+    let p = sign_test(nearer, further);
+    let comparison = if title == "nothing" { "- | -".to_owned() } else { format!("{nearer} / {further} | {p:.1e}") };
+    let touched = arm.iter().filter(|outcome| outcome.touched).count();
+    let gap_m = arm.iter().map(|outcome| outcome.gap_m).fold(f64::INFINITY, f64::min);
+    let failed: usize = arm.iter().map(|outcome| outcome.failed_plans).sum();
+    let done = span(arm.iter().filter_map(|outcome| outcome.completed_s));
+    format!(
+        "| {name} | {title} | {:.0} % ({:.0} to {:.0}) | {comparison} | {touched} | {gap_m:.3} | {done} | {failed} |",
+        100.0 * kept as f64 / runs,
+        100.0 * low,
+        100.0 * high
+    )
+}
+
+/// Wilson's interval of a share at 95 %.
+fn wilson_interval(kept: f64, of: f64) -> [f64; 2] {
+    let (share, z) = (kept / of, NORMAL_QUANTILE_95);
+    let centre = (share + z * z / (2.0 * of)) / (1.0 + z * z / of);
+    let half = z / (1.0 + z * z / of) * (share * (1.0 - share) / of + z * z / (4.0 * of * of)).sqrt();
+    [(centre - half).max(0.0), (centre + half).min(1.0)]
+}
+
+/// The probability, if nearer and further back were equally likely, of a split of the unequal pairs at least as uneven
+/// (McNemar's exact test).
+fn sign_test(nearer: usize, further: usize) -> f64 {
+    let (of, least) = (nearer + further, nearer.min(further));
+    let mut probability = 0.5_f64.powi(of as i32);
+    let mut sum = 0.0;
+    for count in 0..=least {
+        sum += probability;
+        probability *= (of - count) as f64 / (count + 1) as f64;
+    }
+    (2.0 * sum).min(1.0)
+}
+
+/// The range of some times; a dash if there are none.
+fn span(values: impl Iterator<Item = f64>) -> String {
+    let values: Vec<f64> = values.collect();
+    let (least, most) =
+        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(*value), most.max(*value)));
+    if values.is_empty() { "-".to_owned() } else { format!("{least:.1} to {most:.1}") }
 }
