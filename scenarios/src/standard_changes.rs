@@ -1,6 +1,6 @@
 //! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
 //!
-//! - the style of each human, nice or tough; instead of another driver who minds nobody's wishes, a human of either style;
+//! - the style of each human, nice or tough (named points between them are not tried); instead of another driver who minds nobody's wishes, a human of either style;
 //! - the planner of each interactive vehicle: negotiation, conservative, cooperative, or the intelligent driver model;
 //! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
 //! - whether a vehicle knows the plans of the others, or expects constant velocities.
@@ -76,21 +76,14 @@ fn changes(vehicle: &Vehicle) -> Vec<Change> {
     changes
 }
 
-fn word(style: Style) -> &'static str {
-    match style {
-        Style::Nice => "nice",
-        Style::Tough => "tough",
-    }
-}
-
 fn style_change(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
-    let word = word(style);
+    let word = style.name();
     let set = format!("vehicle.{name}.driver.style=\"{word}\"");
     (format!("{name}'s style"), format!("{name}: style = {word}"), set)
 }
 
 fn human(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
-    let word = word(style);
+    let word = style.name();
     let set = format!("vehicle.{name}.driver={{ kind = \"human\", style = \"{word}\" }}");
     (format!("{name}'s driver"), format!("{name}: driver = human, {word}"), set)
 }
