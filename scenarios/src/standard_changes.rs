@@ -1,6 +1,6 @@
 //! The standard list of changes by which `interplay why` finds out what the outcome of a drive depends on.
 //!
-//! - the style of each human, nice or tough (named points between them are not tried); instead of another driver who minds nobody's wishes, a human of either style;
+//! - the style of each human, nice or tough; instead of another driver who minds nobody's wishes, a human of either style;
 //! - the planner of each interactive vehicle: negotiation, conservative, cooperative, or the intelligent driver model;
 //! - each mechanism of such a planner switched off: the settings whose schema says `x-mechanism`;
 //! - whether a vehicle knows the plans of the others, or expects constant velocities.

@@ -13,30 +13,32 @@
 //!
 //! Inputs and speed have hard bounds (eq. 6.8). `p` is the driver's position.
 //!
-//! - **Yielding.** `w` is the safety weight; `q` is the other's position at constant velocity *with its present heading*, so
-//!   that a nudge of the steering wheel is seen; `d` is the elliptical distance along the other's road. The hinge is sharp: a
-//!   driver yields only to what threatens to enter its ellipse. Where roads cross the term stands twice, for the ellipse along
-//!   the other's road and for the one along the driver's own. This is our choice: with one of them drivers and planners
-//!   disagree about who is in whose way. Whoever is behind in the same lane is ignored.
+//! - **Yielding.** `w` is the safety weight; `q` is the other's position at constant velocity *with its present
+//!   heading*, so that a nudge of the steering wheel is seen; `d` is the elliptical distance along the other's road.
+//!   The hinge is sharp: a driver yields only to what threatens to enter its ellipse. Where roads cross the term stands
+//!   twice, for the ellipse along the other's road and for the one along the driver's own. This is our choice: with one
+//!   of them drivers and planners disagree about who is in whose way. Whoever is behind in the same lane is ignored.
 //! - **Following.** `l` is the *planned* position of the vehicle ahead: the driver knows its plan. The weight is
 //!   `w_f = max(w, following_weight)`, whatever the style.
-//! - **Firm wall.** `d_f` belongs to an ellipse 0.7 times as long and 4 times as wide, with the exact penalty of the planners'
-//!   safety constraints. So the driver brakes for the vehicle ahead rather than run into it or swerve around it.
+//! - **Firm wall.** `d_f` belongs to an ellipse 0.7 times as long and 4 times as wide, with the exact penalty of the
+//!   planners' safety constraints. So the driver brakes for the vehicle ahead rather than run into it or swerve around
+//!   it.
 //!
-//! So a tough driver is not one without safety terms. `w = 0` removes yielding only: whoever is ahead in its lane makes it
-//! brake, with knowledge of that vehicle's plan. The source only says that nice drivers have a higher safety weight (section
-//! 6.5); it mentions neither following nor the wall, without which tough drivers run into whoever has merged.
+//! So a tough driver is not one without safety terms. `w = 0` removes yielding only: whoever is ahead in its lane makes
+//! it brake, with knowledge of that vehicle's plan. The source only says that nice drivers have a higher safety weight
+//! (section 6.5); it mentions neither following nor the wall, without which tough drivers run into whoever has merged.
 //!
 //! Going first and yielding are two classes of motion, which the optimiser compares (`passing_orders`).
 //!
 //! Drivers differ from this one by their settings:
 //!
-//! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while somebody is about to cut in ahead.
+//! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while somebody is about to cut
+//!   in ahead.
 //! - A driver who **reacts late** (`reaction_s`) sees all others as they were that long ago, continued to the present
 //!   (module `sighting`). Its own state is the present one. All terms use what it sees, those of the vehicle ahead too.
-//! - A driver who **hesitates** (`hesitation_s`) decides only that often how it answers whoever might cut in or cross. Until
-//!   the next decision it expects of them what it expected at the last one (module `sighting`). Its plan is renewed at every step
-//!   for its own state and for the vehicle ahead, which it watches all the time.
+//! - A driver who **hesitates** (`hesitation_s`) decides only that often how it answers whoever might cut in or cross.
+//!   Until the next decision it expects of them what it expected at the last one (module `sighting`). Its plan is
+//!   renewed at every step for its own state and for the vehicle ahead, which it watches all the time.
 //! - A driver who **reads plans** (`prediction = "plan"`) yields to what others plan, before it shows in their motion.
 
 mod closing;

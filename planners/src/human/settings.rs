@@ -52,7 +52,8 @@ impl Style {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// A word for the safety weight: nice 50, considerate 20, normal 8, assertive 2, tough 0. Without it and without `safety_weight` the driver is nice.
+    /// A word for the safety weight: nice 50, considerate 20, normal 8, assertive 2, tough 0. Without it and without
+    /// `safety_weight` the driver is nice.
     #[schemars(example = &"nice", extend("x-excludes" = ["safety_weight"]))]
     pub style: Option<Style>,
     /// Weight of the squared intrusion of whoever might cut in or cross into the safety ellipse; 0 yields to nobody. Any

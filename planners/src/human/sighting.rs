@@ -1,13 +1,13 @@
 //! What a driver expects of the others who does not see them as they are now.
 //!
-//! A sighting holds the others as they were at an earlier tick. *Continued* to the present, each vehicle has kept the heading
-//! and the speed that it had then, and of its plan of then the part that is left is known, at its end at constant velocity.
-//! Two kinds of memory hold sightings:
+//! A sighting holds the others as they were at an earlier tick. *Continued* to the present, each vehicle has kept the
+//! heading and the speed that it had then, and of its plan of then the part that is left is known, at its end at
+//! constant velocity. Two kinds of memory hold sightings:
 //!
-//! - [`Perception`]: a driver who reacts late sees the others as they were `reaction_s` ago. Before it has seen them that
-//!   long, it sees them as they were at its first plan.
-//! - [`Decision`]: a driver who hesitates expects of the others what it expected when it decided last, and decides anew every
-//!   `hesitation_s`, for the first time with its first plan.
+//! - [`Perception`]: a driver who reacts late sees the others as they were `reaction_s` ago. Before it has seen them
+//!   that long, it sees them as they were at its first plan.
+//! - [`Decision`]: a driver who hesitates expects of the others what it expected when it decided last, and decides anew
+//!   every `hesitation_s`, for the first time with its first plan.
 //!
 //! Both times are rounded to ticks. At 0 nothing is remembered and the scene is used as it is.
 
