@@ -18,7 +18,7 @@ use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Driver {
-    /// A human: model-predictive control with a safety weight, nice or tough.
+    /// A human: model-predictive control with a safety weight, from tough to nice.
     Human(human::Settings),
     /// The intelligent driver model with MOBIL: the field's baseline of a human.
     Idm(idm::Settings),

@@ -76,21 +76,14 @@ fn changes(vehicle: &Vehicle) -> Vec<Change> {
     changes
 }
 
-fn word(style: Style) -> &'static str {
-    match style {
-        Style::Nice => "nice",
-        Style::Tough => "tough",
-    }
-}
-
 fn style_change(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
-    let word = word(style);
+    let word = style.name();
     let set = format!("vehicle.{name}.driver.style=\"{word}\"");
     (format!("{name}'s style"), format!("{name}: style = {word}"), set)
 }
 
 fn human(Vehicle { name, .. }: &Vehicle, style: Style) -> Change {
-    let word = word(style);
+    let word = style.name();
     let set = format!("vehicle.{name}.driver={{ kind = \"human\", style = \"{word}\" }}");
     (format!("{name}'s driver"), format!("{name}: driver = human, {word}"), set)
 }

@@ -1,23 +1,21 @@
 //! A driver who closes the gap: it drives faster while somebody from another lane is about to cut in ahead of it.
 //!
 //! The source has such drivers in figure 7.2 ("accelerates and ignores the lane changing need") and no model of them: a safety
-//! weight of 0 ignores the other, and that is all. Here the wanted speed rises by a stated amount as long as another vehicle
+//! weight of 0 ignores the other. Here the wanted speed rises by a stated amount as long as another vehicle
 //! of the same road, not behind this one, would at its present heading and speed come into this one's lane within the
 //! horizon.
 
 use crate::predict::constant_velocity;
 use crate::{Agent, Scene};
 
-/// The moment as a driver sees it who wants to be faster by `closing_mps` while somebody threatens to cut in; `None` if
-/// nobody does.
-pub(super) fn hurried(scene: &Scene, closing_mps: f64) -> Option<Scene> {
+/// The speed that a driver wants who wants to be faster by `closing_mps` while somebody threatens to cut in \[m/s\]; `None`
+/// if nobody does.
+pub(super) fn hurried_speed_mps(scene: &Scene, closing_mps: f64) -> Option<f64> {
     if closing_mps <= 0.0 || !scene.others.iter().any(|other| cuts_in(scene, other)) {
         return None;
     }
-    let mut scene = scene.clone();
     let wanted = scene.goal.target.speed_mps + closing_mps;
-    scene.goal.target.speed_mps = wanted.min(scene.ego.limits.speed_max_mps);
-    Some(scene)
+    Some(wanted.min(scene.ego.limits.speed_max_mps))
 }
 
 fn cuts_in(scene: &Scene, other: &Agent) -> bool {
@@ -40,7 +38,7 @@ mod tests {
     fn wanted(other: Agent) -> f64 {
         let mut scene = scene(agent(0.0, 0.555, 0.0, 1.2), vec![other]);
         scene.goal.target.speed_mps = 1.2;
-        hurried(&scene, 0.2).unwrap_or(scene).goal.target.speed_mps
+        hurried_speed_mps(&scene, 0.2).unwrap_or(scene.goal.target.speed_mps)
     }
 
     #[test]
@@ -57,7 +55,7 @@ mod tests {
         let mut scene = scene(agent(0.0, 0.555, 0.0, 1.2), vec![agent(0.5, 0.185, 0.1, 1.0)]);
         scene.goal.target.speed_mps = 1.4;
         let most = scene.ego.limits.speed_max_mps;
-        assert_eq!(hurried(&scene, 5.0).map(|scene| scene.goal.target.speed_mps), Some(most));
-        assert_eq!(hurried(&scene, 0.0), None);
+        assert_eq!(hurried_speed_mps(&scene, 5.0), Some(most));
+        assert_eq!(hurried_speed_mps(&scene, 0.0), None);
     }
 }

@@ -1,32 +1,60 @@
 //! The human driver: model-predictive control with a safety weight.
 //!
-//! Cost: tracking and comfort (eq. 6.6), plus for every vehicle that might cut in
+//! At each step the driver minimises the sum of these terms over the inputs `u_0…u_{N−1}`. There is no other term.
 //!
 //! ```text
-//! weight · Σ_t max(0, 1 − d²(p_t, q_t))²
+//! tracking       Σ_{t=1…N} ‖x_t − x_des‖²_Q                            eq. 6.6
+//! comfort        Σ_{t=0…N−1} ‖u_t − u_{t−1}‖²_R                        eq. 6.6
+//! road edges     Σ 10³ (q + q²), q how far a corner is off the road    eq. 6.7, soft
+//! yielding       w Σ_{t=1…N} max(0, 1 − d²(p_t, q_t))²                 per vehicle that might cut in or cross
+//! following      w_f Σ_{t=1…N} max(0, 1 − d²(p_t, l_t))²               the vehicle ahead in the same lane
+//! firm wall      Σ_{t=1…N} 10³ (q + q²), q = max(0, 1 − d_f²(p_t, l_t))  the same vehicle
 //! ```
 //!
-//! where `q` is the other's position at constant velocity *with its present heading*, so that a nudge of the steering
-//! wheel is seen, and `d` the elliptical distance along the other's road. The hinge is sharp: a driver yields only to what
-//! threatens to enter. Where roads cross the driver minds both ellipses, along the other's road and along its own; this is
-//! our choice, as with one of them drivers and planners disagree about who is in whose way. The car ahead in the same lane
-//! is followed with at least `following_weight`, whatever the style; whoever is behind in the same lane is ignored.
+//! Inputs and speed have hard bounds (eq. 6.8). `p` is the driver's position.
 //!
-//! One who closes gaps (`closing`) wants to be faster while somebody is about to cut in ahead of it.
+//! - **Yielding.** `w` is the safety weight; `q` is the other's position at constant velocity *with its present
+//!   heading*, so that a nudge of the steering wheel is seen; `d` is the elliptical distance along the other's road.
+//!   The hinge is sharp: a driver yields only to what threatens to enter its ellipse. Where roads cross the term stands
+//!   twice, for the ellipse along the other's road and for the one along the driver's own. This is our choice: with one
+//!   of them drivers and planners disagree about who is in whose way. Whoever is behind in the same lane is ignored.
+//! - **Following.** `l` is the *planned* position of the vehicle ahead: the driver knows its plan. The weight is
+//!   `w_f = max(w, following_weight)`, whatever the style.
+//! - **Firm wall.** `d_f` belongs to an ellipse 0.7 times as long and 4 times as wide, with the exact penalty of the
+//!   planners' safety constraints. So the driver brakes for the vehicle ahead rather than run into it or swerve around
+//!   it.
 //!
-//! The source only says that nice drivers have a higher safety weight (section 6.5). Going first and yielding are two classes
-//! of motion, which the optimiser compares.
+//! So a tough driver is not one without safety terms. `w = 0` removes yielding only: whoever is ahead in its lane makes
+//! it brake, with knowledge of that vehicle's plan. The source only says that nice drivers have a higher safety weight
+//! (section 6.5); it mentions neither following nor the wall, without which tough drivers run into whoever has merged.
+//!
+//! Going first and yielding are two classes of motion, which the optimiser compares (`passing_orders`).
+//!
+//! Drivers differ from this one by their settings:
+//!
+//! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while somebody is about to cut
+//!   in ahead.
+//! - A driver who **reacts late** (`reaction_s`) sees all others as they were that long ago, continued to the present
+//!   (module `sighting`). Its own state is the present one. All terms use what it sees, those of the vehicle ahead too.
+//! - A driver who **hesitates** (`hesitation_s`) decides only that often how it answers whoever might cut in or cross.
+//!   Until the next decision it expects of them what it expected at the last one (module `sighting`). Its plan is
+//!   renewed at every step for its own state and for the vehicle ahead, which it watches all the time.
+//! - A driver who **reads plans** (`prediction = "plan"`) yields to what others plan, before it shows in their motion.
 
 mod closing;
 pub mod diagnostics;
 mod settings;
+mod sighting;
 
 pub use settings::{Settings, Style};
+
+use std::borrow::Cow;
 
 use crate::predict::steady;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
+use sighting::{Decision, Perception};
 
 /// The very first guess brakes with this share of the strongest braking.
 const FIRST_BRAKING_RATIO: f64 = 0.3;
@@ -37,10 +65,12 @@ const LEADER_LENGTH_RATIO: f64 = 0.7;
 /// it yields to nobody.
 const LEADER_WIDTH_RATIO: f64 = 4.0;
 
-/// A human driver with the plan it made last.
+/// A human driver with the plan it made last and what it remembers of the others.
 #[derive(Clone, Debug)]
 pub struct Human {
     settings: Settings,
+    perception: Perception,
+    decision: Decision,
     optimiser: Optimiser<Robust>,
     last: Option<Trajectory>,
 }
@@ -50,6 +80,8 @@ impl Human {
     pub fn new(settings: Settings) -> Self {
         Human {
             settings,
+            perception: Perception::default(),
+            decision: Decision::default(),
             optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
             last: None,
         }
@@ -60,9 +92,14 @@ impl Human {
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let hurried = closing::hurried(scene, self.settings.closing_mps);
-        let scene = hurried.as_ref().unwrap_or(scene);
-        let problem = problem(scene, &self.settings);
+        let seen = self.perception.perceive(scene, self.settings.reaction_s);
+        let expected = self.decision.hold(&seen, self.settings.hesitation_s);
+        let mut wanted = Cow::Borrowed(seen.as_ref());
+        if let Some(speed_mps) = closing::hurried_speed_mps(&expected, self.settings.closing_mps) {
+            wanted.to_mut().goal.target.speed_mps = speed_mps;
+        }
+        let scene = wanted.as_ref();
+        let problem = pose(scene, &expected.others, &self.settings);
         let optimum = self.optimiser.optimise(&problem, &[guess(scene, self.last.as_ref())])?;
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
@@ -76,10 +113,15 @@ impl Human {
     }
 }
 
-/// The problem that a driver poses.
+/// The problem that a driver poses who neither reacts late nor hesitates.
 pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
+    pose(scene, &scene.others, settings)
+}
+
+/// The problem of a driver who sees `scene` and yields to the others as `expected`, in the order of the scene.
+fn pose(scene: &Scene, expected: &[Agent], settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
-    terms.extend(followed(scene, settings).into_iter().chain(yielded_to(scene, settings)).map(Term::KeepOut));
+    terms.extend(followed(scene, settings).into_iter().chain(yielded_to(scene, expected, settings)).map(Term::KeepOut));
     Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
 }
 
@@ -110,8 +152,8 @@ fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     vec![comfortable, firm]
 }
 
-/// Everybody who might cut in or cross.
-fn yielded_to(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
+/// Everybody who might cut in or cross, where the driver expects them.
+fn yielded_to(scene: &Scene, expected: &[Agent], settings: &Settings) -> Vec<KeepOut> {
     let (ego, weight) = (&scene.ego, settings.weight());
     if weight == 0.0 {
         return Vec::new();
@@ -119,8 +161,9 @@ fn yielded_to(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     let leader = leader(scene).map(|leader| &leader.name);
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
     let mut keep_outs = Vec::new();
-    for other in scene.others.iter().filter(|other| Some(&other.name) != leader && !behind(other)) {
-        let predicted = settings.prediction.of(other, scene.horizon, scene.step_s);
+    let pairs = scene.others.iter().zip(expected);
+    for (other, expected) in pairs.filter(|(other, _)| Some(&other.name) != leader && !behind(other)) {
+        let predicted = settings.prediction.of(expected, scene.horizon, scene.step_s);
         keep_outs.push(scene.keep_out(&predicted, other.corridor.heading_rad, Penalty::hinge(weight)));
         if ego.crosses(other) {
             keep_outs.push(scene.keep_out(&predicted, ego.corridor.heading_rad, Penalty::hinge(weight)));

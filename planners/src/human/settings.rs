@@ -5,21 +5,44 @@ use serde::{Deserialize, Serialize};
 
 use crate::predict::Prediction;
 
-/// How much a human driver minds being crowded.
+/// Named points on the continuum of safety weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Style {
     /// Yields to whoever threatens to enter its safety ellipse: weight 50.
     Nice,
-    /// Iron-nerved, ignores the others: weight 0.
+    /// Weight 20.
+    Considerate,
+    /// Weight 8.
+    Normal,
+    /// Weight 2.
+    Assertive,
+    /// Yields to nobody who cuts in or crosses: weight 0. It still brakes for the vehicle ahead in its lane.
     Tough,
 }
 
 impl Style {
+    /// All styles, from the highest weight to the lowest.
+    pub const ALL: [Style; 5] = [Style::Nice, Style::Considerate, Style::Normal, Style::Assertive, Style::Tough];
+
+    /// The word for it in a scenario file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Style::Nice => "nice",
+            Style::Considerate => "considerate",
+            Style::Normal => "normal",
+            Style::Assertive => "assertive",
+            Style::Tough => "tough",
+        }
+    }
+
     /// The safety weight that the word stands for.
     pub fn safety_weight(self) -> f64 {
         match self {
             Style::Nice => 50.0,
+            Style::Considerate => 20.0,
+            Style::Normal => 8.0,
+            Style::Assertive => 2.0,
             Style::Tough => 0.0,
         }
     }
@@ -29,13 +52,15 @@ impl Style {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// A word for the safety weight. Without it and without `safety_weight` the driver is nice.
+    /// A word for the safety weight: nice 50, considerate 20, normal 8, assertive 2, tough 0. Without it and without
+    /// `safety_weight` the driver is nice.
     #[schemars(example = &"nice", extend("x-excludes" = ["safety_weight"]))]
     pub style: Option<Style>,
-    /// Weight of the squared intrusion of others into the safety ellipse, at constant velocity; 0 ignores them.
+    /// Weight of the squared intrusion of whoever might cut in or cross into the safety ellipse; 0 yields to nobody. Any
+    /// weight between the styles, below or above them.
     #[schemars(range(min = 0.0), example = 8.0, extend("x-unit" = "dimensionless"))]
     pub safety_weight: Option<f64>,
-    /// Weight of the same kind for the vehicle ahead in the same lane, whatever the style.
+    /// Least weight of the same kind for the vehicle ahead in the same lane, whatever the style.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub following_weight: f64,
     /// By how much faster than it wants the driver drives while somebody from another lane is about to cut in ahead of it
@@ -47,8 +72,17 @@ pub struct Settings {
     #[schemars(extend("x-mechanism" = { "passing orders": false }))]
     pub passing_orders: bool,
     /// What others are expected to do that might cut in or cross: by default what their present heading and speed say, so
-    /// that a nudge is seen, and not what they plan. The car ahead is always expected to follow its plan.
+    /// that a nudge is seen, and not what they plan. With `plan` the driver reads plans: it yields to what others plan before
+    /// it shows in their motion. The car ahead is always expected to follow its plan.
     pub prediction: Prediction,
+    /// How late the driver sees the others \[s\], rounded to ticks: it expects that each has kept its heading and speed
+    /// since, and knows plans that old. Its own state is the present one.
+    #[schemars(range(min = 0.0), extend("x-mechanism" = { "late reaction": 0.0 }))]
+    pub reaction_s: f64,
+    /// How long the driver keeps a decision about whoever might cut in or cross \[s\], rounded to ticks: until it decides
+    /// anew, it expects of them what it expected at the last decision. It watches the vehicle ahead all the time.
+    #[schemars(range(min = 0.0), extend("x-mechanism" = { "hesitation": 0.0 }))]
+    pub hesitation_s: f64,
 }
 
 impl Default for Settings {
@@ -60,6 +94,8 @@ impl Default for Settings {
             closing_mps: 0.0,
             passing_orders: true,
             prediction: Prediction::ConstantVelocity,
+            reaction_s: 0.0,
+            hesitation_s: 0.0,
         }
     }
 }
@@ -68,11 +104,8 @@ impl Settings {
     /// The style whose weight the driver has, in a word, or else the weight.
     pub(crate) fn manner(&self) -> String {
         let weight = self.weight();
-        match [Style::Nice, Style::Tough].into_iter().find(|style| style.safety_weight() == weight) {
-            Some(Style::Nice) => "nice".to_owned(),
-            Some(Style::Tough) => "tough".to_owned(),
-            None => format!("safety weight {weight}"),
-        }
+        let style = Style::ALL.into_iter().find(|style| style.safety_weight() == weight);
+        style.map_or_else(|| format!("safety weight {weight}"), |style| style.name().to_owned())
     }
 
     /// The safety weight: stated, or that of the style, or a nice driver's.
