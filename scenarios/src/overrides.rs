@@ -69,7 +69,8 @@ pub(crate) fn lay_paths(root: &mut Table, set: Table) -> Vec<Fault> {
     for (key, entry) in set {
         match assignments(Some(schema::complete()), &[], &key, entry) {
             Ok(all) => faults.extend(
-                all.into_iter().filter_map(|(steps, value)| lay(Some(schema::complete()), root, (&steps, 0), value).err()),
+                all.into_iter()
+                    .filter_map(|(steps, value)| lay(Some(schema::complete()), root, (&steps, 0), value).err()),
             ),
             Err(fault) => faults.push(fault),
         }

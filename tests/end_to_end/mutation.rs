@@ -71,7 +71,11 @@ fn figures_carry_the_counterfactuals_that_prove_them() {
         let (kind, changed) = (own.vehicles[ego].driver.kind(), &own.changed);
         assert!(changed.iter().any(|changed| flips_a_style(changed) && changes_the_order(changed)), "{}", file.name);
         let is_conservative = |changed: &&Scenario| changed.vehicles[ego].driver.kind() == "conservative";
-        assert!(changed.iter().any(|changed| is_conservative(&changed)), "{}: beside the conservative planner", file.name);
+        assert!(
+            changed.iter().any(|changed| is_conservative(&changed)),
+            "{}: beside the conservative planner",
+            file.name
+        );
         if changed.iter().filter(is_conservative).any(changes_the_order) {
             let has_mechanism_off = |changed: &Scenario| {
                 let driver = &changed.vehicles[ego].driver;

@@ -187,7 +187,8 @@ fn sign_test(nearer: usize, further: usize) -> f64 {
 /// The range of some times; a dash if there are none.
 fn span(values: impl Iterator<Item = f64>) -> String {
     let values: Vec<f64> = values.collect();
-    let (least, most) =
-        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(*value), most.max(*value)));
+    let (least, most) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(*value), most.max(*value)));
     if values.is_empty() { "-".to_owned() } else { format!("{least:.1} to {most:.1}") }
 }

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use interplay_planners::trajectory::{Optimiser, Robust, WarmStart};
 
-use crate::{Posed, Result};
 use crate::recorded::optimiser;
+use crate::{Posed, Result};
 
 /// By the name of the vehicle, the tick of its last problem and an optimiser that has solved that problem.
 #[derive(Default)]

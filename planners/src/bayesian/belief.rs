@@ -92,7 +92,9 @@ mod tests {
         // A change of 0.01 m on average: 1/e of the range.
         let one = watched(&agent(0.11, 1.0));
         assert!((one.beta_m - 0.01).abs() < 1e-12);
-        assert!((one.w_1 - (0.1 + 4.9 / std::f64::consts::E)).abs() < 1e-9);
+        assert!(
+            (one.w_1 - (settings.w_1_min + (settings.w_1_max - settings.w_1_min) / std::f64::consts::E)).abs() < 1e-9
+        );
     }
 
     #[test]

@@ -92,7 +92,7 @@ mod tests {
         let own = |x_m, y_m, speed_mps| State { x_m, y_m, heading_rad: 0.0, speed_mps };
         let crossing = State { x_m: 0.0, y_m: -1.9, heading_rad: std::f64::consts::FRAC_PI_2, speed_mps: 0.8 };
         let (ego, other) = [
-            (own(-1.6, 0.185, 1.0), crossing),
+            (own(-2.4, 0.185, 1.0), crossing),
             (own(0.0, 0.5, 1.2), own(-0.4, 0.555, 1.4)),
             (own(0.0, 0.555, 1.3), own(-0.1, 0.5, 1.3)),
         ][family];

@@ -98,7 +98,7 @@ pub fn lane_keeping(ego: Driver, merger: Style) -> Vec<Vehicle> {
 
 /// A human crosses the ego's path from the right, where it starts `away_m` before the ego's road.
 pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
-    let mut ego = vehicle("ego", [-2.0, LANES[0], 0.6], [LANES[0], 1.2], [0.0, 4.0, 1.0, 1.0], ego);
+    let mut ego = vehicle("ego", [-2.5, LANES[0], 0.7], [LANES[0], 1.2], [0.0, 4.0, 1.0, 1.0], ego);
     ego.agent.corridor.left_m = 0.37;
     ego.goal.safety.across_m = 0.5;
     let mut human = vehicle("crossing", [0.0, -away_m, 0.8], [0.0, 0.8], [0.0, 4.0, 1.0, 1.0], human(crossing));

@@ -1,7 +1,7 @@
 //! Simple motions: the representatives of the classes.
 //!
 //! A vehicle brakes, keeps its speed or accelerates as hard as it can, and steers to its goal's lateral position or keeps its
-//! own. Of several deciding vehicles one after the other does each of these while the others go on as planned, brake, or
+//! own; or it keeps its speed and passes an ellipse on the left or on the right, where the road is wide enough. Of several deciding vehicles one after the other does each of these while the others go on as planned, brake, or
 //! accelerate.
 
 use crate::steering::SteeringGeometry;
@@ -9,12 +9,19 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::participant::Participant;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::terms::{Term, Tracking};
-use crate::{Input, State};
+use crate::{Axes, Input, State};
 
 /// Accelerations as shares of the strongest braking and acceleration.
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
 /// What the others do while one vehicle's motions are tried: brake or accelerate.
 const OTHERS_ACCELERATION_SHARES: [f64; 2] = [-1.0, 1.0];
+
+/// A goal nearer than this multiple of the wheelbase across the road needs no motion of its own.
+const MIN_LATERAL_MOVE_RATIO: f64 = 0.1;
+/// A motion beside an ellipse keeps this multiple of its half axis from the centre.
+const SIDE_CLEARANCE_RATIO: f64 = 1.05;
+/// An ellipse lies along the vehicle's road if the sine of the angle between them is below this.
+const MAX_PARALLEL_SIN: f64 = 0.1;
 
 /// Inputs and states of one vehicle.
 #[derive(Clone, Debug)]
@@ -73,7 +80,36 @@ fn planned_motion(problem: &Problem, planned: Option<&Iterate>, vehicle: usize) 
 /// The simple motions of one vehicle.
 fn motions(problem: &Problem, vehicle: usize) -> Vec<Motion> {
     let ways = ACCELERATION_SHARES.into_iter().flat_map(|share| [(share, true), (share, false)]);
-    ways.filter_map(|(share, to_goal)| simple_motion(problem, vehicle, share, to_goal)).collect()
+    let straight = ways.filter_map(|(share, to_goal)| simple_motion(problem, vehicle, share, to_goal));
+    let beside = laterals_beside(problem, vehicle);
+    straight.chain(beside.into_iter().filter_map(|lateral_m| motion_to(problem, vehicle, 0.0, lateral_m))).collect()
+}
+
+/// The lateral positions on either side of the ellipses along the vehicle's road, as far as the road reaches \[m\].
+fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
+    let Some(tracking) = tracking(problem, vehicle) else { return Vec::new() };
+    let on_road = |lateral_m: &f64| {
+        problem.terms.iter().all(|term| match term {
+            Term::RoadEdge(edge) if edge.vehicle == vehicle => {
+                let half_width_m = 0.5 * edge.body.width_m;
+                (edge.corridor.right_m + half_width_m..=edge.corridor.left_m - half_width_m).contains(lateral_m)
+            }
+            _ => true,
+        })
+    };
+    let keep_outs = problem.terms.iter().filter_map(|term| match term {
+        Term::KeepOut(keep_out) if keep_out.vehicle == vehicle => Some(keep_out),
+        _ => None,
+    });
+    let sides = keep_outs.flat_map(|keep_out| {
+        let centre = keep_out.centres[problem.horizon / 2];
+        let [_, across] = tracking.axes.components(centre);
+        let axis = tracking.axes.components(Axes::along(keep_out.ellipse.heading_rad()).vector([1.0, 0.0]));
+        let offset_m = SIDE_CLEARANCE_RATIO * keep_out.ellipse.shape().across_m;
+        let is_parallel = axis[1].abs() < MAX_PARALLEL_SIN;
+        [across - offset_m, across + offset_m].into_iter().filter(move |_| is_parallel)
+    });
+    sides.filter(on_road).collect()
 }
 
 /// A share of the strongest acceleration (of the strongest braking where it is negative) and the lateral position of the goal
@@ -84,16 +120,24 @@ fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -
     let across = |state: &State| tracking.axes.components(state.position())[1];
     let (target, here) = (tracking.targets.last()?, across(&participant.start));
     let wanted = across(target);
-    let is_far = (wanted - here).abs() > 0.1 * participant.model.wheelbase_m();
+    let is_far = (wanted - here).abs() > MIN_LATERAL_MOVE_RATIO * participant.model.wheelbase_m();
     if to_goal && !(is_far && tracking.weights[1] > 0.0) {
         return None;
     }
+    motion_to(problem, vehicle, share, if to_goal { wanted } else { here })
+}
+
+/// A share of the strongest acceleration, and a lateral position.
+fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> Option<Motion> {
+    let participant = &problem.participants[vehicle];
+    let tracking = tracking(problem, vehicle)?;
+    let across = |state: &State| tracking.axes.components(state.position())[1];
+    let target = tracking.targets.last()?;
     let geometry = SteeringGeometry {
         rear_axle_m: participant.model.rear_axle_m(),
         wheelbase_m: participant.model.wheelbase_m(),
         steering_max_rad: participant.limits.steering_max_rad,
     };
-    let lateral_m = if to_goal { wanted } else { here };
     let steer = |state: &State| {
         geometry.correct(across(state) - lateral_m, state.heading_rad - target.heading_rad, state.speed_mps)
     };
