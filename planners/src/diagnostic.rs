@@ -120,6 +120,8 @@ impl Explanation {
 
 /// The cost of the trajectory problem at its optimum.
 pub const COST: DiagnosticQuantity = DiagnosticQuantity::new("cost", "", ValueSet::Real);
+/// The cost of the cheapest plan of another class of motion (another passing order), where one was found.
+pub const RUNNER_UP_COST: DiagnosticQuantity = DiagnosticQuantity::new("cost of the runner-up", "", ValueSet::Real);
 /// By how much a plan enters the safety ellipses, summed over its steps (of `1 − d²`).
 pub const SAFETY_SLACK: DiagnosticQuantity = DiagnosticQuantity::new("safety slack", "", ValueSet::NonNegative);
 /// At how many steps of a plan a safety ellipse is touched.
@@ -133,7 +135,7 @@ pub const STEPS_AT_SPEED_BOUND: DiagnosticQuantity = steps("steps at a speed bou
 
 /// What any planner may report that optimises a trajectory.
 pub const COMMON_QUANTITIES: &[DiagnosticQuantity] =
-    &[COST, SAFETY_SLACK, STEPS_AT_ELLIPSE, STEPS_AT_EDGE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND];
+    &[COST, RUNNER_UP_COST, SAFETY_SLACK, STEPS_AT_ELLIPSE, STEPS_AT_EDGE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND];
 
 /// The panel of a recording that shows all planners together.
 pub const COMMON_PANEL: DiagnosticPanel = DiagnosticPanel {

@@ -108,6 +108,7 @@ impl Bayesian {
             ]);
         }
         diagnostics.extend([COST.is(optimum.cost.total), SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety))]);
+        diagnostics.extend(optimum.runner_up_cost());
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
     }

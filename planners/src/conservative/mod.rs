@@ -65,6 +65,7 @@ pub(crate) fn answer(Solved { problem, optimum, event }: Solved) -> Plan {
     let cost = &optimum.cost;
     let mut diagnostics: Vec<Diagnostic> =
         vec![COST.is(cost.total), SAFETY_SLACK.is(cost.violation(Violation::Safety))];
+    diagnostics.extend(optimum.runner_up_cost());
     diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),

@@ -100,6 +100,7 @@ impl Cooperative {
             COST.is(optimum.cost.total),
             SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ];
+        diagnostics.extend(optimum.runner_up_cost());
         diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
         Plan { trajectory, proposal, diagnostics, statistics: optimum.statistics, ..Plan::default() }

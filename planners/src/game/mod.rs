@@ -191,6 +191,7 @@ impl Game {
             COST.is(optimum.cost.total),
             SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ]);
+        diagnostics.extend(optimum.runner_up_cost());
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
     }

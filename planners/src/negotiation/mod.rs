@@ -88,6 +88,7 @@ impl Negotiation {
         };
         self.remember(&optimum, &retreat, partner);
         let mut plan = self.to_plan(&optimum, partner, accepted, persuasion.as_ref());
+        plan.diagnostics.extend(optimum.runner_up_cost());
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         plan.problem = Some(Box::new(problem));

@@ -2,10 +2,11 @@
 
 use thiserror::Error;
 
-use crate::Trajectory;
+use crate::diagnostic::RUNNER_UP_COST;
 use crate::trajectory::cost::Cost;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::stage::StageError;
+use crate::{Diagnostic, Trajectory};
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,6 +105,11 @@ impl Optimum {
     /// What another optimum has to cost less than to replace this one.
     pub(super) fn bar(&self) -> f64 {
         self.cost.total - 1e-9 * (1.0 + self.cost.total.abs())
+    }
+
+    /// The cost of the runner-up, if there is one, as planners report it.
+    pub(crate) fn runner_up_cost(&self) -> Option<Diagnostic> {
+        self.runner_up.as_ref().map(|runner_up| RUNNER_UP_COST.is(runner_up.cost))
     }
 
     /// The motion of one participant.
