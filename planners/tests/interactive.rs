@@ -2,10 +2,13 @@
 
 mod common;
 
-use common::world::{Run, human, intersection, lane_change, ramp_merge, run};
-use interplay_planners::diagnostic::{COMMON_QUANTITIES, DiagnosticQuantity, Explanation};
-use interplay_planners::game::diagnostics::{EGO_TEMPTATION, OTHER_TEMPTATION};
+use common::world::{HORIZON, Run, STEP_S, Vehicle, human, intersection, lane_change, ramp_merge, run};
+use interplay_planners::diagnostic::{COMMON_QUANTITIES, DiagnosticQuantity, Explanation, RUNNER_UP_COST};
+use interplay_planners::game::diagnostics::{
+    ACCIDENT_PAYOFF, EGO_INTENTION, EGO_PAYOFFS, EGO_POSTERIOR, EGO_TEMPTATION, EXPRESSION_SLACK, OTHER_TEMPTATION,
+};
 use interplay_planners::human::Style::{self, Nice, Tough};
+use interplay_planners::predict::constant_velocity;
 use interplay_planners::{Diagnostic, Driver, bayesian, conservative, cooperative, game, idm, negotiation};
 
 const AHEAD: usize = 0;
@@ -36,7 +39,9 @@ fn idm() -> Driver {
 
 /// The game with what the recommended settings say about intersections.
 fn crossing_game() -> Driver {
-    Driver::Game(game::Settings { accident: 1.0, slack_weight: 50.0, ..game::Settings::default() })
+    let settings =
+        game::Settings { slack_weight: 50.0, crossing_s: 0.5, temperature: 0.25, ..game::Settings::default() };
+    Driver::Game(settings)
 }
 
 /// What must hold in every run.
@@ -70,20 +75,14 @@ fn tough_drivers_are_let_pass() {
 
 #[test]
 fn on_a_ramp_nobody_leaves_the_road() {
-    for driver in [bayesian, game] {
+    for driver in [game, bayesian] {
         for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
             let vehicles = ramp_merge(driver(), styles);
             let ego = vehicles[0].agent.clone();
             let run = run(vehicles, 80);
             assert!(run.collision.is_none(), "{}: {:?}", driver().kind(), run.collision);
-            let keeps =
-                run.states.iter().all(|states| ego.corridor.contains(&ego.body, &states[0], MAX_EDGE_VIOLATION_M));
-            assert!(
-                keeps && run.merged().is_some(),
-                "{} among {styles:?}: {keeps}, {:?}",
-                driver().kind(),
-                run.merged()
-            );
+            let keeps = run.states.iter().all(|states| ego.corridor.contains(&ego.body, &states[0], MAX_EDGE_VIOLATION_M));
+            assert!(keeps && run.merged().is_some(), "{} among {styles:?}", driver().kind());
         }
     }
 }
@@ -99,13 +98,19 @@ fn the_exact_value_persuades_nobody() {
 
 /// Who crosses first, and the ego's lowest speed.
 fn crossing(driver: Driver, style: Style, away_m: f64) -> (bool, f64) {
-    crossing_from(-2.5, driver, style, away_m)
+    crossed(intersection(driver, style, away_m))
 }
 
-/// The same with the ego's start.
-fn crossing_from(start_m: f64, driver: Driver, style: Style, away_m: f64) -> (bool, f64) {
-    let mut vehicles = intersection(driver, style, away_m);
-    vehicles[0].agent.state.x_m = start_m;
+/// The same for the game from the start of its scenarios, from which neither is first by itself.
+fn crossing_by_game(style: Style) -> (bool, f64) {
+    let mut vehicles = intersection(crossing_game(), style, 1.965);
+    let ego = &mut vehicles[0].agent;
+    (ego.state.x_m, ego.state.speed_mps) = (-2.6, 0.7);
+    ego.prediction = constant_velocity(&ego.state, HORIZON, STEP_S);
+    crossed(vehicles)
+}
+
+fn crossed(vehicles: Vec<Vehicle>) -> (bool, f64) {
     let run = sound(run(vehicles, 70));
     let ego = run.first(0, |state| state.x_m > 0.0).expect("the ego crosses");
     let other = run.first(1, |state| state.y_m > 0.185).expect("the other crosses");
@@ -115,23 +120,26 @@ fn crossing_from(start_m: f64, driver: Driver, style: Style, away_m: f64) -> (bo
 
 #[test]
 fn at_an_intersection_nice_drivers_yield_to_those_who_persuade() {
-    assert!(crossing(bayesian(), Nice, 1.965).0);
-    assert!(crossing_from(-2.6, crossing_game(), Nice, 1.965).0);
-    assert!(!crossing(conservative(), Nice, 1.965).0);
+    assert!(crossing(bayesian(), Nice, 1.9).0);
+    assert!(crossing_by_game(Nice).0);
+    assert!(!crossing(conservative(), Nice, 1.9).0);
 }
 
 #[test]
 fn at_an_intersection_everybody_yields_to_the_tough() {
-    for driver in [bayesian(), crossing_game(), conservative()] {
+    for driver in [bayesian(), conservative()] {
         let kind = driver.kind();
-        let (first, slowest) = crossing(driver, Tough, 1.965);
-        assert!(!first && slowest < 0.69, "{kind}: {slowest}");
+        let (first, slowest) = crossing(driver, Tough, 1.75);
+        assert!(!first && slowest < 0.6, "{kind}: {slowest}");
     }
+    let (first, slowest) = crossing_by_game(Tough);
+    assert!(!first && slowest < 0.6, "{slowest}");
 }
 
 #[test]
 fn a_mixed_equilibrium_drives_too() {
-    let nash = || Driver::Game(game::Settings { solution: game::SolutionConcept::Nash, ..game::Settings::default() });
+    let (form, solution) = (game::Form::AsPrinted, game::SolutionConcept::Nash);
+    let nash = || Driver::Game(game::Settings { form, solution, ..game::Settings::default() });
     for styles in [[Nice, Nice], [Tough, Nice], [Tough, Tough]] {
         let run = sound(run(lane_change(nash(), styles), 100));
         let mut played = 0;
@@ -141,6 +149,50 @@ fn a_mixed_equilibrium_drives_too() {
             played += gains.iter().flatten().count();
         }
         assert!(played > 20, "the ego hardly plays: {played}");
+    }
+}
+
+/// With the bounds on its mean speed satisfied, the other's next belief lies in the interval that the ego wanted (eq. 8.11):
+/// the bounds start from the belief after forgetting, as the update does.
+#[test]
+fn what_the_ego_expresses_is_what_the_other_believes_next() {
+    let settings = game::Settings::default();
+    let (mut satisfied, mut hit) = (0, 0);
+    for vehicles in [ramp_merge(game(), [Nice, Nice]), lane_change(game(), [Tough, Nice])] {
+        let run = sound(run(vehicles, 80));
+        for pair in run.plans.windows(2) {
+            let value = |plan: usize, quantity| pair[plan].value_of(&quantity);
+            let (Some(wanted), Some(slack)) = (value(0, EGO_INTENTION), value(0, EXPRESSION_SLACK)) else { continue };
+            let Some(believed) = value(1, EGO_POSTERIOR) else { continue };
+            // A new partner has other beliefs.
+            if slack > 1e-4 || pair[1].events.iter().any(|event| event.text.starts_with("plays with")) {
+                continue;
+            }
+            satisfied += 1;
+            // Between the two plans the vehicles move on by a step, which the bounds do not foresee.
+            let interval = wanted - settings.epsilon_p - 0.02..=wanted + 0.02;
+            hit += usize::from(interval.contains(&believed));
+        }
+    }
+    assert!(satisfied > 30 && 20 * hit >= 19 * satisfied, "{hit} of {satisfied}");
+}
+
+#[test]
+fn in_the_corrected_form_the_accident_is_worst_and_intentions_stay_inside_their_bounds() {
+    for (vehicles, ticks) in [
+        (lane_change(game(), [Tough, Nice]), 80),
+        (lane_change(game(), [Tough, Tough]), 80),
+        (intersection(crossing_game(), Nice, 1.9), 40),
+        (intersection(crossing_game(), Tough, 1.75), 40),
+    ] {
+        let run = sound(run(vehicles, ticks));
+        let played: Vec<_> = run.plans.iter().filter(|plan| plan.value_of(&EGO_INTENTION).is_some()).collect();
+        assert!(played.len() > 10);
+        for plan in played {
+            let value = |quantity| plan.value_of(&quantity).expect("it plays");
+            assert!(EGO_PAYOFFS.into_iter().all(|payoff| value(payoff) > value(ACCIDENT_PAYOFF)));
+            assert!((0.051..0.95).contains(&value(EGO_INTENTION)), "{}", value(EGO_INTENTION));
+        }
     }
 }
 
@@ -177,7 +229,9 @@ fn plans_explain_themselves() {
             explanation.quantities.iter().filter(|of| !is_reported(&run, of)).map(|of| of.name).collect();
         assert!(unseen.is_empty(), "{kind} never reports {unseen:?}");
         let optimises = !["idm", "human"].contains(&kind);
-        assert!(COMMON_QUANTITIES.iter().all(|of| is_reported(&run, of) == optimises), "{kind}");
+        // A runner-up there is only where somebody is in the way.
+        let always = || COMMON_QUANTITIES.iter().filter(|of| **of != RUNNER_UP_COST);
+        assert!(always().all(|of| is_reported(&run, of) == optimises), "{kind}");
     }
 }
 

@@ -284,8 +284,8 @@ fn drivers_and_limits() {
     refusal(
         &mut errors,
         "weights_inverted",
-        &[("kind = \"negotiation\", beta = 0.8", "kind = \"bayesian\", w_1_min = 9.0")],
-        &["`w_1_max` (5)"],
+        &[("kind = \"negotiation\", beta = 0.8", "kind = \"bayesian\", w_1_min = 90.0")],
+        &["`w_1_max` (20)"],
     );
     insta::assert_snapshot!("drivers_and_limits", errors.0);
 }

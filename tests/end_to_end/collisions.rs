@@ -83,7 +83,7 @@ fn a_car_that_can_stop_does_not_collide() {
     let film = film("stops", Scenario { duration_s: 5.0, ..scenario(&careful) });
     assert!(film.report.collisions.is_empty(), "{:?}", film.report.collisions);
     let (gap_m, speed_mps) = (film.report.min_gap_m.expect("there is another"), film.report.vehicles[0].last.speed_mps);
-    assert!((0.25..0.5).contains(&gap_m) && speed_mps < 1e-6, "{gap_m} {speed_mps}");
+    assert!((0.25..0.5).contains(&gap_m) && speed_mps < 1e-3, "{gap_m} {speed_mps}");
 }
 
 /// Side by side with 5 mm between them, at the same speed: near, but nobody touches.

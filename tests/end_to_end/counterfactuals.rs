@@ -187,7 +187,7 @@ fn why_says_what_the_order_depends_on() {
         "Intersection, crossing driver nice  [intersection/nice]\n  what is changed ",
         "\n  nothing  ",
         "\n  ego: planner = conservative ",
-        "\n  ego: without concession (weight_floor = 1.0) ",
+        "\n  ego: without concession (concession = false) ",
         "\n  crossing: style = tough ",
         "FAIL: order, completes.ego",
         "\nThe order depends on ego's planner and knowledge of plans, and crossing's style.\nIt does not depend on ego's ",
@@ -213,7 +213,7 @@ fn why_says_what_the_order_depends_on() {
 fn why_switches_off_every_mechanism() {
     let folder = scratch("why-mechanisms");
     for (name, mechanisms) in [
-        ("intersection/nice", &["reinforcement", "concession", "persuasion", "safety filter", "look across"][..]),
+        ("intersection/nice", &["reinforcement", "concession", "persuasion", "safety filter", "passing orders"][..]),
         ("intersection/bayesian-nice", &["persuasion"]),
         ("intersection/game-friendly", &["prospect theory", "expression of intention", "forgetting"]),
     ] {

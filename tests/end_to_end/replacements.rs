@@ -28,7 +28,6 @@ const REPLACEMENTS: &[Replacement] = &[
     ("lane-keeping/conservative-nice", "negotiation", "order"),
     ("lane-keeping/two-negotiators", "conservative", "order"),
     ("ramp-merge/nice", "conservative", "order"),
-    ("ramp-merge/bayesian-nice", "conservative", "order"),
     ("ramp-merge/game-nice", "conservative", "order"),
     ("ramp-merge/conservative-nice", "negotiation", "order"),
     // Who cooperates alone does not cooperate: all wait for one another.

@@ -87,3 +87,17 @@ impl Settings {
         ordered("w_4", self.w_4, "w_1_min", self.w_1_min)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The source's condition `w_1 ⪰ w_4`.
+    #[test]
+    fn the_weight_of_keeping_away_is_at_most_that_of_the_own_plan() {
+        let with = |w_1_min, w_4| Settings { w_1_min, w_4, ..Settings::default() }.check().map_err(|error| error.key());
+        assert_eq!(with(1.0, 1.0), Ok(()));
+        assert_eq!(with(1.0, 1.1), Err("w_4"));
+        assert_eq!(with(30.0, 1.0), Err("w_1_min"));
+    }
+}

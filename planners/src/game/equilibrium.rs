@@ -77,7 +77,8 @@ pub fn nash(ego: &Player, other: &Player) -> GameSolution {
     best.map_or_else(|| least_tempting(ego, other), |(_, found)| found)
 }
 
-fn solution(ego: &Player, other: &Player, own: f64, theirs: f64) -> GameSolution {
+/// What a pair of intentions is worth to both, and how much it tempts them.
+pub(super) fn solution(ego: &Player, other: &Player, own: f64, theirs: f64) -> GameSolution {
     let utilities = [ego.utility(own, theirs), other.utility(theirs, own)];
     let best = [ego.utility(best_reply(ego, theirs), theirs), other.utility(best_reply(other, own), own)];
     let temptation = [best[0] - utilities[0], best[1] - utilities[1]].map(|gain| gain.max(0.0));

@@ -50,7 +50,37 @@ impl Meeting {
         }
     }
 
-    /// What the ego shows the other and the other shows the ego, at these mean speeds.
+    /// What the ego shows the other and the other shows the ego, at these mean speeds, in the corrected form: who passes
+    /// keeps the largest speed that it has shown, `v⁰`, and who yields slows down against it.
+    ///
+    /// On one road `μ_p = v⁰` and `μ_y = v⁰ − d_s/t_f`; at a crossing `μ_p = T⁰` and `μ_y = T⁰ + T_c`, where `T⁰` is the
+    /// arrival at `v⁰`. What one vehicle shows does not depend on the other's motion. The means are half as far apart as
+    /// printed (`2 d_s/t_f`, `2 T_c`), so the deviation is half of `σ_1` or `σ_2`.
+    pub fn own_observations(
+        &self,
+        mean_mps: [f64; 2],
+        fastest_mps: [f64; 2],
+        settings: &Settings,
+    ) -> [ObservedBehaviour; 2] {
+        let distances = match *self {
+            Meeting::Alongside { .. } => [None; 2],
+            Meeting::Crossing { ego_m, other_m } => [Some(ego_m), Some(other_m)],
+        };
+        [0, 1].map(|who| {
+            let (mean, fastest) = (mean_mps[who], fastest_mps[who]);
+            let Some(distance) = distances[who] else {
+                let yielding = fastest - settings.safety_gap_m / settings.finish_s;
+                let behaviour = Behaviour { yielding, passing: fastest, deviation: 0.5 * settings.sigma_1_mps };
+                return ObservedBehaviour { observed: mean, behaviour };
+            };
+            let passing = arrival_s(distance, fastest, settings);
+            let yielding = passing + settings.crossing_s;
+            let behaviour = Behaviour { yielding, passing, deviation: 0.5 * settings.sigma_2_s };
+            ObservedBehaviour { observed: arrival_s(distance, mean, settings), behaviour }
+        })
+    }
+
+    /// What the ego shows the other and the other shows the ego, at these mean speeds, as printed (eq. 8.3, 8.4).
     pub fn observations(&self, [ego_mps, other_mps]: [f64; 2], settings: &Settings) -> [ObservedBehaviour; 2] {
         match *self {
             Meeting::Alongside { lead_m } => {
@@ -129,6 +159,27 @@ mod tests {
         assert!((other.behaviour.passing - (1.0 + 1.9 / 5.0)).abs() < 1e-12);
         assert!((ego.behaviour.yielding - (1.1 - 1.9 / 5.0)).abs() < 1e-12);
         assert!((ego.behaviour.passing - (1.1 + 1.1 / 5.0)).abs() < 1e-12);
+    }
+
+    const MEETINGS: [Meeting; 2] = [Meeting::Alongside { lead_m: 0.3 }, Meeting::Crossing { ego_m: 2.0, other_m: 1.5 }];
+
+    #[test]
+    fn who_keeps_its_own_speed_seems_to_pass_and_who_slows_down_to_yield() {
+        let settings = Settings::default();
+        for meeting in MEETINGS {
+            let [kept, slowed] = meeting.own_observations([0.8, 0.5], [0.8, 0.8], &settings);
+            assert!(kept.behaviour.posterior(0.5, kept.observed) > 0.5);
+            assert!(slowed.behaviour.posterior(0.5, slowed.observed) < 0.5);
+        }
+    }
+
+    #[test]
+    fn in_the_corrected_form_one_vehicle_s_motion_says_nothing_about_the_other() {
+        let settings = Settings::default();
+        for meeting in MEETINGS {
+            let seen = |ego_mps: f64| meeting.own_observations([ego_mps, 0.7], [1.2, 0.8], &settings)[1];
+            assert_eq!(seen(0.2), seen(1.2));
+        }
     }
 
     #[test]

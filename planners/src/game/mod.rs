@@ -5,22 +5,26 @@
 //! 1. chooses whom to play with, one vehicle after the other ([`meeting`] says how they meet);
 //! 2. reads both intentions from behaviour by Bayes' rule: the other's, `p̃_s|e`, and what the other must think of the
 //!    ego's, `p̃_e|s` ([`intention`], eq. 8.1-8.4);
-//! 3. plays the game whose stakes are ratios of these intentions ([`payoff`], Table 8.2), valued as people value risks
-//!    ([`prospect`], eq. 8.5-8.7), and takes the ego's intention `p_e` from its solution ([`equilibrium`], eq. 8.8, 8.9);
+//! 3. plays the game whose stakes follow from ratios of these intentions ([`payoff`], Table 8.2), valued as people value
+//!    risks ([`prospect`], eq. 8.5-8.7), and takes the ego's intention `p_e` from its solution ([`equilibrium`], eq. 8.8,
+//!    8.9, or [`logit`]);
 //! 4. drives such that the other reads this intention: bounds on the mean speed ([`expression`], eq. 8.11-8.15) in the
 //!    conservative problem (eq. 8.10). They give way at a price, never safety.
+//!
+//! [`Form`] chooses between the game as printed and the corrected one, which differs in steps 2 and 3.
 
 pub mod diagnostics;
 pub mod equilibrium;
 pub mod expression;
 pub mod intention;
+pub mod logit;
 pub mod meeting;
 pub mod payoff;
 pub mod prospect;
 pub mod reply;
 mod settings;
 
-pub use settings::{Settings, SolutionConcept};
+pub use settings::{Form, Settings, SolutionConcept};
 
 use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::{PartnerChoice, PartnerSequence};
@@ -30,10 +34,12 @@ use crate::trajectory::terms::MeanSpeed;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use diagnostics as reported;
-use equilibrium::{GameSolution, leader_follower, nash};
+use equilibrium::{GameSolution, leader_follower, nash, solution};
 use intention::forget;
+use logit::quantal_response;
 use meeting::{Meeting, ObservedBehaviour};
 use payoff::{Stakes, TabulatedTheory};
+use reply::{MAX_INTENTION, MIN_INTENTION};
 
 /// A planner that plays, with what it remembers.
 #[derive(Clone, Debug)]
@@ -43,6 +49,8 @@ pub struct Game {
     optimiser: Optimiser<Robust>,
     partner: PartnerSequence,
     intentions: Intentions,
+    /// Largest speeds that the ego and its partner have driven since they met \[m/s\].
+    fastest_mps: [f64; 2],
     last: Option<Trajectory>,
 }
 
@@ -57,9 +65,14 @@ struct Intentions {
     own: f64,
 }
 
-impl Default for Intentions {
-    fn default() -> Self {
-        Intentions { other: 0.5, seen: 0.5, own: 0.5 }
+impl Intentions {
+    /// What is believed and intended before anything has been observed.
+    fn at_first(settings: &Settings) -> Self {
+        let own = match settings.form {
+            Form::Corrected => settings.first_intention,
+            Form::AsPrinted => 0.5,
+        };
+        Intentions { other: 0.5, seen: 0.5, own }
     }
 }
 
@@ -79,7 +92,8 @@ impl Game {
             theory: TabulatedTheory::new(settings.prospect),
             optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
             partner: PartnerSequence::default(),
-            intentions: Intentions::default(),
+            intentions: Intentions::at_first(&settings),
+            fastest_mps: [0.0; 2],
             last: None,
         }
     }
@@ -92,7 +106,9 @@ impl Game {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
         if choice.is_new {
-            self.intentions = Intentions::default();
+            self.intentions = Intentions::at_first(&self.settings);
+            let partner_mps = choice.partner.map_or(0.0, |partner| partner.state.speed_mps);
+            self.fastest_mps = [scene.ego.state.speed_mps, partner_mps];
         }
         let meeting = choice.partner.and_then(|other| Some((other, Meeting::of(scene, other, &self.settings)?)));
         let (mut round, mut expressed) = (None, None);
@@ -116,40 +132,67 @@ impl Game {
         Ok(Plan { trajectory, proposal: None, diagnostics, events, problem, statistics })
     }
 
-    /// Renews both beliefs; returns what the ego shows.
+    /// Renews both beliefs; returns what the next belief about the ego will be judged by.
     fn watch(&mut self, scene: &Scene, other: &Agent, meeting: &Meeting) -> ObservedBehaviour {
         let plan = self.last.as_ref().map(Trajectory::shifted);
         let ego_mps = plan.map_or(scene.ego.state.speed_mps, |plan| MeanSpeed::of(&plan.states));
         let other_mps = MeanSpeed::of(&other.prediction.states);
-        let [shown, seen] = meeting.observations([ego_mps, other_mps], &self.settings);
-        let believed = |before: f64, ego_behaviour: &ObservedBehaviour| {
-            ego_behaviour.behaviour.posterior(forget(before, self.settings.forgetting), ego_behaviour.observed)
+        let driven_mps = [scene.ego.state.speed_mps, other.state.speed_mps];
+        let observations = |fastest_mps: [f64; 2]| match self.settings.form {
+            Form::Corrected => meeting.own_observations([ego_mps, other_mps], fastest_mps, &self.settings),
+            Form::AsPrinted => meeting.observations([ego_mps, other_mps], &self.settings),
         };
+        let [shown, seen] = observations(self.fastest_mps);
+        let believed =
+            |before: f64, shown: &ObservedBehaviour| shown.behaviour.posterior(self.prior(before), shown.observed);
         let Intentions { other, seen: own, .. } = self.intentions;
-        (self.intentions.other, self.intentions.seen) = (believed(other, &seen), believed(own, &shown));
-        shown
+        let beliefs = (believed(other, &seen), believed(own, &shown));
+        // The next beliefs use the speeds of this step, so what is expressed now must use them too.
+        let fastest_mps = std::array::from_fn(|who| self.fastest_mps[who].max(driven_mps[who]));
+        let [expected, _] = observations(fastest_mps);
+        (self.intentions.other, self.intentions.seen) = beliefs;
+        self.fastest_mps = fastest_mps;
+        expected
+    }
+
+    /// The prior of the next belief: what is believed now, after forgetting.
+    fn prior(&self, belief: f64) -> f64 {
+        forget(belief, self.settings.forgetting)
     }
 
     fn play(&self) -> Round {
-        let (Intentions { other, seen, own }, accident) = (self.intentions, self.settings.accident);
-        let stakes = [Stakes { turn: own / other, accident }, Stakes { turn: other / seen, accident }];
+        let (Intentions { other, seen, own }, settings) = (self.intentions, &self.settings);
+        let ratios = [own / other, other / seen];
+        let stakes = ratios.map(|ratio| match settings.form {
+            Form::Corrected => Stakes::bounded(ratio, settings.accident),
+            Form::AsPrinted => Stakes::of_ratio(ratio, settings.accident),
+        });
         let [ego, other] = stakes.map(|stakes| self.theory.player(stakes));
-        let solve = match self.settings.solution {
-            SolutionConcept::LeaderFollower => leader_follower,
-            SolutionConcept::Nash => nash,
+        let played = match (settings.form, settings.solution) {
+            (Form::Corrected, _) => {
+                let [reply, theirs] = quantal_response(&ego, &other, settings.temperature);
+                let damped = own + settings.damping * (reply - own);
+                solution(&ego, &other, damped.clamp(MIN_INTENTION, MAX_INTENTION), theirs)
+            }
+            (Form::AsPrinted, SolutionConcept::LeaderFollower) => leader_follower(&ego, &other),
+            (Form::AsPrinted, SolutionConcept::Nash) => nash(&ego, &other),
         };
-        Round { stakes, solution: solve(&ego, &other) }
+        Round { stakes, solution: played }
     }
 
     /// Whether there is still something to show to the partner.
     fn is_expressing(&self, scene: &Scene, choice: &PartnerChoice, meeting: &Meeting) -> bool {
         let spoken_s = scene.step_s * choice.steps as f64;
-        meeting.is_open() && (choice.is_first || spoken_s <= self.settings.later_expression_s)
+        let in_time = match self.settings.form {
+            Form::Corrected => true,
+            Form::AsPrinted => choice.is_first || spoken_s <= self.settings.later_expression_s,
+        };
+        meeting.is_open() && in_time
     }
 
     fn express(&self, scene: &Scene, meeting: &Meeting, ego_behaviour: &ObservedBehaviour) -> MeanSpeed {
         let Intentions { own, seen, .. } = self.intentions;
-        expression::mean_speed(own, seen, meeting, ego_behaviour, scene, &self.settings)
+        expression::mean_speed(own, self.prior(seen), meeting, ego_behaviour, scene, &self.settings)
     }
 
     fn diagnostics(

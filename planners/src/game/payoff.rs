@@ -8,8 +8,10 @@
 //! | yields | −2x | −x |
 //! | passes | x | −M |
 //!
-//! The stakes are ratios of what the players are believed to intend: `x_e = p_e / p̃_s|e` for the ego, `x_s = p̃_s|e / p̃_e|s`
-//! for the other. As probabilities are clipped to [0.05, 0.95], a stake reaches 19: `M` is of the same order, not "large".
+//! The stakes depend on ratios of what the players are believed to intend: `r_e = p_e / p̃_s|e` for the ego,
+//! `r_s = p̃_s|e / p̃_e|s` for the other. As printed, `x = r`. As probabilities are clipped to [0.05, 0.95], such a stake
+//! reaches 19, `M` must be of the same order, and the accident is often better than yielding. In the corrected form
+//! `x = (M/2) r/(1 + r)`, which is at most `0.475 M`.
 //!
 //! # Fast evaluation
 //!
@@ -46,6 +48,17 @@ enum Loss {
 }
 
 impl Stakes {
+    /// Stakes as printed: `x` is the ratio of the intentions.
+    pub fn of_ratio(ratio: f64, accident: f64) -> Self {
+        Stakes { turn: ratio, accident }
+    }
+
+    /// Stakes in the corrected form: `x = (M/2) r/(1 + r)` of the ratio `r`, so that `2x < M` and the accident is the worst
+    /// outcome at every ratio.
+    pub fn bounded(ratio: f64, accident: f64) -> Self {
+        Stakes { turn: 0.5 * accident * ratio / (1.0 + ratio), accident }
+    }
+
     /// The payoff matrix: `[own][other]`, yielding first.
     pub fn payoffs(&self) -> [[f64; 2]; 2] {
         [[-2.0 * self.turn, -self.turn], [self.turn, -self.accident]]
@@ -136,6 +149,7 @@ impl TabulatedTheory {
             gain: self.theory.value(stakes.turn),
             steps: [worst - middle, middle - least, least],
             ranking: losses.map(|(_, loss)| loss),
+            accident: self.theory.value(-stakes.accident),
         }
     }
 }
@@ -149,9 +163,16 @@ pub struct Player<'a> {
     /// `v₁ − v₂, v₂ − v₃, v₃`.
     steps: [f64; 3],
     ranking: [Loss; 3],
+    /// `v(−M)`.
+    accident: f64,
 }
 
 impl Player<'_> {
+    /// The value of the accident, `v(−M)`.
+    pub fn accident_value(&self) -> f64 {
+        self.accident
+    }
+
     /// `U` of eq. 8.7 for a player who passes with probability `own` while the other does with `other`.
     pub fn utility(&self, own: f64, other: f64) -> f64 {
         let mut cumulated = 0.0;
@@ -228,6 +249,24 @@ mod tests {
             let found = utility(THEORY.player(stakes).best_of(5..=95, other));
             let best = (5..=95).map(utility).fold(f64::NEG_INFINITY, f64::max);
             prop_assert!(found >= best - 1e-9 * (1.0 + best.abs()), "{found} against {best}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn with_bounded_stakes_the_accident_is_worst(ratio in 1e-3..1e3, accident in 1e-3..1e3) {
+            let [[stalemate, wait], [turn, crash]] = Stakes::bounded(ratio, accident).payoffs();
+            prop_assert!([stalemate, wait, turn].iter().all(|payoff| *payoff > crash));
+        }
+
+        /// Gains and losses are powers of the same exponent, so the scale of the payoffs divides out.
+        #[test]
+        fn with_bounded_stakes_only_the_ratio_matters(ratio in 0.05..19.0, accident in 0.1..50.0, other in 0.05..0.95) {
+            let share = |accident: f64| {
+                let player = THEORY.player(Stakes::bounded(ratio, accident));
+                (player.utility(1.0, other) - player.utility(0.0, other)) / player.accident_value()
+            };
+            prop_assert!((share(accident) - share(4.0)).abs() < 1e-9);
         }
     }
 

@@ -17,14 +17,41 @@ pub enum SolutionConcept {
     Nash,
 }
 
+/// Which version of the game is played.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Form {
+    /// Stakes are bounded such that the accident is the worst outcome, both players give logit replies, and a vehicle is
+    /// judged by how much it slows down against its own largest speed.
+    #[default]
+    Corrected,
+    /// Table 8.2 and eq. 8.3, 8.4, 8.8, 8.9 as printed: stakes are ratios, `solution` says how the game is solved, and a
+    /// vehicle is judged against the plan of the other.
+    AsPrinted,
+}
+
 /// The persuasion game (chapter 8).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// How the game is solved.
+    /// Which version of the game is played.
+    pub form: Form,
+    /// How the game is solved in the form `as-printed`.
     pub solution: SolutionConcept,
-    /// What the accident costs, `M` of Table 8.2. Stakes are ratios of probabilities and reach 19: 2 or 3 on one road, 1 at an
-    /// intersection; from 50 on both yield.
+    /// How random a logit reply is, `τ`, in units of the value of the accident; used in the form `corrected`. Towards 0
+    /// replies become best replies.
+    #[schemars(range(min = 0.05), extend("x-unit" = "dimensionless"))]
+    pub temperature: f64,
+    /// The ego's intention before it has observed a vehicle; used in the form `corrected`. An ego that begins at 0.5 never
+    /// shows that it could pass, and no driver yields to it.
+    #[schemars(range(min = 0.05, max = 0.95), extend("x-unit" = "dimensionless"))]
+    pub first_intention: f64,
+    /// Share of the way to its reply that the ego's intention goes in a step; used in the form `corrected`. It leaves the other
+    /// time to answer before the ego gives up.
+    #[schemars(range(min = 0.01, max = 1.0), extend("x-unit" = "dimensionless"))]
+    pub damping: f64,
+    /// What the accident costs, `M` of Table 8.2. In the form `as-printed`, stakes are ratios of probabilities and reach 19: 2
+    /// or 3 on one road, 1 at an intersection; from 50 on both yield. In the form `corrected`, stakes scale with it.
     #[schemars(range(min = 0.001), extend("x-unit" = "dimensionless"))]
     pub accident: f64,
     /// How people value uncertain outcomes.
@@ -36,14 +63,15 @@ pub struct Settings {
     /// Typical time that the manoeuvre takes, `t_f` of eq. 8.3 \[s\].
     #[schemars(range(min = 0.001))]
     pub finish_s: f64,
-    /// Deviation of mean speeds from what is expected, `σ_1` of eq. 8.3 \[m/s\].
+    /// Deviation of mean speeds from what is expected, `σ_1` of eq. 8.3; half of it in the form `corrected`, whose means are
+    /// half as far apart \[m/s\].
     #[schemars(range(min = 0.001))]
     pub sigma_1_mps: f64,
     /// Typical time that a crossing takes, `T_c` of eq. 8.4 \[s\].
     #[schemars(range(min = 0.001))]
     pub crossing_s: f64,
     /// Deviation of times of arrival from what is expected, `σ_2` of eq. 8.4 \[s\]. At 0.5 the first step decides and the ego
-    /// yields for good.
+    /// yields for good. Half of it in the form `corrected`, whose means are half as far apart.
     #[schemars(range(min = 0.001))]
     pub sigma_2_s: f64,
     /// How far before the crossing of the two paths the conflict zone begins \[m\].
@@ -67,7 +95,8 @@ pub struct Settings {
     #[schemars(range(min = 0.0), extend("x-unit" = "s/m"))]
     #[schemars(extend("x-mechanism" = { "expression of intention": 0.0 }))]
     pub slack_weight: f64,
-    /// How long the ego expresses its intention to a vehicle that is not the first one it meets \[s\].
+    /// How long the ego expresses its intention to a vehicle that is not the first one it meets; used in the form
+    /// `as-printed` \[s\].
     #[schemars(range(min = 0.0))]
     pub later_expression_s: f64,
     /// With a vehicle that is this far ahead in the target lane nothing is left to play for \[m\].
@@ -84,7 +113,11 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Settings {
+            form: Form::Corrected,
             solution: SolutionConcept::LeaderFollower,
+            temperature: 0.5,
+            first_intention: 0.95,
+            damping: 0.1,
             accident: 2.0,
             prospect: ProspectTheory::default(),
             safety_gap_m: 1.5,

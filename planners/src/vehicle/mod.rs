@@ -6,6 +6,7 @@ mod limits;
 mod pose_expansion;
 mod safety_ellipse;
 mod state;
+mod steering_geometry;
 
 pub use bicycle::{Bicycle, DynamicsCurvature, Jacobian};
 pub use body::Body;
@@ -13,3 +14,4 @@ pub use limits::Limits;
 pub use pose_expansion::PoseExpansion;
 pub use safety_ellipse::{EllipticalDistance, OrientedEllipse, SafetyEllipse};
 pub use state::{Input, State, Trajectory};
+pub(crate) use steering_geometry::SteeringGeometry;

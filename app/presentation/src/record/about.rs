@@ -89,7 +89,7 @@ mod tests {
         let scenario = load("intersection/nice", &[]).expect("embedded");
         let mut report = run_with_counterfactuals("nice", &scenario, Vec::new()).expect("a run");
         let text = verdicts(&report.counterfactuals);
-        assert!(text.contains("\n- Who asks nobody crosses second: held (order crossing, ego)\n"), "{text}");
+        assert!(text.contains("\n- A conservative ego crosses second: held (order crossing, ego)\n"), "{text}");
         let one = &mut report.counterfactuals[0];
         (one.passed, one.expectations[0].passed) = (false, false);
         let text = verdicts(&report.counterfactuals);

@@ -37,7 +37,7 @@ impl Optimum {
     }
 
     /// Counts the work of an exploration that led nowhere.
-    pub(super) fn count(&mut self, work: &Statistics) {
+    pub(super) fn add_work(&mut self, work: &Statistics) {
         let residual = self.statistics.residual;
         self.statistics.add(work);
         self.statistics.residual = residual;
@@ -45,7 +45,7 @@ impl Optimum {
 
     /// Notes a dearer optimum of another class, which is the runner-up if there is no cheaper one.
     pub(super) fn note_rival(&mut self, rival: Optimum) {
-        self.count(&rival.statistics);
+        self.add_work(&rival.statistics);
         if self.runner_up.as_ref().is_none_or(|known| rival.cost.total < known.cost) {
             self.runner_up = Some(Box::new(RunnerUp { cost: rival.cost.total, iterate: rival.iterate }));
         }

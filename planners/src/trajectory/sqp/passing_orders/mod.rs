@@ -110,7 +110,7 @@ impl<S: StageSolver> Optimiser<S> {
                 }
                 (Err(DescentError::NotBelow { statistics, expected, .. }), Ok(held)) => {
                     nearest = nearest.min(expected);
-                    held.count(&statistics);
+                    held.add_work(&statistics);
                 }
                 _ => {}
             }

@@ -4,11 +4,11 @@
 //! own; or it keeps its speed and passes an ellipse on the left or on the right, where the road is wide enough. Of several deciding vehicles one after the other does each of these while the others go on as planned, brake, or
 //! accelerate.
 
-use crate::steering::SteeringGeometry;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::participant::Participant;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::terms::{Term, Tracking};
+use crate::vehicle::SteeringGeometry;
 use crate::{Axes, Input, State};
 
 /// Accelerations as shares of the strongest braking and acceleration.

@@ -1,0 +1,89 @@
+//! How a persuasion game goes over many starts, and where its probabilities lie.
+//!
+//! ```sh
+//! cargo run --release -p interplay-simulation --example game_intentions -- SCENARIO SEEDS [PATH=VALUE ...]
+//! ```
+//!
+//! runs the scenario with seeds 1 to SEEDS and starts changed by up to 0.1 m and 0.1 m/s. It prints how often each order
+//! occurs, when the ego completes, and in how many steps of the game its intention is off its bounds, the accident is its
+//! worst outcome, it expresses its intention, the bounds on its mean speed hold, and then the next belief about the ego
+//! lies in the wanted interval to 0.02.
+
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::sync::mpsc::{Sender, channel};
+
+use interplay_planners::Plan;
+use interplay_planners::game::Settings;
+use interplay_planners::game::diagnostics::{
+    ACCIDENT_PAYOFF, EGO_INTENTION, EGO_PAYOFFS, EGO_POSTERIOR, EXPRESSION_SLACK,
+};
+use interplay_planners::game::reply::{MAX_INTENTION, MIN_INTENTION};
+use interplay_scenarios::{Override, load};
+use interplay_simulation::frame::Frame;
+use interplay_simulation::run::run;
+use interplay_simulation::watch::{WatchError, Watcher};
+
+/// Bounds that are violated by less than this hold \[m/s\].
+const MAX_SLACK_MPS: f64 = 1e-3;
+/// By how much a belief may miss the wanted interval.
+const BELIEF_TOLERANCE: f64 = 0.02;
+
+/// Sends the ego's plans; the ego is the first vehicle.
+struct Plans(Sender<Plan>);
+
+impl Watcher for Plans {
+    fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
+        self.0.send(frame.vehicles[0].plan.clone())?;
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), WatchError> {
+        Ok(())
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let name = arguments.next().ok_or("which scenario?")?;
+    let seeds: u64 = arguments.next().ok_or("how many seeds?")?.parse()?;
+    let jitter = ["start_jitter.position_m=0.1", "start_jitter.speed_mps=0.1"].map(str::to_owned);
+    let changes: Vec<Override> = arguments.chain(jitter).map(Override::Set).collect();
+    let (mut orders, mut completed_s) = (BTreeMap::<String, usize>::new(), Vec::new());
+    let [mut played, mut inside, mut worst, mut expressed, mut held, mut believed] = [0_usize; 6];
+    for seed in 1..=seeds {
+        let changes: Vec<Override> = changes.iter().cloned().chain([Override::Seed(seed)]).collect();
+        let scenario = load(&name, &changes).map_err(|error| format!("{error:?}"))?;
+        let (sender, receiver) = channel();
+        let report = serde_json::to_value(run(&name, &scenario, vec![Box::new(Plans(sender))])?)?;
+        *orders.entry(report["order"].to_string()).or_default() += 1;
+        completed_s.extend(report["vehicles"][0]["completed_s"].as_f64());
+        let plans: Vec<Plan> = receiver.iter().collect();
+        for (index, plan) in plans.iter().enumerate() {
+            let Some(intention) = plan.value_of(&EGO_INTENTION) else { continue };
+            let accident = plan.value_of(&ACCIDENT_PAYOFF);
+            played += 1;
+            inside += usize::from(intention > MIN_INTENTION + 1e-4 && intention < MAX_INTENTION - 1e-4);
+            worst += usize::from(EGO_PAYOFFS.iter().all(|payoff| plan.value_of(payoff) > accident));
+            let Some(slack) = plan.value_of(&EXPRESSION_SLACK) else { continue };
+            let Some(belief) = plans.get(index + 1).and_then(|next| next.value_of(&EGO_POSTERIOR)) else { continue };
+            let wanted = intention - Settings::default().epsilon_p - BELIEF_TOLERANCE..=intention + BELIEF_TOLERANCE;
+            expressed += 1;
+            held += usize::from(slack < MAX_SLACK_MPS);
+            believed += usize::from(slack < MAX_SLACK_MPS && wanted.contains(&belief));
+        }
+    }
+    completed_s.sort_by(f64::total_cmp);
+    let (first, last) = (completed_s.first(), completed_s.last());
+    println!("{name}, {seeds} starts: {orders:?}");
+    println!(
+        "ego completes {}: median {:?} s, {first:?} to {last:?} s",
+        completed_s.len(),
+        completed_s.get(completed_s.len() / 2)
+    );
+    println!("{played} steps: {inside} off the bounds, accident worst in {worst}");
+    println!(
+        "{expressed} steps with an expression: bounds hold in {held}, next belief as wanted in {believed} of these"
+    );
+    Ok(())
+}
