@@ -3,7 +3,6 @@
 use crate::vehicle::{Bicycle, SteeringGeometry};
 use crate::{Agent, Input, Scene, State, Trajectory};
 
-
 /// The steering angle that leads to a lateral position on the agent's road \[rad\].
 pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
     let geometry = SteeringGeometry {

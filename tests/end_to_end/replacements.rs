@@ -18,7 +18,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("intersection/game-friendly", "conservative", "order"),
     ("intersection/game-nash", "conservative", "order"),
     ("intersection/conservative-nice", "negotiation", "order"),
-    ("intersection/negotiation-meets-game", "conservative", "speed.crossing.min_below_mps"),
+    ("intersection/negotiation-meets-game", "conservative", "order"),
     ("lane-change/front-nice", "conservative", "order"),
     ("lane-change/bayesian-front-nice", "conservative", "order"),
     ("lane-change/game-front-nice", "conservative", "order"),
@@ -35,8 +35,8 @@ const REPLACEMENTS: &[Replacement] = &[
     ("lane-change/cooperative", "conservative", "completes.ego"),
     ("lane-keeping/cooperative", "conservative", "completes.merger"),
     // The game shows that it passes, also to those who cannot see it; the exact value keeps away, the linear one does not.
-    ("lane-change/front-tough", "game", "order"),
-    ("lane-change/among-idm", "game", "order"),
+    ("lane-change/among-idm", "game", "completes.ego"),
+    ("lane-change/front-tough", "idm", "order"),
     ("lane-change/bayesian-exact", "conservative", "order"),
     // The intelligent driver model sees no crossing traffic, and waits for a gap that nobody makes.
     ("intersection/tough", "idm", "no_collision"),

@@ -11,7 +11,7 @@
 //! 4. drives such that the other reads this intention: bounds on the mean speed ([`expression`], eq. 8.11-8.15) in the
 //!    conservative problem (eq. 8.10). They give way at a price, never safety.
 //!
-//! [`Form`] chooses between the game as printed and the corrected one, which differs in steps 2 and 3.
+//! [`GameForm`] chooses between the game as printed and the corrected one, which differs in steps 2 and 3.
 
 pub mod diagnostics;
 pub mod equilibrium;
@@ -24,7 +24,7 @@ pub mod prospect;
 pub mod reply;
 mod settings;
 
-pub use settings::{Form, Settings, SolutionConcept};
+pub use settings::{GameForm, Settings, SolutionConcept};
 
 use crate::diagnostic::{COST, SAFETY_SLACK};
 use crate::encounter::{PartnerChoice, PartnerSequence};
@@ -69,8 +69,8 @@ impl Intentions {
     /// What is believed and intended before anything has been observed.
     fn at_first(settings: &Settings) -> Self {
         let own = match settings.form {
-            Form::Corrected => settings.first_intention,
-            Form::AsPrinted => 0.5,
+            GameForm::Corrected => settings.first_intention,
+            GameForm::AsPrinted => 0.5,
         };
         Intentions { other: 0.5, seen: 0.5, own }
     }
@@ -139,8 +139,8 @@ impl Game {
         let other_mps = MeanSpeed::of(&other.prediction.states);
         let driven_mps = [scene.ego.state.speed_mps, other.state.speed_mps];
         let observations = |fastest_mps: [f64; 2]| match self.settings.form {
-            Form::Corrected => meeting.own_observations([ego_mps, other_mps], fastest_mps, &self.settings),
-            Form::AsPrinted => meeting.observations([ego_mps, other_mps], &self.settings),
+            GameForm::Corrected => meeting.own_observations([ego_mps, other_mps], fastest_mps, &self.settings),
+            GameForm::AsPrinted => meeting.observations([ego_mps, other_mps], &self.settings),
         };
         let [shown, seen] = observations(self.fastest_mps);
         let believed =
@@ -164,18 +164,18 @@ impl Game {
         let (Intentions { other, seen, own }, settings) = (self.intentions, &self.settings);
         let ratios = [own / other, other / seen];
         let stakes = ratios.map(|ratio| match settings.form {
-            Form::Corrected => Stakes::bounded(ratio, settings.accident),
-            Form::AsPrinted => Stakes::of_ratio(ratio, settings.accident),
+            GameForm::Corrected => Stakes::bounded(ratio, settings.accident),
+            GameForm::AsPrinted => Stakes::of_ratio(ratio, settings.accident),
         });
         let [ego, other] = stakes.map(|stakes| self.theory.player(stakes));
         let played = match (settings.form, settings.solution) {
-            (Form::Corrected, _) => {
+            (GameForm::Corrected, _) => {
                 let [reply, theirs] = quantal_response(&ego, &other, settings.temperature);
                 let damped = own + settings.damping * (reply - own);
                 solution(&ego, &other, damped.clamp(MIN_INTENTION, MAX_INTENTION), theirs)
             }
-            (Form::AsPrinted, SolutionConcept::LeaderFollower) => leader_follower(&ego, &other),
-            (Form::AsPrinted, SolutionConcept::Nash) => nash(&ego, &other),
+            (GameForm::AsPrinted, SolutionConcept::LeaderFollower) => leader_follower(&ego, &other),
+            (GameForm::AsPrinted, SolutionConcept::Nash) => nash(&ego, &other),
         };
         Round { stakes, solution: played }
     }
@@ -184,8 +184,8 @@ impl Game {
     fn is_expressing(&self, scene: &Scene, choice: &PartnerChoice, meeting: &Meeting) -> bool {
         let spoken_s = scene.step_s * choice.steps as f64;
         let in_time = match self.settings.form {
-            Form::Corrected => true,
-            Form::AsPrinted => choice.is_first || spoken_s <= self.settings.later_expression_s,
+            GameForm::Corrected => true,
+            GameForm::AsPrinted => choice.is_first || spoken_s <= self.settings.later_expression_s,
         };
         meeting.is_open() && in_time
     }

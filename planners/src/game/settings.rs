@@ -20,7 +20,7 @@ pub enum SolutionConcept {
 /// Which version of the game is played.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Form {
+pub enum GameForm {
     /// Stakes are bounded such that the accident is the worst outcome, both players give logit replies, and a vehicle is
     /// judged by how much it slows down against its own largest speed.
     #[default]
@@ -35,7 +35,7 @@ pub enum Form {
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
     /// Which version of the game is played.
-    pub form: Form,
+    pub form: GameForm,
     /// How the game is solved in the form `as-printed`.
     pub solution: SolutionConcept,
     /// How random a logit reply is, `τ`, in units of the value of the accident; used in the form `corrected`. Towards 0
@@ -113,7 +113,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Settings {
-            form: Form::Corrected,
+            form: GameForm::Corrected,
             solution: SolutionConcept::LeaderFollower,
             temperature: 0.5,
             first_intention: 0.95,
