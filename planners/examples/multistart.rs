@@ -5,7 +5,7 @@
 //! ```
 //!
 //! drives every family of scenarios from perturbed starts with every planner, in closed loop. At each step the problem that a
-//! driver poses is solved from 30 random starts besides; a row for each family and driver says in how many of its problems the
+//! driver poses is, every few steps, solved from 30 random starts besides; a row for each family and driver says in how many of its problems the
 //! cheapest of them costs less than the plan by more than a thousandth (of 1 + cost), and how long the plans took.
 
 #[path = "../tests/common/mod.rs"]
@@ -17,13 +17,19 @@ use std::time::Instant;
 
 use common::Random;
 use common::world::{Vehicle, begin, intersection, lane_change, lane_keeping, ramp_merge};
+use interplay_planners::diagnostic::COST;
 use interplay_planners::human::Style::{self, Nice, Tough};
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Driver, Input, Plan, bayesian, conservative, cooperative, game, negotiation};
 
 const STARTS: u64 = 30;
 const SEEDS: u64 = 4;
+/// By how much the cheapest of the random starts must be cheaper, as a share of 1 + cost, to count.
 const CHEAPER: f64 = 1e-3;
+/// Every how many ticks the problems are searched.
+const CHECKED_EVERY: u64 = 4;
+/// Ticks of a run.
+const TICKS: u64 = 50;
 
 #[derive(Default)]
 struct Tally {
@@ -109,8 +115,7 @@ fn perturb(vehicles: &mut [Vehicle], seed: u64) {
 
 fn drive(name: &str, seed: u64, vehicles: &[Vehicle], tallies: &mut BTreeMap<String, Tally>) {
     let (mut traffic, mut planners) = begin(vehicles);
-    let every: u64 = std::env::var("EVERY").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
-    for tick in 0..80 {
+    for tick in 0..TICKS {
         traffic.drive(|index, scene| {
             let began = Instant::now();
             let plan = planners[index].plan(scene)?;
@@ -119,18 +124,8 @@ fn drive(name: &str, seed: u64, vehicles: &[Vehicle], tallies: &mut BTreeMap<Str
             let family = name.rsplit_once('/').map_or(name, |(family, _)| family);
             let tally = tallies.entry(format!("{family}/{kind}")).or_default();
             tally.plan_ms.push(took);
-            if std::env::var("TRACE").is_ok() && index == 0 {
-                eprintln!(
-                    "{tick} {took:.2} ms {:?} {:?} {:?}",
-                    plan.statistics,
-                    plan.value_of(&interplay_planners::diagnostic::COST),
-                    plan.events.iter().map(|event| event.text.clone()).collect::<Vec<_>>()
-                );
-            }
-            if let Some(problem) = plan
-                .problem
-                .as_deref()
-                .filter(|_| (index == 0 || kind != "cooperative") && tick % every == 0 && tick < 50)
+            if let Some(problem) =
+                plan.problem.as_deref().filter(|_| (index == 0 || kind != "cooperative") && tick % CHECKED_EVERY == 0)
             {
                 tally.problems += 1;
                 let cost = cost_of(problem, &plan);
@@ -148,8 +143,7 @@ fn drive(name: &str, seed: u64, vehicles: &[Vehicle], tallies: &mut BTreeMap<Str
 
 /// What a plan with its proposal costs in the problem that it solves.
 fn cost_of(problem: &Problem, plan: &Plan) -> f64 {
-    use interplay_planners::diagnostic::COST;
-    plan.value_of(&COST).unwrap_or_else(|| problem.cost_of(&[plan.trajectory.inputs.clone()]))
+    plan.value_of(&COST).unwrap_or_else(|| problem.cost_of(std::slice::from_ref(&plan.trajectory.inputs)))
 }
 
 fn cheapest(problem: &Problem, seed: u64) -> f64 {
