@@ -9,6 +9,8 @@
 //! worst outcome, it expresses its intention, the bounds on its mean speed hold, and then the next belief about the ego
 //! lies in the wanted interval to 0.02.
 
+#![allow(clippy::print_stdout, reason = "the numbers are the result")]
+
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::sync::mpsc::{Sender, channel};
