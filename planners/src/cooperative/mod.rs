@@ -9,7 +9,7 @@
 //! and `R` its weights, and `Z_i` its normaliser. With positive weights `1/Z_i` a global optimum is Pareto optimal: no cost
 //! can fall unless another rises. The source has two vehicles; here any number may cooperate.
 //!
-//! The planner is decentralised. Every vehicle publishes its goal ([`Agent::shared_goal`]), solves the joint problem itself, and
+//! The planner is decentralised. Every vehicle publishes its goal ([`crate::Agent::shared_goal`]), solves the joint problem itself, and
 //! applies its own part of the solution. The computation is deterministic and the vehicles are ordered by name, so all
 //! solutions are bit-identical as long as all vehicles have the same information.
 //!

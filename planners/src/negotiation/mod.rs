@@ -4,7 +4,7 @@
 //!
 //! 1. makes a conservative plan (eq. 6.13), its retreat;
 //! 2. chooses whom to ask (`partner_selection`);
-//! 3. reads from the other's new prediction how far the last proposal was accepted ([`acceptance`], eq. 6.19);
+//! 3. reads from the other's new prediction how far the last proposal was accepted ([`Acceptance`], eq. 6.19);
 //! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
 //! 5. stays nearer to its last proposal than to its retreat, the more the better it was received (`persuasion`,
 //!    eq. 6.20-6.23);
