@@ -98,7 +98,9 @@ impl From<DescentError> for PlanError {
             DescentError::NotConverged(statistics) => {
                 PlanError::Unsolved { status: error.to_string(), iterations: statistics.programmes }
             }
-            DescentError::NotBelow { .. } => PlanError::Unsolved { status: error.to_string(), iterations: 0 },
+            DescentError::NotBelow { .. } | DescentError::Settled(_) => {
+                PlanError::Unsolved { status: error.to_string(), iterations: 0 }
+            }
             DescentError::NotFinite => PlanError::BadInput(error.to_string()),
         }
     }

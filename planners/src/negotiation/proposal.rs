@@ -22,13 +22,13 @@ const DEVIATION_WEIGHTS: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
 /// Weight of the other's changes of input.
 const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 
-/// Most steps of a descent: a problem that needs more has no proposal that the safety filter would admit.
-const ITERATION_LIMIT: usize = 30;
+/// Most quadratic programmes of a descent: a problem that needs more has no proposal that the safety filter would admit.
+const PROGRAMME_LIMIT: usize = 60;
 
 /// What solves the negotiation problem.
 pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
     let mut optimiser = Optimiser::resuming(Robust::default()).comparing(settings.passing_orders);
-    optimiser.tolerances.iteration_limit = ITERATION_LIMIT;
+    optimiser.tolerances.programme_limit = PROGRAMME_LIMIT;
     optimiser
 }
 

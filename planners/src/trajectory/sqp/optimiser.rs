@@ -1,7 +1,7 @@
 //! The optimiser that planners hold: descents, and what one leaves to the next.
 
 use super::descent::Descent;
-use super::exploration::{Bar, Exploration};
+use super::exploration::{Exploration, GivesUp};
 use super::optimum::{DescentError, Optimum, Tolerances};
 use super::warm_start::WarmStart;
 use crate::Input;
@@ -9,8 +9,8 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::StageSolver;
 
-/// Most steps of a descent in another class of motion, where there is a plan to fall back on.
-const EXPLORATION_LIMIT: usize = 20;
+/// Most quadratic programmes of a descent in another class of motion.
+const EXPLORATION_LIMIT: usize = 40;
 
 /// A trajectory optimiser: a stage solver and the memory that a descent needs.
 #[derive(Clone, Debug, Default)]
@@ -62,22 +62,22 @@ impl<S: StageSolver> Optimiser<S> {
         outcome
     }
 
-    /// Descends from a motion of another class in search of a cheaper optimum. It is given up after the first step already if
-    /// that does not promise one.
+    /// Descends from a motion of another class in search of an optimum that costs less than `bar`.
     ///
     /// # Errors
-    /// As [`Optimiser::descend`], and [`DescentError::NotBelow`] if it was given up.
+    /// As [`Optimiser::descend`], and the reasons for which an exploration is given up.
     pub(super) fn explore_class(
         &mut self,
         problem: &Problem,
         from: Iterate,
-        bar: Bar,
+        bar: f64,
+        gives_up: Option<GivesUp>,
     ) -> Result<Exploration, DescentError> {
         let now = self.descent.begin(problem, from)?;
-        let limit = if bar.gives_up { EXPLORATION_LIMIT } else { self.tolerances.iteration_limit };
-        let tolerances = Tolerances { iteration_limit: limit, ..self.tolerances };
-        let found = self.descent.run(problem, now, false, bar.give_up_above(), &tolerances)?;
-        if found.cost.total < bar.cost {
+        let programme_limit = EXPLORATION_LIMIT.min(self.tolerances.programme_limit);
+        let tolerances = Tolerances { programme_limit, ..self.tolerances };
+        let found = self.descent.run(problem, now, false, gives_up, &tolerances)?;
+        if found.cost.total < bar {
             self.descent.leave(&mut self.warm_start);
             return Ok(Exploration::Cheaper(found));
         }
@@ -90,6 +90,6 @@ impl<S: StageSolver> Optimiser<S> {
         if warm && self.descent.resume(&self.warm_start, &mut now, &self.tolerances) {
             return Ok(now);
         }
-        self.descent.run(problem, now, warm, f64::INFINITY, &self.tolerances)
+        self.descent.run(problem, now, warm, None, &self.tolerances)
     }
 }

@@ -17,13 +17,15 @@ pub struct Tolerances {
     pub decrease: f64,
     /// Most steps in one descent.
     pub iteration_limit: usize,
+    /// Most quadratic programmes posed in one descent; steps of a descent that goes nowhere pose up to four.
+    pub programme_limit: usize,
     /// A safety row (1 − d²) or a road edge \[m\] violated by more than this makes a solution suspect.
     pub slack: f64,
 }
 
 impl Default for Tolerances {
     fn default() -> Self {
-        Tolerances { residual: 1e-8, decrease: 1e-11, iteration_limit: 100, slack: 1e-3 }
+        Tolerances { residual: 1e-8, decrease: 1e-11, iteration_limit: 100, programme_limit: 400, slack: 1e-3 }
     }
 }
 
@@ -86,6 +88,9 @@ pub enum DescentError {
         /// The work that it took.
         statistics: Statistics,
     },
+    /// An exploration that was given up: it entered a class of motion whose optimum is known.
+    #[error("led into a class of motion whose optimum is known")]
+    Settled(Statistics),
     /// The problem holds a number that is not finite.
     #[error("the problem has a cost that is not a number")]
     NotFinite,

@@ -1,4 +1,4 @@
-//! The class of a motion: on which side of whom it passes and where it ends.
+//! The class of a motion: which way it goes round whom.
 
 use crate::Axes;
 use crate::trajectory::iterate::Iterate;
@@ -8,23 +8,34 @@ use crate::trajectory::terms::RowTerm;
 /// Most ellipses that are told apart; the classes of motions around further ones are not.
 const MAX_ELLIPSES: usize = 16;
 
-/// The class of a motion in a problem.
-///
-/// For every ellipse, in the order of the terms, the sector around its centre in which the motion ends (0 ahead, 1 to the
-/// left, 2 behind, 3 to the right, between the diagonals of the ellipse's box), counted on through full turns: a vehicle that
-/// begins behind and passes on the left ends at 0, one that passes on the right at 4. Motions of one class can be deformed
-/// into each other without touching a centre.
+/// Which way a motion goes round a centre, seen from there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct PassingClass {
-    sectors: [i8; MAX_ELLIPSES],
+enum Way {
+    /// Within an eighth of a turn of where it began: nobody has passed.
+    #[default]
+    Neither,
+    /// To the left (anticlockwise).
+    Left,
+    /// To the right (clockwise).
+    Right,
+}
+
+/// The class of a motion in a problem: for every ellipse, in the order of the terms, the way round its centre.
+///
+/// Whoever begins beside another vehicle, to its left, and merges ahead of it goes round to the right; behind it, to the left.
+/// Whoever comes from behind and overtakes on the left goes round to the right. Crossing ahead of somebody and crossing
+/// behind are the two ways, too. How far a motion gets on its way makes no class of its own: no centre lies between.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::trajectory::sqp) struct PassingClass {
+    ways: [Way; MAX_ELLIPSES],
 }
 
 impl PassingClass {
     /// The class of a motion that was rolled out.
     pub fn of(problem: &Problem, iterate: &Iterate) -> PassingClass {
         let mut class = PassingClass::default();
-        for (sector, rows) in class.sectors.iter_mut().zip(ellipses(problem)) {
-            *sector = sector_reached(problem.horizon, rows, iterate);
+        for (way, rows) in class.ways.iter_mut().zip(ellipses(problem)) {
+            *way = way_round(problem.horizon, rows, iterate);
         }
         class
     }
@@ -35,41 +46,57 @@ fn ellipses(problem: &Problem) -> impl Iterator<Item = &dyn RowTerm> {
     problem.row_terms().filter(|rows| rows.ellipse().is_some())
 }
 
-/// The sector in which the motion ends, counted on through full turns.
-fn sector_reached(horizon: usize, rows: &dyn RowTerm, iterate: &Iterate) -> i8 {
-    let Some(ellipse) = rows.ellipse() else { return 0 };
+/// The way round the centre of an ellipse, in the plane where it is a circle.
+fn way_round(horizon: usize, rows: &dyn RowTerm, iterate: &Iterate) -> Way {
+    let Some(ellipse) = rows.ellipse() else { return Way::Neither };
     let (axes, shape) = (Axes::along(ellipse.heading_rad()), ellipse.shape());
-    let mut reached = 0;
-    let mut before: Option<[f64; 2]> = None;
+    let mut course = Course::default();
     for stage in 0..horizon {
-        let Some(relative) = rows.relative_position(stage, iterate) else { return 0 };
+        let Some(relative) = rows.relative_position(stage, iterate) else { return Way::Neither };
         let [along, across] = axes.components(relative);
-        let scaled = [along / shape.along_m, across / shape.across_m];
-        reached = match before {
-            None => sector(scaled),
-            Some(before) => reached + turn(before, scaled),
-        };
-        before = Some(scaled);
+        course.go_to([along / shape.along_m, across / shape.across_m]);
     }
-    reached
+    course.way()
 }
 
-/// The sector of a position: 0 ahead, 1 to the left, 2 behind, 3 to the right.
-fn sector([along, across]: [f64; 2]) -> i8 {
-    match (along >= across.abs(), -along >= across.abs()) {
+/// A course about a centre: quarters of a turn, counted from the direction in which it began.
+#[derive(Default)]
+struct Course {
+    began: Option<[f64; 2]>,
+    last: [f64; 2],
+    quarters: i32,
+}
+
+impl Course {
+    /// Goes on to a position, the short way round.
+    fn go_to(&mut self, position: [f64; 2]) {
+        let [ahead, left] = *self.began.get_or_insert(position);
+        // Turned so that the course begins straight ahead.
+        let now = [ahead * position[0] + left * position[1], ahead * position[1] - left * position[0]];
+        self.quarters += match (quarter(now) - quarter(self.last)).rem_euclid(4) {
+            3 => -1,
+            2 if self.last[0] * now[1] < self.last[1] * now[0] => -2,
+            quarters => quarters,
+        };
+        self.last = now;
+    }
+
+    fn way(&self) -> Way {
+        match self.quarters {
+            0 => Way::Neither,
+            1.. => Way::Left,
+            _ => Way::Right,
+        }
+    }
+}
+
+/// The quarter around straight ahead (0), left (1), behind (2) or right (3) in which a position lies.
+fn quarter([ahead, left]: [f64; 2]) -> i32 {
+    match (ahead >= left.abs(), -ahead > left.abs()) {
         (true, _) => 0,
         (_, true) => 2,
-        _ if across > 0.0 => 1,
+        _ if left > 0.0 => 1,
         _ => 3,
-    }
-}
-
-/// How many sectors a motion goes on to the left about the centre, the short way.
-fn turn(from: [f64; 2], to: [f64; 2]) -> i8 {
-    match (sector(to) - sector(from)).rem_euclid(4) {
-        3 => -1,
-        2 if from[0] * to[1] < from[1] * to[0] => -2,
-        steps => steps,
     }
 }
 
@@ -77,23 +104,32 @@ fn turn(from: [f64; 2], to: [f64; 2]) -> i8 {
 mod tests {
     use super::*;
 
-    fn reached(path: &[[f64; 2]]) -> i8 {
-        path.windows(2).fold(sector(path[0]), |at, pair| at + turn(pair[0], pair[1]))
+    fn way(path: &[[f64; 2]]) -> Way {
+        let mut course = Course::default();
+        path.iter().for_each(|position| course.go_to(*position));
+        course.way()
     }
 
     #[test]
-    fn passing_on_the_left_and_on_the_right_end_a_full_turn_apart() {
+    fn overtaking_on_the_left_goes_round_to_the_right_and_staying_behind_nowhere() {
         let (left, right) =
             ([[-2.0, 0.1], [-1.0, 1.5], [1.0, 1.5], [2.0, 0.1]], [[-2.0, 0.1], [0.0, -1.5], [2.0, 0.1]]);
-        assert_eq!((reached(&left), reached(&right)), (0, 4));
-        assert_eq!(reached(&left[..2]), 1, "beside it");
-        assert_eq!(reached(&left[..1]), 2, "behind it");
+        assert_eq!((way(&left), way(&right)), (Way::Right, Way::Left));
+        assert_eq!(way(&left[..1]), Way::Neither);
+        assert_eq!(way(&[[-2.0, 0.1], [-1.2, 0.0], [-1.1, -0.1]]), Way::Neither);
     }
 
-    /// A motion that jumps across in one step turns the way that its chord passes the centre.
+    /// A motion that jumps across in one step goes round the way that its chord passes the centre.
     #[test]
-    fn a_jump_across_turns_the_way_its_chord_passes() {
-        assert_eq!(turn([-2.0, 0.1], [2.0, 0.1]), -2, "over the left");
-        assert_eq!(turn([-2.0, -0.1], [2.0, -0.1]), 2, "over the right");
+    fn a_jump_across_goes_the_way_its_chord_passes() {
+        assert_eq!(way(&[[-2.0, 0.1], [2.0, 0.1]]), Way::Right, "over the left");
+        assert_eq!(way(&[[-2.0, -0.1], [2.0, -0.1]]), Way::Left, "over the right");
+    }
+
+    #[test]
+    fn merging_ahead_and_merging_behind_are_the_two_ways() {
+        let beside = [0.1, 1.2];
+        assert_eq!(way(&[beside, [0.8, 0.9], [1.3, 0.0]]), Way::Right);
+        assert_eq!(way(&[beside, [-0.8, 0.9], [-1.3, 0.0]]), Way::Left);
     }
 }

@@ -17,14 +17,14 @@
 mod class;
 mod motions;
 
-use super::exploration::{Bar, Exploration};
+use super::exploration::{Exploration, GivesUp};
 use super::optimiser::Optimiser;
 use super::optimum::{DescentError, Optimum};
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
-use class::PassingClass;
+pub(super) use class::PassingClass;
 use motions::for_each_motion;
 
 /// Another class replaces the plan at hand if it saves this share of `1 + cost`.
@@ -87,16 +87,26 @@ impl<S: StageSolver> Optimiser<S> {
         problem: &Problem,
         mut best: Result<Optimum, DescentError>,
     ) -> Result<Optimum, DescentError> {
-        let held = best.as_ref().ok().map(|optimum| (PassingClass::of(problem, &optimum.iterate), optimum));
-        let (mut nearest, mut has_changed) = (f64::INFINITY, held.is_none());
-        for Representative { iterate, .. } in representatives(problem, held).into_iter().take(MAX_CLASSES) {
+        // The class of a plan that violates something may hold a better one.
+        let trusted = best.as_ref().ok().filter(|_| self.tolerances.trust(&best));
+        let own_class = trusted.map(|optimum| PassingClass::of(problem, &optimum.iterate));
+        let planned = best.as_ref().ok().map(|optimum| &optimum.iterate);
+        let mut settled: Vec<PassingClass> = own_class.into_iter().collect();
+        let (mut nearest, mut has_changed) = (f64::INFINITY, best.is_err());
+        for Representative { iterate, .. } in representatives(problem, planned, own_class).into_iter().take(MAX_CLASSES)
+        {
             let bar = self.bar(&best);
-            if bar.cost <= 0.0 {
+            if bar <= 0.0 {
                 // The plan cannot be beaten by more than the hysteresis: costs are not negative, but with the exact value
                 // of Bayesian replies, which is not compared then.
                 break;
             }
-            match (self.explore_class(problem, iterate, bar), &mut best) {
+            let gives_up = best.is_ok().then_some(GivesUp { above: bar, settled: &settled });
+            let explored = self.explore_class(problem, iterate, bar, gives_up);
+            if let Ok(Exploration::Cheaper(found) | Exploration::Dearer(found)) = &explored {
+                settled.push(PassingClass::of(problem, &found.iterate));
+            }
+            match (explored, &mut best) {
                 (Ok(Exploration::Cheaper(found)), best) => {
                     has_changed = true;
                     match best {
@@ -112,6 +122,9 @@ impl<S: StageSolver> Optimiser<S> {
                     nearest = nearest.min(expected);
                     held.add_work(&statistics);
                 }
+                (Err(DescentError::Settled(statistics) | DescentError::NotConverged(statistics)), Ok(held)) => {
+                    held.add_work(&statistics);
+                }
                 _ => {}
             }
         }
@@ -120,24 +133,24 @@ impl<S: StageSolver> Optimiser<S> {
         best
     }
 
-    /// What an optimum of another class has to beat. In trouble no hysteresis holds.
-    fn bar(&self, best: &Result<Optimum, DescentError>) -> Bar {
+    /// What an optimum of another class has to cost less than. In trouble no hysteresis holds.
+    fn bar(&self, best: &Result<Optimum, DescentError>) -> f64 {
         match best {
             Ok(held) if self.tolerances.trust(best) => {
-                Bar { cost: held.cost.total - MIN_COST_ADVANTAGE * (1.0 + held.cost.total.abs()), gives_up: true }
+                held.cost.total - MIN_COST_ADVANTAGE * (1.0 + held.cost.total.abs())
             }
-            Ok(held) => Bar { cost: held.bar(), gives_up: true },
-            Err(_) => Bar { cost: f64::INFINITY, gives_up: false },
+            Ok(held) => held.bar(),
+            Err(_) => f64::INFINITY,
         }
     }
 }
 
-/// The cheapest motion of each class but the plan's, the cheapest first.
-fn representatives(problem: &Problem, held: Option<(PassingClass, &Optimum)>) -> Vec<Representative> {
+/// The cheapest simple motion of each class but one, the cheapest first; `planned` is what everybody plans so far.
+fn representatives(problem: &Problem, planned: Option<&Iterate>, without: Option<PassingClass>) -> Vec<Representative> {
     let mut found: Vec<Representative> = Vec::new();
-    for_each_motion(problem, held.map(|(_, optimum)| &optimum.iterate), |iterate| {
+    for_each_motion(problem, planned, |iterate| {
         let class = PassingClass::of(problem, iterate);
-        if held.is_some_and(|(own, _)| own == class) {
+        if without == Some(class) {
             return;
         }
         let cost = problem.cost(iterate).total;
