@@ -9,7 +9,9 @@ use interplay_planners::game::diagnostics::{
 };
 use interplay_planners::human::Style::{self, Nice, Tough};
 use interplay_planners::predict::constant_velocity;
-use interplay_planners::{Diagnostic, Driver, bayesian, conservative, cooperative, game, idm, negotiation};
+use interplay_planners::{
+    Diagnostic, Driver, PlanEventKind, bayesian, conservative, cooperative, game, idm, negotiation,
+};
 
 const AHEAD: usize = 0;
 const BETWEEN: usize = 1;
@@ -166,7 +168,8 @@ fn what_the_ego_expresses_is_what_the_other_believes_next() {
             let (Some(wanted), Some(slack)) = (value(0, EGO_INTENTION), value(0, EXPRESSION_SLACK)) else { continue };
             let Some(believed) = value(1, EGO_POSTERIOR) else { continue };
             // A new partner has other beliefs.
-            if slack > 1e-4 || pair[1].events.iter().any(|event| event.text.starts_with("plays with")) {
+            if slack > 1e-4 || pair[1].events.iter().any(|event| matches!(event.kind, PlanEventKind::Partner(Some(_))))
+            {
                 continue;
             }
             satisfied += 1;

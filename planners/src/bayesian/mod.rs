@@ -24,7 +24,7 @@ pub use signal::problem;
 pub use value::attraction;
 
 use crate::conservative;
-use crate::diagnostic::{COST, SAFETY_SLACK};
+use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
@@ -108,7 +108,7 @@ impl Bayesian {
             ]);
         }
         diagnostics.extend([COST.is(optimum.cost.total), SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety))]);
-        diagnostics.extend(optimum.runner_up_cost());
+        diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
     }

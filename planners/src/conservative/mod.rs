@@ -10,7 +10,7 @@ mod settings;
 pub(crate) use retreat::{retreat, solve_or_retreat};
 pub use settings::Settings;
 
-use crate::diagnostic::{COST, SAFETY_SLACK};
+use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::solo::{self, Solved};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
@@ -65,7 +65,7 @@ pub(crate) fn answer(Solved { problem, optimum, event }: Solved) -> Plan {
     let cost = &optimum.cost;
     let mut diagnostics: Vec<Diagnostic> =
         vec![COST.is(cost.total), SAFETY_SLACK.is(cost.violation(Violation::Safety))];
-    diagnostics.extend(optimum.runner_up_cost());
+    diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
     diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),

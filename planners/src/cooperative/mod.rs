@@ -24,7 +24,7 @@ pub use problem::{Cooperator, cooperators, problem};
 pub use settings::Settings;
 
 use crate::conservative;
-use crate::diagnostic::{COST, SAFETY_SLACK};
+use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
@@ -100,7 +100,7 @@ impl Cooperative {
             COST.is(optimum.cost.total),
             SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ];
-        diagnostics.extend(optimum.runner_up_cost());
+        diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
         Plan { trajectory, proposal, diagnostics, statistics: optimum.statistics, ..Plan::default() }

@@ -21,14 +21,13 @@ mod proposal;
 mod settings;
 mod state;
 
-pub use acceptance::{Acceptance, printed_acceptance, willingness};
-pub use concession::Concession;
+pub use acceptance::Acceptance;
 pub use persuasion::persuasion;
 pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
 use crate::conservative::{self, Conservative};
-use crate::diagnostic::{COST, SAFETY_SLACK};
+use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::encounter::partner_event;
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
@@ -88,7 +87,7 @@ impl Negotiation {
         };
         self.remember(&optimum, &retreat, partner);
         let mut plan = self.to_plan(&optimum, partner, accepted, persuasion.as_ref());
-        plan.diagnostics.extend(optimum.runner_up_cost());
+        plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         plan.problem = Some(Box::new(problem));

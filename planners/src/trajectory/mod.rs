@@ -19,10 +19,7 @@ pub use iterate::Iterate;
 pub use participant::Participant;
 pub use penalty::Penalty;
 pub use problem::Problem;
-pub use sqp::{
-    DescentError, MIN_COST_ADVANTAGE, Optimiser, Optimum, PassingClass, RunnerUp, Statistics, StepProblem, Tolerances,
-    WarmStart,
-};
+pub use sqp::{DescentError, Optimiser, Optimum, Statistics, StepProblem, Tolerances, WarmStart};
 pub use stage::{
     Costates, Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,
     StateCost, Structured, TrajectoryRow, VehicleStages, kkt,

@@ -35,11 +35,8 @@ impl Participant {
                     self.known_inputs[t]
                 } else {
                     let wanted = guess.get(t).copied().unwrap_or_default();
-                    let [slowest, fastest] = self.speed_bounds(t + 1);
-                    let low = limits.acceleration_min_mps2.max((slowest - speed) / step);
-                    let high = limits.acceleration_max_mps2.min((fastest - speed) / step);
                     Input {
-                        acceleration_mps2: wanted.acceleration_mps2.min(high).max(low),
+                        acceleration_mps2: self.reachable_acceleration(t, speed, wanted.acceleration_mps2),
                         steering_rad: wanted.steering_rad.clamp(-limits.steering_max_rad, limits.steering_max_rad),
                     }
                 };
@@ -47,6 +44,15 @@ impl Participant {
                 input
             })
             .collect()
+    }
+
+    /// The acceleration in step `t`, at a speed, nearest to a wanted one that keeps itself and the next speed within bounds
+    /// \[m/s²\].
+    pub fn reachable_acceleration(&self, t: usize, speed_mps: f64, wanted_mps2: f64) -> f64 {
+        let ([slowest, fastest], step_s) = (self.speed_bounds(t + 1), self.model.step_s());
+        let low = self.limits.acceleration_min_mps2.max((slowest - speed_mps) / step_s);
+        let high = self.limits.acceleration_max_mps2.min((fastest - speed_mps) / step_s);
+        wanted_mps2.min(high).max(low)
     }
 
     /// Bounds on the speed at time `t` \[m/s\]. A vehicle that is out of bounds now (a plant that is not the model may

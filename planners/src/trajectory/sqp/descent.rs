@@ -44,7 +44,12 @@ impl<S: StageSolver> Descent<S> {
         }
         self.search.restart();
         self.steps.problem.linearize(problem, &iterate);
-        Ok(Optimum { iterate, cost, statistics: Statistics { starts: 1, ..Statistics::default() }, runner_up: None })
+        Ok(Optimum {
+            iterate,
+            cost,
+            statistics: Statistics { starts: 1, ..Statistics::default() },
+            runner_up_cost: None,
+        })
     }
 
     /// Begins with what an earlier descent has left, one stage later. Returns whether nothing is left to do.

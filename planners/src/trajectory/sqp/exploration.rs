@@ -1,6 +1,6 @@
 //! Explorations: descents in another class of motion, in search of something cheaper than what is at hand.
 
-use super::optimum::{Optimum, RunnerUp, Statistics};
+use super::optimum::{Optimum, Statistics};
 
 /// What an exploration has to beat.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,13 +30,11 @@ impl Optimum {
     /// Gives way to a cheaper optimum of another class and becomes its runner-up.
     pub(super) fn give_way(&mut self, found: Optimum) {
         let held = std::mem::replace(self, found);
-        let mut work = held.statistics;
-        work.add(&self.statistics);
-        self.statistics = Statistics { residual: self.statistics.residual, ..work };
-        self.runner_up = Some(Box::new(RunnerUp { cost: held.cost.total, iterate: held.iterate }));
+        self.add_work(&held.statistics);
+        self.runner_up_cost = Some(held.cost.total);
     }
 
-    /// Counts the work of an exploration that led nowhere.
+    /// Counts the work of another descent; the residual stays that of this optimum.
     pub(super) fn add_work(&mut self, work: &Statistics) {
         let residual = self.statistics.residual;
         self.statistics.add(work);
@@ -44,10 +42,9 @@ impl Optimum {
     }
 
     /// Notes a dearer optimum of another class, which is the runner-up if there is no cheaper one.
-    pub(super) fn note_rival(&mut self, rival: Optimum) {
+    pub(super) fn note_rival(&mut self, rival: &Optimum) {
         self.add_work(&rival.statistics);
-        if self.runner_up.as_ref().is_none_or(|known| rival.cost.total < known.cost) {
-            self.runner_up = Some(Box::new(RunnerUp { cost: rival.cost.total, iterate: rival.iterate }));
-        }
+        let cost = rival.cost.total;
+        self.runner_up_cost = Some(self.runner_up_cost.map_or(cost, |known| known.min(cost)));
     }
 }

@@ -35,7 +35,6 @@ mod step_solver;
 mod warm_start;
 
 pub use optimiser::Optimiser;
-pub use optimum::{DescentError, Optimum, RunnerUp, Statistics, Tolerances};
-pub use passing_orders::{MIN_COST_ADVANTAGE, PassingClass};
+pub use optimum::{DescentError, Optimum, Statistics, Tolerances};
 pub use step_problem::StepProblem;
 pub use warm_start::WarmStart;

@@ -2,11 +2,10 @@
 
 use thiserror::Error;
 
-use crate::diagnostic::RUNNER_UP_COST;
+use crate::Trajectory;
 use crate::trajectory::cost::Cost;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::stage::StageError;
-use crate::{Diagnostic, Trajectory};
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,17 +58,8 @@ pub struct Optimum {
     pub cost: Cost,
     /// How it was found.
     pub statistics: Statistics,
-    /// The cheapest optimum of another class of motion, if one was looked for and reached.
-    pub runner_up: Option<Box<RunnerUp>>,
-}
-
-/// An optimum of another class of motion than the one that was chosen.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RunnerUp {
-    /// What it costs.
-    pub cost: f64,
-    /// Its inputs and states.
-    pub iterate: Iterate,
+    /// The cost of the cheapest optimum of another class of motion, if one was looked for and reached.
+    pub runner_up_cost: Option<f64>,
 }
 
 /// Why no optimum was found.
@@ -105,11 +95,6 @@ impl Optimum {
     /// What another optimum has to cost less than to replace this one.
     pub(super) fn bar(&self) -> f64 {
         self.cost.total - 1e-9 * (1.0 + self.cost.total.abs())
-    }
-
-    /// The cost of the runner-up, if there is one, as planners report it.
-    pub(crate) fn runner_up_cost(&self) -> Option<Diagnostic> {
-        self.runner_up.as_ref().map(|runner_up| RUNNER_UP_COST.is(runner_up.cost))
     }
 
     /// The motion of one participant.

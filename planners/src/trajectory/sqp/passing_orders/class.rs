@@ -15,13 +15,13 @@ const MAX_ELLIPSES: usize = 16;
 /// begins behind and passes on the left ends at 0, one that passes on the right at 4. Motions of one class can be deformed
 /// into each other without touching a centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PassingClass {
+pub(super) struct PassingClass {
     sectors: [i8; MAX_ELLIPSES],
 }
 
 impl PassingClass {
     /// The class of a motion that was rolled out.
-    pub(super) fn of(problem: &Problem, iterate: &Iterate) -> PassingClass {
+    pub fn of(problem: &Problem, iterate: &Iterate) -> PassingClass {
         let mut class = PassingClass::default();
         for (sector, rows) in class.sectors.iter_mut().zip(ellipses(problem)) {
             *sector = sector_reached(problem.horizon, rows, iterate);

@@ -17,8 +17,6 @@
 mod class;
 mod motions;
 
-pub use class::PassingClass;
-
 use super::exploration::{Bar, Exploration};
 use super::optimiser::Optimiser;
 use super::optimum::{DescentError, Optimum};
@@ -26,10 +24,11 @@ use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
+use class::PassingClass;
 use motions::for_each_motion;
 
 /// Another class replaces the plan at hand if it saves this share of `1 + cost`.
-pub const MIN_COST_ADVANTAGE: f64 = 1e-3;
+const MIN_COST_ADVANTAGE: f64 = 1e-3;
 /// Most classes that are examined for one plan, the cheapest representatives first.
 const MAX_CLASSES: usize = 4;
 /// A plan that costs this multiple of the one before is compared at once: somebody did what was not expected.
@@ -93,7 +92,8 @@ impl<S: StageSolver> Optimiser<S> {
         for Representative { iterate, .. } in representatives(problem, held).into_iter().take(MAX_CLASSES) {
             let bar = self.bar(&best);
             if bar.cost <= 0.0 {
-                // No cost is negative: the plan cannot be beaten by more than the hysteresis.
+                // The plan cannot be beaten by more than the hysteresis: costs are not negative, but with the exact value
+                // of Bayesian replies, which is not compared then.
                 break;
             }
             match (self.explore_class(problem, iterate, bar), &mut best) {
@@ -106,7 +106,7 @@ impl<S: StageSolver> Optimiser<S> {
                 }
                 (Ok(Exploration::Dearer(found)), Ok(held)) => {
                     nearest = nearest.min(found.cost.total);
-                    held.note_rival(found);
+                    held.note_rival(&found);
                 }
                 (Err(DescentError::NotBelow { statistics, expected, .. }), Ok(held)) => {
                     nearest = nearest.min(expected);

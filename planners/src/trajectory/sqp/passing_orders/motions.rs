@@ -1,15 +1,14 @@
 //! Simple motions: the representatives of the classes.
 //!
 //! A vehicle brakes, keeps its speed or accelerates as hard as it can, and steers to its goal's lateral position or keeps its
-//! own; or it keeps its speed and passes an ellipse on the left or on the right, where the road is wide enough. Of several deciding vehicles one after the other does each of these while the others go on as planned, brake, or
-//! accelerate.
+//! own; or it keeps its speed and passes an ellipse on the left or on the right, where the road is wide enough. Of several
+//! deciding vehicles one after the other does each of these while the others go on as planned, brake, or accelerate.
 
 use crate::trajectory::iterate::Iterate;
-use crate::trajectory::participant::Participant;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::terms::{Term, Tracking};
 use crate::vehicle::SteeringGeometry;
-use crate::{Axes, Input, State};
+use crate::{Axes, Input, State, Trajectory};
 
 /// Accelerations as shares of the strongest braking and acceleration.
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
@@ -23,22 +22,15 @@ const SIDE_CLEARANCE_RATIO: f64 = 1.05;
 /// An ellipse lies along the vehicle's road if the sine of the angle between them is below this.
 const MAX_PARALLEL_SIN: f64 = 0.1;
 
-/// Inputs and states of one vehicle.
-#[derive(Clone, Debug)]
-struct Motion {
-    inputs: Vec<Input>,
-    states: Vec<State>,
-}
-
 /// Calls `visit` with every combination of simple motions. `planned` is the motion that everybody plans so far.
 pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut visit: impl FnMut(&Iterate)) {
     let count = problem.participants.len();
-    let planned: Vec<Motion> = (0..count).map(|vehicle| planned_motion(problem, planned, vehicle)).collect();
+    let planned: Vec<Trajectory> = (0..count).map(|vehicle| planned_motion(problem, planned, vehicle)).collect();
     let mut joint = Iterate {
         inputs: planned.iter().map(|motion| motion.inputs.clone()).collect(),
         states: planned.iter().map(|motion| motion.states.clone()).collect(),
     };
-    let set = |joint: &mut Iterate, vehicle: usize, motion: &Motion| {
+    let set = |joint: &mut Iterate, vehicle: usize, motion: &Trajectory| {
         joint.inputs[vehicle].clone_from(&motion.inputs);
         joint.states[vehicle].clone_from(&motion.states);
     };
@@ -64,21 +56,15 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
 }
 
 /// The motion that a vehicle plans so far; without a plan it keeps its speed.
-fn planned_motion(problem: &Problem, planned: Option<&Iterate>, vehicle: usize) -> Motion {
+fn planned_motion(problem: &Problem, planned: Option<&Iterate>, vehicle: usize) -> Trajectory {
     match planned {
-        Some(planned) => Motion { inputs: planned.inputs[vehicle].clone(), states: planned.states[vehicle].clone() },
-        None => simple_motion(problem, vehicle, 0.0, false).unwrap_or_else(|| {
-            let participant = &problem.participants[vehicle];
-            let inputs = participant.admissible(&[], problem.horizon);
-            let mut states = Vec::new();
-            participant.model.roll_out(&participant.start, &inputs, &mut states);
-            Motion { inputs, states }
-        }),
+        Some(planned) => planned.trajectory(vehicle),
+        None => simple_motion(problem, vehicle, 0.0, false).unwrap_or_else(|| problem.start(&[]).trajectory(vehicle)),
     }
 }
 
 /// The simple motions of one vehicle.
-fn motions(problem: &Problem, vehicle: usize) -> Vec<Motion> {
+fn motions(problem: &Problem, vehicle: usize) -> Vec<Trajectory> {
     let ways = ACCELERATION_SHARES.into_iter().flat_map(|share| [(share, true), (share, false)]);
     let straight = ways.filter_map(|(share, to_goal)| simple_motion(problem, vehicle, share, to_goal));
     let beside = laterals_beside(problem, vehicle);
@@ -114,7 +100,7 @@ fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
 
 /// A share of the strongest acceleration (of the strongest braking where it is negative) and the lateral position of the goal
 /// or of now; nothing for a vehicle without a goal, or where the two positions are the same.
-fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -> Option<Motion> {
+fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -> Option<Trajectory> {
     let participant = &problem.participants[vehicle];
     let tracking = tracking(problem, vehicle)?;
     let across = |state: &State| tracking.axes.components(state.position())[1];
@@ -128,7 +114,7 @@ fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -
 }
 
 /// A share of the strongest acceleration, and a lateral position.
-fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> Option<Motion> {
+fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> Option<Trajectory> {
     let participant = &problem.participants[vehicle];
     let tracking = tracking(problem, vehicle)?;
     let across = |state: &State| tracking.axes.components(state.position())[1];
@@ -148,23 +134,14 @@ fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> O
     states.push(state);
     for t in 0..problem.horizon {
         let input = participant.known_inputs.get(t).copied().unwrap_or_else(|| Input {
-            acceleration_mps2: reachable(participant, t, &state, share * bound),
+            acceleration_mps2: participant.reachable_acceleration(t, state.speed_mps, share * bound),
             steering_rad: steer(&state),
         });
         state = participant.model.step(&state, &input);
         inputs.push(input);
         states.push(state);
     }
-    Some(Motion { inputs, states })
-}
-
-/// The acceleration nearest to a wanted one that keeps the speed within its bounds.
-fn reachable(participant: &Participant, t: usize, state: &State, wanted_mps2: f64) -> f64 {
-    let ([slowest, fastest], limits) = (participant.speed_bounds(t + 1), &participant.limits);
-    let step = participant.model.step_s();
-    let low = limits.acceleration_min_mps2.max((slowest - state.speed_mps) / step);
-    let high = limits.acceleration_max_mps2.min((fastest - state.speed_mps) / step);
-    wanted_mps2.min(high).max(low)
+    Some(Trajectory { inputs, states })
 }
 
 fn tracking(problem: &Problem, vehicle: usize) -> Option<&Tracking> {
