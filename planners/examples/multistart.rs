@@ -16,11 +16,10 @@ use std::io::Write;
 use std::time::Instant;
 
 use common::Random;
-use common::world::{Vehicle, begin, intersection, lane_change, lane_keeping, ramp_merge};
+use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::diagnostic::COST;
-use interplay_planners::human::Style::{self, Nice, Tough};
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};
-use interplay_planners::{Driver, Input, Plan, bayesian, conservative, cooperative, game, negotiation};
+use interplay_planners::{Driver, Input, Plan};
 
 const STARTS: u64 = 30;
 const SEEDS: u64 = 4;
@@ -73,33 +72,6 @@ fn main() -> std::io::Result<()> {
         *entry = (entry.0 + count, entry.1 + of);
     }
     writeln!(out, "{total:?}")
-}
-
-type Pose = Box<dyn Fn(Driver) -> Vec<Vehicle>>;
-
-fn families() -> Vec<(String, Pose)> {
-    let pairs: [(&str, [Style; 2]); 3] =
-        [("nice-nice", [Nice, Nice]), ("tough-nice", [Tough, Nice]), ("tough-tough", [Tough, Tough])];
-    let mut found: Vec<(String, Pose)> = Vec::new();
-    for (styles, pair) in pairs {
-        found.push((format!("lane-change/{styles}"), Box::new(move |ego| lane_change(ego, pair))));
-        found.push((format!("ramp-merge/{styles}"), Box::new(move |ego| ramp_merge(ego, pair))));
-    }
-    for (style, one, away_m) in [("nice", Nice, 1.9), ("tough", Tough, 1.75)] {
-        found.push((format!("lane-keeping/{style}"), Box::new(move |ego| lane_keeping(ego, one))));
-        found.push((format!("intersection/{style}"), Box::new(move |ego| intersection(ego, one, away_m))));
-    }
-    found
-}
-
-fn egos() -> Vec<Driver> {
-    vec![
-        Driver::Conservative(conservative::Settings::default()),
-        Driver::Negotiation(negotiation::Settings::default()),
-        Driver::Bayesian(bayesian::Settings::default()),
-        Driver::Game(game::Settings::default()),
-        Driver::Cooperative(cooperative::Settings::default()),
-    ]
 }
 
 fn perturb(vehicles: &mut [Vehicle], seed: u64) {

@@ -14,54 +14,26 @@ mod world;
 
 use std::io::Write;
 
-use interplay_planners::human::Style::{self, Nice, Tough};
-use interplay_planners::{Driver, bayesian, conservative, cooperative, game, negotiation};
-use world::{LANES, Run, STEP_S, Vehicle, intersection, lane_change, lane_keeping, ramp_merge, run};
+use interplay_planners::{Driver, game};
+use world::{LANES, Run, STEP_S, egos, families, run};
 
-/// A family with its drivers: name, vehicles for an ego's driver, ticks, and what counts as the outcome.
-struct Family {
-    name: String,
-    pose: Box<dyn Fn(Driver) -> Vec<Vehicle>>,
-    ticks: usize,
-    outcome: fn(&Run) -> String,
-}
-
-fn family(
-    name: &str,
-    ticks: usize,
-    outcome: fn(&Run) -> String,
-    pose: impl Fn(Driver) -> Vec<Vehicle> + 'static,
-) -> Family {
-    Family { name: name.to_owned(), pose: Box::new(pose), ticks, outcome }
-}
-
-fn families() -> Vec<Family> {
-    let pairs: [(&str, [Style; 2]); 3] =
-        [("nice-nice", [Nice, Nice]), ("tough-nice", [Tough, Nice]), ("tough-tough", [Tough, Tough])];
-    let mut found = Vec::new();
-    for (styles, pair) in pairs {
-        found.push(family(&format!("lane-change/{styles}"), 100, merged, move |ego| lane_change(ego, pair)));
-        found.push(family(&format!("ramp-merge/{styles}"), 80, merged, move |ego| ramp_merge(ego, pair)));
+/// How many ticks a family is driven, and what counts as its outcome.
+fn observed(family: &str) -> (usize, fn(&Run) -> String) {
+    match family.split('/').next() {
+        Some("lane-change") => (100, merged),
+        Some("ramp-merge") => (80, merged),
+        Some("lane-keeping") => (70, kept),
+        _ => (70, crossed),
     }
-    for (style, one, away_m) in [("nice", Nice, 1.9), ("tough", Tough, 1.75)] {
-        found.push(family(&format!("lane-keeping/{style}"), 70, kept, move |ego| lane_keeping(ego, one)));
-        let pose = move |ego| intersection(ego, one, away_m);
-        found.push(family(&format!("intersection/{style}"), 70, crossed, pose));
-    }
-    found
 }
 
-/// The planners, with what the recommended settings say about a family.
-fn planners(family: &str) -> Vec<Driver> {
-    let crossing = family.starts_with("intersection");
-    let (accident, slack_weight) = if crossing { (1.0, 50.0) } else { (2.0, 0.5) };
-    vec![
-        Driver::Conservative(conservative::Settings::default()),
-        Driver::Negotiation(negotiation::Settings::default()),
-        Driver::Bayesian(bayesian::Settings::default()),
-        Driver::Game(game::Settings { accident, slack_weight, ..game::Settings::default() }),
-        Driver::Cooperative(cooperative::Settings::default()),
-    ]
+/// The planner with what the recommended settings say about a family.
+fn tuned(ego: Driver, family: &str) -> Driver {
+    let (accident, slack_weight) = if family.starts_with("intersection") { (1.0, 50.0) } else { (2.0, 0.5) };
+    match ego {
+        Driver::Game(settings) => Driver::Game(game::Settings { accident, slack_weight, ..settings }),
+        other => other,
+    }
 }
 
 fn merged(run: &Run) -> String {
@@ -90,8 +62,9 @@ fn main() -> std::io::Result<()> {
         out,
         "| run | outcome | speed m/s | nearest | not found | median ms | p90 ms |\n|---|---|---|---|---|---|---|"
     )?;
-    for Family { name, pose, ticks, outcome } in families() {
-        for driver in planners(&name) {
+    for (name, pose) in families() {
+        let (ticks, outcome) = observed(&name);
+        for driver in egos().map(|ego| tuned(ego, &name)) {
             let full = format!("{name}/{}", driver.kind());
             if !words.is_empty() && !words.iter().any(|word| full.contains(word)) {
                 continue;

@@ -137,11 +137,14 @@ pub const STEPS_AT_SPEED_BOUND: DiagnosticQuantity = steps("steps at a speed bou
 pub const COMMON_QUANTITIES: &[DiagnosticQuantity] =
     &[COST, RUNNER_UP_COST, SAFETY_SLACK, STEPS_AT_ELLIPSE, STEPS_AT_EDGE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND];
 
-/// The panel of a recording that shows all planners together.
-pub const COMMON_PANEL: DiagnosticPanel = DiagnosticPanel {
-    title: "What holds a plan back [steps of it]",
-    quantities: &[STEPS_AT_ELLIPSE, STEPS_AT_EDGE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND],
-};
+/// The panels of a recording that show all planners together: what holds plans back, and what another order would cost.
+pub const COMMON_PANELS: &[DiagnosticPanel] = &[
+    DiagnosticPanel {
+        title: "What holds a plan back [steps of it]",
+        quantities: &[STEPS_AT_ELLIPSE, STEPS_AT_EDGE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND],
+    },
+    DiagnosticPanel { title: "Cost of the plan and of its runner-up [–]", quantities: &[COST, RUNNER_UP_COST] },
+];
 
 const fn steps(name: &'static str) -> DiagnosticQuantity {
     DiagnosticQuantity::new(name, "steps", ValueSet::Count)

@@ -11,6 +11,7 @@ use crate::game::{self, Game};
 use crate::human::{self, Human};
 use crate::idm::{self, Idm};
 use crate::negotiation::{self, Negotiation};
+use crate::passing_order::PassingOrderLog;
 use crate::scripted::{self, Scripted};
 use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
 
@@ -38,38 +39,38 @@ pub enum Driver {
 
 /// A driver at work: its settings and all that it remembers.
 #[derive(Clone, Debug)]
-pub enum Planner {
-    /// See [`Human`].
+pub struct Planner {
+    method: Method,
+    passing_orders: PassingOrderLog,
+}
+
+/// How a planner finds its plans.
+#[derive(Clone, Debug)]
+enum Method {
     Human(Human),
-    /// See [`Idm`].
     Idm(Idm),
-    /// See [`Scripted`].
     Scripted(Scripted),
-    /// See [`Conservative`].
     Conservative(Conservative),
-    /// See [`Negotiation`].
     Negotiation(Box<Negotiation>),
-    /// See [`Bayesian`].
     Bayesian(Box<Bayesian>),
-    /// See [`Game`].
     Game(Box<Game>),
-    /// See [`Cooperative`].
     Cooperative(Box<Cooperative>),
 }
 
 impl Driver {
     /// A planner of this kind that has not planned yet.
     pub fn planner(&self) -> Planner {
-        match self {
-            Driver::Human(settings) => Planner::Human(Human::new(*settings)),
-            Driver::Idm(settings) => Planner::Idm(Idm::new(*settings)),
-            Driver::Scripted(settings) => Planner::Scripted(Scripted::new(settings.clone())),
-            Driver::Conservative(settings) => Planner::Conservative(Conservative::new(*settings)),
-            Driver::Negotiation(settings) => Planner::Negotiation(Box::new(Negotiation::new(*settings))),
-            Driver::Bayesian(settings) => Planner::Bayesian(Box::new(Bayesian::new(*settings))),
-            Driver::Game(settings) => Planner::Game(Box::new(Game::new(*settings))),
-            Driver::Cooperative(settings) => Planner::Cooperative(Box::new(Cooperative::new(*settings))),
-        }
+        let method = match self {
+            Driver::Human(settings) => Method::Human(Human::new(*settings)),
+            Driver::Idm(settings) => Method::Idm(Idm::new(*settings)),
+            Driver::Scripted(settings) => Method::Scripted(Scripted::new(settings.clone())),
+            Driver::Conservative(settings) => Method::Conservative(Conservative::new(*settings)),
+            Driver::Negotiation(settings) => Method::Negotiation(Box::new(Negotiation::new(*settings))),
+            Driver::Bayesian(settings) => Method::Bayesian(Box::new(Bayesian::new(*settings))),
+            Driver::Game(settings) => Method::Game(Box::new(Game::new(*settings))),
+            Driver::Cooperative(settings) => Method::Cooperative(Box::new(Cooperative::new(*settings))),
+        };
+        Planner { method, passing_orders: PassingOrderLog::default() }
     }
 
     /// The word for this kind of driver in a scenario file.
@@ -128,6 +129,20 @@ impl Driver {
         }
     }
 
+    /// Whether the driver takes notice of vehicles outside its own lane, so that it can be asked to give way. IDM drivers
+    /// see the vehicle ahead only, and scripted ones nobody.
+    pub fn can_be_asked(&self) -> bool {
+        match self {
+            Driver::Idm(_) | Driver::Scripted(_) => false,
+            Driver::Human(_)
+            | Driver::Conservative(_)
+            | Driver::Negotiation(_)
+            | Driver::Bayesian(_)
+            | Driver::Game(_)
+            | Driver::Cooperative(_) => true,
+        }
+    }
+
     /// Checks settings that depend on each other or on the horizon.
     ///
     /// # Errors
@@ -159,20 +174,24 @@ impl Driver {
 }
 
 impl Planner {
-    /// Plans the next move.
+    /// Plans the next move, and says of a plan with a problem how it passes the others.
     ///
     /// # Errors
     /// [`PlanError`] if there is no plan; the caller falls back.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        match self {
-            Planner::Human(planner) => planner.plan(scene),
-            Planner::Idm(planner) => planner.plan(scene),
-            Planner::Scripted(planner) => planner.plan(scene),
-            Planner::Conservative(planner) => planner.plan(scene),
-            Planner::Negotiation(planner) => planner.plan(scene),
-            Planner::Bayesian(planner) => planner.plan(scene),
-            Planner::Game(planner) => planner.plan(scene),
-            Planner::Cooperative(planner) => planner.plan(scene),
+        let mut plan = match &mut self.method {
+            Method::Human(planner) => planner.plan(scene),
+            Method::Idm(planner) => planner.plan(scene),
+            Method::Scripted(planner) => planner.plan(scene),
+            Method::Conservative(planner) => planner.plan(scene),
+            Method::Negotiation(planner) => planner.plan(scene),
+            Method::Bayesian(planner) => planner.plan(scene),
+            Method::Game(planner) => planner.plan(scene),
+            Method::Cooperative(planner) => planner.plan(scene),
+        }?;
+        if plan.problem.is_some() {
+            self.passing_orders.note(scene, &mut plan);
         }
+        Ok(plan)
     }
 }

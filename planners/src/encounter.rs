@@ -7,7 +7,7 @@
 use crate::{Agent, PlanEvent, PlanEventKind, Scene};
 
 /// Paths that meet at a smaller angle than this run side by side \[rad\].
-const PARALLEL_RAD: f64 = 0.1;
+pub(crate) const PARALLEL_RAD: f64 = 0.1;
 
 /// Whether the order of two vehicles is settled; one on the same road is if it is ahead by `clear_lead_m` in the lane that
 /// the ego wants.

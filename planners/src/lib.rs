@@ -9,6 +9,7 @@
 //! - [`predict`]: what the others will do
 //! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`conservative`], [`cooperative`], [`negotiation`],
 //!   [`bayesian`], [`game`]; [`Driver`] lists them
+//! - [`passing_order`]: before or behind whom a plan leads
 //! - [`trajectory`]: one trajectory optimiser
 //! - [`traffic`]: the closed loop of all vehicles on a road
 //!
@@ -30,6 +31,7 @@ pub mod game;
 pub mod human;
 pub mod idm;
 pub mod negotiation;
+pub mod passing_order;
 mod plan;
 pub mod predict;
 pub mod road;
@@ -44,6 +46,7 @@ pub mod vehicle;
 pub use diagnostic::Diagnostic;
 pub use driver::{Driver, Planner};
 pub use driver_setting::DriverSettingError;
+pub use passing_order::{PassingOrder, PassingPosition};
 pub use plan::{Plan, PlanError, PlanEvent, PlanEventKind, Proposal};
 pub use road::{Axes, Corridor, LaneEnd};
 pub use scene::{Agent, Goal, Scene};

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::Trajectory;
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
+use crate::passing_order::PassingOrder;
 use crate::trajectory::{DescentError, Problem, StageError, Statistics};
 
 /// What a vehicle will do, what it asks of another, and why.
@@ -13,6 +14,8 @@ pub struct Plan {
     pub trajectory: Trajectory,
     /// What the planner asks of another vehicle.
     pub proposal: Option<Proposal>,
+    /// How it passes the other vehicles that it comes near; of plans that keep out of ellipses.
+    pub passing_orders: Vec<PassingOrder>,
     /// Numbers that explain it, in a fixed order for one planner.
     pub diagnostics: Vec<Diagnostic>,
     /// What happened in this step.
@@ -39,6 +42,8 @@ pub enum PlanEventKind {
     Partner(Option<String>),
     /// The planner's own problem has no solution, and the plan is the conservative one.
     Retreat,
+    /// The plan passes another vehicle in an order that is new or has changed.
+    PassingOrder(PassingOrder),
     /// Any other event.
     Note,
 }

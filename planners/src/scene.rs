@@ -24,6 +24,8 @@ pub struct Agent {
     pub prediction: Trajectory,
     /// What it wants, if it tells: vehicles that cooperate share their goals.
     pub shared_goal: Option<Goal>,
+    /// Whether its driver may give way to somebody outside its own lane ([`Driver::can_be_asked`](crate::Driver::can_be_asked)).
+    pub can_be_asked: bool,
 }
 
 /// What a vehicle wants and how it weighs it.
@@ -109,7 +111,12 @@ impl Scene {
         vec![
             Term::Comfort(Comfort { vehicle, weights: goal.comfort }),
             Term::Tracking(Tracking { vehicle, weights: goal.tracking, axes: goal.axes(), targets }),
-            Term::RoadEdge(RoadEdge { vehicle, body: self.ego.body, corridor: self.ego.corridor }),
+            Term::RoadEdge(RoadEdge {
+                vehicle,
+                body: self.ego.body,
+                corridor: self.ego.corridor,
+                penalty: Penalty::ROAD_EDGE,
+            }),
         ]
     }
 

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::world::{HORIZON, Run, STEP_S, Vehicle, human, intersection, lane_change, ramp_merge, run};
+use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, egos, human, intersection, lane_change, ramp_merge, run};
 use interplay_planners::diagnostic::{COMMON_QUANTITIES, DiagnosticQuantity, Explanation, RUNNER_UP_COST};
 use interplay_planners::game::diagnostics::{
     ACCIDENT_PAYOFF, EGO_INTENTION, EGO_PAYOFFS, EGO_POSTERIOR, EGO_TEMPTATION, EXPRESSION_SLACK, OTHER_TEMPTATION,
@@ -10,7 +10,7 @@ use interplay_planners::game::diagnostics::{
 use interplay_planners::human::Style::{self, Nice, Tough};
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{
-    Diagnostic, Driver, PlanEventKind, bayesian, conservative, cooperative, game, idm, negotiation,
+    Diagnostic, Driver, PassingPosition, PlanEventKind, bayesian, conservative, cooperative, game, idm, negotiation,
 };
 
 const AHEAD: usize = 0;
@@ -260,5 +260,21 @@ fn declarations_of_diagnostics_are_sound() {
             let first = units.next().expect("a plot has a curve");
             assert!(units.all(|unit| unit == first), "{kind}: units of {}", plot.title);
         }
+    }
+}
+
+/// Every planner says ahead of or behind whom its plans lead, the last time as it then happens, and an event tells of it.
+#[test]
+fn plans_say_in_which_order_they_pass() {
+    for (ego, style) in egos().into_iter().flat_map(|ego| [(ego.clone(), Nice), (ego, Tough)]) {
+        let name = format!("{} before a {style:?} driver", ego.kind());
+        let run = sound(run(intersection(ego, style, 1.965), 60));
+        let last = run.plans.iter().rev().find_map(|plan| plan.passing_orders.first()).expect("an order");
+        let [own, other] = [run.first(0, |at| at.x_m > 0.0), run.first(1, |at| at.y_m > LANES[0])];
+        let goes_first = own.expect("the ego crosses") < other.expect("the other crosses");
+        let happened = if goes_first { PassingPosition::Ahead } else { PassingPosition::Behind };
+        assert_eq!((last.of.as_str(), last.position), ("crossing", happened), "{name}");
+        let mut events = run.plans.iter().flat_map(|plan| &plan.events);
+        assert!(events.any(|event| event.kind == PlanEventKind::PassingOrder(last.clone())), "{name}: no event");
     }
 }

@@ -2,20 +2,12 @@
 
 mod common;
 
-use common::world::{LANES, lane_change, run, vehicle};
+use std::collections::BTreeSet;
+
+use common::world::{LANES, egos, intersection, lane_change, run, vehicle};
 use interplay_planners::human::Style::Nice;
 use interplay_planners::scripted::Order;
-use interplay_planners::{Driver, bayesian, conservative, cooperative, game, idm, negotiation, scripted};
-
-fn planners() -> [Driver; 5] {
-    [
-        Driver::Conservative(conservative::Settings::default()),
-        Driver::Negotiation(negotiation::Settings::default()),
-        Driver::Bayesian(bayesian::Settings::default()),
-        Driver::Game(game::Settings::default()),
-        Driver::Cooperative(cooperative::Settings::default()),
-    ]
-}
+use interplay_planners::{Driver, human, idm, negotiation, scripted};
 
 fn idm() -> Driver {
     Driver::Idm(idm::Settings::default())
@@ -23,7 +15,7 @@ fn idm() -> Driver {
 
 #[test]
 fn every_planner_merges_among_drivers_after_the_model() {
-    for planner in planners() {
+    for planner in egos() {
         let name = planner.kind();
         let mut vehicles = lane_change(planner, [Nice, Nice]);
         vehicles[1].drive(idm());
@@ -53,7 +45,7 @@ fn drivers_after_the_model_change_lanes_among_themselves() {
 fn everybody_copes_with_a_script() {
     let brakes = Order { from_s: 1.0, speed_mps: Some(0.2), acceleration_mps2: None, lateral_m: None };
     let goes_on = Order { from_s: 4.0, speed_mps: Some(1.0), acceleration_mps2: Some(0.5), lateral_m: None };
-    for planner in planners().into_iter().chain([idm()]) {
+    for planner in egos().into_iter().chain([idm()]) {
         let name = planner.kind();
         let script = Driver::Scripted(scripted::Settings { script: vec![goes_on, brakes] });
         let steady = [0.0, 4.0, 1.0, 1.0];
@@ -66,5 +58,39 @@ fn everybody_copes_with_a_script() {
         assert!(run.failures.is_empty(), "{name}: {:?}", run.failures);
         let slowest = run.states.iter().map(|states| states[1].speed_mps).fold(f64::INFINITY, f64::min);
         assert!((slowest - 0.2).abs() < 1e-9, "the script was not followed");
+    }
+}
+
+/// Who drives after the model sees nobody outside its lane: a negotiator asks it for nothing, but the human behind it.
+#[test]
+fn a_negotiator_asks_nobody_who_cannot_see_it() {
+    let negotiator = Driver::Negotiation(negotiation::Settings::default());
+    let asked = |drivers: [Option<Driver>; 2]| {
+        let mut vehicles = lane_change(negotiator.clone(), [Nice, Nice]);
+        for (vehicle, driver) in vehicles[1..].iter_mut().zip(drivers) {
+            driver.into_iter().for_each(|driver| vehicle.drive(driver));
+        }
+        let plans = run(vehicles, 10).plans;
+        let asked: BTreeSet<String> = plans.into_iter().filter_map(|plan| Some(plan.proposal?.to)).collect();
+        asked.into_iter().collect::<Vec<_>>()
+    };
+    assert_eq!(asked([None, None]), ["front"]);
+    assert_eq!(asked([Some(idm()), None]), ["rear"]);
+    assert!(asked([Some(idm()), Some(idm())]).is_empty());
+}
+
+/// A crossing driver who hesitates changes its plan by leaps, so that the ego has little room: it may have to brake hard,
+/// but it does not leave the road.
+#[test]
+fn before_a_hesitating_driver_the_ego_stays_on_the_road() {
+    for hesitation_s in [0.5, 0.8, 1.0, 1.5] {
+        let mut vehicles = intersection(Driver::Negotiation(negotiation::Settings::default()), Nice, 1.965);
+        let settings =
+            human::Settings { style: Some(Nice), reaction_s: 1.0, hesitation_s, ..human::Settings::default() };
+        vehicles[1].drive(Driver::Human(settings));
+        let (corridor, body) = (vehicles[0].agent.corridor, vehicles[0].agent.body);
+        let run = run(vehicles, 60);
+        let beyond = run.states.iter().filter(|states| !corridor.contains(&body, &states[0], 2e-3)).count();
+        assert_eq!(beyond, 0, "off the road at {beyond} ticks, hesitation {hesitation_s} s");
     }
 }

@@ -3,15 +3,17 @@
 //! By now every key has the right type and range; the tree says where each is written.
 
 mod building;
+mod checker;
 pub(crate) mod counterfactual;
 
 use interplay_building::nearest::suggestion;
 use interplay_planners::State;
 
-use crate::error::{Fault, Place, quoted};
+use crate::error::{Fault, quoted};
 use crate::road::{Branch, Road};
 use crate::scenario::{Scenario, Vehicle};
 use crate::tree::TomlNode;
+use checker::Checker;
 
 /// The most ticks a run may take.
 const MAX_TICKS: f64 = 100_000.0;
@@ -22,7 +24,7 @@ const ROUNDING_M: f64 = 1e-9;
 
 /// Everything that does not fit together.
 pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
-    let mut checker = Checker { scenario, tree, faults: Vec::new() };
+    let mut checker = Checker::new(scenario, tree);
     checker.times();
     checker.names();
     checker.road();
@@ -38,23 +40,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     checker.faults
 }
 
-struct Checker<'a> {
-    scenario: &'a Scenario,
-    tree: &'a TomlNode,
-    faults: Vec<Fault>,
-}
-
 impl Checker<'_> {
-    fn place(&self, path: &str) -> &Place {
-        self.tree.place_of(path)
-    }
-
-    /// Records a fault with the value at a path.
-    fn refuse(&mut self, path: &str, label: &str, message: String, help: &str) {
-        let fault = Fault::at(self.place(path), label, message);
-        self.faults.push(if help.is_empty() { fault } else { fault.help(help) });
-    }
-
     fn times(&mut self) {
         let Scenario { duration_s, step_s, .. } = *self.scenario;
         if duration_s < step_s {

@@ -91,11 +91,29 @@ fn flags_hold_for_counterfactuals_too() {
     let text = fs::read_to_string(folder.join("my.toml")).expect("written");
     let setting = text.replace("planner = 'conservative'", "set = { vehicle.ego.driver.persuasion = false }");
     fs::write(folder.join("my.toml"), setting).expect("a scratch file can be written");
-    let outcome = run_file(&folder, &["--planner", "idm", "--json"]);
+    let outcome = run_file(&folder, &["--set", "vehicle.ego.driver={ kind = \"idm\" }", "--json"]);
     assert_eq!(outcome.json()["counterfactuals"], json!([]));
     assert!(
         outcome.stderr.starts_with("the counterfactual \"who asks <nobody>\" does not fit the flags: unknown key ")
     );
+}
+
+/// Counterfactuals are claims about the file's own planner: with another one they are not judged, and one line says so.
+#[test]
+fn another_planner_leaves_counterfactuals_out() {
+    let folder = scratch("counterfactual-planner");
+    write(&folder, "my.toml", "order_differs = true");
+    assert_eq!(run_file(&folder, &["--json"]).json()["counterfactuals"].as_array().map(Vec::len), Some(1));
+    for planner in ["conservative", "idm"] {
+        let outcome = run_file(&folder, &["--planner", planner, "--json"]);
+        let report = outcome.json();
+        assert_eq!(report["counterfactuals"], json!([]), "{planner}");
+        assert!(report["passed"].is_boolean() && !report["expectations"].as_array().expect("a list").is_empty());
+        let said =
+            "counterfactuals are left out: they are claims about the scenario's own planner, not that of --planner\n";
+        assert_eq!(outcome.stderr, said, "{planner}");
+        assert!(!run_file(&folder, &["--planner", planner]).stdout.contains("counterfactual"));
+    }
 }
 
 #[test]

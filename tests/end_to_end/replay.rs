@@ -25,6 +25,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         corridor: scenario.road.corridor(vehicle.road),
         prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now),
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
+        can_be_asked: vehicle.driver.can_be_asked(),
     })
     .collect()
 }

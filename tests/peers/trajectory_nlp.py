@@ -72,7 +72,7 @@ def shape_of(problem):
 class Programme:
     """The non-linear programme of one shape."""
 
-    EXACT = (1e3, 1e3)
+    ROAD_EDGE = (2e3, 2e3)
     #: Smooths the tip of a distance.
     TIP = 1e-4
 
@@ -137,7 +137,7 @@ class Programme:
             if t >= known:
                 corners = clearances(x, body, road, lane_end)
                 for c in range(4):
-                    self.soft(corners[c], self.EXACT)
+                    self.soft(corners[c], self.ROAD_EDGE)
             states.append(x)
             inputs.append(u)
             previous = u

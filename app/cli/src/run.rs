@@ -96,7 +96,7 @@ impl Run {
 
     fn run_once(&self) -> ExitStatus {
         let scenario = match load(self.scenario(), &self.overrides()) {
-            Ok(scenario) => scenario,
+            Ok(scenario) => self.without_foreign_claims(scenario),
             Err(error) => {
                 print_load_error(error);
                 return ExitStatus::BadInput;
@@ -129,6 +129,17 @@ impl Run {
                 ExitStatus::Unfinished
             }
         }
+    }
+
+    /// The scenario without its counterfactuals if a flag replaces the planner: they are claims about the file's own planner.
+    fn without_foreign_claims(&self, scenario: Scenario) -> Scenario {
+        if self.planner.is_none() || scenario.counterfactuals.is_empty() && scenario.left_out.is_empty() {
+            return scenario;
+        }
+        print_error(
+            "counterfactuals are left out: they are claims about the scenario's own planner, not that of --planner",
+        );
+        Scenario { counterfactuals: Vec::new(), changed: Vec::new(), left_out: Vec::new(), ..scenario }
     }
 
     /// What is run, as it was asked for.

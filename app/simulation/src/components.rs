@@ -49,6 +49,8 @@ pub struct VehicleGoal {
 /// Who drives a vehicle, with all that the planner remembers.
 #[derive(Component, Clone, Debug)]
 pub struct Driving {
+    /// Whether others can ask it to give way.
+    pub can_be_asked: bool,
     /// The planner.
     pub planner: Planner,
     /// Whether it plans before those who rely on knowing its plan.

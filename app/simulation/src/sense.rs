@@ -28,6 +28,7 @@ pub fn sense(
             corridor: parameters.corridor,
             prediction: Trajectory::default(),
             shared_goal: objective.shared,
+            can_be_asked: driving.can_be_asked,
         },
         goal: objective.goal,
         goes_first: driving.goes_first,

@@ -37,7 +37,11 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
                 corridor: scenario.road.corridor(vehicle.road),
             },
             VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
-            Driving { planner: vehicle.driver.planner(), goes_first: vehicle.driver.goes_first() },
+            Driving {
+                can_be_asked: vehicle.driver.can_be_asked(),
+                planner: vehicle.driver.planner(),
+                goes_first: vehicle.driver.goes_first(),
+            },
             Committed::default(),
             VehicleBody(handle),
         ));

@@ -22,11 +22,12 @@ use std::error::Error;
 use std::io::Write;
 
 use interplay_planners::trajectory::{Problem, Term};
-use interplay_planners::{Driver, Input, Trajectory, conservative, negotiation};
+use interplay_planners::{Driver, Input, Trajectory};
 
 use closed_loop::{Decision, SCENARIOS};
 use recorded::{KINDS, Recorded};
 use replay::WarmStartReplay;
+use world::egos;
 
 /// How many problems of each kind are kept.
 const KEPT: [usize; KINDS.len()] = [200, 200, 200, 100, 100, 100];
@@ -72,16 +73,6 @@ fn main() -> Result<()> {
         writeln!(std::io::stdout(), "{kind}: {} of {all} problems kept, {bytes} bytes", kept.len())?;
     }
     Ok(())
-}
-
-fn egos() -> [Driver; 5] {
-    [
-        Driver::Conservative(conservative::Settings::default()),
-        Driver::Negotiation(negotiation::Settings::default()),
-        Driver::Bayesian(Default::default()),
-        Driver::Game(Default::default()),
-        Driver::Cooperative(Default::default()),
-    ]
 }
 
 /// The problem of a decision that is worth recording. Of the planners that interact only steps are kept at which they do: at the

@@ -76,7 +76,7 @@ impl Bayesian {
         self.last = Some(trajectory.clone());
         let events = choice.event("persuades", "to persuade").into_iter().chain(event).collect();
         let (problem, statistics) = (Some(Box::new(problem)), optimum.statistics);
-        Ok(Plan { trajectory, proposal: None, diagnostics, events, problem, statistics })
+        Ok(Plan { trajectory, diagnostics, events, problem, statistics, ..Plan::default() })
     }
 
     /// Updates the belief about the vehicle to persuade.

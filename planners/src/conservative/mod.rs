@@ -69,10 +69,10 @@ pub(crate) fn answer(Solved { problem, optimum, event }: Solved) -> Plan {
     diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),
-        proposal: None,
         diagnostics,
         events: event.into_iter().collect(),
         problem: Some(Box::new(problem)),
         statistics: optimum.statistics,
+        ..Plan::default()
     }
 }

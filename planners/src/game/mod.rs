@@ -129,7 +129,7 @@ impl Game {
         self.last = Some(trajectory.clone());
         let events = choice.event("plays with", "to play with").into_iter().chain(event).collect();
         let (problem, statistics) = (Some(Box::new(problem)), optimum.statistics);
-        Ok(Plan { trajectory, proposal: None, diagnostics, events, problem, statistics })
+        Ok(Plan { trajectory, diagnostics, events, problem, statistics, ..Plan::default() })
     }
 
     /// Renews both beliefs; returns what the next belief about the ego will be judged by.

@@ -5,7 +5,7 @@
 //! ```text
 //! tracking       Σ_{t=1…N} ‖x_t − x_des‖²_Q                            eq. 6.6
 //! comfort        Σ_{t=0…N−1} ‖u_t − u_{t−1}‖²_R                        eq. 6.6
-//! road edges     Σ 10³ (q + q²), q how far a corner is off the road    eq. 6.7, soft
+//! road edges     Σ 2·10³ (q + q²), q how far a corner is off the road    eq. 6.7, soft
 //! yielding       w Σ_{t=1…N} max(0, 1 − d²(p_t, q_t))²                 per vehicle that might cut in or cross
 //! following      w_f Σ_{t=1…N} max(0, 1 − d²(p_t, l_t))²               the vehicle ahead in the same lane
 //! firm wall      Σ_{t=1…N} 10³ (q + q²), q = max(0, 1 − d_f²(p_t, l_t))  the same vehicle

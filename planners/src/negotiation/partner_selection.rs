@@ -3,7 +3,8 @@
 //! The source asks the front vehicle first and the rear one when the acceptance probability has not risen by more than
 //! `ε` five times in a row (section 6.5). That also happens at steady acceptance, so a low probability is required too. A
 //! vehicle with which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has
-//! crossed, or that the ego has crossed before.
+//! crossed, or that the ego has crossed before. A driver who takes notice of nobody outside its own lane is never asked:
+//! the ego keeps out of its predicted way.
 
 use super::settings::Settings;
 use crate::encounter::is_settled;
@@ -40,7 +41,7 @@ impl PartnerSelection {
             .order
             .iter()
             .filter_map(|name| scene.others.iter().find(|other| other.name == *name))
-            .filter(|other| !is_settled(scene, other, settings.clear_lead_m))
+            .filter(|other| other.can_be_asked && !is_settled(scene, other, settings.clear_lead_m))
             .collect();
         // The last one is asked however often it refuses.
         let chosen = open.iter().find(|other| !self.refused.contains(&other.name)).or(open.last()).copied();

@@ -75,6 +75,11 @@ fn partner_terms(scene: &Scene, partner: &Agent, share: f64) -> [Term; 3] {
     [
         Term::Comfort(Comfort { vehicle: 1, weights: [OTHER_COMFORT_WEIGHT; 2] }),
         Term::Tracking(Tracking { vehicle: 1, weights, axes: Axes::WORLD, targets }),
-        Term::RoadEdge(RoadEdge { vehicle: 1, body: partner.body, corridor: partner.corridor }),
+        Term::RoadEdge(RoadEdge {
+            vehicle: 1,
+            body: partner.body,
+            corridor: partner.corridor,
+            penalty: Penalty::ROAD_EDGE,
+        }),
     ]
 }

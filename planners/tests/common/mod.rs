@@ -47,7 +47,7 @@ impl Vehicle {
         let mut terms = vec![
             Term::Comfort(Comfort { vehicle, weights: self.comfort }),
             Term::Tracking(tracking),
-            Term::RoadEdge(RoadEdge { vehicle, body: self.body, corridor: self.corridor }),
+            Term::RoadEdge(RoadEdge { vehicle, body: self.body, corridor: self.corridor, penalty: Penalty::EXACT }),
         ];
         terms.extend(self.keep_outs.iter().map(|keep_out| Term::KeepOut(KeepOut { vehicle, ..keep_out.clone() })));
         terms

@@ -279,7 +279,7 @@ impl Vehicle {
         let mut terms = vec![
             Term::Comfort(Comfort { vehicle, weights: self.comfort }),
             Term::Tracking(Tracking { vehicle, weights: self.weights, axes: Axes::WORLD, targets }),
-            Term::RoadEdge(RoadEdge { vehicle, body: self.body(), corridor }),
+            Term::RoadEdge(RoadEdge { vehicle, body: self.body(), corridor, penalty: Penalty::ROAD_EDGE }),
         ];
         terms.extend(self.keep_outs.iter().map(|of| Term::KeepOut(of.keep_out(vehicle))));
         terms.extend(self.distance_costs.iter().map(|of| Term::DistanceCost(of.distance_cost(vehicle))));

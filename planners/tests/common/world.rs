@@ -9,6 +9,7 @@ use interplay_planners::predict::constant_velocity;
 use interplay_planners::traffic::{Decision, RoadUser, Traffic};
 use interplay_planners::{
     Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Limits, Plan, PlanError, Planner, SafetyEllipse, State,
+    bayesian, conservative, cooperative, game, negotiation,
 };
 
 pub const STEP_S: f64 = 0.1;
@@ -60,6 +61,7 @@ pub fn vehicle(
         corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
         prediction: constant_velocity(&state, HORIZON, STEP_S),
         shared_goal: None,
+        can_be_asked: true,
     };
     let target = State { x_m: 0.0, y_m: wants[0], heading_rad: 0.0, speed_mps: wants[1] };
     let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };
@@ -109,10 +111,44 @@ pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
     vec![ego, human]
 }
 
+/// A family of scenarios: its name, and its vehicles for an ego's driver.
+pub type Family = (String, Box<dyn Fn(Driver) -> Vec<Vehicle>>);
+
+/// Every family with its drivers: lane changes and ramp merges with two humans, lane keeping and intersections with one.
+pub fn families() -> Vec<Family> {
+    let pairs = [
+        ("nice-nice", [Style::Nice, Style::Nice]),
+        ("tough-nice", [Style::Tough, Style::Nice]),
+        ("tough-tough", [Style::Tough, Style::Tough]),
+    ];
+    let mut found: Vec<Family> = Vec::new();
+    for (styles, pair) in pairs {
+        found.push((format!("lane-change/{styles}"), Box::new(move |ego| lane_change(ego, pair))));
+        found.push((format!("ramp-merge/{styles}"), Box::new(move |ego| ramp_merge(ego, pair))));
+    }
+    for (name, style, away_m) in [("nice", Style::Nice, 1.9), ("tough", Style::Tough, 1.75)] {
+        found.push((format!("lane-keeping/{name}"), Box::new(move |ego| lane_keeping(ego, style))));
+        found.push((format!("intersection/{name}"), Box::new(move |ego| intersection(ego, style, away_m))));
+    }
+    found
+}
+
+/// The planners of an ego, with their default settings.
+pub fn egos() -> [Driver; 5] {
+    [
+        Driver::Conservative(conservative::Settings::default()),
+        Driver::Negotiation(negotiation::Settings::default()),
+        Driver::Bayesian(bayesian::Settings::default()),
+        Driver::Game(game::Settings::default()),
+        Driver::Cooperative(cooperative::Settings::default()),
+    ]
+}
+
 /// The vehicles as road users that have not planned yet, and their planners.
 pub fn begin(vehicles: &[Vehicle]) -> (Traffic, Vec<Planner>) {
     let road_user = |Vehicle { agent, goal, driver }: &Vehicle| {
-        let agent = Agent { shared_goal: driver.shared_goal(goal), ..agent.clone() };
+        let agent =
+            Agent { shared_goal: driver.shared_goal(goal), can_be_asked: driver.can_be_asked(), ..agent.clone() };
         RoadUser::new(agent, *goal, driver.goes_first())
     };
     let road_users = vehicles.iter().map(road_user).collect();

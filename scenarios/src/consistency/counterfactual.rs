@@ -1,5 +1,6 @@
 //! The check of what counterfactuals say beside the scenarios that they run.
 
+use super::checker::Checker;
 use crate::counterfactual::Counterfactual;
 use crate::error::{Fault, quoted};
 use crate::expect::{CounterfactualExpect, Expect};
@@ -10,7 +11,7 @@ use interplay_building::nearest::suggestion;
 /// Everything that is wrong with the counterfactuals of a scenario, but for what they change. Unless it is `as_written`, flags
 /// may have removed what they refer to.
 pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, as_written: bool) -> Vec<Fault> {
-    let mut checker = Checker { scenario, tree, faults: Vec::new() };
+    let mut checker = Checker::new(scenario, tree);
     for (index, counterfactual) in scenario.counterfactuals.iter().enumerate() {
         checker.name(index, counterfactual);
         checker.purpose(index, counterfactual, as_written);
@@ -22,24 +23,13 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, as_written: bool) -> V
     checker.faults
 }
 
-struct Checker<'a> {
-    scenario: &'a Scenario,
-    tree: &'a TomlNode,
-    faults: Vec<Fault>,
-}
-
 impl Checker<'_> {
-    fn refuse(&mut self, path: &str, label: &str, message: String, help: impl Into<String>) {
-        let (fault, help) = (Fault::at(self.tree.place_of(path), label, message), help.into());
-        self.faults.push(if help.is_empty() { fault } else { fault.help(help) });
-    }
-
     fn name(&mut self, index: usize, counterfactual: &Counterfactual) {
         let earlier = self.scenario.counterfactuals[..index].iter().position(|other| other.name == counterfactual.name);
         if let Some(first) = earlier {
             let message = format!("two counterfactuals are called {}", quoted(&counterfactual.name));
-            let fault = Fault::at(self.tree.place_of(&format!("counterfactual.{index}.name")), "the second", message);
-            let fault = fault.also(self.tree.place_of(&format!("counterfactual.{first}.name")), "the first");
+            let fault = Fault::at(self.place(&format!("counterfactual.{index}.name")), "the second", message);
+            let fault = fault.also(self.place(&format!("counterfactual.{first}.name")), "the first");
             self.faults.push(fault.help("give each counterfactual a name of its own"));
         }
     }
@@ -76,7 +66,7 @@ impl Checker<'_> {
                     let path = format!("counterfactual.{index}.expect.{key}.{entry}.vehicle");
                     let message = format!("there is no vehicle {}", quoted(&shift.vehicle));
                     let help = suggestion(&shift.vehicle, "the vehicles are", &names);
-                    self.refuse(&path, "unknown vehicle", message, help);
+                    self.refuse(&path, "unknown vehicle", message, &help);
                 }
             }
         }
@@ -90,7 +80,7 @@ impl Checker<'_> {
             if !names.contains(&name.as_str()) {
                 let path = format!("counterfactual.{index}.expect.breaks.{entry}");
                 let message = format!("the scenario's own `[expect]` has no {}", quoted(name));
-                self.refuse(&path, "not expected", message, suggestion(name, "it has", &names));
+                self.refuse(&path, "not expected", message, &suggestion(name, "it has", &names));
             }
         }
     }

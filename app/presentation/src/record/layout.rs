@@ -135,7 +135,7 @@ fn crossing(scenario: &Scenario, centre_m: f64) -> LayoutNode {
 fn whole_road(scenario: &Scenario, road_m: [f64; 2]) -> LayoutNode {
     let view = top_view("The whole road", road_m, [-scenario.road.width_m(), 0.0]);
     let view = scenario.vehicles.iter().fold(view, |view, vehicle| {
-        let parts = ["label", "prediction", "safety"];
+        let parts = ["label", "order", "prediction", "safety"];
         parts.iter().fold(view, |view, part| view.without(&format!("/world/vehicle/{}/{part}", vehicle.name)))
     });
     LayoutNode::View(traced(scenario, view))

@@ -8,6 +8,7 @@
 //! world/vehicle/<name>/{body,label,trace}             where it is and was
 //! world/vehicle/<name>/{plan,prediction,proposal}     what it will do, is expected to do, asks another to do
 //! world/vehicle/<name>/safety                         where the ego keeps out
+//! world/vehicle/<ego>/order                           ahead of or behind whom its plan leads, in words
 //! plots/{speed,acceleration,steering,planner-ms}/<name>
 //! plots/<kind of planner>/<diagnostic>[/<name>]       as letters, digits, `-`; the name if several have that planner
 //! plots/gap                                           the ego's distance to the nearest footprint

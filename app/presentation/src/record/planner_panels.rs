@@ -1,7 +1,7 @@
 //! Panels for the numbers that planners report. The planners declare what they report and what of it belongs together
 //! ([`interplay_planners::diagnostic`]); here that becomes paths, panels and a text.
 
-use interplay_planners::diagnostic::{COMMON_PANEL, DiagnosticPanel, DiagnosticQuantity, Explanation};
+use interplay_planners::diagnostic::{COMMON_PANELS, DiagnosticPanel, DiagnosticQuantity, Explanation};
 use interplay_scenarios::{Scenario, Vehicle};
 
 /// Space above and below a curve that runs along its bound, as a share of the range.
@@ -24,12 +24,12 @@ impl PlannerPanel {
     }
 }
 
-/// The panels of the planners of a scenario, the ego's first, and in the end the one that all planners share.
+/// The panels of the planners of a scenario, the ego's first, and in the end those that all planners share.
 pub fn panels(scenario: &Scenario) -> Vec<PlannerPanel> {
     let own = explanations(scenario).into_iter().flat_map(|(kind, explanation)| {
         explanation.panels.iter().map(move |content| PlannerPanel { kind: Some(kind), content })
     });
-    own.chain([PlannerPanel { kind: None, content: &COMMON_PANEL }]).collect()
+    own.chain(COMMON_PANELS.iter().map(|content| PlannerPanel { kind: None, content })).collect()
 }
 
 /// What to look for in the panels of the planners of a scenario, as Markdown.
@@ -51,7 +51,7 @@ fn explanations(scenario: &Scenario) -> Vec<(&'static str, &'static Explanation)
 
 /// The place of a quantity among those that share its panel.
 pub fn place(explanation: &Explanation, quantity: &DiagnosticQuantity) -> Option<usize> {
-    let mut panels = explanation.panels.iter().chain([&COMMON_PANEL]);
+    let mut panels = explanation.panels.iter().chain(COMMON_PANELS);
     panels.find_map(|panel| panel.quantities.iter().position(|other| other.name == quantity.name))
 }
 

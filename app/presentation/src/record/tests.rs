@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use interplay_planners::diagnostic::{COMMON_PANEL, COST};
+use interplay_planners::diagnostic::{COMMON_PANELS, COST, RUNNER_UP_COST};
 use interplay_planners::negotiation::diagnostics::CONCESSION_WEIGHT;
-use interplay_planners::{Plan, Proposal, State, Trajectory};
+use interplay_planners::{PassingOrder, PassingPosition, Plan, Proposal, State, Trajectory};
 use interplay_scenarios::{Override, Scenario, driver_kinds, load};
 use interplay_simulation::frame::{Event, Level, Origin, VehicleFrame};
 use rerun::log::LogMsg;
@@ -58,6 +58,7 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
                 acceptance: Some(1.0),
             }),
             diagnostics: if asks { vec![CONCESSION_WEIGHT.is(0.5)] } else { vec![COST.is(1.0)] },
+            passing_orders: vec![PassingOrder { of: "rear".to_owned(), position: PassingPosition::Ahead }],
             ..Plan::default()
         };
         let origin = if tick == 7 { Origin::Braking } else { Origin::Planned };
@@ -126,6 +127,7 @@ fn a_recording_has_the_promised_entities_at_every_tick() {
     }
     assert_eq!(rows("/world/vehicle/front/safety"), 10);
     assert!(!entities.contains_key("/world/vehicle/ego/safety"));
+    assert_eq!(rows("/world/vehicle/ego/order"), 10, "whom the ego's plan passes, in words");
     assert_eq!(rows("/world/vehicle/ego/proposal"), 6, "five proposals, and one row that takes the last away");
     assert_eq!(rows("/plots/negotiation/concession-weight"), 5);
     assert_eq!(rows("/plots/human/cost/rear"), 10, "two humans: the name tells them apart");
@@ -206,8 +208,10 @@ fn planners_give_every_number_that_a_panel_shows() {
         let heard = heard.lock().expect("nobody panicked");
         let driver = &scenario.vehicles[0].driver;
         // Drivers that stand for humans do not report what holds their plans back.
-        let common = (!driver.goes_first()).then_some(&COMMON_PANEL);
-        for quantity in driver.explanation().panels.iter().chain(common).flat_map(|panel| panel.quantities) {
+        let common = if driver.goes_first() { &[] } else { COMMON_PANELS };
+        let shown = driver.explanation().panels.iter().chain(common).flat_map(|panel| panel.quantities);
+        // There is a runner-up where an order had a rival only.
+        for quantity in shown.filter(|quantity| **quantity != RUNNER_UP_COST) {
             assert!(heard.contains(quantity.name), "{kind} reports no `{}`: {heard:?}", quantity.name);
         }
     }

@@ -1,6 +1,6 @@
 //! What moves: bodies with their labels, the paths behind them and the lines ahead of them.
 
-use interplay_planners::{Body, State, Trajectory};
+use interplay_planners::{Body, PassingOrder, Plan, State, Trajectory};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
@@ -74,6 +74,7 @@ impl VehicleLayer {
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             drawn.log_tick(stream, vehicle)?;
             if index == self.ego {
+                drawn.log_order(stream, &vehicle.plan)?;
                 let (sin, cos) = drawn.road_heading_rad.sin_cos();
                 let along = vehicle.state.x_m * cos + vehicle.state.y_m * sin;
                 let here = [(along * cos) as f32, (-along * sin) as f32, 0.0];
@@ -103,6 +104,8 @@ impl DrawnVehicle {
         stream.log_static(self.at("trace"), &style(110, 1.5, 3.0))?;
         let plan = LineStrips2D::update_fields().with_radii([Radius::new_ui_points(1.8)]).with_draw_order(4.0);
         stream.log_static(self.at("plan"), &plan)?;
+        let order = Points2D::update_fields().with_colors([self.vehicle_colour.solid()]);
+        stream.log_static(self.at("order"), &order.with_radii([Radius::new_ui_points(0.0)]).with_draw_order(8.0))?;
         let dots = Points2D::update_fields().with_colors([self.vehicle_colour.solid()]);
         stream.log_static(self.at("proposal"), &dots.with_radii([Radius::new_ui_points(2.6)]).with_draw_order(5.0))?;
         let (lines, radius) = filling(&self.body);
@@ -140,6 +143,19 @@ impl DrawnVehicle {
         }
         Ok(())
     }
+
+    /// Writes the passing orders of a plan at its end.
+    fn log_order(&self, stream: &RecordingStream, plan: &Plan) -> RecordingStreamResult<()> {
+        let (words, end) = (order_words(plan), plan.trajectory.states.last());
+        let (ends, words) = end.filter(|_| !words.is_empty()).map(|end| (point(end), words)).into_iter().unzip();
+        let (ends, words): (Vec<[f32; 2]>, Vec<String>) = (ends, words);
+        stream.log(self.at("order"), &Points2D::update_fields().with_positions(ends).with_labels(words))
+    }
+}
+
+/// The passing orders of a plan in words, a line each.
+fn order_words(plan: &Plan) -> String {
+    plan.passing_orders.iter().map(PassingOrder::to_string).collect::<Vec<_>>().join("\n")
 }
 
 fn point(state: &State) -> [f32; 2] {

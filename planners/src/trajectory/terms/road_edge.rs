@@ -18,6 +18,8 @@ pub struct RoadEdge {
     pub body: Body,
     /// The road.
     pub corridor: Corridor,
+    /// What leaving it costs.
+    pub penalty: Penalty,
 }
 
 impl RowTerm for RoadEdge {
@@ -30,7 +32,7 @@ impl RowTerm for RoadEdge {
     }
 
     fn penalty(&self) -> Penalty {
-        Penalty::EXACT
+        self.penalty
     }
 
     fn violation(&self) -> Option<Violation> {
