@@ -1,13 +1,15 @@
 //! How far the outcome of a scenario depends on its exact starts, and what it depends on besides.
 //!
 //! ```sh
-//! cargo run --release -p interplay --example robustness -- [NAME...] [--starts 200] [--set PATH=VALUE]... > table.md
+//! cargo run --release -p interplay --example robustness -- [NAME|FILE...] [--starts 200] [--first-seed 1] \
+//!     [--set PATH=VALUE]... [--arm 'PATH=VALUE[; PATH=VALUE]...']... > table.md
 //! ```
 //!
 //! Every scenario runs once with every seed 1, 2, …: each vehicle starts up to 0.1 m further ahead or behind on its road, and
 //! up to 0.1 m/s faster or slower, drawn from the seed. From the same starts run the scenario's counterfactuals (the
-//! conservative planner, the planner's mechanism off, another driver's style), so outcomes are compared in pairs. Without
-//! names, the scenarios with a figure in chapters 6 to 8 and all ramp merges run.
+//! conservative planner, the planner's mechanism off, another driver's style), so outcomes are compared in pairs; with `--arm`, changes
+//! given on the command line run in their place. Without names, the scenarios with a figure in chapters 6 to 8 and all ramp
+//! merges run.
 //!
 //! The outcome of a run is the place of the ego in the order and whether anybody touches anybody. A place nearer to the front
 //! without contact is better: going first where that is possible is no failure.
@@ -31,13 +33,21 @@ struct Study {
     /// How many starts
     #[arg(long, default_value_t = 200)]
     starts: u64,
+    /// Seed of the first start; the next starts have the seeds after it
+    #[arg(long, default_value_t = 1)]
+    first_seed: u64,
     /// Changes of every scenario, as for `interplay run`
     #[arg(long = "set", value_name = "PATH=VALUE")]
     changes: Vec<String>,
+    /// A change to compare with, in place of the scenario's counterfactuals; may be repeated
+    #[arg(long = "arm", value_name = "PATH=VALUE[; PATH=VALUE]...")]
+    arms: Vec<String>,
 }
 
 /// The largest changes of position and speed.
 const JITTER: [&str; 2] = ["start_jitter.position_m=0.1", "start_jitter.speed_mps=0.1"];
+/// Times of completion that differ by less count as equal: less than a tick \[s\].
+const MIN_DELAY_S: f64 = 0.05;
 /// The quantile of the normal distribution that bounds 95 % on both sides.
 const NORMAL_QUANTILE_95: f64 = 1.959_963_984_540_054;
 
@@ -72,9 +82,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!(
         "| scenario | what is changed | order as in the figure, 95 % interval | ego nearer to the front / further back | p | \
-         touched | smallest gap m | ego done s | failed plans |"
+         ego done sooner / later, median difference s | p | touched | smallest gap m | ego done s | failed plans |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
     for name in &study.names {
         for row in study.rows(name)? {
             println!("{row}");
@@ -99,24 +109,36 @@ impl Study {
     /// A row for the scenario and one for each of its counterfactuals.
     fn rows(&self, name: &str) -> Result<Vec<String>, Box<dyn Error>> {
         let runs: Result<Vec<Vec<Outcome>>, StudyError> =
-            (1..=self.starts).into_par_iter().map(|seed| self.outcomes(name, seed)).collect();
+            (0..self.starts).into_par_iter().map(|start| self.outcomes(name, self.first_seed + start)).collect();
         let runs = runs?;
         let scenario = load(name, &[])?;
-        let changes = scenario.counterfactuals.iter().map(|counterfactual| counterfactual.name.as_str());
+        let stated = scenario.counterfactuals.iter().map(|counterfactual| counterfactual.name.as_str());
+        let changes: Vec<&str> =
+            if self.arms.is_empty() { stated.collect() } else { self.arms.iter().map(String::as_str).collect() };
         let titles = std::iter::once("nothing").chain(changes);
         let arm = |index: usize| runs.iter().map(|run| run[index]).collect::<Vec<Outcome>>();
         let own = arm(0);
         Ok(titles.enumerate().map(|(index, title)| row(name, title, &own, &arm(index))).collect())
     }
 
-    /// The outcomes of one start: the scenario's own, then those of its counterfactuals.
+    /// The outcomes of one start: the scenario's own, then those of its counterfactuals or of the arms.
     fn outcomes(&self, name: &str, seed: u64) -> Result<Vec<Outcome>, StudyError> {
-        let changes = JITTER.iter().copied().chain(self.changes.iter().map(String::as_str));
+        let scenario = self.scenario(name, seed, "")?;
+        let arms: Result<Vec<Scenario>, LoadError> =
+            self.arms.iter().map(|arm| self.scenario(name, seed, arm)).collect();
+        let arms = arms?;
+        let all = std::iter::once(&scenario).chain(&scenario.changed).chain(&arms);
+        all.map(|changed| Ok(Outcome::of(&scenario, &run(name, changed, Vec::new())?))).collect()
+    }
+
+    /// The scenario with perturbed starts and the changes of an arm; without its counterfactuals where there are arms.
+    fn scenario(&self, name: &str, seed: u64, arm: &str) -> Result<Scenario, LoadError> {
+        let only_arms = (!self.arms.is_empty()).then_some("counterfactual=[]");
+        let of_arm = arm.split(';').map(str::trim).filter(|change| !change.is_empty());
+        let changes = JITTER.into_iter().chain(only_arms).chain(self.changes.iter().map(String::as_str)).chain(of_arm);
         let mut overrides: Vec<Override> = changes.map(|change| Override::Set(change.to_owned())).collect();
         overrides.push(Override::Seed(seed));
-        let scenario = load(name, &overrides)?;
-        let all = std::iter::once(&scenario).chain(&scenario.changed);
-        all.map(|changed| Ok(Outcome::of(&scenario, &run(name, changed, Vec::new())?))).collect()
+        load(name, &overrides)
     }
 }
 
@@ -150,7 +172,15 @@ fn row(name: &str, title: &str, own: &[Outcome], arm: &[Outcome]) -> String {
     let nearer = pairs().filter(|(arm, own)| arm.is_better_than(own)).count();
     let further = pairs().filter(|(arm, own)| own.is_better_than(arm)).count();
     let p = sign_test(nearer, further);
-    let comparison = if title == "nothing" { "- | -".to_owned() } else { format!("{nearer} / {further} | {p:.1e}") };
+    let delays_s: Vec<f64> = pairs().filter_map(|(arm, own)| Some(arm.completed_s? - own.completed_s?)).collect();
+    let sooner = delays_s.iter().filter(|delay_s| **delay_s < -MIN_DELAY_S).count();
+    let later = delays_s.iter().filter(|delay_s| **delay_s > MIN_DELAY_S).count();
+    let (delay, p_time) = (median(delays_s), sign_test(sooner, later));
+    let comparison = if title == "nothing" {
+        "- | - | - | -".to_owned()
+    } else {
+        format!("{nearer} / {further} | {p:.1e} | {sooner} / {later}, {delay} | {p_time:.1e}")
+    };
     let touched = arm.iter().filter(|outcome| outcome.touched).count();
     let gap_m = arm.iter().map(|outcome| outcome.gap_m).fold(f64::INFINITY, f64::min);
     let failed: usize = arm.iter().map(|outcome| outcome.failed_plans).sum();
@@ -182,6 +212,14 @@ fn sign_test(nearer: usize, further: usize) -> f64 {
         probability *= (of - count) as f64 / (count + 1) as f64;
     }
     (2.0 * sum).min(1.0)
+}
+
+/// The median with its sign; a dash if there are no values.
+fn median(mut values: Vec<f64>) -> String {
+    values.sort_by(f64::total_cmp);
+    let upper = values.len() / 2;
+    let lower = values.len().saturating_sub(1) / 2;
+    values.get(lower).zip(values.get(upper)).map_or("-".to_owned(), |(a, b)| format!("{:+.1}", 0.5 * (a + b)))
 }
 
 /// The range of some times; a dash if there are none.

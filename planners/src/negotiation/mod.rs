@@ -6,8 +6,8 @@
 //! 2. chooses whom to ask (`partner_selection`);
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`Acceptance`], eq. 6.19);
 //! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
-//! 5. stays nearer to its last proposal than to its retreat, the more the better it was received (`persuasion`,
-//!    eq. 6.20-6.23);
+//! 5. stays nearer to what it first proposed than to its first retreat, the more the better it was received
+//!    ([`persuasion()`], eq. 6.20-6.23);
 //! 6. solves for its own plan and a proposal to the other at once (`proposal`, eq. 6.24);
 //! 7. applies the first input only if a conservative plan still exists after it (`filter`).
 
@@ -22,7 +22,7 @@ mod settings;
 mod state;
 
 pub use acceptance::Acceptance;
-pub use persuasion::persuasion;
+pub use persuasion::{References, persuasion};
 pub use proposal::{optimiser, problem};
 pub use settings::Settings;
 
@@ -76,7 +76,7 @@ impl Negotiation {
             return Ok(Plan { events, ..conservative::answer(retreat?) });
         };
         let accepted = self.update_acceptance(scene, partner);
-        let persuasion = persuasion::next_constraint(&self.settings, self.negotiation.last.as_ref(), accepted);
+        let persuasion = persuasion::next_constraint(&self.settings, &self.negotiation, accepted);
         let outcome = self.propose(scene, partner, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
@@ -112,7 +112,7 @@ impl Negotiation {
         let accepted = self.negotiation.acceptance(self.settings.acceptance, scene, partner);
         if let Some(accepted) = accepted {
             if self.settings.concession {
-                self.negotiation.concession.concede(accepted, self.settings.beta, self.settings.weight_floor);
+                self.negotiation.concession.concede(accepted, self.settings.beta, self.settings.least_weight());
             }
             self.selection.record(accepted, &self.settings);
         }
@@ -140,11 +140,7 @@ impl Negotiation {
 
     /// Keeps what this round led to for the next one.
     fn remember(&mut self, optimum: &Optimum, retreat: &Result<Solved, PlanError>, partner: &Agent) {
-        self.negotiation.first_plan = Some(match self.negotiation.first_plan.take() {
-            Some(plan) => plan.shifted(),
-            None => partner.prediction.shifted(),
-        });
-        self.negotiation.last = Some(NegotiationRound {
+        self.negotiation.remember(NegotiationRound {
             cooperative: optimum.trajectory(0),
             conservative: retreat.as_ref().ok().map(|retreat| retreat.optimum.trajectory(0)),
             proposal: optimum.trajectory(1),

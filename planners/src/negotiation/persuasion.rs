@@ -1,10 +1,24 @@
 //! Persuasion: a constraint that keeps the plan nearer to cooperation than to retreat (eq. 6.20-6.23).
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::settings::Settings;
-use super::state::NegotiationRound;
+use super::state::NegotiationState;
 use crate::Trajectory;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::Persuasion;
+
+/// Which round of the negotiation the cooperative and the conservative plan of the persuasion constraint are from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum References {
+    /// The first: the ego keeps nearer to what it first proposed than to its first retreat, however long it is refused.
+    #[default]
+    FirstRound,
+    /// The one before (eq. 6.23): the ego may retreat by about half of the way in each step.
+    LastRound,
+}
 
 /// Below this squared distance of cooperative and conservative plan the ball has collapsed \[m²\].
 const MIN_REFERENCE_DISTANCE_M2: f64 = 1e-3;
@@ -13,14 +27,16 @@ const PENALTY: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
 
 /// The persuasion constraint `‖trj − con‖² ≥ α ‖trj − coop‖²`, `α = 1 + γ p_a` (eq. 6.23, corrected: as printed the right
 /// norm is not squared). It starts with the second round, and is left out where the two references nearly coincide.
+///
+/// With the references of the last round the constraint only limits the rate of a retreat: up to `1/(1 + √α)` of the way in
+/// each step. With those of the first round it limits the retreat itself, until the negotiation ends.
 pub(super) fn next_constraint(
     settings: &Settings,
-    last: Option<&NegotiationRound>,
+    negotiation: &NegotiationState,
     accepted: f64,
 ) -> Option<Persuasion> {
-    let round = last.filter(|_| settings.persuasion)?;
-    let conservative = round.conservative.as_ref()?.shifted();
-    persuasion(&round.cooperative.shifted(), &conservative, 1.0 + settings.gamma * accepted)
+    let round = negotiation.round(settings.references).filter(|_| settings.persuasion)?;
+    persuasion(&round.cooperative, round.conservative.as_ref()?, 1.0 + settings.gamma * accepted)
 }
 
 /// The persuasion constraint of strength `α` with a cooperative and a conservative reference; none where the two nearly
@@ -56,8 +72,12 @@ fn positions(trajectory: &Trajectory) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
     use crate::State;
+    use crate::negotiation::state::NegotiationRound;
+    use crate::predict::constant_velocity;
 
     /// For α > 1 the constraint is the ball with the centre and radius that its documentation names.
     #[test]
@@ -71,6 +91,48 @@ mod tests {
             let (sin, cos) = libm::sincos(0.5 * f64::from(angle));
             let state = State { x_m: centre[0] + radius * cos, y_m: centre[1] + radius * sin, ..State::default() };
             assert!(constraint.value(&[state]).abs() < 1e-12);
+        }
+    }
+
+    /// Steps of a negotiation in which nobody yields.
+    const STEPS: usize = 10;
+
+    /// Straight motion from a step on, at a speed that has gone back a share of the way from the cooperative one to the
+    /// conservative one.
+    fn motion(share: f64, step: usize) -> Trajectory {
+        let from_start = constant_velocity(&State { speed_mps: 1.2 - 0.8 * share, ..State::default() }, 30, 0.1);
+        (0..step).fold(from_start, |motion, _| motion.shifted())
+    }
+
+    /// How far an ego goes back that in each step plans the farthest retreat that the constraint allows.
+    fn farthest_retreat(references: References, accepted: f64) -> f64 {
+        let settings = Settings { references, ..Settings::default() };
+        let mut negotiation = NegotiationState::default();
+        let mut share = 0.0;
+        for step in 0..STEPS {
+            let [cooperative, conservative, proposal, prediction] =
+                [share, 1.0, 0.0, 0.0].map(|share| motion(share, step));
+            let conservative = Some(conservative);
+            negotiation.remember(NegotiationRound { cooperative, conservative, proposal, prediction });
+            let Some(constraint) = next_constraint(&settings, &negotiation, accepted) else { return 1.0 };
+            let holds = |share: f64| constraint.value(&motion(share, step + 1).states) <= 0.0;
+            let mut bounds = [share, 1.0];
+            for _ in 0..50 {
+                let middle = 0.5 * (bounds[0] + bounds[1]);
+                bounds[usize::from(!holds(middle))] = middle;
+            }
+            share = bounds[0];
+        }
+        share
+    }
+
+    proptest! {
+        /// References of the last round let the ego retreat nearly completely, those of the first only up to their boundary.
+        #[test]
+        fn only_the_first_round_s_references_limit_the_retreat(accepted in 0.0..1.0) {
+            let boundary = 1.0 / (1.0 + libm::sqrt(1.0 + accepted));
+            prop_assert!((farthest_retreat(References::FirstRound, accepted) - boundary).abs() < 1e-9);
+            prop_assert!(farthest_retreat(References::LastRound, accepted) > 0.98);
         }
     }
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::acceptance::Acceptance;
+use super::persuasion::References;
 use crate::DriverSettingError;
 use crate::predict::Prediction;
 
@@ -37,9 +38,11 @@ pub struct Settings {
     /// order 100, so 100 makes both terms of order one at the first tick; at 1 the proposal asks for nothing.
     #[schemars(extend("exclusiveMinimum" = 0.0), extend("x-unit" = "dimensionless"))]
     pub other_normaliser: f64,
-    /// Smallest weight `w` of the ego's cost (eq. 6.18 never lets it recover).
-    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
-    pub weight_floor: f64,
+    /// Ratio of the ego's cost to the other's deviation, `(w/Z_1) / ((1 − w)/Z_2)`, at which concession ends (eq. 6.18
+    /// never lets `w` recover). It begins at `Z_2/Z_1`; below 1 the other's deviation counts more than the ego's cost. 0 is
+    /// the printed form, which has no end.
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
+    pub least_cost_ratio: f64,
     /// What counts as acceptance.
     pub acceptance: Acceptance,
     /// Whether the ego concedes (eq. 6.18); without it the weight of its own cost stays at 0.5.
@@ -48,6 +51,8 @@ pub struct Settings {
     /// Whether the persuasion constraint is imposed (eq. 6.23).
     #[schemars(extend("x-mechanism" = { "persuasion": false }))]
     pub persuasion: bool,
+    /// From which round of the negotiation the references of the persuasion constraint are.
+    pub references: References,
     /// Whether the negotiated input is applied only if a conservative plan still exists after it.
     #[schemars(extend("x-mechanism" = { "safety filter": false }))]
     pub safety_filter: bool,
@@ -70,10 +75,11 @@ impl Default for Settings {
             settled_steps: 6,
             ego_normaliser: 1.0,
             other_normaliser: 100.0,
-            weight_floor: 0.02,
+            least_cost_ratio: 0.1,
             acceptance: Acceptance::Willingness,
             concession: true,
             persuasion: true,
+            references: References::FirstRound,
             safety_filter: true,
             passing_orders: true,
             prediction: Prediction::Plan,
@@ -82,6 +88,12 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The weight `w` at which the ratio of the costs is the least one.
+    pub(super) fn least_weight(&self) -> f64 {
+        let share = self.least_cost_ratio * self.ego_normaliser;
+        share / (share + self.other_normaliser)
+    }
+
     /// Checks that plans reach beyond the steps during which the other is assumed to follow its prediction.
     pub(crate) fn check(&self, horizon_steps: usize) -> Result<(), DriverSettingError> {
         if self.settled_steps < horizon_steps {

@@ -2,6 +2,7 @@
 
 use super::acceptance::{Acceptance, printed_acceptance, willingness};
 use super::concession::Concession;
+use super::persuasion::References;
 use crate::{Agent, Scene, Trajectory};
 
 /// A negotiation with one vehicle; it starts anew with the next one.
@@ -9,8 +10,8 @@ use crate::{Agent, Scene, Trajectory};
 pub(super) struct NegotiationState {
     /// The weight of the ego's own cost.
     pub concession: Concession,
-    /// What the other planned before it was first asked, continued to the next step.
-    pub first_plan: Option<Trajectory>,
+    /// What the first step of the negotiation led to, continued to the step before.
+    pub first: Option<NegotiationRound>,
     /// What the step before led to.
     pub last: Option<NegotiationRound>,
 }
@@ -18,16 +19,29 @@ pub(super) struct NegotiationState {
 impl NegotiationState {
     /// How far the partner accepted the last proposal; none before the first.
     pub fn acceptance(&self, reading: Acceptance, scene: &Scene, partner: &Agent) -> Option<f64> {
-        let (round, first_plan) = (self.last.as_ref()?, self.first_plan.as_ref()?);
+        let (first, last) = (self.first.as_ref()?.continued(), self.last.as_ref()?.continued());
         Some(match reading {
             Acceptance::Willingness => {
                 let ellipse = scene.goal.safety.oriented(partner.corridor.heading_rad);
-                willingness(&partner.prediction, first_plan, &round.cooperative.shifted(), &ellipse)
+                willingness(&partner.prediction, &first.prediction, &last.cooperative, &ellipse)
             }
-            Acceptance::AsPrinted => {
-                printed_acceptance(&partner.prediction, &round.prediction.shifted(), &round.proposal.shifted())
-            }
+            Acceptance::AsPrinted => printed_acceptance(&partner.prediction, &last.prediction, &last.proposal),
         })
+    }
+
+    /// The round with the references of the persuasion constraint, continued to the present step.
+    pub fn round(&self, references: References) -> Option<NegotiationRound> {
+        let round = match references {
+            References::FirstRound => self.first.as_ref(),
+            References::LastRound => self.last.as_ref(),
+        };
+        round.map(NegotiationRound::continued)
+    }
+
+    /// Keeps what a step led to.
+    pub fn remember(&mut self, round: NegotiationRound) {
+        self.first = Some(self.first.as_ref().map_or_else(|| round.clone(), NegotiationRound::continued));
+        self.last = Some(round);
     }
 }
 
@@ -42,4 +56,16 @@ pub(super) struct NegotiationRound {
     pub proposal: Trajectory,
     /// What the other was expected to do.
     pub prediction: Trajectory,
+}
+
+impl NegotiationRound {
+    /// The same plans one step later.
+    fn continued(&self) -> NegotiationRound {
+        NegotiationRound {
+            cooperative: self.cooperative.shifted(),
+            conservative: self.conservative.as_ref().map(Trajectory::shifted),
+            proposal: self.proposal.shifted(),
+            prediction: self.prediction.shifted(),
+        }
+    }
 }
