@@ -9,9 +9,6 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::StageSolver;
 
-/// Most quadratic programmes of a descent in another class of motion.
-const EXPLORATION_LIMIT: usize = 40;
-
 /// A trajectory optimiser: a stage solver and the memory that a descent needs.
 #[derive(Clone, Debug, Default)]
 pub struct Optimiser<S> {
@@ -72,11 +69,10 @@ impl<S: StageSolver> Optimiser<S> {
         from: Iterate,
         bar: f64,
         gives_up: Option<GivesUp>,
+        tolerances: &Tolerances,
     ) -> Result<Exploration, DescentError> {
         let now = self.descent.begin(problem, from)?;
-        let programme_limit = EXPLORATION_LIMIT.min(self.tolerances.programme_limit);
-        let tolerances = Tolerances { programme_limit, ..self.tolerances };
-        let found = self.descent.run(problem, now, false, gives_up, &tolerances)?;
+        let found = self.descent.run(problem, now, false, gives_up, tolerances)?;
         if found.cost.total < bar {
             self.descent.leave(&mut self.warm_start);
             return Ok(Exploration::Cheaper(found));

@@ -5,9 +5,11 @@
 //!
 //! 1. A plan that touches no ellipse and violates nothing has no rival: without ellipses the problem has one optimum.
 //! 2. Otherwise simple motions ([`motions`]) are rolled out and sorted into classes ([`class`]). The cheapest of each other
-//!    class represents it; classes out of reach have no representative.
+//!    class represents it; classes out of reach have no representative. A plan that violates something is compared with
+//!    the representative of its own class, too.
 //! 3. Each class is bounded by what one Gauss-Newton step from its representative promises. Where that is less than the plan
-//!    at hand costs, a descent begins there.
+//!    at hand costs, a descent begins there. It is given up as soon as it enters a class whose optimum is known and its steps
+//!    promise nothing cheaper: most descents that fail end in the plan at hand.
 //! 4. The cheapest optimum wins if it saves at least [`MIN_COST_ADVANTAGE`] of `1 + cost`: the hysteresis between plans that
 //!    are equally good.
 //!
@@ -19,7 +21,7 @@ mod motions;
 
 use super::exploration::{Exploration, GivesUp};
 use super::optimiser::Optimiser;
-use super::optimum::{DescentError, Optimum};
+use super::optimum::{DescentError, Optimum, Tolerances};
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
@@ -31,6 +33,8 @@ use motions::for_each_motion;
 const MIN_COST_ADVANTAGE: f64 = 1e-3;
 /// Most classes that are examined for one plan, the cheapest representatives first.
 const MAX_CLASSES: usize = 4;
+/// Most quadratic programmes of an exploration while there is a safe plan to fall back on.
+const EXPLORATION_LIMIT: usize = 40;
 /// A plan that costs this multiple of the one before is compared at once: somebody did what was not expected.
 const MAX_COST_GROWTH: f64 = 1.1;
 /// With every other class dearer than this multiple of the plan, the comparison rests longer.
@@ -102,7 +106,7 @@ impl<S: StageSolver> Optimiser<S> {
                 break;
             }
             let gives_up = best.is_ok().then_some(GivesUp { above: bar, settled: &settled });
-            let explored = self.explore_class(problem, iterate, bar, gives_up);
+            let explored = self.explore_class(problem, iterate, bar, gives_up, &self.exploration_tolerances(&best));
             if let Ok(Exploration::Cheaper(found) | Exploration::Dearer(found)) = &explored {
                 settled.push(PassingClass::of(problem, &found.iterate));
             }
@@ -131,6 +135,13 @@ impl<S: StageSolver> Optimiser<S> {
         let is_far = best.as_ref().is_ok_and(|held| nearest > FAR_COST_RATIO * held.cost.total);
         self.warm_start.plans_at_rest = if has_changed { 0 } else { PLANS_AT_REST[usize::from(is_far)] };
         best
+    }
+
+    /// When an exploration stops: soon, where there is a safe plan to fall back on.
+    fn exploration_tolerances(&self, best: &Result<Optimum, DescentError>) -> Tolerances {
+        let Tolerances { programme_limit, .. } = self.tolerances;
+        let limit = if self.tolerances.trust(best) { EXPLORATION_LIMIT } else { programme_limit };
+        Tolerances { programme_limit: limit.min(programme_limit), ..self.tolerances }
     }
 
     /// What an optimum of another class has to cost less than. In trouble no hysteresis holds.
