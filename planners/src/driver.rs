@@ -11,7 +11,7 @@ use crate::game::{self, Game};
 use crate::human::{self, Human};
 use crate::idm::{self, Idm};
 use crate::negotiation::{self, Negotiation};
-use crate::passing_order::PassingOrderLog;
+use crate::passing::PassingOrderLog;
 use crate::scripted::{self, Scripted};
 use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
 

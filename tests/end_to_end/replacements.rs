@@ -27,8 +27,6 @@ const REPLACEMENTS: &[Replacement] = &[
     ("lane-keeping/nice", "conservative", "order"),
     ("lane-keeping/conservative-nice", "negotiation", "order"),
     ("lane-keeping/two-negotiators", "conservative", "order"),
-    ("intersection/concession", "conservative", "order"),
-    ("lane-keeping/persuasion", "conservative", "order"),
     ("ramp-merge/nice", "conservative", "order"),
     ("ramp-merge/game-nice", "conservative", "order"),
     ("ramp-merge/conservative-nice", "negotiation", "order"),

@@ -18,12 +18,14 @@ mod filter;
 mod partner_selection;
 mod persuasion;
 mod proposal;
+mod references;
 mod settings;
 mod state;
 
 pub use acceptance::Acceptance;
-pub use persuasion::{References, persuasion};
+pub use persuasion::persuasion;
 pub use proposal::{optimiser, problem};
+pub use references::References;
 pub use settings::Settings;
 
 use crate::conservative::{self, Conservative};

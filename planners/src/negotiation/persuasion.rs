@@ -1,24 +1,10 @@
 //! Persuasion: a constraint that keeps the plan nearer to cooperation than to retreat (eq. 6.20-6.23).
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::settings::Settings;
 use super::state::NegotiationState;
 use crate::Trajectory;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::Persuasion;
-
-/// Which round of the negotiation the cooperative and the conservative plan of the persuasion constraint are from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum References {
-    /// The first: the ego keeps nearer to what it first proposed than to its first retreat, however long it is refused.
-    #[default]
-    FirstRound,
-    /// The one before (eq. 6.23): the ego may retreat by about half of the way in each step.
-    LastRound,
-}
 
 /// Below this squared distance of cooperative and conservative plan the ball has collapsed \[m²\].
 const MIN_REFERENCE_DISTANCE_M2: f64 = 1e-3;
@@ -74,6 +60,7 @@ fn positions(trajectory: &Trajectory) -> Vec<[f64; 2]> {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::references::References;
     use super::*;
     use crate::State;
     use crate::negotiation::state::NegotiationRound;

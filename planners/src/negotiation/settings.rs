@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::acceptance::Acceptance;
-use super::persuasion::References;
+use super::references::References;
 use crate::DriverSettingError;
 use crate::predict::Prediction;
 
@@ -79,7 +79,7 @@ impl Default for Settings {
             acceptance: Acceptance::Willingness,
             concession: true,
             persuasion: true,
-            references: References::FirstRound,
+            references: References::LastRound,
             safety_filter: true,
             passing_orders: true,
             prediction: Prediction::Plan,

@@ -2,7 +2,7 @@
 
 use super::acceptance::{Acceptance, printed_acceptance, willingness};
 use super::concession::Concession;
-use super::persuasion::References;
+use super::references::References;
 use crate::{Agent, Scene, Trajectory};
 
 /// A negotiation with one vehicle; it starts anew with the next one.

@@ -1,7 +1,7 @@
 //! Explorations: descents in another class of motion, in search of something cheaper than what is at hand.
 
 use super::optimum::{DescentError, Optimum, Statistics};
-use super::passing_orders::PassingClass;
+use super::passing_class::PassingClass;
 use crate::trajectory::problem::Problem;
 
 /// An exploration goes on while this multiple of what a step promises would lead below the cost to beat. On the recorded

@@ -29,6 +29,7 @@ mod exploration;
 mod line_search;
 mod optimiser;
 mod optimum;
+mod passing_class;
 mod passing_orders;
 mod step_problem;
 mod step_solver;

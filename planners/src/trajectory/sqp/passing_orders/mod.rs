@@ -4,7 +4,7 @@
 //! Which class is the cheapest no descent can tell. So before a plan is made the classes are enumerated:
 //!
 //! 1. A plan that touches no ellipse and violates nothing has no rival: without ellipses the problem has one optimum.
-//! 2. Otherwise simple motions ([`motions`]) are rolled out and sorted into classes ([`class`]). The cheapest of each other
+//! 2. Otherwise simple motions ([`motions`]) are rolled out and sorted into classes ([`PassingClass`]). The cheapest of each other
 //!    class represents it; classes out of reach have no representative. A plan that violates something is compared with
 //!    the representative of its own class, too.
 //! 3. Each class is bounded by what one Gauss-Newton step from its representative promises. Where that is less than the plan
@@ -16,17 +16,16 @@
 //! After a comparison that changed nothing the next few plans go without one, more of them where every other class is far
 //! dearer: an order that becomes cheaper is taken two plans later at most, four where it was far from it.
 
-mod class;
 mod motions;
 
 use super::exploration::{Exploration, GivesUp};
 use super::optimiser::Optimiser;
 use super::optimum::{DescentError, Optimum, Tolerances};
+use super::passing_class::PassingClass;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
-pub(super) use class::PassingClass;
 use motions::for_each_motion;
 
 /// Another class replaces the plan at hand if it saves this share of `1 + cost`.

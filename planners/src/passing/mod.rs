@@ -15,59 +15,12 @@ mod log;
 
 pub(crate) use log::PassingOrderLog;
 
-use std::fmt;
-
 use crate::encounter::PARALLEL_RAD;
+use crate::passing_order::{PassingOrder, PassingPosition};
 use crate::{Agent, Axes, Plan, Scene, State};
 
 /// A vehicle is relevant if the plan comes nearer to it than this many half axes of the safety ellipse.
 const RELEVANT_HALF_AXES: f64 = 3.0;
-
-/// How a plan passes another vehicle.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PassingOrder {
-    /// The other vehicle, by its name.
-    pub of: String,
-    /// Where the plan leads relative to it.
-    pub position: PassingPosition,
-}
-
-/// A place relative to another vehicle, as that vehicle faces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PassingPosition {
-    /// Ahead of it; where roads cross, over its path before it comes.
-    Ahead,
-    /// On its left.
-    Left,
-    /// Behind it; where roads cross, over its path after it has passed.
-    Behind,
-    /// On its right.
-    Right,
-}
-
-impl fmt::Display for PassingOrder {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let side = match self.position {
-            PassingPosition::Ahead => "ahead of",
-            PassingPosition::Left => "left of",
-            PassingPosition::Behind => "behind",
-            PassingPosition::Right => "right of",
-        };
-        write!(formatter, "{side} {}", self.of)
-    }
-}
-
-impl PassingOrder {
-    /// The order as a sentence about whoever plans it, without the subject.
-    pub fn sentence(&self) -> String {
-        let verb = match self.position {
-            PassingPosition::Ahead => "goes",
-            PassingPosition::Behind => "stays",
-            PassingPosition::Left | PassingPosition::Right => "drives",
-        };
-        format!("{verb} {self}")
-    }
-}
 
 /// The order of a plan with respect to each relevant vehicle, in the scene's order.
 pub fn passing_orders(scene: &Scene, plan: &Plan) -> Vec<PassingOrder> {

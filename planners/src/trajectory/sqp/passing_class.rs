@@ -26,7 +26,7 @@ enum Way {
 /// Whoever comes from behind and overtakes on the left goes round to the right. Crossing ahead of somebody and crossing
 /// behind are the two ways, too. How far a motion gets on its way makes no class of its own: no centre lies between.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::trajectory::sqp) struct PassingClass {
+pub(super) struct PassingClass {
     ways: [Way; MAX_ELLIPSES],
 }
 

@@ -1,6 +1,7 @@
 //! Changes of passing orders as events.
 
-use super::{PassingOrder, passing_orders};
+use super::passing_orders;
+use crate::passing_order::PassingOrder;
 use crate::{Plan, PlanEvent, PlanEventKind, Scene};
 
 /// The last order with respect to each vehicle that had one so far.
