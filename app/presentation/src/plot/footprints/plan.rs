@@ -14,7 +14,7 @@ const TICK_LABEL_HEIGHT_PX: f64 = 34.0;
 const X_LABEL_HEIGHT_PX: f64 = 38.0;
 /// Largest height of the plan.
 const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
-/// Footprints whose centres are closer than this share of their length get one number together.
+/// Footprints that follow each other closer than this share of their length get one number together.
 const SHARED_NUMBER_DISTANCE_RATIO: f64 = 0.45;
 
 /// The background for which the colour of numbers is chosen: earlier footprints are pale.
@@ -82,10 +82,10 @@ impl FootprintPlot {
             let mates = self.mates(who);
             let mut first = 0;
             while first < bodies.len() {
-                let near = |body: &[[f64; 2]; 4]| {
-                    distance(body[0], bodies[first][0]) < SHARED_NUMBER_DISTANCE_RATIO * self.longest_m()
+                let near = |pair: &[&[[f64; 2]; 4]]| {
+                    distance(pair[0][0], pair[1][0]) < SHARED_NUMBER_DISTANCE_RATIO * self.longest_m()
                 };
-                let count = bodies[first..].iter().take_while(|body| near(body)).count().max(1);
+                let count = 1 + bodies[first..].windows(2).take_while(|pair| near(pair)).count();
                 let last = first + count - 1;
                 let words = if count == 1 { format!("{}", first + 1) } else { format!("{}–{}", first + 1, last + 1) };
                 let corners = bodies[last].map(|corner| map.place(corner));
