@@ -73,7 +73,7 @@ impl<S: StageSolver> Descent<S> {
         problem: &Problem,
         mut now: Optimum,
         warm: bool,
-        gives_up: Option<GivesUp>,
+        gives_up: Option<&GivesUp>,
         tolerances: &Tolerances,
     ) -> Result<Optimum, DescentError> {
         let mut damping = 0.0;
@@ -85,7 +85,7 @@ impl<S: StageSolver> Descent<S> {
             self.previous_step.clone_from(&self.steps.step);
             self.steps.solve_for_direction(problem, &mut now, warm, damping)?;
             let promised = -self.steps.problem.qp.change(&self.steps.step);
-            if let Some(gives_up) = &gives_up {
+            if let Some(gives_up) = gives_up {
                 gives_up.check(problem, &now, step, (1.0 + damping) * promised)?;
             }
             let predicted = self.search.predict(&self.steps, &now.cost, promised);

@@ -13,9 +13,9 @@ const LATER_GAIN_PER_PROMISE: f64 = 1.2;
 /// When an exploration is given up.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GivesUp<'a> {
-    /// As soon as nothing suggests that it will end below this cost.
+    /// As soon as nothing suggests that it will end below this cost, the cost to beat.
     pub above: f64,
-    /// As soon as it enters one of these classes, whose optima are known.
+    /// As soon as it is in one of these classes, whose optima are known, and its step promises nothing below that cost.
     pub settled: &'a [PassingClass],
 }
 
@@ -26,21 +26,19 @@ impl GivesUp<'_> {
     /// [`DescentError::NotBelow`] or [`DescentError::Settled`] if not.
     pub fn check(&self, problem: &Problem, now: &Optimum, step: usize, promised: f64) -> Result<(), DescentError> {
         let (statistics, promised) = (now.statistics, promised.max(0.0));
+        let expected = now.cost.total - promised;
+        if expected <= self.above {
+            return Ok(());
+        }
         let is_settled = step > 0 && self.settled.contains(&PassingClass::of(problem, &now.iterate));
-        let gain = match step {
-            _ if is_settled => 1.0,
-            0 => MAX_GAIN_PER_PROMISE,
-            _ => LATER_GAIN_PER_PROMISE,
-        };
+        if is_settled {
+            return Err(DescentError::Settled(statistics));
+        }
+        let gain = if step == 0 { MAX_GAIN_PER_PROMISE } else { LATER_GAIN_PER_PROMISE };
         if now.cost.total - gain * promised <= self.above {
             return Ok(());
         }
-        let expected = now.cost.total - promised;
-        Err(if is_settled {
-            DescentError::Settled(statistics)
-        } else {
-            DescentError::NotBelow { bar: self.above, expected, statistics }
-        })
+        Err(DescentError::NotBelow { bar: self.above, expected, statistics })
     }
 }
 

@@ -59,7 +59,7 @@ impl<S: StageSolver> Optimiser<S> {
         outcome
     }
 
-    /// Descends from a motion of another class in search of an optimum that costs less than `bar`.
+    /// Descends from a motion of another class in search of a cheaper optimum.
     ///
     /// # Errors
     /// As [`Optimiser::descend`], and the reasons for which an exploration is given up.
@@ -67,13 +67,12 @@ impl<S: StageSolver> Optimiser<S> {
         &mut self,
         problem: &Problem,
         from: Iterate,
-        bar: f64,
-        gives_up: Option<GivesUp>,
+        gives_up: GivesUp,
         tolerances: &Tolerances,
     ) -> Result<Exploration, DescentError> {
         let now = self.descent.begin(problem, from)?;
-        let found = self.descent.run(problem, now, false, gives_up, tolerances)?;
-        if found.cost.total < bar {
+        let found = self.descent.run(problem, now, false, Some(&gives_up), tolerances)?;
+        if found.cost.total < gives_up.above {
             self.descent.leave(&mut self.warm_start);
             return Ok(Exploration::Cheaper(found));
         }

@@ -104,8 +104,8 @@ impl<S: StageSolver> Optimiser<S> {
                 // of Bayesian replies, which is not compared then.
                 break;
             }
-            let gives_up = best.is_ok().then_some(GivesUp { above: bar, settled: &settled });
-            let explored = self.explore_class(problem, iterate, bar, gives_up, &self.exploration_tolerances(&best));
+            let gives_up = GivesUp { above: bar, settled: &settled };
+            let explored = self.explore_class(problem, iterate, gives_up, &self.exploration_tolerances(&best));
             if let Ok(Exploration::Cheaper(found) | Exploration::Dearer(found)) = &explored {
                 settled.push(PassingClass::of(problem, &found.iterate));
             }
