@@ -100,8 +100,9 @@ impl From<DescentError> for PlanError {
                 PlanError::Infeasible(error.to_string())
             }
             DescentError::Step { step, .. } => PlanError::Unsolved { status: error.to_string(), iterations: step },
-            DescentError::NotConverged(statistics) => {
-                PlanError::Unsolved { status: error.to_string(), iterations: statistics.programmes }
+            DescentError::NotConverged(ref reached) => {
+                let iterations = reached.statistics.programmes;
+                PlanError::Unsolved { status: error.to_string(), iterations }
             }
             DescentError::NotBelow { .. } | DescentError::Settled(_) => {
                 PlanError::Unsolved { status: error.to_string(), iterations: 0 }

@@ -22,13 +22,17 @@ const DEVIATION_WEIGHTS: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
 /// Weight of the other's changes of input.
 const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 
-/// Most quadratic programmes of a descent: a problem that needs more has no proposal that the safety filter would admit.
-const PROGRAMME_LIMIT: usize = 60;
+/// Most work of a descent: a problem that needs more has no proposal that the safety filter would admit.
+const WORK_LIMIT: usize = 300;
+/// Most work of comparing passing orders in one plan. Proposals are renewed at every step and may be compared over several;
+/// a planner that asks nobody decides by its comparison and makes it at once.
+const COMPARISON_WORK_LIMIT: usize = 200;
 
 /// What solves the negotiation problem.
 pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
     let mut optimiser = Optimiser::resuming(Robust::default()).comparing(settings.passing_orders);
-    optimiser.tolerances.programme_limit = PROGRAMME_LIMIT;
+    optimiser.tolerances.work_limit = WORK_LIMIT;
+    optimiser.tolerances.comparison_work_limit = COMPARISON_WORK_LIMIT;
     optimiser
 }
 

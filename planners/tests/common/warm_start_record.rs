@@ -55,7 +55,7 @@ impl WarmStartRecord {
             fill(values, sparse);
         }
         let reach = self.reach.map(|[x, y, t, v, a, d]| Reach { state: [x, y, t, v], input: [a, d] });
-        WarmStart { multipliers, reach, ..WarmStart::default() }
+        WarmStart { multipliers, reach }
     }
 }
 

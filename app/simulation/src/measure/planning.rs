@@ -8,6 +8,8 @@ pub struct Planning {
     times_ms: Vec<f64>,
     /// Plans that failed and were replaced by a fallback.
     pub failed: usize,
+    /// Plans that violate nothing but are not optimal, because their descent reached the limit of its work.
+    pub unfinished: usize,
 }
 
 impl Planning {
@@ -18,6 +20,7 @@ impl Planning {
         }
         self.times_ms.push(vehicle.plan_ms);
         self.failed += usize::from(vehicle.origin != Origin::Planned);
+        self.unfinished += vehicle.plan.statistics.unfinished;
     }
 
     /// How many plans were made.

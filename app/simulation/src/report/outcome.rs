@@ -109,6 +109,8 @@ pub struct PlansReport {
     pub count: usize,
     /// Plans that failed and were replaced by a fallback.
     pub failed: usize,
+    /// Plans that violate nothing but are not optimal, because their optimiser reached the limit of its work.
+    pub unfinished: usize,
     /// Median time \[ms\].
     pub median_ms: f64,
     /// 99th percentile \[ms\].
@@ -144,6 +146,7 @@ impl VehicleReport {
             plans: PlansReport {
                 count: measured.planning.count(),
                 failed: measured.planning.failed,
+                unfinished: measured.planning.unfinished,
                 median_ms: measured.planning.quantile_ms(0.5),
                 p99_ms: measured.planning.quantile_ms(0.99),
             },

@@ -78,7 +78,7 @@ impl<S: StageSolver> Descent<S> {
     ) -> Result<Optimum, DescentError> {
         let mut damping = 0.0;
         for step in 0..tolerances.iteration_limit {
-            if now.statistics.programmes >= tolerances.programme_limit {
+            if now.statistics.work() >= tolerances.work_limit {
                 break;
             }
             let warm = step > 0 || warm;
@@ -111,7 +111,7 @@ impl<S: StageSolver> Descent<S> {
                 return Ok(now);
             }
         }
-        Err(DescentError::NotConverged(now.statistics))
+        Err(DescentError::NotConverged(Box::new(now)))
     }
 
     /// Poses the next step problem, and says how far its solution is expected to be.

@@ -49,6 +49,8 @@ pub(super) enum Exploration {
     Cheaper(Optimum),
     /// An optimum that is not.
     Dearer(Optimum),
+    /// It reached the limit of its work here.
+    Unfinished(Optimum),
 }
 
 impl Optimum {
@@ -59,11 +61,12 @@ impl Optimum {
         self.runner_up_cost = Some(held.cost.total);
     }
 
-    /// Counts the work of another descent; the residual stays that of this optimum.
+    /// Counts the work of another descent; what is said of this optimum itself stays.
     pub(super) fn add_work(&mut self, work: &Statistics) {
-        let residual = self.statistics.residual;
+        let Statistics { residual, unfinished, .. } = self.statistics;
         self.statistics.add(work);
         self.statistics.residual = residual;
+        self.statistics.unfinished = unfinished;
     }
 
     /// Notes a dearer optimum of another class, which is the runner-up if there is no cheaper one.

@@ -3,6 +3,7 @@
 use super::descent::Descent;
 use super::exploration::{Exploration, GivesUp};
 use super::optimum::{DescentError, Optimum, Tolerances};
+use super::passing_orders::Comparison;
 use super::warm_start::WarmStart;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
@@ -20,6 +21,8 @@ pub struct Optimiser<S> {
     pub compares_passing_orders: bool,
     /// What the descent whose optimum was kept last has left.
     pub warm_start: WarmStart,
+    /// How far the comparison of classes has got.
+    pub(super) comparison: Comparison,
     pub(super) descent: Descent<S>,
 }
 
@@ -46,17 +49,24 @@ impl<S: StageSolver + Default> Optimiser<S> {
 
 impl<S: StageSolver> Optimiser<S> {
     /// Descends from a guess (per participant, inputs; made admissible first) to a local optimum, from which the next descent
-    /// resumes.
+    /// resumes. At the limit of its work it hands out what it has come to, if that violates nothing: such a motion is
+    /// admissible and costs less than the guess (Scokaert, Mayne and Rawlings, "Suboptimal model predictive control", 1999).
     ///
     /// # Errors
-    /// [`DescentError`] if a step problem cannot be solved or the iteration limit is reached.
+    /// [`DescentError`] if a step problem cannot be solved, or at the limit a safety row or road edge is violated.
     pub fn descend(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
         let outcome = self.resume(problem, guess);
         match outcome {
             Ok(_) => self.descent.leave(&mut self.warm_start),
             Err(_) => self.warm_start = WarmStart::default(),
         }
-        outcome
+        match outcome {
+            Err(DescentError::NotConverged(mut reached)) if reached.cost.unsafety() <= self.tolerances.slack => {
+                reached.statistics.unfinished = 1;
+                Ok(*reached)
+            }
+            outcome => outcome,
+        }
     }
 
     /// Descends from a motion of another class in search of a cheaper optimum.
@@ -71,7 +81,10 @@ impl<S: StageSolver> Optimiser<S> {
         tolerances: &Tolerances,
     ) -> Result<Exploration, DescentError> {
         let now = self.descent.begin(problem, from)?;
-        let found = self.descent.run(problem, now, false, Some(&gives_up), tolerances)?;
+        let found = match self.descent.run(problem, now, false, Some(&gives_up), tolerances) {
+            Err(DescentError::NotConverged(reached)) => return Ok(Exploration::Unfinished(*reached)),
+            outcome => outcome?,
+        };
         if found.cost.total < gives_up.above {
             self.descent.leave(&mut self.warm_start);
             return Ok(Exploration::Cheaper(found));

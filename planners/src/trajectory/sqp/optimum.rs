@@ -17,15 +17,24 @@ pub struct Tolerances {
     pub decrease: f64,
     /// Most steps in one descent.
     pub iteration_limit: usize,
-    /// Most quadratic programmes posed in one descent; steps of a descent that goes nowhere pose up to four.
-    pub programme_limit: usize,
+    /// Most [work](Statistics::work) of one descent; steps of a descent that goes nowhere pose up to four programmes.
+    pub work_limit: usize,
+    /// Most work that the comparison of passing orders may take of one plan; what is left goes on with the next one.
+    pub comparison_work_limit: usize,
     /// A safety row (1 − d²) or a road edge \[m\] violated by more than this makes a solution suspect.
     pub slack: f64,
 }
 
 impl Default for Tolerances {
     fn default() -> Self {
-        Tolerances { residual: 1e-8, decrease: 1e-11, iteration_limit: 100, programme_limit: 400, slack: 1e-3 }
+        Tolerances {
+            residual: 1e-8,
+            decrease: 1e-11,
+            iteration_limit: 100,
+            work_limit: 4000,
+            comparison_work_limit: 4000,
+            slack: 1e-3,
+        }
     }
 }
 
@@ -49,6 +58,8 @@ pub struct Statistics {
     pub residual: f64,
     /// How many steps fell back from the exact Hessian to Gauss-Newton.
     pub fallbacks: usize,
+    /// 1 if the motion violates nothing but is not optimal: its descent reached the limit of its work.
+    pub unfinished: usize,
 }
 
 /// A local optimum.
@@ -75,9 +86,9 @@ pub enum DescentError {
         /// What the stage solver said.
         source: StageError,
     },
-    /// The iteration limit.
-    #[error("not converged after {} programmes: residual {:.1e}", .0.programmes, .0.residual)]
-    NotConverged(Statistics),
+    /// The limit of steps or of work was reached at this iterate, which violates something.
+    #[error("not converged after {} programmes: residual {:.1e}", .0.statistics.programmes, .0.statistics.residual)]
+    NotConverged(Box<Optimum>),
     /// An exploration that was given up: even many times what its steps promise would not end below the cost to beat.
     #[error("no optimum below a cost of {bar} in sight: {expected} is promised")]
     NotBelow {
@@ -109,12 +120,18 @@ impl Optimum {
 }
 
 impl Statistics {
+    /// Work in units of some 20 µs: a quadratic programme posed, or an iteration inside one.
+    pub fn work(&self) -> usize {
+        self.programmes + self.inner_iterations
+    }
+
     /// Adds the work of another optimisation; the worse residual counts.
     pub fn add(&mut self, other: &Statistics) {
         self.starts += other.starts;
         self.programmes += other.programmes;
         self.inner_iterations += other.inner_iterations;
         self.fallbacks += other.fallbacks;
+        self.unfinished += other.unfinished;
         self.residual = self.residual.max(other.residual);
     }
 }

@@ -12,10 +12,6 @@ pub struct WarmStart {
     pub multipliers: StageSolution,
     /// How far the descent's first step was expected to go from where it began.
     pub reach: Option<Reach>,
-    /// For how many more plans the passing orders are not compared.
-    pub plans_at_rest: usize,
-    /// What the last plan cost whose passing orders could have been compared.
-    pub last_cost: f64,
 }
 
 impl WarmStart {

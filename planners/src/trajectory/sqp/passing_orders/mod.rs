@@ -13,27 +13,32 @@
 //! 4. The cheapest optimum wins if it saves at least [`MIN_COST_ADVANTAGE`] of `1 + cost`: the hysteresis between plans that
 //!    are equally good.
 //!
+//! A comparison may take several plans: each has a limit of work, and an exploration that reaches it goes on with the next
+//! plan, a step later. Only the first comparison, and one without any plan to fall back on, are made at once.
 //! After a comparison that changed nothing the next few plans go without one, more of them where every other class is far
-//! dearer: an order that becomes cheaper is taken two plans later at most, four where it was far from it.
+//! dearer.
 
+mod comparison;
 mod motions;
 
 use super::exploration::{Exploration, GivesUp};
 use super::optimiser::Optimiser;
-use super::optimum::{DescentError, Optimum, Tolerances};
+use super::optimum::{DescentError, Optimum, Statistics, Tolerances};
 use super::passing_class::PassingClass;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
+pub(super) use comparison::Comparison;
+use comparison::{Round, Unfinished};
 use motions::for_each_motion;
 
 /// Another class replaces the plan at hand if it saves this share of `1 + cost`.
 const MIN_COST_ADVANTAGE: f64 = 1e-3;
-/// Most classes that are examined for one plan, the cheapest representatives first.
+/// Most classes that are examined in one comparison, the cheapest representatives first.
 const MAX_CLASSES: usize = 4;
-/// Most quadratic programmes of an exploration while there is a safe plan to fall back on.
-const EXPLORATION_LIMIT: usize = 40;
+/// Most work of one exploration, spread over plans.
+const EXPLORATION_WORK: usize = 400;
 /// A plan that costs this multiple of the one before is compared at once: somebody did what was not expected.
 const MAX_COST_GROWTH: f64 = 1.1;
 /// With every other class dearer than this multiple of the plan, the comparison rests longer.
@@ -57,14 +62,16 @@ impl<S: StageSolver> Optimiser<S> {
     pub fn optimise(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
         let found = self.descend(problem, guess);
         let trusted = self.tolerances.trust(&found);
-        if trusted && !(self.compares_passing_orders && self.has_rivals(problem)) {
+        // What a descent has come to without an end has no multipliers to tell.
+        let is_unfinished = !self.warm_start.fits(&self.descent.steps.problem.qp);
+        if trusted && !(self.compares_passing_orders && (is_unfinished || self.has_rivals(problem))) {
             return found;
         }
         let cost = found.as_ref().map_or(f64::INFINITY, |optimum| optimum.cost.total);
-        let has_jumped = cost > MAX_COST_GROWTH * self.warm_start.last_cost;
-        self.warm_start.last_cost = cost;
-        if trusted && !has_jumped && self.warm_start.plans_at_rest > 0 {
-            self.warm_start.plans_at_rest -= 1;
+        let has_jumped = cost > MAX_COST_GROWTH * self.comparison.last_cost;
+        self.comparison.last_cost = cost;
+        if trusted && !has_jumped && self.comparison.plans_at_rest > 0 {
+            self.comparison.plans_at_rest -= 1;
             return found;
         }
         self.compare_classes(problem, found)
@@ -84,63 +91,109 @@ impl<S: StageSolver> Optimiser<S> {
         false
     }
 
-    /// The cheapest of what a descent found and the optima of other classes.
+    /// The cheapest of what a descent found and the optima of other classes, as far as the work of one plan goes.
     fn compare_classes(
         &mut self,
         problem: &Problem,
         mut best: Result<Optimum, DescentError>,
     ) -> Result<Optimum, DescentError> {
+        let mut round = std::mem::take(&mut self.comparison.round);
         // The class of a plan that violates something may hold a better one.
         let trusted = best.as_ref().ok().filter(|_| self.tolerances.trust(&best));
         let own_class = trusted.map(|optimum| PassingClass::of(problem, &optimum.iterate));
         let planned = best.as_ref().ok().map(|optimum| &optimum.iterate);
-        let mut settled: Vec<PassingClass> = own_class.into_iter().collect();
-        let (mut nearest, mut has_changed) = (f64::INFINITY, best.is_err());
-        for Representative { iterate, .. } in representatives(problem, planned, own_class).into_iter().take(MAX_CLASSES)
-        {
-            let bar = self.bar(&best);
-            if bar <= 0.0 {
-                // The plan cannot be beaten by more than the hysteresis: costs are not negative, but with the exact value
-                // of Bayesian replies, which is not compared then.
-                break;
+        let mut candidates = representatives(problem, planned, own_class);
+        candidates.truncate(MAX_CLASSES);
+        candidates.retain(|candidate| !round.examined.contains(&candidate.class));
+        let mut candidates = candidates.into_iter().peekable();
+        round.settled.extend(own_class);
+        let mut work_left = self.work_of_a_plan(&best);
+        while self.bar(&best) > 0.0 {
+            // (With a bar of 0 the plan cannot be beaten by more than the hysteresis: costs are not negative, but with the exact
+            // value of Bayesian replies, which is not compared then.)
+            if work_left == 0 && (round.unfinished.is_some() || candidates.peek().is_some()) {
+                self.comparison.round = round;
+                self.comparison.plans_at_rest = 0;
+                return best;
             }
-            let gives_up = GivesUp { above: bar, settled: &settled };
-            let explored = self.explore_class(problem, iterate, gives_up, &self.exploration_tolerances(&best));
-            if let Ok(Exploration::Cheaper(found) | Exploration::Dearer(found)) = &explored {
-                settled.push(PassingClass::of(problem, &found.iterate));
-            }
-            match (explored, &mut best) {
-                (Ok(Exploration::Cheaper(found)), best) => {
-                    has_changed = true;
-                    match best {
-                        Ok(held) => held.give_way(found),
-                        Err(_) => *best = Ok(found),
-                    }
+            let (iterate, work_before) = match (round.unfinished.take(), &mut candidates) {
+                (Some(unfinished), _) => (unfinished.iterate(problem), unfinished.work),
+                (None, candidates) => {
+                    let Some(Representative { class, iterate, .. }) = candidates.next() else { break };
+                    round.examined.push(class);
+                    (iterate, 0)
                 }
-                (Ok(Exploration::Dearer(found)), Ok(held)) => {
-                    nearest = nearest.min(found.cost.total);
-                    held.note_rival(&found);
-                }
-                (Err(DescentError::NotBelow { statistics, expected, .. }), Ok(held)) => {
-                    nearest = nearest.min(expected);
-                    held.add_work(&statistics);
-                }
-                (Err(DescentError::Settled(statistics) | DescentError::NotConverged(statistics)), Ok(held)) => {
-                    held.add_work(&statistics);
-                }
-                _ => {}
-            }
+            };
+            let most = self.work_of_an_exploration(&best);
+            let limit = work_left.min(most.saturating_sub(work_before));
+            let work = self.examine(problem, iterate, limit, &mut round, &mut best);
+            round.unfinished = round.unfinished.and_then(|unfinished| unfinished.after(work_before, most));
+            work_left -= work.min(work_left);
         }
-        let is_far = best.as_ref().is_ok_and(|held| nearest > FAR_COST_RATIO * held.cost.total);
-        self.warm_start.plans_at_rest = if has_changed { 0 } else { PLANS_AT_REST[usize::from(is_far)] };
+        self.comparison.has_finished = true;
+        let is_far = best.as_ref().is_ok_and(|held| round.nearest_cost > FAR_COST_RATIO * held.cost.total);
+        self.comparison.plans_at_rest = if round.has_changed { 0 } else { PLANS_AT_REST[usize::from(is_far)] };
         best
     }
 
-    /// When an exploration stops: soon, where there is a safe plan to fall back on.
-    fn exploration_tolerances(&self, best: &Result<Optimum, DescentError>) -> Tolerances {
-        let Tolerances { programme_limit, .. } = self.tolerances;
-        let limit = if self.tolerances.trust(best) { EXPLORATION_LIMIT } else { programme_limit };
-        Tolerances { programme_limit: limit.min(programme_limit), ..self.tolerances }
+    /// Most work of the explorations of this plan. The first comparison of all, and one that has no plan at all to fall
+    /// back on, are made at once.
+    fn work_of_a_plan(&self, best: &Result<Optimum, DescentError>) -> usize {
+        let is_at_once = !self.comparison.has_finished || best.is_err();
+        if is_at_once { usize::MAX } else { self.tolerances.comparison_work_limit }
+    }
+
+    /// Most work of one exploration.
+    fn work_of_an_exploration(&self, best: &Result<Optimum, DescentError>) -> usize {
+        let limit = self.tolerances.work_limit;
+        if best.is_err() { limit } else { limit.min(EXPLORATION_WORK) }
+    }
+
+    /// Explores from an iterate within a limit of work, and notes in `round` and `best` what it found. Returns its work.
+    fn examine(
+        &mut self,
+        problem: &Problem,
+        iterate: Iterate,
+        work_limit: usize,
+        round: &mut Round,
+        best: &mut Result<Optimum, DescentError>,
+    ) -> usize {
+        let tolerances = Tolerances { work_limit, ..self.tolerances };
+        let gives_up = GivesUp { above: self.bar(best), settled: &round.settled };
+        let explored = self.explore_class(problem, iterate, gives_up, &tolerances);
+        if let Ok(Exploration::Cheaper(found) | Exploration::Dearer(found)) = &explored {
+            round.settled.push(PassingClass::of(problem, &found.iterate));
+        }
+        let statistics = match explored {
+            Ok(Exploration::Cheaper(found)) => {
+                round.has_changed = true;
+                let work = found.statistics.work();
+                match best {
+                    Ok(held) => held.give_way(found),
+                    Err(_) => *best = Ok(found),
+                }
+                return work;
+            }
+            Ok(Exploration::Dearer(found)) => {
+                round.nearest_cost = round.nearest_cost.min(found.cost.total);
+                best.iter_mut().for_each(|held| held.note_rival(&found));
+                return found.statistics.work();
+            }
+            Ok(Exploration::Unfinished(reached)) => {
+                let work = reached.statistics.work();
+                // A descent may also stop because no step leads on.
+                round.unfinished = (work >= work_limit).then(|| Unfinished::at(&reached.iterate, work));
+                reached.statistics
+            }
+            Err(DescentError::NotBelow { expected, statistics, .. }) => {
+                round.nearest_cost = round.nearest_cost.min(expected);
+                statistics
+            }
+            Err(DescentError::Settled(statistics)) => statistics,
+            Err(_) => Statistics::default(),
+        };
+        best.iter_mut().for_each(|held| held.add_work(&statistics));
+        statistics.work()
     }
 
     /// What an optimum of another class has to cost less than. In trouble no hysteresis holds.

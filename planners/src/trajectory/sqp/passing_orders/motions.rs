@@ -12,8 +12,10 @@ use crate::{Axes, Input, State, Trajectory};
 
 /// Accelerations as shares of the strongest braking and acceleration.
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
-/// What the others do while one vehicle's motions are tried: brake or accelerate.
-const OTHERS_ACCELERATION_SHARES: [f64; 2] = [-1.0, 1.0];
+/// What the others do while one vehicle's motions are tried, besides what they plan: brake, keep their speed or accelerate.
+const OTHERS_ACCELERATION_SHARES: [f64; 3] = [-1.0, 0.0, 1.0];
+/// Accelerations of motions beside an ellipse, as shares of the strongest braking.
+const BESIDE_ACCELERATION_SHARES: [f64; 2] = [-0.5, 0.0];
 
 /// A goal nearer than this multiple of the wheelbase across the road needs no motion of its own.
 const MIN_LATERAL_MOVE_RATIO: f64 = 0.1;
@@ -38,9 +40,11 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
     let focused = if count > 2 { count } else { 1 };
     for vehicle in 0..focused {
         let own = motions(problem, vehicle);
-        for others in
-            std::iter::once(None).chain(OTHERS_ACCELERATION_SHARES.map(Some)).take(if count > 1 { 3 } else { 1 })
-        {
+        for others in std::iter::once(None).chain(OTHERS_ACCELERATION_SHARES.map(Some)).take(if count > 1 {
+            1 + OTHERS_ACCELERATION_SHARES.len()
+        } else {
+            1
+        }) {
             for other in (0..count).filter(|other| *other != vehicle) {
                 let motion = others.and_then(|share| simple_motion(problem, other, share, false));
                 set(&mut joint, other, motion.as_ref().unwrap_or(&planned[other]));
@@ -68,7 +72,8 @@ fn motions(problem: &Problem, vehicle: usize) -> Vec<Trajectory> {
     let ways = ACCELERATION_SHARES.into_iter().flat_map(|share| [(share, true), (share, false)]);
     let straight = ways.filter_map(|(share, to_goal)| simple_motion(problem, vehicle, share, to_goal));
     let beside = laterals_beside(problem, vehicle);
-    straight.chain(beside.into_iter().filter_map(|lateral_m| motion_to(problem, vehicle, 0.0, lateral_m))).collect()
+    let beside = beside.into_iter().flat_map(|lateral_m| BESIDE_ACCELERATION_SHARES.map(|share| (share, lateral_m)));
+    straight.chain(beside.filter_map(|(share, lateral_m)| motion_to(problem, vehicle, share, lateral_m))).collect()
 }
 
 /// The lateral positions on either side of the ellipses along the vehicle's road, as far as the road reaches \[m\].
@@ -83,15 +88,19 @@ fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
             _ => true,
         })
     };
-    let keep_outs = problem.terms.iter().filter_map(|term| match term {
-        Term::KeepOut(keep_out) if keep_out.vehicle == vehicle => Some(keep_out),
+    let ellipses = problem.terms.iter().filter_map(|term| match term {
+        Term::KeepOut(keep_out) if keep_out.vehicle == vehicle => {
+            Some((&keep_out.ellipse, keep_out.centres[problem.horizon / 2]))
+        }
+        Term::Separation(separation) if separation.vehicle == vehicle => {
+            Some((&separation.ellipse, problem.participants[separation.from].start.position()))
+        }
         _ => None,
     });
-    let sides = keep_outs.flat_map(|keep_out| {
-        let centre = keep_out.centres[problem.horizon / 2];
+    let sides = ellipses.flat_map(|(ellipse, centre)| {
         let [_, across] = tracking.axes.components(centre);
-        let axis = tracking.axes.components(Axes::along(keep_out.ellipse.heading_rad()).vector([1.0, 0.0]));
-        let offset_m = SIDE_CLEARANCE_RATIO * keep_out.ellipse.shape().across_m;
+        let axis = tracking.axes.components(Axes::along(ellipse.heading_rad()).vector([1.0, 0.0]));
+        let offset_m = SIDE_CLEARANCE_RATIO * ellipse.shape().across_m;
         let is_parallel = axis[1].abs() < MAX_PARALLEL_SIN;
         [across - offset_m, across + offset_m].into_iter().filter(move |_| is_parallel)
     });
