@@ -41,7 +41,7 @@ fn the_report_has_the_keys_of_the_contract() {
             "name driver completed_s final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk plans",
         );
         has_keys(&vehicle["final"], "x_m y_m heading_rad speed_mps");
-        has_keys(&vehicle["plans"], "count failed median_ms p99_ms");
+        has_keys(&vehicle["plans"], "count failed unfinished median_ms p99_ms");
         assert_eq!(vehicle["plans"]["count"], 20);
     }
     for expectation in report["expectations"].as_array().expect("a list") {

@@ -24,6 +24,7 @@
 //! [`Optimiser::optimise`] compares the passing orders that a problem allows; an [`Exploration`] is a descent that only counts
 //! if it ends below what is at hand.
 
+mod comparison;
 mod descent;
 mod exploration;
 mod line_search;

@@ -1,9 +1,9 @@
 //! The optimiser that planners hold: descents, and what one leaves to the next.
 
+use super::comparison::Comparison;
 use super::descent::Descent;
 use super::exploration::{Exploration, GivesUp};
 use super::optimum::{DescentError, Optimum, Tolerances};
-use super::passing_orders::Comparison;
 use super::warm_start::WarmStart;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;

@@ -18,9 +18,9 @@
 //! After a comparison that changed nothing the next few plans go without one, more of them where every other class is far
 //! dearer.
 
-mod comparison;
 mod motions;
 
+use super::comparison::{Round, Unfinished};
 use super::exploration::{Exploration, GivesUp};
 use super::optimiser::Optimiser;
 use super::optimum::{DescentError, Optimum, Statistics, Tolerances};
@@ -29,8 +29,6 @@ use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
-pub(super) use comparison::Comparison;
-use comparison::{Round, Unfinished};
 use motions::for_each_motion;
 
 /// Another class replaces the plan at hand if it saves this share of `1 + cost`.

@@ -14,8 +14,6 @@ use crate::{Axes, Input, State, Trajectory};
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
 /// What the others do while one vehicle's motions are tried, besides what they plan: brake, keep their speed or accelerate.
 const OTHERS_ACCELERATION_SHARES: [f64; 3] = [-1.0, 0.0, 1.0];
-/// Accelerations of motions beside an ellipse, as shares of the strongest braking.
-const BESIDE_ACCELERATION_SHARES: [f64; 2] = [-0.5, 0.0];
 
 /// A goal nearer than this multiple of the wheelbase across the road needs no motion of its own.
 const MIN_LATERAL_MOVE_RATIO: f64 = 0.1;
@@ -72,8 +70,7 @@ fn motions(problem: &Problem, vehicle: usize) -> Vec<Trajectory> {
     let ways = ACCELERATION_SHARES.into_iter().flat_map(|share| [(share, true), (share, false)]);
     let straight = ways.filter_map(|(share, to_goal)| simple_motion(problem, vehicle, share, to_goal));
     let beside = laterals_beside(problem, vehicle);
-    let beside = beside.into_iter().flat_map(|lateral_m| BESIDE_ACCELERATION_SHARES.map(|share| (share, lateral_m)));
-    straight.chain(beside.filter_map(|(share, lateral_m)| motion_to(problem, vehicle, share, lateral_m))).collect()
+    straight.chain(beside.into_iter().filter_map(|lateral_m| motion_to(problem, vehicle, 0.0, lateral_m))).collect()
 }
 
 /// The lateral positions on either side of the ellipses along the vehicle's road, as far as the road reaches \[m\].

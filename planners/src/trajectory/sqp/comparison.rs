@@ -1,13 +1,13 @@
 //! A comparison of the classes of motion, which may take several plans.
 
+use super::passing_class::PassingClass;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
-use crate::trajectory::sqp::passing_class::PassingClass;
 
 /// What an optimiser remembers of its comparisons.
 #[derive(Clone, Debug, Default)]
-pub(in crate::trajectory::sqp) struct Comparison {
+pub(super) struct Comparison {
     /// For how many more plans the classes are not compared.
     pub(super) plans_at_rest: usize,
     /// What the last plan cost whose classes could have been compared.
