@@ -38,6 +38,9 @@ pub struct LinePoint {
     pub curvature_1pm: f64,
 }
 
+/// How many sections of the index there are for each segment: with more, fewer sections hold a knot and need a search.
+const SECTIONS_PER_SEGMENT: usize = 4;
+
 /// Segments that follow each other, with an index by arc length.
 #[derive(Debug, PartialEq)]
 pub(super) struct Curve {
@@ -63,11 +66,16 @@ impl CurvePoint<'_> {
         self.segment.heading_rad(self.jet[1])
     }
 
+    /// The speed `v` over the arc length, as `1/v`.
+    pub fn inverse_speed(&self) -> f64 {
+        let [_, [x, y], ..] = self.jet;
+        1.0 / (x * x + y * y).sqrt()
+    }
+
     /// Signed curvature `(x′y″ − y′x″)/v³` \[1/m\].
     pub fn curvature_1pm(&self) -> f64 {
-        let [_, first, second, _] = self.jet;
-        let square = first[0] * first[0] + first[1] * first[1];
-        (first[0] * second[1] - first[1] * second[0]) / (square * square.sqrt())
+        let ([_, first, second, _], slowness) = (self.jet, self.inverse_speed());
+        (first[0] * second[1] - first[1] * second[0]) * (slowness * slowness * slowness)
     }
 }
 
@@ -84,7 +92,7 @@ impl Curve {
             segments.push(segment);
         }
         segments.first()?;
-        let count = 2 * segments.len();
+        let count = SECTIONS_PER_SEGMENT * segments.len();
         let sections_per_m = count as f64 / from_m;
         let begins = (0..=count).map(|section| section as f64 / sections_per_m);
         let number = |along_m: f64| segments.partition_point(|segment| segment.from_m <= along_m).saturating_sub(1);
@@ -92,15 +100,15 @@ impl Curve {
         Some(Curve { segments, length_m: from_m, sections, sections_per_m })
     }
 
-    /// The segment that holds an arc length between 0 and the length.
-    pub fn segment(&self, along_m: f64) -> &Segment {
-        let last = self.segments.len() - 1;
+    /// The segment that holds an arc length between 0 and the length; at a knot, up to rounding, one of both.
+    fn segment(&self, along_m: f64) -> &Segment {
         let section = ((along_m * self.sections_per_m) as usize).min(self.sections.len() - 2);
-        // Rounding may put a place into the section beside its own, so one more segment is searched on either side.
-        let first = (self.sections[section] as usize).saturating_sub(1);
-        let end = (self.sections[section + 1] as usize + 2).min(last + 1);
-        let among = &self.segments[first..end];
-        &among[among.partition_point(|segment| segment.from_m <= along_m).saturating_sub(1)]
+        let (first, last) = (self.sections[section] as usize, self.sections[section + 1] as usize);
+        if first == last {
+            return &self.segments[first];
+        }
+        let after = &self.segments[first + 1..=last];
+        &self.segments[first + after.partition_point(|segment| segment.from_m <= along_m)]
     }
 
     /// The first segment, and the last.
@@ -118,6 +126,16 @@ impl Curve {
         } else {
             let segment = self.segment(along_m);
             CurvePoint { jet: segment.jet(along_m - segment.from_m), segment }
+        }
+    }
+
+    /// The same as [`Curve::point`], without a search where the arc length is on the segment of another point.
+    pub fn point_near<'a>(&'a self, along_m: f64, other: &CurvePoint<'a>) -> CurvePoint<'a> {
+        let u = along_m - other.segment.from_m;
+        if u >= 0.0 && u <= other.segment.length_m {
+            CurvePoint { jet: other.segment.jet(u), segment: other.segment }
+        } else {
+            self.point(along_m)
         }
     }
 }

@@ -94,24 +94,24 @@ impl Segment {
     }
 }
 
-/// A polynomial of degree 5 and its first three derivatives.
+/// A polynomial of degree 5 and its first three derivatives; in pairs (Estrin), which a processor evaluates side by side.
 fn derivatives(c: &[f64; 6], u: f64) -> [f64; 4] {
+    let (square, fourth) = (u * u, u * u * (u * u));
     [
-        c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5])))),
-        c[1] + u * (2.0 * c[2] + u * (3.0 * c[3] + u * (4.0 * c[4] + u * (5.0 * c[5])))),
-        2.0 * c[2] + u * (6.0 * c[3] + u * (12.0 * c[4] + u * (20.0 * c[5]))),
-        6.0 * c[3] + u * (24.0 * c[4] + u * (60.0 * c[5])),
+        (c[0] + c[1] * u) + (c[2] + c[3] * u) * square + (c[4] + c[5] * u) * fourth,
+        (c[1] + 2.0 * c[2] * u) + (3.0 * c[3] + 4.0 * c[4] * u) * square + 5.0 * c[5] * fourth,
+        (2.0 * c[2] + 6.0 * c[3] * u) + (12.0 * c[4] + 20.0 * c[5] * u) * square,
+        (6.0 * c[3] + 24.0 * c[4] * u) + 60.0 * c[5] * square,
     ]
 }
 
 /// The arctangent of a number below 0.1 in magnitude: its series up to the power 15, of which the rest is below `1e-17`.
 fn small_arctangent(z: f64) -> f64 {
-    let square = z * z;
-    let mut sum = -1.0 / 15.0;
-    for odd in [13.0, -11.0, 9.0, -7.0, 5.0, -3.0, 1.0] {
-        sum = sum * square + 1.0 / odd;
-    }
-    z * sum
+    let second = z * z;
+    let (fourth, eighth) = (second * second, second * second * (second * second));
+    let low = (1.0 - second * (1.0 / 3.0)) + (1.0 / 5.0 - second * (1.0 / 7.0)) * fourth;
+    let high = (1.0 / 9.0 - second * (1.0 / 11.0)) + (1.0 / 13.0 - second * (1.0 / 15.0)) * fourth;
+    z * (low + high * eighth)
 }
 
 #[cfg(test)]
