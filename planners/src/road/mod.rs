@@ -3,8 +3,10 @@
 mod axes;
 pub mod centre_line;
 mod corridor;
-mod spline;
+pub mod network;
+mod profile;
 
 pub use axes::Axes;
 pub use centre_line::CentreLine;
 pub use corridor::{Corridor, LaneEnd};
+pub use profile::{Profile, ProfileError};

@@ -1,9 +1,9 @@
 //! Centre lines through points.
 
-use super::super::spline;
 use super::error::CentreLineError;
 use super::line::CentreLine;
 use super::reparametrisation::segments;
+use super::spline;
 
 /// A point that is nearer to the one before than this share of the mean distance is left out: so short an interval would
 /// turn the rounding of its points into curvature.

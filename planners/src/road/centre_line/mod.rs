@@ -21,6 +21,7 @@ mod pieces;
 mod projection;
 mod reparametrisation;
 mod segment;
+mod spline;
 
 #[cfg(test)]
 mod tests;

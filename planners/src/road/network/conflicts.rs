@@ -1,0 +1,147 @@
+//! Where two routes cross or merge.
+
+use super::route::Route;
+
+/// Parts of two routes whose lanes overlap without being the same lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conflict {
+    /// Where the first route is on the lanes of the second one, from and to \[m\].
+    pub on_a: [f64; 2],
+    /// Where the second route is on the lanes of the first one \[m\].
+    pub on_b: [f64; 2],
+}
+
+/// Ends of conflicts are found to this share of the narrowest lane.
+pub const CONFLICT_TOLERANCE_RATIO: f64 = 0.01;
+
+/// Lanes that overlap by less than this share of their width lie side by side, and do not conflict.
+const SIDE_BY_SIDE_RATIO: f64 = 0.05;
+
+/// Distance of the places that are compared, by the width of the narrowest lane.
+const SPACING_RATIO: f64 = 0.2;
+
+/// How many points of a cross-section are compared before the one nearest to the other route is refined.
+const POINTS_ACROSS: usize = 9;
+
+/// Steps of a golden-section search across a lane: each leaves 0.62 of the interval.
+const REFINEMENTS: usize = 12;
+
+/// The parts of two routes whose lanes overlap, in the order of the first route.
+///
+/// The lanes that the centre lines follow are compared, not the neighbouring lanes of the strips: vehicles on lanes side by
+/// side do not conflict. Where both routes are on the same lane, they follow each other, and there is no conflict. Places a
+/// fifth of a lane width apart are compared, so an overlap that is shorter may be missed; the ends of the others are exact to
+/// [`CONFLICT_TOLERANCE_RATIO`] lane widths. Both routes need ends; others have no conflicts.
+pub fn conflicts(a: &Route, b: &Route) -> Vec<Conflict> {
+    if !(a.end_m().is_finite() && b.end_m().is_finite()) {
+        return Vec::new();
+    }
+    let (on_a, on_b) = (overlaps(a, b), overlaps(b, a));
+    let conflict = |overlap: &Overlap| {
+        let meets = |other: &&Overlap| {
+            let touches = |one: [f64; 2], two: [f64; 2]| one[0] <= two[1] && two[0] <= one[1];
+            touches(other.own_m, overlap.other_m) && touches(overlap.own_m, other.other_m)
+        };
+        // The ends on the other route are refined there; a sliver that only one of them sees keeps its coarse ends.
+        let found = on_b.iter().filter(meets).map(|other| other.own_m).reduce(hull);
+        Conflict { on_a: overlap.own_m, on_b: found.unwrap_or(overlap.other_m) }
+    };
+    on_a.iter().map(conflict).collect()
+}
+
+/// A part of a route on the lanes of another one, and about where that is on the other one \[m\].
+struct Overlap {
+    own_m: [f64; 2],
+    other_m: [f64; 2],
+}
+
+fn hull(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+/// The parts of `own` that lie on the lanes of `other`, without those on a lane that both follow.
+fn overlaps(own: &Route, other: &Route) -> Vec<Overlap> {
+    let narrowest_m =
+        own.half_width.extremes(0.0, own.end_m())[0].min(other.half_width.extremes(0.0, other.end_m())[0]);
+    let spacing_m = 2.0 * SPACING_RATIO * narrowest_m;
+    let tolerance_m = 2.0 * CONFLICT_TOLERANCE_RATIO * narrowest_m;
+    let count = (own.end_m() / spacing_m).ceil().max(1.0) as usize;
+    let mut found: Vec<Overlap> = Vec::new();
+    let mut before: Option<(f64, bool)> = None;
+    for place in 0..=count {
+        let along_m = own.end_m() * place as f64 / count as f64;
+        let meeting_m = meeting_m(own, other, along_m);
+        let was_inside = before.is_some_and(|(_, was_inside)| was_inside);
+        let edge_m = || match before {
+            Some((before_m, _)) => {
+                bisect(before_m, along_m, tolerance_m, |at_m| self::meeting_m(own, other, at_m).is_some() == was_inside)
+            }
+            None => along_m,
+        };
+        match (meeting_m, found.last_mut()) {
+            (Some(other_m), Some(overlap)) if was_inside => {
+                overlap.own_m[1] = along_m;
+                overlap.other_m = hull(overlap.other_m, [other_m; 2]);
+            }
+            (Some(other_m), _) => found.push(Overlap { own_m: [edge_m(), along_m], other_m: [other_m; 2] }),
+            (None, Some(overlap)) if was_inside => overlap.own_m[1] = edge_m(),
+            (None, _) => {}
+        }
+        before = Some((along_m, meeting_m.is_some()));
+    }
+    // The places between which an overlap was seen are a spacing apart.
+    for overlap in &mut found {
+        overlap.other_m = [overlap.other_m[0] - spacing_m, overlap.other_m[1] + spacing_m];
+    }
+    found
+}
+
+/// The place where a claim that holds at `from_m` and not at `to_m` ceases to hold, to a tolerance.
+fn bisect(mut from_m: f64, mut to_m: f64, tolerance_m: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    while to_m - from_m > tolerance_m {
+        let middle_m = 0.5 * (from_m + to_m);
+        if holds(middle_m) {
+            from_m = middle_m;
+        } else {
+            to_m = middle_m;
+        }
+    }
+    0.5 * (from_m + to_m)
+}
+
+/// Where on another route a cross-section of a route touches its lanes, if it does \[m\].
+fn meeting_m(own: &Route, other: &Route, along_m: f64) -> Option<f64> {
+    let half_m = (1.0 - SIDE_BY_SIDE_RATIO) * own.half_width.value(along_m);
+    let lane = own.leg(along_m).map(|leg| leg.lane.as_str());
+    // How far a point of the cross-section is outside of the other lanes, at −1 to 1 of the own half width.
+    let outside = |share: f64| {
+        let point = other.centre.project(own.centre.position(along_m, share * half_m), None);
+        let beyond_m = (-point.along_m).max(point.along_m - other.end_m()).max(0.0);
+        let other_half_m = (1.0 - SIDE_BY_SIDE_RATIO) * other.half_width.value(point.along_m);
+        ((point.across_m.abs() - other_half_m).max(beyond_m), point.along_m)
+    };
+    let is_elsewhere = |other_m: f64| other.leg(other_m).map(|leg| leg.lane.as_str()) != lane;
+    let share = |index: usize| -1.0 + 2.0 * index as f64 / (POINTS_ACROSS - 1) as f64;
+    let points = (0..POINTS_ACROSS).map(|index| (share(index), outside(share(index))));
+    let (nearest, (outside_m, other_m)) = points.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
+    if outside_m <= 0.0 {
+        return is_elsewhere(other_m).then_some(other_m);
+    }
+    // Between two points, too, the cross-section may touch: the distance is convex near its minimum.
+    let step = 2.0 / (POINTS_ACROSS - 1) as f64;
+    let (mut low, mut high) = ((nearest - step).max(-1.0), (nearest + step).min(1.0));
+    if outside_m > (high - low) * half_m {
+        return None;
+    }
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    for _ in 0..REFINEMENTS {
+        let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+        if outside(a).0 < outside(b).0 {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    let (outside_m, other_m) = outside(0.5 * (low + high));
+    (outside_m <= 0.0 && is_elsewhere(other_m)).then_some(other_m)
+}

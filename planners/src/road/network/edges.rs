@@ -1,0 +1,124 @@
+//! The strip beside the centre line of a route.
+
+use super::super::centre_line::CentreLine;
+use super::super::profile::Profile;
+use super::lane::{Lane, LaneNeighbour};
+use super::road_network::RoadNetwork;
+use super::route::RouteLeg;
+
+/// The edges of a route and its own half width, over the arc length of its centre line.
+pub(super) struct Strip {
+    pub right: Profile,
+    pub left: Profile,
+    pub half_width: Profile,
+}
+
+/// Most by which an edge moves sideways per metre where a neighbour begins or ends.
+const MAX_EDGE_SLOPE: f64 = 0.2;
+
+/// Distance of the places where edges are computed, by the width of the lane.
+const SPACING_RATIO: f64 = 0.5;
+
+/// Most places where edges are computed.
+const MAX_PLACES: usize = 20_000;
+
+/// Edges that differ by less are equal, by the width of the lane: projections are exact to rounding.
+const EQUAL_RATIO: f64 = 1e-7;
+
+/// Computes edges at places along a route and smooths them.
+///
+/// `sections_m` says where the centre line follows the lane of each leg; between, it leads from one lane to the next, and the
+/// strip holds what belongs to either.
+pub(super) fn strip(network: &RoadNetwork, centre: &CentreLine, legs: &[RouteLeg], sections_m: &[[f64; 2]]) -> Strip {
+    let length_m = centre.length_m();
+    let lanes: Vec<&Lane> = legs.iter().filter_map(|leg| network.lane(&leg.lane)).collect();
+    let narrowest_m =
+        lanes.iter().map(|lane| lane.width.extremes(0.0, lane.centre.length_m())[0]).fold(f64::INFINITY, f64::min);
+    let count = ((length_m / (SPACING_RATIO * narrowest_m)).ceil() as usize).clamp(2, MAX_PLACES);
+    let mut right = Vec::with_capacity(count + 1);
+    let mut left = Vec::with_capacity(count + 1);
+    let mut half_width = Vec::with_capacity(count + 1);
+    for place in 0..=count {
+        let along_m = length_m * place as f64 / count as f64;
+        let mut edges_m = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut half_m = f64::INFINITY;
+        for (index, lane) in lanes.iter().enumerate() {
+            let begin_m = index.checked_sub(1).map_or(f64::NEG_INFINITY, |before| sections_m[before][1]);
+            let end_m = sections_m.get(index + 1).map_or(f64::INFINITY, |after| after[0]);
+            if along_m >= begin_m && along_m <= end_m {
+                let position = centre.at(along_m).position;
+                let near = Place { network, centre, along_m, position };
+                let (right_m, left_m) = (near.edge_m(lane, -1.0), near.edge_m(lane, 1.0));
+                edges_m = [edges_m[0].min(right_m), edges_m[1].max(left_m)];
+                half_m = half_m.min(lane.half_width_m(lane.centre.project(position, None).along_m));
+            }
+        }
+        right.push([along_m, -edges_m[0]]);
+        left.push([along_m, edges_m[1]]);
+        half_width.push([along_m, half_m]);
+    }
+    let smoothed = |knots: Vec<[f64; 2]>, sign: f64| smooth_edge(knots, EQUAL_RATIO * narrowest_m, sign);
+    Strip { right: smoothed(right, -1.0), left: smoothed(left, 1.0), half_width: smoothed(half_width, 1.0) }
+}
+
+/// A place on a route.
+struct Place<'a> {
+    network: &'a RoadNetwork,
+    centre: &'a CentreLine,
+    along_m: f64,
+    position: [f64; 2],
+}
+
+impl Place<'_> {
+    /// Lateral coordinate of the outer edge of a lane or of the last open neighbour on a side of it: 1 for the left, −1 for
+    /// the right \[m\].
+    fn edge_m(&self, lane: &Lane, side: f64) -> f64 {
+        let (mut lane, mut edge_m) = (lane, self.lane_edge_m(lane, side).1);
+        // A lane has a neighbour at most once on each side, unless neighbours form a ring.
+        for _ in self.network.lanes() {
+            let neighbour: Option<&LaneNeighbour> = if side > 0.0 { lane.left.as_ref() } else { lane.right.as_ref() };
+            let Some(next) = neighbour.filter(|next| next.is_open()).and_then(|next| self.network.lane(&next.lane))
+            else {
+                break;
+            };
+            let (is_beside, next_edge_m) = self.lane_edge_m(next, side);
+            if !is_beside {
+                break;
+            }
+            edge_m = if side > 0.0 { edge_m.max(next_edge_m) } else { edge_m.min(next_edge_m) };
+            lane = next;
+        }
+        edge_m
+    }
+
+    /// Whether a lane lies beside this place, neither before nor behind it, and the lateral coordinate of its edge on a side.
+    fn lane_edge_m(&self, lane: &Lane, side: f64) -> (bool, f64) {
+        let beside = lane.centre.project(self.position, None);
+        let edge = lane.centre.position(beside.along_m, side * lane.half_width_m(beside.along_m));
+        let is_beside = (0.0..=lane.centre.length_m()).contains(&beside.along_m);
+        (is_beside, self.centre.project(edge, Some(self.along_m)).across_m)
+    }
+}
+
+/// A profile that is nowhere beyond an edge and nowhere steeper than [`MAX_EDGE_SLOPE`], times `sign`.
+fn smooth_edge(mut knots: Vec<[f64; 2]>, equal_m: f64, sign: f64) -> Profile {
+    let limit = |knots: &mut Vec<[f64; 2]>, from: usize, to: usize| {
+        let most = knots[from][1] + MAX_EDGE_SLOPE * (knots[to][0] - knots[from][0]).abs();
+        knots[to][1] = knots[to][1].min(most);
+    };
+    for index in 1..knots.len() {
+        limit(&mut knots, index - 1, index);
+    }
+    for index in (1..knots.len()).rev() {
+        limit(&mut knots, index, index - 1);
+    }
+    // Neighbouring values that differ by rounding become one value, so that a constant width stays constant.
+    for index in 1..knots.len() {
+        if (knots[index][1] - knots[index - 1][1]).abs() < equal_m {
+            knots[index][1] = knots[index - 1][1];
+        }
+    }
+    let edge: Vec<[f64; 2]> = knots.iter().map(|[along_m, value]| [*along_m, sign * value]).collect();
+    // The places increase and are finite, so there is a profile; without places the edge is the centre line.
+    Profile::through(&edge).unwrap_or(Profile::constant(0.0))
+}

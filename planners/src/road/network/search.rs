@@ -1,0 +1,71 @@
+//! The shortest route between two lanes.
+
+use super::error::RouteError;
+use super::lane::Lane;
+use super::road_network::RoadNetwork;
+use super::route::Route;
+
+/// What a change to the lane beside costs, by its width: routes that need no change are preferred to those that save less.
+const CHANGE_COST_RATIO: f64 = 10.0;
+
+impl RoadNetwork {
+    /// The shortest route from the begin of a lane to the end of another one.
+    ///
+    /// Searches by Dijkstra's method over successors and open neighbours; a change costs as much as ten lane widths of
+    /// driving. Of routes of equal length, the one whose lanes come first in the network is taken.
+    ///
+    /// # Errors
+    /// [`RouteError::UnknownLane`], [`RouteError::NoWay`] where no route leads there, and those of
+    /// [`RoadNetwork::route`].
+    pub fn shortest_route(&self, from: &str, to: &str) -> Result<Route, RouteError> {
+        let number = |name: &str| {
+            let found = self.lanes().iter().position(|lane| lane.name == name);
+            found.ok_or_else(|| RouteError::UnknownLane { lane: name.to_owned() })
+        };
+        let (start, goal) = (number(from)?, number(to)?);
+        let lanes = self.shortest(start, goal);
+        let lanes = lanes.ok_or_else(|| RouteError::NoWay { from: from.to_owned(), to: to.to_owned() })?;
+        let names: Vec<&str> = lanes.iter().map(|number| self.lanes()[*number].name.as_str()).collect();
+        self.route(&names)
+    }
+
+    /// The numbers of the lanes on the shortest way, if there is one.
+    fn shortest(&self, start: usize, goal: usize) -> Option<Vec<usize>> {
+        let count = self.lanes().len();
+        let mut costs = vec![f64::INFINITY; count];
+        let mut before = vec![None; count];
+        let mut is_done = vec![false; count];
+        costs[start] = 0.0;
+        // Each round finishes a lane, so the search ends also where lanes form a loop.
+        for _ in 0..count {
+            let open = (0..count).filter(|number| !is_done[*number] && costs[*number].is_finite());
+            let next = open.min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;
+            if next == goal {
+                break;
+            }
+            is_done[next] = true;
+            for (number, cost) in self.steps(&self.lanes()[next]) {
+                if costs[next] + cost < costs[number] {
+                    costs[number] = costs[next] + cost;
+                    before[number] = Some(next);
+                }
+            }
+        }
+        let mut way = vec![goal];
+        while let Some(earlier) = way.last().and_then(|number| before[*number]) {
+            way.push(earlier);
+        }
+        way.reverse();
+        (way[0] == start).then_some(way)
+    }
+
+    /// The lanes that can be reached from a lane, with their cost \[m\].
+    fn steps(&self, lane: &Lane) -> Vec<(usize, f64)> {
+        let number = |name: &str| self.lanes().iter().position(|lane| lane.name == name);
+        let length_m = lane.centre.length_m();
+        let ahead = lane.successors.iter().filter_map(|name| Some((number(name)?, length_m)));
+        let change_m = CHANGE_COST_RATIO * lane.width.value(0.5 * length_m);
+        let beside = [&lane.left, &lane.right].into_iter().flatten().filter(|neighbour| neighbour.is_open());
+        ahead.chain(beside.filter_map(|neighbour| Some((number(&neighbour.lane)?, change_m)))).collect()
+    }
+}
