@@ -9,6 +9,19 @@ pub struct Conflict {
     pub on_a: [f64; 2],
     /// Where the second route is on the lanes of the first one \[m\].
     pub on_b: [f64; 2],
+    /// What the routes do there.
+    pub kind: ConflictKind,
+}
+
+/// What two routes do where they overlap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConflictKind {
+    /// They come from different lanes and go on to different lanes.
+    Crossing,
+    /// They go on to the same lane.
+    Merging,
+    /// They come from the same lane and go on to different lanes.
+    Diverging,
 }
 
 /// Ends of conflicts are found to this share of the narrowest lane.
@@ -16,6 +29,9 @@ pub const CONFLICT_TOLERANCE_RATIO: f64 = 0.01;
 
 /// Lanes that overlap by less than this share of their width lie side by side, and do not conflict.
 const SIDE_BY_SIDE_RATIO: f64 = 0.05;
+
+/// Edges that touch do not overlap: each lane is taken as narrower by this share.
+const TOUCHING_RATIO: f64 = 0.01;
 
 /// Distance of the places that are compared, by the width of the narrowest lane.
 const SPACING_RATIO: f64 = 0.2;
@@ -43,16 +59,43 @@ pub fn conflicts(a: &Route, b: &Route) -> Vec<Conflict> {
             touches(other.own_m, overlap.other_m) && touches(overlap.own_m, other.other_m)
         };
         // The ends on the other route are refined there; a sliver that only one of them sees keeps its coarse ends.
-        let found = on_b.iter().filter(meets).map(|other| other.own_m).reduce(hull);
-        Conflict { on_a: overlap.own_m, on_b: found.unwrap_or(overlap.other_m) }
+        let refined = on_b.iter().filter(meets).map(|other| other.own_m).reduce(hull);
+        let (on_a, on_b) = (overlap.own_m, refined.unwrap_or(overlap.other_m));
+        let beyond_m = 2.0 * SPACING_RATIO * narrowest_m(a, b);
+        let same_lane = |on_a_m: f64, on_b_m: f64| match (a.leg(on_a_m), b.leg(on_b_m)) {
+            (Some(a), Some(b)) => a.lane == b.lane,
+            _ => false,
+        };
+        let kind = if same_lane(on_a[1] + beyond_m, on_b[1] + beyond_m) {
+            ConflictKind::Merging
+        } else if same_lane(on_a[0] - beyond_m, on_b[0] - beyond_m) {
+            ConflictKind::Diverging
+        } else {
+            ConflictKind::Crossing
+        };
+        Conflict { on_a, on_b, kind }
     };
     on_a.iter().map(conflict).collect()
+}
+
+/// Width of the narrowest lane of two routes \[m\].
+fn narrowest_m(a: &Route, b: &Route) -> f64 {
+    let narrowest = |route: &Route| 2.0 * route.half_width.extremes(0.0, route.end_m())[0];
+    narrowest(a).min(narrowest(b))
 }
 
 /// A part of a route on the lanes of another one, and about where that is on the other one \[m\].
 struct Overlap {
     own_m: [f64; 2],
     other_m: [f64; 2],
+    /// Most by which the lanes overlap \[m\].
+    depth_m: f64,
+}
+
+/// A place of a route on the lanes of another one: where that is on the other one, and by how much the lanes overlap \[m\].
+struct Meeting {
+    other_m: f64,
+    depth_m: f64,
 }
 
 fn hull(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
@@ -61,34 +104,37 @@ fn hull(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 
 /// The parts of `own` that lie on the lanes of `other`, without those on a lane that both follow.
 fn overlaps(own: &Route, other: &Route) -> Vec<Overlap> {
-    let narrowest_m =
-        own.half_width.extremes(0.0, own.end_m())[0].min(other.half_width.extremes(0.0, other.end_m())[0]);
-    let spacing_m = 2.0 * SPACING_RATIO * narrowest_m;
-    let tolerance_m = 2.0 * CONFLICT_TOLERANCE_RATIO * narrowest_m;
+    let narrowest_m = narrowest_m(own, other);
+    let (spacing_m, tolerance_m) = (SPACING_RATIO * narrowest_m, CONFLICT_TOLERANCE_RATIO * narrowest_m);
     let count = (own.end_m() / spacing_m).ceil().max(1.0) as usize;
     let mut found: Vec<Overlap> = Vec::new();
     let mut before: Option<(f64, bool)> = None;
     for place in 0..=count {
         let along_m = own.end_m() * place as f64 / count as f64;
-        let meeting_m = meeting_m(own, other, along_m);
-        let was_inside = before.is_some_and(|(_, was_inside)| was_inside);
-        let edge_m = || match before {
+        let meets = meeting(own, other, along_m);
+        let earlier = before;
+        let was_inside = earlier.is_some_and(|(_, was_inside)| was_inside);
+        let edge_m = || match earlier {
             Some((before_m, _)) => {
-                bisect(before_m, along_m, tolerance_m, |at_m| self::meeting_m(own, other, at_m).is_some() == was_inside)
+                bisect(before_m, along_m, tolerance_m, |at_m| meeting(own, other, at_m).is_some() == was_inside)
             }
             None => along_m,
         };
-        match (meeting_m, found.last_mut()) {
-            (Some(other_m), Some(overlap)) if was_inside => {
+        before = Some((along_m, meets.is_some()));
+        match (meets, found.last_mut()) {
+            (Some(Meeting { other_m, depth_m }), Some(overlap)) if was_inside => {
                 overlap.own_m[1] = along_m;
                 overlap.other_m = hull(overlap.other_m, [other_m; 2]);
+                overlap.depth_m = overlap.depth_m.max(depth_m);
             }
-            (Some(other_m), _) => found.push(Overlap { own_m: [edge_m(), along_m], other_m: [other_m; 2] }),
+            (Some(Meeting { other_m, depth_m }), _) => {
+                found.push(Overlap { own_m: [edge_m(), along_m], other_m: [other_m; 2], depth_m });
+            }
             (None, Some(overlap)) if was_inside => overlap.own_m[1] = edge_m(),
             (None, _) => {}
         }
-        before = Some((along_m, meeting_m.is_some()));
     }
+    found.retain(|overlap| overlap.depth_m > SIDE_BY_SIDE_RATIO * narrowest_m);
     // The places between which an overlap was seen are a spacing apart.
     for overlap in &mut found {
         overlap.other_m = [overlap.other_m[0] - spacing_m, overlap.other_m[1] + spacing_m];
@@ -109,15 +155,15 @@ fn bisect(mut from_m: f64, mut to_m: f64, tolerance_m: f64, holds: impl Fn(f64) 
     0.5 * (from_m + to_m)
 }
 
-/// Where on another route a cross-section of a route touches its lanes, if it does \[m\].
-fn meeting_m(own: &Route, other: &Route, along_m: f64) -> Option<f64> {
-    let half_m = (1.0 - SIDE_BY_SIDE_RATIO) * own.half_width.value(along_m);
+/// Where a cross-section of a route touches the lanes of another one, if it does.
+fn meeting(own: &Route, other: &Route, along_m: f64) -> Option<Meeting> {
+    let half_m = (1.0 - TOUCHING_RATIO) * own.half_width.value(along_m);
     let lane = own.leg(along_m).map(|leg| leg.lane.as_str());
     // How far a point of the cross-section is outside of the other lanes, at −1 to 1 of the own half width.
     let outside = |share: f64| {
         let point = other.centre.project(own.centre.position(along_m, share * half_m), None);
-        let beyond_m = (-point.along_m).max(point.along_m - other.end_m()).max(0.0);
-        let other_half_m = (1.0 - SIDE_BY_SIDE_RATIO) * other.half_width.value(point.along_m);
+        let beyond_m = (-point.along_m).max(point.along_m - other.end_m());
+        let other_half_m = (1.0 - TOUCHING_RATIO) * other.half_width.value(point.along_m);
         ((point.across_m.abs() - other_half_m).max(beyond_m), point.along_m)
     };
     let is_elsewhere = |other_m: f64| other.leg(other_m).map(|leg| leg.lane.as_str()) != lane;
@@ -125,7 +171,7 @@ fn meeting_m(own: &Route, other: &Route, along_m: f64) -> Option<f64> {
     let points = (0..POINTS_ACROSS).map(|index| (share(index), outside(share(index))));
     let (nearest, (outside_m, other_m)) = points.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
     if outside_m <= 0.0 {
-        return is_elsewhere(other_m).then_some(other_m);
+        return is_elsewhere(other_m).then_some(Meeting { other_m, depth_m: -outside_m });
     }
     // Between two points, too, the cross-section may touch: the distance is convex near its minimum.
     let step = 2.0 / (POINTS_ACROSS - 1) as f64;
@@ -143,5 +189,5 @@ fn meeting_m(own: &Route, other: &Route, along_m: f64) -> Option<f64> {
         }
     }
     let (outside_m, other_m) = outside(0.5 * (low + high));
-    (outside_m <= 0.0 && is_elsewhere(other_m)).then_some(other_m)
+    (outside_m <= 0.0 && is_elsewhere(other_m)).then_some(Meeting { other_m, depth_m: -outside_m })
 }

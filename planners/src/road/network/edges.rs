@@ -1,6 +1,6 @@
 //! The strip beside the centre line of a route.
 
-use super::super::centre_line::CentreLine;
+use super::super::centre_line::{CentreLine, LinePoint};
 use super::super::profile::Profile;
 use super::lane::{Lane, LaneNeighbour};
 use super::road_network::RoadNetwork;
@@ -21,6 +21,12 @@ const SPACING_RATIO: f64 = 0.5;
 
 /// Most places where edges are computed.
 const MAX_PLACES: usize = 20_000;
+
+/// Steps of the search for an edge: each leaves about the square of the angle between both lines of the error before.
+const EDGE_STEPS: usize = 5;
+
+/// Least cosine of the angle between a route and a lane beside it: lanes at a larger angle are not beside it.
+const LEAST_COSINE: f64 = 0.5;
 
 /// Edges that differ by less are equal, by the width of the lane: projections are exact to rounding.
 const EQUAL_RATIO: f64 = 1e-7;
@@ -46,11 +52,11 @@ pub(super) fn strip(network: &RoadNetwork, centre: &CentreLine, legs: &[RouteLeg
             let begin_m = index.checked_sub(1).map_or(f64::NEG_INFINITY, |before| sections_m[before][1]);
             let end_m = sections_m.get(index + 1).map_or(f64::INFINITY, |after| after[0]);
             if along_m >= begin_m && along_m <= end_m {
-                let position = centre.at(along_m).position;
-                let near = Place { network, centre, along_m, position };
+                let point = centre.at(along_m);
+                let near = Place { network, centre, along_m, point };
                 let (right_m, left_m) = (near.edge_m(lane, -1.0), near.edge_m(lane, 1.0));
                 edges_m = [edges_m[0].min(right_m), edges_m[1].max(left_m)];
-                half_m = half_m.min(lane.half_width_m(lane.centre.project(position, None).along_m));
+                half_m = half_m.min(lane.half_width_m(lane.centre.project(point.position, None).along_m));
             }
         }
         right.push([along_m, -edges_m[0]]);
@@ -66,7 +72,7 @@ struct Place<'a> {
     network: &'a RoadNetwork,
     centre: &'a CentreLine,
     along_m: f64,
-    position: [f64; 2],
+    point: LinePoint,
 }
 
 impl Place<'_> {
@@ -91,17 +97,32 @@ impl Place<'_> {
         edge_m
     }
 
-    /// Whether a lane lies beside this place, neither before nor behind it, and the lateral coordinate of its edge on a side.
+    /// Whether a lane lies beside this place, neither before nor behind it, and where the normal of the route meets its edge
+    /// on a side: the lateral coordinate \[m\].
     fn lane_edge_m(&self, lane: &Lane, side: f64) -> (bool, f64) {
-        let beside = lane.centre.project(self.position, None);
-        let edge = lane.centre.position(beside.along_m, side * lane.half_width_m(beside.along_m));
-        let is_beside = (0.0..=lane.centre.length_m()).contains(&beside.along_m);
-        (is_beside, self.centre.project(edge, Some(self.along_m)).across_m)
+        let mut edge_m = 0.0;
+        let mut beside = lane.centre.project(self.point.position, None);
+        for _ in 0..EDGE_STEPS {
+            let missing_m = side * lane.half_width_m(beside.along_m) - beside.across_m;
+            let cos = libm::cos(beside.heading_rad - self.point.heading_rad);
+            edge_m += missing_m / cos.max(LEAST_COSINE);
+            beside = lane.centre.project(self.centre.position(self.along_m, edge_m), Some(beside.along_m));
+        }
+        ((0.0..=lane.centre.length_m()).contains(&beside.along_m), edge_m)
     }
 }
 
 /// A profile that is nowhere beyond an edge and nowhere steeper than [`MAX_EDGE_SLOPE`], times `sign`.
-fn smooth_edge(mut knots: Vec<[f64; 2]>, equal_m: f64, sign: f64) -> Profile {
+fn smooth_edge(places: Vec<[f64; 2]>, equal_m: f64, sign: f64) -> Profile {
+    let mut knots = places.clone();
+    // Where an edge jumps between two places, both have the inner value, for it may jump anywhere between them.
+    for pair in 0..places.len().saturating_sub(1) {
+        let (before, after) = (places[pair], places[pair + 1]);
+        if (after[1] - before[1]).abs() > MAX_EDGE_SLOPE * (after[0] - before[0]) {
+            knots[pair][1] = knots[pair][1].min(after[1]);
+            knots[pair + 1][1] = knots[pair + 1][1].min(before[1]);
+        }
+    }
     let limit = |knots: &mut Vec<[f64; 2]>, from: usize, to: usize| {
         let most = knots[from][1] + MAX_EDGE_SLOPE * (knots[to][0] - knots[from][0]).abs();
         knots[to][1] = knots[to][1].min(most);

@@ -14,6 +14,9 @@ pub struct LanePlace {
     pub heading_error_rad: f64,
 }
 
+/// Positions that are nearer to an edge or an end than this are on the lane: projections are exact to rounding \[m\].
+const EDGE_TOLERANCE_M: f64 = 1e-6;
+
 impl RoadNetwork {
     /// The lanes that hold a position, edges and ends included, those first whose direction is nearest to a heading
     /// \[m, rad\]; of equal directions, those whose centre is nearer.
@@ -21,8 +24,9 @@ impl RoadNetwork {
         let mut places: Vec<LanePlace> = Vec::new();
         for lane in self.lanes() {
             let point = lane.centre.project(position, None);
-            let is_along = (0.0..=lane.centre.length_m()).contains(&point.along_m);
-            if is_along && point.across_m.abs() <= lane.half_width_m(point.along_m) {
+            let beyond_m = (-point.along_m).max(point.along_m - lane.centre.length_m());
+            let beside_m = point.across_m.abs() - lane.half_width_m(point.along_m);
+            if beyond_m <= EDGE_TOLERANCE_M && beside_m <= EDGE_TOLERANCE_M {
                 let heading_error_rad = turn_rad(point.heading_rad, heading_rad);
                 places.push(LanePlace { lane: lane.name.clone(), point, heading_error_rad });
             }

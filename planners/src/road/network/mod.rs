@@ -17,7 +17,7 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-pub use conflicts::{CONFLICT_TOLERANCE_RATIO, Conflict, conflicts};
+pub use conflicts::{CONFLICT_TOLERANCE_RATIO, Conflict, ConflictKind, conflicts};
 pub use error::{LaneFault, RoadNetworkError, RouteError};
 pub use lane::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay};
 pub use locating::LanePlace;
