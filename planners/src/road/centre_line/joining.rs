@@ -139,8 +139,8 @@ fn section(section: &LineSection) -> Result<Vec<Segment>, CentreLineError> {
     let (from_m, to_m) = (from_m.max(0.0), to_m.min(curve.length_m));
     let mut parts = Vec::new();
     for segment in &curve.segments {
-        let (begin_m, end_m) = (from_m.max(segment.from_m), to_m.min(segment.to_m()));
-        if begin_m == segment.from_m && end_m == segment.to_m() {
+        let (begin_m, end_m) = (from_m.max(segment.from_m), to_m.min(segment.end_m()));
+        if begin_m == segment.from_m && end_m == segment.end_m() {
             parts.push(*segment);
         } else if end_m - begin_m > MIN_SECTION_M {
             parts.push(segment.part(begin_m - segment.from_m, end_m - segment.from_m));

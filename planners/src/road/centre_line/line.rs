@@ -80,18 +80,18 @@ impl CurvePoint<'_> {
 }
 
 impl Curve {
-    /// Places segments one after the other and continues their headings. None if there are none.
+    /// Places segments one after the other and continues the heading of the first. None if there are none.
     pub fn new(parts: Vec<Segment>) -> Option<Curve> {
-        let mut heading_rad = 0.0;
+        let first = parts.first()?;
+        let mut heading_rad = first.heading_rad(first.knot(0.0)[1]);
         let mut from_m = 0.0;
         let mut segments = Vec::with_capacity(parts.len());
         for part in parts {
             let segment = part.placed(from_m, heading_rad);
             heading_rad = segment.heading_rad(segment.knot(segment.length_m)[1]);
-            from_m = segment.to_m();
+            from_m = segment.end_m();
             segments.push(segment);
         }
-        segments.first()?;
         let count = SECTIONS_PER_SEGMENT * segments.len();
         let sections_per_m = count as f64 / from_m;
         let begins = (0..=count).map(|section| section as f64 / sections_per_m);

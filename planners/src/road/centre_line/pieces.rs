@@ -140,7 +140,8 @@ fn jump(before: &Piece, after: &Piece) -> Option<[f64; 2]> {
 }
 
 impl CentreLine {
-    /// The line of pieces one after the other, from a start with a heading \[m, rad\].
+    /// The line of pieces one after the other, from a start with a heading \[m, rad\]; its headings go on from this one, also
+    /// beyond a full turn.
     ///
     /// Clothoids are integrated by Gauss-Legendre quadrature with ten points between neighbouring knots, to rounding.
     ///
@@ -164,6 +165,9 @@ impl CentreLine {
         let mut pose = Pose { position: start, heading_rad };
         for piece in pieces {
             pose = pose.follow(piece, &mut segments);
+        }
+        if let Some(first) = segments.first_mut() {
+            *first = first.placed(0.0, heading_rad);
         }
         CentreLine::from_segments(segments).ok_or(CentreLineError::NoPieces)
     }

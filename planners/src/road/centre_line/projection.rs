@@ -126,7 +126,7 @@ impl Curve {
         let mut best_m = distance(best.1.jet[0], position);
         for (segment, [distance_m, from_m]) in self.segments.iter().zip(&chords) {
             // A descent from the best place would only be repeated.
-            let is_known = (segment.from_m..=segment.to_m()).contains(&best.0);
+            let is_known = (segment.from_m..=segment.end_m()).contains(&best.0);
             if !is_known && distance_m - MAX_SAG_RATIO * segment.length_m < best_m {
                 let other = self.descend(position, *from_m);
                 let other_m = distance(other.1.jet[0], position);

@@ -61,7 +61,7 @@ impl Segment {
     }
 
     /// Arc length of the line at the second knot \[m\].
-    pub fn to_m(&self) -> f64 {
+    pub fn end_m(&self) -> f64 {
         self.from_m + self.length_m
     }
 

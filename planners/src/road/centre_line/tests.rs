@@ -162,6 +162,16 @@ fn with_a_guess_a_projection_stays_on_its_branch_of_a_loop() {
 }
 
 #[test]
+fn headings_go_on_from_the_start_also_beyond_a_full_turn() {
+    let arc = [Piece::Arc { length_m: 10.0, curvature_1pm: 0.1 }];
+    let line = CentreLine::from_pieces([0.0; 2], 3.0 * TAU - 0.5, &arc).expect("an arc");
+    let part = line.between(5.0, 10.0).expect("on the line");
+    assert!((line.at(0.0).heading_rad - 3.0 * TAU + 0.5).abs() < 1e-12);
+    assert!((line.at(10.0).heading_rad - 3.0 * TAU - 0.5).abs() < 1e-9);
+    assert!((part.at(5.0).heading_rad - 3.0 * TAU - 0.5).abs() < 1e-9);
+}
+
+#[test]
 fn beyond_its_ends_a_line_is_straight() {
     let line = line(&[Piece::Arc { length_m: 10.0, curvature_1pm: 0.1 }]);
     let (end, after) = (line.at(10.0), line.at(15.0));
