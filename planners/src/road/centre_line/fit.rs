@@ -20,8 +20,25 @@ impl CentreLine {
     /// - [`CentreLineError::TooFewPoints`] where fewer than two points are distinct,
     /// - [`CentreLineError::Cusp`] where the points turn back so sharply that the curve has no direction.
     pub fn through(points: &[[f64; 2]]) -> Result<CentreLine, CentreLineError> {
+        CentreLine::through_towards(points, [None; 2])
+    }
+
+    /// Like [`CentreLine::through`], with a given heading at the begin, at the end, or at both \[rad\].
+    ///
+    /// Lanes that follow each other thus have one heading where they meet. The curvature at an end with a given heading need
+    /// not be zero.
+    ///
+    /// # Errors
+    /// As [`CentreLine::through`]; [`CentreLineError::NotFinite`] also for a heading.
+    pub fn through_towards(
+        points: &[[f64; 2]],
+        end_headings_rad: [Option<f64>; 2],
+    ) -> Result<CentreLine, CentreLineError> {
         if let Some(index) = points.iter().position(|[x, y]| !(x.is_finite() && y.is_finite())) {
             return Err(CentreLineError::NotFinite { place: format!("point {index}") });
+        }
+        if end_headings_rad.iter().flatten().any(|heading_rad| !heading_rad.is_finite()) {
+            return Err(CentreLineError::NotFinite { place: "a heading".to_owned() });
         }
         let points = distinct(points)?;
         let mut chords_m = vec![0.0];
@@ -30,8 +47,12 @@ impl CentreLine {
             total_m += distance(pair[0], pair[1]);
             chords_m.push(total_m);
         }
+        let tangents = end_headings_rad.map(|heading_rad| heading_rad.map(libm::sincos));
         let values = [0, 1].map(|axis| points.iter().map(|point| point[axis]).collect::<Vec<f64>>());
-        let bends = [0, 1].map(|axis| spline::natural_bends(&chords_m, &values[axis]));
+        let bends = [0, 1].map(|axis| {
+            let slopes = tangents.map(|tangent| tangent.map(|(sin, cos)| [cos, sin][axis]));
+            spline::bends(&chords_m, &values[axis], slopes)
+        });
         let mut found = Vec::new();
         for index in 1..points.len() {
             let curve = |chord_m: f64| {

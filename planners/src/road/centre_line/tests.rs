@@ -230,6 +230,21 @@ fn a_line_through_two_points_is_straight_and_through_points_of_a_circle_nearly_o
 }
 
 #[test]
+fn a_line_through_points_has_the_headings_that_are_given_at_its_ends() {
+    let points: Vec<[f64; 2]> =
+        (0..=8).map(|i| libm::sincos(0.2 * f64::from(i))).map(|(y, x)| [20.0 * x, 20.0 * y]).collect();
+    let line = CentreLine::through_towards(&points, [Some(FRAC_PI_2), Some(FRAC_PI_2 + 1.6)]).expect("distinct points");
+    assert!((line.at(0.0).heading_rad - FRAC_PI_2).abs() < 1e-12);
+    assert!((line.at(line.length_m()).heading_rad - FRAC_PI_2 - 1.6).abs() < 1e-12);
+    for step in 0..=32 {
+        let curvature_1pm = line.at(f64::from(step)).curvature_1pm;
+        assert!((curvature_1pm - 0.05).abs() < 5e-4 || step == 32, "{step} {curvature_1pm}");
+    }
+    let no_heading = CentreLineError::NotFinite { place: "a heading".into() };
+    assert_eq!(CentreLine::through_towards(&points, [Some(f64::INFINITY), None]), Err(no_heading));
+}
+
+#[test]
 fn parallels_parts_and_the_reverse_keep_their_distance() {
     let line = winding();
     let parallel = line.parallel(3.5).expect("it is nowhere that sharp");

@@ -42,6 +42,9 @@ const POINTS_ACROSS: usize = 9;
 /// Steps of a golden-section search across a lane: each leaves 0.62 of the interval.
 const REFINEMENTS: usize = 12;
 
+/// The golden section, `(√5 − 1)/2`.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
 /// The parts of two routes whose lanes overlap, in the order of the first route.
 ///
 /// The lanes that the centre lines follow are compared, not the neighbouring lanes of the strips: vehicles on lanes side by
@@ -106,17 +109,19 @@ fn hull(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 fn overlaps(own: &Route, other: &Route) -> Vec<Overlap> {
     let narrowest_m = narrowest_m(own, other);
     let (spacing_m, tolerance_m) = (SPACING_RATIO * narrowest_m, CONFLICT_TOLERANCE_RATIO * narrowest_m);
+    let widest_half_m = other.half_width.extremes(0.0, other.end_m())[1];
+    let pair = RoutePair { own, other, widest_half_m };
     let count = (own.end_m() / spacing_m).ceil().max(1.0) as usize;
     let mut found: Vec<Overlap> = Vec::new();
     let mut before: Option<(f64, bool)> = None;
     for place in 0..=count {
         let along_m = own.end_m() * place as f64 / count as f64;
-        let meets = meeting(own, other, along_m);
+        let meets = pair.meeting(along_m);
         let earlier = before;
         let was_inside = earlier.is_some_and(|(_, was_inside)| was_inside);
         let edge_m = || match earlier {
             Some((before_m, _)) => {
-                bisect(before_m, along_m, tolerance_m, |at_m| meeting(own, other, at_m).is_some() == was_inside)
+                bisect(before_m, along_m, tolerance_m, |at_m| pair.meeting(at_m).is_some() == was_inside)
             }
             None => along_m,
         };
@@ -155,39 +160,63 @@ fn bisect(mut from_m: f64, mut to_m: f64, tolerance_m: f64, holds: impl Fn(f64) 
     0.5 * (from_m + to_m)
 }
 
-/// Where a cross-section of a route touches the lanes of another one, if it does.
-fn meeting(own: &Route, other: &Route, along_m: f64) -> Option<Meeting> {
-    let half_m = (1.0 - TOUCHING_RATIO) * own.half_width.value(along_m);
-    let lane = own.leg(along_m).map(|leg| leg.lane.as_str());
-    // How far a point of the cross-section is outside of the other lanes, at −1 to 1 of the own half width.
-    let outside = |share: f64| {
-        let point = other.centre.project(own.centre.position(along_m, share * half_m), None);
-        let beyond_m = (-point.along_m).max(point.along_m - other.end_m());
-        let other_half_m = (1.0 - TOUCHING_RATIO) * other.half_width.value(point.along_m);
-        ((point.across_m.abs() - other_half_m).max(beyond_m), point.along_m)
-    };
-    let is_elsewhere = |other_m: f64| other.leg(other_m).map(|leg| leg.lane.as_str()) != lane;
-    let share = |index: usize| -1.0 + 2.0 * index as f64 / (POINTS_ACROSS - 1) as f64;
-    let points = (0..POINTS_ACROSS).map(|index| (share(index), outside(share(index))));
-    let (nearest, (outside_m, other_m)) = points.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
-    if outside_m <= 0.0 {
-        return is_elsewhere(other_m).then_some(Meeting { other_m, depth_m: -outside_m });
-    }
-    // Between two points, too, the cross-section may touch: the distance is convex near its minimum.
-    let step = 2.0 / (POINTS_ACROSS - 1) as f64;
-    let (mut low, mut high) = ((nearest - step).max(-1.0), (nearest + step).min(1.0));
-    if outside_m > (high - low) * half_m {
-        return None;
-    }
-    const GOLDEN: f64 = 0.618_033_988_749_895;
-    for _ in 0..REFINEMENTS {
-        let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-        if outside(a).0 < outside(b).0 {
-            high = b;
-        } else {
-            low = a;
+/// Two routes of which one is compared with the lanes of the other.
+struct RoutePair<'a> {
+    own: &'a Route,
+    other: &'a Route,
+    /// Half of the width of the widest lane of `other` \[m\].
+    widest_half_m: f64,
+}
+
+impl RoutePair<'_> {
+    /// Where the cross-section of a route at an arc length touches the lanes of the other one, if it does.
+    fn meeting(&self, along_m: f64) -> Option<Meeting> {
+        let half_m = (1.0 - TOUCHING_RATIO) * self.own.half_width.value(along_m);
+        if self.is_clear(along_m, half_m) {
+            return None;
         }
+        let share = |index: usize| -1.0 + 2.0 * index as f64 / (POINTS_ACROSS - 1) as f64;
+        let points = (0..POINTS_ACROSS).map(|index| (share(index), self.overlap(along_m, share(index) * half_m)));
+        let (deepest, mut meeting) = points.max_by(|a, b| a.1.depth_m.total_cmp(&b.1.depth_m))?;
+        if meeting.depth_m < 0.0 {
+            // Between two points, too, the cross-section may touch: the depth is concave near its maximum.
+            let step = 2.0 / (POINTS_ACROSS - 1) as f64;
+            let (mut low, mut high) = ((deepest - step).max(-1.0), (deepest + step).min(1.0));
+            if -meeting.depth_m > (high - low) * half_m {
+                return None;
+            }
+            for _ in 0..REFINEMENTS {
+                let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+                if self.overlap(along_m, a * half_m).depth_m > self.overlap(along_m, b * half_m).depth_m {
+                    high = b;
+                } else {
+                    low = a;
+                }
+            }
+            meeting = self.overlap(along_m, 0.5 * (low + high) * half_m);
+        }
+        (meeting.depth_m >= 0.0 && !self.is_same_lane(along_m, meeting.other_m)).then_some(meeting)
     }
-    let (outside_m, other_m) = outside(0.5 * (low + high));
-    (outside_m <= 0.0 && is_elsewhere(other_m)).then_some(Meeting { other_m, depth_m: -outside_m })
+
+    /// Whether a cross-section is too far from the other route to touch it, or in the middle of a lane that both follow.
+    fn is_clear(&self, along_m: f64, half_m: f64) -> bool {
+        let centre = self.own.centre.position(along_m, 0.0);
+        let nearest = self.other.centre.project(centre, None);
+        let foot = self.other.centre.position(nearest.along_m.clamp(0.0, self.other.end_m()), 0.0);
+        let apart_m = libm::hypot(centre[0] - foot[0], centre[1] - foot[1]);
+        let is_in_the_middle = apart_m < SIDE_BY_SIDE_RATIO * half_m;
+        apart_m > half_m + self.widest_half_m || (is_in_the_middle && self.is_same_lane(along_m, nearest.along_m))
+    }
+
+    fn is_same_lane(&self, own_m: f64, other_m: f64) -> bool {
+        self.own.leg(own_m).map(|leg| &leg.lane) == self.other.leg(other_m).map(|leg| &leg.lane)
+    }
+
+    /// By how much a point of a cross-section is inside of the other lanes, negative outside, and where that is.
+    fn overlap(&self, along_m: f64, across_m: f64) -> Meeting {
+        let point = self.other.centre.project(self.own.centre.position(along_m, across_m), None);
+        let inside_m = point.along_m.min(self.other.end_m() - point.along_m);
+        let other_half_m = (1.0 - TOUCHING_RATIO) * self.other.half_width.value(point.along_m);
+        Meeting { other_m: point.along_m, depth_m: (other_half_m - point.across_m.abs()).min(inside_m) }
+    }
 }

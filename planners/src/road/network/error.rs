@@ -122,6 +122,16 @@ pub enum RouteError {
         /// The lane that cannot be reached from it.
         to: String,
     },
+    /// Two lanes do not run side by side for long enough to change from one to the other.
+    #[error("lane `{from}` is too short beside lane `{to}` for a change of {needed_m:.2} m")]
+    NoRoomToChange {
+        /// The lane before.
+        from: String,
+        /// The lane beside it.
+        to: String,
+        /// Least length of a change \[m\].
+        needed_m: f64,
+    },
     /// No sequence of lanes leads from one lane to another.
     #[error("no route leads from lane `{from}` to lane `{to}`")]
     NoWay {

@@ -20,6 +20,10 @@ const JOINT_RATIO: f64 = 1.0;
 /// Length of a change to the lane beside, by the width of the lane: on 3.5 m wide lanes 42 m, 3 s at 50 km/h.
 const CHANGE_RATIO: f64 = 12.0;
 
+/// A change to the lane beside is at least this long, by the width of the lane: on 3.5 m wide lanes it turns with a radius of
+/// about 10 m.
+const MIN_CHANGE_RATIO: f64 = 4.0;
+
 /// Most of a lane that one joint or change replaces.
 const MAX_REPLACED_SHARE: f64 = 0.4;
 
@@ -39,8 +43,8 @@ impl RoadNetwork {
     /// most a fifth of a metre per metre, inside of the strip.
     ///
     /// # Errors
-    /// [`RouteError::NoLanes`], [`RouteError::UnknownLane`], [`RouteError::NotConnected`], and [`RouteError::Centre`] where a
-    /// lane is too short for its joints.
+    /// [`RouteError::NoLanes`], [`RouteError::UnknownLane`], [`RouteError::NotConnected`], [`RouteError::NoRoomToChange`], and
+    /// [`RouteError::Centre`] where the lines of two lanes face each other so badly that no smooth curve joins them.
     pub fn route<Name: AsRef<str>>(&self, names: &[Name]) -> Result<Route, RouteError> {
         let unknown = |name: &str| RouteError::UnknownLane { lane: name.to_owned() };
         let lanes = names
@@ -75,7 +79,7 @@ fn join<'a>(lanes: &[&'a Lane]) -> Joined<'a> {
             if last.lane.successors.contains(&lane.name) {
                 last.give_way(&mut next);
             } else if last.lane.may_change_to(&lane.name) {
-                last.change(&mut next);
+                last.change(&mut next)?;
             } else {
                 return Err(RouteError::NotConnected { from: last.lane.name.clone(), to: lane.name.clone() });
             }
@@ -113,7 +117,10 @@ impl Part<'_> {
     }
 
     /// Makes room for a change from this part to the lane beside it.
-    fn change(&mut self, next: &mut Part) {
+    ///
+    /// # Errors
+    /// [`RouteError::NoRoomToChange`] where both run side by side for less than four lane widths.
+    fn change(&mut self, next: &mut Part) -> Result<(), RouteError> {
         let line = &self.lane.centre;
         let beside_m = |along_m: f64| next.lane.centre.project(line.at(along_m).position, None).along_m;
         // The change lies where both lanes are.
@@ -122,7 +129,13 @@ impl Part<'_> {
         let middle_m = 0.5 * (begin_m + end_m);
         let change_m = CHANGE_RATIO * self.lane.width.value(middle_m);
         let half_m = (0.5 * change_m).min(MAX_REPLACED_SHARE * (end_m - begin_m));
+        let needed_m = MIN_CHANGE_RATIO * self.lane.width.value(middle_m);
+        if 2.0 * half_m < needed_m {
+            let (from, to) = (self.lane.name.clone(), next.lane.name.clone());
+            return Err(RouteError::NoRoomToChange { from, to, needed_m });
+        }
         self.to_m = middle_m - half_m;
         next.from_m = beside_m(middle_m + half_m);
+        Ok(())
     }
 }
