@@ -1,7 +1,7 @@
 //! Centre lines of roads: plane curves of which position, heading and curvature are continuous.
 //!
 //! A [`CentreLine`] is built from straight, arc and clothoid [`Piece`]s ([`CentreLine::from_pieces`]), as a smooth curve
-//! through points ([`CentreLine::through`]), or from other lines ([`CentreLine::between`], [`CentreLine::parallel`],
+//! through points ([`CentreLine::through`], for measured points after [`smooth_points`]), or from other lines ([`CentreLine::between`], [`CentreLine::parallel`],
 //! [`CentreLine::joined`]). It answers where a position is in road coordinates: the arc length `s` along the line and the
 //! signed lateral distance `n`, positive to the left ([`CentreLine::project`], [`CentreLine::expand`]).
 //!
@@ -21,6 +21,7 @@ mod pieces;
 mod projection;
 mod reparametrisation;
 mod segment;
+mod smoothing;
 mod spline;
 
 #[cfg(test)]
@@ -31,3 +32,4 @@ pub use joining::{JoinedLine, LineSection};
 pub use line::{CentreLine, LinePoint};
 pub use pieces::{Piece, smooth};
 pub use projection::{RoadExpansion, RoadPoint};
+pub use smoothing::smooth_points;

@@ -123,13 +123,15 @@ pub enum RouteError {
         to: String,
     },
     /// Two lanes do not run side by side for long enough to change from one to the other.
-    #[error("lane `{from}` is too short beside lane `{to}` for a change of {needed_m:.2} m")]
+    #[error("lane `{from}` leaves {room_m:.2} m for a change into lane `{to}`, which needs {needed_m:.2} m")]
     NoRoomToChange {
         /// The lane before.
         from: String,
         /// The lane beside it.
         to: String,
-        /// Least length of a change \[m\].
+        /// Length of the stretch in which the change must end \[m\].
+        room_m: f64,
+        /// Least length of this stretch \[m\].
         needed_m: f64,
     },
     /// No sequence of lanes leads from one lane to another.

@@ -73,13 +73,13 @@ type Joined<'a> = Result<Result<(JoinedLine, Vec<Part<'a>>), CentreLineError>, R
 
 fn join<'a>(lanes: &[&'a Lane]) -> Joined<'a> {
     let mut parts: Vec<Part> = Vec::new();
-    for &lane in lanes {
+    for (place, &lane) in lanes.iter().enumerate() {
         let mut next = Part { lane, from_m: 0.0, to_m: lane.centre.length_m() };
         if let Some(last) = parts.last_mut() {
             if last.lane.successors.contains(&lane.name) {
                 last.give_way(&mut next);
             } else if last.lane.may_change_to(&lane.name) {
-                last.change(&mut next)?;
+                last.change(&mut next, changes(&lanes[place - 1..]))?;
             } else {
                 return Err(RouteError::NotConnected { from: last.lane.name.clone(), to: lane.name.clone() });
             }
@@ -116,26 +116,43 @@ impl Part<'_> {
         next.from_m += replaced_m;
     }
 
-    /// Makes room for a change from this part to the lane beside it.
+    /// Makes room for a change from this part to the lane beside it, in the first of as many equal stretches as there are
+    /// changes in a row.
     ///
     /// # Errors
-    /// [`RouteError::NoRoomToChange`] where both run side by side for less than four lane widths.
-    fn change(&mut self, next: &mut Part) -> Result<(), RouteError> {
-        let line = &self.lane.centre;
-        let beside_m = |along_m: f64| next.lane.centre.project(line.at(along_m).position, None).along_m;
-        // The change lies where both lanes are.
-        let begin_m = line.project(next.lane.centre.at(0.0).position, None).along_m.max(self.from_m);
-        let end_m = line.project(next.lane.centre.at(next.to_m).position, None).along_m.min(self.to_m);
-        let middle_m = 0.5 * (begin_m + end_m);
-        let change_m = CHANGE_RATIO * self.lane.width.value(middle_m);
-        let half_m = (0.5 * change_m).min(MAX_REPLACED_SHARE * (end_m - begin_m));
-        let needed_m = MIN_CHANGE_RATIO * self.lane.width.value(middle_m);
-        if 2.0 * half_m < needed_m {
+    /// [`RouteError::NoRoomToChange`] where the stretch is too short.
+    fn change(&mut self, next: &mut Part, changes: usize) -> Result<(), RouteError> {
+        let [begin_m, end_m] = side_by_side(self.lane, next.lane);
+        let begin_m = begin_m.max(self.from_m);
+        let room_m = (end_m.min(self.to_m) - begin_m) / changes.max(1) as f64;
+        let middle_m = begin_m + 0.5 * room_m;
+        let width_m = self.lane.width.value(middle_m);
+        if room_m < least_room_m(width_m) {
             let (from, to) = (self.lane.name.clone(), next.lane.name.clone());
-            return Err(RouteError::NoRoomToChange { from, to, needed_m });
+            return Err(RouteError::NoRoomToChange { from, to, needed_m: least_room_m(width_m), room_m });
         }
+        let half_m = (0.5 * CHANGE_RATIO * width_m).min(MAX_REPLACED_SHARE * room_m);
+        let end = self.lane.centre.at(middle_m + half_m).position;
         self.to_m = middle_m - half_m;
-        next.from_m = beside_m(middle_m + half_m);
+        next.from_m = next.lane.centre.project(end, None).along_m;
         Ok(())
     }
+}
+
+/// How many changes to the lane beside a list of lanes begins with.
+fn changes(lanes: &[&Lane]) -> usize {
+    let is_change =
+        |pair: &&[&Lane]| !pair[0].successors.contains(&pair[1].name) && pair[0].may_change_to(&pair[1].name);
+    lanes.windows(2).take_while(is_change).count()
+}
+
+/// Where a lane runs beside another one: from and to, along the first; the second is smaller where it does not \[m\].
+pub(super) fn side_by_side(lane: &Lane, other: &Lane) -> [f64; 2] {
+    let beside_m = |along_m: f64| lane.centre.project(other.centre.at(along_m).position, None).along_m;
+    [beside_m(0.0).max(0.0), beside_m(other.centre.length_m()).min(lane.centre.length_m())]
+}
+
+/// Length that lanes must run side by side for a change, by the width of the lane \[m\].
+pub(super) fn least_room_m(width_m: f64) -> f64 {
+    MIN_CHANGE_RATIO * width_m / (2.0 * MAX_REPLACED_SHARE)
 }

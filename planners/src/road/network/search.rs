@@ -4,6 +4,7 @@ use super::error::RouteError;
 use super::lane::Lane;
 use super::road_network::RoadNetwork;
 use super::route::Route;
+use super::routing::{least_room_m, side_by_side};
 
 /// What a change to the lane beside costs, by its width: routes that need no change are preferred to those that save less.
 const CHANGE_COST_RATIO: f64 = 10.0;
@@ -12,7 +13,7 @@ impl RoadNetwork {
     /// The shortest route from the begin of a lane to the end of another one.
     ///
     /// Searches by Dijkstra's method over successors and open neighbours; a change costs as much as ten lane widths of
-    /// driving. Of routes of equal length, the one whose lanes come first in the network is taken.
+    /// driving, and needs room. Of routes of equal length, the one whose lanes come first in the network is taken.
     ///
     /// # Errors
     /// [`RouteError::UnknownLane`], [`RouteError::NoWay`] where no route leads there, and those of
@@ -66,6 +67,10 @@ impl RoadNetwork {
         let ahead = lane.successors.iter().filter_map(|name| Some((number(name)?, length_m)));
         let change_m = CHANGE_COST_RATIO * lane.width.value(0.5 * length_m);
         let beside = [&lane.left, &lane.right].into_iter().flatten().filter(|neighbour| neighbour.is_open());
-        ahead.chain(beside.filter_map(|neighbour| Some((number(&neighbour.lane)?, change_m)))).collect()
+        let with_room = beside.filter_map(|neighbour| number(&neighbour.lane)).filter(|number| {
+            let [from_m, to_m] = side_by_side(lane, &self.lanes()[*number]);
+            to_m - from_m > least_room_m(lane.width.value(0.5 * (from_m + to_m)))
+        });
+        ahead.chain(with_room.map(|number| (number, change_m))).collect()
     }
 }

@@ -156,6 +156,24 @@ fn a_change_to_the_lane_beside_leads_smoothly_from_one_centre_to_the_other() {
     assert!((route.along_m("left", 190.0).expect("a leg") - route.end_m() + 10.0).abs() < 1e-9);
 }
 
+#[test]
+fn a_change_needs_room_and_changes_in_a_row_share_it() {
+    let lanes = |length_m: f64| {
+        let mut lanes: Vec<Lane> =
+            (0..3).map(|i| straight(&format!("{i}"), [0.0, 3.5 * f64::from(i)], 0.0, length_m)).collect();
+        (lanes[0].left, lanes[1].left) = (neighbour("1", true), neighbour("2", true));
+        network(lanes)
+    };
+    let route = lanes(100.0).shortest_route("0", "2").expect("two changes have room");
+    // The first change ends at 45 m; the second one has the rest.
+    assert!((route.legs[0].to_m - 25.0).abs() < 0.2 && (route.legs[1].to_m - 72.5).abs() < 0.5, "{:?}", route.legs);
+    let short = lanes(30.0);
+    assert!(short.route(&["0", "1"]).is_ok(), "one change needs 17.5 m");
+    assert!(matches!(short.route(&["0", "1", "2"]), Err(RouteError::NoRoomToChange { .. })));
+    let no_way = RouteError::NoWay { from: "0".into(), to: "1".into() };
+    assert_eq!(lanes(15.0).shortest_route("0", "1"), Err(no_way));
+}
+
 /// An acceleration lane that ends: the strip narrows before its end, and is nowhere wider than the lanes.
 #[test]
 fn where_a_neighbour_ends_the_strip_narrows_before() {
