@@ -17,8 +17,9 @@ pub struct RoadNetwork {
 /// centimetres.
 const MAX_GAP_RATIO: f64 = 0.1;
 
-/// Most by which the heading changes where a lane touches its successor \[rad\].
-const MAX_KINK_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
+/// Most by which the heading changes where a lane touches its successor \[rad\]: in maps of real roads, lanes that fork begin
+/// with headings up to 10° apart.
+const MAX_KINK_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// How many places of a lane are checked between two knots of its centre line.
 const CHECKS_PER_KNOT: usize = 4;
@@ -32,7 +33,7 @@ impl RoadNetwork {
     /// - `centre`: without ends,
     /// - `width`: not positive and finite everywhere, or so large that an edge crosses itself (`|κ| w/2 ≥ 1`),
     /// - `speed_limit_mps`: not positive and finite,
-    /// - `successors`: unknown, named twice, more than a tenth of the width away, or turned by more than 5°,
+    /// - `successors`: unknown, named twice, more than a tenth of the width away, or turned by more than 10°,
     /// - `left`, `right`: unknown, the lane itself, in the wrong direction, or on the wrong side.
     pub fn new(lanes: Vec<Lane>) -> Result<RoadNetwork, RoadNetworkError> {
         let mut numbers = BTreeMap::new();

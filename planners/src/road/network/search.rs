@@ -1,13 +1,15 @@
 //! The shortest route between two lanes.
 
 use super::error::RouteError;
-use super::lane::Lane;
 use super::road_network::RoadNetwork;
 use super::route::Route;
 use super::routing::{least_room_m, side_by_side};
 
 /// What a change to the lane beside costs, by its width: routes that need no change are preferred to those that save less.
 const CHANGE_COST_RATIO: f64 = 10.0;
+
+/// One more than the most changes in a row that a search considers.
+const CHANGES_IN_A_ROW: usize = 6;
 
 impl RoadNetwork {
     /// The shortest route from the begin of a lane to the end of another one.
@@ -32,45 +34,45 @@ impl RoadNetwork {
 
     /// The numbers of the lanes on the shortest way, if there is one.
     fn shortest(&self, start: usize, goal: usize) -> Option<Vec<usize>> {
-        let count = self.lanes().len();
+        // A node is a lane with the number of changes in a row that led to it.
+        let count = self.lanes().len() * CHANGES_IN_A_ROW;
         let mut costs = vec![f64::INFINITY; count];
         let mut before = vec![None; count];
         let mut is_done = vec![false; count];
-        costs[start] = 0.0;
-        // Each round finishes a lane, so the search ends also where lanes form a loop.
-        for _ in 0..count {
-            let open = (0..count).filter(|number| !is_done[*number] && costs[*number].is_finite());
+        costs[start * CHANGES_IN_A_ROW] = 0.0;
+        let mut found = None;
+        // Each round finishes a node, so the search ends also where lanes form a loop.
+        while found.is_none() {
+            let open = (0..count).filter(|node| !is_done[*node] && costs[*node].is_finite());
             let next = open.min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;
-            if next == goal {
-                break;
-            }
             is_done[next] = true;
-            for (number, cost) in self.steps(&self.lanes()[next]) {
-                if costs[next] + cost < costs[number] {
-                    costs[number] = costs[next] + cost;
-                    before[number] = Some(next);
+            found = (next / CHANGES_IN_A_ROW == goal).then_some(next);
+            for (node, cost) in self.steps(next / CHANGES_IN_A_ROW, next % CHANGES_IN_A_ROW) {
+                if costs[next] + cost < costs[node] {
+                    costs[node] = costs[next] + cost;
+                    before[node] = Some(next);
                 }
             }
         }
-        let mut way = vec![goal];
-        while let Some(earlier) = way.last().and_then(|number| before[*number]) {
-            way.push(earlier);
-        }
-        way.reverse();
-        (way[0] == start).then_some(way)
+        let way = std::iter::successors(found, |node| before[*node]);
+        let mut lanes: Vec<usize> = way.map(|node| node / CHANGES_IN_A_ROW).collect();
+        lanes.reverse();
+        Some(lanes)
     }
 
-    /// The lanes that can be reached from a lane, with their cost \[m\].
-    fn steps(&self, lane: &Lane) -> Vec<(usize, f64)> {
+    /// The nodes that can be reached from a lane after some changes in a row, with their cost \[m\].
+    fn steps(&self, lane: usize, changes: usize) -> Vec<(usize, f64)> {
+        let lane = &self.lanes()[lane];
         let number = |name: &str| self.lanes().iter().position(|lane| lane.name == name);
         let length_m = lane.centre.length_m();
-        let ahead = lane.successors.iter().filter_map(|name| Some((number(name)?, length_m)));
+        let ahead = lane.successors.iter().filter_map(|name| Some((number(name)? * CHANGES_IN_A_ROW, length_m)));
         let change_m = CHANGE_COST_RATIO * lane.width.value(0.5 * length_m);
         let beside = [&lane.left, &lane.right].into_iter().flatten().filter(|neighbour| neighbour.is_open());
         let with_room = beside.filter_map(|neighbour| number(&neighbour.lane)).filter(|number| {
             let [from_m, to_m] = side_by_side(lane, &self.lanes()[*number]);
-            to_m - from_m > least_room_m(lane.width.value(0.5 * (from_m + to_m)))
+            let room_m = (to_m - from_m) / (changes + 1) as f64;
+            changes + 1 < CHANGES_IN_A_ROW && room_m > least_room_m(lane.width.value(0.5 * (from_m + to_m)))
         });
-        ahead.chain(with_room.map(|number| (number, change_m))).collect()
+        ahead.chain(with_room.map(|number| (number * CHANGES_IN_A_ROW + changes + 1, change_m))).collect()
     }
 }

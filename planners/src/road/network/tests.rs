@@ -170,6 +170,8 @@ fn a_change_needs_room_and_changes_in_a_row_share_it() {
     let short = lanes(30.0);
     assert!(short.route(&["0", "1"]).is_ok(), "one change needs 17.5 m");
     assert!(matches!(short.route(&["0", "1", "2"]), Err(RouteError::NoRoomToChange { .. })));
+    let no_way = RouteError::NoWay { from: "0".into(), to: "2".into() };
+    assert_eq!(short.shortest_route("0", "2"), Err(no_way));
     let no_way = RouteError::NoWay { from: "0".into(), to: "1".into() };
     assert_eq!(lanes(15.0).shortest_route("0", "1"), Err(no_way));
 }
