@@ -107,13 +107,19 @@ impl Profile {
         if knots.iter().all(|[_, value]| value == first) {
             return Ok(Profile::constant(*first));
         }
-        let stretch = |i: usize| {
-            let ([from_m, from], [to_m, to]) = (knots[i], knots[i + 1]);
+        // Knots inside of a constant part are left out: with fewer knots a search is faster.
+        let is_needed = |i: &usize| {
+            *i == 0 || *i + 1 == knots.len() || knots[i - 1][1] != knots[*i][1] || knots[i + 1][1] != knots[*i][1]
+        };
+        let needed: Vec<usize> = (0..knots.len()).filter(is_needed).collect();
+        let stretch = |pair: &[usize]| {
+            let ([from_m, from], [to_m, to]) = (knots[pair[0]], knots[pair[1]]);
+            let [slope, end_slope] = [slopes[pair[0]], slopes[pair[1]]];
             let h = to_m - from_m;
-            let (place, bow) = (to - from - h * slopes[i], h * (slopes[i + 1] - slopes[i]));
+            let (place, bow) = (to - from - h * slope, h * (end_slope - slope));
             let coefficients = [
                 from,
-                slopes[i],
+                slope,
                 0.0,
                 (10.0 * place - 4.0 * bow) / (h * h * h),
                 (-15.0 * place + 7.0 * bow) / (h * h * h * h),
@@ -121,7 +127,7 @@ impl Profile {
             ];
             Stretch { from_m, to_m, coefficients }
         };
-        Ok(Profile(Form::Stretches((0..knots.len() - 1).map(stretch).collect())))
+        Ok(Profile(Form::Stretches(needed.windows(2).map(stretch).collect())))
     }
 
     /// Value, slope and bend (first and second derivative over the arc length) at an arc length \[m\].
@@ -240,6 +246,9 @@ mod tests {
             assert!((extremes[0] - 0.0).abs() < 1e-12 && (extremes[1] - 4.1).abs() < 1e-12);
             assert_eq!(part, [profile.value(3.4), profile.value(3.2)]);
         }
+        let flat = [[0.0, 1.0], [1.0, 1.0], [2.0, 1.0], [3.0, 1.0], [4.0, 2.0]];
+        let fewer = [flat[0], flat[3], flat[4]];
+        assert_eq!(Profile::through(&flat), Profile::through(&fewer), "constant parts need no knots");
         let line: Vec<[f64; 2]> = (0..6).map(|i| [f64::from(i), 2.0 * f64::from(i)]).collect();
         assert!((Profile::through(&line).expect("sound knots").value(2.3) - 4.6).abs() < 1e-14);
     }

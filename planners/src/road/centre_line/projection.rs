@@ -179,7 +179,7 @@ impl CentreLine {
     /// nearest point of the whole line, at a cost that grows with the number of knots. A continuation beyond an end counts
     /// only where that end is the nearest point of the line.
     ///
-    /// The result is finite for every finite position. At the centre of curvature the nearest point is not unique, and
+    /// The result is finite for every position up to `1e100` m. At the centre of curvature the nearest point is not unique, and
     /// which of the nearest points is returned depends on `near_m`.
     pub fn project(&self, position: [f64; 2], near_m: Option<f64>) -> RoadPoint {
         let curve = match &self.0 {

@@ -184,6 +184,19 @@ fn beyond_its_ends_a_line_is_straight() {
 }
 
 #[test]
+fn far_positions_and_far_guesses_have_finite_coordinates() {
+    let line = loop_road();
+    for position in [[1e9, -1e9], [-1e30, 1e20], [40.0, 15.0]] {
+        for near_m in [None, Some(-1e30), Some(1e9), Some(f64::NAN), Some(f64::INFINITY)] {
+            let (point, expansion) = (line.project(position, near_m), line.expand(position, near_m));
+            assert!(point.along_m.is_finite() && point.across_m.is_finite() && point.heading_rad.is_finite());
+            let numbers = [expansion.along_gradient, expansion.across_gradient];
+            assert!(numbers.iter().flatten().chain(&expansion.along_hessian).all(|number| number.is_finite()));
+        }
+    }
+}
+
+#[test]
 fn a_curvature_jump_names_its_piece_and_a_transition_removes_it() {
     let pieces = [Piece::Straight { length_m: 30.0 }, Piece::Arc { length_m: 20.0, curvature_1pm: 0.1 }];
     let jump = CentreLineError::CurvatureJump { piece: 1, from_1pm: 0.0, to_1pm: 0.1 };
