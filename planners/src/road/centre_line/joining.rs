@@ -109,6 +109,13 @@ impl CentreLine {
         Ok(JoinedLine { line, sections_m })
     }
 
+    /// Whether another line begins with the position, heading and curvature of the end of this one, to `1e-9`.
+    pub fn is_continued_by(&self, next: &CentreLine) -> bool {
+        let (Ok(curve), Ok(next)) = (self.curve(), next.curve()) else { return false };
+        let ([_, last], [first, _]) = (curve.ends(), next.ends());
+        continues([last.knot(last.length_m), first.knot(0.0)].map(by_arc_length))
+    }
+
     fn curve(&self) -> Result<&Curve, CentreLineError> {
         match &self.0 {
             Shape::Curve(curve) => Ok(curve),

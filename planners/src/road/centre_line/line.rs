@@ -66,6 +66,18 @@ impl CurvePoint<'_> {
         self.segment.heading_rad(self.jet[1])
     }
 
+    /// The place a small distance along the curve, by Taylor's series.
+    pub fn moved(self, by_m: f64) -> Self {
+        let [place, first, second, third] = self.jet;
+        let jet = [
+            std::array::from_fn(|axis| place[axis] + by_m * (first[axis] + 0.5 * by_m * second[axis])),
+            std::array::from_fn(|axis| first[axis] + by_m * (second[axis] + 0.5 * by_m * third[axis])),
+            std::array::from_fn(|axis| second[axis] + by_m * third[axis]),
+            third,
+        ];
+        CurvePoint { jet, ..self }
+    }
+
     /// The speed `v` over the arc length, as `1/v`.
     pub fn inverse_speed(&self) -> f64 {
         let [_, [x, y], ..] = self.jet;

@@ -55,6 +55,10 @@ const MAX_STEPS: usize = 64;
 /// A search ends with a step that is shorter \[m\]: Halley's method leaves about `κ²/6` times its cube, which is rounding.
 const LAST_STEP_M: f64 = 1e-4;
 
+/// A last step that is shorter needs no evaluation: the series of the curve, to its third derivative, is exact to rounding
+/// \[m\].
+const TAYLOR_STEP_M: f64 = 1e-8;
+
 /// A step of Halley's method needs a second derivative of at least this share of `v²`; otherwise the curvature is ignored.
 const MIN_CONVEXITY: f64 = 0.1;
 
@@ -100,6 +104,9 @@ impl Curve {
             let reach_squared = MAX_STEP_RATIO * MAX_STEP_RATIO * dot(apart, apart);
             if step_m * step_m > reach_squared {
                 step_m = reach_squared.sqrt().copysign(step_m);
+            }
+            if step_m.abs() < TAYLOR_STEP_M {
+                return (along_m + step_m, point.moved(step_m));
             }
             let mut next_m = along_m + step_m;
             if next_m <= low_m || next_m >= high_m {

@@ -10,7 +10,9 @@ use super::route::{Route, RouteLeg};
 /// The part of a lane that a route follows.
 struct Part<'a> {
     lane: &'a Lane,
+    /// Where it begins on the lane \[m\].
     from_m: f64,
+    /// Where it ends on the lane \[m\].
     to_m: f64,
 }
 
@@ -26,9 +28,6 @@ const MIN_CHANGE_RATIO: f64 = 4.0;
 
 /// Most of a lane that one joint or change replaces.
 const MAX_REPLACED_SHARE: f64 = 0.4;
-
-/// Positions, headings and curvatures that differ by less continue each other.
-const CONTINUES: f64 = 1e-9;
 
 impl RoadNetwork {
     /// The route along lanes, each a successor of the one before, or a neighbour in the same direction into which one may
@@ -77,9 +76,9 @@ fn join<'a>(lanes: &[&'a Lane]) -> Joined<'a> {
         let mut next = Part { lane, from_m: 0.0, to_m: lane.centre.length_m() };
         if let Some(last) = parts.last_mut() {
             if last.lane.successors.contains(&lane.name) {
-                last.give_way(&mut next);
+                last.make_room_for_joint(&mut next);
             } else if last.lane.may_change_to(&lane.name) {
-                last.change(&mut next, changes(&lanes[place - 1..]))?;
+                last.make_room_for_change(&mut next, changes(&lanes[place - 1..]))?;
             } else {
                 return Err(RouteError::NotConnected { from: last.lane.name.clone(), to: lane.name.clone() });
             }
@@ -96,17 +95,8 @@ fn join<'a>(lanes: &[&'a Lane]) -> Joined<'a> {
 
 impl Part<'_> {
     /// Makes room for a joint between this part and its successor, unless they continue each other.
-    fn give_way(&mut self, next: &mut Part) {
-        let (end, begin) = (self.lane.centre.at(self.to_m), next.lane.centre.at(next.from_m));
-        let [(end_sin, end_cos), (begin_sin, begin_cos)] = [end, begin].map(|point| libm::sincos(point.heading_rad));
-        let differences = [
-            end.position[0] - begin.position[0],
-            end.position[1] - begin.position[1],
-            end_sin - begin_sin,
-            end_cos - begin_cos,
-            end.curvature_1pm - begin.curvature_1pm,
-        ];
-        if differences.iter().all(|difference| difference.abs() < CONTINUES) {
+    fn make_room_for_joint(&mut self, next: &mut Part) {
+        if self.lane.centre.is_continued_by(&next.lane.centre) {
             return;
         }
         let width_m = self.lane.width.value(self.to_m).min(next.lane.width.value(next.from_m));
@@ -121,7 +111,7 @@ impl Part<'_> {
     ///
     /// # Errors
     /// [`RouteError::NoRoomToChange`] where the stretch is too short.
-    fn change(&mut self, next: &mut Part, changes: usize) -> Result<(), RouteError> {
+    fn make_room_for_change(&mut self, next: &mut Part, changes: usize) -> Result<(), RouteError> {
         let [begin_m, end_m] = side_by_side(self.lane, next.lane);
         let begin_m = begin_m.max(self.from_m);
         let room_m = (end_m.min(self.to_m) - begin_m) / changes.max(1) as f64;
