@@ -65,6 +65,9 @@ const MIN_CONVEXITY: f64 = 0.1;
 /// A step is at most this many times the distance to the position, so that a search stays on its branch of the line.
 const MAX_STEP_RATIO: f64 = 2.0;
 
+/// Beyond the centre of curvature a step is at least this share of the distance to the position.
+const LEAST_STEP_RATIO: f64 = 0.25;
+
 /// Most by which a curve leaves the chord between two knots, by its length: above `½ tan 0.2`, the largest turn of a segment.
 const MAX_SAG_RATIO: f64 = 0.11;
 
@@ -92,7 +95,7 @@ impl Curve {
                 low_m = along_m;
             } else if slope > 0.0 {
                 high_m = along_m;
-            } else {
+            } else if bend > 0.0 {
                 break;
             }
             let halley = bend * bend - 0.5 * slope * twist;
@@ -104,6 +107,11 @@ impl Curve {
             let reach_squared = MAX_STEP_RATIO * MAX_STEP_RATIO * dot(apart, apart);
             if step_m * step_m > reach_squared {
                 step_m = reach_squared.sqrt().copysign(step_m);
+            }
+            if bend <= 0.0 {
+                // Beyond the centre of curvature the distance may have a maximum here, which the search must leave.
+                let least_m = LEAST_STEP_RATIO * dot(apart, apart).sqrt();
+                step_m = step_m.abs().max(least_m).copysign(-slope);
             }
             if step_m.abs() < TAYLOR_STEP_M {
                 return (along_m + step_m, point.moved(step_m));

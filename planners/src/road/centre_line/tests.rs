@@ -183,6 +183,27 @@ fn beyond_its_ends_a_line_is_straight() {
     assert!((found.along_m + 3.0).abs() < 1e-9 && (found.across_m - 1.0).abs() < 1e-9);
 }
 
+/// On the normal beyond the centre of a quarter of a circle, the distance to the arc has a maximum in its middle: the nearest
+/// points are beyond its ends.
+#[test]
+fn beyond_the_centre_of_curvature_a_search_leaves_the_maximum() {
+    let line = line(&[Piece::Arc { length_m: 5.0 * PI, curvature_1pm: 0.1 }]);
+    let middle_m = 2.5 * PI;
+    for across_m in [10.5, 12.0, 15.0] {
+        let position = line.position(middle_m, across_m);
+        let nearest = line.project(position, None);
+        let found = line.project(position, Some(middle_m));
+        assert!(found.across_m.abs() < across_m - 1e-3, "{found:?}");
+        assert!((found.across_m.abs() - nearest.across_m.abs()).abs() < 1e-9, "both ends are equally near");
+        let [gx, gy] = line.expand(position, Some(middle_m)).along_gradient;
+        assert!(gx.is_finite() && gy.is_finite());
+    }
+    // Inside of the clamp the derivatives are large and finite.
+    let close = line.expand(line.position(middle_m, 9.9), Some(middle_m));
+    let slope = libm::hypot(close.along_gradient[0], close.along_gradient[1]);
+    assert!((slope * RoadExpansion::MIN_STRETCH - 1.0).abs() < 1e-6, "{slope}");
+}
+
 #[test]
 fn far_positions_and_far_guesses_have_finite_coordinates() {
     let line = loop_road();
