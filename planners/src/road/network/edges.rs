@@ -20,7 +20,7 @@ const MAX_EDGE_SLOPE: f64 = 0.2;
 const SPACING_RATIO: f64 = 0.5;
 
 /// Most places where edges are computed.
-const MAX_PLACES: usize = 20_000;
+const MAX_PLACES: usize = 5_000;
 
 /// Steps of the search for an edge: each leaves about the square of the angle between both lines of the error before.
 const EDGE_STEPS: usize = 5;
@@ -53,7 +53,7 @@ pub(super) fn strip(network: &RoadNetwork, centre: &CentreLine, legs: &[RouteLeg
             let end_m = sections_m.get(index + 1).map_or(f64::INFINITY, |after| after[0]);
             if along_m >= begin_m && along_m <= end_m {
                 let point = centre.at(along_m);
-                let near = Place { network, centre, along_m, point };
+                let near = Place { network, centre, along_m, point, width_m: narrowest_m };
                 let (right_m, left_m) = (near.edge_m(lane, -1.0), near.edge_m(lane, 1.0));
                 edges_m = [edges_m[0].min(right_m), edges_m[1].max(left_m)];
                 half_m = half_m.min(lane.half_width_m(lane.centre.project(point.position, None).along_m));
@@ -73,6 +73,8 @@ struct Place<'a> {
     centre: &'a CentreLine,
     along_m: f64,
     point: LinePoint,
+    /// Width of the narrowest lane of the route \[m\].
+    width_m: f64,
 }
 
 impl Place<'_> {
@@ -87,14 +89,24 @@ impl Place<'_> {
             else {
                 break;
             };
-            let (is_beside, next_edge_m) = self.lane_edge_m(next, side);
-            if !is_beside {
-                break;
-            }
+            let Some(next_edge_m) = self.beside(next, side) else { break };
             edge_m = if side > 0.0 { edge_m.max(next_edge_m) } else { edge_m.min(next_edge_m) };
             lane = next;
         }
         edge_m
+    }
+
+    /// Lateral coordinate of the edge of a lane on a side, if the lane lies beside this place, or one that continues it does:
+    /// lanes side by side need not begin and end at the same place \[m\].
+    fn beside(&self, lane: &Lane, side: f64) -> Option<f64> {
+        let (is_beside, edge_m) = self.lane_edge_m(lane, side);
+        if is_beside {
+            return Some(edge_m);
+        }
+        let after = lane.successors.iter().filter_map(|name| self.network.lane(name));
+        let before = self.network.lanes().iter().filter(|other| other.successors.contains(&lane.name));
+        let edges = after.chain(before).map(|other| self.lane_edge_m(other, side));
+        edges.filter(|(is_beside, _)| *is_beside).map(|(_, edge_m)| edge_m).next()
     }
 
     /// Whether a lane lies beside this place, neither before nor behind it, and where the normal of the route meets its edge
@@ -108,7 +120,8 @@ impl Place<'_> {
             edge_m += missing_m / cos.max(LEAST_COSINE);
             beside = lane.centre.project(self.centre.position(self.along_m, edge_m), Some(beside.along_m));
         }
-        ((0.0..=lane.centre.length_m()).contains(&beside.along_m), edge_m)
+        let beyond_m = (-beside.along_m).max(beside.along_m - lane.centre.length_m());
+        (beyond_m < EQUAL_RATIO * self.width_m, edge_m)
     }
 }
 

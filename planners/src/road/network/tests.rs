@@ -156,6 +156,21 @@ fn a_change_to_the_lane_beside_leads_smoothly_from_one_centre_to_the_other() {
     assert!((route.along_m("left", 190.0).expect("a leg") - route.end_m() + 10.0).abs() < 1e-9);
 }
 
+/// The lane beside is divided one metre later than the lane itself: there is always a lane beside it.
+#[test]
+fn lanes_side_by_side_may_be_divided_at_different_places() {
+    let mut lanes = vec![
+        followed_by(straight("right-1", [0.0, 0.0], 0.0, 50.0), &["right-2"]),
+        straight("right-2", [50.0, 0.0], 0.0, 50.0),
+        followed_by(straight("left-1", [0.0, 3.5], 0.0, 51.0), &["left-2"]),
+        straight("left-2", [51.0, 3.5], 0.0, 49.0),
+    ];
+    (lanes[0].left, lanes[1].left) = (neighbour("left-1", true), neighbour("left-2", true));
+    let route = network(lanes).route(&["right-1", "right-2"]).expect("it goes on");
+    let [least_m, most_m] = route.left.extremes(0.0, 100.0);
+    assert!((least_m - 5.25).abs() < 1e-9 && (most_m - 5.25).abs() < 1e-9, "{least_m} {most_m}");
+}
+
 #[test]
 fn a_change_needs_room_and_changes_in_a_row_share_it() {
     let lanes = |length_m: f64| {
