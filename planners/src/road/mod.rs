@@ -1,4 +1,7 @@
 //! The road that a vehicle uses: its direction and its edges.
+//!
+//! A [`Corridor`] is a straight road. Curved roads are lanes of a [`network`], each with a [`CentreLine`] and a [`Profile`] of
+//! its width.
 
 mod axes;
 pub mod centre_line;

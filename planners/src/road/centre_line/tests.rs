@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use proptest::prelude::*;
 
+use super::segment::Segment;
 use super::*;
 use crate::Corridor;
 
@@ -109,36 +110,51 @@ fn position_heading_and_curvature_are_continuous_and_the_speed_is_one() {
     }
 }
 
+/// Checks the expansion at a place against central differences.
+fn check_expansion(line: &CentreLine, along_m: f64, across_m: f64) {
+    let step = 1e-5;
+    let position = line.position(along_m, across_m);
+    let here = line.expand(position, Some(along_m));
+    assert!((here.along_m - along_m).abs() < 1e-9 && (here.across_m - across_m).abs() < 1e-9);
+    for axis in 0..2 {
+        let [below, above] = [-step, step].map(|by| {
+            let mut moved = position;
+            moved[axis] += by;
+            line.expand(moved, Some(along_m))
+        });
+        let slope = |below: f64, above: f64| (above - below) / (2.0 * step);
+        assert!((slope(below.along_m, above.along_m) - here.along_gradient[axis]).abs() < 1e-8);
+        assert!((slope(below.across_m, above.across_m) - here.across_gradient[axis]).abs() < 1e-8);
+        for other in 0..2 {
+            let along = slope(below.along_gradient[other], above.along_gradient[other]);
+            let across = slope(below.across_gradient[other], above.across_gradient[other]);
+            assert!((along - here.along_hessian[axis + other]).abs() < 1e-7, "{along} {here:?}");
+            assert!((across - here.across_hessian[axis + other]).abs() < 1e-7, "{across} {here:?}");
+        }
+        let heading = slope(below.heading_rad, above.heading_rad);
+        assert!((heading - here.heading_slope_radpm * here.along_gradient[axis]).abs() < 1e-8);
+        let bend = slope(below.heading_slope_radpm, above.heading_slope_radpm);
+        assert!((bend - here.heading_bend_radpm2 * here.along_gradient[axis]).abs() < 1e-7);
+    }
+}
+
 #[test]
 fn derivatives_agree_with_finite_differences() {
     let points = [[0.0, 0.0], [8.0, 0.5], [19.0, 5.0], [25.0, 14.0]];
-    let step = 1e-5;
     for line in [winding(), CentreLine::through(&points).expect("distinct points"), CentreLine::straight(0.4)] {
         for (along_m, across_m) in [(3.3, 1.0), (11.7, -2.5), (17.3, 4.0), (23.9, -1.0), (-4.0, 2.0)] {
-            let position = line.position(along_m, across_m);
-            let here = line.expand(position, Some(along_m));
-            assert!((here.along_m - along_m).abs() < 1e-9 && (here.across_m - across_m).abs() < 1e-9);
-            for axis in 0..2 {
-                let [below, above] = [-step, step].map(|by| {
-                    let mut moved = position;
-                    moved[axis] += by;
-                    line.expand(moved, Some(along_m))
-                });
-                let slope = |below: f64, above: f64| (above - below) / (2.0 * step);
-                assert!((slope(below.along_m, above.along_m) - here.along_gradient[axis]).abs() < 1e-8);
-                assert!((slope(below.across_m, above.across_m) - here.across_gradient[axis]).abs() < 1e-8);
-                for other in 0..2 {
-                    let along = slope(below.along_gradient[other], above.along_gradient[other]);
-                    let across = slope(below.across_gradient[other], above.across_gradient[other]);
-                    assert!((along - here.along_hessian[axis + other]).abs() < 1e-7, "{along} {here:?}");
-                    assert!((across - here.across_hessian[axis + other]).abs() < 1e-7, "{across} {here:?}");
-                }
-                let heading = slope(below.heading_rad, above.heading_rad);
-                assert!((heading - here.heading_slope_radpm * here.along_gradient[axis]).abs() < 1e-8);
-                let bend = slope(below.heading_slope_radpm, above.heading_slope_radpm);
-                assert!((bend - here.heading_bend_radpm2 * here.along_gradient[axis]).abs() < 1e-7);
-            }
+            check_expansion(&line, along_m, across_m);
         }
+    }
+}
+
+/// Also for polynomials whose speed is far from 1 and not constant.
+#[test]
+fn derivatives_include_the_speed() {
+    let (from, to) = ([[0.0, 0.0], [1.3, 0.0], [0.02, 0.01]], [[11.0, 0.4], [0.8, 0.07], [-0.05, 0.01]]);
+    let line = CentreLine::from_segments(vec![Segment::new(10.0, from, to)]).expect("one segment");
+    for (along_m, across_m) in [(1.0, 2.0), (4.0, -3.0), (7.5, 1.0), (9.0, 5.0)] {
+        check_expansion(&line, along_m, across_m);
     }
 }
 
