@@ -1,6 +1,7 @@
 //! The shortest route between two lanes.
 
 use super::error::RouteError;
+use super::lane::Lane;
 use super::road_network::RoadNetwork;
 use super::route::Route;
 use super::routing::{least_room_m, side_by_side};
@@ -30,6 +31,24 @@ impl RoadNetwork {
         let lanes = lanes.ok_or_else(|| RouteError::NoWay { from: from.to_owned(), to: to.to_owned() })?;
         let names: Vec<&str> = lanes.iter().map(|number| self.lanes()[*number].name.as_str()).collect();
         self.route(&names)
+    }
+
+    /// The lanes from which no end of the network can be reached, in the order of the network: loops without an exit, and what
+    /// leads into them. An end is a lane without successors; changes into open neighbours count.
+    pub fn lanes_without_end(&self) -> Vec<&Lane> {
+        let mut ends: Vec<bool> = self.lanes().iter().map(|lane| lane.successors.is_empty()).collect();
+        let leads_to =
+            |lane: &Lane, other: &Lane| lane.successors.contains(&other.name) || lane.may_change_to(&other.name);
+        // Each round but the last adds a lane.
+        loop {
+            let reaches = |(number, lane): (usize, &Lane), ends: &[bool]| {
+                !ends[number] && self.lanes().iter().zip(ends).any(|(other, is_end)| *is_end && leads_to(lane, other))
+            };
+            let next = self.lanes().iter().enumerate().find(|numbered| reaches(*numbered, &ends));
+            let Some((number, _)) = next else { break };
+            ends[number] = true;
+        }
+        self.lanes().iter().zip(&ends).filter(|(_, is_end)| !**is_end).map(|(lane, _)| lane).collect()
     }
 
     /// The numbers of the lanes on the shortest way, if there is one.

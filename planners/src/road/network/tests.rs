@@ -290,6 +290,21 @@ fn a_search_ends_where_no_way_leads_and_where_lanes_form_a_loop() {
 }
 
 #[test]
+fn a_loop_without_an_exit_is_found() {
+    let around = roundabout(12.0);
+    assert!(around.lanes_without_end().is_empty());
+    let closed = around.lanes().iter().filter(|lane| !lane.name.starts_with("out")).cloned().map(|mut lane| {
+        lane.successors.retain(|name| !name.starts_with("out"));
+        lane
+    });
+    let mut closed: Vec<Lane> = closed.collect();
+    closed.push(straight("elsewhere", [90.0, 90.0], 0.0, 10.0));
+    let closed = network(closed);
+    let names: Vec<&str> = closed.lanes_without_end().iter().map(|lane| lane.name.as_str()).collect();
+    assert_eq!(names, ["ring-0", "in-0", "ring-1", "in-1", "ring-2", "in-2", "ring-3", "in-3"]);
+}
+
+#[test]
 fn a_position_is_located_on_the_lanes_that_hold_it() {
     let network = roundabout(15.0);
     let found = network.locate([0.0, 15.5], PI);
