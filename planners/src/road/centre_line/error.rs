@@ -1,0 +1,67 @@
+//! Why a centre line cannot be built.
+
+use thiserror::Error;
+
+/// Why a centre line cannot be built. Pieces and points are counted from 0.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum CentreLineError {
+    /// A number of the start, of a piece or of a point is infinite or not a number (NaN).
+    #[error("{place} has a number that is not finite")]
+    NotFinite {
+        /// Where the number is: `the start`, `piece 2`, `point 7`.
+        place: String,
+    },
+    /// There are no pieces.
+    #[error("a centre line needs at least one piece")]
+    NoPieces,
+    /// A piece has no positive length.
+    #[error("piece {piece} is {length_m} m long; lengths are positive")]
+    NoLength {
+        /// The number of the piece.
+        piece: usize,
+        /// Its length \[m\].
+        length_m: f64,
+    },
+    /// The curvature jumps between two pieces.
+    #[error(
+        "the curvature jumps from {from_1pm} 1/m to {to_1pm} 1/m where piece {piece} begins; insert a clothoid, or give a \
+         transition length"
+    )]
+    CurvatureJump {
+        /// The number of the second piece.
+        piece: usize,
+        /// Curvature at the end of the first piece \[1/m\].
+        from_1pm: f64,
+        /// Curvature at the begin of the second piece \[1/m\].
+        to_1pm: f64,
+    },
+    /// A piece is shorter than the transitions that replace its ends.
+    #[error("piece {piece} is {length_m} m long, but its transitions need more than {needed_m} m of it")]
+    NoRoomForTransition {
+        /// The number of the piece.
+        piece: usize,
+        /// Its length \[m\].
+        length_m: f64,
+        /// The part of it that the transitions replace \[m\].
+        needed_m: f64,
+    },
+    /// A curve through points needs two points that are not the same.
+    #[error("a centre line needs at least two distinct points")]
+    TooFewPoints,
+    /// A line is turned by so much, or so sharply, that its arc length cannot be computed.
+    #[error("the curve has a cusp or a corner near ({x_m:.3} m, {y_m:.3} m)")]
+    Cusp {
+        /// Where \[m\].
+        x_m: f64,
+        /// Where \[m\].
+        y_m: f64,
+    },
+    /// The section of a line that was asked for is empty or not on the line.
+    #[error("there is no line between {from_m} m and {to_m} m")]
+    NoSection {
+        /// Begin of the section \[m\].
+        from_m: f64,
+        /// End of the section \[m\].
+        to_m: f64,
+    },
+}

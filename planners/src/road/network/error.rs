@@ -1,0 +1,167 @@
+//! Why lanes are no network, and why lanes of a network are no route.
+
+use thiserror::Error;
+
+use super::super::centre_line::CentreLineError;
+
+/// What is wrong with a lane of a network, and where.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("lane `{lane}`: {fault}")]
+pub struct RoadNetworkError {
+    /// The name of the lane.
+    pub lane: String,
+    /// The place of the lane in the list, from 0.
+    pub index: usize,
+    /// The field of [`Lane`](super::Lane) that is wrong.
+    pub field: &'static str,
+    /// What is wrong.
+    pub fault: LaneFault,
+}
+
+/// What is wrong with a lane.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum LaneFault {
+    /// The lane has no name.
+    #[error("it has no name")]
+    NoName,
+    /// Another lane before it has the same name.
+    #[error("another lane has the same name")]
+    SameName,
+    /// The centre line has no ends.
+    #[error("its centre line has no ends")]
+    NoEnds,
+    /// A width, or a speed limit, is not a positive finite number.
+    #[error("{value} at {along_m:.2} m is not a positive finite number")]
+    NotPositive {
+        /// The value.
+        value: f64,
+        /// Where along the lane \[m\].
+        along_m: f64,
+    },
+    /// The curve is so tight for the width that an edge crosses itself: `|κ| w/2 ≥ 1`.
+    #[error(
+        "it is {width_m:.2} m wide where its centre line has a radius of {radius_m:.2} m, {along_m:.2} m along it: the inner \
+         edge crosses itself"
+    )]
+    EdgesCross {
+        /// Where along the lane \[m\].
+        along_m: f64,
+        /// Width there \[m\].
+        width_m: f64,
+        /// Radius of the centre line there \[m\].
+        radius_m: f64,
+    },
+    /// It names a lane that does not exist.
+    #[error("there is no lane `{other}`")]
+    UnknownLane {
+        /// The name.
+        other: String,
+    },
+    /// It names a lane twice among its successors.
+    #[error("lane `{other}` is named twice")]
+    NamedTwice {
+        /// The name.
+        other: String,
+    },
+    /// It names itself as its neighbour.
+    #[error("a lane is not its own neighbour")]
+    OwnNeighbour,
+    /// It does not touch its successor.
+    #[error("its end is {gap_m:.2} m from the begin of its successor `{other}`, more than {most_m:.2} m")]
+    Gap {
+        /// The successor.
+        other: String,
+        /// Distance between both \[m\].
+        gap_m: f64,
+        /// Largest distance that is accepted \[m\].
+        most_m: f64,
+    },
+    /// Its successor begins in another direction.
+    #[error(
+        "its end and the begin of its successor `{other}` differ by {turn_deg:.1}° in direction, more than {most_deg:.0}°"
+    )]
+    Kink {
+        /// The successor.
+        other: String,
+        /// How much the directions differ \[deg\].
+        turn_deg: f64,
+        /// Largest difference that is accepted \[deg\].
+        most_deg: f64,
+    },
+    /// A neighbour runs in the other direction than it should.
+    #[error("its neighbour `{other}` does not run in the direction that is said of it")]
+    WrongDirection {
+        /// The neighbour.
+        other: String,
+    },
+    /// A neighbour is not on the side that is said of it.
+    #[error("its neighbour `{other}` is not on this side of it")]
+    WrongSide {
+        /// The neighbour.
+        other: String,
+    },
+}
+
+/// Why lanes are no route.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum RouteError {
+    /// No lanes are named.
+    #[error("a route needs at least one lane")]
+    NoLanes,
+    /// There is no lane of this name.
+    #[error("there is no lane `{lane}`")]
+    UnknownLane {
+        /// The name.
+        lane: String,
+    },
+    /// A lane of the route is neither a successor of the one before nor a neighbour into which one may change.
+    #[error("lane `{to}` is no successor of lane `{from}`, and no neighbour into which one may change")]
+    NotConnected {
+        /// The lane before.
+        from: String,
+        /// The lane that cannot be reached from it.
+        to: String,
+    },
+    /// Two lanes do not run side by side for long enough to change from one to the other.
+    #[error("lane `{from}` leaves {room_m:.2} m for a change into lane `{to}`, which needs {needed_m:.2} m")]
+    NoRoomToChange {
+        /// The lane before.
+        from: String,
+        /// The lane beside it.
+        to: String,
+        /// Length of the stretch in which the change must end \[m\].
+        room_m: f64,
+        /// Least length of this stretch \[m\].
+        needed_m: f64,
+    },
+    /// No sequence of lanes leads from one lane to another.
+    #[error("no route leads from lane `{from}` to lane `{to}`")]
+    NoWay {
+        /// Where the route would begin.
+        from: String,
+        /// Where it would end.
+        to: String,
+    },
+    /// The centre lines of lanes cannot be joined.
+    #[error("the centre lines of {} cannot be joined: {source}", lanes.join(", "))]
+    Centre {
+        /// The lanes of the route.
+        lanes: Vec<String>,
+        /// Why.
+        source: CentreLineError,
+    },
+    /// A curve is tighter than a vehicle can turn.
+    #[error(
+        "lane `{lane}` has a radius of {radius_m:.2} m, {along_m:.2} m along the route; the vehicle needs {smallest_m:.2} m"
+    )]
+    TooTight {
+        /// The lane.
+        lane: String,
+        /// Where along the route \[m\].
+        along_m: f64,
+        /// Radius of the centre line there \[m\].
+        radius_m: f64,
+        /// The vehicle's smallest turning radius \[m\].
+        smallest_m: f64,
+    },
+}

@@ -1,0 +1,25 @@
+//! Roads as a network of lanes.
+//!
+//! A [`RoadNetwork`] is a list of [`Lane`]s that name their successors and neighbours. A [`Route`] is the way of a vehicle
+//! through it: one centre line, and the strip beside it that the vehicle may use. [`conflicts`] says where two routes cross
+//! or merge.
+
+mod conflicts;
+mod edges;
+mod error;
+mod lane;
+mod locating;
+mod road_network;
+mod route;
+mod routing;
+mod search;
+
+#[cfg(test)]
+mod tests;
+
+pub use conflicts::{CONFLICT_TOLERANCE_RATIO, Conflict, ConflictKind, conflicts};
+pub use error::{LaneFault, RoadNetworkError, RouteError};
+pub use lane::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay};
+pub use locating::LanePlace;
+pub use road_network::RoadNetwork;
+pub use route::{Route, RouteLeg, TightestTurn};

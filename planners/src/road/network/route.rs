@@ -1,0 +1,95 @@
+//! The way of a vehicle through a network.
+
+use super::super::centre_line::CentreLine;
+use super::super::profile::Profile;
+use super::error::RouteError;
+
+/// The way of a vehicle: a centre line, and the strip beside it that the vehicle may use.
+///
+/// A route that is not made by a [`RoadNetwork`](super::RoadNetwork) may have any centre line, also one without ends, and any
+/// edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Route {
+    /// The line that the vehicle follows: the centres of its lanes, joined.
+    pub centre: CentreLine,
+    /// Lateral coordinate of the right edge of the strip over the arc length of `centre` \[m\].
+    pub right: Profile,
+    /// Lateral coordinate of the left edge \[m\].
+    pub left: Profile,
+    /// Half of the width of the lane that the centre line is on \[m\].
+    pub half_width: Profile,
+    /// The lanes in the order in which the centre line follows them, without gaps.
+    pub legs: Vec<RouteLeg>,
+}
+
+/// The part of a route on one lane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RouteLeg {
+    /// The name of the lane.
+    pub lane: String,
+    /// Where the leg begins on the route \[m\].
+    pub from_m: f64,
+    /// Where it ends on the route \[m\].
+    pub to_m: f64,
+    /// Arc length of the route less that of the lane, where both run together \[m\].
+    pub offset_m: f64,
+}
+
+/// The place of a route with the largest curvature.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TightestTurn {
+    /// The lane there.
+    pub lane: String,
+    /// Where along the route \[m\].
+    pub along_m: f64,
+    /// Curvature of the centre line there \[1/m\].
+    pub curvature_1pm: f64,
+}
+
+/// How many places are checked between two knots of the centre line.
+const CHECKS_PER_KNOT: usize = 8;
+
+impl Route {
+    /// Where the route ends \[m\].
+    pub fn end_m(&self) -> f64 {
+        self.centre.length_m()
+    }
+
+    /// The leg at an arc length; beyond the ends, the first or the last. None if there are no legs.
+    pub fn leg(&self, along_m: f64) -> Option<&RouteLeg> {
+        self.legs.iter().find(|leg| along_m < leg.to_m).or_else(|| self.legs.last())
+    }
+
+    /// The arc length of the route at an arc length of one of its lanes \[m\]; none for a lane on which it has no leg.
+    ///
+    /// Exact where the route follows the lane's centre line. Where it changes to a lane beside it, it is the place of the
+    /// lane's continuation, which may lie before or after the leg.
+    pub fn along_m(&self, lane: &str, along_lane_m: f64) -> Option<f64> {
+        self.legs.iter().find(|leg| leg.lane == lane).map(|leg| along_lane_m + leg.offset_m)
+    }
+
+    /// The place with the largest curvature; none for a route without legs.
+    pub fn tightest_turn(&self) -> Option<TightestTurn> {
+        let knots_m = self.centre.knots_m();
+        let places = knots_m.windows(2).flat_map(|pair| {
+            (0..=CHECKS_PER_KNOT).map(|part| pair[0] + (pair[1] - pair[0]) * part as f64 / CHECKS_PER_KNOT as f64)
+        });
+        let turns = places.map(|along_m| (along_m, self.centre.at(along_m).curvature_1pm));
+        let (along_m, curvature_1pm) = turns.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default();
+        let lane = self.leg(along_m)?.lane.clone();
+        Some(TightestTurn { lane, along_m, curvature_1pm })
+    }
+
+    /// Checks that a vehicle can follow the centre line.
+    ///
+    /// # Errors
+    /// [`RouteError::TooTight`] where the curve is tighter than the smallest turning radius of the vehicle \[m\].
+    pub fn check_turns(&self, smallest_m: f64) -> Result<(), RouteError> {
+        match self.tightest_turn() {
+            Some(TightestTurn { lane, along_m, curvature_1pm }) if curvature_1pm.abs() * smallest_m > 1.0 => {
+                Err(RouteError::TooTight { lane, along_m, radius_m: 1.0 / curvature_1pm.abs(), smallest_m })
+            }
+            _ => Ok(()),
+        }
+    }
+}
