@@ -50,6 +50,6 @@ pub use driver_setting::DriverSettingError;
 pub use passing::passing_orders;
 pub use passing_order::{PassingOrder, PassingPosition};
 pub use plan::{Plan, PlanError, PlanEvent, PlanEventKind, Proposal};
-pub use road::{Axes, CentreLine, Corridor, LaneEnd};
+pub use road::{Axes, CentreLine, Corridor, LaneEnd, Profile, Route};
 pub use scene::{Agent, Goal, Scene};
 pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

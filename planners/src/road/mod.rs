@@ -12,4 +12,5 @@ mod profile;
 pub use axes::Axes;
 pub use centre_line::CentreLine;
 pub use corridor::{Corridor, LaneEnd};
+pub use network::Route;
 pub use profile::{Profile, ProfileError};

@@ -1,6 +1,9 @@
 //! The way of a vehicle through a network.
 
+use std::sync::Arc;
+
 use super::super::centre_line::CentreLine;
+use super::super::corridor::Corridor;
 use super::super::profile::Profile;
 use super::error::RouteError;
 
@@ -20,6 +23,8 @@ pub struct Route {
     pub half_width: Profile,
     /// The lanes in the order in which the centre line follows them, without gaps.
     pub legs: Vec<RouteLeg>,
+    /// The same strip as a straight road, if it is one.
+    pub(super) straight: Option<Corridor>,
 }
 
 /// The part of a route on one lane.
@@ -49,7 +54,39 @@ pub struct TightestTurn {
 /// How many places are checked between two knots of the centre line.
 const CHECKS_PER_KNOT: usize = 8;
 
+impl From<Corridor> for Route {
+    /// A straight road without ends.
+    fn from(corridor: Corridor) -> Route {
+        let Corridor { heading_rad, right_m, left_m, end } = corridor;
+        let right = end.map_or_else(|| Profile::constant(right_m), |end| Profile::lane_end(right_m, end));
+        Route {
+            centre: CentreLine::straight(heading_rad),
+            right,
+            left: Profile::constant(left_m),
+            half_width: Profile::constant(0.5 * (left_m - right_m)),
+            legs: Vec::new(),
+            straight: Some(corridor),
+        }
+    }
+}
+
+impl From<Corridor> for Arc<Route> {
+    fn from(corridor: Corridor) -> Arc<Route> {
+        Arc::new(Route::from(corridor))
+    }
+}
+
 impl Route {
+    /// A curved road: the strip between two edges beside a line, given as lateral coordinates over its arc length \[m\].
+    pub fn along(centre: CentreLine, right: Profile, left: Profile, half_width: Profile) -> Route {
+        Route { centre, right, left, half_width, legs: Vec::new(), straight: None }
+    }
+
+    /// The same strip as a straight road, if it is one.
+    pub fn straight(&self) -> Option<&Corridor> {
+        self.straight.as_ref()
+    }
+
     /// Where the route ends \[m\].
     pub fn end_m(&self) -> f64 {
         self.centre.length_m()

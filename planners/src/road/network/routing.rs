@@ -62,7 +62,7 @@ impl RoadNetwork {
         };
         let legs: Vec<RouteLeg> = parts.iter().enumerate().map(leg).collect();
         let strip = edges::strip(self, &centre, &legs, &sections_m);
-        Ok(Route { centre, right: strip.right, left: strip.left, half_width: strip.half_width, legs })
+        Ok(Route { centre, right: strip.right, left: strip.left, half_width: strip.half_width, legs, straight: None })
     }
 }
 
