@@ -16,24 +16,24 @@ pub(crate) fn is_settled(scene: &Scene, other: &Agent, clear_lead_m: f64) -> boo
     if ego.crosses(other) {
         return has_crossed(other, ego) || has_crossed(ego, other);
     }
-    let off_lane = ego.corridor.across(other.state.position()) - ego.corridor.across(scene.goal.target.position());
+    let off_lane = ego.route.across(other.state.position()) - ego.route.across(scene.goal.target.position());
     let in_target_lane = off_lane.abs() < 0.5 * (ego.body.width_m + other.body.width_m);
     in_target_lane && ego.lead_of(other) > clear_lead_m
 }
 
 /// Whether the whole body of `agent` is beyond the path of `other`, whose road it crosses.
 fn has_crossed(agent: &Agent, other: &Agent) -> bool {
-    let (from, to) = (&other.corridor, &agent.corridor);
+    let (from, to, place) = (&other.route, &agent.route, agent.state.position());
     let side = from.across(agent.state.position()) - from.across(other.state.position());
-    let direction = libm::sin(to.heading_rad - from.heading_rad);
+    let direction = libm::sin(to.heading_at(place) - from.heading_at(place));
     side * direction.signum() > agent.body.rear_m + 0.5 * other.body.width_m
 }
 
 /// How far `agent` has to drive along its road until its centre is on the path of `other`; negative once it is beyond, `None`
 /// where the paths do not cross \[m\].
 pub(crate) fn distance_to_path(agent: &Agent, other: &Agent) -> Option<f64> {
-    let (from, to) = (&other.corridor, &agent.corridor);
-    let closing = libm::sin(to.heading_rad - from.heading_rad);
+    let (from, to, place) = (&other.route, &agent.route, agent.state.position());
+    let closing = libm::sin(to.heading_at(place) - from.heading_at(place));
     let side = from.across(agent.state.position()) - from.across(other.state.position());
     (closing.abs() > libm::sin(PARALLEL_RAD)).then(|| -side / closing)
 }

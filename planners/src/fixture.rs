@@ -15,7 +15,7 @@ pub(crate) fn agent(x_m: f64, y_m: f64, heading_rad: f64, speed_mps: f64) -> Age
         previous_input: Input::default(),
         body: Body::default(),
         limits: Limits::default(),
-        corridor: Corridor { heading_rad, right_m: -2.0, left_m: 2.0, end: None },
+        route: Corridor { heading_rad, right_m: -2.0, left_m: 2.0, end: None }.into(),
         prediction: constant_velocity(&state, 30, 0.1),
         shared_goal: None,
         can_be_asked: true,

@@ -1,9 +1,12 @@
 //! What a driver knows when it plans: plain values, agents by name.
 
-use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, Tracking};
+use std::sync::Arc;
+
+use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, Tracking};
 use crate::trajectory::{Participant, Penalty, Term};
 use crate::vehicle::Bicycle;
-use crate::{Axes, Body, Corridor, Input, Limits, SafetyEllipse, State, Trajectory};
+use crate::vehicle::OrientedEllipse;
+use crate::{Axes, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as anyone sees it.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +22,7 @@ pub struct Agent {
     /// What it can do.
     pub limits: Limits,
     /// The road it uses.
-    pub corridor: Corridor,
+    pub route: Arc<Route>,
     /// What it is expected to do: its current plan where that is known, else constant velocity. Starts at `state`.
     pub prediction: Trajectory,
     /// What it wants, if it tells: vehicles that cooperate share their goals.
@@ -62,21 +65,52 @@ pub struct Scene {
 const SAME_ROAD_RAD: f64 = 0.1;
 
 impl Agent {
-    /// Whether two vehicles' roads cross (or meet head-on) rather than run side by side.
+    /// Whether two vehicles' roads cross (or meet head-on) rather than run side by side, judged where `other` is.
     pub fn crosses(&self, other: &Agent) -> bool {
-        let difference = self.corridor.heading_rad - other.corridor.heading_rad;
+        let place = other.state.position();
+        let difference = self.route.heading_at(place) - other.route.heading_at(place);
         libm::cos(difference) < libm::cos(SAME_ROAD_RAD)
     }
 
     /// How far `other`'s centre is ahead along this vehicle's road \[m\].
     pub fn lead_of(&self, other: &Agent) -> f64 {
-        self.corridor.along(other.state.position()) - self.corridor.along(self.state.position())
+        self.route.along(other.state.position()) - self.route.along(self.state.position())
     }
 
     /// Whether two vehicles on one road overlap across it, so that one would run into the other.
     pub fn shares_lane_with(&self, other: &Agent) -> bool {
-        let apart = self.corridor.across(other.state.position()) - self.corridor.across(self.state.position());
+        let apart = self.route.across(other.state.position()) - self.route.across(self.state.position());
         !self.crosses(other) && apart.abs() < 0.5 * (self.body.width_m + other.body.width_m)
+    }
+}
+
+impl Agent {
+    /// Corners that stay on the road, of this agent as number `vehicle` of a trajectory problem.
+    pub fn road_edge(&self, vehicle: usize, horizon: usize, step_s: f64) -> RoadEdge {
+        RoadEdge {
+            vehicle,
+            body: self.body,
+            route: Arc::clone(&self.route),
+            near_m: self.expected_along_m(horizon, step_s),
+            penalty: Penalty::ROAD_EDGE,
+        }
+    }
+
+    /// Arc lengths that it would reach at `t = 1…N` at its present speed \[m\]; empty on a straight road, where nobody needs them.
+    fn expected_along_m(&self, horizon: usize, step_s: f64) -> Vec<f64> {
+        if self.route.straight().is_some() {
+            return Vec::new();
+        }
+        let here_m = self.route.along(self.state.position());
+        (1..=horizon).map(|t| here_m + self.state.speed_mps * step_s * t as f64).collect()
+    }
+}
+
+/// A safety ellipse around each centre, along a road.
+pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]]) -> Vec<OrientedEllipse> {
+    match route.straight() {
+        Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
+        None => centres.iter().map(|centre| safety.oriented(route.heading_at(*centre))).collect(),
     }
 }
 
@@ -107,30 +141,58 @@ impl Scene {
     /// What a goal and the road ask of the planning vehicle as number `vehicle` of a trajectory problem: comfort, tracking
     /// (eq. 6.6) and road edges (eq. 6.7).
     pub fn own_terms(&self, vehicle: usize, goal: &Goal) -> Vec<Term> {
-        let targets = vec![goal.target; self.horizon];
+        let comfort = Term::Comfort(Comfort { vehicle, weights: goal.comfort });
         vec![
-            Term::Comfort(Comfort { vehicle, weights: goal.comfort }),
-            Term::Tracking(Tracking { vehicle, weights: goal.tracking, axes: goal.axes(), targets }),
-            Term::RoadEdge(RoadEdge {
-                vehicle,
-                body: self.ego.body,
-                corridor: self.ego.corridor,
-                penalty: Penalty::ROAD_EDGE,
-            }),
+            comfort,
+            self.tracking(vehicle, goal),
+            Term::RoadEdge(self.ego.road_edge(vehicle, self.horizon, self.step_s)),
         ]
     }
 
+    /// What the planning vehicle pays for deviations from a goal: in road coordinates where its road is curved.
+    fn tracking(&self, vehicle: usize, goal: &Goal) -> Term {
+        let route = &self.ego.route;
+        if route.straight().is_some() {
+            let targets = vec![goal.target; self.horizon];
+            return Term::Tracking(Tracking { vehicle, weights: goal.tracking, axes: goal.axes(), targets });
+        }
+        let wanted = route.locate(goal.target.position(), None);
+        Term::RoadTracking(RoadTracking {
+            vehicle,
+            weights: goal.tracking,
+            route: Arc::clone(route),
+            target: RoadTarget { along_m: wanted.along_m, across_m: wanted.across_m, speed_mps: goal.target.speed_mps },
+            near_m: self.ego.expected_along_m(self.horizon, self.step_s),
+        })
+    }
+
     /// An ellipse of the planning vehicle's safety distance around a predicted motion; the vehicle is number 0.
-    pub fn keep_out(&self, prediction: &Trajectory, heading_rad: f64, penalty: Penalty) -> KeepOut {
-        let ellipse = self.goal.safety.oriented(heading_rad);
-        KeepOut { vehicle: 0, centres: self.centres(prediction), ellipse, penalty }
+    /// Each ellipse lies along `route`.
+    pub fn keep_out(&self, prediction: &Trajectory, route: &Route, penalty: Penalty) -> KeepOut {
+        let centres = self.centres(prediction);
+        KeepOut { vehicle: 0, ellipses: ellipses(self.goal.safety, route, &centres), centres, penalty }
     }
 
     /// The ellipses around the predictions of others that must not be entered, each along its road (eq. 6.13).
     pub fn exact_keep_outs<'a>(&self, others: impl IntoIterator<Item = &'a Agent>) -> impl Iterator<Item = Term> {
-        others
-            .into_iter()
-            .map(|other| Term::KeepOut(self.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT)))
+        others.into_iter().map(|other| Term::KeepOut(self.keep_out(&other.prediction, &other.route, Penalty::EXACT)))
+    }
+
+    /// Along the ego's road beside a position, and across it.
+    pub fn goal_axes(&self, position: [f64; 2]) -> Axes {
+        match self.ego.route.straight() {
+            Some(_) => self.goal.axes(),
+            None => Axes::along(self.ego.route.heading_at(position)),
+        }
+    }
+
+    /// The goal's position; on a curved road, where the goal's lateral position is beside `position` \[m\].
+    pub fn goal_beside(&self, position: [f64; 2]) -> [f64; 2] {
+        let (route, target) = (&self.ego.route, self.goal.target.position());
+        match route.straight() {
+            Some(_) => target,
+            None => route.position(route.along(position), route.across(target)),
+        }
     }
 
     /// The positions of a predicted motion at `t = 1…N` \[m\]; where it ends early it stays at its end.

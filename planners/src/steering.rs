@@ -10,8 +10,8 @@ pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
         wheelbase_m: agent.body.wheelbase_m(),
         steering_max_rad: agent.limits.steering_max_rad,
     };
-    let error_m = agent.corridor.across(state.position()) - lateral_m;
-    geometry.correct(error_m, state.heading_rad - agent.corridor.heading_rad, state.speed_mps)
+    let at = agent.route.locate(state.position(), None);
+    geometry.follow(&at, lateral_m, state)
 }
 
 /// The acceleration nearest to a wanted one that keeps acceleration and speed within their limits \[m/s²\].

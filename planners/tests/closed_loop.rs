@@ -56,7 +56,7 @@ fn towards_a_standing_car(driver: Driver, ahead_m: f64) -> (f64, f64) {
     let (mut gap_m, mut beyond_m) = (f64::INFINITY, 0.0_f64);
     for state in run.states.iter().map(|states| states[0]) {
         gap_m = gap_m.min(ahead_m - state.x_m - agent.body.front_m - agent.body.rear_m);
-        let clearances = agent.corridor.clearances(&agent.body, &state);
+        let clearances = agent.route.clearances(&agent.body, &state, 0.0);
         beyond_m = clearances.iter().map(|corner| -corner.value).fold(beyond_m, f64::max);
     }
     (gap_m, beyond_m)

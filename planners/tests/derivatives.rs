@@ -77,7 +77,8 @@ fn road_edges() {
 fn keeping_out_of_ellipses() {
     for penalty in [Penalty::EXACT, Penalty::hinge(50.0)] {
         check_all(|random| {
-            let keep_out = KeepOut { vehicle: 0, centres: beside(random), ellipse: ellipse(0.4), penalty };
+            let keep_out =
+                KeepOut { vehicle: 0, centres: beside(random), ellipses: vec![ellipse(0.4); HORIZON], penalty };
             alone(Vehicle { keep_outs: vec![keep_out], ..indifferent(random) })
         });
     }
@@ -89,7 +90,8 @@ fn keeping_apart() {
         let known_inputs = follower(random, 6).participant.known_inputs;
         let free = indifferent(random);
         let other = Vehicle { participant: Participant { known_inputs, ..free.participant.clone() }, ..free };
-        let separation = Separation { vehicle: 0, from: 1, ellipse: ellipse(0.3), penalty: Penalty::EXACT };
+        let separation =
+            Separation { vehicle: 0, from: 1, ellipses: vec![ellipse(0.3); HORIZON], penalty: Penalty::EXACT };
         problem(&[indifferent(random), other], [Term::Separation(separation)])
     });
 }
@@ -129,7 +131,7 @@ fn distances() {
     for price in prices {
         check_all(|random| {
             let centres = beside(random).into_iter().map(|[x, y]| [x + 0.4, y + 0.3]).collect();
-            let cost = DistanceCost { vehicle: 0, centres, metric: [1.9, 0.4, 8.0], price };
+            let cost = DistanceCost { vehicle: 0, centres, metrics: vec![[1.9, 0.4, 8.0]; HORIZON], price };
             problem(&[indifferent(random)], [Term::DistanceCost(cost)])
         });
     }

@@ -171,7 +171,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
             previous_input: Input::default(),
             body: Body::default(),
             limits: Limits::default(),
-            corridor: Corridor { heading_rad: road, right_m: -1.0, left_m: 2.0, end: None },
+            route: Corridor { heading_rad: road, right_m: -1.0, left_m: 2.0, end: None }.into(),
             prediction: constant_velocity(&state, HORIZON, STEP_S),
             shared_goal: None,
             can_be_asked: true,

@@ -81,7 +81,7 @@ fn keeps_to_its_ramp(driver: Driver, styles: [Style; 2]) -> bool {
     let ego = vehicles[0].agent.clone();
     let run = run(vehicles, 80);
     assert!(run.collision.is_none(), "{:?}", run.collision);
-    let contains = |state| ego.corridor.contains(&ego.body, state, MAX_EDGE_VIOLATION_M);
+    let contains = |state| ego.route.contains(&ego.body, state, MAX_EDGE_VIOLATION_M);
     run.merged().is_some() && run.states.iter().all(|states| contains(&states[0]))
 }
 

@@ -88,9 +88,9 @@ fn before_a_hesitating_driver_the_ego_stays_on_the_road() {
         let settings =
             human::Settings { style: Some(Nice), reaction_s: 1.0, hesitation_s, ..human::Settings::default() };
         vehicles[1].drive(Driver::Human(settings));
-        let (corridor, body) = (vehicles[0].agent.corridor, vehicles[0].agent.body);
+        let (route, body) = (vehicles[0].agent.route.clone(), vehicles[0].agent.body);
         let run = run(vehicles, 60);
-        let beyond = run.states.iter().filter(|states| !corridor.contains(&body, &states[0], 2e-3)).count();
+        let beyond = run.states.iter().filter(|states| !route.contains(&body, &states[0], 2e-3)).count();
         assert_eq!(beyond, 0, "off the road at {beyond} ticks, hesitation {hesitation_s} s");
     }
 }

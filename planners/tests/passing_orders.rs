@@ -13,7 +13,7 @@ fn somebody_ahead(left_m: f64) -> Problem {
     let keep_out = KeepOut {
         vehicle: 0,
         centres: vec![[1.8, left_m]; HORIZON],
-        ellipse: SafetyEllipse::default().oriented(0.0),
+        ellipses: vec![SafetyEllipse::default().oriented(0.0); HORIZON],
         penalty: Penalty::EXACT,
     };
     let free = lane_change(&mut Random(0));

@@ -22,7 +22,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         previous_input: before.map(|frame| frame.vehicles[index].input).unwrap_or_default(),
         body: vehicle.body,
         limits: vehicle.limits,
-        corridor: scenario.road.corridor(vehicle.road),
+        route: scenario.road.corridor(vehicle.road).into(),
         prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now),
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),

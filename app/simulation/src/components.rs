@@ -1,8 +1,10 @@
 //! What the entities carry: components of vehicles, and the resources of a world.
 
+use std::sync::Arc;
+
 use bevy_ecs::prelude::*;
 use interplay_planners::traffic::{CommittedPlan, Traffic};
-use interplay_planners::{Body, Corridor, Goal, Input, Limits, Planner, State};
+use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 
 use crate::frame::Frame;
 
@@ -27,14 +29,14 @@ pub struct Motion {
 }
 
 /// The parameters of a vehicle that do not change during a run.
-#[derive(Component, Clone, Copy, Debug)]
+#[derive(Component, Clone, Debug)]
 pub struct VehicleParameters {
     /// Its body.
     pub body: Body,
     /// The limits of its inputs and speed.
     pub limits: Limits,
     /// The road it may use.
-    pub corridor: Corridor,
+    pub route: Arc<Route>,
 }
 
 /// What a vehicle wants.

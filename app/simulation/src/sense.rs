@@ -1,5 +1,7 @@
 //! Sense: components become plain values, in the scenario's order.
 
+use std::sync::Arc;
+
 use bevy_ecs::prelude::*;
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Agent, Trajectory};
@@ -25,7 +27,7 @@ pub fn sense(
             previous_input: motion.input,
             body: parameters.body,
             limits: parameters.limits,
-            corridor: parameters.corridor,
+            route: Arc::clone(&parameters.route),
             prediction: Trajectory::default(),
             shared_goal: objective.shared,
             can_be_asked: driving.can_be_asked,

@@ -15,8 +15,10 @@
 
 use super::belief::PersuasionBelief;
 use super::{Settings, value};
-use crate::trajectory::terms::{DistanceCost, Tracking};
+use crate::scene::ellipses;
+use crate::trajectory::terms::{DistanceCost, RoadTracking, Tracking};
 use crate::trajectory::{Problem, Term};
+use crate::vehicle::OrientedEllipse;
 use crate::{Agent, Scene, conservative};
 
 /// Largest `2ΣW_2`.
@@ -30,7 +32,7 @@ pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &PersuasionBelief
     if let Some(partner) = partner {
         let doubts = doubts(scene, belief);
         for term in &mut problem.terms {
-            if let Term::Tracking(Tracking { weights, .. }) = term {
+            if let Term::Tracking(Tracking { weights, .. }) | Term::RoadTracking(RoadTracking { weights, .. }) = term {
                 weights.iter_mut().zip(doubts).for_each(|(weight, doubt)| *weight /= 1.0 - doubt);
             }
         }
@@ -52,23 +54,21 @@ fn impression(
     [doubt_along, doubt_across, ..]: [f64; 4],
     settings: &Settings,
 ) -> DistanceCost {
-    let axes = scene.goal.axes();
-    let [goal_along, goal_across] = axes.components(scene.goal.target.position());
-    let moved = |centre: [f64; 2]| {
-        let [along, across] = axes.components(centre);
-        axes.vector([
+    let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
+    let centres = scene.centres(&partner.prediction);
+    let place = |(centre, ellipse): (&[f64; 2], &OrientedEllipse)| {
+        let axes = scene.goal_axes(*centre);
+        let [goal_along, goal_across] = axes.components(scene.goal_beside(*centre));
+        let [along, across] = axes.components(*centre);
+        let moved = axes.vector([
             doubt_along * goal_along + (1.0 - doubt_along) * along,
             doubt_across * goal_across + (1.0 - doubt_across) * across,
-        ])
+        ]);
+        // The curvature of a squared distance is twice its metric.
+        let [along, mixed, across] = axes.entries(ellipse.hessian().map(|bend| 0.5 * bend));
+        (moved, axes.matrix([stretch * stretch * along, stretch * widen * mixed, widen * widen * across]))
     };
-    // The curvature of a squared distance is twice its metric.
-    let metric = scene.goal.safety.oriented(partner.corridor.heading_rad).hessian().map(|bend| 0.5 * bend);
-    let [along, mixed, across] = axes.entries(metric);
-    let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
-    DistanceCost {
-        vehicle: 0,
-        centres: scene.centres(&partner.prediction).into_iter().map(moved).collect(),
-        metric: axes.matrix([stretch * stretch * along, stretch * widen * mixed, widen * widen * across]),
-        price: value::price(settings, belief.w_1, belief.deviation),
-    }
+    let ellipses = ellipses(scene.goal.safety, &partner.route, &centres);
+    let (centres, metrics) = centres.iter().zip(&ellipses).map(place).unzip();
+    DistanceCost { vehicle: 0, centres, metrics, price: value::price(settings, belief.w_1, belief.deviation) }
 }

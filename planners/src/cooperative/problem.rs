@@ -1,5 +1,6 @@
 //! The joint trajectory problem of the cooperating vehicles (eq. 6.6-6.12).
 
+use crate::scene::ellipses;
 use crate::trajectory::terms::{KeepOut, Separation};
 use crate::trajectory::{Penalty, Problem, Term};
 use crate::{Agent, Goal, Scene};
@@ -37,16 +38,16 @@ pub fn problem(scene: &Scene, cooperators: &[Cooperator]) -> Problem {
         participants.push(view.participant());
         terms.extend(view.own_terms(vehicle, goal));
         terms.extend(strangers.iter().map(|other| {
-            let keep_out = view.keep_out(&other.prediction, other.corridor.heading_rad, Penalty::EXACT);
+            let keep_out = view.keep_out(&other.prediction, &other.route, Penalty::EXACT);
             Term::KeepOut(KeepOut { vehicle, ..keep_out })
         }));
     }
     for i in 0..cooperators.len() {
         for j in 0..i {
             let ([first, second], mutual) = ([j, i], is_mutual(&cooperators[i], &cooperators[j]));
-            terms.push(separation(cooperators, first, second));
+            terms.push(separation(scene, cooperators, first, second));
             if !mutual {
-                terms.push(separation(cooperators, second, first));
+                terms.push(separation(scene, cooperators, second, first));
             }
         }
     }
@@ -55,10 +56,11 @@ pub fn problem(scene: &Scene, cooperators: &[Cooperator]) -> Problem {
 
 /// Whether the safety ellipses of two vehicles are equal.
 fn is_mutual(a: &Cooperator, b: &Cooperator) -> bool {
-    a.goal.safety == b.goal.safety && a.agent.corridor.heading_rad == b.agent.corridor.heading_rad
+    a.goal.safety == b.goal.safety && a.agent.route == b.agent.route
 }
 
-fn separation(cooperators: &[Cooperator], vehicle: usize, from: usize) -> Term {
-    let ellipse = cooperators[vehicle].goal.safety.oriented(cooperators[from].agent.corridor.heading_rad);
-    Term::Separation(Separation { vehicle, from, ellipse, penalty: Penalty::EXACT })
+fn separation(scene: &Scene, cooperators: &[Cooperator], vehicle: usize, from: usize) -> Term {
+    let Agent { route, prediction, .. } = &cooperators[from].agent;
+    let ellipses = ellipses(cooperators[vehicle].goal.safety, route, &scene.centres(prediction));
+    Term::Separation(Separation { vehicle, from, ellipses, penalty: Penalty::EXACT })
 }

@@ -5,7 +5,7 @@
 //! of the same road, not behind this one, would at its present heading and speed come into this one's lane within the
 //! horizon.
 
-use crate::predict::constant_velocity;
+use crate::predict::steadily_along;
 use crate::{Agent, Scene};
 
 /// The speed that a driver wants who wants to be faster by `closing_mps` while somebody threatens to cut in \[m/s\]; `None`
@@ -24,10 +24,10 @@ fn cuts_in(scene: &Scene, other: &Agent) -> bool {
     if own.crosses(other) || own.shares_lane_with(other) || is_behind {
         return false;
     }
-    let lateral = own.corridor.across(own.state.position());
+    let lateral = own.route.across(own.state.position());
     let reach = 0.5 * (own.body.width_m + other.body.width_m);
-    let predicted = constant_velocity(&other.state, scene.horizon, scene.step_s);
-    predicted.states.iter().any(|state| (own.corridor.across(state.position()) - lateral).abs() < reach)
+    let predicted = steadily_along(&other.route, &other.state, scene.horizon, scene.step_s);
+    predicted.states.iter().any(|state| (own.route.across(state.position()) - lateral).abs() < reach)
 }
 
 #[cfg(test)]

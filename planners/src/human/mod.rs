@@ -50,7 +50,7 @@ pub use settings::{Settings, Style};
 
 use std::borrow::Cow;
 
-use crate::predict::steady;
+use crate::predict::steady_inputs;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
@@ -134,18 +134,18 @@ pub fn guess(scene: &Scene, last: Option<&Trajectory>) -> Vec<Input> {
 fn steadily(scene: &Scene, share: f64) -> Vec<Input> {
     let limits = &scene.ego.limits;
     let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
-    steady(&scene.ego.state, share * bound, limits, scene.horizon, scene.step_s)
+    steady_inputs(scene, share * bound)
 }
 
 /// The vehicle ahead in the same lane: followed at a comfortable distance, and not entered while brakes can help.
 fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     let Some(leader) = leader(scene) else { return Vec::new() };
     let penalty = Penalty::hinge(settings.weight().max(settings.following_weight));
-    let comfortable = scene.keep_out(&leader.prediction, scene.ego.corridor.heading_rad, penalty);
-    let SafetyEllipse { along_m, across_m } = comfortable.ellipse.shape();
+    let comfortable = scene.keep_out(&leader.prediction, &scene.ego.route, penalty);
+    let SafetyEllipse { along_m, across_m } = scene.goal.safety;
     let ellipse = SafetyEllipse { along_m: LEADER_LENGTH_RATIO * along_m, across_m: LEADER_WIDTH_RATIO * across_m };
     let firm = KeepOut {
-        ellipse: ellipse.oriented(comfortable.ellipse.heading_rad()),
+        ellipses: comfortable.ellipses.iter().map(|comfortable| ellipse.oriented(comfortable.heading_rad())).collect(),
         penalty: Penalty::EXACT,
         ..comfortable.clone()
     };
@@ -164,9 +164,9 @@ fn yielded_to(scene: &Scene, expected: &[Agent], settings: &Settings) -> Vec<Kee
     let pairs = scene.others.iter().zip(expected);
     for (other, expected) in pairs.filter(|(other, _)| Some(&other.name) != leader && !behind(other)) {
         let predicted = settings.prediction.of(expected, scene.horizon, scene.step_s);
-        keep_outs.push(scene.keep_out(&predicted, other.corridor.heading_rad, Penalty::hinge(weight)));
+        keep_outs.push(scene.keep_out(&predicted, &other.route, Penalty::hinge(weight)));
         if ego.crosses(other) {
-            keep_outs.push(scene.keep_out(&predicted, ego.corridor.heading_rad, Penalty::hinge(weight)));
+            keep_outs.push(scene.keep_out(&predicted, &ego.route, Penalty::hinge(weight)));
         }
     }
     keep_outs

@@ -14,7 +14,7 @@
 use std::borrow::Cow;
 use std::collections::VecDeque;
 
-use crate::predict::constant_velocity;
+use crate::predict::steadily_along;
 use crate::{Agent, Scene};
 
 /// The others as they were at a tick.
@@ -47,7 +47,7 @@ impl Sighting {
 
 /// A vehicle some ticks later: its state at constant velocity, and what is left of its plan.
 fn later(then: &Agent, ticks: usize, step_s: f64) -> Agent {
-    let state = constant_velocity(&then.state, ticks, step_s).states.last().copied().unwrap_or(then.state);
+    let state = steadily_along(&then.route, &then.state, ticks, step_s).states.last().copied().unwrap_or(then.state);
     let mut prediction = (0..ticks).fold(then.prediction.clone(), |plan, _| plan.shifted());
     if let Some(first) = prediction.states.first_mut() {
         *first = state;

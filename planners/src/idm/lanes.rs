@@ -17,9 +17,10 @@ pub(super) struct Lanes {
 impl Lanes {
     /// The lanes of the ego's road; at least one.
     pub(super) fn of_road(scene: &Scene, mobil: &Mobil) -> Lanes {
-        let road = &scene.ego.corridor;
-        let count = ((road.left_m - road.right_m) / mobil.lane_width_m).round().max(1.0) as usize;
-        Lanes { right_m: road.right_m, width_m: mobil.lane_width_m, count }
+        let road = &scene.ego.route;
+        let [right_m, left_m] = road.edges_before_end_m(road.along(scene.ego.state.position()));
+        let count = ((left_m - right_m) / mobil.lane_width_m).round().max(1.0) as usize;
+        Lanes { right_m, width_m: mobil.lane_width_m, count }
     }
 
     /// The lane in which a lateral position lies; beside the road, the nearest.
@@ -36,7 +37,7 @@ impl Lanes {
 
 /// Whether a vehicle is at least partly in a lane of the ego's road at time `t` of its prediction.
 fn is_in(scene: &Scene, lanes: &Lanes, lane: usize, other: &Agent, t: usize) -> bool {
-    let lateral = scene.ego.corridor.across(at(other, t).position());
+    let lateral = scene.ego.route.across(at(other, t).position());
     let reach = 0.5 * (lanes.width_m + other.body.width_m);
     !scene.ego.crosses(other) && (lateral - lanes.centre_m(lane)).abs() < reach
 }
@@ -48,7 +49,7 @@ fn at(other: &Agent, t: usize) -> State {
 
 /// What is ahead of a state in a lane at time `t`: the nearest vehicle, or the lane's end.
 pub(super) fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t: usize) -> Option<Leader> {
-    let (ego, road) = (&scene.ego, &scene.ego.corridor);
+    let (ego, road) = (&scene.ego, &scene.ego.route);
     let own = road.along(state.position());
     let vehicles = scene.others.iter().filter(|other| is_in(scene, lanes, lane, other, t)).filter_map(|other| {
         let there = at(other, t);
@@ -58,7 +59,7 @@ pub(super) fn leader(scene: &Scene, lanes: &Lanes, lane: usize, state: &State, t
     });
     // Three length scales of its taper before the end there is no room left.
     let end = road
-        .end
+        .lane_end()
         .filter(|_| lane == 0)
         .map(|end| Leader { gap_m: end.end_m - 3.0 * end.taper_m - own - ego.body.front_m, speed_mps: 0.0 });
     vehicles.chain(end).min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))

@@ -25,8 +25,8 @@ pub(super) struct LaneChoice {
 /// The lane to drive in: `now`, or a neighbour that pays. A change under way is finished first.
 pub(super) fn choose(scene: &Scene, settings: &Settings, now: usize) -> LaneChoice {
     let (mobil, lanes) = (&settings.mobil, Lanes::of_road(scene, &settings.mobil));
-    let off_centre = scene.ego.corridor.across(scene.ego.state.position()) - lanes.centre_m(now);
-    let goal = lanes.at(scene.ego.corridor.across(scene.goal.target.position()));
+    let off_centre = scene.ego.route.across(scene.ego.state.position()) - lanes.centre_m(now);
+    let goal = lanes.at(scene.ego.route.across(scene.goal.target.position()));
     let mut best = LaneChoice { lane: now, incentive_mps2: f64::NEG_INFINITY };
     if off_centre.abs() > 0.25 * lanes.width_m {
         return LaneChoice { incentive_mps2: 0.0, ..best };
@@ -68,7 +68,7 @@ impl Change<'_> {
 
     /// What stands before a follower of a lane if the ego is in that lane, and if it is not.
     fn ahead_of(&self, follower: &Agent, lane: usize) -> [Option<Leader>; 2] {
-        let road = &self.scene.ego.corridor;
+        let road = &self.scene.ego.route;
         let front = road.along(follower.state.position()) + follower.body.front_m;
         let ego = &self.scene.ego;
         let behind_ego = Leader {

@@ -38,7 +38,7 @@ impl Idm {
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let lanes = Lanes::of_road(scene, &self.settings.mobil);
-        let now = self.lane.unwrap_or_else(|| lanes.at(scene.ego.corridor.across(scene.ego.state.position())));
+        let now = self.lane.unwrap_or_else(|| lanes.at(scene.ego.route.across(scene.ego.state.position())));
         let choice = mobil::choose(scene, &self.settings, now);
         self.lane = Some(choice.lane);
         let (own, wanted) = (&scene.ego, scene.goal.target.speed_mps);
@@ -70,10 +70,11 @@ fn nearest(leaders: [Option<Leader>; 2]) -> Option<Leader> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Corridor;
     use crate::fixture::{agent, scene};
 
     fn in_lanes(mut ego: crate::Agent, others: Vec<crate::Agent>, lane_m: f64, wanted_mps: f64) -> Scene {
-        (ego.corridor.right_m, ego.corridor.left_m) = (0.0, 0.74);
+        ego.route = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None }.into();
         let mut scene = scene(ego, others);
         (scene.goal.target.y_m, scene.goal.target.speed_mps) = (lane_m, wanted_mps);
         scene
@@ -112,10 +113,11 @@ mod tests {
 
     #[test]
     fn a_lane_that_ends_is_left_or_stopped_in() {
-        let mut ego = agent(0.0, 0.185, 0.0, 1.0);
-        ego.corridor.end = Some(crate::LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
         // Somebody stays beside it, so that it cannot leave.
-        let mut scene = in_lanes(ego, vec![agent(0.0, 0.555, 0.0, 1.0)], 0.555, 1.0);
+        let beside = agent(0.0, 0.555, 0.0, 1.0);
+        let mut scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![beside], 0.555, 1.0);
+        let end = Some(crate::LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
+        scene.ego.route = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end }.into();
         scene.horizon = 100;
         let plan = Idm::new(Settings::default()).plan(&scene).expect("a plan");
         let end = plan.trajectory.states.last().expect("states");

@@ -18,8 +18,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Trajectory;
 use crate::vehicle::OrientedEllipse;
+use crate::{State, Trajectory};
 
 /// What the planner takes for acceptance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -58,24 +58,28 @@ pub fn printed_acceptance(prediction: &Trajectory, old_prediction: &Trajectory, 
 
 /// Willingness: the share of its first plan's intrusion into the room of the ego's proposed motion that the other has given up.
 ///
-/// All trajectories begin at the present step; `ellipse` is that of the ego around the other.
+/// All trajectories begin at the present step; `ellipse` is that of the ego around the other at a position of the other.
 pub fn willingness(
     prediction: &Trajectory,
     first_plan: &Trajectory,
     proposed: &Trajectory,
-    ellipse: &OrientedEllipse,
+    ellipse: impl Fn([f64; 2]) -> OrientedEllipse,
 ) -> f64 {
-    let before = intrusion(first_plan, proposed, ellipse);
+    let before = intrusion(first_plan, proposed, &ellipse);
     if before < MIN_INTRUSION {
         return 1.0;
     }
-    (1.0 - intrusion(prediction, proposed, ellipse) / before).clamp(0.0, 1.0)
+    (1.0 - intrusion(prediction, proposed, &ellipse) / before).clamp(0.0, 1.0)
 }
 
 /// `Σ_t max(0, 1 − d²)` over the common horizon, the present step left out.
-fn intrusion(other: &Trajectory, proposed: &Trajectory, ellipse: &OrientedEllipse) -> f64 {
+fn intrusion(other: &Trajectory, proposed: &Trajectory, ellipse: &impl Fn([f64; 2]) -> OrientedEllipse) -> f64 {
     let pairs = proposed.states.iter().zip(&other.states).skip(1);
-    pairs.map(|(own, other)| (1.0 - ellipse.distance(own.position(), other.position()).squared).max(0.0)).sum()
+    let depth = |(own, other): (&State, &State)| {
+        let [own, centre] = [own, other].map(|state| state.position());
+        (1.0 - ellipse(centre).distance(own, centre).squared).max(0.0)
+    };
+    pairs.map(depth).sum()
 }
 
 #[cfg(test)]
@@ -108,7 +112,7 @@ mod tests {
         #[test]
         fn braking_harder_never_reads_as_less_willing(family in 0_usize..3, share in 0.0..1.0, more in 0.0..1.0) {
             let (ego, first, ellipse) = braking(family, 0.0);
-            let read = |share: f64| willingness(&braking(family, share).1, &first, &ego, &ellipse);
+            let read = |share: f64| willingness(&braking(family, share).1, &first, &ego, |_| ellipse);
             let (gentle, hard) = (read(share), read(share + (1.0 - share) * more));
             prop_assert!(hard >= gentle - 1e-12, "{gentle} at {share}, then {hard}");
         }
@@ -118,8 +122,8 @@ mod tests {
     fn who_goes_on_unasked_is_not_willing_and_who_stops_is() {
         for family in 0..3 {
             let (ego, first, ellipse) = braking(family, 0.0);
-            assert_eq!(willingness(&first, &first, &ego, &ellipse), 0.0, "family {family}");
-            let stopped = willingness(&braking(family, 1.0).1, &first, &ego, &ellipse);
+            assert_eq!(willingness(&first, &first, &ego, |_| ellipse), 0.0, "family {family}");
+            let stopped = willingness(&braking(family, 1.0).1, &first, &ego, |_| ellipse);
             assert!(stopped > 0.3, "family {family}: {stopped}");
         }
     }

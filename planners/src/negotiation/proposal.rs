@@ -13,7 +13,8 @@
 //! That the other follows its prediction until `T_n` is imposed exactly: those inputs are no unknowns.
 
 use super::Settings;
-use crate::trajectory::terms::{Comfort, Persuasion, RoadEdge, Separation, Tracking};
+use crate::scene::ellipses;
+use crate::trajectory::terms::{Comfort, Persuasion, Separation, Tracking};
 use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, Term};
 use crate::{Agent, Axes, Bicycle, Goal, Scene};
 
@@ -50,8 +51,8 @@ pub fn problem(
     let mut terms = scene.own_terms(0, &goal);
     terms.extend(scene.exact_keep_outs(scene.others.iter().filter(|other| other.name != partner.name)));
     terms.extend(partner_terms(scene, partner, (1.0 - weight) / settings.other_normaliser));
-    let ellipse = scene.goal.safety.oriented(partner.corridor.heading_rad);
-    terms.push(Term::Separation(Separation { vehicle: 0, from: 1, ellipse, penalty: Penalty::EXACT }));
+    let ellipses = ellipses(scene.goal.safety, &partner.route, &scene.centres(&partner.prediction));
+    terms.push(Term::Separation(Separation { vehicle: 0, from: 1, ellipses, penalty: Penalty::EXACT }));
     terms.extend(persuasion.map(Term::Persuasion));
     let participants = vec![scene.participant(), asked(scene, partner, settings)];
     Problem { horizon: scene.horizon, participants, terms }
@@ -79,11 +80,6 @@ fn partner_terms(scene: &Scene, partner: &Agent, share: f64) -> [Term; 3] {
     [
         Term::Comfort(Comfort { vehicle: 1, weights: [OTHER_COMFORT_WEIGHT; 2] }),
         Term::Tracking(Tracking { vehicle: 1, weights, axes: Axes::WORLD, targets }),
-        Term::RoadEdge(RoadEdge {
-            vehicle: 1,
-            body: partner.body,
-            corridor: partner.corridor,
-            penalty: Penalty::ROAD_EDGE,
-        }),
+        Term::RoadEdge(partner.road_edge(1, scene.horizon, scene.step_s)),
     ]
 }

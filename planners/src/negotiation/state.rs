@@ -22,8 +22,8 @@ impl NegotiationState {
         let (first, last) = (self.first.as_ref()?.continued(), self.last.as_ref()?.continued());
         Some(match reading {
             Acceptance::Willingness => {
-                let ellipse = scene.goal.safety.oriented(partner.corridor.heading_rad);
-                willingness(&partner.prediction, &first.prediction, &last.cooperative, &ellipse)
+                let ellipse = |centre| scene.goal.safety.oriented(partner.route.heading_at(centre));
+                willingness(&partner.prediction, &first.prediction, &last.cooperative, ellipse)
             }
             Acceptance::AsPrinted => printed_acceptance(&partner.prediction, &last.prediction, &last.proposal),
         })

@@ -35,8 +35,9 @@ pub fn passing_orders(scene: &Scene, plan: &Plan) -> Vec<PassingOrder> {
 
 /// Where the states of a plan lead relative to a vehicle in motion; both begin at the present step.
 fn position(scene: &Scene, other: &Agent, own: &[State], theirs: &[State]) -> Option<PassingPosition> {
-    let ellipse = scene.goal.safety.oriented(other.corridor.heading_rad);
-    let squared = |(own, their): (&State, &State)| ellipse.distance(own.position(), their.position()).squared;
+    let ellipse = |centre: [f64; 2]| scene.goal.safety.oriented(other.route.heading_at(centre));
+    let squared =
+        |(own, their): (&State, &State)| ellipse(their.position()).distance(own.position(), their.position()).squared;
     let nearest = own.iter().zip(theirs).map(squared).fold(f64::INFINITY, f64::min);
     if nearest > RELEVANT_HALF_AXES * RELEVANT_HALF_AXES {
         return None;
@@ -46,8 +47,10 @@ fn position(scene: &Scene, other: &Agent, own: &[State], theirs: &[State]) -> Op
     }
     let steps = own.len().min(theirs.len());
     let ([x, y], [other_x, other_y]) = (own[..steps].last()?.position(), theirs[..steps].last()?.position());
-    let [along, across] = Axes::along(ellipse.heading_rad()).components([x - other_x, y - other_y]);
-    Some(sector([along / ellipse.shape().along_m, across / ellipse.shape().across_m]))
+    let heading_rad = other.route.heading_at([other_x, other_y]);
+    let [along, across] = Axes::along(heading_rad).components([x - other_x, y - other_y]);
+    let safety = scene.goal.safety;
+    Some(sector([along / safety.along_m, across / safety.across_m]))
 }
 
 /// Two roads that cross.
@@ -61,7 +64,7 @@ struct Crossing {
 impl Crossing {
     /// The crossing of the roads of two vehicles; none where they run side by side.
     fn of(ego: &Agent, other: &Agent) -> Option<Crossing> {
-        let [own, their] = [ego, other].map(|agent| agent.corridor.heading_rad);
+        let [own, their] = [ego, other].map(|agent| agent.route.heading_at(other.state.position()));
         let sin = libm::sin(own - their);
         (sin.abs() > libm::sin(PARALLEL_RAD)).then(|| Crossing {
             own: Axes::along(own),

@@ -5,7 +5,9 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Agent, Input, Limits, Scene, State, Trajectory};
+use crate::road::centre_line::{RoadExpansion, RoadPoint};
+use crate::steering::steer;
+use crate::{Agent, Input, Limits, Route, Scene, State, Trajectory};
 
 /// How a driver predicts the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -15,7 +17,7 @@ pub enum Prediction {
     /// velocity.
     #[default]
     Plan,
-    /// At constant velocity with their present headings.
+    /// At constant velocity with their present headings; along a curved road, with their present angle to it.
     ConstantVelocity,
 }
 
@@ -24,7 +26,7 @@ impl Prediction {
     pub fn of(self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
         match self {
             Prediction::Plan => agent.prediction.clone(),
-            Prediction::ConstantVelocity => constant_velocity(&agent.state, horizon, step_s),
+            Prediction::ConstantVelocity => steadily_along(&agent.route, &agent.state, horizon, step_s),
         }
     }
 
@@ -51,6 +53,45 @@ pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajecto
         State { x_m: state.x_m + distance * cos, y_m: state.y_m + distance * sin, ..*state }
     });
     Trajectory { states: states.collect(), inputs: vec![Input::default(); horizon] }
+}
+
+/// The motion of a vehicle that keeps its speed and its angle to the road: on a straight road [`constant_velocity`].
+///
+/// In road coordinates, with the angle `φ` to the road: `s′ = v cos φ/(1 − κ n)`, `n′ = v sin φ`, by Euler's method.
+pub fn steadily_along(route: &Route, state: &State, horizon: usize, step_s: f64) -> Trajectory {
+    if route.straight().is_some() {
+        return constant_velocity(state, horizon, step_s);
+    }
+    let mut at = route.locate(state.position(), None);
+    let angle_rad = state.heading_rad - at.heading_rad;
+    let (sin, cos) = libm::sincos(angle_rad);
+    let mut states = vec![*state];
+    for _ in 0..horizon {
+        let stretch = (1.0 - at.curvature_1pm * at.across_m).max(RoadExpansion::MIN_STRETCH);
+        let along_m = at.along_m + step_s * state.speed_mps * cos / stretch;
+        let across_m = at.across_m + step_s * state.speed_mps * sin;
+        let point = route.centre.at(along_m);
+        at = RoadPoint { along_m, across_m, heading_rad: point.heading_rad, curvature_1pm: point.curvature_1pm };
+        let [x_m, y_m] = route.position(along_m, across_m);
+        states.push(State { x_m, y_m, heading_rad: point.heading_rad + angle_rad, ..*state });
+    }
+    Trajectory { states, inputs: vec![Input::default(); horizon] }
+}
+
+/// Inputs of a constant acceleration of the planning vehicle: without steering on a straight road, along a curved one at the
+/// present lateral position.
+pub fn steady_inputs(scene: &Scene, acceleration_mps2: f64) -> Vec<Input> {
+    let ego = &scene.ego;
+    let mut inputs = steady(&ego.state, acceleration_mps2, &ego.limits, scene.horizon, scene.step_s);
+    if ego.route.straight().is_none() {
+        let across_m = ego.route.across(ego.state.position());
+        let (model, mut state) = (scene.model(), ego.state);
+        for input in &mut inputs {
+            input.steering_rad = steer(ego, &state, across_m);
+            state = model.step(&state, input);
+        }
+    }
+    inputs
 }
 
 /// Inputs of a constant acceleration without steering. The acceleration is reduced where the speed would leave its limits.

@@ -80,7 +80,9 @@ impl Corridor {
                     hessian: [
                         -edge_bend * cos_road * cos_road,
                         -edge_bend * cos_road * sin_road,
+                        0.0,
                         -edge_bend * sin_road * sin_road,
+                        0.0,
                         bend,
                     ],
                 }
@@ -88,7 +90,7 @@ impl Corridor {
                 PoseExpansion {
                     value: self.left_m - corner,
                     gradient: [sin_road, -cos_road, -turn],
-                    hessian: [0.0, 0.0, 0.0, -bend],
+                    hessian: [0.0, 0.0, 0.0, 0.0, 0.0, -bend],
                 }
             };
         }
@@ -123,7 +125,7 @@ mod tests {
             for (corner, (above, below)) in clear(up).iter().zip(clear(down)).enumerate() {
                 let slope = (above.value - below.value) / (2.0 * step);
                 assert!((slope - here[corner].gradient[axis]).abs() < 1e-8, "corner {corner}, axis {axis}");
-                let second = [[0, 1], [1, 2], [3, 3]][axis];
+                let second = [[0, 1], [1, 3], [5, 5]][axis];
                 let bend = |i: usize| (above.gradient[i] - below.gradient[i]) / (2.0 * step);
                 let (first, other) = if axis == 2 { (bend(2), bend(2)) } else { (bend(0), bend(1)) };
                 assert!((first - here[corner].hessian[second[0]]).abs() < 1e-7);

@@ -130,6 +130,22 @@ impl Profile {
         Ok(Profile(Form::Stretches(needed.windows(2).map(stretch).collect())))
     }
 
+    /// The end of a lane, for an edge that moves there.
+    pub fn end(&self) -> Option<LaneEnd> {
+        match &self.0 {
+            Form::LaneEnd { end, .. } => Some(*end),
+            _ => None,
+        }
+    }
+
+    /// The value at an arc length \[m\], as if no lane ended.
+    pub fn value_before_end(&self, along_m: f64) -> f64 {
+        match &self.0 {
+            Form::LaneEnd { edge_m, .. } => *edge_m,
+            _ => self.value(along_m),
+        }
+    }
+
     /// Value, slope and bend (first and second derivative over the arc length) at an arc length \[m\].
     pub fn at(&self, along_m: f64) -> [f64; 3] {
         match &self.0 {

@@ -63,8 +63,7 @@ impl Scripted {
     /// Never; the signature is that of all planners.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let own = &scene.ego;
-        let [speed, lateral] =
-            *self.kept.get_or_insert([own.state.speed_mps, own.corridor.across(own.state.position())]);
+        let [speed, lateral] = *self.kept.get_or_insert([own.state.speed_mps, own.route.across(own.state.position())]);
         let trajectory = roll_out(scene, |t, state| {
             let time_s = scene.step_s * (scene.tick + t) as f64;
             let order = self.latest(time_s, |order| order.speed_mps.is_some());

@@ -1,7 +1,7 @@
 //! What a vehicle has committed itself to: what the others expect of it, and what it does when its planner fails.
 
-use crate::predict::{constant_velocity, steady};
-use crate::{Input, Scene, State, Trajectory};
+use crate::predict::{steadily_along, steady_inputs};
+use crate::{Agent, Input, Scene, Trajectory};
 
 /// The plan that a vehicle follows since its last decision.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,10 +27,11 @@ pub enum Origin {
 }
 
 impl CommittedPlan {
-    /// What is expected of a vehicle in `state` before it has planned again: its plan one step further, from where it really
+    /// What is expected of a vehicle before it has planned again: its plan one step further, from where it really
     /// is (a plant need not follow the plan exactly); before the first plan, constant velocity.
-    pub fn prediction(&self, state: &State, horizon: usize, step_s: f64) -> Trajectory {
-        let Some(plan) = &self.trajectory else { return constant_velocity(state, horizon, step_s) };
+    pub fn prediction(&self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
+        let Agent { route, state, .. } = agent;
+        let Some(plan) = &self.trajectory else { return steadily_along(route, state, horizon, step_s) };
         let mut prediction = plan.shifted();
         if let Some(first) = prediction.states.first_mut() {
             *first = *state;
@@ -70,9 +71,7 @@ impl CommittedPlan {
 
 /// Full braking until the vehicle stands.
 fn braking(scene: &Scene) -> Trajectory {
-    let limits = &scene.ego.limits;
-    let brake = limits.acceleration_min_mps2;
-    rolled_out(scene, steady(&scene.ego.state, brake, limits, scene.horizon, scene.step_s))
+    rolled_out(scene, steady_inputs(scene, scene.ego.limits.acceleration_min_mps2))
 }
 
 /// Where inputs lead the planning vehicle of a scene.

@@ -64,7 +64,7 @@ impl Traffic {
     pub fn predict(&mut self) {
         let Traffic { horizon, step_s, .. } = *self;
         for RoadUser { agent, committed, .. } in &mut self.road_users {
-            agent.prediction = committed.prediction(&agent.state, horizon, step_s);
+            agent.prediction = committed.prediction(agent, horizon, step_s);
         }
     }
 

@@ -47,7 +47,13 @@ impl Vehicle {
         let mut terms = vec![
             Term::Comfort(Comfort { vehicle, weights: self.comfort }),
             Term::Tracking(tracking),
-            Term::RoadEdge(RoadEdge { vehicle, body: self.body, corridor: self.corridor, penalty: Penalty::EXACT }),
+            Term::RoadEdge(RoadEdge {
+                vehicle,
+                body: self.body,
+                route: self.corridor.into(),
+                near_m: Vec::new(),
+                penalty: Penalty::EXACT,
+            }),
         ];
         terms.extend(self.keep_outs.iter().map(|keep_out| Term::KeepOut(KeepOut { vehicle, ..keep_out.clone() })));
         terms
@@ -91,7 +97,12 @@ pub fn lane_change(random: &mut Random) -> Vehicle {
         targets: vec![wanted; HORIZON],
         comfort: [0.1, 0.1],
         keep_outs: others
-            .map(|(x, speed)| KeepOut { vehicle: 0, centres: centre(x, speed), ellipse, penalty: Penalty::EXACT })
+            .map(|(x, speed)| KeepOut {
+                vehicle: 0,
+                centres: centre(x, speed),
+                ellipses: vec![ellipse; HORIZON],
+                penalty: Penalty::EXACT,
+            })
             .into(),
     }
 }
@@ -129,7 +140,7 @@ pub fn pair(seed: u64, alpha: f64) -> Problem {
     let away = (0..HORIZON).map(|t| [0.1 * t as f64, 0.185]).collect();
     let toward = (0..HORIZON).map(|t| [0.105 * t as f64, 0.185 + 0.3 * (t as f64 / 29.0)]).collect();
     let ellipse = SafetyEllipse::default().oriented(0.0);
-    let separation = Separation { vehicle: 0, from: 1, ellipse, penalty: Penalty::EXACT };
+    let separation = Separation { vehicle: 0, from: 1, ellipses: vec![ellipse; HORIZON], penalty: Penalty::EXACT };
     let penalty = Penalty { linear: 100.0, quadratic: 0.0 };
     let persuasion = Persuasion { vehicle: 0, toward, away, strength: alpha, penalty };
     problem(&[ego, follower(random, 6)], [Term::Separation(separation), Term::Persuasion(persuasion)])

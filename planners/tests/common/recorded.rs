@@ -171,7 +171,7 @@ impl Recorded {
     /// The problem, equal to the recorded one in every bit.
     pub fn problem(&self) -> Problem {
         let own = self.vehicles.iter().enumerate().flat_map(|(index, vehicle)| vehicle.terms(index, self.horizon));
-        let pairs = self.separations.iter().map(|pair| Term::Separation(pair.separation()));
+        let pairs = self.separations.iter().map(|pair| Term::Separation(pair.separation(self.horizon)));
         let persuasion = self.persuasion.iter().map(|row| Term::Persuasion(row.persuasion()));
         Problem {
             horizon: self.horizon,
@@ -230,7 +230,7 @@ impl Vehicle {
                 }
             }
             Term::RoadEdge(of) if of.vehicle == vehicle => {
-                let (body, road) = (&of.body, &of.corridor);
+                let (body, road) = (&of.body, of.route.straight().expect("problems on curved roads are not recorded"));
                 self.body = [body.front_m, body.rear_m, body.width_m, body.front_axle_m, body.rear_axle_m];
                 self.road = [road.heading_rad, road.right_m, road.left_m];
                 self.lane_end = road.end.map(|end| [end.end_m, end.height_m, end.taper_m]);
@@ -279,7 +279,13 @@ impl Vehicle {
         let mut terms = vec![
             Term::Comfort(Comfort { vehicle, weights: self.comfort }),
             Term::Tracking(Tracking { vehicle, weights: self.weights, axes: Axes::WORLD, targets }),
-            Term::RoadEdge(RoadEdge { vehicle, body: self.body(), corridor, penalty: Penalty::ROAD_EDGE }),
+            Term::RoadEdge(RoadEdge {
+                vehicle,
+                body: self.body(),
+                route: corridor.into(),
+                near_m: Vec::new(),
+                penalty: Penalty::ROAD_EDGE,
+            }),
         ];
         terms.extend(self.keep_outs.iter().map(|of| Term::KeepOut(of.keep_out(vehicle))));
         terms.extend(self.distance_costs.iter().map(|of| Term::DistanceCost(of.distance_cost(vehicle))));
@@ -303,11 +309,12 @@ fn penalty([linear, quadratic]: [f64; 2]) -> Penalty {
 impl Ellipse {
     fn new(of: &KeepOut) -> Self {
         let penalty = [of.penalty.linear, of.penalty.quadratic];
-        Ellipse { centres: of.centres.clone(), shape: shape(&of.ellipse), penalty }
+        Ellipse { centres: of.centres.clone(), shape: shape(&of.ellipses[0]), penalty }
     }
 
     fn keep_out(&self, vehicle: usize) -> KeepOut {
-        KeepOut { vehicle, centres: self.centres.clone(), ellipse: ellipse(self.shape), penalty: penalty(self.penalty) }
+        let ellipses = vec![ellipse(self.shape); self.centres.len()];
+        KeepOut { vehicle, centres: self.centres.clone(), ellipses, penalty: penalty(self.penalty) }
     }
 }
 
@@ -317,7 +324,7 @@ impl Distance {
             DistancePrice::Linear { weight } => Price::Linear(weight),
             DistancePrice::Exact { base, loyalty, aversion } => Price::Exact([base, loyalty, aversion]),
         };
-        Distance { centres: of.centres.clone(), metric: of.metric, price }
+        Distance { centres: of.centres.clone(), metric: of.metrics[0], price }
     }
 
     fn distance_cost(&self, vehicle: usize) -> DistanceCost {
@@ -325,7 +332,7 @@ impl Distance {
             Price::Linear(weight) => DistancePrice::Linear { weight },
             Price::Exact([base, loyalty, aversion]) => DistancePrice::Exact { base, loyalty, aversion },
         };
-        DistanceCost { vehicle, centres: self.centres.clone(), metric: self.metric, price }
+        DistanceCost { vehicle, centres: self.centres.clone(), metrics: vec![self.metric; self.centres.len()], price }
     }
 }
 
@@ -339,14 +346,14 @@ impl Apart {
     fn of(term: &Term) -> Option<Self> {
         let Term::Separation(of) = term else { return None };
         let penalty = [of.penalty.linear, of.penalty.quadratic];
-        Some(Apart { pair: [of.vehicle, of.from], shape: shape(&of.ellipse), penalty })
+        Some(Apart { pair: [of.vehicle, of.from], shape: shape(&of.ellipses[0]), penalty })
     }
 
-    fn separation(&self) -> Separation {
+    fn separation(&self, horizon: usize) -> Separation {
         Separation {
             vehicle: self.pair[0],
             from: self.pair[1],
-            ellipse: ellipse(self.shape),
+            ellipses: vec![ellipse(self.shape); horizon],
             penalty: penalty(self.penalty),
         }
     }

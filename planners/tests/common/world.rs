@@ -12,6 +12,9 @@ use interplay_planners::{
     bayesian, conservative, cooperative, game, negotiation,
 };
 
+/// Two lanes along x.
+const ROAD: Corridor = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None };
+
 pub const STEP_S: f64 = 0.1;
 pub const HORIZON: usize = 30;
 /// Centres of the two lanes \[m\].
@@ -58,7 +61,7 @@ pub fn vehicle(
         previous_input: Input::default(),
         body: Body::default(),
         limits: Limits::default(),
-        corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
+        route: ROAD.into(),
         prediction: constant_velocity(&state, HORIZON, STEP_S),
         shared_goal: None,
         can_be_asked: true,
@@ -86,7 +89,8 @@ pub fn lane_change(ego: Driver, [front, rear]: [Style; 2]) -> Vec<Vehicle> {
 /// The same from a lane that ends.
 pub fn ramp_merge(ego: Driver, styles: [Style; 2]) -> Vec<Vehicle> {
     let mut vehicles = lane_change(ego, styles);
-    vehicles[0].agent.corridor.end = Some(LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
+    let end = Some(LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
+    vehicles[0].agent.route = Corridor { end, ..ROAD }.into();
     vehicles
 }
 
@@ -101,10 +105,10 @@ pub fn lane_keeping(ego: Driver, merger: Style) -> Vec<Vehicle> {
 /// A human crosses the ego's path from the right, where it starts `away_m` before the ego's road.
 pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
     let mut ego = vehicle("ego", [-2.5, LANES[0], 0.7], [LANES[0], 1.2], [0.0, 4.0, 1.0, 1.0], ego);
-    ego.agent.corridor.left_m = 0.37;
+    ego.agent.route = Corridor { left_m: 0.37, ..ROAD }.into();
     ego.goal.safety.across_m = 0.5;
     let mut human = vehicle("crossing", [0.0, -away_m, 0.8], [0.0, 0.8], [0.0, 4.0, 1.0, 1.0], human(crossing));
-    human.agent.corridor = Corridor { heading_rad: FRAC_PI_2, right_m: -0.185, left_m: 0.185, end: None };
+    human.agent.route = Corridor { heading_rad: FRAC_PI_2, right_m: -0.185, left_m: 0.185, end: None }.into();
     human.agent.state.heading_rad = FRAC_PI_2;
     human.agent.prediction = constant_velocity(&human.agent.state, HORIZON, STEP_S);
     human.goal.target.heading_rad = FRAC_PI_2;
@@ -203,7 +207,8 @@ impl Run {
         let users = &traffic.road_users;
         let ego = &users[0];
         for (i, other) in users.iter().enumerate().skip(1) {
-            let (at, heading) = (other.agent.state.position(), other.agent.corridor.heading_rad);
+            let at = other.agent.state.position();
+            let heading = other.agent.route.heading_at(at);
             let distance = ego.goal.safety.oriented(heading).distance(ego.agent.state.position(), at);
             self.nearest = self.nearest.min(distance.squared.sqrt());
             for earlier in &users[..i] {

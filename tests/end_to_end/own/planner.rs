@@ -57,7 +57,7 @@ fn agent(name: &str, x_m: f64, speed_mps: f64) -> Agent {
         previous_input: Input::default(),
         body: Body::default(),
         limits: Limits::default(),
-        corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.37, end: None },
+        route: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.37, end: None }.into(),
         prediction: constant_velocity(&state, 30, 0.1),
         shared_goal: None,
         can_be_asked: true,

@@ -13,6 +13,7 @@ mod road_network;
 mod route;
 mod routing;
 mod search;
+mod strip;
 
 #[cfg(test)]
 mod tests;

@@ -78,7 +78,7 @@ impl From<Corridor> for Arc<Route> {
 
 impl Route {
     /// A curved road: the strip between two edges beside a line, given as lateral coordinates over its arc length \[m\].
-    pub fn along(centre: CentreLine, right: Profile, left: Profile, half_width: Profile) -> Route {
+    pub fn curved(centre: CentreLine, right: Profile, left: Profile, half_width: Profile) -> Route {
         Route { centre, right, left, half_width, legs: Vec::new(), straight: None }
     }
 

@@ -43,16 +43,22 @@ impl PassingClass {
 
 /// The row terms around an ellipse.
 fn ellipses(problem: &Problem) -> impl Iterator<Item = &dyn RowTerm> {
-    problem.row_terms().filter(|rows| rows.ellipse().is_some())
+    problem.row_terms().filter(|rows| rows.ellipse(0).is_some())
 }
 
 /// The way round the centre of an ellipse, in the plane where it is a circle.
 fn way_round(horizon: usize, rows: &dyn RowTerm, iterate: &Iterate) -> Way {
-    let Some(ellipse) = rows.ellipse() else { return Way::Neither };
-    let (axes, shape) = (Axes::along(ellipse.heading_rad()), ellipse.shape());
     let mut course = Course::default();
+    let (mut heading_rad, mut axes) = (0.0, Axes::WORLD);
     for stage in 0..horizon {
-        let Some(relative) = rows.relative_position(stage, iterate) else { return Way::Neither };
+        let (Some(ellipse), Some(relative)) = (rows.ellipse(stage), rows.relative_position(stage, iterate)) else {
+            return Way::Neither;
+        };
+        if ellipse.heading_rad() != heading_rad {
+            heading_rad = ellipse.heading_rad();
+            axes = Axes::along(heading_rad);
+        }
+        let shape = ellipse.shape();
         let [along, across] = axes.components(relative);
         course.go_to([along / shape.along_m, across / shape.across_m]);
     }

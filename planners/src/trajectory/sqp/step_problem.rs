@@ -24,8 +24,8 @@ const TOLERANCE: f64 = 1e-9;
 pub struct StepProblem {
     /// The programme.
     pub qp: StageQp,
-    /// Per block and stage, `∇²c` over `(xx, xy, yy, θθ)`.
-    row_hessians: Vec<Vec<[f64; 4]>>,
+    /// Per block and stage, `∇²c` over `(xx, xy, xθ, yy, yθ, θθ)`.
+    row_hessians: Vec<Vec<[f64; 6]>>,
     /// Per vehicle and stage, the concave part of the costs' Hessian over `(xx, xy, yy)`.
     concave_costs: Vec<Vec<[f64; 3]>>,
     costates: Costates,
@@ -100,7 +100,7 @@ impl StepProblem {
             stages.state_costs.iter_mut().for_each(|cost| cost.curvature = [0.0; 3]);
         }
         for row in qp.blocks.iter_mut().flat_map(|block| &mut block.rows) {
-            row.curvature = [0.0; 4];
+            row.curvature = [0.0; 6];
         }
         qp.hessian = Hessian::GaussNewton;
     }
@@ -151,14 +151,14 @@ fn expand_term(
     rows: &dyn RowTerm,
     iterate: &Iterate,
     blocks: &mut [RowBlock],
-    hessians: &mut [Vec<[f64; 4]>],
+    hessians: &mut [Vec<[f64; 6]>],
 ) {
     let (subject, far_value, horizon) = (rows.subject(), rows.far_value(), problem.horizon);
     let first = problem.first_stage(subject);
     for (block, hessians) in blocks.iter_mut().zip(hessians.iter_mut()) {
         (block.vehicle, block.other, block.penalty) = (subject.vehicle, subject.other, Some(rows.penalty()));
         block.rows.resize_with(horizon, Default::default);
-        hessians.resize(horizon, [0.0; 4]);
+        hessians.resize(horizon, [0.0; 6]);
     }
     let mut room = [PoseExpansion::default(); MAX_ROWS_PER_STAGE];
     let expansions = &mut room[..blocks.len()];
@@ -167,7 +167,7 @@ fn expand_term(
         for ((block, hessians), expansion) in blocks.iter_mut().zip(hessians.iter_mut()).zip(&*expansions) {
             let row = &mut block.rows[stage];
             row.active = stage >= first && expansion.value < far_value;
-            (row.value, row.gradient, row.curvature) = (expansion.value, expansion.gradient, [0.0; 4]);
+            (row.value, row.gradient, row.curvature) = (expansion.value, expansion.gradient, [0.0; 6]);
             hessians[stage] = expansion.hessian;
         }
     }

@@ -68,12 +68,8 @@ fn fill_state_gradients(qp: &StageQp, at: &StageSolution, gradients: &mut Costat
             let own = at.states[block.vehicle][k];
             let other = block.other.map_or([0.0; 4], |other| at.states[other][k]);
             let (x, y) = (own[0] - other[0], own[1] - other[1]);
-            let [xx, xy, yy, turn] = row.curvature;
-            let pull = [
-                xx * x + xy * y - multiplier * row.gradient[0],
-                xy * x + yy * y - multiplier * row.gradient[1],
-                turn * own[2] - multiplier * row.gradient[2],
-            ];
+            let curved = row.curvature_gradient([x, y, own[2]]);
+            let pull: [f64; 3] = std::array::from_fn(|axis| curved[axis] - multiplier * row.gradient[axis]);
             for axis in 0..3 {
                 gradients[block.vehicle][k][axis] += pull[axis];
             }

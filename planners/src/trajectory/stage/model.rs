@@ -74,8 +74,9 @@ impl StageQp {
             let own = solution.states[block.vehicle][k];
             let other = block.other.map_or([0.0; 4], |other| solution.states[other][k]);
             let (x, y) = (own[0] - other[0], own[1] - other[1]);
-            let [xx, xy, yy, turn] = row.curvature;
-            change += 0.5 * (xx * x * x + 2.0 * xy * x * y + yy * y * y + turn * own[2] * own[2]);
+            let ([xx, xy, xt, yy, yt, tt], turn) = (row.curvature, own[2]);
+            let mixed = 2.0 * turn * (xt * x + yt * y);
+            change += 0.5 * (xx * x * x + 2.0 * xy * x * y + yy * y * y + tt * turn * turn + mixed);
         }
         change
     }

@@ -36,8 +36,10 @@ pub struct StateCost {
     pub gradient: [f64; 4],
     /// Diagonal of the Hessian over `(x, y, θ, v)`.
     pub hessian: [f64; 4],
-    /// Its entry xy. With the diagonal it is positive semi-definite.
+    /// Its entry xy. With the diagonal and `heading_cross` it is positive semi-definite.
     pub cross: f64,
+    /// Its entries xθ and yθ.
+    pub heading_cross: [f64; 2],
     /// What an exact Hessian adds over `(xx, xy, yy)` although it is not convex; zero for Gauss-Newton.
     pub curvature: [f64; 3],
 }
@@ -73,8 +75,9 @@ pub struct Row {
     /// `∇c` over `(x, y, θ)` of the vehicle; a row of a pair depends on the difference of positions, so its gradient
     /// over the other vehicle's `(x, y)` is the negative.
     pub gradient: [f64; 3],
-    /// `K`: what the row adds to the Hessian of the Lagrangian over `(xx, xy, yy, θθ)`; zero for Gauss-Newton.
-    pub curvature: [f64; 4],
+    /// `K`: what the row adds to the Hessian of the Lagrangian over `(xx, xy, xθ, yy, yθ, θθ)`; zero for Gauss-Newton. Rows of
+    /// pairs have none over θ.
+    pub curvature: [f64; 6],
 }
 
 /// The same soft row at every stage.
@@ -176,11 +179,11 @@ impl StateCost {
 
     /// The gradient where the state deviates by `d`.
     pub(crate) fn gradient_at(&self, d: &[f64; 4]) -> [f64; 4] {
-        let [xx, xy, yy] = self.position_hessian();
+        let ([xx, xy, yy], [xt, yt]) = (self.position_hessian(), self.heading_cross);
         [
-            self.gradient[0] + xx * d[0] + xy * d[1],
-            self.gradient[1] + xy * d[0] + yy * d[1],
-            self.gradient[2] + self.hessian[2] * d[2],
+            self.gradient[0] + xx * d[0] + xy * d[1] + xt * d[2],
+            self.gradient[1] + xy * d[0] + yy * d[1] + yt * d[2],
+            self.gradient[2] + self.hessian[2] * d[2] + (xt * d[0] + yt * d[1]),
             self.gradient[3] + self.hessian[3] * d[3],
         ]
     }
@@ -190,6 +193,14 @@ impl RowBlock {
     /// Whether a violation costs anything; a block that does not may be left out.
     pub(crate) fn costs_something(&self) -> bool {
         self.penalty.is_none_or(|penalty| penalty.linear > 0.0 || penalty.quadratic > 0.0)
+    }
+}
+
+impl Row {
+    /// `K d` over `(x, y, θ)` where the pose deviates by `d`.
+    pub(crate) fn curvature_gradient(&self, [x, y, turn]: [f64; 3]) -> [f64; 3] {
+        let [xx, xy, xt, yy, yt, tt] = self.curvature;
+        [xx * x + xy * y + xt * turn, xy * x + yy * y + yt * turn, tt * turn + (xt * x + yt * y)]
     }
 }
 

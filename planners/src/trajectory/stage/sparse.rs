@@ -184,6 +184,9 @@ impl Layout {
             program.linear(variable, cost.gradient[axis]);
         }
         program.quadratic(self.state(vehicle, k, 0), self.state(vehicle, k, 1), cost.cross);
+        for (axis, cross) in cost.heading_cross.into_iter().enumerate().filter(|(_, cross)| *cross != 0.0) {
+            program.quadratic(self.state(vehicle, k, axis), self.state(vehicle, k, 2), cross);
+        }
         if k < stages.first {
             return;
         }

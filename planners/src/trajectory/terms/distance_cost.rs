@@ -24,8 +24,8 @@ pub struct DistanceCost {
     pub vehicle: usize,
     /// Centres at `t = 1…N` \[m\].
     pub centres: Vec<[f64; 2]>,
-    /// `M` over (xx, xy, yy) \[1/m²\].
-    pub metric: [f64; 3],
+    /// Entries xx, xy, yy of `M` at `t = 1…N`; `N` long.
+    pub metrics: Vec<[f64; 3]>,
     /// `φ`.
     pub price: DistancePrice,
 }
@@ -86,7 +86,7 @@ impl DistancePrice {
 impl DistanceCost {
     /// `ω` where the vehicle is at `position` and the centre that of stage `k`, with `n = M d/ω`.
     fn distance(&self, k: usize, position: [f64; 2]) -> (f64, [f64; 2]) {
-        let [xx, xy, yy] = self.metric;
+        let [xx, xy, yy] = self.metrics[k];
         let (dx, dy) = (position[0] - self.centres[k][0], position[1] - self.centres[k][1]);
         let (mx, my) = (xx * dx + xy * dy, xy * dx + yy * dy);
         let omega = (dx * mx + dy * my + CONE_SMOOTHING * CONE_SMOOTHING).sqrt();
@@ -114,7 +114,7 @@ impl StateCostTerm for DistanceCost {
         cost.gradient[0] += slope * n[0];
         cost.gradient[1] += slope * n[1];
         let along = [n[0] * n[0], n[0] * n[1], n[1] * n[1]];
-        let round: [f64; 3] = std::array::from_fn(|i| (self.metric[i] - along[i]) / omega);
+        let round: [f64; 3] = std::array::from_fn(|i| (self.metrics[stage][i] - along[i]) / omega);
         let part = |slope: f64, bend: f64| -> [f64; 3] { std::array::from_fn(|i| bend * along[i] + slope * round[i]) };
         let [xx, xy, yy] = part(slope.max(0.0), bend.max(0.0));
         cost.hessian[0] += xx;
@@ -152,7 +152,7 @@ mod tests {
     fn along_a_straight_line_the_linear_price_is_straight() {
         let centres = vec![[1.0, 2.0]];
         let price = DistancePrice::Linear { weight: 2.0 };
-        let cost = DistanceCost { vehicle: 0, centres, metric: [1.5, 0.2, 4.0], price };
+        let cost = DistanceCost { vehicle: 0, centres, metrics: vec![[1.5, 0.2, 4.0]], price };
         let value = |share: f64| {
             let (mut total, state) =
                 (0.0, State { x_m: 1.0 + 0.5 * share, y_m: 2.0 - 0.3 * share, ..State::default() });

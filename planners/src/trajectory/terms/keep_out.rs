@@ -19,8 +19,8 @@ pub struct KeepOut {
     pub vehicle: usize,
     /// Centres at `t = 1…N`; `N` long \[m\].
     pub centres: Vec<[f64; 2]>,
-    /// The ellipse around each.
-    pub ellipse: OrientedEllipse,
+    /// The ellipse around each; `N` long.
+    pub ellipses: Vec<OrientedEllipse>,
     /// What entering costs.
     pub penalty: Penalty,
 }
@@ -28,8 +28,8 @@ pub struct KeepOut {
 impl KeepOut {
     /// How near a motion comes: the largest `1 − d²` over `t = 1…N`, negative outside. `states` begin at `t = 0`.
     pub fn intrusion(&self, states: &[State]) -> f64 {
-        let centres = states.iter().skip(1).zip(&self.centres);
-        let distances = centres.map(|(state, centre)| self.ellipse.distance(state.position(), *centre).squared);
+        let places = states.iter().skip(1).zip(&self.centres).zip(&self.ellipses);
+        let distances = places.map(|((state, centre), ellipse)| ellipse.distance(state.position(), *centre).squared);
         1.0 - distances.fold(f64::INFINITY, f64::min)
     }
 }
@@ -38,7 +38,7 @@ impl KeepOut {
 pub(super) fn expand(ellipse: &OrientedEllipse, position: [f64; 2], centre: [f64; 2]) -> PoseExpansion {
     let distance = ellipse.distance(position, centre);
     let ([x, y], [xx, xy, yy]) = (distance.gradient, ellipse.hessian());
-    PoseExpansion { value: distance.squared - 1.0, gradient: [x, y, 0.0], hessian: [xx, xy, yy, 0.0] }
+    PoseExpansion { value: distance.squared - 1.0, gradient: [x, y, 0.0], hessian: [xx, xy, 0.0, yy, 0.0, 0.0] }
 }
 
 /// Entering an ellipse is a violation of safety where the row is a constraint, and not a driver's discomfort.
@@ -63,8 +63,8 @@ impl RowTerm for KeepOut {
         FAR_VALUE
     }
 
-    fn ellipse(&self) -> Option<&OrientedEllipse> {
-        Some(&self.ellipse)
+    fn ellipse(&self, stage: usize) -> Option<&OrientedEllipse> {
+        self.ellipses.get(stage)
     }
 
     fn relative_position(&self, stage: usize, iterate: &Iterate) -> Option<[f64; 2]> {
@@ -74,6 +74,6 @@ impl RowTerm for KeepOut {
 
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
         let position = iterate.states[self.vehicle][stage + 1].position();
-        rows[0] = expand(&self.ellipse, position, self.centres[stage]);
+        rows[0] = expand(&self.ellipses[stage], position, self.centres[stage]);
     }
 }

@@ -4,7 +4,7 @@
 //!
 //! | shape | adds to the cost | terms |
 //! |---|---|---|
-//! | `StateCostTerm` | `φ_t(x_t)` | [`Tracking`], [`DistanceCost`] |
+//! | `StateCostTerm` | `φ_t(x_t)` | [`Tracking`], [`RoadTracking`], [`DistanceCost`] |
 //! | change of input | `‖u_t − u_{t−1}‖²_R` | [`Comfort`] |
 //! | `RowTerm` | the penalty of `c_t(x_t) + s ≥ 0` at every stage | [`RoadEdge`], [`KeepOut`], [`Separation`] |
 //! | `TrajectoryTerm` | the penalty of one row over all states of a vehicle | [`Persuasion`], [`MeanSpeed`] |
@@ -17,6 +17,7 @@ mod keep_out;
 mod mean_speed;
 mod persuasion;
 mod road_edge;
+mod road_tracking;
 mod separation;
 mod shape;
 mod tracking;
@@ -27,6 +28,7 @@ pub use keep_out::KeepOut;
 pub use mean_speed::{MeanSpeed, MeanSpeedBound};
 pub use persuasion::Persuasion;
 pub use road_edge::RoadEdge;
+pub use road_tracking::{RoadTarget, RoadTracking};
 pub use separation::Separation;
 pub(super) use shape::{MAX_ROWS_PER_STAGE, RowTerm, Shape, Subject, TrajectoryTerm};
 pub use tracking::Tracking;
@@ -36,6 +38,8 @@ pub use tracking::Tracking;
 pub enum Term {
     /// Distance from a desired motion.
     Tracking(Tracking),
+    /// Distance from a desired place and speed on a curved road.
+    RoadTracking(RoadTracking),
     /// Changes of the input.
     Comfort(Comfort),
     /// Corners that stay on the road.
@@ -57,6 +61,7 @@ impl Term {
     pub(in crate::trajectory) fn shape(&self) -> Shape<'_> {
         match self {
             Term::Tracking(term) => Shape::StateCost(term),
+            Term::RoadTracking(term) => Shape::StateCost(term),
             Term::Comfort(term) => Shape::InputChange(term),
             Term::RoadEdge(term) => Shape::Rows(term),
             Term::KeepOut(term) => Shape::Rows(term),

@@ -1,23 +1,27 @@
 //! Road edges: the four corners stay on the road (eq. 6.7 in the road's frame), softly, with an exact penalty.
 //!
-//! The rows are [`Corridor::clearances`], which state the mathematics.
+//! The rows are [`Route::clearances`], which state the mathematics.
+
+use std::sync::Arc;
 
 use super::shape::{RowTerm, Subject};
 use crate::trajectory::cost::Violation;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::penalty::Penalty;
 use crate::vehicle::PoseExpansion;
-use crate::{Body, Corridor};
+use crate::{Body, Route};
 
 /// The road that a vehicle may use.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RoadEdge {
     /// Whose corners.
     pub vehicle: usize,
     /// Its body.
     pub body: Body,
     /// The road.
-    pub corridor: Corridor,
+    pub route: Arc<Route>,
+    /// Arc lengths near which the vehicle is expected at `t = 1…N`; `N` long, or empty on a straight road \[m\].
+    pub near_m: Vec<f64>,
     /// What leaving it costs.
     pub penalty: Penalty,
 }
@@ -40,6 +44,7 @@ impl RowTerm for RoadEdge {
     }
 
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
-        rows.copy_from_slice(&self.corridor.clearances(&self.body, &iterate.states[self.vehicle][stage + 1]));
+        let near_m = self.near_m.get(stage).copied().unwrap_or_default();
+        rows.copy_from_slice(&self.route.clearances(&self.body, &iterate.states[self.vehicle][stage + 1], near_m));
     }
 }

@@ -8,14 +8,14 @@ use crate::trajectory::penalty::Penalty;
 use crate::vehicle::{OrientedEllipse, PoseExpansion};
 
 /// An ellipse around a deciding vehicle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Separation {
     /// The vehicle that keeps out.
     pub vehicle: usize,
     /// The vehicle in the ellipse's centre.
     pub from: usize,
-    /// The ellipse.
-    pub ellipse: OrientedEllipse,
+    /// The ellipse at `t = 1…N`, along the road of the vehicle in its centre; `N` long.
+    pub ellipses: Vec<OrientedEllipse>,
     /// What entering costs.
     pub penalty: Penalty,
 }
@@ -37,8 +37,8 @@ impl RowTerm for Separation {
         FAR_VALUE
     }
 
-    fn ellipse(&self) -> Option<&OrientedEllipse> {
-        Some(&self.ellipse)
+    fn ellipse(&self, stage: usize) -> Option<&OrientedEllipse> {
+        self.ellipses.get(stage)
     }
 
     fn relative_position(&self, stage: usize, iterate: &Iterate) -> Option<[f64; 2]> {
@@ -49,6 +49,6 @@ impl RowTerm for Separation {
 
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
         let position = |vehicle: usize| iterate.states[vehicle][stage + 1].position();
-        rows[0] = expand(&self.ellipse, position(self.vehicle), position(self.from));
+        rows[0] = expand(&self.ellipses[stage], position(self.vehicle), position(self.from));
     }
 }

@@ -62,8 +62,8 @@ pub(in crate::trajectory) trait RowTerm {
         f64::INFINITY
     }
 
-    /// For a row around an ellipse, which a plan may pass on either side.
-    fn ellipse(&self) -> Option<&OrientedEllipse> {
+    /// For a row around an ellipse, which a plan may pass on either side, the ellipse at a stage.
+    fn ellipse(&self, _stage: usize) -> Option<&OrientedEllipse> {
         None
     }
 

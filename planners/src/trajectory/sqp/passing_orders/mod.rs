@@ -18,6 +18,7 @@
 //! After a comparison that changed nothing the next few plans go without one, more of them where every other class is far
 //! dearer.
 
+mod followed_road;
 mod motions;
 
 use super::comparison::{Round, Unfinished};
@@ -81,7 +82,7 @@ impl<S: StageSolver> Optimiser<S> {
         for rows in problem.row_terms() {
             let multipliers = self.warm_start.multipliers.row_multipliers.get(block);
             let touches = |row: &Vec<f64>| row.iter().any(|multiplier| *multiplier > ACTIVE_MULTIPLIER);
-            if rows.ellipse().is_some() && multipliers.is_some_and(touches) {
+            if rows.ellipse(0).is_some() && multipliers.is_some_and(touches) {
                 return true;
             }
             block += rows.rows_per_stage();

@@ -4,11 +4,12 @@
 //! own; or it keeps its speed and passes an ellipse on the left or on the right, where the road is wide enough. Of several
 //! deciding vehicles one after the other does each of these while the others go on as planned, brake, or accelerate.
 
+use super::followed_road::FollowedRoad;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
-use crate::trajectory::terms::{Term, Tracking};
+use crate::trajectory::terms::Term;
 use crate::vehicle::SteeringGeometry;
-use crate::{Axes, Input, State, Trajectory};
+use crate::{Axes, Input, Trajectory};
 
 /// Accelerations as shares of the strongest braking and acceleration.
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
@@ -75,28 +76,30 @@ fn motions(problem: &Problem, vehicle: usize) -> Vec<Trajectory> {
 
 /// The lateral positions on either side of the ellipses along the vehicle's road, as far as the road reaches \[m\].
 fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
-    let Some(tracking) = tracking(problem, vehicle) else { return Vec::new() };
+    let Some(road) = FollowedRoad::of(problem, vehicle) else { return Vec::new() };
     let on_road = |lateral_m: &f64| {
         problem.terms.iter().all(|term| match term {
             Term::RoadEdge(edge) if edge.vehicle == vehicle => {
                 let half_width_m = 0.5 * edge.body.width_m;
-                (edge.corridor.right_m + half_width_m..=edge.corridor.left_m - half_width_m).contains(lateral_m)
+                let [right_m, left_m] = edge.route.edges_before_end_m(road.start_m(problem, vehicle));
+                (right_m + half_width_m..=left_m - half_width_m).contains(lateral_m)
             }
             _ => true,
         })
     };
+    let half = problem.horizon / 2;
     let ellipses = problem.terms.iter().filter_map(|term| match term {
         Term::KeepOut(keep_out) if keep_out.vehicle == vehicle => {
-            Some((&keep_out.ellipse, keep_out.centres[problem.horizon / 2]))
+            Some((&keep_out.ellipses[half], keep_out.centres[half]))
         }
         Term::Separation(separation) if separation.vehicle == vehicle => {
-            Some((&separation.ellipse, problem.participants[separation.from].start.position()))
+            Some((&separation.ellipses[0], problem.participants[separation.from].start.position()))
         }
         _ => None,
     });
     let sides = ellipses.flat_map(|(ellipse, centre)| {
-        let [_, across] = tracking.axes.components(centre);
-        let axis = tracking.axes.components(Axes::along(ellipse.heading_rad()).vector([1.0, 0.0]));
+        let (across, axes) = road.beside(centre, half);
+        let axis = axes.components(Axes::along(ellipse.heading_rad()).vector([1.0, 0.0]));
         let offset_m = SIDE_CLEARANCE_RATIO * ellipse.shape().across_m;
         let is_parallel = axis[1].abs() < MAX_PARALLEL_SIN;
         [across - offset_m, across + offset_m].into_iter().filter(move |_| is_parallel)
@@ -108,30 +111,21 @@ fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
 /// or of now; nothing for a vehicle without a goal, or where the two positions are the same.
 fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -> Option<Trajectory> {
     let participant = &problem.participants[vehicle];
-    let tracking = tracking(problem, vehicle)?;
-    let across = |state: &State| tracking.axes.components(state.position())[1];
-    let (target, here) = (tracking.targets.last()?, across(&participant.start));
-    let wanted = across(target);
-    let is_far = (wanted - here).abs() > MIN_LATERAL_MOVE_RATIO * participant.model.wheelbase_m();
-    if to_goal && !(is_far && tracking.weights[1] > 0.0) {
-        return None;
-    }
-    motion_to(problem, vehicle, share, if to_goal { wanted } else { here })
+    let road = FollowedRoad::of(problem, vehicle)?;
+    let here = road.at(&participant.start, 0).across_m;
+    let is_far = |wanted: f64| (wanted - here).abs() > MIN_LATERAL_MOVE_RATIO * participant.model.wheelbase_m();
+    let wanted = if to_goal { road.wanted_m().filter(|wanted| is_far(*wanted))? } else { here };
+    motion_to(problem, vehicle, share, wanted)
 }
 
 /// A share of the strongest acceleration, and a lateral position.
 fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> Option<Trajectory> {
     let participant = &problem.participants[vehicle];
-    let tracking = tracking(problem, vehicle)?;
-    let across = |state: &State| tracking.axes.components(state.position())[1];
-    let target = tracking.targets.last()?;
+    let road = FollowedRoad::of(problem, vehicle)?;
     let geometry = SteeringGeometry {
         rear_axle_m: participant.model.rear_axle_m(),
         wheelbase_m: participant.model.wheelbase_m(),
         steering_max_rad: participant.limits.steering_max_rad,
-    };
-    let steer = |state: &State| {
-        geometry.correct(across(state) - lateral_m, state.heading_rad - target.heading_rad, state.speed_mps)
     };
     let limits = &participant.limits;
     let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
@@ -141,18 +135,11 @@ fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> O
     for t in 0..problem.horizon {
         let input = participant.known_inputs.get(t).copied().unwrap_or_else(|| Input {
             acceleration_mps2: participant.reachable_acceleration(t, state.speed_mps, share * bound),
-            steering_rad: steer(&state),
+            steering_rad: geometry.follow(&road.at(&state, t), lateral_m, &state),
         });
         state = participant.model.step(&state, &input);
         inputs.push(input);
         states.push(state);
     }
     Some(Trajectory { inputs, states })
-}
-
-fn tracking(problem: &Problem, vehicle: usize) -> Option<&Tracking> {
-    problem.terms.iter().find_map(|term| match term {
-        Term::Tracking(tracking) if tracking.vehicle == vehicle => Some(tracking),
-        _ => None,
-    })
 }

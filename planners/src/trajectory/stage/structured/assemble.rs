@@ -50,23 +50,21 @@ impl<const W: usize> Memory<W> {
             for stages in &qp.vehicles {
                 let cost = &stages.state_costs[k];
                 let ([xx, xy, yy], [.., heading, speed]) = (cost.position_hessian(), cost.hessian);
-                let pose = [xx, xy, 0.0, yy, 0.0, heading];
+                let [xt, yt] = cost.heading_cross;
+                let pose = [xx, xy, xt, yy, yt, heading];
                 let input = [0, 1].map(|axis| stages.damping(qp.damping, axis) + self.input_regularization);
                 self.smooth_hessians.push(VehicleHessian { pose, speed, input });
             }
         }
         for block in &qp.blocks {
             for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| row.active) {
-                let ([xx, xy, yy, turn], at) = (row.curvature, k * vehicles + block.vehicle);
+                let ([xx, xy, _, yy, ..], at) = (row.curvature, k * vehicles + block.vehicle);
                 if let Some(other) = block.other {
                     let indices = [at, k * vehicles + other];
                     add_pair(&mut self.smooth_hessians, &mut self.smooth_pairs, vehicles, indices, [xx, xy, yy]);
                 } else {
                     let pose = &mut self.smooth_hessians[at].pose;
-                    pose[0] += xx;
-                    pose[1] += xy;
-                    pose[3] += yy;
-                    pose[5] += turn;
+                    pose.iter_mut().zip(row.curvature).for_each(|(value, entry)| *value += entry);
                 }
             }
         }
@@ -129,14 +127,12 @@ impl<const W: usize> Memory<W> {
         let vehicles = Self::VEHICLES;
         for block in &qp.blocks {
             for (k, row) in block.rows.iter().enumerate().filter(|(_, row)| row.active) {
-                let [xx, xy, yy, turn] = row.curvature;
                 let (at, other) = (k * vehicles + block.vehicle, block.other.map(|other| k * vehicles + other));
                 let own = self.point.states[at];
                 let origin = other.map_or([0.0; 4], |other| self.point.states[other]);
-                let (x, y) = (own[0] - origin[0], own[1] - origin[1]);
-                let pull = [xx * x + xy * y, xy * x + yy * y];
+                let pull = row.curvature_gradient([own[0] - origin[0], own[1] - origin[1], own[2]]);
                 let gradients = &mut self.cost_gradient.states;
-                gradients[at][2] += turn * own[2];
+                gradients[at][2] += pull[2];
                 for axis in 0..2 {
                     gradients[at][axis] += pull[axis];
                     if let Some(other) = other {

@@ -1,0 +1,109 @@
+//! The strip of a route in road coordinates: where a position is, and how far a body is inside the edges.
+
+use super::super::centre_line::RoadPoint;
+use super::super::corridor::LaneEnd;
+use super::route::Route;
+use crate::vehicle::{Body, PoseExpansion, State};
+
+impl Route {
+    /// Road coordinates of a position, searched from an arc length on where one is known.
+    pub fn locate(&self, position: [f64; 2], near_m: Option<f64>) -> RoadPoint {
+        match self.straight() {
+            Some(corridor) => RoadPoint {
+                along_m: corridor.along(position),
+                across_m: corridor.across(position),
+                heading_rad: corridor.heading_rad,
+                curvature_1pm: 0.0,
+            },
+            None => self.centre.project(position, near_m),
+        }
+    }
+
+    /// The longitudinal coordinate `s` of a position \[m\].
+    pub fn along(&self, position: [f64; 2]) -> f64 {
+        self.straight().map_or_else(|| self.locate(position, None).along_m, |corridor| corridor.along(position))
+    }
+
+    /// The lateral coordinate `n` of a position, positive to the left \[m\].
+    pub fn across(&self, position: [f64; 2]) -> f64 {
+        self.straight().map_or_else(|| self.locate(position, None).across_m, |corridor| corridor.across(position))
+    }
+
+    /// Direction of the road beside a position \[rad\].
+    pub fn heading_at(&self, position: [f64; 2]) -> f64 {
+        self.straight().map_or_else(|| self.locate(position, None).heading_rad, |corridor| corridor.heading_rad)
+    }
+
+    /// The position with these road coordinates \[m\].
+    pub fn position(&self, along_m: f64, across_m: f64) -> [f64; 2] {
+        self.centre.position(along_m, across_m)
+    }
+
+    /// Lateral coordinate of the right edge \[m\].
+    pub fn right_edge_m(&self, along_m: f64) -> f64 {
+        self.straight().map_or_else(|| self.right.value(along_m), |corridor| corridor.right_edge_m(along_m))
+    }
+
+    /// Lateral coordinate of the left edge \[m\].
+    pub fn left_edge_m(&self, along_m: f64) -> f64 {
+        self.straight().map_or_else(|| self.left.value(along_m), |corridor| corridor.left_m)
+    }
+
+    /// Lateral coordinates of both edges as if no lane ended \[m\].
+    pub fn edges_before_end_m(&self, along_m: f64) -> [f64; 2] {
+        match self.straight() {
+            Some(corridor) => [corridor.right_m, corridor.left_m],
+            None => [self.right.value_before_end(along_m), self.left.value(along_m)],
+        }
+    }
+
+    /// The end of the rightmost lane, if it ends.
+    pub fn lane_end(&self) -> Option<LaneEnd> {
+        self.right.end()
+    }
+
+    /// How far each of the four corners is inside its edge: the two right corners from the right edge, the two left ones from
+    /// the left edge, in the order of [`Body::local_corners`]; negative outside \[m\]. Corners are searched from the
+    /// arc length `near_m` of the vehicle on.
+    ///
+    /// On a straight road these are [`Corridor::clearances`](crate::Corridor::clearances). On a curved one, with a corner at
+    /// `c(x, y, θ)`, the row is `±(n(c) − edge(s(c)))`, with exact first and second derivatives: with `h(c) = n − edge(s)`,
+    ///
+    /// ```text
+    /// ∇h = ∇n − e′ ∇s,    ∇²h = ∇²n − e′ ∇²s − e″ ∇s ∇sᵀ
+    /// ∂/∂θ = ∇h·c_θ,      ∂²/∂p∂θ = ∇²h c_θ,    ∂²/∂θ² = c_θᵀ ∇²h c_θ + ∇h·c_θθ
+    /// ```
+    pub fn clearances(&self, body: &Body, state: &State, near_m: f64) -> [PoseExpansion; 4] {
+        if let Some(corridor) = self.straight() {
+            return corridor.clearances(body, state);
+        }
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        let [x, y] = state.position();
+        body.local_corners().map(|[ahead, left]| {
+            let arm = [ahead * cos - left * sin, ahead * sin + left * cos];
+            let turn = [-arm[1], arm[0]];
+            let (edge, sign) = if left < 0.0 { (&self.right, 1.0) } else { (&self.left, -1.0) };
+            let at = self.centre.expand([x + arm[0], y + arm[1]], Some(near_m + ahead));
+            let [value, slope, bend] = edge.at(at.along_m);
+            let gradient: [f64; 2] = std::array::from_fn(|i| at.across_gradient[i] - slope * at.along_gradient[i]);
+            let [sx, sy] = at.along_gradient;
+            let squares = [sx * sx, sx * sy, sy * sy];
+            let [xx, xy, yy]: [f64; 3] =
+                std::array::from_fn(|i| at.across_hessian[i] - slope * at.along_hessian[i] - bend * squares[i]);
+            let mixed = [xx * turn[0] + xy * turn[1], xy * turn[0] + yy * turn[1]];
+            let round = mixed[0] * turn[0] + mixed[1] * turn[1] - gradient[0] * arm[0] - gradient[1] * arm[1];
+            let about = gradient[0] * turn[0] + gradient[1] * turn[1];
+            PoseExpansion {
+                value: sign * (at.across_m - value),
+                gradient: [gradient[0], gradient[1], about].map(|slope| sign * slope),
+                hessian: [xx, xy, mixed[0], yy, mixed[1], round].map(|bend| sign * bend),
+            }
+        })
+    }
+
+    /// Whether the whole footprint is on the road, to within `tolerance_m`.
+    pub fn contains(&self, body: &Body, state: &State, tolerance_m: f64) -> bool {
+        let near_m = self.along(state.position());
+        self.clearances(body, state, near_m).iter().all(|corner| corner.value >= -tolerance_m)
+    }
+}

@@ -1,0 +1,84 @@
+//! The road along which a simple motion leads.
+
+use crate::road::centre_line::RoadPoint;
+use crate::trajectory::problem::Problem;
+use crate::trajectory::terms::{Term, Tracking};
+use crate::{Axes, Route, State};
+
+/// The road of a deciding vehicle.
+pub(super) enum FollowedRoad<'a> {
+    /// A straight one, along which it tracks its goal.
+    Straight(&'a Tracking),
+    /// A curved one.
+    Curved {
+        route: &'a Route,
+        /// Arc lengths near which the vehicle is expected \[m\].
+        near_m: &'a [f64],
+        /// The lateral position that it wants, if it wants one \[m\].
+        wanted_m: Option<f64>,
+    },
+}
+
+impl<'a> FollowedRoad<'a> {
+    /// The road of a vehicle; none for a vehicle without a goal.
+    pub fn of(problem: &'a Problem, vehicle: usize) -> Option<FollowedRoad<'a>> {
+        let curved = problem.terms.iter().find_map(|term| match term {
+            Term::RoadEdge(edge) if edge.vehicle == vehicle && edge.route.straight().is_none() => Some(edge),
+            _ => None,
+        });
+        let Some(edge) = curved else {
+            return problem.terms.iter().find_map(|term| match term {
+                Term::Tracking(tracking) if tracking.vehicle == vehicle => Some(FollowedRoad::Straight(tracking)),
+                _ => None,
+            });
+        };
+        let wanted_m = problem.terms.iter().find_map(|term| match term {
+            Term::RoadTracking(tracking) if tracking.vehicle == vehicle && tracking.weights[1] > 0.0 => {
+                Some(tracking.target.across_m)
+            }
+            _ => None,
+        });
+        Some(FollowedRoad::Curved { route: &edge.route, near_m: &edge.near_m, wanted_m })
+    }
+
+    /// Where a state at time `t` is beside the road.
+    pub fn at(&self, state: &State, t: usize) -> RoadPoint {
+        match self {
+            FollowedRoad::Straight(tracking) => {
+                let [along_m, across_m] = tracking.axes.components(state.position());
+                let heading_rad = tracking.targets.last().map_or(0.0, |target| target.heading_rad);
+                RoadPoint { along_m, across_m, heading_rad, curvature_1pm: 0.0 }
+            }
+            FollowedRoad::Curved { route, near_m, .. } => {
+                route.locate(state.position(), near_m.get(t.saturating_sub(1)).copied())
+            }
+        }
+    }
+
+    /// Lateral coordinate of a position, and the axes of the road beside it; `stage` is that of the vehicle.
+    pub fn beside(&self, position: [f64; 2], stage: usize) -> (f64, Axes) {
+        match self {
+            FollowedRoad::Straight(tracking) => (tracking.axes.components(position)[1], tracking.axes),
+            FollowedRoad::Curved { route, near_m, .. } => {
+                let at = route.locate(position, near_m.get(stage).copied());
+                (at.across_m, Axes::along(at.heading_rad))
+            }
+        }
+    }
+
+    /// Where a vehicle starts along the road \[m\].
+    pub fn start_m(&self, problem: &Problem, vehicle: usize) -> f64 {
+        self.at(&problem.participants[vehicle].start, 0).along_m
+    }
+
+    /// The lateral position that the vehicle wants, if it wants one \[m\].
+    pub fn wanted_m(&self) -> Option<f64> {
+        match self {
+            FollowedRoad::Straight(tracking) => {
+                let target = tracking.targets.last().filter(|_| tracking.weights[1] > 0.0)?;
+                Some(tracking.axes.components(target.position())[1])
+            }
+            FollowedRoad::Curved { wanted_m, .. } => *wanted_m,
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Tracking in road coordinates: `Σ_{t=1…N} q_s (s − s*)² + q_n (n − n*)² + q_θ (θ − ψ(s))² + q_v (v − v*)²` (eq. 6.6 along a
+//! curved road), with `ψ` the direction of the road beside the vehicle.
+//!
+//! With `e_θ = θ − ψ(s)`, whose gradient is `(−ψ′ ∇s, 1)`, the Gauss-Newton part of the Hessian is
+//! `2 Σ q ∇e ∇eᵀ`. The rest is `2 (q_s e_s ∇²s + q_n e_n ∇²n − q_θ e_θ (ψ′ ∇²s + ψ″ ∇s ∇sᵀ))`, over the position only.
+//!
+//! On a straight road this is [`Tracking`](super::Tracking).
+
+use std::sync::Arc;
+
+use super::shape::StateCostTerm;
+use crate::trajectory::stage::StateCost;
+use crate::{Route, State};
+
+/// The tracking cost of one vehicle on a curved road.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoadTracking {
+    /// Whose states.
+    pub vehicle: usize,
+    /// Diagonal of `Q` on (position along the road, across it, θ, v).
+    pub weights: [f64; 4],
+    /// The road.
+    pub route: Arc<Route>,
+    /// Desired arc length \[m\], lateral coordinate \[m\] and speed \[m/s\].
+    pub target: RoadTarget,
+    /// Arc lengths near which the vehicle is expected at `t = 1…N`; `N` long \[m\]. They decide where the search for the nearest
+    /// point begins.
+    pub near_m: Vec<f64>,
+}
+
+/// What a vehicle on a curved road wants.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RoadTarget {
+    /// Arc length \[m\].
+    pub along_m: f64,
+    /// Lateral coordinate, positive to the left \[m\].
+    pub across_m: f64,
+    /// Speed \[m/s\].
+    pub speed_mps: f64,
+}
+
+impl StateCostTerm for RoadTracking {
+    fn vehicle(&self) -> usize {
+        self.vehicle
+    }
+
+    fn add_value(&self, stage: usize, state: &State, total: &mut f64) {
+        let at = self.route.locate(state.position(), Some(self.near_m[stage]));
+        let deviation = [
+            at.along_m - self.target.along_m,
+            at.across_m - self.target.across_m,
+            state.heading_rad - at.heading_rad,
+            state.speed_mps - self.target.speed_mps,
+        ];
+        for (weight, deviation) in self.weights.iter().zip(deviation) {
+            *total += weight * deviation * deviation;
+        }
+    }
+
+    fn add_expansion(&self, stage: usize, state: &State, cost: &mut StateCost, concave: &mut [f64; 3]) {
+        let at = self.route.centre.expand(state.position(), Some(self.near_m[stage]));
+        let [along, across, turn, speed] = self.weights.map(|weight| 2.0 * weight);
+        let pull_along = along * (at.along_m - self.target.along_m);
+        let pull_across = across * (at.across_m - self.target.across_m);
+        let pull_turn = turn * (state.heading_rad - at.heading_rad);
+        let (s, n) = (at.along_gradient, at.across_gradient);
+        let psi = s.map(|slope| at.heading_slope_radpm * slope);
+        for axis in 0..2 {
+            cost.gradient[axis] += pull_along * s[axis] + pull_across * n[axis] - pull_turn * psi[axis];
+            cost.heading_cross[axis] -= turn * psi[axis];
+        }
+        cost.gradient[2] += pull_turn;
+        cost.gradient[3] += speed * (state.speed_mps - self.target.speed_mps);
+        let squares = |v: [f64; 2]| [v[0] * v[0], v[0] * v[1], v[1] * v[1]];
+        let (ss, nn, pp) = (squares(s), squares(n), squares(psi));
+        let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| along * ss[i] + across * nn[i] + turn * pp[i]);
+        for (sum, bend) in cost.hessian.iter_mut().zip([xx, yy, turn, speed]) {
+            *sum += bend;
+        }
+        cost.cross += xy;
+        for (i, sum) in concave.iter_mut().enumerate() {
+            let turning = at.heading_slope_radpm * at.along_hessian[i] + at.heading_bend_radpm2 * ss[i];
+            *sum += pull_along * at.along_hessian[i] + pull_across * at.across_hessian[i] - pull_turn * turning;
+        }
+    }
+}
