@@ -19,7 +19,12 @@ fn problem(seed: u64) -> Problem {
     let mut problem = pair(seed, 1.0 + 0.01 * seed as f64);
     let centres = (1..=HORIZON).map(|t| [0.1 + 0.1 * t as f64, 0.555]).collect();
     let price = DistancePrice::Linear { weight: random.between(0.02, 0.9) };
-    problem.terms.push(Term::DistanceCost(DistanceCost { vehicle: 0, centres, metrics: vec![[1.8, 0.3, 8.2]; HORIZON], price }));
+    problem.terms.push(Term::DistanceCost(DistanceCost {
+        vehicle: 0,
+        centres,
+        metrics: vec![[1.8, 0.3, 8.2]; HORIZON],
+        price,
+    }));
     let lower = random.between(0.6, 1.4);
     for (vehicle, width) in [0.05, 0.0].into_iter().enumerate() {
         let (lower_mps, upper_mps) = (Some(lower), Some(lower + width));

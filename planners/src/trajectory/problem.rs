@@ -131,10 +131,10 @@ type StageRows = [PoseExpansion; MAX_ROWS_PER_STAGE];
 
 fn add_rows(rows: &dyn RowTerm, stage: usize, iterate: &Iterate, room: &mut StageRows, cost: &mut Cost) {
     let (penalty, violation) = (rows.penalty(), rows.violation());
-    let expansions = &mut room[..rows.rows_per_stage()];
-    rows.expand(stage, iterate, expansions);
-    for row in expansions {
-        cost.add_row(&penalty, violation, row.value);
+    let (count, mut values) = (rows.rows_per_stage(), [0.0; MAX_ROWS_PER_STAGE]);
+    rows.evaluate(stage, iterate, &mut room[..count], &mut values[..count]);
+    for value in &values[..count] {
+        cost.add_row(&penalty, violation, *value);
     }
 }
 

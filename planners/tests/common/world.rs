@@ -2,13 +2,14 @@
 #![allow(dead_code, reason = "each binary uses its own part")]
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 use std::time::Instant;
 
 use interplay_planners::human::{self, Style};
-use interplay_planners::predict::constant_velocity;
+use interplay_planners::predict::{constant_velocity, steadily_along};
 use interplay_planners::traffic::{Decision, RoadUser, Traffic};
 use interplay_planners::{
-    Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Limits, Plan, PlanError, Planner, SafetyEllipse, State,
+    Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Limits, Plan, PlanError, Planner, Route, SafetyEllipse, State,
     bayesian, conservative, cooperative, game, negotiation,
 };
 
@@ -113,6 +114,24 @@ pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
     human.agent.prediction = constant_velocity(&human.agent.state, HORIZON, STEP_S);
     human.goal.target.heading_rad = FRAC_PI_2;
     vec![ego, human]
+}
+
+/// Places vehicles of a straight road at the same road coordinates of another one that is as wide, and begins 3 m earlier.
+pub fn moved_to(route: &Arc<Route>, mut vehicles: Vec<Vehicle>) -> Vec<Vehicle> {
+    for vehicle in &mut vehicles {
+        let agent = &mut vehicle.agent;
+        agent.route = Arc::clone(route);
+        let place = |state: State| {
+            let [x_m, y_m] = route.position(state.x_m + 3.0, state.y_m);
+            let heading_rad = state.heading_rad + route.centre.at(state.x_m + 3.0).heading_rad;
+            State { x_m, y_m, heading_rad, ..state }
+        };
+        agent.state = place(agent.state);
+        vehicle.goal.target = place(vehicle.goal.target);
+        let steps = agent.prediction.horizon();
+        agent.prediction = steadily_along(route, &agent.state, steps, STEP_S);
+    }
+    vehicles
 }
 
 /// A family of scenarios: its name, and its vehicles for an ego's driver.

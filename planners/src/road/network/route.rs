@@ -25,6 +25,8 @@ pub struct Route {
     pub legs: Vec<RouteLeg>,
     /// The same strip as a straight road, if it is one.
     pub(super) straight: Option<Corridor>,
+    /// Largest curvature of the centre line \[1/m\].
+    pub(super) max_curvature_1pm: f64,
 }
 
 /// The part of a route on one lane.
@@ -66,6 +68,7 @@ impl From<Corridor> for Route {
             half_width: Profile::constant(0.5 * (left_m - right_m)),
             legs: Vec::new(),
             straight: Some(corridor),
+            max_curvature_1pm: 0.0,
         }
     }
 }
@@ -79,7 +82,8 @@ impl From<Corridor> for Arc<Route> {
 impl Route {
     /// A curved road: the strip between two edges beside a line, given as lateral coordinates over its arc length \[m\].
     pub fn curved(centre: CentreLine, right: Profile, left: Profile, half_width: Profile) -> Route {
-        Route { centre, right, left, half_width, legs: Vec::new(), straight: None }
+        let max_curvature_1pm = max_curvature(&centre).1.abs();
+        Route { centre, right, left, half_width, legs: Vec::new(), straight: None, max_curvature_1pm }
     }
 
     /// The same strip as a straight road, if it is one.
@@ -107,12 +111,7 @@ impl Route {
 
     /// The place with the largest curvature; none for a route without legs.
     pub fn tightest_turn(&self) -> Option<TightestTurn> {
-        let knots_m = self.centre.knots_m();
-        let places = knots_m.windows(2).flat_map(|pair| {
-            (0..=CHECKS_PER_KNOT).map(|part| pair[0] + (pair[1] - pair[0]) * part as f64 / CHECKS_PER_KNOT as f64)
-        });
-        let turns = places.map(|along_m| (along_m, self.centre.at(along_m).curvature_1pm));
-        let (along_m, curvature_1pm) = turns.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default();
+        let (along_m, curvature_1pm) = max_curvature(&self.centre);
         let lane = self.leg(along_m)?.lane.clone();
         Some(TightestTurn { lane, along_m, curvature_1pm })
     }
@@ -129,4 +128,14 @@ impl Route {
             _ => Ok(()),
         }
     }
+}
+
+/// Where a line has its largest curvature, and that curvature; zero for a line without knots.
+pub(super) fn max_curvature(line: &CentreLine) -> (f64, f64) {
+    let knots_m = line.knots_m();
+    let places = knots_m.windows(2).flat_map(|pair| {
+        (0..=CHECKS_PER_KNOT).map(|part| pair[0] + (pair[1] - pair[0]) * part as f64 / CHECKS_PER_KNOT as f64)
+    });
+    let turns = places.map(|along_m| (along_m, line.at(along_m).curvature_1pm));
+    turns.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default()
 }

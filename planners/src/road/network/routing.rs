@@ -62,7 +62,9 @@ impl RoadNetwork {
         };
         let legs: Vec<RouteLeg> = parts.iter().enumerate().map(leg).collect();
         let strip = edges::strip(self, &centre, &legs, &sections_m);
-        Ok(Route { centre, right: strip.right, left: strip.left, half_width: strip.half_width, legs, straight: None })
+        let mut route = Route::curved(centre, strip.right, strip.left, strip.half_width);
+        route.legs = legs;
+        Ok(route)
     }
 }
 

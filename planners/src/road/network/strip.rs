@@ -79,6 +79,7 @@ impl Route {
         }
         let (sin, cos) = libm::sincos(state.heading_rad);
         let [x, y] = state.position();
+        let near_m = self.centre.project([x, y], Some(near_m)).along_m;
         body.local_corners().map(|[ahead, left]| {
             let arm = [ahead * cos - left * sin, ahead * sin + left * cos];
             let turn = [-arm[1], arm[0]];
@@ -101,9 +102,47 @@ impl Route {
         })
     }
 
+    /// The values of [`Route::clearances`]; where one is positive, a positive lower bound may stand in its place.
+    ///
+    /// On a line of curvature at most `K`, a point at `(a, b)` in the frame of the centre's foot point has a lateral coordinate
+    /// within `K a²` of `b`, as long as `K |b| ≤ ½` and `K |a| ≤ ½`: the line lies between two circles of radius `1/K`. So most corners need no
+    /// projection of their own.
+    pub fn clearance_bounds(&self, body: &Body, state: &State, near_m: f64) -> [f64; 4] {
+        if self.straight().is_some() {
+            return self.clearances(body, state, near_m).map(|corner| corner.value);
+        }
+        let at = self.centre.project(state.position(), Some(near_m));
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        let (road_sin, road_cos) = libm::sincos(at.heading_rad);
+        let corners = body.local_corners().map(|[ahead, left]| {
+            let arm = [ahead * cos - left * sin, ahead * sin + left * cos];
+            (arm, road_cos * arm[0] + road_sin * arm[1], road_cos * arm[1] - road_sin * arm[0], left < 0.0)
+        });
+        let reach_m =
+            corners.iter().map(|(_, along_m, across_m, _)| along_m.abs().max(across_m.abs())).fold(0.0, f64::max);
+        let span = [at.along_m - 2.0 * reach_m, at.along_m + 2.0 * reach_m];
+        let ([_, right_m], [left_m, _]) = (self.right.extremes(span[0], span[1]), self.left.extremes(span[0], span[1]));
+        let is_gentle = self.max_curvature_1pm * (at.across_m.abs() + reach_m) <= 0.5;
+        corners.map(|(arm, along_m, across_m, is_right)| {
+            let sag_m = self.max_curvature_1pm * along_m * along_m;
+            let lateral_m = at.across_m + across_m;
+            let bound_m = if is_right { lateral_m - right_m } else { left_m - lateral_m } - sag_m;
+            if is_gentle && bound_m > 0.0 {
+                return bound_m;
+            }
+            let position = [state.x_m + arm[0], state.y_m + arm[1]];
+            let corner = self.centre.project(position, Some(at.along_m + along_m));
+            if is_right {
+                corner.across_m - self.right.value(corner.along_m)
+            } else {
+                self.left.value(corner.along_m) - corner.across_m
+            }
+        })
+    }
+
     /// Whether the whole footprint is on the road, to within `tolerance_m`.
     pub fn contains(&self, body: &Body, state: &State, tolerance_m: f64) -> bool {
         let near_m = self.along(state.position());
-        self.clearances(body, state, near_m).iter().all(|corner| corner.value >= -tolerance_m)
+        self.clearance_bounds(body, state, near_m).iter().all(|corner_m| *corner_m >= -tolerance_m)
     }
 }

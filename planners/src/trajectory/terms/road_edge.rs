@@ -47,4 +47,10 @@ impl RowTerm for RoadEdge {
         let near_m = self.near_m.get(stage).copied().unwrap_or_default();
         rows.copy_from_slice(&self.route.clearances(&self.body, &iterate.states[self.vehicle][stage + 1], near_m));
     }
+
+    fn evaluate(&self, stage: usize, iterate: &Iterate, _room: &mut [PoseExpansion], values: &mut [f64]) {
+        let near_m = self.near_m.get(stage).copied().unwrap_or_default();
+        let state = &iterate.states[self.vehicle][stage + 1];
+        values.copy_from_slice(&self.route.clearance_bounds(&self.body, state, near_m));
+    }
 }

@@ -75,6 +75,12 @@ pub(in crate::trajectory) trait RowTerm {
     /// `c_t` with its derivatives at a stage, for each of the [`RowTerm::rows_per_stage`] rows. For a pair the gradient
     /// over the other's position is the negative.
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]);
+
+    /// Writes `c_t` at a stage for each row; where it is positive, any positive number will do. `room` is for derivatives.
+    fn evaluate(&self, stage: usize, iterate: &Iterate, room: &mut [PoseExpansion], values: &mut [f64]) {
+        self.expand(stage, iterate, room);
+        values.iter_mut().zip(room).for_each(|(value, row)| *value = row.value);
+    }
 }
 
 /// A convex quadratic soft row over all states of a vehicle, `c + s ≥ 0`.
