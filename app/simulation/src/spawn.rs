@@ -34,7 +34,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
             VehicleParameters {
                 body: vehicle.body,
                 limits: vehicle.limits,
-                corridor: scenario.road.corridor(vehicle.road),
+                corridor: corridor(&scenario.road, vehicle),
             },
             VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             Driving {

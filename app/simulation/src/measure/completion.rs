@@ -1,6 +1,8 @@
 //! When a vehicle reaches its goal.
 
-use interplay_planners::{Body, Corridor, State};
+use std::sync::Arc;
+
+use interplay_planners::{Body, Route, State};
 use interplay_scenarios::{Road, Vehicle};
 
 /// The share of the lane's width by which the centre of the goal may be missed.
@@ -10,9 +12,9 @@ const LATERAL_TOLERANCE_SHARE: f64 = 0.15;
 /// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone.
 ///
 /// A vehicle that starts there has nothing to complete.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Completion {
-    corridor: Corridor,
+    route: Arc<Route>,
     task: Task,
     /// Whether it started elsewhere.
     has_task: bool,
@@ -32,24 +34,24 @@ enum Task {
 impl Completion {
     /// The goal of a vehicle.
     pub fn new(vehicle: &Vehicle, road: &Road) -> Self {
-        let corridor = road.corridor(vehicle.road);
+        let route = road.route(vehicle.road);
         let task = match road.conflict_zone_m(vehicle.road) {
             Some([_, end_m]) => Task::Cross { end_m, body: vehicle.body },
             None => Task::Lane {
-                lateral_m: corridor.across(vehicle.target(road).position()),
+                lateral_m: route.centre.project(vehicle.target(road).position(), None).across_m,
                 tolerance_m: LATERAL_TOLERANCE_SHARE * road.lane_width_m(),
             },
         };
-        let mut completion = Completion { corridor, task, has_task: false, completed_s: None };
+        let mut completion = Completion { route, task, has_task: false, completed_s: None };
         completion.has_task = !completion.is_there(&vehicle.start);
         completion
     }
 
     fn is_there(&self, state: &State) -> bool {
-        let position = state.position();
+        let place = self.route.centre.project(state.position(), None);
         match self.task {
-            Task::Lane { lateral_m, tolerance_m } => (self.corridor.across(position) - lateral_m).abs() <= tolerance_m,
-            Task::Cross { end_m, body } => self.corridor.along(position) - body.rear_m > end_m,
+            Task::Lane { lateral_m, tolerance_m } => (place.across_m - lateral_m).abs() <= tolerance_m,
+            Task::Cross { end_m, body } => place.along_m - body.rear_m > end_m,
         }
     }
 

@@ -89,7 +89,7 @@ fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
     let road = &scenario.road;
     let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
     let place = |(vehicle, measured): (&Vehicle, &VehicleMeasures)| {
-        let along = road.corridor(vehicle.road).along(measured.last.position());
+        let along = road.route(vehicle.road).centre.project(measured.last.position(), None).along_m;
         match road.conflict_zone_m(vehicle.road) {
             Some([_, end]) => {
                 let never = if along > end { 0.0 } else { f64::INFINITY };
