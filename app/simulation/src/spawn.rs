@@ -1,8 +1,8 @@
 //! From a scenario to entities.
 
 use bevy_ecs::prelude::*;
-use interplay_planners::{Goal, Input};
-use interplay_scenarios::Scenario;
+use interplay_planners::{Corridor, Goal, Input, State};
+use interplay_scenarios::{Road, Scenario, Vehicle};
 
 use crate::climate::{self, BuildingError};
 use crate::components::{
@@ -59,4 +59,14 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
         world.insert_resource(measures);
     }
     Ok(world)
+}
+
+/// The strip that a vehicle's planner keeps to; on a curve, the one along the direction of the road at its start.
+fn corridor(road: &Road, vehicle: &Vehicle) -> Corridor {
+    road.corridor(vehicle.road).unwrap_or_else(|| {
+        let State { heading_rad, .. } = vehicle.target(road);
+        let tangent = Corridor { heading_rad, right_m: 0.0, left_m: 0.0, end: None };
+        let across_m = tangent.across(vehicle.start.position());
+        Corridor { right_m: across_m - road.width_m(), left_m: across_m + road.width_m(), ..tangent }
+    })
 }
