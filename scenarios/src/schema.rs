@@ -140,7 +140,8 @@ fn state_exclusions(properties: &mut Map<String, Json>) {
         };
         let others: Vec<String> = pairs.iter().filter_map(beside).collect();
         if let Some(Json::String(description)) = property.get_mut("description").filter(|_| !others.is_empty()) {
-            let (last, before) = others.split_last().map_or((String::new(), &others[..]), |(last, b)| (last.clone(), b));
+            let (last, before) =
+                others.split_last().map_or((String::new(), &others[..]), |(last, b)| (last.clone(), b));
             let separator = if before.is_empty() { "" } else { " or " };
             *description += &format!(" Not together with {}{separator}{last}.", before.join(", "));
         }
