@@ -100,9 +100,11 @@ impl Checker<'_> {
             self.refuse(&format!("{path}.lane"), "this lane ends", message, &format!("lane 1 is the one beside {it}"));
         }
         if goal.y_m.is_some() && (vehicle.road == Branch::Cross || matches!(road, Road::Curve(_))) {
-            let which = if vehicle.road == Branch::Cross { "the crossing road" } else { "a curve" };
+            let crosses = vehicle.road == Branch::Cross;
+            let (which, label) =
+                if crosses { ("the crossing road", "along this road") } else { ("a curve", "y of the world") };
             let message = format!("`vehicle.{name}.goal.y_m` is no lateral position on {which}");
-            self.refuse(&format!("{path}.y_m"), "along this road", message, "state its `lane`");
+            self.refuse(&format!("{path}.y_m"), label, message, "state its `lane`");
             return;
         }
         if let Some(y_m) = goal.y_m.filter(|y_m| !(0.0..=road.width_m()).contains(y_m)) {

@@ -193,8 +193,8 @@ impl Curve {
         let begin = [0.0, 0.5 * self.width_m()];
         smooth(&all, transition_m).and_then(|smoothed| CentreLine::from_pieces(begin, 0.0, &smoothed)).map_err(
             |error| match error {
-                CentreLineError::NoRoomForTransition { piece, length_m, needed_m } => {
-                    let most_m = transition_m * length_m / needed_m;
+                CentreLineError::NoRoomForTransition { piece, length_m, .. } => {
+                    let most_m = longest_transition_m(&pieces);
                     CurveFault::NoRoom { piece: number(piece), length_m, transition_m, most_m }
                 }
                 CentreLineError::NotFinite { .. }
@@ -230,18 +230,22 @@ impl Curve {
 
     /// The length of transitions where the file says nothing.
     fn default_transition_m(&self, pieces: &[Piece]) -> f64 {
-        let curvature = |piece: Option<&Piece>| piece.map_or(0.0, |piece| piece.curvatures_1pm()[0]);
-        let room = |index: usize| {
-            let own = curvature(pieces.get(index));
-            let neighbours = [index.checked_sub(1).and_then(|before| pieces.get(before)), pieces.get(index + 1)];
-            let cuts = neighbours.iter().filter(|neighbour| curvature(**neighbour) != own).count();
-            if cuts == 0 { f64::INFINITY } else { 2.0 * pieces[index].length_m() / cuts as f64 }
-        };
-        let room_m = (0..pieces.len()).map(room).fold(f64::INFINITY, f64::min);
         let radius_m = self.turns().map(|turn| turn.radius_m).fold(f64::INFINITY, f64::min);
-        let most_m = DEFAULT_TRANSITION_SHARE * room_m.min(radius_m);
+        let most_m = DEFAULT_TRANSITION_SHARE * longest_transition_m(pieces).min(radius_m);
         if most_m.is_finite() { most_m } else { self.width_m() }
     }
+}
+
+/// The longest transition that every piece has room for; infinite without a turn \[m\].
+fn longest_transition_m(pieces: &[Piece]) -> f64 {
+    let curvature = |piece: Option<&Piece>| piece.map_or(0.0, |piece| piece.curvatures_1pm()[0]);
+    let room_m = |index: usize| {
+        let own = curvature(pieces.get(index));
+        let neighbours = [index.checked_sub(1).and_then(|before| pieces.get(before)), pieces.get(index + 1)];
+        let cuts = neighbours.iter().filter(|neighbour| curvature(**neighbour) != own).count();
+        if cuts == 0 { f64::INFINITY } else { 2.0 * pieces[index].length_m() / cuts as f64 }
+    };
+    (0..pieces.len()).map(room_m).fold(f64::INFINITY, f64::min)
 }
 
 /// Two arc lengths at which a road of a width covers the same place, if there are any.
