@@ -5,6 +5,7 @@
 mod building;
 mod checker;
 pub(crate) mod counterfactual;
+mod road;
 
 use interplay_building::nearest::suggestion;
 use interplay_planners::State;
@@ -15,10 +16,10 @@ use crate::scenario::{Scenario, Vehicle};
 use crate::tree::TomlNode;
 use checker::Checker;
 
+pub(crate) use road::{curve_faults, no_such_lane};
+
 /// The most ticks a run may take.
 const MAX_TICKS: f64 = 100_000.0;
-/// The angles at which roads may cross, to either side \[deg\].
-const CROSSING_ANGLE_DEG: std::ops::RangeInclusive<f64> = 20.0..=160.0;
 /// How far a corner may stick out of the road by rounding \[m\].
 const ROUNDING_M: f64 = 1e-9;
 
@@ -32,6 +33,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
         checker.limits(index, vehicle);
         checker.branch(index, vehicle);
         checker.goal(index, vehicle);
+        checker.turns(index, vehicle);
         checker.driver(index, vehicle);
     }
     checker.starts();
@@ -85,57 +87,24 @@ impl Checker<'_> {
         }
     }
 
-    /// Roads that cross at a small angle run side by side, and their conflict zone is as long as they are.
-    fn road(&mut self) {
-        if let Road::Intersection(crossing) = &self.scenario.road
-            && !CROSSING_ANGLE_DEG.contains(&crossing.angle_deg.abs())
-        {
-            let message = format!("`road.angle_deg` is {}, at which roads hardly cross", crossing.angle_deg);
-            let help = format!(
-                "from {} to {} the crossing road comes from the right of the main one, with a minus from its left",
-                CROSSING_ANGLE_DEG.start(),
-                CROSSING_ANGLE_DEG.end()
-            );
-            self.refuse("road.angle_deg", "too small an angle", message, &help);
-        }
-    }
-
-    fn branch(&mut self, index: usize, vehicle: &Vehicle) {
-        let (name, road, path) = (&vehicle.name, &self.scenario.road, format!("vehicle.{index}"));
-        if vehicle.road == Branch::Cross && !matches!(road, Road::Intersection(_)) {
-            let message = format!("`vehicle.{name}.road` is \"cross\", but there is no crossing road");
-            let help = "`[road]` with `kind = \"intersection\"` has one";
-            self.refuse(&format!("{path}.road"), "no such road", message, help);
-            return;
-        }
-        let heading = road.heading_rad(vehicle.road);
-        let turned = libm::cos(vehicle.start.heading_rad - heading) < 0.5;
-        if turned && matches!(road, Road::Intersection(_)) {
-            let start = vehicle.start.heading_rad;
-            let message = format!("`vehicle.{name}.start.heading_rad` ({start}) is not along the vehicle's road");
-            let help = format!("its road runs at heading_rad = {heading}, and `road` chooses between both");
-            self.refuse(&format!("{path}.start"), "heads elsewhere", message, &help);
-        }
-    }
-
     fn goal(&mut self, index: usize, vehicle: &Vehicle) {
         let (name, goal, road) = (&vehicle.name, vehicle.goal, &self.scenario.road);
-        let (path, lanes) = (format!("vehicle.{index}.goal"), road.lane_count());
-        if let Some(lane) = goal.lane.filter(|lane| *lane >= lanes) {
-            let message = format!(
-                "`vehicle.{name}.goal.lane` is {lane}, but the road has only {lanes} {}",
-                plural(lanes, "lane")
-            );
-            let help = format!("lanes are counted from the right: 0 to {}", lanes.saturating_sub(1));
+        let path = format!("vehicle.{index}.goal");
+        let refused = goal.lane.and_then(|lane| no_such_lane(&format!("vehicle.{name}.goal.lane"), lane, road));
+        if let Some((message, help)) = refused {
             self.refuse(&format!("{path}.lane"), "no such lane", message, &help);
         }
         if goal.lane == Some(0) && road.lane_end().is_some() {
-            let message = format!("`vehicle.{name}.goal.lane` is 0, the ramp, which ends");
-            self.refuse(&format!("{path}.lane"), "this lane ends", message, "lane 1 is the one beside the ramp");
+            let (ramp, it) = if matches!(road, Road::Curve(_)) { ("", "it") } else { ("the ramp, ", "the ramp") };
+            let message = format!("`vehicle.{name}.goal.lane` is 0, {ramp}which ends");
+            self.refuse(&format!("{path}.lane"), "this lane ends", message, &format!("lane 1 is the one beside {it}"));
         }
-        if goal.y_m.is_some() && vehicle.road == Branch::Cross {
-            let message = format!("`vehicle.{name}.goal.y_m` is no lateral position on the crossing road");
-            self.refuse(&format!("{path}.y_m"), "along this road", message, "state its `lane`");
+        if goal.y_m.is_some() && (vehicle.road == Branch::Cross || matches!(road, Road::Curve(_))) {
+            let crosses = vehicle.road == Branch::Cross;
+            let (which, label) =
+                if crosses { ("the crossing road", "along this road") } else { ("a curve", "y of the world") };
+            let message = format!("`vehicle.{name}.goal.y_m` is no lateral position on {which}");
+            self.refuse(&format!("{path}.y_m"), label, message, "state its `lane`");
             return;
         }
         if let Some(y_m) = goal.y_m.filter(|y_m| !(0.0..=road.width_m()).contains(y_m)) {
@@ -163,7 +132,7 @@ impl Checker<'_> {
         let pairs = || scenario.vehicles.iter().zip(&starts).enumerate();
         for (index, (vehicle, start)) in pairs() {
             let path = format!("vehicle.{index}.start");
-            if !scenario.road.corridor(vehicle.road).contains(&vehicle.body, start, ROUNDING_M) {
+            if !scenario.road.contains(vehicle.road, &vehicle.body, start, ROUNDING_M) {
                 let message = format!("vehicle {} starts outside the road{moved}", quoted(&vehicle.name));
                 let help = format!("{}, and the whole body must lie on it", extent(&scenario.road, vehicle.road));
                 self.refuse(&path, "a corner is beside the road", message, &help);
@@ -257,6 +226,11 @@ impl Checker<'_> {
 fn extent(road: &Road, branch: Branch) -> String {
     let width = road.width_m();
     match (road, branch) {
+        (Road::Curve(curve), _) => {
+            let end = curve.lane_end.map(|end| format!(", and its lane 0 narrows until it ends after {} m", end.end_m));
+            let half = 0.5 * width;
+            format!("the road reaches {half} m to either side of its middle{}", end.unwrap_or_default())
+        }
         (Road::RampMerge(ramp), _) => {
             let end = ramp.ramp_end_m;
             format!("the road reaches from y = 0 to y = {width}, and its lane 0 narrows until it ends at x = {end}")

@@ -5,6 +5,7 @@ use crate::merge::merge_tables;
 use crate::overrides::Override;
 use crate::scenario::Scenario;
 use crate::source::Source;
+use crate::start::resolve_starts;
 use crate::tree::{self, Table, TomlNode, TomlValue};
 use crate::weather::WeatherConfig;
 use crate::{changed, consistency, schema, schema_check, weather_file};
@@ -61,7 +62,12 @@ fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mut scenario: Scenario = serde_json::from_value(tree.to_json())
+    let mut stated = tree.to_json();
+    let faults = resolve_starts(&mut stated, tree);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let mut scenario: Scenario = serde_json::from_value(stated)
         .map_err(|error| vec![Fault::at(&tree.place, "in this file", error.to_string())])?;
     let days = scenario.days();
     let unread = match &mut scenario.weather {

@@ -19,6 +19,7 @@ use crate::expect::Expect;
 use crate::name;
 use crate::plant::Plant;
 use crate::road::{Branch, Road};
+use crate::start::StartConfig;
 use crate::start_jitter::StartJitter;
 use crate::weather::WeatherConfig;
 
@@ -185,8 +186,9 @@ pub struct Vehicle {
     /// The road it drives on; by default the one along x, and there is another at intersections only.
     #[serde(default)]
     pub road: Branch,
-    /// Where it starts: mass centre, heading and speed.
-    #[schemars(example = json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 }))]
+    // A file says it as `StartConfig` does; loading resolves that.
+    /// Where it starts, in a lane or in world coordinates, and its speed there.
+    #[schemars(with = "StartConfig", example = json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 }))]
     pub start: State,
     /// Its goal; by default to keep its lateral position and its speed.
     #[serde(default)]
@@ -216,14 +218,15 @@ impl Vehicle {
     /// The state that the vehicle wants: the lateral position of its goal (that of its start without one), along the
     /// road, at the wanted speed. The coordinate along the road is that of the start and nobody tracks it.
     pub fn target(&self, road: &Road) -> State {
-        let corridor = road.corridor(self.road);
-        let (along, start) = (corridor.along(self.start.position()), corridor.across(self.start.position()));
-        let lateral = self.goal.lane.map(|lane| road.lane_centre_m(self.road, lane)).or(self.goal.y_m).unwrap_or(start);
-        let (sin, cos) = libm::sincos(corridor.heading_rad);
+        let route = road.route(self.road);
+        let start = route.centre.project(self.start.position(), None);
+        let lane_centre_m = self.goal.lane.map(|lane| road.lane_centre_m(self.road, lane));
+        let [x_m, y_m] =
+            route.centre.position(start.along_m, lane_centre_m.or(self.goal.y_m).unwrap_or(start.across_m));
         State {
-            x_m: cos * along - sin * lateral,
-            y_m: sin * along + cos * lateral,
-            heading_rad: corridor.heading_rad,
+            x_m,
+            y_m,
+            heading_rad: start.heading_rad,
             speed_mps: self.goal.speed_mps.unwrap_or(self.start.speed_mps),
         }
     }

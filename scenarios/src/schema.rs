@@ -140,7 +140,10 @@ fn state_exclusions(properties: &mut Map<String, Json>) {
         };
         let others: Vec<String> = pairs.iter().filter_map(beside).collect();
         if let Some(Json::String(description)) = property.get_mut("description").filter(|_| !others.is_empty()) {
-            *description += &format!(" Not together with {}.", others.join(" or "));
+            let (last, before) =
+                others.split_last().map_or((String::new(), &others[..]), |(last, b)| (last.clone(), b));
+            let separator = if before.is_empty() { "" } else { " or " };
+            *description += &format!(" Not together with {}{separator}{last}.", before.join(", "));
         }
     }
 }
@@ -254,7 +257,7 @@ mod tests {
         assert_eq!(whole["required"], COMPLETE["required"]);
         let vehicle = &whole["properties"]["vehicle"]["items"];
         assert_eq!(vehicle["required"], json!(["name", "start"]));
-        assert_eq!(vehicle["properties"]["start"]["required"], json!(["x_m", "y_m", "speed_mps"]));
+        assert_eq!(vehicle["properties"]["start"]["required"], json!(["speed_mps"]));
         assert_eq!(vehicle["properties"]["driver"]["required"], json!(["kind"]));
     }
 }

@@ -96,8 +96,10 @@ impl Checker {
             self.refuse(&node.place, &format!("has no `{key}`"), message, help);
         }
         let stated = |key: &str| table.get(key).filter(|entry| !entry.node.is_empty_list());
+        let mut blamed: Vec<&str> = Vec::new();
         for (one, other) in schema.exclusions() {
-            if let (Some(_), Some(second)) = (stated(one), stated(other)) {
+            if let (Some(_), Some(second), false) = (stated(one), stated(other), blamed.contains(&other)) {
+                blamed.push(other);
                 let message = format!("{} states both `{one}` and `{other}`", quoted(&path.0));
                 let said = schema.property(one).map(SchemaNode::description).unwrap_or_default();
                 let help = format!("state the one or the other; of `{one}`: {said}");

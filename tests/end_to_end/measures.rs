@@ -54,6 +54,10 @@ fn the_order_is_that_of_the_road_or_of_the_crossing() {
             let place = match film.scenario.road {
                 Road::Intersection(_) => reached(film, index).expect("everybody crosses") as f64,
                 Road::Lanes(_) | Road::RampMerge(_) => -vehicle.last.x_m,
+                Road::Curve(_) => {
+                    let route = film.scenario.road.route(Branch::Main);
+                    -route.centre.project(vehicle.last.position(), None).along_m
+                }
             };
             (place, &vehicle.name)
         });

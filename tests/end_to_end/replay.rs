@@ -22,7 +22,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         previous_input: before.map(|frame| frame.vehicles[index].input).unwrap_or_default(),
         body: vehicle.body,
         limits: vehicle.limits,
-        route: scenario.road.corridor(vehicle.road).into(),
+        route: scenario.road.route(vehicle.road),
         prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now),
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),
@@ -41,8 +41,8 @@ fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFra
 /// Who plans when.
 fn order(scenario: &Scenario, frame: &Frame) -> Vec<usize> {
     let along = |index: usize| {
-        let corridor = scenario.road.corridor(scenario.vehicles[index].road);
-        corridor.along(frame.vehicles[index].state.position())
+        let route = scenario.road.route(scenario.vehicles[index].road);
+        route.centre.project(frame.vehicles[index].state.position(), None).along_m
     };
     let (mut first, then): (Vec<usize>, Vec<usize>) =
         (0..scenario.vehicles.len()).partition(|index| scenario.vehicles[*index].driver.goes_first());

@@ -2,6 +2,7 @@
 //!
 //! Everything here is made from the plain values of [`interplay_simulation`]: its frames and its report.
 
+mod curved_road;
 pub mod figures;
 pub mod page;
 pub mod plot;

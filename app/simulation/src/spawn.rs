@@ -34,7 +34,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
             VehicleParameters {
                 body: vehicle.body,
                 limits: vehicle.limits,
-                route: scenario.road.corridor(vehicle.road).into(),
+                route: scenario.road.route(vehicle.road),
             },
             VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             Driving {

@@ -1,12 +1,13 @@
 //! Pictures of a run with vehicles.
 
 use interplay_planners::State;
-use interplay_scenarios::{Road, Scenario, Vehicle};
+use interplay_scenarios::{Branch, Road, Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
 
 use super::recorded_run::RecordedRun;
+use crate::curved_road::CurvedRoad;
 use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
-use crate::plot::{Curve, FootprintPlot, FootprintSnapshot, Panel, Panels, Strip};
+use crate::plot::{Curve, CurvedStrip, FootprintPlot, FootprintSnapshot, Panel, Panels, Strip};
 
 /// How many snapshots a picture of footprints has: in strips, and on one map.
 const SNAPSHOT_COUNTS: [usize; 2] = [8, 12];
@@ -14,6 +15,8 @@ const SNAPSHOT_COUNTS: [usize; 2] = [8, 12];
 const TIME_AFTER_GOALS_S: f64 = 1.5;
 /// Where the edge of the road that a ramp leads to ends, beyond everything that is drawn \[m\].
 const RAMP_EDGE_END_M: f64 = 1e4;
+/// How far a road that turns is drawn beyond the first and the last vehicle, in widths of the road.
+const ROAD_BEYOND_WIDTHS: f64 = 4.0;
 
 /// The line style of every vehicle, in the scenario's order: the ego's is orange.
 pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {
@@ -28,8 +31,8 @@ pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {
 /// Footprints at equal steps of time, until all have reached their goals who do; to the end if the ego does not.
 pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     let RecordedRun { scenario, frames, .. } = recorded;
-    let roads = roads(scenario);
-    let parallel = roads.iter().all(|road| road.heading_rad == roads[0].heading_rad);
+    let (roads, curves) = (roads(scenario), curves(recorded));
+    let parallel = curves.is_empty() && roads.iter().all(|road| road.heading_rad == roads[0].heading_rad);
     let count = SNAPSHOT_COUNTS[usize::from(!parallel)];
     let ego = scenario.ego_index();
     let mut order: Vec<usize> = (0..scenario.vehicles.len()).collect();
@@ -47,6 +50,7 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     FootprintPlot {
         title: title.to_owned(),
         roads,
+        curves,
         vehicles: order.iter().map(|&index| (who(&scenario.vehicles[index]), line_styles[index].colour)).collect(),
         snapshots: ticks.into_iter().map(snapshot).collect(),
         path: (0..=last.min(frames.len()))
@@ -81,20 +85,19 @@ fn who(vehicle: &Vehicle) -> String {
     format!("{}: {}", vehicle.name, vehicle.driver.description())
 }
 
-/// Every road that somebody drives on.
+/// Every straight road that somebody drives on.
 fn roads(scenario: &Scenario) -> Vec<Strip> {
     let mut roads: Vec<Strip> = Vec::new();
     for vehicle in &scenario.vehicles {
-        let strip = strip(&scenario.road, vehicle);
-        if !roads.contains(&strip) {
+        if let Some(strip) = strip(&scenario.road, vehicle).filter(|strip| !roads.contains(strip)) {
             roads.push(strip);
         }
     }
     roads
 }
 
-fn strip(road: &Road, vehicle: &Vehicle) -> Strip {
-    let corridor = road.corridor(vehicle.road);
+fn strip(road: &Road, vehicle: &Vehicle) -> Option<Strip> {
+    let corridor = road.corridor(vehicle.road)?;
     let divider = |lane: usize| corridor.right_m + lane as f64 * road.lane_width_m();
     let shoulder_m = corridor.end.map(|end| {
         let start = end.end_m - 8.0 * end.taper_m;
@@ -104,12 +107,30 @@ fn strip(road: &Road, vehicle: &Vehicle) -> Strip {
             .chain([[RAMP_EDGE_END_M, corridor.right_m], [start, corridor.right_m]])
             .collect()
     });
-    Strip {
+    Some(Strip {
         heading_rad: corridor.heading_rad,
         edges_m: [corridor.right_m, corridor.left_m],
         dividers_m: (1..road.lane_count()).map(divider).collect(),
         shoulder_m: shoulder_m.unwrap_or_default(),
+    })
+}
+
+/// The road if it turns, as far as somebody drives on it.
+fn curves(recorded: &RecordedRun) -> Vec<CurvedStrip> {
+    let road = &recorded.scenario.road;
+    let Some(curved) = CurvedRoad::new(road) else { return Vec::new() };
+    let route = road.route(Branch::Main);
+    let states = recorded.frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| &vehicle.state);
+    let [from_m, to_m] = states.fold([f64::INFINITY, f64::NEG_INFINITY], |[from_m, to_m], state| {
+        let along_m = route.centre.project(state.position(), None).along_m;
+        [from_m.min(along_m), to_m.max(along_m)]
+    });
+    if from_m > to_m {
+        return Vec::new();
     }
+    let beyond_m = ROAD_BEYOND_WIDTHS * road.width_m();
+    let range_m = [from_m - beyond_m, to_m + beyond_m];
+    vec![CurvedStrip { edges_m: curved.edges(range_m), dividers_m: curved.dividers(range_m) }]
 }
 
 /// Speeds over time, with uprights where somebody reaches its goal.

@@ -1,14 +1,14 @@
 //! Numbered footprints of vehicles at equal time steps, on their roads.
 //!
 //! Where all roads run the same way, each snapshot is a strip below the one before ([`FootprintPlot::strips`]): vehicles
-//! in one lane would cover one another otherwise. Where roads cross, all snapshots are in one plan ([`FootprintPlot::plan`]).
+//! in one lane would cover one another otherwise. Where roads cross or turn, all snapshots are in one plan ([`FootprintPlot::plan`]).
 
 mod body;
 mod data;
 mod plan;
 mod strips;
 
-pub use data::{FootprintPlot, FootprintSnapshot, Strip};
+pub use data::{CurvedStrip, FootprintPlot, FootprintSnapshot, Strip};
 
 use super::drawing::Drawing;
 
@@ -16,7 +16,7 @@ impl FootprintPlot {
     /// The picture that suits the roads.
     pub fn drawing(&self) -> Drawing {
         let parallel = self.roads.iter().all(|road| libm::cos(road.heading_rad) > 0.999);
-        if parallel { self.strips() } else { self.plan() }
+        if parallel && self.curves.is_empty() { self.strips() } else { self.plan() }
     }
 }
 
@@ -38,6 +38,7 @@ mod tests {
         FootprintPlot {
             title: "Drive".to_owned(),
             roads: vec![Strip { edges_m: [0.0, 7.0], dividers_m: vec![3.5], ..Strip::default() }],
+            curves: Vec::new(),
             vehicles: vec![("ego: human".to_owned(), ORANGE), ("front: human".to_owned(), BLUE)],
             snapshots: (0..8).map(snapshot).collect(),
             path: (0..8).map(|i| (f64::from(i), [place(i), 1.75])).collect(),

@@ -15,7 +15,7 @@ mod table;
 
 pub use drawing::Drawing;
 pub use figure::PlotError;
-pub use footprints::{FootprintPlot, FootprintSnapshot, Strip};
+pub use footprints::{CurvedStrip, FootprintPlot, FootprintSnapshot, Strip};
 pub use identification::identification;
 pub use panels::{Curve, Panel, Panels};
 pub use table::TextTable;

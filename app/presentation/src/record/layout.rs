@@ -16,11 +16,14 @@ use super::planner_panels;
 use super::plots::{self, Plots};
 use super::timelines::{SIM_TIME, TICK};
 use super::vehicles::FOLLOW;
+use crate::curved_road::CurvedRoad;
 
 /// Width of the close-up as a multiple of its height.
 const CLOSE_UP_ASPECT: f64 = 5.6;
 /// How much of the land beside the road the close-up shows on either side, in lane widths.
 const BESIDE_LANES: f64 = 0.5;
+/// How far the close-up of a road that turns reaches from the ego, in widths of the road and the land beside it.
+const AROUND_WIDTHS: f64 = 2.0;
 /// How much of the close-up lies behind the ego.
 const SHARE_BEHIND: f64 = 0.42;
 
@@ -30,6 +33,12 @@ pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> LayoutNod
     if let Some([from_m, to_m]) = scenario.road.conflict_zone_m(Branch::Main) {
         let beside = LayoutNode::Column(rows(numbers(scenario, plots), 2));
         let above = LayoutNode::Row(vec![(1.0, crossing(scenario, 0.5 * (from_m + to_m))), (1.2, beside)]);
+        return LayoutNode::Column(vec![(3.4, above), words]);
+    }
+    if let Some(curved) = CurvedRoad::new(&scenario.road) {
+        let views = vec![(1.2, around_the_ego(scenario)), (1.0, whole_curve(scenario, curved.bounds_m(road_m)))];
+        let beside = LayoutNode::Column(rows(numbers(scenario, plots), 2));
+        let above = LayoutNode::Row(vec![(2.2, LayoutNode::Row(views)), (1.4, beside)]);
         return LayoutNode::Column(vec![(3.4, above), words]);
     }
     let mut parts = vec![(1.7, close_up(scenario)), (0.65, whole_road(scenario, road_m))];
@@ -121,6 +130,19 @@ fn close_up(scenario: &Scenario) -> LayoutNode {
     LayoutNode::View(traced(scenario, top_view("Around the ego", along, across).from(FOLLOW)))
 }
 
+/// A square around the ego on a road that turns.
+fn around_the_ego(scenario: &Scenario) -> LayoutNode {
+    let reach = AROUND_WIDTHS * (scenario.road.width_m() + 2.0 * BESIDE_LANES * scenario.road.lane_width_m());
+    LayoutNode::View(traced(scenario, top_view("Around the ego", [-reach, reach], [-reach, reach]).from(FOLLOW)))
+}
+
+/// The whole of a road that turns, between its least and greatest coordinates in the world.
+fn whole_curve(scenario: &Scenario, [low, high]: [[f64; 2]; 2]) -> LayoutNode {
+    let beside = BESIDE_LANES * scenario.road.lane_width_m();
+    let across = [-high[1] - beside, -low[1] + beside];
+    LayoutNode::View(without_details(scenario, top_view("The whole road", [low[0] - beside, high[0] + beside], across)))
+}
+
 /// Where the roads meet, as far around as the vehicles come from.
 fn crossing(scenario: &Scenario, centre_m: f64) -> LayoutNode {
     let middle = [centre_m, 0.5 * scenario.road.width_m()];
@@ -134,11 +156,16 @@ fn crossing(scenario: &Scenario, centre_m: f64) -> LayoutNode {
 
 fn whole_road(scenario: &Scenario, road_m: [f64; 2]) -> LayoutNode {
     let view = top_view("The whole road", road_m, [-scenario.road.width_m(), 0.0]);
+    LayoutNode::View(without_details(scenario, view))
+}
+
+/// A view from far above: bodies and paths only.
+fn without_details(scenario: &Scenario, view: View) -> View {
     let view = scenario.vehicles.iter().fold(view, |view, vehicle| {
         let parts = ["label", "order", "prediction", "safety"];
         parts.iter().fold(view, |view, part| view.without(&format!("/world/vehicle/{}/{part}", vehicle.name)))
     });
-    LayoutNode::View(traced(scenario, view))
+    traced(scenario, view)
 }
 
 fn top_view(title: &str, [left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> View {

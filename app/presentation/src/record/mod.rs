@@ -36,11 +36,13 @@ mod timelines;
 mod vehicles;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use ::re_sdk_types;
 use blueprint::LayoutNode;
 use building::BuildingLayer;
+use interplay_planners::Route;
 use interplay_scenarios::{Branch, Scenario};
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
@@ -89,6 +91,8 @@ pub struct Recorder {
     stream: RecordingStream,
     output: Output,
     scenario: Scenario,
+    /// The main road.
+    route: Arc<Route>,
     vehicles: VehicleLayer,
     plots: Plots,
     building_layer: Option<BuildingLayer>,
@@ -138,8 +142,8 @@ impl Recorder {
         let vehicles = VehicleLayer::begin(&stream, scenario, &vehicle_colours)?;
         let plots = Plots::begin(&stream, scenario, &vehicle_colours)?;
         let building_layer = BuildingLayer::begin(&stream, scenario)?;
-        let scenario = scenario.clone();
-        Ok(Recorder { stream, output, scenario, vehicles, plots, building_layer, command: None, driven_m: None })
+        let (scenario, route) = (scenario.clone(), scenario.road.route(Branch::Main));
+        Ok(Recorder { stream, output, scenario, route, vehicles, plots, building_layer, command: None, driven_m: None })
     }
 
     /// Adds to the text of the recording what a reader types to get the run again.
@@ -170,9 +174,8 @@ impl Recorder {
         if let (Some(building_layer), Some(frame)) = (&mut self.building_layer, &frame.building) {
             building_layer.step(&self.stream, frame)?;
         }
-        let corridor = self.scenario.road.corridor(Branch::Main);
         for vehicle in &frame.vehicles {
-            let along = corridor.along(vehicle.state.position());
+            let along = self.route.centre.project(vehicle.state.position(), None).along_m;
             let [from, to] = self.driven_m.unwrap_or([along, along]);
             self.driven_m = Some([from.min(along), to.max(along)]);
         }
@@ -251,10 +254,10 @@ fn margin(scenario: &Scenario) -> f64 {
 
 /// The longitudinal coordinates between which the vehicles will stay if they drive as they wish \[m\].
 fn expected_road(scenario: &Scenario) -> [f64; 2] {
-    let corridor = scenario.road.corridor(Branch::Main);
+    let route = scenario.road.route(Branch::Main);
     let mut road = [f64::INFINITY, f64::NEG_INFINITY];
     for vehicle in &scenario.vehicles {
-        let start = corridor.along(vehicle.start.position());
+        let start = route.centre.project(vehicle.start.position(), None).along_m;
         let speed = vehicle.start.speed_mps.max(vehicle.target(&scenario.road).speed_mps);
         road = [road[0].min(start), road[1].max(start + speed * scenario.duration_s)];
     }

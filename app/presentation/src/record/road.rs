@@ -7,11 +7,14 @@ use interplay_scenarios::{Branch, Road, Scenario};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::palette::{ASPHALT, MARKING};
+use crate::curved_road::{CurvedRoad, WorldLine};
 
 /// Length of a lane marking and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;
 /// In how many pieces the end of a lane is drawn.
 const TAPER_SLICES: usize = 60;
+/// The names of the parts of a road below its path.
+const PARTS: [&str; 3] = ["surface", "edges", "markings"];
 
 /// Logs the roads, the main one between two longitudinal coordinates \[m\].
 ///
@@ -21,6 +24,14 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, [from_m, to_m]: [f64;
     // The viewer's y axis points down; the road's points to the left of who drives along it.
     stream.log_static("world", &Transform3D::from_scale([1.0, -1.0, 1.0]))?;
     let road = &scenario.road;
+    if let Some(curved) = CurvedRoad::new(road) {
+        let dash_m = DASH_LANES * road.lane_width_m();
+        let edges = curved.edges([from_m, to_m]);
+        let surface = slices(&edges);
+        let edges = edges.iter().map(points).collect();
+        let markings = curved.dashes(dash_m, [from_m, to_m]).iter().map(points).collect();
+        return log_lines(stream, "world/road", surface, [edges, markings]);
+    }
     let strip = Strip { road, branch: Branch::Main, from_m, to_m };
     strip.log(stream, "world/road")?;
     if let Some(zone) = road.conflict_zone_m(Branch::Cross) {
@@ -44,25 +55,14 @@ type Line = Vec<[f32; 2]>;
 
 impl Strip<'_> {
     fn log(&self, stream: &RecordingStream, path: &str) -> RecordingStreamResult<()> {
-        let corridor = self.road.corridor(self.branch);
+        let Some(corridor) = self.road.corridor(self.branch) else { return Ok(()) };
         if self.branch == Branch::Main {
             stream.log_static(path, &Transform3D::from_mat3x3(turn(corridor.heading_rad)))?;
         } else {
             let turned = turn(corridor.heading_rad - self.road.heading_rad(Branch::Main));
             stream.log_static(path, &Transform3D::from_mat3x3(turned))?;
         }
-        let (lines, radii) = self.surface(&corridor);
-        stream.log_static(
-            format!("{path}/surface"),
-            &LineStrips2D::new(lines).with_radii(radii).with_colors([ASPHALT.solid()]).with_draw_order(-3.0),
-        )?;
-        let line = |points: f32| LineStrips2D::update_fields().with_radii([Radius::new_ui_points(points)]);
-        let edges = line(1.2).with_strips(self.edges(&corridor));
-        let edges = edges.with_colors([MARKING.solid()]).with_draw_order(-2.0);
-        stream.log_static(format!("{path}/edges"), &edges)?;
-        let markings = line(0.8).with_strips(self.markings(&corridor));
-        let markings = markings.with_colors([MARKING.solid()]).with_draw_order(-2.0);
-        stream.log_static(format!("{path}/markings"), &markings)
+        log_lines(stream, path, self.surface(&corridor), [self.edges(&corridor), self.markings(&corridor)])
     }
 
     /// Thick lines that cover the road; where its right edge moves, one across for every slice.
@@ -126,6 +126,44 @@ impl Strip<'_> {
     }
 }
 
+/// Logs the surface of a road, as lines with their thickness, and its edges and markings.
+fn log_lines(
+    stream: &RecordingStream,
+    path: &str,
+    (surface, radii): (Vec<Line>, Vec<Radius>),
+    [edges, markings]: [Vec<Line>; 2],
+) -> RecordingStreamResult<()> {
+    let [surface_name, edges_name, markings_name] = PARTS;
+    stream.log_static(
+        format!("{path}/{surface_name}"),
+        &LineStrips2D::new(surface).with_radii(radii).with_colors([ASPHALT.solid()]).with_draw_order(-3.0),
+    )?;
+    let line = |points: f32| LineStrips2D::update_fields().with_radii([Radius::new_ui_points(points)]);
+    let edges = line(1.2).with_strips(edges).with_colors([MARKING.solid()]).with_draw_order(-2.0);
+    stream.log_static(format!("{path}/{edges_name}"), &edges)?;
+    let markings = line(0.8).with_strips(markings).with_colors([MARKING.solid()]).with_draw_order(-2.0);
+    stream.log_static(format!("{path}/{markings_name}"), &markings)
+}
+
+fn points(line: &WorldLine) -> Line {
+    line.iter().map(|[x, y]| [*x as f32, *y as f32]).collect()
+}
+
+/// Thick lines across a road that cover it between its right and its left edge.
+fn slices([right, left]: &[WorldLine; 2]) -> (Vec<Line>, Vec<Radius>) {
+    let distance = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
+    let pairs = right.windows(2).zip(left.windows(2));
+    let slice = |(right, left): (&[[f64; 2]], &[[f64; 2]])| {
+        let widest_m = distance(right[0], right[1]).max(distance(left[0], left[1]));
+        let [begin, end] = [right, left].map(|edge| [0, 1].map(|axis| 0.5 * (edge[0][axis] + edge[1][axis])));
+        // Lines have round ends, which are not to reach beyond the edges.
+        let share = (0.5 * widest_m / distance(begin, end).max(widest_m)).min(0.5);
+        let inside = |from: [f64; 2], to: [f64; 2]| [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+        (points(&vec![inside(begin, end), inside(end, begin)]), Radius::new_scene_units(0.7 * widest_m as f32))
+    };
+    pairs.map(slice).unzip()
+}
+
 fn along(lateral_m: f64, from_m: f64, to_m: f64) -> Line {
     vec![[from_m as f32, lateral_m as f32], [to_m as f32, lateral_m as f32]]
 }
@@ -143,24 +181,29 @@ pub fn turn(angle_rad: f64) -> [[f32; 3]; 3] {
 
 #[cfg(test)]
 mod tests {
+    use interplay_planners::Corridor;
     use interplay_scenarios::{RampMerge, load};
 
-    use super::{Branch, Line, Road, Strip};
+    use super::{Branch, Line, Road, Strip, slices};
 
     /// The lines of a road from −5 m to 10 m.
     fn lines(road: &Road, branch: Branch, draw: impl Fn(&Strip) -> Vec<Line>) -> Vec<Line> {
         draw(&Strip { road, branch, from_m: -5.0, to_m: 10.0 })
     }
 
+    fn straight(road: &Road, branch: Branch) -> Corridor {
+        road.corridor(branch).expect("a straight road")
+    }
+
     #[test]
     fn the_edge_of_a_ramp_bends_to_the_next_lane_and_stays_there() {
         let road = Road::RampMerge(RampMerge::default());
-        let edges = lines(&road, Branch::Main, |strip| strip.edges(&road.corridor(Branch::Main)));
+        let edges = lines(&road, Branch::Main, |strip| strip.edges(&straight(&road, Branch::Main)));
         let [right, left] = edges.as_slice() else { panic!("two edges: {edges:?}") };
         assert!(right.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] <= pair[1][1]));
         assert!(right[0][1] < 1e-6 && (right[right.len() - 1][1] - 0.37).abs() < 1e-6);
         assert!(left.iter().all(|point| point[1] == 0.74));
-        let markings = lines(&road, Branch::Main, |strip| strip.markings(&road.corridor(Branch::Main)));
+        let markings = lines(&road, Branch::Main, |strip| strip.markings(&straight(&road, Branch::Main)));
         assert!(markings.iter().flatten().all(|point| point[0] < 3.5), "nothing divides a single lane");
     }
 
@@ -169,12 +212,22 @@ mod tests {
         let road = load("intersection/nice", &[]).expect("embedded").road;
         for branch in [Branch::Main, Branch::Cross] {
             let [from, to] = road.conflict_zone_m(branch).expect("they cross");
-            let edges = lines(&road, branch, |strip| strip.edges(&road.corridor(branch)));
+            let edges = lines(&road, branch, |strip| strip.edges(&straight(&road, branch)));
             assert_eq!(edges.len(), 4);
             for edge in edges {
                 let (begin, end) = (f64::from(edge[0][0]), f64::from(edge[edge.len() - 1][0]));
                 assert!(end <= from + 1e-6 || begin >= to - 1e-6, "{branch:?}: {begin} to {end}");
             }
         }
+    }
+
+    /// Slices of a straight piece of 7 m cover it up to its edges, and no further than a third of a slice.
+    #[test]
+    fn slices_cover_the_road_between_its_edges() {
+        let edge = |y: f64| (0..=10).map(|index| [0.7 * f64::from(index), y]).collect::<Vec<_>>();
+        let (lines, radii) = slices(&[edge(-3.5), edge(3.5)]);
+        assert_eq!((lines.len(), radii.len()), (10, 10));
+        let [begin, end] = [lines[0][0], lines[0][1]].map(|point| f64::from(point[1]));
+        assert!((begin + 3.15).abs() < 1e-6 && (end - 3.15).abs() < 1e-6, "{begin} to {end}");
     }
 }

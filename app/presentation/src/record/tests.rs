@@ -182,7 +182,7 @@ fn a_panel_is_there_only_if_it_has_something_to_show() {
 }
 
 /// Keeps the names of the numbers that the ego's planner gives.
-struct Listener(std::sync::Arc<std::sync::Mutex<std::collections::BTreeSet<&'static str>>>);
+struct Listener(Arc<std::sync::Mutex<std::collections::BTreeSet<&'static str>>>);
 
 impl Watcher for Listener {
     fn tick(&mut self, frame: &Frame) -> Result<(), WatchError> {
@@ -202,8 +202,8 @@ fn planners_give_every_number_that_a_panel_shows() {
     for kind in driver_kinds() {
         let mut scenario = scenario(Some(kind));
         scenario.duration_s = 0.5;
-        let heard = std::sync::Arc::default();
-        let watcher = Listener(std::sync::Arc::clone(&heard));
+        let heard = Arc::default();
+        let watcher = Listener(Arc::clone(&heard));
         interplay_simulation::run::run(kind, &scenario, vec![Box::new(watcher)]).expect("half a second");
         let heard = heard.lock().expect("nobody panicked");
         let driver = &scenario.vehicles[0].driver;

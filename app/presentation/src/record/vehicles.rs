@@ -1,6 +1,8 @@
 //! What moves: bodies with their labels, the paths behind them and the lines ahead of them.
 
-use interplay_planners::{Body, PassingOrder, Plan, State, Trajectory};
+use std::sync::Arc;
+
+use interplay_planners::{Body, PassingOrder, Plan, Route, State, Trajectory};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
@@ -28,7 +30,7 @@ struct DrawnVehicle {
     path: String,
     vehicle_colour: NamedColour,
     body: Body,
-    road_heading_rad: f64,
+    route: Arc<Route>,
     last: Option<State>,
     asks: bool,
 }
@@ -47,9 +49,9 @@ impl VehicleLayer {
         let mut vehicles = Vec::new();
         for (vehicle, vehicle_colour) in scenario.vehicles.iter().zip(vehicle_colours) {
             let path = format!("world/vehicle/{}", vehicle.name);
-            let road_heading_rad = scenario.road.heading_rad(vehicle.road);
+            let route = scenario.road.route(vehicle.road);
             let (vehicle_colour, body) = (*vehicle_colour, vehicle.body);
-            let drawn = DrawnVehicle { path, vehicle_colour, body, road_heading_rad, last: None, asks: false };
+            let drawn = DrawnVehicle { path, vehicle_colour, body, route, last: None, asks: false };
             drawn.log_style(stream)?;
             vehicles.push(drawn);
         }
@@ -73,14 +75,14 @@ impl VehicleLayer {
     pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             drawn.log_tick(stream, vehicle)?;
+            let road_point = drawn.route.centre.project(vehicle.state.position(), None);
             if index == self.ego {
                 drawn.log_order(stream, &vehicle.plan)?;
-                let (sin, cos) = drawn.road_heading_rad.sin_cos();
-                let along = vehicle.state.x_m * cos + vehicle.state.y_m * sin;
-                let here = [(along * cos) as f32, (-along * sin) as f32, 0.0];
+                let [x, y] = drawn.route.centre.position(road_point.along_m, 0.0);
+                let here = [x as f32, -y as f32, 0.0];
                 stream.log(FOLLOW, &Transform3D::update_fields().with_translation(here))?;
             } else {
-                let place = pose(&State { heading_rad: drawn.road_heading_rad, ..vehicle.state });
+                let place = pose(&State { heading_rad: road_point.heading_rad, ..vehicle.state });
                 stream.log(format!("{}/safety", drawn.path), &place)?;
             }
         }

@@ -19,8 +19,10 @@ pub(super) const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 pub struct FootprintPlot {
     /// What it shows.
     pub title: String,
-    /// The roads.
+    /// The straight roads.
     pub roads: Vec<Strip>,
+    /// The roads that turn.
+    pub curves: Vec<CurvedStrip>,
     /// The vehicles, each with its label and colour.
     pub vehicles: Vec<(String, Colour)>,
     /// The snapshots, in order of time.
@@ -40,6 +42,15 @@ pub struct Strip {
     pub dividers_m: Vec<f64>,
     /// The area between the edges that is not road, beside a ramp that ends: a polygon in the frame of the picture.
     pub shoulder_m: Vec<[f64; 2]>,
+}
+
+/// A road that turns, in the frame of the picture \[m\].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CurvedStrip {
+    /// Its right and its left edge.
+    pub edges_m: [Vec<[f64; 2]>; 2],
+    /// The lines between its lanes.
+    pub dividers_m: Vec<Vec<[f64; 2]>>,
 }
 
 /// The vehicles at one time.

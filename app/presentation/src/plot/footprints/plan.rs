@@ -1,10 +1,10 @@
-//! All snapshots in one plan, for roads that cross.
+//! All snapshots in one plan, for roads that cross or turn.
 
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER, SURFACE};
 use super::body;
-use super::data::{FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, distance};
+use super::data::{CurvedStrip, FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, distance};
 
 /// Space at the left of the plan, for the tick labels of the y axis.
 const LEFT_MARGIN_PX: f64 = 92.0;
@@ -44,7 +44,7 @@ impl Map {
 }
 
 impl FootprintPlot {
-    /// The crossing from above, with every footprint of every snapshot.
+    /// The roads from above, with every footprint of every snapshot.
     pub fn plan(&self) -> Drawing {
         let margin = 0.5 * self.longest_m();
         let [low, high] = self.bounds();
@@ -64,6 +64,7 @@ impl FootprintPlot {
         drawing.text([MARGIN_PX, head - 66.0], Side::Left, MEDIUM_TEXT_PX, words);
         self.roads.iter().for_each(|road| map.draw_road(&mut drawing, road));
         self.roads.iter().for_each(|road| map.draw_lines(&mut drawing, road));
+        self.curves.iter().for_each(|road| map.draw_curve(&mut drawing, road));
         map.draw_axes(&mut drawing);
         drawing.line(self.path_pixels(f64::INFINITY, |point| map.place(point)), PATH);
         self.draw_footprints(&mut drawing, &map);
@@ -146,6 +147,26 @@ impl Map {
             let ends: Vec<[f64; 2]> = line.into_iter().map(|point| self.place(point)).collect();
             drawing.line(ends, LineStyle { width: 1, ..LineStyle::new(GREY, dash) });
         }
+    }
+
+    fn draw_curve(&self, drawing: &mut Drawing, road: &CurvedStrip) {
+        let [right, left] = &road.edges_m;
+        let ring: Vec<[f64; 2]> = right.iter().chain(left.iter().rev()).copied().collect();
+        let surface = clipped(&ring, self.low_m, self.high_m);
+        drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
+        let edges = road.edges_m.iter().map(|edge| (edge, Dash::Solid));
+        let dividers = road.dividers_m.iter().map(|divider| (divider, Dash::Long));
+        for (line, dash) in edges.chain(dividers) {
+            for visible in line.split(|point| !self.shows(*point)).filter(|visible| visible.len() > 1) {
+                let points = visible.iter().map(|point| self.place(*point)).collect();
+                drawing.line(points, LineStyle { width: 1, ..LineStyle::new(GREY, dash) });
+            }
+        }
+    }
+
+    /// Whether a point is in the visible part.
+    fn shows(&self, point: [f64; 2]) -> bool {
+        [0, 1].iter().all(|&axis| (self.low_m[axis]..=self.high_m[axis]).contains(&point[axis]))
     }
 
     fn draw_axes(&self, drawing: &mut Drawing) {

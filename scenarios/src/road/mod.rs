@@ -1,11 +1,28 @@
-//! Where vehicles may drive.
+//! Where vehicles may drive, one file for each form of road.
 //!
-//! Every road is straight. The main one runs along x and its right edge is y = 0; another one may cross it. Lanes are
-//! counted from the right of who drives: the centre of lane `i` lies `(i + ½) w` to the left of the right edge.
+//! The main road begins along x and its right edge there is y = 0; another one may cross it. Lanes are counted from the right
+//! of who drives: the centre of lane `i` lies `(i + ½) w` to the left of the right edge.
+//!
+//! Coordinates along and across a road are those of its [`Route`]. On a straight road they are the projections on its
+//! direction and on the normal of that, from the origin. On a curve, along is the arc length of the road's middle, and across
+//! is the distance from the middle, positive to the left.
 
-use interplay_planners::{Corridor, LaneEnd};
+mod curve;
+mod intersection;
+mod lanes;
+mod ramp_merge;
+
+use std::sync::Arc;
+
+use interplay_planners::{Body, Corridor, LaneEnd, Route, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+pub use curve::{Curve, CurveLaneEnd, CurvePiece};
+pub(crate) use curve::{CurveFault, Turn};
+pub use intersection::Intersection;
+pub use lanes::Lanes;
+pub use ramp_merge::RampMerge;
 
 /// A road; `kind` chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,70 +34,8 @@ pub enum Road {
     RampMerge(RampMerge),
     /// Two roads that cross, each with lanes in one direction; a vehicle says by its `road` on which it drives.
     Intersection(Intersection),
-}
-
-/// A straight road along x with parallel lanes. The default is that of a 1/10 scale car.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Lanes {
-    /// How many lanes there are.
-    #[schemars(range(min = 1, max = 16))]
-    pub lane_count: usize,
-    /// Width of each lane \[m\].
-    #[schemars(range(min = 0.001))]
-    pub lane_width_m: f64,
-}
-
-impl Default for Lanes {
-    fn default() -> Self {
-        Lanes { lane_count: 2, lane_width_m: 0.37 }
-    }
-}
-
-/// A straight road along x of which lane 0 ends. The default is that of a 1/10 scale car.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct RampMerge {
-    /// How many lanes there are before the end, the ramp included.
-    #[schemars(range(min = 2, max = 16))]
-    pub lane_count: usize,
-    /// Width of each lane \[m\].
-    #[schemars(range(min = 0.001))]
-    pub lane_width_m: f64,
-    /// Where lane 0 has ended, along x \[m\].
-    pub ramp_end_m: f64,
-    /// Length scale `w` of the taper: the edge moves by the lane's width between about `4w` before the end and the end,
-    /// as `½ (1 + tanh((x − (ramp_end_m − 2w))/w))` \[m\].
-    #[schemars(range(min = 0.001))]
-    pub taper_m: f64,
-}
-
-impl Default for RampMerge {
-    fn default() -> Self {
-        RampMerge { lane_count: 2, lane_width_m: 0.37, ramp_end_m: 3.5, taper_m: 0.3 }
-    }
-}
-
-/// Two roads that cross. The main one runs along x with its right edge at y = 0; the middles of both meet at x = 0. The
-/// default is that of a 1/10 scale car.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Intersection {
-    /// How many lanes each road has.
-    #[schemars(range(min = 1, max = 16))]
-    pub lane_count: usize,
-    /// Width of each lane \[m\].
-    #[schemars(range(min = 0.001))]
-    pub lane_width_m: f64,
-    /// Direction of the crossing road, counter-clockwise from x: who drives on it comes from the right of the main one, or, if
-    /// it is negative, from its left. From 20 to 160 to either side \[deg\].
-    pub angle_deg: f64,
-}
-
-impl Default for Intersection {
-    fn default() -> Self {
-        Intersection { lane_count: 1, lane_width_m: 0.37, angle_deg: 90.0 }
-    }
+    /// A road of straight and curved pieces with parallel lanes, of which lane 0 may end.
+    Curve(Curve),
 }
 
 /// The road that a vehicle drives on.
@@ -101,8 +56,25 @@ impl Default for Road {
 }
 
 impl Road {
-    /// The strip that a vehicle on `branch` may use.
-    pub fn corridor(&self, branch: Branch) -> Corridor {
+    /// The way of a vehicle on `branch` along the road, from one edge to the other.
+    ///
+    /// It is computed anew each time.
+    pub fn route(&self, branch: Branch) -> Arc<Route> {
+        match (self, self.corridor(branch)) {
+            (_, Some(corridor)) => corridor.into(),
+            // A loaded scenario has no curve with a fault.
+            (Road::Curve(curve), None) => curve.route().unwrap_or_else(|_| self.strip(branch).into()),
+            (Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_), None) => self.strip(branch).into(),
+        }
+    }
+
+    /// The straight strip that a vehicle on `branch` may use; none on a curve.
+    pub fn corridor(&self, branch: Branch) -> Option<Corridor> {
+        (!matches!(self, Road::Curve(_))).then(|| self.strip(branch))
+    }
+
+    /// The strip of a straight road.
+    fn strip(&self, branch: Branch) -> Corridor {
         let heading_rad = self.heading_rad(branch);
         let (width, middle) = (self.width_m(), self.middle_m(branch));
         let (right_m, left_m) = match branch {
@@ -112,7 +84,7 @@ impl Road {
         Corridor { heading_rad, right_m, left_m, end: self.lane_end() }
     }
 
-    /// Direction of the lanes of `branch` \[rad\].
+    /// Direction of the lanes of `branch`; on a curve, where it begins \[rad\].
     pub fn heading_rad(&self, branch: Branch) -> f64 {
         match (self, branch) {
             (Road::Intersection(crossing), Branch::Cross) => crossing.angle_deg.to_radians(),
@@ -126,14 +98,30 @@ impl Road {
             Road::RampMerge(ramp) => {
                 Some(LaneEnd { end_m: ramp.ramp_end_m, height_m: ramp.lane_width_m, taper_m: ramp.taper_m })
             }
+            Road::Curve(curve) => curve.lane_end(),
             Road::Lanes(_) | Road::Intersection(_) => None,
         }
+    }
+
+    /// The turns of a curve.
+    pub(crate) fn turns(&self) -> Vec<Turn> {
+        match self {
+            Road::Curve(curve) => curve.turns().collect(),
+            Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_) => Vec::new(),
+        }
+    }
+
+    /// Whether the footprint of a vehicle on `branch` is on the road, to within `tolerance_m`.
+    ///
+    /// Only the corners count: on a curve, the inner side of a long body reaches further than they do.
+    pub(crate) fn contains(&self, branch: Branch, body: &Body, state: &State, tolerance_m: f64) -> bool {
+        self.route(branch).contains(body, state, tolerance_m)
     }
 
     /// Between which longitudinal coordinates of `branch` any part of it lies on the other road; none where no roads cross
     /// \[m\].
     pub fn conflict_zone_m(&self, branch: Branch) -> Option<[f64; 2]> {
-        let corridor = self.corridor(branch);
+        let corridor = self.corridor(branch)?;
         let (right, left) = (self.crossed_m(branch, corridor.right_m)?, self.crossed_m(branch, corridor.left_m)?);
         Some([right[0].min(left[0]), right[1].max(left[1])])
     }
@@ -148,7 +136,7 @@ impl Road {
             Branch::Main => Branch::Cross,
             Branch::Cross => Branch::Main,
         };
-        let corridor = self.corridor(other);
+        let corridor = self.corridor(other)?;
         let (sin, cos) = libm::sincos(corridor.heading_rad - self.heading_rad(branch));
         let reaches = [corridor.right_m, corridor.left_m].map(|edge_m| (lateral_m * cos - edge_m) / sin);
         Some([reaches[0].min(reaches[1]), reaches[0].max(reaches[1])])
@@ -160,6 +148,7 @@ impl Road {
             Road::Lanes(lanes) => lanes.lane_count,
             Road::RampMerge(ramp) => ramp.lane_count,
             Road::Intersection(crossing) => crossing.lane_count,
+            Road::Curve(curve) => curve.lane_count,
         }
     }
 
@@ -169,6 +158,7 @@ impl Road {
             Road::Lanes(lanes) => lanes.lane_width_m,
             Road::RampMerge(ramp) => ramp.lane_width_m,
             Road::Intersection(crossing) => crossing.lane_width_m,
+            Road::Curve(curve) => curve.lane_width_m,
         }
     }
 
@@ -179,7 +169,8 @@ impl Road {
 
     /// Lateral coordinate of the centre of a lane of `branch`, 0 being the rightmost \[m\].
     pub fn lane_centre_m(&self, branch: Branch, lane: usize) -> f64 {
-        self.corridor(branch).right_m + (lane as f64 + 0.5) * self.lane_width_m()
+        let right_m = self.corridor(branch).map_or(-0.5 * self.width_m(), |corridor| corridor.right_m);
+        right_m + (lane as f64 + 0.5) * self.lane_width_m()
     }
 
     /// Lateral coordinate of the middle of `branch` \[m\].
@@ -194,10 +185,14 @@ impl Road {
 mod tests {
     use super::*;
 
+    fn straight(road: &Road, branch: Branch) -> Corridor {
+        road.corridor(branch).expect("a straight road")
+    }
+
     #[test]
     fn lanes_fill_the_road_from_its_right_edge() {
         let road = Road::Lanes(Lanes { lane_count: 5, lane_width_m: 3.5 });
-        let corridor = road.corridor(Branch::Main);
+        let corridor = straight(&road, Branch::Main);
         assert_eq!((corridor.right_m, corridor.left_m), (0.0, 17.5));
         assert_eq!(road.lane_centre_m(Branch::Main, 0), 1.75);
         assert_eq!(road.lane_centre_m(Branch::Main, 4), 15.75);
@@ -210,7 +205,7 @@ mod tests {
             let road = Road::Intersection(Intersection { lane_count: 3, angle_deg, ..Intersection::default() });
             let meeting = [0.0, 0.5 * road.width_m()];
             for branch in [Branch::Main, Branch::Cross] {
-                let corridor = road.corridor(branch);
+                let corridor = straight(&road, branch);
                 assert!((corridor.across(meeting) - 0.5 * (corridor.right_m + corridor.left_m)).abs() < 1e-12);
                 assert!((corridor.across(meeting) - road.lane_centre_m(branch, 1)).abs() < 1e-12);
                 let [from, to] = road.conflict_zone_m(branch).expect("they cross");
@@ -226,7 +221,7 @@ mod tests {
     #[test]
     fn past_its_end_nothing_of_the_ramp_is_left() {
         let road = Road::RampMerge(RampMerge::default());
-        let edge = |along_m| road.corridor(Branch::Main).right_edge_m(along_m);
+        let edge = |along_m| straight(&road, Branch::Main).right_edge_m(along_m);
         assert!(edge(1.0) < 1e-4 && edge(3.5) > 0.36 && edge(9.0) <= 0.37);
     }
 }

@@ -1,0 +1,123 @@
+//! The lines of a road that turns, as points of the world.
+
+use std::sync::Arc;
+
+use interplay_planners::{CentreLine, Profile, Route};
+use interplay_scenarios::{Branch, Road};
+
+/// Largest distance between two points of a line, in lane widths.
+const POINT_DISTANCE_LANES: f64 = 0.2;
+/// Most points of a line.
+const MAX_POINTS: f64 = 4000.0;
+/// Before the end of a lane, in length scales of its taper, from where no line divides it from the next one.
+const DIVIDED_UNTIL_TAPERS: f64 = 4.5;
+
+/// A line of points of the world \[m\].
+pub type WorldLine = Vec<[f64; 2]>;
+
+/// A road that turns.
+pub struct CurvedRoad<'a> {
+    road: &'a Road,
+    route: Arc<Route>,
+}
+
+impl<'a> CurvedRoad<'a> {
+    /// The lines of a road; none if it is straight.
+    pub fn new(road: &'a Road) -> Option<CurvedRoad<'a>> {
+        let route = road.route(Branch::Main);
+        route.straight().is_none().then_some(CurvedRoad { road, route })
+    }
+
+    /// The right and the left edge between two arc lengths \[m\], with as many points: those of one index lie on one line
+    /// across the road.
+    pub fn edges(&self, range_m: [f64; 2]) -> [WorldLine; 2] {
+        [&self.route.right, &self.route.left].map(|edge| self.line(edge, range_m))
+    }
+
+    /// The lines between lanes \[m\]. Where lane 0 ends, the line to its left ends as well.
+    pub fn dividers(&self, range_m: [f64; 2]) -> Vec<WorldLine> {
+        let stretches = (1..self.road.lane_count()).map(|between| (between, self.divided(between, range_m)));
+        stretches.map(|(between, range_m)| self.line(&self.divider(between), range_m)).collect()
+    }
+
+    /// The lines between lanes as dashes, with spaces as long as they are \[m\].
+    pub fn dashes(&self, dash_m: f64, range_m: [f64; 2]) -> Vec<WorldLine> {
+        let of_divider = |between: usize| {
+            let ([from_m, to_m], divider) = (self.divided(between, range_m), self.divider(between));
+            let starts = (0..).map(move |dash| from_m + 2.0 * dash_m * f64::from(dash));
+            let whole = starts.take_while(move |start_m| start_m + dash_m <= to_m);
+            whole.map(|start_m| self.line(&divider, [start_m, start_m + dash_m])).collect::<Vec<_>>()
+        };
+        (1..self.road.lane_count()).flat_map(of_divider).collect()
+    }
+
+    /// The smallest rectangle around the road between two arc lengths: its least and greatest coordinates \[m\].
+    pub fn bounds_m(&self, range_m: [f64; 2]) -> [[f64; 2]; 2] {
+        self.edges(range_m).iter().flatten().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], point| {
+            [[0, 1].map(|axis| low[axis].min(point[axis])), [0, 1].map(|axis| high[axis].max(point[axis]))]
+        })
+    }
+
+    fn divider(&self, between: usize) -> Profile {
+        Profile::constant(self.road.lane_centre_m(Branch::Main, between) - 0.5 * self.road.lane_width_m())
+    }
+
+    /// The part of a stretch with a lane on both sides of a divider.
+    fn divided(&self, between: usize, [from_m, to_m]: [f64; 2]) -> [f64; 2] {
+        let end = self.road.lane_end().filter(|_| between == 1);
+        let until_m = end.map_or(to_m, |end| end.end_m - DIVIDED_UNTIL_TAPERS * end.taper_m);
+        [from_m, to_m.min(until_m).max(from_m)]
+    }
+
+    fn line(&self, across: &Profile, [from_m, to_m]: [f64; 2]) -> WorldLine {
+        let wanted = (to_m - from_m) / (POINT_DISTANCE_LANES * self.road.lane_width_m());
+        let count = wanted.ceil().clamp(1.0, MAX_POINTS) as usize;
+        let centre: &CentreLine = &self.route.centre;
+        let places = (0..=count).map(|index| from_m + (to_m - from_m) * index as f64 / count as f64);
+        places.map(|along_m| centre.position(along_m, across.value(along_m))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::from_text;
+
+    use super::*;
+
+    /// A quarter circle to the left with two lanes, of which the right one ends behind it.
+    fn quarter() -> Road {
+        let text = "title = 'a'\nshows = 'b'\n[road]\nkind = 'curve'\nlane_width_m = 3.5\n\
+            pieces = [{ straight_m = 30.0 }, { turn_deg = 90.0, radius_m = 25.0 }, { straight_m = 60.0 }]\n\
+            lane_end = { end_m = 110.0, taper_m = 4.0 }\n\
+            [[vehicle]]\nname = 'car'\nstart = { lane = 0, along_m = 10.0, speed_mps = 1.0 }\n";
+        from_text("quarter.toml", text, &[]).expect("a scenario without fault").road
+    }
+
+    #[test]
+    fn edges_are_beside_each_other_and_the_ending_lane_closes() {
+        let road = quarter();
+        let curved = CurvedRoad::new(&road).expect("it turns");
+        let [right, left] = curved.edges([0.0, 125.0]);
+        assert_eq!(right.len(), left.len());
+        let widths: Vec<f64> = right.iter().zip(&left).map(|(a, b)| libm::hypot(a[0] - b[0], a[1] - b[1])).collect();
+        assert!((widths[0] - 7.0).abs() < 1e-3 && (widths[widths.len() - 1] - 3.5).abs() < 1e-3);
+        assert!(widths.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9), "it only narrows: {widths:?}");
+        assert_eq!(right[0], [0.0, 0.0], "the right edge begins at the origin");
+        let [low, high] = curved.bounds_m([0.0, 125.0]);
+        assert!(low[0].abs() < 1e-9 && high[0] > 55.0 && high[1] > 80.0, "{low:?} to {high:?}");
+    }
+
+    #[test]
+    fn nothing_divides_a_single_lane_and_straight_roads_have_no_curve() {
+        let road = quarter();
+        let curved = CurvedRoad::new(&road).expect("it turns");
+        let route = road.route(Branch::Main);
+        let dashes = curved.dashes(3.0, [0.0, 125.0]);
+        assert!(dashes.len() > 10);
+        for point in dashes.iter().chain(&curved.dividers([0.0, 125.0])).flatten() {
+            let place = route.centre.project(*point, None);
+            assert!(place.across_m.abs() < 1e-6 && place.along_m < 110.0 - 17.9, "{place:?}");
+        }
+        assert!(CurvedRoad::new(&Road::default()).is_none());
+    }
+}

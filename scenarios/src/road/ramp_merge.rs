@@ -1,0 +1,28 @@
+//! A straight road of which the rightmost lane ends.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A straight road along x of which lane 0 ends. The default is that of a 1/10 scale car.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RampMerge {
+    /// How many lanes there are before the end, the ramp included.
+    #[schemars(range(min = 2, max = 16))]
+    pub lane_count: usize,
+    /// Width of each lane \[m\].
+    #[schemars(range(min = 0.001))]
+    pub lane_width_m: f64,
+    /// Where lane 0 has ended, along x \[m\].
+    pub ramp_end_m: f64,
+    /// Length scale `w` of the taper: the edge moves by the lane's width between about `4w` before the end and the end,
+    /// as `½ (1 + tanh((x − (ramp_end_m − 2w))/w))` \[m\].
+    #[schemars(range(min = 0.001))]
+    pub taper_m: f64,
+}
+
+impl Default for RampMerge {
+    fn default() -> Self {
+        RampMerge { lane_count: 2, lane_width_m: 0.37, ramp_end_m: 3.5, taper_m: 0.3 }
+    }
+}
