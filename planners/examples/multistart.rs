@@ -2,16 +2,26 @@
 //!
 //! ```sh
 //! cargo run --release -p interplay-planners --example multistart -- [WORD ...]
+//! cargo run --release -p interplay-planners --example multistart -- recorded [DRAW]
 //! ```
 //!
-//! drives every family of scenarios from perturbed starts with every planner, in closed loop. At each step the problem that a
-//! driver poses is, every few steps, solved from 30 random starts besides; a row for each family and driver says in how many of its problems the
-//! cheapest of them costs less than the plan by more than a thousandth (of 1 + cost), and how long the plans took.
+//! The first drives every family of scenarios from perturbed starts with every planner, in closed loop. Every few steps the
+//! problem that a driver poses is solved from 30 random starts besides. A row for each family and driver says in how many of
+//! its problems the cheapest of them costs less than the plan by more than a thousandth (of 1 + cost), and how long the plans
+//! took.
+//!
+//! The second does the same with the recorded problems (`tests/data`): the plan is a descent from the recorded warm start and a
+//! comparison of the classes of motion, finished at once. A row for each planner counts the problems with a cheaper random
+//! start, and gives their share with its 95 % interval (Wilson's score interval). Then each such problem follows with both
+//! costs. `DRAW` seeds the random starts.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
+#[path = "../tests/common/recorded.rs"]
+mod recorded;
 
 use std::collections::BTreeMap;
+use std::error::Error;
 use std::io::Write;
 use std::time::Instant;
 
@@ -20,6 +30,7 @@ use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::diagnostic::COST;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};
 use interplay_planners::{Driver, Input, Plan};
+use recorded::Recorded;
 
 const STARTS: u64 = 30;
 const SEEDS: u64 = 4;
@@ -37,8 +48,84 @@ struct Tally {
     plan_ms: Vec<f64>,
 }
 
-fn main() -> std::io::Result<()> {
+fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
+    match words.as_slice() {
+        [first] if first == "recorded" => search_recorded(0),
+        [first, draw] if first == "recorded" => search_recorded(draw.parse()?),
+        _ => Ok(search_closed_loop(&words)?),
+    }
+}
+
+/// What random starts find in the problems of a set.
+#[derive(Default)]
+struct Findings {
+    problems: usize,
+    beaten: Vec<String>,
+}
+
+impl Findings {
+    /// Notes the costs of a problem's plan and of the cheapest optimum that random starts found.
+    fn note(&mut self, id: &str, planned: f64, found: f64) {
+        self.problems += 1;
+        let gain = (planned - found) / (1.0 + planned.abs());
+        if gain > CHEAPER || planned == f64::INFINITY {
+            self.beaten.push(format!("{id}: plan {planned:.5}, random start {found:.5}"));
+        }
+    }
+
+    /// Cells of a table: problems, those with a cheaper random start, their share and its 95 % interval.
+    fn row(&self) -> String {
+        let (count, of) = (self.beaten.len(), self.problems);
+        let [low, high] = wilson_interval(count, of).map(|share| 100.0 * share);
+        format!("{of} | {count} | {:.2} % | {low:.2} % to {high:.2} %", 100.0 * count as f64 / of as f64)
+    }
+}
+
+/// Wilson's score interval of a share, at a confidence of 95 %.
+fn wilson_interval(count: usize, of: usize) -> [f64; 2] {
+    const QUANTILE: f64 = 1.959_964;
+    let (count, of, z2) = (count as f64, of as f64, QUANTILE * QUANTILE);
+    let (middle, scale) = (count + 0.5 * z2, of + z2);
+    let half_width = QUANTILE * (count * (of - count) / of + 0.25 * z2).sqrt();
+    [(middle - half_width).max(0.0) / scale, (middle + half_width).min(scale) / scale]
+}
+
+/// Prints how often random starts find something cheaper in the recorded problems.
+fn search_recorded(draw: u64) -> Result<(), Box<dyn Error>> {
+    let mut out = std::io::stdout();
+    let (mut all, mut elsewhere) = (Findings::default(), Findings::default());
+    let mut beaten = Vec::new();
+    writeln!(out, "| planner | problems | cheaper random start | share | 95 % interval |\n|---|---|---|---|---|")?;
+    for kind in recorded::KINDS {
+        let mut own = Findings::default();
+        for (index, recorded) in recorded::load(kind)?.iter().enumerate() {
+            let planned = planned_cost(kind, recorded);
+            let found = cheapest(&recorded.problem(), (draw << 32) + index as u64);
+            own.note(&recorded.id, planned, found);
+            all.note(&recorded.id, planned, found);
+            if ["ramp", "crossing"].iter().any(|place| recorded.id.starts_with(place)) {
+                elsewhere.note(&recorded.id, planned, found);
+            }
+        }
+        writeln!(out, "| {kind} | {} |", own.row())?;
+        beaten.extend(own.beaten.into_iter().map(|text| format!("{kind} {text}")));
+    }
+    writeln!(out, "| all | {} |\n| ramps and intersections | {} |\n", all.row(), elsewhere.row())?;
+    beaten.iter().try_for_each(|text| writeln!(out, "{text}"))?;
+    Ok(())
+}
+
+/// What a planner's descent and comparison of classes come to; infinite if they fail.
+fn planned_cost(kind: &str, recorded: &Recorded) -> f64 {
+    let mut optimiser = recorded::optimiser(kind);
+    optimiser.warm_start = recorded.memory();
+    let plan = optimiser.optimise(&recorded.problem(), &recorded.guess());
+    plan.map_or(f64::INFINITY, |plan| plan.cost.total)
+}
+
+/// Prints how often random starts find something cheaper in closed loop.
+fn search_closed_loop(words: &[String]) -> std::io::Result<()> {
     let mut out = std::io::stdout();
     let mut tallies: BTreeMap<String, Tally> = BTreeMap::new();
     for (family, pose) in families() {

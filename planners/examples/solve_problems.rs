@@ -5,11 +5,15 @@
 //! cargo run --release -p interplay-planners --example solve_problems -- KIND SOLVER REPEATS [STARTS.json]
 //! ```
 //!
-//! `KIND` is a planner of `tests/data`; `SOLVER` robust, structured or sparse, which know nothing but the guess; resumed: the
-//! robust one with the recorded memory of the step before; or planner: the same, looking to other sides where the planner
-//! does. Every problem is solved `REPEATS` times
-//! for the median time. A descent begins at the recorded guess, or at the inputs that `STARTS.json` holds by the
-//! problem's id; the cost of that beginning is printed too.
+//! `KIND` is a planner of `tests/data`. `SOLVER` is one of
+//!
+//! - `robust`, `structured`, `sparse`: one descent from the guess alone, each with its own solver of step problems,
+//! - `resumed`: one descent of `robust` that begins with the recorded warm start,
+//! - `planner`: the same, then a comparison of the classes of motion. It is finished at once: each problem has an optimiser of its
+//!   own, whereas in closed loop a comparison may rest for a few plans or take several.
+//!
+//! Every problem is solved `REPEATS` times for the median time. A descent begins at the recorded guess, or at the inputs that
+//! `STARTS.json` holds by the problem's id; the cost of that beginning is printed too.
 
 #[path = "../tests/common/recorded.rs"]
 mod recorded;
@@ -64,10 +68,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let problems = recorded::load(kind)?;
     let outcomes = match solver.as_str() {
         "planner" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind)),
-        "resumed" => solve_all(&problems, &starts, repeats, Optimiser::resuming(Robust::default())),
-        "robust" => solve_all(&problems, &starts, repeats, Optimiser::new(Robust::default())),
-        "structured" => solve_all(&problems, &starts, repeats, Optimiser::new(Structured::default())),
-        "sparse" => solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default())),
+        "resumed" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind).comparing(false)),
+        "robust" => solve_all(&problems, &starts, repeats, Optimiser::new(Robust::default()).comparing(false)),
+        "structured" => solve_all(&problems, &starts, repeats, Optimiser::new(Structured::default()).comparing(false)),
+        "sparse" => solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default()).comparing(false)),
         other => {
             return Err(
                 format!("no solver is called {other}: planner, resumed, robust, structured and sparse are").into()
@@ -78,39 +82,36 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn solve_all<S: StageSolver>(
+fn solve_all<S: StageSolver + Clone>(
     problems: &[Recorded],
     starts: &BTreeMap<String, Inputs>,
     repeats: usize,
-    mut optimiser: Optimiser<S>,
+    optimiser: Optimiser<S>,
 ) -> Vec<Outcome> {
-    let mut solve = |recorded: &Recorded| {
+    let solve = |recorded: &Recorded| {
         let problem = recorded.problem();
         let guess = starts.get(&recorded.id).map_or_else(|| recorded.guess(), inputs);
-        let memory = recorded.memory();
-        let remember = |optimiser: &mut Optimiser<S>| optimiser.warm_start = memory.clone();
-        let (outcome, time_ms) = timed(repeats, &mut optimiser, remember, |it| it.optimise(&problem, &guess));
+        // A descent leaves its memory allocated, as in closed loop, and no comparison begun.
+        let mut prepared = optimiser.clone();
+        let _ = prepared.descend(&problem, &guess);
+        prepared.warm_start = recorded.memory();
+        let (outcome, time_ms) = timed(repeats, || prepared.clone(), |it| it.optimise(&problem, &guess));
         Outcome::new(recorded.id.clone(), start_cost(&problem, &guess), outcome, time_ms)
     };
-    problems.iter().map(&mut solve).collect()
+    problems.iter().map(solve).collect()
 }
 
 fn inputs(rows: &Inputs) -> Vec<Vec<Input>> {
     rows.iter().map(|rows| rows.iter().copied().map(Input::from_array).collect()).collect()
 }
 
-/// The last of several equal results of `work`, and the median time of one, without that of the preparation.
-fn timed<S, T>(
-    repeats: usize,
-    on: &mut S,
-    mut prepare: impl FnMut(&mut S),
-    mut work: impl FnMut(&mut S) -> T,
-) -> (T, f64) {
+/// The last of several equal results of `work`, and the median time of one \[ms\], without that of `prepare`.
+fn timed<S, T>(repeats: usize, prepare: impl Fn() -> S, work: impl Fn(&mut S) -> T) -> (T, f64) {
     let mut times_ms = Vec::new();
     loop {
-        prepare(on);
+        let mut prepared = prepare();
         let began = Instant::now();
-        let result = work(on);
+        let result = work(&mut prepared);
         times_ms.push(1e3 * began.elapsed().as_secs_f64());
         if times_ms.len() >= repeats {
             times_ms.sort_by(f64::total_cmp);

@@ -5,7 +5,7 @@ mod common;
 use std::sync::Arc;
 
 use common::derivatives::check;
-use common::world::{Run, Vehicle, begin, egos, lane_change, moved_to, run};
+use common::world::{Run, begin, egos, lane_change, moved_to, run};
 use common::{HORIZON, Random, iterate, lane_change as change_of_lanes};
 use interplay_planners::human::Style::{Nice, Tough};
 use interplay_planners::road::centre_line::{Piece, smooth};

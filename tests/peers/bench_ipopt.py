@@ -6,9 +6,9 @@ A time is the median of several solves of one problem (wall clock, one thread; I
 functions evaluated by CasADi's virtual machine); the table shows median and 99th percentile over the problems. IPOPT is
 shown as in the comparison (tolerance 1e-8) and as fast as we could make it: adaptive barrier, tolerance 1e-6.
 
-"planner" is what planners do in closed loop, with the multipliers of the plan before: one descent, and in negotiation a
-look to the other side of every ellipse that the plan touches; "resumed" is the descent alone. "robust" is the same solver,
-"structured" and "sparse" its two halves, from the guess alone.
+"resumed" is one descent with the multipliers of the plan before; "planner" adds the comparison of the classes of motion, finished
+at once, whereas in closed loop it rests for a few plans or takes several. "robust" is the descent from the guess alone,
+"structured" and "sparse" are the same with other solvers of step problems.
 """
 
 import argparse

@@ -57,6 +57,18 @@ def distance_price(kind, numbers, omega):
     return -attachment * numbers[2] / (attachment - numbers[2]) * omega**2
 
 
+def in_axes(deviation, axes):
+    """A deviation of states with its position along and across the axes (cos, sin)."""
+    x, y, cos, sin = deviation[0], deviation[1], axes[0], axes[1]
+    return ca.vertcat(cos * x + sin * y, cos * y - sin * x, deviation[2], deviation[3])
+
+
+def axes_of(vehicle):
+    """Cosine and sine of the heading of the axes in which a vehicle's tracking weights are diagonal."""
+    heading = vehicle.get("weights_heading", 0.0)
+    return [np.cos(heading), np.sin(heading)]
+
+
 def shape_of(problem):
     """What decides the structure of the programme."""
     vehicles = tuple(
@@ -120,6 +132,7 @@ class Programme:
         start, before = self.parameter(f"start{i}", 4), self.parameter(f"before{i}", 2)
         given = self.parameter(f"given{i}", 2, known)
         weights, targets = self.parameter(f"weights{i}", 4), self.parameter(f"targets{i}", 4, n)
+        axes = self.parameter(f"axes{i}", 2)
         comfort = self.parameter(f"comfort{i}", 2)
         states, inputs = [start], []
         previous = before
@@ -133,7 +146,7 @@ class Programme:
             x = ca.SX.sym(f"x{i}_{t + 1}", 4)
             self.unknowns.append(x)
             self.rows.append(bicycle(states[-1], u, body[3], body[4], step) - x)
-            self.cost += ca.dot(weights, (x - targets[:, t]) ** 2)
+            self.cost += ca.dot(weights, in_axes(x - targets[:, t], axes) ** 2)
             if t >= known:
                 corners = clearances(x, body, road, lane_end)
                 for c in range(4):
@@ -184,6 +197,7 @@ class Programme:
                 f"body{i}": v["body"], f"road{i}": v["road"], f"lane_end{i}": v.get("lane_end"),
                 f"start{i}": v["start"], f"before{i}": v["previous_input"], f"given{i}": v.get("known_inputs", []),
                 f"weights{i}": v["weights"], f"targets{i}": targets, f"comfort{i}": v["comfort"],
+                f"axes{i}": axes_of(v),
             }
             for j, e in enumerate(v.get("keep_outs", [])):
                 found |= {f"centres{i}_{j}": e["centres"], f"form{i}_{j}": e["shape"], f"price{i}_{j}": e["penalty"]}

@@ -31,11 +31,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
         world.spawn((
             Identity { index, name: vehicle.name.clone() },
             Motion { state, input: Input::default(), crashed: false },
-            VehicleParameters {
-                body: vehicle.body,
-                limits: vehicle.limits,
-                route: scenario.road.route(vehicle.road),
-            },
+            VehicleParameters { body: vehicle.body, limits: vehicle.limits, route: scenario.road.route(vehicle.road) },
             VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             Driving {
                 can_be_asked: vehicle.driver.can_be_asked(),

@@ -73,6 +73,9 @@ pub struct Vehicle {
     pub known_inputs: Vec<[f64; 2]>,
     /// Diagonal of `Q`.
     pub weights: [f64; 4],
+    /// Heading of the axes in which `Q` is diagonal, if they are not those of the world \[rad\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weights_heading: Option<f64>,
     /// Desired states at `t = 1…N`; a single one holds throughout.
     pub targets: Vec<[f64; 4]>,
     /// Diagonal of `R`.
@@ -222,8 +225,8 @@ impl Vehicle {
         match term {
             Term::Comfort(of) if of.vehicle == vehicle => self.comfort = of.weights,
             Term::Tracking(of) if of.vehicle == vehicle => {
-                assert_eq!(of.axes, Axes::WORLD, "problems on slanted roads are not recorded");
                 self.weights = of.weights;
+                self.weights_heading = axes_heading_rad(of);
                 self.targets = of.targets.iter().map(|state| state.to_array()).collect();
                 if self.targets.windows(2).all(|pair| pair[0] == pair[1]) {
                     self.targets.truncate(1);
@@ -274,11 +277,12 @@ impl Vehicle {
         let [heading_rad, right_m, left_m] = self.road;
         let end = self.lane_end.map(|[end_m, height_m, taper_m]| LaneEnd { end_m, height_m, taper_m });
         let corridor = Corridor { heading_rad, right_m, left_m, end };
+        let axes = self.weights_heading.map_or(Axes::WORLD, Axes::along);
         let target = |t: usize| State::from_array(self.targets[t.min(self.targets.len() - 1)]);
         let targets = (0..horizon).map(target).collect();
         let mut terms = vec![
             Term::Comfort(Comfort { vehicle, weights: self.comfort }),
-            Term::Tracking(Tracking { vehicle, weights: self.weights, axes: Axes::WORLD, targets }),
+            Term::Tracking(Tracking { vehicle, weights: self.weights, axes, targets }),
             Term::RoadEdge(RoadEdge {
                 vehicle,
                 body: self.body(),
@@ -292,6 +296,11 @@ impl Vehicle {
         terms.extend(self.mean_speed.iter().flat_map(|of| of.mean_speed().bounds(vehicle)).map(Term::MeanSpeed));
         terms
     }
+}
+
+/// The heading of the axes of a tracking cost, nothing for those of the world: planners take the heading of the goal.
+fn axes_heading_rad(of: &Tracking) -> Option<f64> {
+    (of.axes != Axes::WORLD).then(|| of.targets[0].heading_rad)
 }
 
 fn shape(of: &OrientedEllipse) -> [f64; 3] {
