@@ -164,19 +164,15 @@ impl<S: StageSolver> Optimiser<S> {
             round.settled.push(PassingClass::of(problem, &found.iterate));
         }
         let statistics = match explored {
-            Ok(Exploration::Cheaper(found)) => {
-                round.has_changed = true;
-                let work = found.statistics.work();
-                match best {
-                    Ok(held) => held.give_way(found),
-                    Err(_) => *best = Ok(found),
-                }
-                return work;
-            }
+            Ok(Exploration::Cheaper(found)) => return give_way(found, round, best),
             Ok(Exploration::Dearer(found)) => {
                 round.nearest_cost = round.nearest_cost.min(found.cost.total);
                 best.iter_mut().for_each(|held| held.note_rival(&found));
                 return found.statistics.work();
+            }
+            Ok(Exploration::Unfinished(mut reached)) if self.is_better(&reached, best) => {
+                reached.statistics.unfinished = 1;
+                return give_way(reached, round, best);
             }
             Ok(Exploration::Unfinished(reached)) => {
                 let work = reached.statistics.work();
@@ -195,6 +191,12 @@ impl<S: StageSolver> Optimiser<S> {
         statistics.work()
     }
 
+    /// Whether a motion at which an exploration stopped is a better plan than the one at hand: cheaper, and safe or no less safe.
+    fn is_better(&self, reached: &Optimum, best: &Result<Optimum, DescentError>) -> bool {
+        let unsafety = best.as_ref().map_or(0.0, |held| held.cost.unsafety());
+        reached.cost.total < self.bar(best) && reached.cost.unsafety() <= unsafety.max(self.tolerances.slack)
+    }
+
     /// What an optimum of another class has to cost less than. In trouble no hysteresis holds.
     fn bar(&self, best: &Result<Optimum, DescentError>) -> f64 {
         match best {
@@ -205,6 +207,17 @@ impl<S: StageSolver> Optimiser<S> {
             Err(_) => f64::INFINITY,
         }
     }
+}
+
+/// Replaces the plan at hand by a cheaper one. Returns the work that this one took.
+fn give_way(found: Optimum, round: &mut Round, best: &mut Result<Optimum, DescentError>) -> usize {
+    round.has_changed = true;
+    let work = found.statistics.work();
+    match best {
+        Ok(held) => held.give_way(found),
+        Err(_) => *best = Ok(found),
+    }
+    work
 }
 
 /// The cheapest simple motion of each class but one, the cheapest first; `planned` is what everybody plans so far.

@@ -35,9 +35,7 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
         joint.inputs[vehicle].clone_from(&motion.inputs);
         joint.states[vehicle].clone_from(&motion.states);
     };
-    // Of two, the motions of the first beside those of the second are all that there are.
-    let focused = if count > 2 { count } else { 1 };
-    for vehicle in 0..focused {
+    for vehicle in 0..count {
         let own = motions(problem, vehicle);
         for others in std::iter::once(None).chain(OTHERS_ACCELERATION_SHARES.map(Some)).take(if count > 1 {
             1 + OTHERS_ACCELERATION_SHARES.len()
@@ -94,6 +92,11 @@ fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
         }
         Term::Separation(separation) if separation.vehicle == vehicle => {
             Some((&separation.ellipses[0], problem.participants[separation.from].start.position()))
+        }
+        // Whoever is asked may make room beside the place that the other wants.
+        Term::Separation(separation) if separation.from == vehicle => {
+            let road = FollowedRoad::of(problem, separation.vehicle)?;
+            Some((&separation.ellipses[0], road.goal_position(problem, separation.vehicle)?))
         }
         _ => None,
     });
