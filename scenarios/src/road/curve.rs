@@ -100,14 +100,8 @@ impl Turn {
 /// What is wrong with a curved road. Pieces are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum CurveFault {
-    /// A piece is neither straight nor a turn.
-    NoPiece { piece: usize },
-    /// A turn does not say both its angle and its radius; `key` is missing.
-    HalfTurn { piece: usize, key: &'static str },
-    /// A turn by 0.
-    NoTurn { piece: usize },
-    /// The inner edge of a turn crosses itself.
-    TooTight { piece: usize, radius_m: f64, least_m: f64 },
+    /// A piece is no piece of a road.
+    Piece { piece: usize, fault: PieceFault },
     /// The road is longer than its geometry is checked for.
     TooLong { length_m: f64, most_m: f64 },
     /// A piece is shorter than the transitions at its ends.
@@ -118,6 +112,19 @@ pub(crate) enum CurveFault {
     NoLaneBeside,
     /// Lane 0 ends beyond the road.
     EndsBeyond { end_m: f64, length_m: f64 },
+}
+
+/// What is wrong with a piece of a curved road.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum PieceFault {
+    /// It is neither straight nor a turn.
+    NoPiece,
+    /// It does not say both the angle and the radius of a turn; this key is missing.
+    HalfTurn { key: &'static str },
+    /// A turn by 0.
+    NoTurn,
+    /// The inner edge of the turn crosses itself.
+    TooTight { radius_m: f64, least_m: f64 },
 }
 
 /// Longest road, as a multiple of its width: bounds the cost of loading it.
@@ -203,7 +210,7 @@ impl Curve {
                 | CentreLineError::CurvatureJump { .. }
                 | CentreLineError::TooFewPoints
                 | CentreLineError::Cusp { .. }
-                | CentreLineError::NoSection { .. } => CurveFault::NoPiece { piece: 0 },
+                | CentreLineError::NoSection { .. } => CurveFault::Piece { piece: 0, fault: PieceFault::NoPiece },
             },
         )
     }
@@ -211,21 +218,20 @@ impl Curve {
     /// The pieces as those of a centre line.
     fn piece_list(&self) -> Result<Vec<Piece>, CurveFault> {
         let least_m = 0.5 * self.width_m();
-        let one = |(piece, stated): (usize, &CurvePiece)| match (stated.straight_m, stated.turn_deg, stated.radius_m) {
+        let one = |stated: &CurvePiece| match (stated.straight_m, stated.turn_deg, stated.radius_m) {
             (Some(length_m), ..) => Ok(Piece::Straight { length_m }),
-            (None, None, None) => Err(CurveFault::NoPiece { piece }),
-            (None, Some(_), None) => Err(CurveFault::HalfTurn { piece, key: "radius_m" }),
-            (None, None, Some(_)) => Err(CurveFault::HalfTurn { piece, key: "turn_deg" }),
-            (None, Some(0.0), Some(_)) => Err(CurveFault::NoTurn { piece }),
-            (None, Some(_), Some(radius_m)) if radius_m <= least_m => {
-                Err(CurveFault::TooTight { piece, radius_m, least_m })
-            }
+            (None, None, None) => Err(PieceFault::NoPiece),
+            (None, Some(_), None) => Err(PieceFault::HalfTurn { key: "radius_m" }),
+            (None, None, Some(_)) => Err(PieceFault::HalfTurn { key: "turn_deg" }),
+            (None, Some(0.0), Some(_)) => Err(PieceFault::NoTurn),
+            (None, Some(_), Some(radius_m)) if radius_m <= least_m => Err(PieceFault::TooTight { radius_m, least_m }),
             (None, Some(turn_deg), Some(radius_m)) => Ok(Piece::Arc {
                 length_m: turn_deg.abs().to_radians() * radius_m,
                 curvature_1pm: turn_deg.signum() / radius_m,
             }),
         };
-        self.pieces.iter().enumerate().map(one).collect()
+        let located = |(piece, stated)| one(stated).map_err(|fault| CurveFault::Piece { piece, fault });
+        self.pieces.iter().enumerate().map(located).collect()
     }
 
     /// The length of transitions where the file says nothing.
