@@ -18,8 +18,7 @@ const MIN_COS_OF_START: f64 = 0.5;
 /// What keeps a curve from being a road.
 pub(crate) fn curve_faults(road: &Road, tree: &TomlNode) -> Vec<Fault> {
     let Road::Curve(curve) = road else { return Vec::new() };
-    let checked = curve.route().and_then(|_| curve.check());
-    checked.err().map(|fault| described(curve, fault, tree)).into_iter().collect()
+    curve.check().err().map(|fault| described(curve, fault, tree)).into_iter().collect()
 }
 
 fn described(curve: &Curve, fault: CurveFault, tree: &TomlNode) -> Fault {

@@ -154,8 +154,6 @@ impl Curve {
     }
 
     /// The road as a route whose lateral coordinates count from the road's middle.
-    ///
-    /// The road is at most [`MAX_LENGTH_WIDTHS`] long and costs about a microsecond for each 10° of its turns.
     pub(crate) fn route(&self) -> Result<Arc<Route>, CurveFault> {
         let centre = self.centre()?;
         let half_m = 0.5 * self.width_m();
@@ -167,7 +165,7 @@ impl Curve {
         Ok(Arc::new(route))
     }
 
-    /// Checks what [`Curve::route`] does not need: that the road does not meet itself, and the end of lane 0.
+    /// Checks the pieces, that the road does not meet itself, and the end of lane 0.
     pub(crate) fn check(&self) -> Result<(), CurveFault> {
         let centre = self.centre()?;
         if let Some([first_m, again_m]) = meeting_m(&centre, self.width_m()) {
@@ -266,12 +264,12 @@ fn meeting_m(centre: &CentreLine, width_m: f64) -> Option<[f64; 2]> {
         let position = centre.at(along_m).position;
         let cell = position.map(|coordinate| (coordinate / width_m).floor() as i64);
         for (x, y) in (-1..=1).flat_map(|x| (-1..=1).map(move |y| (x, y))) {
-            let near = cells.get(&[cell[0] + x, cell[1] + y]).into_iter().flatten();
+            let mut near = cells.get(&[cell[0] + x, cell[1] + y]).into_iter().flatten();
             let is_met = |(earlier_m, other): &&(f64, [f64; 2])| {
                 along_m - earlier_m > apart_m
                     && libm::hypot(other[0] - position[0], other[1] - position[1]) < 0.95 * width_m
             };
-            if let Some((earlier_m, _)) = { near }.find(is_met) {
+            if let Some((earlier_m, _)) = near.find(is_met) {
                 return Some([*earlier_m, along_m]);
             }
         }
