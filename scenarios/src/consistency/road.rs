@@ -5,7 +5,7 @@ use interplay_planners::{Body, Limits};
 use super::checker::Checker;
 use super::plural;
 use crate::error::{Fault, quoted};
-use crate::road::{Branch, Curve, CurveFault, Road};
+use crate::road::{Branch, Curve, CurveFault, PieceFault, Road};
 use crate::scenario::Vehicle;
 use crate::tree::TomlNode;
 
@@ -18,36 +18,13 @@ const MIN_COS_OF_START: f64 = 0.5;
 /// What keeps a curve from being a road.
 pub(crate) fn curve_faults(road: &Road, tree: &TomlNode) -> Vec<Fault> {
     let Road::Curve(curve) = road else { return Vec::new() };
-    let checked = curve.route().and_then(|_| curve.check());
-    checked.err().map(|fault| described(curve, fault, tree)).into_iter().collect()
+    curve.check().err().map(|fault| described(curve, fault, tree)).into_iter().collect()
 }
 
 fn described(curve: &Curve, fault: CurveFault, tree: &TomlNode) -> Fault {
     let at = |path: &str, label: &str, message: String| Fault::at(tree.place_of(path), label, message);
     match fault {
-        CurveFault::NoPiece { piece } => {
-            let message = format!("`road.pieces.{piece}` is neither straight nor a turn");
-            at(&format!("road.pieces.{piece}"), "no piece", message)
-                .help("state `straight_m`, or `turn_deg` and `radius_m`")
-        }
-        CurveFault::HalfTurn { piece, key } => {
-            let message = format!("`road.pieces.{piece}.{key}` is missing");
-            at(&format!("road.pieces.{piece}"), &format!("has no `{key}`"), message)
-                .help("a turn has `turn_deg` and `radius_m`, for example `{ turn_deg = 90.0, radius_m = 25.0 }`")
-        }
-        CurveFault::NoTurn { piece } => {
-            let message = format!("`road.pieces.{piece}.turn_deg` is 0");
-            at(&format!("road.pieces.{piece}.turn_deg"), "no turn", message)
-                .help("positive values turn to the left; a straight piece is `{ straight_m = 30.0 }`")
-        }
-        CurveFault::TooTight { piece, radius_m, least_m } => {
-            let message = format!(
-                "`road.pieces.{piece}.radius_m` ({radius_m}) is not above half of the road's width: the inner edge would \
-                 cross itself"
-            );
-            let help = format!("more than {} m works; so do fewer or narrower lanes", rounded(least_m));
-            at(&format!("road.pieces.{piece}.radius_m"), "too tight", message).help(help)
-        }
+        CurveFault::Piece { piece, fault } => described_piece(piece, fault, tree),
         CurveFault::TooLong { length_m, most_m } => {
             let message = format!("the road is {} m long", rounded(length_m));
             at("road.pieces", "too long", message).help(format!(
@@ -90,6 +67,35 @@ fn described(curve: &Curve, fault: CurveFault, tree: &TomlNode) -> Fault {
                 rounded_down(length_m)
             );
             at("road.lane_end.end_m", "beyond the road", message).help(help)
+        }
+    }
+}
+
+fn described_piece(piece: usize, fault: PieceFault, tree: &TomlNode) -> Fault {
+    let at = |path: &str, label: &str, message: String| Fault::at(tree.place_of(path), label, message);
+    match fault {
+        PieceFault::NoPiece => {
+            let message = format!("`road.pieces.{piece}` is neither straight nor a turn");
+            at(&format!("road.pieces.{piece}"), "no piece", message)
+                .help("state `straight_m`, or `turn_deg` and `radius_m`")
+        }
+        PieceFault::HalfTurn { key } => {
+            let message = format!("`road.pieces.{piece}.{key}` is missing");
+            at(&format!("road.pieces.{piece}"), &format!("has no `{key}`"), message)
+                .help("a turn has `turn_deg` and `radius_m`, for example `{ turn_deg = 90.0, radius_m = 25.0 }`")
+        }
+        PieceFault::NoTurn => {
+            let message = format!("`road.pieces.{piece}.turn_deg` is 0");
+            at(&format!("road.pieces.{piece}.turn_deg"), "no turn", message)
+                .help("positive values turn to the left; a straight piece is `{ straight_m = 30.0 }`")
+        }
+        PieceFault::TooTight { radius_m, least_m } => {
+            let message = format!(
+                "`road.pieces.{piece}.radius_m` ({radius_m}) is not above half of the road's width: the inner edge would \
+                 cross itself"
+            );
+            let help = format!("more than {} m works; so do fewer or narrower lanes", rounded(least_m));
+            at(&format!("road.pieces.{piece}.radius_m"), "too tight", message).help(help)
         }
     }
 }

@@ -100,14 +100,8 @@ impl Turn {
 /// What is wrong with a curved road. Pieces are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum CurveFault {
-    /// A piece is neither straight nor a turn.
-    NoPiece { piece: usize },
-    /// A turn does not say both its angle and its radius; `key` is missing.
-    HalfTurn { piece: usize, key: &'static str },
-    /// A turn by 0.
-    NoTurn { piece: usize },
-    /// The inner edge of a turn crosses itself.
-    TooTight { piece: usize, radius_m: f64, least_m: f64 },
+    /// A piece is no piece of a road.
+    Piece { piece: usize, fault: PieceFault },
     /// The road is longer than its geometry is checked for.
     TooLong { length_m: f64, most_m: f64 },
     /// A piece is shorter than the transitions at its ends.
@@ -118,6 +112,19 @@ pub(crate) enum CurveFault {
     NoLaneBeside,
     /// Lane 0 ends beyond the road.
     EndsBeyond { end_m: f64, length_m: f64 },
+}
+
+/// What is wrong with a piece of a curved road.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum PieceFault {
+    /// It is neither straight nor a turn.
+    NoPiece,
+    /// It does not say both the angle and the radius of a turn; this key is missing.
+    HalfTurn { key: &'static str },
+    /// A turn by 0.
+    NoTurn,
+    /// The inner edge of the turn crosses itself.
+    TooTight { radius_m: f64, least_m: f64 },
 }
 
 /// Longest road, as a multiple of its width: bounds the cost of loading it.
@@ -147,8 +154,6 @@ impl Curve {
     }
 
     /// The road as a route whose lateral coordinates count from the road's middle.
-    ///
-    /// The road is at most [`MAX_LENGTH_WIDTHS`] long and costs about a microsecond for each 10° of its turns.
     pub(crate) fn route(&self) -> Result<Arc<Route>, CurveFault> {
         let centre = self.centre()?;
         let half_m = 0.5 * self.width_m();
@@ -160,7 +165,7 @@ impl Curve {
         Ok(Arc::new(route))
     }
 
-    /// Checks what [`Curve::route`] does not need: that the road does not meet itself, and the end of lane 0.
+    /// Checks the pieces, that the road does not meet itself, and the end of lane 0.
     pub(crate) fn check(&self) -> Result<(), CurveFault> {
         let centre = self.centre()?;
         if let Some([first_m, again_m]) = meeting_m(&centre, self.width_m()) {
@@ -203,7 +208,7 @@ impl Curve {
                 | CentreLineError::CurvatureJump { .. }
                 | CentreLineError::TooFewPoints
                 | CentreLineError::Cusp { .. }
-                | CentreLineError::NoSection { .. } => CurveFault::NoPiece { piece: 0 },
+                | CentreLineError::NoSection { .. } => CurveFault::Piece { piece: 0, fault: PieceFault::NoPiece },
             },
         )
     }
@@ -211,21 +216,20 @@ impl Curve {
     /// The pieces as those of a centre line.
     fn piece_list(&self) -> Result<Vec<Piece>, CurveFault> {
         let least_m = 0.5 * self.width_m();
-        let one = |(piece, stated): (usize, &CurvePiece)| match (stated.straight_m, stated.turn_deg, stated.radius_m) {
+        let one = |stated: &CurvePiece| match (stated.straight_m, stated.turn_deg, stated.radius_m) {
             (Some(length_m), ..) => Ok(Piece::Straight { length_m }),
-            (None, None, None) => Err(CurveFault::NoPiece { piece }),
-            (None, Some(_), None) => Err(CurveFault::HalfTurn { piece, key: "radius_m" }),
-            (None, None, Some(_)) => Err(CurveFault::HalfTurn { piece, key: "turn_deg" }),
-            (None, Some(0.0), Some(_)) => Err(CurveFault::NoTurn { piece }),
-            (None, Some(_), Some(radius_m)) if radius_m <= least_m => {
-                Err(CurveFault::TooTight { piece, radius_m, least_m })
-            }
+            (None, None, None) => Err(PieceFault::NoPiece),
+            (None, Some(_), None) => Err(PieceFault::HalfTurn { key: "radius_m" }),
+            (None, None, Some(_)) => Err(PieceFault::HalfTurn { key: "turn_deg" }),
+            (None, Some(0.0), Some(_)) => Err(PieceFault::NoTurn),
+            (None, Some(_), Some(radius_m)) if radius_m <= least_m => Err(PieceFault::TooTight { radius_m, least_m }),
             (None, Some(turn_deg), Some(radius_m)) => Ok(Piece::Arc {
                 length_m: turn_deg.abs().to_radians() * radius_m,
                 curvature_1pm: turn_deg.signum() / radius_m,
             }),
         };
-        self.pieces.iter().enumerate().map(one).collect()
+        let located = |(piece, stated)| one(stated).map_err(|fault| CurveFault::Piece { piece, fault });
+        self.pieces.iter().enumerate().map(located).collect()
     }
 
     /// The length of transitions where the file says nothing.
@@ -260,12 +264,12 @@ fn meeting_m(centre: &CentreLine, width_m: f64) -> Option<[f64; 2]> {
         let position = centre.at(along_m).position;
         let cell = position.map(|coordinate| (coordinate / width_m).floor() as i64);
         for (x, y) in (-1..=1).flat_map(|x| (-1..=1).map(move |y| (x, y))) {
-            let near = cells.get(&[cell[0] + x, cell[1] + y]).into_iter().flatten();
+            let mut near = cells.get(&[cell[0] + x, cell[1] + y]).into_iter().flatten();
             let is_met = |(earlier_m, other): &&(f64, [f64; 2])| {
                 along_m - earlier_m > apart_m
                     && libm::hypot(other[0] - position[0], other[1] - position[1]) < 0.95 * width_m
             };
-            if let Some((earlier_m, _)) = { near }.find(is_met) {
+            if let Some((earlier_m, _)) = near.find(is_met) {
                 return Some([*earlier_m, along_m]);
             }
         }

@@ -19,7 +19,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use curve::{Curve, CurveLaneEnd, CurvePiece};
-pub(crate) use curve::{CurveFault, Turn};
+pub(crate) use curve::{CurveFault, PieceFault, Turn};
 pub use intersection::Intersection;
 pub use lanes::Lanes;
 pub use ramp_merge::RampMerge;

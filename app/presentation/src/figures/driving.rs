@@ -16,7 +16,7 @@ const TIME_AFTER_GOALS_S: f64 = 1.5;
 /// Where the edge of the road that a ramp leads to ends, beyond everything that is drawn \[m\].
 const RAMP_EDGE_END_M: f64 = 1e4;
 /// How far a road that turns is drawn beyond the first and the last vehicle, in widths of the road.
-const ROAD_BEYOND_WIDTHS: f64 = 4.0;
+const ROAD_BEYOND_WIDTHS: f64 = 1.0;
 
 /// The line style of every vehicle, in the scenario's order: the ego's is orange.
 pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {

@@ -91,4 +91,21 @@ mod tests {
         assert_eq!(sizes.len(), 16);
         assert!(sizes.iter().all(|[length, width]| (length / width - 2.25).abs() < 1e-9), "{sizes:?}");
     }
+
+    /// A road that turns is drawn as a whole, in one plan, and every word can be read.
+    #[test]
+    fn a_road_that_turns_is_in_the_plan() {
+        let arc = |radius: f64| {
+            let at = move |i: u32| libm::sincos(0.05 * f64::from(i));
+            (0..=30).map(move |i| [radius * at(i).0, 40.0 - radius * at(i).1]).collect::<Vec<_>>()
+        };
+        let curve = CurvedStrip { edges_m: [arc(38.0), arc(31.0)], dividers_m: vec![arc(34.5)] };
+        let footprints = FootprintPlot { roads: Vec::new(), curves: vec![curve], ..drive(10.0) };
+        let drawing = footprints.drawing();
+        assert_eq!(drawing.illegible(), Vec::<String>::new());
+        let is_surface = |mark: &&Mark| matches!(mark, Mark::Fill { ring, .. } if ring.len() >= 60);
+        assert_eq!(drawing.marks.iter().filter(is_surface).count(), 1);
+        let [[_, low], [high, _]] = footprints.bounds();
+        assert!(low < 2.0 && high > 37.0, "{low}, {high}");
+    }
 }

@@ -13,8 +13,6 @@ use crate::curved_road::{CurvedRoad, WorldLine};
 const DASH_LANES: f64 = 0.8;
 /// In how many pieces the end of a lane is drawn.
 const TAPER_SLICES: usize = 60;
-/// The names of the parts of a road below its path.
-const PARTS: [&str; 3] = ["surface", "edges", "markings"];
 
 /// Logs the roads, the main one between two longitudinal coordinates \[m\].
 ///
@@ -133,16 +131,15 @@ fn log_lines(
     (surface, radii): (Vec<Line>, Vec<Radius>),
     [edges, markings]: [Vec<Line>; 2],
 ) -> RecordingStreamResult<()> {
-    let [surface_name, edges_name, markings_name] = PARTS;
     stream.log_static(
-        format!("{path}/{surface_name}"),
+        format!("{path}/surface"),
         &LineStrips2D::new(surface).with_radii(radii).with_colors([ASPHALT.solid()]).with_draw_order(-3.0),
     )?;
     let line = |points: f32| LineStrips2D::update_fields().with_radii([Radius::new_ui_points(points)]);
     let edges = line(1.2).with_strips(edges).with_colors([MARKING.solid()]).with_draw_order(-2.0);
-    stream.log_static(format!("{path}/{edges_name}"), &edges)?;
+    stream.log_static(format!("{path}/edges"), &edges)?;
     let markings = line(0.8).with_strips(markings).with_colors([MARKING.solid()]).with_draw_order(-2.0);
-    stream.log_static(format!("{path}/{markings_name}"), &markings)
+    stream.log_static(format!("{path}/markings"), &markings)
 }
 
 fn points(line: &WorldLine) -> Line {

@@ -73,10 +73,11 @@ impl FootprintPlot {
         legend
     }
 
-    /// Smallest and largest x and y of all bodies.
+    /// Smallest and largest x and y of all bodies and of the roads that turn.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
         let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for point in self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().flatten()) {
+        let bodies = self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().flatten());
+        for point in bodies.chain(self.curves.iter().flat_map(|road| road.edges_m.iter().flatten())) {
             for axis in 0..2 {
                 bounds[0][axis] = bounds[0][axis].min(point[axis]);
                 bounds[1][axis] = bounds[1][axis].max(point[axis]);
@@ -87,14 +88,8 @@ impl FootprintPlot {
 
     /// The path in pixels until a time, with no two points closer than a line can show.
     pub(super) fn path_pixels(&self, until_s: f64, place: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
-        let mut pixels: Vec<[f64; 2]> = Vec::new();
-        for (_, point) in self.path.iter().take_while(|(time_s, _)| *time_s <= until_s + 1e-9) {
-            let pixel = place(*point);
-            if pixels.last().is_none_or(|last| distance(*last, pixel) >= MIN_PATH_SPACING_PX) {
-                pixels.push(pixel);
-            }
-        }
-        pixels
+        let driven = self.path.iter().take_while(|(time_s, _)| *time_s <= until_s + 1e-9);
+        spaced(driven.map(|(_, point)| place(*point)))
     }
 
     /// Length of the longest body.
@@ -102,6 +97,17 @@ impl FootprintPlot {
         let bodies = self.snapshots.iter().flat_map(|snapshot| &snapshot.bodies);
         bodies.map(|body| distance(body[0], body[2])).fold(0.0, f64::max).max(1e-3)
     }
+}
+
+/// Points of a line, with no two closer than a line can show.
+pub(super) fn spaced(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    let mut pixels: Vec<[f64; 2]> = Vec::new();
+    for pixel in points {
+        if pixels.last().is_none_or(|last| distance(*last, pixel) >= MIN_PATH_SPACING_PX) {
+            pixels.push(pixel);
+        }
+    }
+    pixels
 }
 
 /// The distance of two points.

@@ -4,7 +4,7 @@ use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER, SURFACE};
 use super::body;
-use super::data::{CurvedStrip, FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, distance};
+use super::data::{CurvedStrip, FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, distance, spaced};
 
 /// Space at the left of the plan, for the tick labels of the y axis.
 const LEFT_MARGIN_PX: f64 = 92.0;
@@ -158,7 +158,7 @@ impl Map {
         let dividers = road.dividers_m.iter().map(|divider| (divider, Dash::Long));
         for (line, dash) in edges.chain(dividers) {
             for visible in line.split(|point| !self.shows(*point)).filter(|visible| visible.len() > 1) {
-                let points = visible.iter().map(|point| self.place(*point)).collect();
+                let points = spaced(visible.iter().map(|point| self.place(*point)));
                 drawing.line(points, LineStyle { width: 1, ..LineStyle::new(GREY, dash) });
             }
         }
