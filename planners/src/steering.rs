@@ -11,7 +11,7 @@ pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
         steering_max_rad: agent.limits.steering_max_rad,
     };
     let at = agent.route.locate(state.position(), None);
-    geometry.follow(&at, lateral_m, state)
+    at.steer(&geometry, state, lateral_m)
 }
 
 /// The acceleration nearest to a wanted one that keeps acceleration and speed within their limits \[m/s²\].

@@ -244,10 +244,6 @@ fn extent(road: &Road, branch: Branch) -> String {
     }
 }
 
-fn plural(count: usize, noun: &str) -> String {
-    if count == 1 { noun.to_owned() } else { format!("{noun}s") }
-}
-
 /// Whether two footprints share more than a line: no edge of either separates them (separating axis theorem).
 fn overlap((first, at): (&Vehicle, &State), (second, other_at): (&Vehicle, &State)) -> bool {
     let (corners, other_corners) = (first.body.corners(at), second.body.corners(other_at));

@@ -3,9 +3,9 @@
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::merge::merge_tables;
 use crate::overrides::Override;
+use crate::placement::resolve_starts;
 use crate::scenario::Scenario;
 use crate::source::Source;
-use crate::start::resolve_starts;
 use crate::tree::{self, Table, TomlNode, TomlValue};
 use crate::weather::WeatherConfig;
 use crate::{changed, consistency, schema, schema_check, weather_file};

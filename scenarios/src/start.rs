@@ -1,15 +1,7 @@
 //! Where a vehicle starts: in a lane, or in world coordinates.
 
-use interplay_planners::State;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value as Json;
-
-use crate::consistency::{curve_faults, no_such_lane};
-use crate::error::{Fault, quoted};
-use crate::road::{Branch, Road};
-use crate::schema::{self, SchemaNode};
-use crate::tree::TomlNode;
 
 // A loaded scenario has a `State` in its place.
 /// Where a vehicle starts, in a lane (`lane`, `along_m`) or in world coordinates (`x_m`, `y_m`), and its speed there.
@@ -18,132 +10,33 @@ use crate::tree::TomlNode;
 pub(crate) struct StartConfig {
     /// Position of the mass centre along the world's x axis \[m\].
     #[schemars(example = 0.0)]
-    x_m: Option<f64>,
+    pub x_m: Option<f64>,
     /// Position of the mass centre along the world's y axis \[m\].
     #[schemars(example = 0.185)]
-    y_m: Option<f64>,
+    pub y_m: Option<f64>,
     /// Yaw angle, counter-clockwise from the x axis; 0 if neither this nor `heading_deg` is stated \[rad\].
     #[schemars(example = 0.0)]
-    heading_rad: Option<f64>,
+    pub heading_rad: Option<f64>,
     /// Yaw angle, counter-clockwise from the x axis \[deg\].
     #[schemars(example = 0.0, extend("x-excludes" = ["heading_rad"]))]
-    heading_deg: Option<f64>,
+    pub heading_deg: Option<f64>,
     /// The lane in whose centre it starts, along the road; counted from the right, 0 is the rightmost.
     #[schemars(example = 1, extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"]))]
-    lane: Option<usize>,
+    pub lane: Option<usize>,
     /// Position along the vehicle's road: x of the world on a road along x, otherwise the distance along the road \[m\].
     #[schemars(example = 0.0, extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"]))]
-    along_m: Option<f64>,
+    pub along_m: Option<f64>,
     /// Distance from the centre of `lane`, positive to the left; 0 if not stated \[m\].
     #[schemars(example = 0.0, extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"]))]
-    lateral_offset_m: Option<f64>,
+    pub lateral_offset_m: Option<f64>,
     /// Yaw angle less the direction of the road at `along_m`, counter-clockwise; 0 if not stated \[deg\].
     #[schemars(
         range(min = -60.0, max = 60.0),
         example = 0.0,
         extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"])
     )]
-    heading_error_deg: Option<f64>,
+    pub heading_error_deg: Option<f64>,
     /// Speed of the mass centre \[m/s\].
     #[schemars(example = 1.0)]
-    speed_mps: f64,
-}
-
-/// Writes the state of each vehicle in world coordinates in place of its `start`, which may be a place in a lane.
-///
-/// Returns what keeps a start from being a place. What is no table of the format is left as it is.
-pub(crate) fn resolve_starts(scenario: &mut Json, tree: &TomlNode) -> Vec<Fault> {
-    let road = scenario.get("road").cloned().map_or_else(|| Ok(Road::default()), serde_json::from_value);
-    let Ok(road) = road else { return Vec::new() };
-    let faults = curve_faults(&road, tree);
-    let vehicles = scenario.get_mut("vehicle").and_then(Json::as_array_mut);
-    let Some(vehicles) = vehicles.filter(|_| faults.is_empty()) else { return faults };
-    let mut faults = Vec::new();
-    for (index, vehicle) in vehicles.iter_mut().enumerate() {
-        let branch = vehicle.get("road").cloned().map_or_else(|| Ok(Branch::Main), serde_json::from_value);
-        let start = vehicle.get("start").cloned().map(serde_json::from_value::<StartConfig>);
-        let (Ok(branch), Some(Ok(start))) = (branch, start) else { continue };
-        let name = vehicle.get("name").and_then(Json::as_str).unwrap_or_default().to_owned();
-        let path = Paths { written: format!("vehicle.{index}.start"), shown: format!("vehicle.{name}.start"), tree };
-        match start.state(&road, branch, &path) {
-            Ok(state) => vehicle["start"] = serde_json::to_value(state).unwrap_or_default(),
-            Err(fault) => faults.push(fault),
-        }
-    }
-    faults
-}
-
-/// Where a start is written, and what errors call it.
-struct Paths<'a> {
-    written: String,
-    shown: String,
-    tree: &'a TomlNode,
-}
-
-impl Paths<'_> {
-    fn fault(&self, key: &str, label: &str, message: String) -> Fault {
-        Fault::at(self.tree.place_of(&format!("{}.{key}", self.written)), label, message)
-    }
-
-    /// The refusal of a start without a key that it needs.
-    fn missing(&self, key: &str) -> Fault {
-        let start = schema::complete().property("vehicle").and_then(SchemaNode::entries);
-        let property = start.and_then(|vehicle| vehicle.property("start")).and_then(|start| start.property(key));
-        let message = format!("{} is missing", quoted(&format!("{}.{key}", self.shown)));
-        let place = self.tree.at(&self.written).map_or(&self.tree.place, |start| &start.place);
-        Fault::at(place, &format!("has no `{key}`"), message)
-            .help(property.map(SchemaNode::description).unwrap_or_default())
-    }
-}
-
-impl StartConfig {
-    /// The state in world coordinates.
-    fn state(&self, road: &Road, branch: Branch, path: &Paths<'_>) -> Result<State, Fault> {
-        let in_lane = self.lane.is_some()
-            || self.along_m.is_some()
-            || self.lateral_offset_m.is_some()
-            || self.heading_error_deg.is_some();
-        if in_lane { self.in_lane(road, branch, path) } else { self.in_world(road, branch, path) }
-    }
-
-    fn in_world(&self, road: &Road, branch: Branch, path: &Paths<'_>) -> Result<State, Fault> {
-        let (x_m, y_m) = match (self.x_m, self.y_m) {
-            (Some(x_m), Some(y_m)) => (x_m, y_m),
-            (Some(_), None) => return Err(path.missing("y_m")),
-            (None, Some(_)) => return Err(path.missing("x_m")),
-            (None, None) => {
-                let message = format!("{} does not say where", quoted(&path.shown));
-                let place = path.tree.at(&path.written).map_or(&path.tree.place, |start| &start.place);
-                let help = "state `lane` and `along_m`, or `x_m` and `y_m`";
-                return Err(Fault::at(place, "no place", message).help(help));
-            }
-        };
-        let stated_rad = self.heading_rad.or(self.heading_deg.map(f64::to_radians)).unwrap_or_default();
-        let state = State { x_m, y_m, heading_rad: stated_rad, speed_mps: self.speed_mps };
-        if road.corridor(branch).is_some() {
-            return Ok(state);
-        }
-        // Planners compare headings along a route, which may turn by more than half a circle, as numbers.
-        let along_rad = road.route(branch).centre.project(state.position(), None).heading_rad;
-        let turns = ((along_rad - stated_rad) / std::f64::consts::TAU).round();
-        Ok(State { heading_rad: stated_rad + turns * std::f64::consts::TAU, ..state })
-    }
-
-    fn in_lane(&self, road: &Road, branch: Branch, path: &Paths<'_>) -> Result<State, Fault> {
-        let lane = self.lane.ok_or_else(|| path.missing("lane"))?;
-        let along_m = self.along_m.ok_or_else(|| path.missing("along_m"))?;
-        if let Some((message, help)) = no_such_lane(&format!("{}.lane", path.shown), lane, road) {
-            return Err(path.fault("lane", "no such lane", message).help(help));
-        }
-        let (offset_m, most_m) = (self.lateral_offset_m.unwrap_or_default(), 0.5 * road.lane_width_m());
-        if offset_m.abs() > most_m {
-            let message = format!("`{}.lateral_offset_m` ({offset_m}) leads out of the lane", path.shown);
-            let help = format!("it may be at most {most_m} m to either side; `lane` chooses another lane");
-            return Err(path.fault("lateral_offset_m", "out of the lane", message).help(help));
-        }
-        let centre = &road.route(branch).centre;
-        let [x_m, y_m] = centre.position(along_m, road.lane_centre_m(branch, lane) + offset_m);
-        let heading_rad = centre.at(along_m).heading_rad + self.heading_error_deg.unwrap_or_default().to_radians();
-        Ok(State { x_m, y_m, heading_rad, speed_mps: self.speed_mps })
-    }
+    pub speed_mps: f64,
 }

@@ -80,6 +80,11 @@ fn reached(film: &Film, index: usize) -> Option<usize> {
             let passed_m = x * state.x_m + y * (state.y_m - half_m) - vehicle.body.rear_m;
             passed_m > half_m * (1.0 + cos.abs()) / sin.abs()
         }
+        (road @ Road::Curve(_), branch) => {
+            let at = road.route(branch).centre.project(state.position(), None);
+            let goal_m = vehicle.goal.lane.map_or(at.across_m, |lane| road.lane_centre_m(branch, lane));
+            (at.across_m - goal_m).abs() <= 0.15 * road.lane_width_m()
+        }
         (road, _) => {
             let goal_m = vehicle.goal.lane.map_or(state.y_m, |lane| (lane as f64 + 0.5) * road.lane_width_m());
             (state.y_m - goal_m).abs() <= 0.15 * road.lane_width_m()

@@ -49,6 +49,8 @@ const REPLACEMENTS: &[Replacement] = &[
     ("lane-keeping/bayesian-tough", "idm", "no_collision"),
     ("ramp-merge/bayesian-front-tough", "idm", "order"),
     ("ramp-merge/front-tough", "idm", "order"),
+    ("curve/lane-drop", "idm", "order"),
+    ("full-size/bend", "idm", "completes.ego"),
     // Among drivers who ignore it, the ego must find the way by itself.
     ("lane-change/both-tough", "scripted", "completes.ego"),
     ("lane-change/bayesian-both-tough", "scripted", "completes.ego"),

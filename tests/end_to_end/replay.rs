@@ -4,7 +4,7 @@
 //! (humans from the front of the road to its rear, each knowing the plans of those before; then the others, who know the
 //! humans' plans) and to the source's assumption of perfect prediction.
 
-use interplay_planners::predict::constant_velocity;
+use interplay_planners::predict::steadily_along;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
@@ -23,7 +23,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         body: vehicle.body,
         limits: vehicle.limits,
         route: scenario.road.route(vehicle.road),
-        prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now),
+        prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now, vehicle),
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),
     })
@@ -31,8 +31,11 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
 }
 
 /// What is expected of a vehicle that has not planned in this tick: its last plan, else constant velocity.
-fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFrame) -> Trajectory {
-    let Some(before) = before else { return constant_velocity(&now.state, scenario.horizon_steps, scenario.step_s) };
+fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFrame, vehicle: &Vehicle) -> Trajectory {
+    let Some(before) = before else {
+        let route = scenario.road.route(vehicle.road);
+        return steadily_along(&route, &now.state, scenario.horizon_steps, scenario.step_s);
+    };
     let mut plan = before.plan.trajectory.shifted();
     plan.states[0] = now.state;
     plan

@@ -9,6 +9,19 @@ pub struct Penalty {
     pub quadratic: f64,
 }
 
+impl From<[f64; 2]> for Penalty {
+    /// From the weights of `s` and `s²`.
+    fn from([linear, quadratic]: [f64; 2]) -> Penalty {
+        Penalty { linear, quadratic }
+    }
+}
+
+impl From<Penalty> for [f64; 2] {
+    fn from(penalty: Penalty) -> [f64; 2] {
+        [penalty.linear, penalty.quadratic]
+    }
+}
+
 impl Penalty {
     /// The exact penalty of the safety rows, on `1 − d²`.
     pub const EXACT: Penalty = Penalty { linear: 1e3, quadratic: 1e3 };

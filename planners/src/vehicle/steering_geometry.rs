@@ -9,9 +9,6 @@
 //! makes `e″ = −2/τ e′ − e/τ²`: critically damped, without overshoot. The bicycle turns at `θ′ = v sin β/L_r`, from which
 //! follow the slip angle `β` and the steering angle `tan δ = L/L_r tan β`.
 
-use crate::road::centre_line::RoadPoint;
-use crate::vehicle::State;
-
 /// Time constant `τ` \[s\].
 const TIME_CONSTANT_S: f64 = 0.45;
 /// Largest angle to the road, `θ_max` \[rad\].
@@ -33,12 +30,6 @@ pub(crate) struct SteeringGeometry {
 }
 
 impl SteeringGeometry {
-    /// The steering angle of a vehicle at `at` on its road that leads to a lateral position \[rad\]. In a curve the vehicle also
-    /// turns at the rate of the road.
-    pub fn follow(&self, at: &RoadPoint, lateral_m: f64, state: &State) -> f64 {
-        self.correct(at.across_m - lateral_m, state.heading_rad - at.heading_rad, state.speed_mps, at.curvature_1pm)
-    }
-
     /// The steering angle that corrects a lateral error and a heading error at a speed, on a road of some curvature \[rad\].
     pub fn correct(&self, error_m: f64, heading_error_rad: f64, speed_mps: f64, curvature_1pm: f64) -> f64 {
         let speed = speed_mps.max(MIN_STEERING_SPEED_MPS);

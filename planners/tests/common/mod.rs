@@ -47,13 +47,7 @@ impl Vehicle {
         let mut terms = vec![
             Term::Comfort(Comfort { vehicle, weights: self.comfort }),
             Term::Tracking(tracking),
-            Term::RoadEdge(RoadEdge {
-                vehicle,
-                body: self.body,
-                route: self.corridor.into(),
-                near_m: Vec::new(),
-                penalty: Penalty::EXACT,
-            }),
+            Term::RoadEdge(RoadEdge::straight(vehicle, self.body, self.corridor, Penalty::EXACT)),
         ];
         terms.extend(self.keep_outs.iter().map(|keep_out| Term::KeepOut(KeepOut { vehicle, ..keep_out.clone() })));
         terms

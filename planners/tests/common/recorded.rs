@@ -283,13 +283,7 @@ impl Vehicle {
         let mut terms = vec![
             Term::Comfort(Comfort { vehicle, weights: self.comfort }),
             Term::Tracking(Tracking { vehicle, weights: self.weights, axes, targets }),
-            Term::RoadEdge(RoadEdge {
-                vehicle,
-                body: self.body(),
-                route: corridor.into(),
-                near_m: Vec::new(),
-                penalty: Penalty::ROAD_EDGE,
-            }),
+            Term::RoadEdge(RoadEdge::straight(vehicle, self.body(), corridor, Penalty::ROAD_EDGE)),
         ];
         terms.extend(self.keep_outs.iter().map(|of| Term::KeepOut(of.keep_out(vehicle))));
         terms.extend(self.distance_costs.iter().map(|of| Term::DistanceCost(of.distance_cost(vehicle))));
@@ -311,19 +305,14 @@ fn ellipse([heading_rad, along_m, across_m]: [f64; 3]) -> OrientedEllipse {
     SafetyEllipse { along_m, across_m }.oriented(heading_rad)
 }
 
-fn penalty([linear, quadratic]: [f64; 2]) -> Penalty {
-    Penalty { linear, quadratic }
-}
-
 impl Ellipse {
     fn new(of: &KeepOut) -> Self {
-        let penalty = [of.penalty.linear, of.penalty.quadratic];
-        Ellipse { centres: of.centres.clone(), shape: shape(&of.ellipses[0]), penalty }
+        Ellipse { centres: of.centres.clone(), shape: shape(&of.ellipses[0]), penalty: of.penalty.into() }
     }
 
     fn keep_out(&self, vehicle: usize) -> KeepOut {
         let ellipses = vec![ellipse(self.shape); self.centres.len()];
-        KeepOut { vehicle, centres: self.centres.clone(), ellipses, penalty: penalty(self.penalty) }
+        KeepOut { vehicle, centres: self.centres.clone(), ellipses, penalty: self.penalty.into() }
     }
 }
 
@@ -347,15 +336,14 @@ impl Distance {
 
 impl Mean {
     fn mean_speed(&self) -> MeanSpeed {
-        MeanSpeed { lower_mps: self.bounds[0], upper_mps: self.bounds[1], penalty: penalty(self.penalty) }
+        MeanSpeed { lower_mps: self.bounds[0], upper_mps: self.bounds[1], penalty: self.penalty.into() }
     }
 }
 
 impl Apart {
     fn of(term: &Term) -> Option<Self> {
         let Term::Separation(of) = term else { return None };
-        let penalty = [of.penalty.linear, of.penalty.quadratic];
-        Some(Apart { pair: [of.vehicle, of.from], shape: shape(&of.ellipses[0]), penalty })
+        Some(Apart { pair: [of.vehicle, of.from], shape: shape(&of.ellipses[0]), penalty: of.penalty.into() })
     }
 
     fn separation(&self, horizon: usize) -> Separation {
@@ -363,7 +351,7 @@ impl Apart {
             vehicle: self.pair[0],
             from: self.pair[1],
             ellipses: vec![ellipse(self.shape); horizon],
-            penalty: penalty(self.penalty),
+            penalty: self.penalty.into(),
         }
     }
 }
@@ -371,7 +359,7 @@ impl Apart {
 impl PersuasionRow {
     fn of(term: &Term) -> Option<Self> {
         let Term::Persuasion(Persuasion { toward, away, strength, penalty, .. }) = term.clone() else { return None };
-        Some(PersuasionRow { toward, away, strength, penalty: [penalty.linear, penalty.quadratic] })
+        Some(PersuasionRow { toward, away, strength, penalty: penalty.into() })
     }
 
     fn persuasion(&self) -> Persuasion {
@@ -380,7 +368,7 @@ impl PersuasionRow {
             toward: self.toward.clone(),
             away: self.away.clone(),
             strength: self.strength,
-            penalty: penalty(self.penalty),
+            penalty: self.penalty.into(),
         }
     }
 }

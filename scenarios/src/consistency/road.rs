@@ -3,9 +3,8 @@
 use interplay_planners::{Body, Limits};
 
 use super::checker::Checker;
-use super::plural;
 use crate::error::{Fault, quoted};
-use crate::road::{Branch, Curve, CurveFault, PieceFault, Road};
+use crate::road::{Branch, CurveFault, PieceFault, Road, RoadCurve};
 use crate::scenario::Vehicle;
 use crate::tree::TomlNode;
 
@@ -21,7 +20,7 @@ pub(crate) fn curve_faults(road: &Road, tree: &TomlNode) -> Vec<Fault> {
     curve.check().err().map(|fault| described(curve, fault, tree)).into_iter().collect()
 }
 
-fn described(curve: &Curve, fault: CurveFault, tree: &TomlNode) -> Fault {
+fn described(curve: &RoadCurve, fault: CurveFault, tree: &TomlNode) -> Fault {
     let at = |path: &str, label: &str, message: String| Fault::at(tree.place_of(path), label, message);
     match fault {
         CurveFault::Piece { piece, fault } => described_piece(piece, fault, tree),
@@ -195,4 +194,8 @@ impl Checker<'_> {
             self.faults.push(fault.also(turn, "this turn").help(help));
         }
     }
+}
+
+fn plural(count: usize, noun: &str) -> String {
+    if count == 1 { noun.to_owned() } else { format!("{noun}s") }
 }

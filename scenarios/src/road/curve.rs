@@ -14,7 +14,7 @@ use serde_json::json;
 /// with heading 0, so that the right edge there is y = 0. Before and after its pieces the road goes on straight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Curve {
+pub struct RoadCurve {
     /// How many lanes there are.
     #[serde(default = "defaults::lane_count")]
     #[schemars(range(min = 1, max = 16))]
@@ -133,7 +133,7 @@ const MAX_LENGTH_WIDTHS: f64 = 20_000.0;
 /// Most of the length that a transition could have which it has by default.
 const DEFAULT_TRANSITION_SHARE: f64 = 0.5;
 
-impl Curve {
+impl RoadCurve {
     /// Width of all lanes together \[m\].
     pub(crate) fn width_m(&self) -> f64 {
         self.lane_count as f64 * self.lane_width_m

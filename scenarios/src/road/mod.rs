@@ -18,8 +18,8 @@ use interplay_planners::{Body, Corridor, LaneEnd, Route, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use curve::{Curve, CurveLaneEnd, CurvePiece};
 pub(crate) use curve::{CurveFault, PieceFault, Turn};
+pub use curve::{CurveLaneEnd, CurvePiece, RoadCurve};
 pub use intersection::Intersection;
 pub use lanes::Lanes;
 pub use ramp_merge::RampMerge;
@@ -35,7 +35,7 @@ pub enum Road {
     /// Two roads that cross, each with lanes in one direction; a vehicle says by its `road` on which it drives.
     Intersection(Intersection),
     /// A road of straight and curved pieces with parallel lanes, of which lane 0 may end.
-    Curve(Curve),
+    Curve(RoadCurve),
 }
 
 /// The road that a vehicle drives on.

@@ -9,7 +9,7 @@ use crate::trajectory::cost::Violation;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::penalty::Penalty;
 use crate::vehicle::PoseExpansion;
-use crate::{Body, Route};
+use crate::{Body, Corridor, Route};
 
 /// The road that a vehicle may use.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,13 @@ pub struct RoadEdge {
     pub near_m: Vec<f64>,
     /// What leaving it costs.
     pub penalty: Penalty,
+}
+
+impl RoadEdge {
+    /// The edges of a straight road.
+    pub fn straight(vehicle: usize, body: Body, corridor: Corridor, penalty: Penalty) -> RoadEdge {
+        RoadEdge { vehicle, body, route: corridor.into(), near_m: Vec::new(), penalty }
+    }
 }
 
 impl RowTerm for RoadEdge {

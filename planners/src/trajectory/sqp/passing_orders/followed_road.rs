@@ -71,18 +71,6 @@ impl<'a> FollowedRoad<'a> {
         self.at(&problem.participants[vehicle].start, 0).along_m
     }
 
-    /// The place that a vehicle wants beside its start, if it wants one \[m\].
-    pub fn goal_position(&self, problem: &Problem, vehicle: usize) -> Option<[f64; 2]> {
-        match self {
-            FollowedRoad::Straight(tracking) => {
-                tracking.targets.last().filter(|_| tracking.weights[1] > 0.0).map(State::position)
-            }
-            FollowedRoad::Curved { route, wanted_m, .. } => {
-                Some(route.position(self.start_m(problem, vehicle), (*wanted_m)?))
-            }
-        }
-    }
-
     /// The lateral position that the vehicle wants, if it wants one \[m\].
     pub fn wanted_m(&self) -> Option<f64> {
         match self {

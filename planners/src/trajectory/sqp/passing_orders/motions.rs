@@ -35,7 +35,9 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
         joint.inputs[vehicle].clone_from(&motion.inputs);
         joint.states[vehicle].clone_from(&motion.states);
     };
-    for vehicle in 0..count {
+    // Of two, the motions of the first beside those of the second are all that there are.
+    let focused = if count > 2 { count } else { 1 };
+    for vehicle in 0..focused {
         let own = motions(problem, vehicle);
         for others in std::iter::once(None).chain(OTHERS_ACCELERATION_SHARES.map(Some)).take(if count > 1 {
             1 + OTHERS_ACCELERATION_SHARES.len()
@@ -93,11 +95,6 @@ fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
         Term::Separation(separation) if separation.vehicle == vehicle => {
             Some((&separation.ellipses[0], problem.participants[separation.from].start.position()))
         }
-        // Whoever is asked may make room beside the place that the other wants.
-        Term::Separation(separation) if separation.from == vehicle => {
-            let road = FollowedRoad::of(problem, separation.vehicle)?;
-            Some((&separation.ellipses[0], road.goal_position(problem, separation.vehicle)?))
-        }
         _ => None,
     });
     let sides = ellipses.flat_map(|(ellipse, centre)| {
@@ -138,7 +135,7 @@ fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> O
     for t in 0..problem.horizon {
         let input = participant.known_inputs.get(t).copied().unwrap_or_else(|| Input {
             acceleration_mps2: participant.reachable_acceleration(t, state.speed_mps, share * bound),
-            steering_rad: geometry.follow(&road.at(&state, t), lateral_m, &state),
+            steering_rad: road.at(&state, t).steer(&geometry, &state, lateral_m),
         });
         state = participant.model.step(&state, &input);
         inputs.push(input);
