@@ -85,6 +85,8 @@ fn curves() {
     );
     let circle = ("{ straight_m = 1.5 },\n]", "{ straight_m = 1.5 },\n    { turn_deg = 360.0, radius_m = 2.0 },\n]");
     refuse("meets_itself", circle, &["bad.toml:7:10", "the road meets itself", "turn less"]);
+    let onwards = ("turn_deg = 90.0", "turn_deg = 270.0");
+    refuse("meets_its_continuation", onwards, &["bad.toml:7:10", "the road meets itself"]);
     refuse("too_long", ("straight_m = 1.5", "straight_m = 1e6"), &["1000004.642 m long", "at most 14800 m"]);
     let end = |text: &'static str| ("lane_count = 2", text);
     refuse(

@@ -252,14 +252,16 @@ fn longest_transition_m(pieces: &[Piece]) -> f64 {
     (0..pieces.len()).map(room_m).fold(f64::INFINITY, f64::min)
 }
 
-/// Two arc lengths at which a road of a width covers the same place, if there are any.
+/// Two arc lengths at which a road of a width covers the same place, if there are any. Beyond both ends, where it goes on
+/// straight, the road is examined over its own length.
 ///
 /// Along a turn whose inner edge does not cross itself, places at least `π/2` widths apart are at least a width apart.
 fn meeting_m(centre: &CentreLine, width_m: f64) -> Option<[f64; 2]> {
     let (step_m, length_m) = (0.5 * width_m, centre.length_m());
     let apart_m = 0.5 * std::f64::consts::PI * width_m + step_m;
     let mut cells: BTreeMap<[i64; 2], Vec<(f64, [f64; 2])>> = BTreeMap::new();
-    for index in 0..=(length_m / step_m) as usize {
+    let count = (length_m / step_m) as i64;
+    for index in -count..=2 * count {
         let along_m = index as f64 * step_m;
         let position = centre.at(along_m).position;
         let cell = position.map(|coordinate| (coordinate / width_m).floor() as i64);
