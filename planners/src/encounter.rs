@@ -24,7 +24,7 @@ pub(crate) fn is_settled(scene: &Scene, other: &Agent, clear_lead_m: f64) -> boo
 /// Whether the whole body of `agent` is beyond the path of `other`, whose road it crosses.
 fn has_crossed(agent: &Agent, other: &Agent) -> bool {
     let (from, to, place) = (&other.route, &agent.route, agent.state.position());
-    let side = from.across(agent.state.position()) - from.across(other.state.position());
+    let side = from.across(place) - from.across(other.state.position());
     let direction = libm::sin(to.heading_at(place) - from.heading_at(place));
     side * direction.signum() > agent.body.rear_m + 0.5 * other.body.width_m
 }
@@ -34,7 +34,7 @@ fn has_crossed(agent: &Agent, other: &Agent) -> bool {
 pub(crate) fn distance_to_path(agent: &Agent, other: &Agent) -> Option<f64> {
     let (from, to, place) = (&other.route, &agent.route, agent.state.position());
     let closing = libm::sin(to.heading_at(place) - from.heading_at(place));
-    let side = from.across(agent.state.position()) - from.across(other.state.position());
+    let side = from.across(place) - from.across(other.state.position());
     (closing.abs() > libm::sin(PARALLEL_RAD)).then(|| -side / closing)
 }
 

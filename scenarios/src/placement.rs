@@ -85,7 +85,7 @@ impl StartConfig {
             return Ok(state);
         }
         // Planners compare headings along a route, which may turn by more than half a circle, as numbers.
-        let along_rad = road.route(branch).centre.project(state.position(), None).heading_rad;
+        let along_rad = road.route(branch).heading_at(state.position());
         let turns = ((along_rad - stated_rad) / std::f64::consts::TAU).round();
         Ok(State { heading_rad: stated_rad + turns * std::f64::consts::TAU, ..state })
     }

@@ -219,7 +219,7 @@ impl Vehicle {
     /// road, at the wanted speed. The coordinate along the road is that of the start and nobody tracks it.
     pub fn target(&self, road: &Road) -> State {
         let route = road.route(self.road);
-        let start = route.centre.project(self.start.position(), None);
+        let start = route.locate(self.start.position(), None);
         let lane_centre_m = self.goal.lane.map(|lane| road.lane_centre_m(self.road, lane));
         let [x_m, y_m] =
             route.centre.position(start.along_m, lane_centre_m.or(self.goal.y_m).unwrap_or(start.across_m));

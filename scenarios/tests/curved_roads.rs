@@ -1,18 +1,9 @@
 //! Curved roads, and places in the lanes of every road.
 
+mod least;
+
 use interplay_scenarios::{Branch, Override, Road, Scenario, embedded, from_text, load};
-
-/// As little as a scenario can say.
-const LEAST: &str =
-    "title = 'a'\nshows = 'b'\n[[vehicle]]\nname = 'car'\nstart = { x_m = 0, y_m = 0.2, speed_mps = 1 }\n";
-
-fn least(more: &str, overrides: &[Override]) -> Scenario {
-    from_text("least.toml", &format!("{more}\n{LEAST}"), overrides).expect("a scenario without fault")
-}
-
-fn set(assignment: &str) -> Override {
-    Override::Set(assignment.to_owned())
-}
+use least::{least, set};
 
 /// Two lanes of 3.5 m that turn by 200° to the left and by 110° to the right, with a start for each test.
 fn curved(vehicle: &str, overrides: &[Override]) -> Scenario {
@@ -97,7 +88,7 @@ fn the_target_on_a_curve_is_beside_the_start_in_the_lane_of_the_goal() {
         );
         let scenario = curved(&vehicle, &[]);
         let (target, route) = (scenario.vehicles[0].target(&scenario.road), scenario.road.route(Branch::Main));
-        let place = route.centre.project(target.position(), None);
+        let place = route.locate(target.position(), None);
         assert!((place.across_m - 1.75).abs() < 1e-9 && (place.along_m - along_m).abs() < 1e-9, "{place:?}");
         assert!((target.heading_rad - route.centre.at(along_m).heading_rad).abs() < 1e-9);
         assert_eq!(target.speed_mps, 6.0);
@@ -123,7 +114,7 @@ fn straight_roads_take_places_in_lanes() {
     assert_eq!(back.vehicles[0].start.to_array(), [1.0, 0.3, 0.0, 1.0], "and the other way round");
     let stated = load("intersection/nice", &[]).expect("authored");
     let crossing = stated.vehicles.iter().find(|vehicle| vehicle.road == Branch::Cross).expect("it crosses");
-    let place = stated.road.route(Branch::Cross).centre.project(crossing.start.position(), None);
+    let place = stated.road.route(Branch::Cross).locate(crossing.start.position(), None);
     let change = format!("vehicle.{}.start={{ lane = 0, along_m = {:?} }}", crossing.name, place.along_m);
     let by_lane = load("intersection/nice", &[set(&change)]).expect("a start by lane");
     let start = by_lane.vehicle(&crossing.name).expect("there").start;

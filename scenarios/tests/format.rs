@@ -1,5 +1,7 @@
 //! What the format means: variants, overrides, defaults, the schema, and the authored files.
 
+mod least;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -7,19 +9,8 @@ use std::path::Path;
 use interplay_building::bounds::Bound;
 use interplay_planners::{Driver, human::Style};
 use interplay_scenarios::{Override, Road, Scenario, Source, commented, embedded, from_text, load, schema};
+use least::{LEAST, least, set};
 use serde_json::{Map, Value as Json};
-
-/// As little as a scenario can say.
-const LEAST: &str =
-    "title = 'a'\nshows = 'b'\n[[vehicle]]\nname = 'car'\nstart = { x_m = 0, y_m = 0.2, speed_mps = 1 }\n";
-
-fn least(more: &str, overrides: &[Override]) -> Scenario {
-    from_text("least.toml", &format!("{more}\n{LEAST}"), overrides).expect("a scenario without fault")
-}
-
-fn set(assignment: &str) -> Override {
-    Override::Set(assignment.to_owned())
-}
 
 #[test]
 fn every_file_on_disk_is_embedded_and_loads_from_both() {

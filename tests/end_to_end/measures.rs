@@ -56,7 +56,7 @@ fn the_order_is_that_of_the_road_or_of_the_crossing() {
                 Road::Lanes(_) | Road::RampMerge(_) => -vehicle.last.x_m,
                 Road::Curve(_) => {
                     let route = film.scenario.road.route(Branch::Main);
-                    -route.centre.project(vehicle.last.position(), None).along_m
+                    -route.along(vehicle.last.position())
                 }
             };
             (place, &vehicle.name)
@@ -81,7 +81,7 @@ fn reached(film: &Film, index: usize) -> Option<usize> {
             passed_m > half_m * (1.0 + cos.abs()) / sin.abs()
         }
         (road @ Road::Curve(_), branch) => {
-            let at = road.route(branch).centre.project(state.position(), None);
+            let at = road.route(branch).locate(state.position(), None);
             let goal_m = vehicle.goal.lane.map_or(at.across_m, |lane| road.lane_centre_m(branch, lane));
             (at.across_m - goal_m).abs() <= 0.15 * road.lane_width_m()
         }

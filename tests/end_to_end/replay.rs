@@ -45,7 +45,7 @@ fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFra
 fn order(scenario: &Scenario, frame: &Frame) -> Vec<usize> {
     let along = |index: usize| {
         let route = scenario.road.route(scenario.vehicles[index].road);
-        route.centre.project(frame.vehicles[index].state.position(), None).along_m
+        route.along(frame.vehicles[index].state.position())
     };
     let (mut first, then): (Vec<usize>, Vec<usize>) =
         (0..scenario.vehicles.len()).partition(|index| scenario.vehicles[*index].driver.goes_first());

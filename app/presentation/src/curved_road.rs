@@ -2,15 +2,13 @@
 
 use std::sync::Arc;
 
-use interplay_planners::{CentreLine, Profile, Route};
+use interplay_planners::{CentreLine, LaneEnd, Profile, Route};
 use interplay_scenarios::{Branch, Road};
 
 /// Largest distance between two points of a line, in lane widths.
 const POINT_DISTANCE_LANES: f64 = 0.2;
 /// Most points of a line.
 const MAX_POINTS: f64 = 4000.0;
-/// Before the end of a lane, in length scales of its taper, from where no line divides it from the next one.
-const DIVIDED_UNTIL_TAPERS: f64 = 4.5;
 
 /// A line of points of the world \[m\].
 pub type WorldLine = Vec<[f64; 2]>;
@@ -65,7 +63,7 @@ impl<'a> CurvedRoad<'a> {
     /// The part of a stretch with a lane on both sides of a divider.
     fn divided(&self, between: usize, [from_m, to_m]: [f64; 2]) -> [f64; 2] {
         let end = self.road.lane_end().filter(|_| between == 1);
-        let until_m = end.map_or(to_m, |end| end.end_m - DIVIDED_UNTIL_TAPERS * end.taper_m);
+        let until_m = end.map_or(to_m, |end| taper_m(end)[0]);
         [from_m, to_m.min(until_m).max(from_m)]
     }
 
@@ -76,6 +74,11 @@ impl<'a> CurvedRoad<'a> {
         let places = (0..=count).map(|index| from_m + (to_m - from_m) * index as f64 / count as f64);
         places.map(|along_m| centre.position(along_m, across.value(along_m))).collect()
     }
+}
+
+/// Between which longitudinal coordinates the edge of a lane that ends visibly moves.
+pub fn taper_m(end: LaneEnd) -> [f64; 2] {
+    [end.end_m - 4.5 * end.taper_m, end.end_m + 0.5 * end.taper_m]
 }
 
 #[cfg(test)]
@@ -115,7 +118,7 @@ mod tests {
         let dashes = curved.dashes(3.0, [0.0, 125.0]);
         assert!(dashes.len() > 10);
         for point in dashes.iter().chain(&curved.dividers([0.0, 125.0])).flatten() {
-            let place = route.centre.project(*point, None);
+            let place = route.locate(*point, None);
             assert!(place.across_m.abs() < 1e-6 && place.along_m < 110.0 - 17.9, "{place:?}");
         }
         assert!(CurvedRoad::new(&Road::default()).is_none());

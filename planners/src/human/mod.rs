@@ -51,6 +51,7 @@ pub use settings::{Settings, Style};
 use std::borrow::Cow;
 
 use crate::predict::steady_inputs;
+use crate::scene::ellipses;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
@@ -145,7 +146,7 @@ fn followed(scene: &Scene, settings: &Settings) -> Vec<KeepOut> {
     let SafetyEllipse { along_m, across_m } = scene.goal.safety;
     let ellipse = SafetyEllipse { along_m: LEADER_LENGTH_RATIO * along_m, across_m: LEADER_WIDTH_RATIO * across_m };
     let firm = KeepOut {
-        ellipses: comfortable.ellipses.iter().map(|comfortable| ellipse.oriented(comfortable.heading_rad())).collect(),
+        ellipses: ellipses(ellipse, &scene.ego.route, &comfortable.centres),
         penalty: Penalty::EXACT,
         ..comfortable.clone()
     };

@@ -17,6 +17,7 @@ pub(crate) use log::PassingOrderLog;
 
 use crate::encounter::PARALLEL_RAD;
 use crate::passing_order::{PassingOrder, PassingPosition};
+use crate::scene::ellipses;
 use crate::{Agent, Axes, Plan, Scene, State};
 
 /// A vehicle is relevant if the plan comes nearer to it than this many half axes of the safety ellipse.
@@ -35,10 +36,11 @@ pub fn passing_orders(scene: &Scene, plan: &Plan) -> Vec<PassingOrder> {
 
 /// Where the states of a plan lead relative to a vehicle in motion; both begin at the present step.
 fn position(scene: &Scene, other: &Agent, own: &[State], theirs: &[State]) -> Option<PassingPosition> {
-    let ellipse = |centre: [f64; 2]| scene.goal.safety.oriented(other.route.heading_at(centre));
-    let squared =
-        |(own, their): (&State, &State)| ellipse(their.position()).distance(own.position(), their.position()).squared;
-    let nearest = own.iter().zip(theirs).map(squared).fold(f64::INFINITY, f64::min);
+    let centres: Vec<[f64; 2]> = theirs.iter().map(State::position).collect();
+    let ellipses = ellipses(scene.goal.safety, &other.route, &centres);
+    let places = own.iter().zip(&centres).zip(&ellipses);
+    let squared = places.map(|((own, centre), ellipse)| ellipse.distance(own.position(), *centre).squared);
+    let nearest = squared.fold(f64::INFINITY, f64::min);
     if nearest > RELEVANT_HALF_AXES * RELEVANT_HALF_AXES {
         return None;
     }

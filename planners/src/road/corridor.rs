@@ -34,6 +34,16 @@ pub struct LaneEnd {
     pub taper_m: f64,
 }
 
+impl LaneEnd {
+    /// The right edge that lies at `edge_m` before the end, where the front bumper is at `front_m`, with its first and second
+    /// derivative.
+    pub(super) fn edge(&self, edge_m: f64, front_m: f64) -> [f64; 3] {
+        let tanh = libm::tanh((front_m - (self.end_m - 2.0 * self.taper_m)) / self.taper_m);
+        let slope = 0.5 * self.height_m * (1.0 - tanh * tanh) / self.taper_m;
+        [edge_m + 0.5 * self.height_m * (1.0 + tanh), slope, -2.0 * tanh * slope / self.taper_m]
+    }
+}
+
 impl Corridor {
     /// The longitudinal coordinate `s` of a position \[m\].
     pub fn along(&self, [x, y]: [f64; 2]) -> f64 {
@@ -54,10 +64,7 @@ impl Corridor {
 
     /// The right edge where the front bumper is at `front_m`, with its first and second derivative.
     fn right_edge(&self, front_m: f64) -> [f64; 3] {
-        let Some(end) = self.end else { return [self.right_m, 0.0, 0.0] };
-        let tanh = libm::tanh((front_m - (end.end_m - 2.0 * end.taper_m)) / end.taper_m);
-        let slope = 0.5 * end.height_m * (1.0 - tanh * tanh) / end.taper_m;
-        [self.right_m + 0.5 * end.height_m * (1.0 + tanh), slope, -2.0 * tanh * slope / end.taper_m]
+        self.end.map_or([self.right_m, 0.0, 0.0], |end| end.edge(self.right_m, front_m))
     }
 
     /// How far each of the four corners is inside its edge (eq. 6.7 in the road's frame): the two right corners from

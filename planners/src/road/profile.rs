@@ -150,7 +150,7 @@ impl Profile {
     pub fn at(&self, along_m: f64) -> [f64; 3] {
         match &self.0 {
             Form::Constant(value) => [*value, 0.0, 0.0],
-            Form::LaneEnd { edge_m, end } => lane_end(*edge_m, end, along_m),
+            Form::LaneEnd { edge_m, end } => end.edge(*edge_m, along_m),
             Form::Stretches(stretches) => {
                 let after = stretches.partition_point(|stretch| stretch.from_m <= along_m);
                 match (after.checked_sub(1).map(|index| &stretches[index]), stretches.first()) {
@@ -199,13 +199,6 @@ impl Stretch {
             2.0 * c[2] + u * (6.0 * c[3] + u * (12.0 * c[4] + u * (20.0 * c[5]))),
         ]
     }
-}
-
-/// The expressions of a [`Corridor`](crate::Corridor)'s right edge.
-fn lane_end(edge_m: f64, end: &LaneEnd, front_m: f64) -> [f64; 3] {
-    let tanh = libm::tanh((front_m - (end.end_m - 2.0 * end.taper_m)) / end.taper_m);
-    let slope = 0.5 * end.height_m * (1.0 - tanh * tanh) / end.taper_m;
-    [edge_m + 0.5 * end.height_m * (1.0 + tanh), slope, -2.0 * tanh * slope / end.taper_m]
 }
 
 #[cfg(test)]

@@ -122,7 +122,7 @@ fn curves(recorded: &RecordedRun) -> Vec<CurvedStrip> {
     let route = road.route(Branch::Main);
     let states = recorded.frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| &vehicle.state);
     let [from_m, to_m] = states.fold([f64::INFINITY, f64::NEG_INFINITY], |[from_m, to_m], state| {
-        let along_m = route.centre.project(state.position(), None).along_m;
+        let along_m = route.along(state.position());
         [from_m.min(along_m), to_m.max(along_m)]
     });
     if from_m > to_m {

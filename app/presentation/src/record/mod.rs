@@ -175,7 +175,7 @@ impl Recorder {
             building_layer.step(&self.stream, frame)?;
         }
         for vehicle in &frame.vehicles {
-            let along = self.route.centre.project(vehicle.state.position(), None).along_m;
+            let along = self.route.along(vehicle.state.position());
             let [from, to] = self.driven_m.unwrap_or([along, along]);
             self.driven_m = Some([from.min(along), to.max(along)]);
         }
@@ -257,7 +257,7 @@ fn expected_road(scenario: &Scenario) -> [f64; 2] {
     let route = scenario.road.route(Branch::Main);
     let mut road = [f64::INFINITY, f64::NEG_INFINITY];
     for vehicle in &scenario.vehicles {
-        let start = route.centre.project(vehicle.start.position(), None).along_m;
+        let start = route.along(vehicle.start.position());
         let speed = vehicle.start.speed_mps.max(vehicle.target(&scenario.road).speed_mps);
         road = [road[0].min(start), road[1].max(start + speed * scenario.duration_s)];
     }

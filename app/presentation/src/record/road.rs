@@ -2,12 +2,12 @@
 
 use super::re_sdk_types::archetypes::{LineStrips2D, Transform3D};
 use super::re_sdk_types::components::Radius;
-use interplay_planners::{Corridor, LaneEnd};
+use interplay_planners::Corridor;
 use interplay_scenarios::{Branch, Road, Scenario};
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::palette::{ASPHALT, MARKING};
-use crate::curved_road::{CurvedRoad, WorldLine};
+use crate::curved_road::{CurvedRoad, WorldLine, taper_m};
 
 /// Length of a lane marking and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;
@@ -163,11 +163,6 @@ fn slices([right, left]: &[WorldLine; 2]) -> (Vec<Line>, Vec<Radius>) {
 
 fn along(lateral_m: f64, from_m: f64, to_m: f64) -> Line {
     vec![[from_m as f32, lateral_m as f32], [to_m as f32, lateral_m as f32]]
-}
-
-/// Between which longitudinal coordinates the edge of a lane that ends visibly moves.
-fn taper_m(end: LaneEnd) -> [f64; 2] {
-    [end.end_m - 4.5 * end.taper_m, end.end_m + 0.5 * end.taper_m]
 }
 
 /// Columns of the matrix that turns by an angle about z.

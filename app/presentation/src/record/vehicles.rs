@@ -75,7 +75,7 @@ impl VehicleLayer {
     pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             drawn.log_tick(stream, vehicle)?;
-            let road_point = drawn.route.centre.project(vehicle.state.position(), None);
+            let road_point = drawn.route.locate(vehicle.state.position(), None);
             if index == self.ego {
                 drawn.log_order(stream, &vehicle.plan)?;
                 let [x, y] = drawn.route.centre.position(road_point.along_m, 0.0);

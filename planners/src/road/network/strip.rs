@@ -8,30 +8,22 @@ use crate::vehicle::{Body, PoseExpansion, State};
 impl Route {
     /// Road coordinates of a position, searched from an arc length on where one is known.
     pub fn locate(&self, position: [f64; 2], near_m: Option<f64>) -> RoadPoint {
-        match self.straight() {
-            Some(corridor) => RoadPoint {
-                along_m: corridor.along(position),
-                across_m: corridor.across(position),
-                heading_rad: corridor.heading_rad,
-                curvature_1pm: 0.0,
-            },
-            None => self.centre.project(position, near_m),
-        }
+        self.centre.project(position, near_m)
     }
 
     /// The longitudinal coordinate `s` of a position \[m\].
     pub fn along(&self, position: [f64; 2]) -> f64 {
-        self.straight().map_or_else(|| self.locate(position, None).along_m, |corridor| corridor.along(position))
+        self.locate(position, None).along_m
     }
 
     /// The lateral coordinate `n` of a position, positive to the left \[m\].
     pub fn across(&self, position: [f64; 2]) -> f64 {
-        self.straight().map_or_else(|| self.locate(position, None).across_m, |corridor| corridor.across(position))
+        self.locate(position, None).across_m
     }
 
     /// Direction of the road beside a position \[rad\].
     pub fn heading_at(&self, position: [f64; 2]) -> f64 {
-        self.straight().map_or_else(|| self.locate(position, None).heading_rad, |corridor| corridor.heading_rad)
+        self.locate(position, None).heading_rad
     }
 
     /// The position with these road coordinates \[m\].
@@ -39,22 +31,9 @@ impl Route {
         self.centre.position(along_m, across_m)
     }
 
-    /// Lateral coordinate of the right edge \[m\].
-    pub fn right_edge_m(&self, along_m: f64) -> f64 {
-        self.straight().map_or_else(|| self.right.value(along_m), |corridor| corridor.right_edge_m(along_m))
-    }
-
-    /// Lateral coordinate of the left edge \[m\].
-    pub fn left_edge_m(&self, along_m: f64) -> f64 {
-        self.straight().map_or_else(|| self.left.value(along_m), |corridor| corridor.left_m)
-    }
-
     /// Lateral coordinates of both edges as if no lane ended \[m\].
     pub fn edges_before_end_m(&self, along_m: f64) -> [f64; 2] {
-        match self.straight() {
-            Some(corridor) => [corridor.right_m, corridor.left_m],
-            None => [self.right.value_before_end(along_m), self.left.value(along_m)],
-        }
+        [self.right.value_before_end(along_m), self.left.value(along_m)]
     }
 
     /// The end of the rightmost lane, if it ends.

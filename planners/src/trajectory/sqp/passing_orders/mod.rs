@@ -62,7 +62,7 @@ impl<S: StageSolver> Optimiser<S> {
         let found = self.descend(problem, guess);
         let trusted = self.tolerances.trust(&found);
         // What a descent has come to without an end has no multipliers to tell.
-        let is_unfinished = !self.warm_start.fits(&self.descent.steps.problem.qp);
+        let is_unfinished = found.as_ref().is_ok_and(|optimum| optimum.statistics.unfinished > 0);
         if trusted && !(self.compares_passing_orders && (is_unfinished || self.has_rivals(problem))) {
             return found;
         }
