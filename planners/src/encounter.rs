@@ -4,17 +4,24 @@
 //! with which nothing is left to settle is skipped: one that drives ahead in the ego's target lane, or that has crossed, or
 //! that the ego has crossed before.
 
+use crate::relation::Relation;
 use crate::{Agent, PlanEvent, PlanEventKind, Scene};
 
 /// Paths that meet at a smaller angle than this run side by side \[rad\].
 pub(crate) const PARALLEL_RAD: f64 = 0.1;
 
 /// Whether the order of two vehicles is settled; one on the same road is if it is ahead by `clear_lead_m` in the lane that
-/// the ego wants.
+/// the ego wants. On routes of a network it is also settled if the other follows in the ego's lane.
 pub(crate) fn is_settled(scene: &Scene, other: &Agent, clear_lead_m: f64) -> bool {
     let ego = &scene.ego;
-    if ego.crosses(other) {
-        return has_crossed(other, ego) || has_crossed(ego, other);
+    match ego.relation(other) {
+        Relation::CrossingRoads => return has_crossed(other, ego) || has_crossed(ego, other),
+        Relation::Conflict(_) => return false,
+        Relation::Apart => return true,
+        Relation::Alongside => {}
+    }
+    if ego.route.is_in_network() && ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0 {
+        return true;
     }
     let off_lane = ego.route.across(other.state.position()) - ego.route.across(scene.goal.target.position());
     let in_target_lane = off_lane.abs() < 0.5 * (ego.body.width_m + other.body.width_m);
@@ -32,6 +39,13 @@ fn has_crossed(agent: &Agent, other: &Agent) -> bool {
 /// How far `agent` has to drive along its road until its centre is on the path of `other`; negative once it is beyond, `None`
 /// where the paths do not cross \[m\].
 pub(crate) fn distance_to_path(agent: &Agent, other: &Agent) -> Option<f64> {
+    match agent.relation(other) {
+        Relation::Conflict(conflict) => {
+            return Some(conflict.own_meeting_m - agent.route.along(agent.state.position()));
+        }
+        Relation::Apart => return None,
+        Relation::Alongside | Relation::CrossingRoads => {}
+    }
     let (from, to, place) = (&other.route, &agent.route, agent.state.position());
     let closing = libm::sin(to.heading_at(place) - from.heading_at(place));
     let side = from.across(place) - from.across(other.state.position());
@@ -66,7 +80,7 @@ impl PartnerSequence {
     pub(crate) fn choose<'a>(&mut self, scene: &'a Scene, clear_lead_m: f64) -> PartnerChoice<'a> {
         if self.order.is_empty() {
             let mut others: Vec<&Agent> = scene.others.iter().collect();
-            others.sort_by(|a, b| scene.ego.lead_of(b).total_cmp(&scene.ego.lead_of(a)));
+            others.sort_by(|a, b| scene.ego.lead_or_nearness_of(b).total_cmp(&scene.ego.lead_or_nearness_of(a)));
             self.order = others.iter().map(|other| other.name.clone()).collect();
         }
         let known = self.order.iter().filter_map(|name| scene.others.iter().find(|other| other.name == *name));

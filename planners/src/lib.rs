@@ -35,6 +35,8 @@ mod passing;
 pub mod passing_order;
 mod plan;
 pub mod predict;
+mod relation;
+mod right_of_way;
 pub mod road;
 mod scene;
 pub mod scripted;

@@ -2,11 +2,14 @@
 
 use std::sync::Arc;
 
-use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, Tracking};
+use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, StopLine, Tracking};
 use crate::trajectory::{Participant, Penalty, Term};
 use crate::vehicle::Bicycle;
 use crate::vehicle::OrientedEllipse;
 use crate::{Axes, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
+
+/// Drivers brake for a speed limit with this share of their strongest braking.
+const COMFORTABLE_BRAKING_SHARE: f64 = 0.4;
 
 /// A vehicle as anyone sees it.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,29 +64,6 @@ pub struct Scene {
     pub others: Vec<Agent>,
 }
 
-/// Headings that differ by more than this belong to different roads \[rad\].
-const SAME_ROAD_RAD: f64 = 0.1;
-
-impl Agent {
-    /// Whether two vehicles' roads cross (or meet head-on) rather than run side by side, judged where `other` is.
-    pub fn crosses(&self, other: &Agent) -> bool {
-        let place = other.state.position();
-        let difference = self.route.heading_at(place) - other.route.heading_at(place);
-        libm::cos(difference) < libm::cos(SAME_ROAD_RAD)
-    }
-
-    /// How far `other`'s centre is ahead along this vehicle's road \[m\].
-    pub fn lead_of(&self, other: &Agent) -> f64 {
-        self.route.along(other.state.position()) - self.route.along(self.state.position())
-    }
-
-    /// Whether two vehicles on one road overlap across it, so that one would run into the other.
-    pub fn shares_lane_with(&self, other: &Agent) -> bool {
-        let apart = self.route.across(other.state.position()) - self.route.across(self.state.position());
-        !self.crosses(other) && apart.abs() < 0.5 * (self.body.width_m + other.body.width_m)
-    }
-}
-
 impl Agent {
     /// Corners that stay on the road, of this agent as number `vehicle` of a trajectory problem.
     pub fn road_edge(&self, vehicle: usize, horizon: usize, step_s: f64) -> RoadEdge {
@@ -103,6 +83,33 @@ impl Agent {
         }
         let here_m = self.route.along(self.state.position());
         (1..=horizon).map(|t| here_m + self.state.speed_mps * step_s * t as f64).collect()
+    }
+}
+
+impl Agent {
+    /// The highest permitted speeds at arc lengths of its route, braking comfortably for lower limits ahead; empty without
+    /// limits \[m/s\].
+    fn permitted_speeds_mps(&self, along_m: &[f64]) -> Vec<f64> {
+        let permitted = along_m.iter().filter_map(|along_m| self.permitted_speed_mps(*along_m)).collect::<Vec<_>>();
+        if permitted.len() == along_m.len() { permitted } else { Vec::new() }
+    }
+
+    /// The highest permitted speed at an arc length of its route, braking comfortably for lower limits ahead; none without
+    /// limits \[m/s\].
+    pub(crate) fn permitted_speed_mps(&self, along_m: f64) -> Option<f64> {
+        self.route.permitted_speed_mps(along_m, COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs())
+    }
+
+    /// A line that its front stays before, as number `vehicle` of a trajectory problem.
+    pub(crate) fn stop_line(&self, vehicle: usize, line_m: f64, horizon: usize, step_s: f64) -> StopLine {
+        StopLine {
+            vehicle,
+            front_m: self.body.front_m,
+            route: Arc::clone(&self.route),
+            line_m,
+            near_m: self.expected_along_m(horizon, step_s),
+            penalty: Penalty::ROAD_EDGE,
+        }
     }
 }
 
@@ -157,12 +164,15 @@ impl Scene {
             return Term::Tracking(Tracking { vehicle, weights: goal.tracking, axes: goal.axes(), targets });
         }
         let wanted = route.locate(goal.target.position(), None);
+        let near_m = self.ego.expected_along_m(self.horizon, self.step_s);
+        let permitted_mps = self.ego.permitted_speeds_mps(&near_m);
         Term::RoadTracking(RoadTracking {
             vehicle,
             weights: goal.tracking,
             route: Arc::clone(route),
             target: RoadTarget { along_m: wanted.along_m, across_m: wanted.across_m, speed_mps: goal.target.speed_mps },
-            near_m: self.ego.expected_along_m(self.horizon, self.step_s),
+            permitted_mps,
+            near_m,
         })
     }
 

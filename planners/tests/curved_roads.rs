@@ -9,7 +9,7 @@ use common::world::{Run, begin, egos, lane_change, moved_to, run};
 use common::{HORIZON, Random, iterate, lane_change as change_of_lanes};
 use interplay_planners::human::Style::{Nice, Tough};
 use interplay_planners::road::centre_line::{Piece, smooth};
-use interplay_planners::trajectory::terms::{Comfort, RoadEdge, RoadTarget, RoadTracking};
+use interplay_planners::trajectory::terms::{Comfort, RoadEdge, RoadTarget, RoadTracking, StopLine};
 use interplay_planners::trajectory::{Participant, Penalty, Problem, Term};
 use interplay_planners::{Body, CentreLine, Driver, Profile, Route, State, idm};
 
@@ -49,12 +49,21 @@ fn off_the_road(random: &mut Random) -> Problem {
             weights: [0.4, 1.0, 0.7, 2.0],
             route: Arc::clone(&route),
             target: RoadTarget { along_m: 6.0, across_m: 0.2, speed_mps: 1.0 },
+            permitted_mps: vec![0.8; HORIZON],
             near_m: near_m.clone(),
         }),
         Term::RoadEdge(RoadEdge {
             vehicle: 0,
             body: Body::default(),
+            route: Arc::clone(&route),
+            near_m: near_m.clone(),
+            penalty: Penalty { linear: 1.0, quadratic: 1.0 },
+        }),
+        Term::StopLine(StopLine {
+            vehicle: 0,
+            front_m: 0.2,
             route,
+            line_m: along_m - 0.1,
             near_m,
             penalty: Penalty { linear: 1.0, quadratic: 1.0 },
         }),

@@ -3,6 +3,7 @@
 use super::Settings;
 use super::intention::Behaviour;
 use crate::encounter::distance_to_path;
+use crate::relation::Relation;
 use crate::{Agent, Scene};
 
 /// How ego and other meet.
@@ -32,11 +33,13 @@ pub struct ObservedBehaviour {
 }
 
 impl Meeting {
-    /// How the ego meets `other`; `None` for one that comes head-on.
+    /// How the ego meets `other`; `None` for one that comes head-on on a straight road, or whose way is apart.
     pub fn of(scene: &Scene, other: &Agent, settings: &Settings) -> Option<Meeting> {
         let ego = &scene.ego;
-        if !ego.crosses(other) {
-            return Some(Meeting::Alongside { lead_m: -ego.lead_of(other) });
+        match ego.relation(other) {
+            Relation::Alongside => return Some(Meeting::Alongside { lead_m: -ego.lead_of(other) }),
+            Relation::Apart => return None,
+            Relation::CrossingRoads | Relation::Conflict(_) => {}
         }
         let ego_m = distance_to_path(ego, other)? - settings.conflict_edge_m;
         Some(Meeting::Crossing { ego_m, other_m: distance_to_path(other, ego)? - settings.conflict_edge_m })

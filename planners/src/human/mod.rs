@@ -5,6 +5,7 @@
 //! ```text
 //! tracking       Σ_{t=1…N} ‖x_t − x_des‖²_Q                            eq. 6.6
 //! comfort        Σ_{t=0…N−1} ‖u_t − u_{t−1}‖²_R                        eq. 6.6
+//! stop line     Σ 2·10³ (q + q²), q how far the front is beyond a line    only while the driver must wait there
 //! road edges     Σ 2·10³ (q + q²), q how far a corner is off the road    eq. 6.7, soft
 //! yielding       w Σ_{t=1…N} max(0, 1 − d²(p_t, q_t))²                 per vehicle that might cut in or cross
 //! following      w_f Σ_{t=1…N} max(0, 1 − d²(p_t, l_t))²               the vehicle ahead in the same lane
@@ -32,6 +33,7 @@
 //!
 //! Drivers differ from this one by their settings:
 //!
+//! - On a road network every driver keeps to the right of way (module `right_of_way`), whatever its style.
 //! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while somebody is about to cut
 //!   in ahead.
 //! - A driver who **reacts late** (`reaction_s`) sees all others as they were that long ago, continued to the present
@@ -51,6 +53,7 @@ pub use settings::{Settings, Style};
 use std::borrow::Cow;
 
 use crate::predict::steady_inputs;
+use crate::right_of_way::WaitingMemory;
 use crate::scene::ellipses;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
@@ -72,6 +75,7 @@ pub struct Human {
     settings: Settings,
     perception: Perception,
     decision: Decision,
+    waiting: WaitingMemory,
     optimiser: Optimiser<Robust>,
     last: Option<Trajectory>,
 }
@@ -83,6 +87,7 @@ impl Human {
             settings,
             perception: Perception::default(),
             decision: Decision::default(),
+            waiting: WaitingMemory::default(),
             optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
             last: None,
         }
@@ -100,7 +105,11 @@ impl Human {
             wanted.to_mut().goal.target.speed_mps = speed_mps;
         }
         let scene = wanted.as_ref();
-        let problem = pose(scene, &expected.others, &self.settings);
+        let mut problem = pose(scene, &expected.others, &self.settings);
+        if let Some(line_m) = self.waiting.stop_line_m(scene) {
+            let line = scene.ego.stop_line(0, line_m, scene.horizon, scene.step_s);
+            problem.terms.push(Term::StopLine(line));
+        }
         let optimum = self.optimiser.optimise(&problem, &[guess(scene, self.last.as_ref())])?;
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
@@ -163,7 +172,8 @@ fn yielded_to(scene: &Scene, expected: &[Agent], settings: &Settings) -> Vec<Kee
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
     let mut keep_outs = Vec::new();
     let pairs = scene.others.iter().zip(expected);
-    for (other, expected) in pairs.filter(|(other, _)| Some(&other.name) != leader && !behind(other)) {
+    let concerns = |other: &Agent| ego.may_meet(other) && Some(&other.name) != leader && !behind(&other);
+    for (other, expected) in pairs.filter(|(other, _)| concerns(other)) {
         let predicted = settings.prediction.of(expected, scene.horizon, scene.step_s);
         keep_outs.push(scene.keep_out(&predicted, &other.route, Penalty::hinge(weight)));
         if ego.crosses(other) {

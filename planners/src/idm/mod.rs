@@ -1,7 +1,8 @@
 //! The field's baseline of a human driver: the intelligent driver model along the road (`car_following`), and MOBIL for lane
 //! changes (`mobil`).
 //!
-//! The model knows one road: whoever crosses it is ignored.
+//! On a network it keeps to the right of way (module `right_of_way`): a line at which it must wait counts as a standing
+//! vehicle. On straight roads that cross it ignores whoever crosses.
 
 mod car_following;
 pub mod diagnostics;
@@ -11,6 +12,7 @@ mod settings;
 
 pub use settings::{Mobil, Settings};
 
+use crate::right_of_way::WaitingMemory;
 use crate::steering::{admissible, roll_out, steer};
 use crate::{Input, Plan, PlanError, PlanEvent, Scene};
 use car_following::Leader;
@@ -23,12 +25,13 @@ pub struct Idm {
     settings: Settings,
     /// The lane it drives in or changes to.
     lane: Option<usize>,
+    waiting: WaitingMemory,
 }
 
 impl Idm {
     /// A driver who has not chosen a lane yet.
     pub fn new(settings: Settings) -> Self {
-        Idm { settings, lane: None }
+        Idm { settings, lane: None, waiting: WaitingMemory::default() }
     }
 
     /// Chooses a lane and plans the next moves.
@@ -42,11 +45,16 @@ impl Idm {
         let choice = mobil::choose(scene, &self.settings, now);
         self.lane = Some(choice.lane);
         let (own, wanted) = (&scene.ego, scene.goal.target.speed_mps);
+        let line_m = self.waiting.stop_line_m(scene);
         let lateral = lanes.centre_m(choice.lane);
         let trajectory = roll_out(scene, |t, state| {
             // In the lane that it leaves it minds the vehicle ahead until it is out of it.
-            let ahead = nearest([now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t)));
-            let acceleration = self.settings.acceleration(state.speed_mps, wanted, ahead);
+            let [left, taken] = [now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t));
+            let along_m = || own.route.along(state.position());
+            let line = line_m.map(|line_m| Leader { gap_m: line_m - along_m() - own.body.front_m, speed_mps: 0.0 });
+            let permitted_mps = own.permitted_speed_mps(if own.route.is_in_network() { along_m() } else { 0.0 });
+            let wanted_mps = permitted_mps.map_or(wanted, |permitted_mps| permitted_mps.min(wanted));
+            let acceleration = self.settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
             Input {
                 acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
                 steering_rad: steer(own, state, lateral),
@@ -63,7 +71,7 @@ impl Idm {
     }
 }
 
-fn nearest(leaders: [Option<Leader>; 2]) -> Option<Leader> {
+fn nearest(leaders: [Option<Leader>; 3]) -> Option<Leader> {
     leaders.into_iter().flatten().min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
 }
 

@@ -34,7 +34,7 @@ impl PartnerSelection {
     pub(super) fn choose<'a>(&mut self, scene: &'a Scene, settings: &Settings) -> Option<&'a Agent> {
         if self.order.is_empty() {
             let mut others: Vec<&Agent> = scene.others.iter().collect();
-            others.sort_by(|a, b| scene.ego.lead_of(b).total_cmp(&scene.ego.lead_of(a)));
+            others.sort_by(|a, b| scene.ego.lead_or_nearness_of(b).total_cmp(&scene.ego.lead_or_nearness_of(a)));
             self.order = others.iter().map(|other| other.name.clone()).collect();
         }
         let open: Vec<&Agent> = self

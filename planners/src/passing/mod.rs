@@ -17,6 +17,8 @@ pub(crate) use log::PassingOrderLog;
 
 use crate::encounter::PARALLEL_RAD;
 use crate::passing_order::{PassingOrder, PassingPosition};
+use crate::relation::Relation;
+use crate::road::network::RouteConflict;
 use crate::scene::ellipses;
 use crate::{Agent, Axes, Plan, Scene, State};
 
@@ -43,6 +45,11 @@ fn position(scene: &Scene, other: &Agent, own: &[State], theirs: &[State]) -> Op
     let nearest = squared.fold(f64::INFINITY, f64::min);
     if nearest > RELEVANT_HALF_AXES * RELEVANT_HALF_AXES {
         return None;
+    }
+    match scene.ego.relation(other) {
+        Relation::Conflict(conflict) => return position_at_conflict(scene, other, conflict, own, theirs),
+        Relation::Apart => return None,
+        Relation::Alongside | Relation::CrossingRoads => {}
     }
     if let Some(crossing) = Crossing::of(&scene.ego, other) {
         return crossing.position(own, theirs);
@@ -84,12 +91,30 @@ impl Crossing {
         let pairs = || own.iter().zip(theirs).map(relative);
         let own_way_m = pairs().map(|relative| -self.their.components(relative)[1] / self.sin);
         let their_way_m = pairs().map(|relative| -self.own.components(relative)[1] / self.sin);
-        match (arrival(own_way_m), arrival(their_way_m)) {
-            (Arrival::Past, _) | (_, Arrival::Past) | (Arrival::Never, Arrival::Never) => None,
-            (Arrival::After(own), Arrival::After(their)) if own > their => Some(PassingPosition::Behind),
-            (Arrival::Never, Arrival::After(_)) => Some(PassingPosition::Behind),
-            (Arrival::After(_), _) => Some(PassingPosition::Ahead),
-        }
+        first_to_arrive(arrival(own_way_m), arrival(their_way_m))
+    }
+}
+
+/// Who of two motions comes first to where the routes meet, while that is open.
+fn position_at_conflict(
+    scene: &Scene,
+    other: &Agent,
+    conflict: &RouteConflict,
+    own: &[State],
+    theirs: &[State],
+) -> Option<PassingPosition> {
+    let own_way_m = own.iter().map(|state| conflict.own_meeting_m - scene.ego.route.along(state.position()));
+    let their_way_m = theirs.iter().map(|state| conflict.their_meeting_m - other.route.along(state.position()));
+    first_to_arrive(arrival(own_way_m), arrival(their_way_m))
+}
+
+/// The order of two arrivals, while it is open.
+fn first_to_arrive(own: Arrival, their: Arrival) -> Option<PassingPosition> {
+    match (own, their) {
+        (Arrival::Past, _) | (_, Arrival::Past) | (Arrival::Never, Arrival::Never) => None,
+        (Arrival::After(own), Arrival::After(their)) if own > their => Some(PassingPosition::Behind),
+        (Arrival::Never, Arrival::After(_)) => Some(PassingPosition::Behind),
+        (Arrival::After(_), _) => Some(PassingPosition::Ahead),
     }
 }
 

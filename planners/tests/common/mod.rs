@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 pub mod derivatives;
+pub mod junction;
 pub mod world;
 
 use interplay_planners::trajectory::terms::{Comfort, KeepOut, Persuasion, RoadEdge, Separation, Tracking};

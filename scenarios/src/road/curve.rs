@@ -161,7 +161,7 @@ impl RoadCurve {
         let to_m = centre.length_m();
         let mut route = Route::curved(centre, right, Profile::constant(half_m), Profile::constant(half_m));
         // With a leg, the route can say where it turns most.
-        route.legs.push(RouteLeg { lane: "road".to_owned(), from_m: 0.0, to_m, offset_m: 0.0 });
+        route.legs.push(RouteLeg { lane: "road".to_owned(), to_m, ..RouteLeg::default() });
         Ok(Arc::new(route))
     }
 

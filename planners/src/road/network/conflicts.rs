@@ -22,6 +22,8 @@ pub enum ConflictKind {
     Merging,
     /// They come from the same lane and go on to different lanes.
     Diverging,
+    /// They use the same strip in opposite directions.
+    HeadOn,
 }
 
 /// Ends of conflicts are found to this share of the narrowest lane.

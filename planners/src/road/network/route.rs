@@ -6,6 +6,8 @@ use super::super::centre_line::CentreLine;
 use super::super::corridor::Corridor;
 use super::super::profile::Profile;
 use super::error::RouteError;
+use super::lane::RightOfWay;
+use super::route_set::RouteConflict;
 
 /// The way of a vehicle: a centre line, and the strip beside it that the vehicle may use.
 ///
@@ -23,6 +25,10 @@ pub struct Route {
     pub half_width: Profile,
     /// The lanes in the order in which the centre line follows them, without gaps.
     pub legs: Vec<RouteLeg>,
+    /// Its number in a set of routes that know where they meet; none for one that stands alone.
+    pub(super) number: Option<usize>,
+    /// Where it meets the others of that set.
+    pub(super) conflicts: Vec<RouteConflict>,
     /// The same strip as a straight road, if it is one.
     pub(super) straight: Option<Corridor>,
     /// Largest curvature of the centre line \[1/m\].
@@ -30,7 +36,7 @@ pub struct Route {
 }
 
 /// The part of a route on one lane.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RouteLeg {
     /// The name of the lane.
     pub lane: String,
@@ -40,6 +46,10 @@ pub struct RouteLeg {
     pub to_m: f64,
     /// Arc length of the route less that of the lane, where both run together \[m\].
     pub offset_m: f64,
+    /// Highest permitted speed on the lane \[m/s\].
+    pub speed_limit_mps: Option<f64>,
+    /// Who goes first at the end of the lane.
+    pub right_of_way: RightOfWay,
 }
 
 /// The place of a route with the largest curvature.
@@ -67,6 +77,8 @@ impl From<Corridor> for Route {
             left: Profile::constant(left_m),
             half_width: Profile::constant(0.5 * (left_m - right_m)),
             legs: Vec::new(),
+            number: None,
+            conflicts: Vec::new(),
             straight: Some(corridor),
             max_curvature_1pm: 0.0,
         }
@@ -83,7 +95,8 @@ impl Route {
     /// A curved road: the strip between two edges beside a line, given as lateral coordinates over its arc length \[m\].
     pub fn curved(centre: CentreLine, right: Profile, left: Profile, half_width: Profile) -> Route {
         let max_curvature_1pm = max_curvature(&centre).1.abs();
-        Route { centre, right, left, half_width, legs: Vec::new(), straight: None, max_curvature_1pm }
+        let (legs, conflicts) = (Vec::new(), Vec::new());
+        Route { centre, right, left, half_width, legs, number: None, conflicts, straight: None, max_curvature_1pm }
     }
 
     /// The same strip as a straight road, if it is one.
@@ -107,6 +120,17 @@ impl Route {
     /// lane's continuation, which may lie before or after the leg.
     pub fn along_m(&self, lane: &str, along_lane_m: f64) -> Option<f64> {
         self.legs.iter().find(|leg| leg.lane == lane).map(|leg| along_lane_m + leg.offset_m)
+    }
+
+    /// The speed at an arc length from which no lane ahead is entered faster than permitted, braking at `braking_mps2`; none
+    /// without speed limits \[m/s\].
+    pub fn permitted_speed_mps(&self, along_m: f64, braking_mps2: f64) -> Option<f64> {
+        let ahead = self.legs.iter().filter(|leg| leg.to_m > along_m || self.legs.last() == Some(leg));
+        let limits = ahead.filter_map(|leg| {
+            let room_m = (leg.from_m - along_m).max(0.0);
+            leg.speed_limit_mps.map(|limit_mps| (limit_mps * limit_mps + 2.0 * braking_mps2 * room_m).sqrt())
+        });
+        limits.min_by(f64::total_cmp)
     }
 
     /// The place with the largest curvature; none for a route without legs.

@@ -59,6 +59,8 @@ impl RoadNetwork {
             from_m: if index == 0 { 0.0 } else { middle_m(index - 1) },
             to_m: if index + 1 == parts.len() { centre.length_m() } else { middle_m(index) },
             offset_m: sections_m[index][0] - part.from_m,
+            speed_limit_mps: part.lane.speed_limit_mps,
+            right_of_way: part.lane.right_of_way,
         };
         let legs: Vec<RouteLeg> = parts.iter().enumerate().map(leg).collect();
         let strip = edges::strip(self, &centre, &legs, &sections_m);

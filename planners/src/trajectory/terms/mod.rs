@@ -6,7 +6,7 @@
 //! |---|---|---|
 //! | `StateCostTerm` | `φ_t(x_t)` | [`Tracking`], [`RoadTracking`], [`DistanceCost`] |
 //! | change of input | `‖u_t − u_{t−1}‖²_R` | [`Comfort`] |
-//! | `RowTerm` | the penalty of `c_t(x_t) + s ≥ 0` at every stage | [`RoadEdge`], [`KeepOut`], [`Separation`] |
+//! | `RowTerm` | the penalty of `c_t(x_t) + s ≥ 0` at every stage | [`RoadEdge`], [`StopLine`], [`KeepOut`], [`Separation`] |
 //! | `TrajectoryTerm` | the penalty of one row over all states of a vehicle | [`Persuasion`], [`MeanSpeed`] |
 //!
 //! To add a term: a file here, which implements a shape, and a variant of [`Term`] below.
@@ -20,6 +20,7 @@ mod road_edge;
 mod road_tracking;
 mod separation;
 mod shape;
+mod stop_line;
 mod tracking;
 
 pub use comfort::Comfort;
@@ -31,6 +32,7 @@ pub use road_edge::RoadEdge;
 pub use road_tracking::{RoadTarget, RoadTracking};
 pub use separation::Separation;
 pub(super) use shape::{MAX_ROWS_PER_STAGE, RowTerm, Shape, Subject, TrajectoryTerm};
+pub use stop_line::StopLine;
 pub use tracking::Tracking;
 
 /// A cost or soft constraint of a trajectory problem.
@@ -44,6 +46,8 @@ pub enum Term {
     Comfort(Comfort),
     /// Corners that stay on the road.
     RoadEdge(RoadEdge),
+    /// A line that a vehicle waits at.
+    StopLine(StopLine),
     /// An ellipse around a predicted motion that a vehicle keeps out of.
     KeepOut(KeepOut),
     /// Two deciding vehicles that keep apart.
@@ -64,6 +68,7 @@ impl Term {
             Term::RoadTracking(term) => Shape::StateCost(term),
             Term::Comfort(term) => Shape::InputChange(term),
             Term::RoadEdge(term) => Shape::Rows(term),
+            Term::StopLine(term) => Shape::Rows(term),
             Term::KeepOut(term) => Shape::Rows(term),
             Term::Separation(term) => Shape::Rows(term),
             Term::Persuasion(term) => Shape::Trajectory(term),

@@ -23,6 +23,8 @@ pub struct RoadTracking {
     pub route: Arc<Route>,
     /// Desired arc length \[m\], lateral coordinate \[m\] and speed \[m/s\].
     pub target: RoadTarget,
+    /// Highest permitted speeds at `t = 1…N`, which lower the desired one; `N` long, or empty without limits \[m/s\].
+    pub permitted_mps: Vec<f64>,
     /// Arc lengths near which the vehicle is expected at `t = 1…N`; `N` long \[m\]. They decide where the search for the nearest
     /// point begins.
     pub near_m: Vec<f64>,
@@ -39,6 +41,14 @@ pub struct RoadTarget {
     pub speed_mps: f64,
 }
 
+impl RoadTracking {
+    /// The desired speed at a stage \[m/s\].
+    fn speed_mps(&self, stage: usize) -> f64 {
+        let permitted_mps = self.permitted_mps.get(stage).copied().unwrap_or(f64::INFINITY);
+        self.target.speed_mps.min(permitted_mps)
+    }
+}
+
 impl StateCostTerm for RoadTracking {
     fn vehicle(&self) -> usize {
         self.vehicle
@@ -50,7 +60,7 @@ impl StateCostTerm for RoadTracking {
             at.along_m - self.target.along_m,
             at.across_m - self.target.across_m,
             state.heading_rad - at.heading_rad,
-            state.speed_mps - self.target.speed_mps,
+            state.speed_mps - self.speed_mps(stage),
         ];
         for (weight, deviation) in self.weights.iter().zip(deviation) {
             *total += weight * deviation * deviation;
@@ -70,7 +80,7 @@ impl StateCostTerm for RoadTracking {
             cost.heading_cross[axis] -= turn * psi[axis];
         }
         cost.gradient[2] += pull_turn;
-        cost.gradient[3] += speed * (state.speed_mps - self.target.speed_mps);
+        cost.gradient[3] += speed * (state.speed_mps - self.speed_mps(stage));
         let squares = |v: [f64; 2]| [v[0] * v[0], v[0] * v[1], v[1] * v[1]];
         let (ss, nn, pp) = (squares(s), squares(n), squares(psi));
         let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| along * ss[i] + across * nn[i] + turn * pp[i]);

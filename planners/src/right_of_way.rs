@@ -1,0 +1,206 @@
+//! Giving way: where a driver who keeps the rules of the road must wait.
+//!
+//! Humans and drivers after the intelligent driver model keep them; the planners that interact settle the order themselves.
+//! A driver waits at the line before a conflict ([`RouteConflict`])
+//!
+//! - until it has stood there once, if the sign says so,
+//! - while somebody who goes first comes so soon that the driver could not clear the conflict before,
+//! - while somebody is in the conflict, or past the own line towards it,
+//! - where the first to arrive goes first, while somebody stands who has stood for longer.
+//!
+//! A driver who is past its line, or could no longer stop before it, goes on.
+
+use std::collections::BTreeMap;
+
+use crate::road::network::{ConflictKind, Precedence, RightOfWay, RouteConflict};
+use crate::{Agent, Scene};
+
+/// A vehicle stands if it would come to rest within this share of its length, braking at [`REFERENCE_MPS2`].
+const STANDING_LENGTHS: f64 = 0.02;
+
+/// A vehicle that stands within this many lengths before its line waits there.
+const WAITING_LENGTHS: f64 = 1.0;
+
+/// A driver stops this many lengths before a line.
+const STOPPING_LENGTHS: f64 = 0.15;
+
+/// Time to spare between leaving a conflict and the other's arrival there: so often the time `√(length / 1 m/s²)`. For a
+/// 4.5 m long car 2.1 s.
+const SPARE_TIMES: f64 = 1.0;
+
+/// Acceleration that makes a time of a length \[m/s²\]. At any scale with equal accelerations, times grow alike.
+const REFERENCE_MPS2: f64 = 1.0;
+
+/// A driver enters a conflict with this share of its strongest acceleration.
+const ENTERING_SHARE: f64 = 0.6;
+
+/// A driver brakes for a line with at most this share of its strongest braking.
+const BRAKING_SHARE: f64 = 0.8;
+
+/// What a driver remembers of who waits since when.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WaitingMemory {
+    /// Since which tick each vehicle has stood at its line, with the line \[m\].
+    waiting: BTreeMap<String, Waiting>,
+    /// The last line at which the driver itself has stood \[m\].
+    stood_at_m: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    since: usize,
+    line_m: f64,
+}
+
+/// A driver and one of the vehicles that it meets.
+struct Pair<'a> {
+    ego: &'a Agent,
+    other: &'a Agent,
+    conflict: &'a RouteConflict,
+    wanted_mps: f64,
+}
+
+impl WaitingMemory {
+    /// How far along its route the front of the planning vehicle may come now; none if nothing holds it \[m\].
+    pub(crate) fn stop_line_m(&mut self, scene: &Scene) -> Option<f64> {
+        let ego = &scene.ego;
+        if !ego.route.is_in_network() {
+            return None;
+        }
+        for other in &scene.others {
+            let lines = other.route.conflicts_with(&ego.route).map(|conflict| conflict.own_line_m);
+            self.note(other, lines, scene.tick);
+        }
+        let signs = signed_lines(ego);
+        let own_lines = scene.others.iter().flat_map(|other| ego.route.conflicts_with(&other.route));
+        self.note(ego, own_lines.map(|conflict| conflict.own_line_m).chain(signs.iter().copied()), scene.tick);
+        if let Some(waiting) = self.waiting.get(&ego.name) {
+            self.stood_at_m = Some(waiting.line_m);
+        }
+        let stop = signs.into_iter().filter(|line_m| self.stood_at_m.is_none_or(|stood_m| stood_m < *line_m));
+        let pairs = scene.others.iter().flat_map(|other| {
+            let wanted_mps = scene.goal.target.speed_mps;
+            ego.route.conflicts_with(&other.route).map(move |conflict| Pair { ego, other, conflict, wanted_mps })
+        });
+        let held = pairs.filter(|pair| self.holds(pair)).map(|pair| pair.conflict.own_line_m);
+        let before_m = STOPPING_LENGTHS * length_m(ego);
+        let lines = stop.chain(held).filter(|line_m| can_stop(ego, *line_m - before_m));
+        lines.min_by(f64::total_cmp).map(|line_m| line_m - before_m)
+    }
+
+    /// Notes whether a vehicle stands at one of its lines.
+    fn note(&mut self, agent: &Agent, mut lines: impl Iterator<Item = f64>, tick: usize) {
+        let (front_m, near_m) = (front_m(agent), WAITING_LENGTHS * length_m(agent));
+        let at_m = lines.find(|line_m| is_standing(agent) && (0.0..near_m).contains(&(line_m - front_m)));
+        match at_m {
+            Some(line_m) => {
+                self.waiting.entry(agent.name.clone()).or_insert(Waiting { since: tick, line_m });
+            }
+            // Whoever has stood keeps its place in the order until it is past the line.
+            None => {
+                self.waiting.retain(|name, waiting| *name != agent.name || front_m < waiting.line_m);
+            }
+        }
+    }
+
+    /// Whether somebody keeps the driver from a conflict.
+    fn holds(&self, pair: &Pair) -> bool {
+        let Pair { ego, other, conflict, .. } = pair;
+        let (own_rear_m, their_rear_m) = (front_m(ego) - length_m(ego), front_m(other) - length_m(other));
+        if front_m(ego) > conflict.own_line_m
+            || own_rear_m > conflict.own_m[1]
+            || their_rear_m > conflict.their_m[1]
+            || ego.shares_lane_with(other)
+        {
+            return false;
+        }
+        let is_committed = front_m(other) > conflict.their_line_m;
+        match conflict.precedence {
+            _ if is_committed && conflict.kind != ConflictKind::Merging => pair.comes_too_soon(),
+            Precedence::Own => false,
+            Precedence::Other => pair.comes_too_soon(),
+            Precedence::ByArrival => self.arrived_later(pair),
+        }
+    }
+
+    /// Whether the other has arrived before the driver, or will.
+    fn arrived_later(&self, pair: &Pair) -> bool {
+        let Pair { ego, other, conflict, .. } = pair;
+        let [own, their] = [ego, other].map(|agent| self.waiting.get(&agent.name).map(|waiting| waiting.since));
+        match (own, their) {
+            (Some(own), Some(their)) => (their, &other.name) < (own, &ego.name),
+            (Some(_), None) => front_m(other) > conflict.their_line_m,
+            (None, Some(_)) => true,
+            (None, None) => {
+                let own_m = conflict.own_line_m - front_m(ego);
+                let their_m = conflict.their_line_m - front_m(other);
+                (their_m, &other.name) < (own_m, &ego.name) && pair.comes_too_soon()
+            }
+        }
+    }
+}
+
+impl Pair<'_> {
+    /// Whether the other, at its present speed, is in the conflict before the driver could have cleared it, with time to
+    /// spare.
+    fn comes_too_soon(&self) -> bool {
+        let Pair { ego, other, conflict, .. } = self;
+        let their_way_m = conflict.their_m[0] - front_m(other);
+        let speed_mps = other.state.speed_mps;
+        if their_way_m > 0.0 && is_standing(other) {
+            return false;
+        }
+        let their_s = if their_way_m > 0.0 { their_way_m / speed_mps } else { 0.0 };
+        let own_end_m = match conflict.kind {
+            // Whoever joins must be as fast as the one behind by then; half of the way is as good as that.
+            ConflictKind::Merging => conflict.own_meeting_m,
+            ConflictKind::Crossing | ConflictKind::Diverging | ConflictKind::HeadOn => conflict.own_m[1],
+        };
+        let own_way_m = own_end_m + length_m(ego) - front_m(ego);
+        let own_s =
+            time_s(own_way_m, ego.state.speed_mps, self.wanted_mps, ENTERING_SHARE * ego.limits.acceleration_max_mps2);
+        their_s < own_s + SPARE_TIMES * (length_m(ego) / REFERENCE_MPS2).sqrt()
+    }
+}
+
+/// The ends of lanes at which the vehicle must stand once, and has not passed \[m\].
+fn signed_lines(agent: &Agent) -> Vec<f64> {
+    let front_m = front_m(agent);
+    let signed = |sign: RightOfWay| matches!(sign, RightOfWay::Stop | RightOfWay::AllWayStop);
+    let legs = agent.route.legs.iter().filter(|leg| signed(leg.right_of_way) && leg.to_m >= front_m);
+    legs.map(|leg| leg.to_m).collect()
+}
+
+/// Where the front of a vehicle is on its route \[m\].
+fn front_m(agent: &Agent) -> f64 {
+    agent.route.along(agent.state.position()) + agent.body.front_m
+}
+
+fn length_m(agent: &Agent) -> f64 {
+    agent.body.front_m + agent.body.rear_m
+}
+
+fn is_standing(agent: &Agent) -> bool {
+    let speed_mps = agent.state.speed_mps;
+    speed_mps * speed_mps < 2.0 * REFERENCE_MPS2 * STANDING_LENGTHS * length_m(agent)
+}
+
+/// Whether a vehicle can stop before a place.
+fn can_stop(agent: &Agent, place_m: f64) -> bool {
+    let speed_mps = agent.state.speed_mps;
+    let braking_m = speed_mps * speed_mps / (2.0 * BRAKING_SHARE * agent.limits.acceleration_min_mps2.abs());
+    // Whoever stands a little beyond still waits.
+    front_m(agent) + braking_m <= place_m + STOPPING_LENGTHS * length_m(agent)
+}
+
+/// The time for a way from a speed on, with a constant acceleration up to a wanted speed \[s\].
+fn time_s(way_m: f64, speed_mps: f64, wanted_mps: f64, acceleration_mps2: f64) -> f64 {
+    let most_mps = wanted_mps.max(speed_mps);
+    let until_s = (most_mps - speed_mps) / acceleration_mps2;
+    let until_m = 0.5 * (speed_mps + most_mps) * until_s;
+    if way_m <= until_m {
+        let root = (speed_mps * speed_mps + 2.0 * acceleration_mps2 * way_m.max(0.0)).sqrt();
+        return (root - speed_mps) / acceleration_mps2;
+    }
+    if most_mps > 0.0 { until_s + (way_m - until_m) / most_mps } else { f64::INFINITY }
+}

@@ -1,0 +1,197 @@
+//! The routes of several vehicles through one network: where they meet, and who goes first there.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use super::conflicts::{ConflictKind, conflicts};
+use super::error::RouteError;
+use super::lane::RightOfWay;
+use super::road_network::{RoadNetwork, turn_rad};
+use super::route::{Route, RouteLeg};
+
+/// A place where a route meets another one of the same network, as the first one sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RouteConflict {
+    /// The number of the other route.
+    pub(super) with: usize,
+    /// Where the route is on the lanes of the other one, from and to \[m\].
+    pub own_m: [f64; 2],
+    /// Where the other one is on the lanes of this one \[m\].
+    pub their_m: [f64; 2],
+    /// Where a vehicle on this route waits before the conflict \[m\].
+    pub own_line_m: f64,
+    /// Where a vehicle on the other route waits \[m\].
+    pub their_line_m: f64,
+    /// Where the centre lines meet, on this route \[m\].
+    pub own_meeting_m: f64,
+    /// Where the centre lines meet, on the other one \[m\].
+    pub their_meeting_m: f64,
+    /// What the routes do there.
+    pub kind: ConflictKind,
+    /// Who goes first.
+    pub precedence: Precedence,
+}
+
+/// Who goes first where two routes meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precedence {
+    /// The vehicles on this route.
+    Own,
+    /// The vehicles on the other route.
+    Other,
+    /// Whoever arrives first.
+    ByArrival,
+}
+
+/// Approaches whose directions differ by less than this come from the same side, and by more than 180° less this from opposite
+/// sides \[rad\].
+const SAME_SIDE_RAD: f64 = 45.0 * PI / 180.0;
+
+/// A lane that turns by more than this to the left is a left turn \[rad\].
+const LEFT_TURN_RAD: f64 = 30.0 * PI / 180.0;
+
+impl RoadNetwork {
+    /// The routes along lists of lanes, each as by [`RoadNetwork::route`], that know where they meet each other and who goes
+    /// first there. Equal lists share a route.
+    ///
+    /// Who goes first follows from the signs at the ends of the lanes before the conflict ([`RightOfWay`]). Where both signs
+    /// say the same, whoever turns left lets those pass who come from the opposite side; otherwise whoever comes from the
+    /// right goes first. Where all stop, and where one lane serves both directions, the first to arrive goes first.
+    ///
+    /// # Errors
+    /// The number of the first list that is no route, and why.
+    pub fn routes<Name: AsRef<str>>(&self, lists: &[Vec<Name>]) -> Result<Vec<Arc<Route>>, (usize, RouteError)> {
+        let mut distinct: Vec<Route> = Vec::new();
+        let mut first_lists: Vec<&[Name]> = Vec::new();
+        let mut numbers = Vec::with_capacity(lists.len());
+        for (index, names) in lists.iter().enumerate() {
+            let is_same = |known: &&[Name]| known.iter().map(AsRef::as_ref).eq(names.iter().map(AsRef::as_ref));
+            let number = first_lists.iter().position(|known| is_same(&known));
+            if number.is_none() {
+                let mut route = self.route(names).map_err(|error| (index, error))?;
+                route.number = Some(distinct.len());
+                distinct.push(route);
+                first_lists.push(names);
+            }
+            numbers.push(number.unwrap_or(distinct.len() - 1));
+        }
+        let known: Vec<Vec<RouteConflict>> = distinct.iter().map(|own| with_all(own, &distinct)).collect();
+        for (route, conflicts) in distinct.iter_mut().zip(known) {
+            route.conflicts = conflicts;
+        }
+        let routes: Vec<Arc<Route>> = distinct.into_iter().map(Arc::new).collect();
+        Ok(numbers.into_iter().map(|number| Arc::clone(&routes[number])).collect())
+    }
+}
+
+impl Route {
+    /// Whether the route belongs to a set of routes, which know where they meet.
+    pub fn is_in_network(&self) -> bool {
+        self.number.is_some()
+    }
+
+    /// Where the route meets another one of the same set, in the order of this one.
+    pub fn conflicts_with<'a>(&'a self, other: &Route) -> impl Iterator<Item = &'a RouteConflict> {
+        let number = other.number;
+        self.conflicts.iter().filter(move |conflict| Some(conflict.with) == number)
+    }
+}
+
+/// What a route knows of its conflicts with all others.
+fn with_all(own: &Route, all: &[Route]) -> Vec<RouteConflict> {
+    let others = all.iter().enumerate().filter(|(_, other)| other.number != own.number);
+    let pairs = others.flat_map(|(number, other)| conflicts(own, other).into_iter().map(move |it| (number, other, it)));
+    let known = pairs.filter(|(_, _, conflict)| conflict.kind != ConflictKind::Diverging);
+    known
+        .map(|(with, other, conflict)| {
+            let kind = if is_head_on(own, other, &conflict.on_a) { ConflictKind::HeadOn } else { conflict.kind };
+            let (approach, their_approach) = (Approach::of(own, conflict.on_a), Approach::of(other, conflict.on_b));
+            let meeting = |route: &Route, partner: &Route, [from_m, to_m]: [f64; 2]| match kind {
+                ConflictKind::Crossing | ConflictKind::Diverging => 0.5 * (from_m + to_m),
+                // The lanes overlap before the centre lines meet.
+                ConflictKind::Merging => 0.5 * (from_m + to_m).min(2.0 * from_m + 2.0 * partner.half_width.value(0.0)),
+                ConflictKind::HeadOn => (from_m + route.half_width.value(from_m)).min(to_m),
+            };
+            RouteConflict {
+                with,
+                own_m: conflict.on_a,
+                their_m: conflict.on_b,
+                own_line_m: approach.line_m,
+                their_line_m: their_approach.line_m,
+                own_meeting_m: meeting(own, other, conflict.on_a),
+                their_meeting_m: meeting(other, own, conflict.on_b),
+                kind,
+                precedence: precedence(&approach, &their_approach, kind),
+            }
+        })
+        .collect()
+}
+
+/// Whether the routes run against each other from one end of a conflict to the other.
+fn is_head_on(own: &Route, other: &Route, ends_m: &[f64; 2]) -> bool {
+    ends_m.iter().all(|along_m| {
+        let at = own.centre.at(*along_m);
+        libm::cos(at.heading_rad - other.heading_at(at.position)) < -libm::cos(SAME_SIDE_RAD)
+    })
+}
+
+/// How a route comes to a conflict.
+struct Approach {
+    /// Where its vehicles wait \[m\].
+    line_m: f64,
+    /// The sign that they see there.
+    sign: RightOfWay,
+    /// Direction of the route there \[rad\].
+    heading_rad: f64,
+    /// By how much the lane of the conflict turns to the left \[rad\].
+    turn_rad: f64,
+}
+
+impl Approach {
+    fn of(route: &Route, [from_m, to_m]: [f64; 2]) -> Approach {
+        let middle_m = 0.5 * (from_m + to_m);
+        let place = |along_m: f64| route.legs.iter().position(|leg| along_m < leg.to_m);
+        let number = place(from_m).unwrap_or_default();
+        let leg = route.legs.get(number);
+        let before = number.checked_sub(1).and_then(|before| route.legs.get(before));
+        let sign_of = |leg: Option<&RouteLeg>| leg.map(|leg| leg.right_of_way).unwrap_or_default();
+        // A lane with a sign of its own that the conflict begins on is left for another lane, or reaches into the conflict.
+        let (line_m, sign) = if sign_of(leg) != RightOfWay::Priority {
+            (from_m, sign_of(leg))
+        } else {
+            (before.map_or(from_m, |before| before.to_m), sign_of(before))
+        };
+        let turning = place(middle_m).and_then(|number| route.legs.get(number));
+        let turn_rad =
+            turning.map_or(0.0, |leg| route.centre.at(leg.to_m).heading_rad - route.centre.at(leg.from_m).heading_rad);
+        Approach { line_m, sign, heading_rad: route.centre.at(line_m).heading_rad, turn_rad }
+    }
+
+    fn turns_left(&self) -> bool {
+        self.turn_rad > LEFT_TURN_RAD
+    }
+}
+
+fn precedence(own: &Approach, other: &Approach, kind: ConflictKind) -> Precedence {
+    let own_first = |is_own: bool| if is_own { Precedence::Own } else { Precedence::Other };
+    match (own.sign, other.sign) {
+        (RightOfWay::AllWayStop, RightOfWay::AllWayStop) => return Precedence::ByArrival,
+        (RightOfWay::Priority, RightOfWay::Priority) => {}
+        (RightOfWay::Priority, _) => return Precedence::Own,
+        (_, RightOfWay::Priority) => return Precedence::Other,
+        _ => {}
+    }
+    let from_right_rad = turn_rad(own.heading_rad, other.heading_rad);
+    if kind == ConflictKind::HeadOn || from_right_rad.abs() < SAME_SIDE_RAD {
+        return Precedence::ByArrival;
+    }
+    if from_right_rad.abs() > PI - SAME_SIDE_RAD {
+        return match (own.turns_left(), other.turns_left()) {
+            (true, false) => Precedence::Other,
+            (false, true) => Precedence::Own,
+            _ => Precedence::ByArrival,
+        };
+    }
+    // Whoever drives to the left comes from the right.
+    own_first(from_right_rad < 0.0)
+}

@@ -1,0 +1,61 @@
+//! A line at which a vehicle waits: its front stays before it, `s_line − front − s(p_t) ≥ 0`, softly, with an exact penalty.
+//!
+//! The gradient is `−∇s`, the Hessian `−∇²s`, both over the position; the body is taken along the road.
+
+use std::sync::Arc;
+
+use super::shape::{RowTerm, Subject};
+use crate::Route;
+use crate::trajectory::cost::Violation;
+use crate::trajectory::iterate::Iterate;
+use crate::trajectory::penalty::Penalty;
+use crate::vehicle::PoseExpansion;
+
+/// A line that the front of a vehicle stays before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StopLine {
+    /// Whose front.
+    pub vehicle: usize,
+    /// Distance from its mass centre to its front \[m\].
+    pub front_m: f64,
+    /// The road.
+    pub route: Arc<Route>,
+    /// Where the line is, along the road \[m\].
+    pub line_m: f64,
+    /// Arc lengths near which the vehicle is expected at `t = 1…N`; `N` long, or empty on a straight road \[m\].
+    pub near_m: Vec<f64>,
+    /// What crossing it costs.
+    pub penalty: Penalty,
+}
+
+impl RowTerm for StopLine {
+    fn subject(&self) -> Subject {
+        Subject { vehicle: self.vehicle, other: None }
+    }
+
+    fn penalty(&self) -> Penalty {
+        self.penalty
+    }
+
+    fn violation(&self) -> Option<Violation> {
+        None
+    }
+
+    fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
+        let position = iterate.states[self.vehicle][stage + 1].position();
+        let at = self.route.centre.expand(position, self.near_m.get(stage).copied());
+        let [sx, sy] = at.along_gradient;
+        let [xx, xy, yy] = at.along_hessian;
+        rows[0] = PoseExpansion {
+            value: self.line_m - self.front_m - at.along_m,
+            gradient: [-sx, -sy, 0.0],
+            hessian: [-xx, -xy, 0.0, -yy, 0.0, 0.0],
+        };
+    }
+
+    fn evaluate(&self, stage: usize, iterate: &Iterate, _room: &mut [PoseExpansion], values: &mut [f64]) {
+        let position = iterate.states[self.vehicle][stage + 1].position();
+        let at = self.route.locate(position, self.near_m.get(stage).copied());
+        values[0] = self.line_m - self.front_m - at.along_m;
+    }
+}
