@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, StopLine, Tracking};
 use crate::trajectory::{Participant, Penalty, Term};
 use crate::vehicle::Bicycle;
-use crate::vehicle::OrientedEllipse;
+use crate::vehicle::{OrientedEllipse, slip_on_curve_rad};
 use crate::{Axes, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
 
 /// Drivers brake for a speed limit with this share of their strongest braking.
@@ -100,6 +100,12 @@ impl Agent {
         self.route.permitted_speed_mps(along_m, COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs())
     }
 
+    /// The slip angles with which it follows its route at arc lengths \[rad\].
+    fn slips_rad(&self, along_m: &[f64]) -> Vec<f64> {
+        let curvature_1pm = |along_m: &f64| self.route.centre.at(*along_m).curvature_1pm;
+        along_m.iter().map(|along_m| slip_on_curve_rad(self.body.rear_axle_m, curvature_1pm(along_m))).collect()
+    }
+
     /// A line that its front stays before, as number `vehicle` of a trajectory problem.
     pub(crate) fn stop_line(&self, vehicle: usize, line_m: f64, horizon: usize, step_s: f64) -> StopLine {
         StopLine {
@@ -172,6 +178,7 @@ impl Scene {
             route: Arc::clone(route),
             target: RoadTarget { along_m: wanted.along_m, across_m: wanted.across_m, speed_mps: goal.target.speed_mps },
             permitted_mps,
+            slips_rad: self.ego.slips_rad(&near_m),
             near_m,
         })
     }

@@ -50,6 +50,7 @@ fn off_the_road(random: &mut Random) -> Problem {
             route: Arc::clone(&route),
             target: RoadTarget { along_m: 6.0, across_m: 0.2, speed_mps: 1.0 },
             permitted_mps: vec![0.8; HORIZON],
+            slips_rad: vec![0.03; HORIZON],
             near_m: near_m.clone(),
         }),
         Term::RoadEdge(RoadEdge {

@@ -34,7 +34,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
 fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFrame, vehicle: &Vehicle) -> Trajectory {
     let Some(before) = before else {
         let route = scenario.road.route(vehicle.road);
-        return steadily_along(&route, &now.state, scenario.horizon_steps, scenario.step_s);
+        return steadily_along(&route, &vehicle.body, &now.state, scenario.horizon_steps, scenario.step_s);
     };
     let mut plan = before.plan.trajectory.shifted();
     plan.states[0] = now.state;

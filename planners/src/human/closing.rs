@@ -26,7 +26,7 @@ fn cuts_in(scene: &Scene, other: &Agent) -> bool {
     }
     let lateral = own.route.across(own.state.position());
     let reach = 0.5 * (own.body.width_m + other.body.width_m);
-    let predicted = steadily_along(&other.route, &other.state, scene.horizon, scene.step_s);
+    let predicted = steadily_along(&other.route, &other.body, &other.state, scene.horizon, scene.step_s);
     predicted.states.iter().any(|state| (own.route.across(state.position()) - lateral).abs() < reach)
 }
 

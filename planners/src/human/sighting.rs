@@ -47,7 +47,11 @@ impl Sighting {
 
 /// A vehicle some ticks later: its state at constant velocity, and what is left of its plan.
 fn later(then: &Agent, ticks: usize, step_s: f64) -> Agent {
-    let state = steadily_along(&then.route, &then.state, ticks, step_s).states.last().copied().unwrap_or(then.state);
+    let state = steadily_along(&then.route, &then.body, &then.state, ticks, step_s)
+        .states
+        .last()
+        .copied()
+        .unwrap_or(then.state);
     let mut prediction = (0..ticks).fold(then.prediction.clone(), |plan, _| plan.shifted());
     if let Some(first) = prediction.states.first_mut() {
         *first = state;

@@ -6,6 +6,9 @@ use super::Mobil;
 use super::car_following::Leader;
 use crate::{Agent, Scene, State};
 
+/// What is missing of the width of a lane beside the route may be up to this share.
+const LEAST_LANE_SHARE: f64 = 0.1;
+
 /// The lanes of a road.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lanes {
@@ -18,9 +21,20 @@ impl Lanes {
     /// The lanes of the ego's road; at least one.
     pub(super) fn of_road(scene: &Scene, mobil: &Mobil) -> Lanes {
         let road = &scene.ego.route;
-        let [right_m, left_m] = road.edges_before_end_m(road.along(scene.ego.state.position()));
+        let along_m = road.along(scene.ego.state.position());
+        if road.is_in_network() {
+            return Lanes::beside_route(road.same_direction_edges_m(along_m), 2.0 * road.half_width.value(along_m));
+        }
+        let [right_m, left_m] = road.edges_before_end_m(along_m);
         let count = ((left_m - right_m) / mobil.lane_width_m).round().max(1.0) as usize;
         Lanes { right_m, width_m: mobil.lane_width_m, count }
+    }
+
+    /// The lane that the route follows, and those beside it that have room between the edges.
+    fn beside_route([right_m, left_m]: [f64; 2], width_m: f64) -> Lanes {
+        let on_side = |room_m: f64| (room_m / width_m - 0.5 + LEAST_LANE_SHARE).floor().max(0.0) as usize;
+        let (to_right, to_left) = (on_side(-right_m), on_side(left_m));
+        Lanes { right_m: -(to_right as f64 + 0.5) * width_m, width_m, count: to_right + 1 + to_left }
     }
 
     /// The lane in which a lateral position lies; beside the road, the nearest.
@@ -39,7 +53,7 @@ impl Lanes {
 fn is_in(scene: &Scene, lanes: &Lanes, lane: usize, other: &Agent, t: usize) -> bool {
     let lateral = scene.ego.route.across(at(other, t).position());
     let reach = 0.5 * (lanes.width_m + other.body.width_m);
-    !scene.ego.crosses(other) && (lateral - lanes.centre_m(lane)).abs() < reach
+    (lateral - lanes.centre_m(lane)).abs() < reach
 }
 
 /// Where a vehicle is at time `t` of its prediction.

@@ -12,6 +12,7 @@ mod settings;
 
 pub use settings::{Mobil, Settings};
 
+use crate::relation::Relation;
 use crate::right_of_way::WaitingMemory;
 use crate::steering::{admissible, roll_out, steer};
 use crate::{Input, Plan, PlanError, PlanEvent, Scene};
@@ -39,13 +40,16 @@ impl Idm {
     /// # Errors
     /// Never; the signature is that of all planners.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let scene = &self.settings.prediction.applied_to(scene);
+        let line_m = self.waiting.stop_line_m(scene);
+        let scene = &along_the_road(&self.settings.prediction.applied_to(scene));
         let lanes = Lanes::of_road(scene, &self.settings.mobil);
-        let now = self.lane.unwrap_or_else(|| lanes.at(scene.ego.route.across(scene.ego.state.position())));
+        let nearest_lane = lanes.at(scene.ego.route.across(scene.ego.state.position()));
+        // On a network the lanes beside the route, by which its lane is counted, come and go.
+        let is_near = |lane: &usize| !scene.ego.route.is_in_network() || lane.abs_diff(nearest_lane) <= 1;
+        let now = self.lane.filter(is_near).unwrap_or(nearest_lane);
         let choice = mobil::choose(scene, &self.settings, now);
         self.lane = Some(choice.lane);
         let (own, wanted) = (&scene.ego, scene.goal.target.speed_mps);
-        let line_m = self.waiting.stop_line_m(scene);
         let lateral = lanes.centre_m(choice.lane);
         let trajectory = roll_out(scene, |t, state| {
             // In the lane that it leaves it minds the vehicle ahead until it is out of it.
@@ -69,6 +73,14 @@ impl Idm {
             .collect();
         Ok(Plan { trajectory, diagnostics, events, ..Plan::default() })
     }
+}
+
+/// The scene with those others only that are on the same road.
+fn along_the_road(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let Scene { ego, others, .. } = &mut scene;
+    others.retain(|other| ego.relation(other) == Relation::Alongside);
+    scene
 }
 
 fn nearest(leaders: [Option<Leader>; 3]) -> Option<Leader> {

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::road::centre_line::{RoadExpansion, RoadPoint};
 use crate::steering::steer;
-use crate::{Agent, Input, Limits, Route, Scene, State, Trajectory};
+use crate::vehicle::slip_on_curve_rad;
+use crate::{Agent, Body, Input, Limits, Route, Scene, State, Trajectory};
 
 /// How a driver predicts the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -26,7 +27,7 @@ impl Prediction {
     pub fn of(self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
         match self {
             Prediction::Plan => agent.prediction.clone(),
-            Prediction::ConstantVelocity => steadily_along(&agent.route, &agent.state, horizon, step_s),
+            Prediction::ConstantVelocity => steadily_along(&agent.route, &agent.body, &agent.state, horizon, step_s),
         }
     }
 
@@ -57,13 +58,18 @@ pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajecto
 
 /// The motion of a vehicle that keeps its speed and its angle to the road: on a straight road [`constant_velocity`].
 ///
-/// In road coordinates, with the angle `φ` to the road: `s′ = v cos φ/(1 − κ n)`, `n′ = v sin φ`, by Euler's method.
-pub fn steadily_along(route: &Route, state: &State, horizon: usize, step_s: f64) -> Trajectory {
+/// In road coordinates, with the angle `φ` of the motion to the road: `s′ = v cos φ/(1 − κ n)`, `n′ = v sin φ`, by Euler's
+/// method. The motion leads outward of the heading by the slip angle of the curve.
+pub fn steadily_along(route: &Route, body: &Body, state: &State, horizon: usize, step_s: f64) -> Trajectory {
     if route.straight().is_some() {
         return constant_velocity(state, horizon, step_s);
     }
     let mut at = route.locate(state.position(), None);
-    let angle_rad = state.heading_rad - at.heading_rad;
+    let slip_rad = |at: &RoadPoint| {
+        let stretch = (1.0 - at.curvature_1pm * at.across_m).max(RoadExpansion::MIN_STRETCH);
+        slip_on_curve_rad(body.rear_axle_m, at.curvature_1pm / stretch)
+    };
+    let angle_rad = state.heading_rad + slip_rad(&at) - at.heading_rad;
     let (sin, cos) = libm::sincos(angle_rad);
     let mut states = vec![*state];
     for _ in 0..horizon {
@@ -73,7 +79,7 @@ pub fn steadily_along(route: &Route, state: &State, horizon: usize, step_s: f64)
         let point = route.centre.at(along_m);
         at = RoadPoint { along_m, across_m, heading_rad: point.heading_rad, curvature_1pm: point.curvature_1pm };
         let [x_m, y_m] = route.position(along_m, across_m);
-        states.push(State { x_m, y_m, heading_rad: point.heading_rad + angle_rad, ..*state });
+        states.push(State { x_m, y_m, heading_rad: point.heading_rad + angle_rad - slip_rad(&at), ..*state });
     }
     Trajectory { states, inputs: vec![Input::default(); horizon] }
 }
@@ -110,7 +116,6 @@ pub fn steady(state: &State, acceleration_mps2: f64, limits: &Limits, horizon: u
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Body;
     use crate::vehicle::Bicycle;
 
     #[test]

@@ -30,8 +30,8 @@ impl CommittedPlan {
     /// What is expected of a vehicle before it has planned again: its plan one step further, from where it really
     /// is (a plant need not follow the plan exactly); before the first plan, constant velocity.
     pub fn prediction(&self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
-        let Agent { route, state, .. } = agent;
-        let Some(plan) = &self.trajectory else { return steadily_along(route, state, horizon, step_s) };
+        let Agent { route, body, state, .. } = agent;
+        let Some(plan) = &self.trajectory else { return steadily_along(route, body, state, horizon, step_s) };
         let mut prediction = plan.shifted();
         if let Some(first) = prediction.states.first_mut() {
             *first = *state;

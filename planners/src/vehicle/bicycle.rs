@@ -77,6 +77,15 @@ impl DynamicsCurvature {
     }
 }
 
+/// Largest sine of a slip angle on a curve.
+const MAX_SIN_SLIP: f64 = 0.9;
+
+/// The slip angle at which the mass centre of a bicycle moves along a curve: `sin β = L_r κ` (eq. 6.3). It heads that much
+/// further outward than it moves \[rad\].
+pub(crate) fn slip_on_curve_rad(rear_axle_m: f64, curvature_1pm: f64) -> f64 {
+    libm::asin((rear_axle_m * curvature_1pm).clamp(-MAX_SIN_SLIP, MAX_SIN_SLIP))
+}
+
 /// Sine and cosine of the direction of motion `φ` and of the slip angle `β`, with the derivatives of `β`.
 struct Slip {
     sin_course: f64,

@@ -8,6 +8,7 @@ mod safety_ellipse;
 mod state;
 mod steering_geometry;
 
+pub(crate) use bicycle::slip_on_curve_rad;
 pub use bicycle::{Bicycle, DynamicsCurvature, Jacobian};
 pub use body::Body;
 pub use limits::Limits;

@@ -129,7 +129,7 @@ pub fn moved_to(route: &Arc<Route>, mut vehicles: Vec<Vehicle>) -> Vec<Vehicle> 
         agent.state = place(agent.state);
         vehicle.goal.target = place(vehicle.goal.target);
         let steps = agent.prediction.horizon();
-        agent.prediction = steadily_along(route, &agent.state, steps, STEP_S);
+        agent.prediction = steadily_along(route, &agent.body, &agent.state, steps, STEP_S);
     }
     vehicles
 }

@@ -11,6 +11,8 @@ pub(super) struct Strip {
     pub right: Profile,
     pub left: Profile,
     pub half_width: Profile,
+    /// The same edges, without lanes that are driven in the opposite direction.
+    pub same_direction: [Profile; 2],
 }
 
 /// Most by which an edge moves sideways per metre where a neighbour begins or ends.
@@ -44,9 +46,10 @@ pub(super) fn strip(network: &RoadNetwork, centre: &CentreLine, legs: &[RouteLeg
     let mut right = Vec::with_capacity(count + 1);
     let mut left = Vec::with_capacity(count + 1);
     let mut half_width = Vec::with_capacity(count + 1);
+    let mut same_direction: [Vec<[f64; 2]>; 2] = Default::default();
     for place in 0..=count {
         let along_m = length_m * place as f64 / count as f64;
-        let mut edges_m = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut edges_m = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
         let mut half_m = f64::INFINITY;
         for (index, lane) in lanes.iter().enumerate() {
             let begin_m = index.checked_sub(1).map_or(f64::NEG_INFINITY, |before| sections_m[before][1]);
@@ -54,17 +57,28 @@ pub(super) fn strip(network: &RoadNetwork, centre: &CentreLine, legs: &[RouteLeg
             if along_m >= begin_m && along_m <= end_m {
                 let point = centre.at(along_m);
                 let near = Place { network, centre, along_m, point, width_m: narrowest_m };
-                let (right_m, left_m) = (near.edge_m(lane, -1.0), near.edge_m(lane, 1.0));
-                edges_m = [edges_m[0].min(right_m), edges_m[1].max(left_m)];
+                for (edges_m, with_oncoming) in edges_m.iter_mut().zip([true, false]) {
+                    let (right_m, left_m) =
+                        (near.edge_m(lane, -1.0, with_oncoming), near.edge_m(lane, 1.0, with_oncoming));
+                    *edges_m = [edges_m[0].min(right_m), edges_m[1].max(left_m)];
+                }
                 half_m = half_m.min(lane.half_width_m(lane.centre.project(point.position, None).along_m));
             }
         }
-        right.push([along_m, -edges_m[0]]);
-        left.push([along_m, edges_m[1]]);
+        right.push([along_m, -edges_m[0][0]]);
+        left.push([along_m, edges_m[0][1]]);
+        same_direction[0].push([along_m, -edges_m[1][0]]);
+        same_direction[1].push([along_m, edges_m[1][1]]);
         half_width.push([along_m, half_m]);
     }
     let smoothed = |knots: Vec<[f64; 2]>, sign: f64| smooth_edge(knots, EQUAL_RATIO * narrowest_m, sign);
-    Strip { right: smoothed(right, -1.0), left: smoothed(left, 1.0), half_width: smoothed(half_width, 1.0) }
+    let [own_right, own_left] = same_direction;
+    Strip {
+        right: smoothed(right, -1.0),
+        left: smoothed(left, 1.0),
+        half_width: smoothed(half_width, 1.0),
+        same_direction: [smoothed(own_right, -1.0), smoothed(own_left, 1.0)],
+    }
 }
 
 /// A place on a route.
@@ -79,18 +93,20 @@ struct Place<'a> {
 
 impl Place<'_> {
     /// Lateral coordinate of the outer edge of a lane or of the last open neighbour on a side of it: 1 for the left, −1 for
-    /// the right \[m\].
-    fn edge_m(&self, lane: &Lane, side: f64) -> f64 {
+    /// the right. A lane in the opposite direction counts `with_oncoming` if one may use it, and is the last one \[m\].
+    fn edge_m(&self, lane: &Lane, side: f64, with_oncoming: bool) -> f64 {
         let (mut lane, mut edge_m) = (lane, self.lane_edge_m(lane, side).1);
         // A lane has a neighbour at most once on each side, unless neighbours form a ring.
         for _ in self.network.lanes() {
             let neighbour: Option<&LaneNeighbour> = if side > 0.0 { lane.left.as_ref() } else { lane.right.as_ref() };
-            let Some(next) = neighbour.filter(|next| next.is_open()).and_then(|next| self.network.lane(&next.lane))
-            else {
-                break;
-            };
+            let is_usable = |next: &&LaneNeighbour| next.is_open() || (with_oncoming && next.may_change);
+            let Some(neighbour) = neighbour.filter(is_usable) else { break };
+            let Some(next) = self.network.lane(&neighbour.lane) else { break };
             let Some(next_edge_m) = self.beside(next, side) else { break };
             edge_m = if side > 0.0 { edge_m.max(next_edge_m) } else { edge_m.min(next_edge_m) };
+            if !neighbour.is_open() {
+                break;
+            }
             lane = next;
         }
         edge_m
@@ -115,9 +131,11 @@ impl Place<'_> {
         let mut edge_m = 0.0;
         let mut beside = lane.centre.project(self.point.position, None);
         for _ in 0..EDGE_STEPS {
-            let missing_m = side * lane.half_width_m(beside.along_m) - beside.across_m;
             let cos = libm::cos(beside.heading_rad - self.point.heading_rad);
-            edge_m += missing_m / cos.max(LEAST_COSINE);
+            // The left of a lane in the opposite direction is to the right.
+            let direction = if cos < 0.0 { -1.0 } else { 1.0 };
+            let missing_m = direction * side * lane.half_width_m(beside.along_m) - beside.across_m;
+            edge_m += direction * missing_m / (direction * cos).max(LEAST_COSINE);
             beside = lane.centre.project(self.centre.position(self.along_m, edge_m), Some(beside.along_m));
         }
         let beyond_m = (-beside.along_m).max(beside.along_m - lane.centre.length_m());

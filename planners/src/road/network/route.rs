@@ -25,6 +25,9 @@ pub struct Route {
     pub half_width: Profile,
     /// The lanes in the order in which the centre line follows them, without gaps.
     pub legs: Vec<RouteLeg>,
+    /// The right and the left edge of the part of the strip that is driven in the direction of the route \[m\]; none where that
+    /// is all of it.
+    pub(super) same_direction: Option<[Profile; 2]>,
     /// Its number in a set of routes that know where they meet; none for one that stands alone.
     pub(super) number: Option<usize>,
     /// Where it meets the others of that set.
@@ -77,6 +80,7 @@ impl From<Corridor> for Route {
             left: Profile::constant(left_m),
             half_width: Profile::constant(0.5 * (left_m - right_m)),
             legs: Vec::new(),
+            same_direction: None,
             number: None,
             conflicts: Vec::new(),
             straight: Some(corridor),
@@ -96,7 +100,18 @@ impl Route {
     pub fn curved(centre: CentreLine, right: Profile, left: Profile, half_width: Profile) -> Route {
         let max_curvature_1pm = max_curvature(&centre).1.abs();
         let (legs, conflicts) = (Vec::new(), Vec::new());
-        Route { centre, right, left, half_width, legs, number: None, conflicts, straight: None, max_curvature_1pm }
+        Route {
+            centre,
+            right,
+            left,
+            half_width,
+            legs,
+            same_direction: None,
+            number: None,
+            conflicts,
+            straight: None,
+            max_curvature_1pm,
+        }
     }
 
     /// The same strip as a straight road, if it is one.

@@ -66,6 +66,7 @@ impl RoadNetwork {
         let strip = edges::strip(self, &centre, &legs, &sections_m);
         let mut route = Route::curved(centre, strip.right, strip.left, strip.half_width);
         route.legs = legs;
+        route.same_direction = Some(strip.same_direction);
         Ok(route)
     }
 }

@@ -36,6 +36,14 @@ impl Route {
         [self.right.value_before_end(along_m), self.left.value(along_m)]
     }
 
+    /// Lateral coordinates of the edges of the lanes that are driven in the direction of the route \[m\].
+    pub fn same_direction_edges_m(&self, along_m: f64) -> [f64; 2] {
+        match &self.same_direction {
+            Some([right, left]) => [right.value(along_m), left.value(along_m)],
+            None => self.edges_before_end_m(along_m),
+        }
+    }
+
     /// The end of the rightmost lane, if it ends.
     pub fn lane_end(&self) -> Option<LaneEnd> {
         self.right.end()

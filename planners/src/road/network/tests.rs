@@ -317,3 +317,21 @@ fn a_position_is_located_on_the_lanes_that_hold_it() {
     let crossing = two_lanes().locate([10.0, 1.75], 0.0);
     assert_eq!(crossing.len(), 2, "the edge between two lanes belongs to both");
 }
+
+/// Where overtaking is permitted, the strip holds the oncoming lane, and the edges of the own direction do not.
+#[test]
+fn an_oncoming_lane_belongs_to_the_strip_where_it_may_be_used() {
+    let oncoming = |lane: &str, may_change: bool| {
+        Some(LaneNeighbour { lane: lane.to_owned(), relation: NeighbourRelation::Oncoming, may_change })
+    };
+    for (may_change, left_m) in [(true, 5.25), (false, 1.75)] {
+        let mut east = straight("east", [0.0, 0.0], 0.0, 100.0);
+        let mut west = straight("west", [100.0, 3.5], PI, 100.0);
+        (east.left, west.left) = (oncoming("west", may_change), oncoming("east", may_change));
+        let route = network(vec![east, west]).route(&["east"]).expect("a route");
+        let [right, left] = route.edges_before_end_m(40.0);
+        assert!((right + 1.75).abs() < 1e-6 && (left - left_m).abs() < 1e-6, "{right} {left}");
+        let [own_right, own_left] = route.same_direction_edges_m(40.0);
+        assert!((own_right + 1.75).abs() < 1e-6 && (own_left - 1.75).abs() < 1e-6);
+    }
+}

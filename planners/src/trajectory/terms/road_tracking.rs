@@ -1,7 +1,7 @@
 //! Tracking in road coordinates: `Σ_{t=1…N} q_s (s − s*)² + q_n (n − n*)² + q_θ (θ − ψ(s))² + q_v (v − v*)²` (eq. 6.6 along a
-//! curved road), with `ψ` the direction of the road beside the vehicle.
+//! curved road), with `ψ` the direction of the road beside the vehicle, less the slip angle that the curve takes.
 //!
-//! With `e_θ = θ − ψ(s)`, whose gradient is `(−ψ′ ∇s, 1)`, the Gauss-Newton part of the Hessian is
+//! With `e_θ = θ − ψ(s) + β_t`, whose gradient is `(−ψ′ ∇s, 1)`, the Gauss-Newton part of the Hessian is
 //! `2 Σ q ∇e ∇eᵀ`. The rest is `2 (q_s e_s ∇²s + q_n e_n ∇²n − q_θ e_θ (ψ′ ∇²s + ψ″ ∇s ∇sᵀ))`, over the position only.
 //!
 //! On a straight road this is [`Tracking`](super::Tracking).
@@ -25,6 +25,9 @@ pub struct RoadTracking {
     pub target: RoadTarget,
     /// Highest permitted speeds at `t = 1…N`, which lower the desired one; `N` long, or empty without limits \[m/s\].
     pub permitted_mps: Vec<f64>,
+    /// Slip angles of a vehicle that follows the road at `t = 1…N`, by which it heads outward of the road; `N` long, or empty for
+    /// none \[rad\].
+    pub slips_rad: Vec<f64>,
     /// Arc lengths near which the vehicle is expected at `t = 1…N`; `N` long \[m\]. They decide where the search for the nearest
     /// point begins.
     pub near_m: Vec<f64>,
@@ -47,6 +50,11 @@ impl RoadTracking {
         let permitted_mps = self.permitted_mps.get(stage).copied().unwrap_or(f64::INFINITY);
         self.target.speed_mps.min(permitted_mps)
     }
+
+    /// The slip angle at a stage \[rad\].
+    fn slip_rad(&self, stage: usize) -> f64 {
+        self.slips_rad.get(stage).copied().unwrap_or_default()
+    }
 }
 
 impl StateCostTerm for RoadTracking {
@@ -59,7 +67,7 @@ impl StateCostTerm for RoadTracking {
         let deviation = [
             at.along_m - self.target.along_m,
             at.across_m - self.target.across_m,
-            state.heading_rad - at.heading_rad,
+            state.heading_rad - at.heading_rad + self.slip_rad(stage),
             state.speed_mps - self.speed_mps(stage),
         ];
         for (weight, deviation) in self.weights.iter().zip(deviation) {
@@ -72,7 +80,7 @@ impl StateCostTerm for RoadTracking {
         let [along, across, turn, speed] = self.weights.map(|weight| 2.0 * weight);
         let pull_along = along * (at.along_m - self.target.along_m);
         let pull_across = across * (at.across_m - self.target.across_m);
-        let pull_turn = turn * (state.heading_rad - at.heading_rad);
+        let pull_turn = turn * (state.heading_rad - at.heading_rad + self.slip_rad(stage));
         let (s, n) = (at.along_gradient, at.across_gradient);
         let psi = s.map(|slope| at.heading_slope_radpm * slope);
         for axis in 0..2 {
