@@ -6,6 +6,9 @@ use super::Mobil;
 use super::car_following::Leader;
 use crate::{Agent, Scene, State};
 
+/// Width of lanes where nothing is said of it, for 1/10 scale cars \[m\].
+const LANE_WIDTH_M: f64 = 0.37;
+
 /// The lanes of a road.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lanes {
@@ -19,8 +22,9 @@ impl Lanes {
     pub(super) fn of_road(scene: &Scene, mobil: &Mobil) -> Lanes {
         let road = &scene.ego.route;
         let [right_m, left_m] = road.edges_before_end_m(road.along(scene.ego.state.position()));
-        let count = ((left_m - right_m) / mobil.lane_width_m).round().max(1.0) as usize;
-        Lanes { right_m, width_m: mobil.lane_width_m, count }
+        let width_m = mobil.lane_width_m.unwrap_or(LANE_WIDTH_M * scene.ego.body.scale);
+        let count = ((left_m - right_m) / width_m).round().max(1.0) as usize;
+        Lanes { right_m, width_m, count }
     }
 
     /// The lane in which a lateral position lies; beside the road, the nearest.
