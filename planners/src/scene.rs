@@ -72,7 +72,7 @@ impl Agent {
             body: self.body,
             route: Arc::clone(&self.route),
             near_m: self.expected_along_m(horizon, step_s),
-            penalty: Penalty::ROAD_EDGE,
+            penalty: Penalty::road_edge(self.body.scale),
         }
     }
 

@@ -9,6 +9,7 @@ pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
         rear_axle_m: agent.body.rear_axle_m,
         wheelbase_m: agent.body.wheelbase_m(),
         steering_max_rad: agent.limits.steering_max_rad,
+        time_ratio: agent.body.time_ratio(),
     };
     let at = agent.route.locate(state.position(), None);
     at.steer(&geometry, state, lateral_m)

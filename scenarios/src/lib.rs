@@ -20,6 +20,7 @@
 
 mod building;
 mod changed;
+mod classes;
 mod commented;
 mod consistency;
 mod counterfactual;
@@ -46,6 +47,7 @@ mod weather;
 mod weather_file;
 
 pub use building::{BuildingConfig, FloorPlan, Grid, Preset};
+pub use classes::{GoalDefaults, NamedScale, ScenarioScale, VehicleClass, VehicleDefaults};
 pub use commented::commented;
 pub use counterfactual::Counterfactual;
 pub use embedded::{Embedded, embedded};

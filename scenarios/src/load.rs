@@ -1,5 +1,6 @@
 //! From a name to a checked [`Scenario`]; see the crate's documentation for the way.
 
+use crate::classes::{expand, with_defaults};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::merge::merge_tables;
 use crate::overrides::Override;
@@ -58,11 +59,13 @@ fn finish(name: &str, mut tree: TomlNode, overrides: &[Override]) -> Result<Scen
 
 /// The scenario that a whole tree describes, but for what its counterfactuals run.
 fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
+    let tree = &with_defaults(tree.clone())?;
     let faults = schema_check::check(tree);
     if !faults.is_empty() {
         return Err(faults);
     }
     let mut stated = tree.to_json();
+    expand(&mut stated);
     let faults = resolve_starts(&mut stated, tree);
     if !faults.is_empty() {
         return Err(faults);

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::building::BuildingConfig;
+use crate::classes::{ScenarioScale, VehicleClass, VehicleDefaults};
 use crate::counterfactual::Counterfactual;
 use crate::expect::Expect;
 use crate::name;
@@ -37,11 +38,18 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(example = &"6.1")]
     pub figure: Option<String>,
-    /// Simulated time \[s\].
+    /// The size of everything: `"tenth"` for 1/10 scale cars, `"full"` for real ones, or a ratio of lengths to 1/10 scale. What
+    /// the file does not state is scaled by it, by Froude's law: lengths by `λ`, times and speeds by `√λ`, accelerations by
+    /// 1. By default the size of the vehicles' classes; without them 1/10 scale.
+    #[serde(default)]
+    #[schemars(extend("x-concerns" = "vehicles"), example = &"full")]
+    pub scale: Option<ScenarioScale>,
+    /// Simulated time; 12 s at 1/10 scale, and `√λ` times as long at another `scale` \[s\].
     #[serde(default = "defaults::duration_s")]
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"))]
     pub duration_s: f64,
-    /// Time from one tick to the next; all vehicles plan and move once a tick \[s\].
+    /// Time from one tick to the next; all vehicles plan and move once a tick. It is 0.1 s at 1/10 scale, and `√λ` times as
+    /// long at another `scale`, so that a horizon of as many ticks covers the same motion \[s\].
     #[serde(default = "defaults::step_s")]
     #[schemars(range(min = 0.001), extend("x-concerns" = "vehicles"))]
     pub step_s: f64,
@@ -68,6 +76,10 @@ pub struct Scenario {
     #[serde(rename = "vehicle", default)]
     #[schemars(length(max = 64), extend("x-concerns" = "vehicles"), extend("x-merge-by" = "name"))]
     pub vehicles: Vec<Vehicle>,
+    /// What holds for every vehicle that does not state it. Each key of a table counts for itself.
+    #[serde(default)]
+    #[schemars(extend("x-concerns" = "vehicles"), example = json!({ "class": "car" }))]
+    pub defaults: Option<VehicleDefaults>,
     /// The building; without the table there is none.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "preset": "testbed" }))]
@@ -183,6 +195,11 @@ pub struct Vehicle {
     /// Its name, unique in the file; it becomes part of paths in the recording.
     #[schemars(extend("pattern" = name::pattern()), example = &"ego")]
     pub name: String,
+    /// What sort of vehicle it is: the default of `body`, `limits` and `safety`, and the size to which the defaults of its
+    /// weights and of its driver's settings are scaled. By default a car of the scenario's `scale`.
+    #[serde(default)]
+    #[schemars(example = &"car")]
+    pub class: Option<VehicleClass>,
     /// The road it drives on; by default the one along x, and there is another at intersections only.
     #[serde(default)]
     pub road: Branch,
@@ -196,13 +213,13 @@ pub struct Vehicle {
     /// Weights of deviations from its goal and of changes of its inputs.
     #[serde(default)]
     pub weights: Weights,
-    /// Its size and axles; by default Table 6.1.
+    /// Its size and axles; by default those of its class, or Table 6.1.
     #[serde(default)]
     pub body: Body,
-    /// The bounds of its inputs and its speed; by default Table 6.2.
+    /// The bounds of its inputs and its speed; by default those of its class, or Table 6.2.
     #[serde(default)]
     pub limits: Limits,
-    /// The ellipse around each other vehicle that it keeps out of; by default Table 6.2.
+    /// The ellipse around each other vehicle that it keeps out of; by default that of its class, or Table 6.2.
     #[serde(default)]
     pub safety: SafetyEllipse,
     /// Its driver, `kind` choosing; by default a nice human.

@@ -20,6 +20,15 @@ pub(crate) fn check(tree: &TomlNode) -> Vec<Fault> {
     checker.faults
 }
 
+/// Everything that is wrong with the shape of one table of the file, which `key` leads to.
+pub(crate) fn check_table(node: &TomlNode, key: &str) -> Vec<Fault> {
+    let mut checker = Checker { faults: Vec::new() };
+    if let Some(schema) = schema::complete().property(key) {
+        checker.node(node, schema, &Path(key.to_owned()));
+    }
+    checker.faults
+}
+
 /// The largest whole number of a setting, unless its type is `u64`.
 const MAX_INTEGER: i128 = 1_000_000_000;
 
@@ -52,7 +61,11 @@ impl Checker {
     fn node(&mut self, node: &TomlNode, schema: SchemaNode, path: &Path) {
         let (words, kinds) = (schema.words(), schema.kinds());
         if !words.is_empty() {
-            return self.word(node, &words, path);
+            return match (schema.number_beside_words(), &node.value) {
+                (Some(schema), TomlValue::Integer(integer)) => self.number(node, *integer as f64, schema, path),
+                (Some(schema), TomlValue::Float(float)) => self.number(node, *float, schema, path),
+                _ => self.word(node, &words, path),
+            };
         }
         if !kinds.is_empty() {
             return self.table_of_a_kind(node, &kinds, schema, path);

@@ -37,5 +37,6 @@ mod recordings;
 mod rectangles;
 mod replacements;
 mod replay;
+mod similarity;
 mod suite;
 mod unsuited;

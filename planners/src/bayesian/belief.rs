@@ -8,12 +8,13 @@
 //! `w_1 = w_min + (w_max − w_min) exp(−β/β_0)`.
 
 use super::Settings;
-use crate::{Agent, State, Trajectory};
+use crate::{Agent, Body, State, Trajectory};
 
 /// The beliefs behind a signal, updated at every step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PersuasionBelief {
-    /// Mean change of the ego's plan from one step to the next, `α` (eq. 7.27).
+    /// Mean change of the ego's plan from one step to the next, `α` (eq. 7.27): of all components of its states, in the units
+    /// of a 1/10 scale car.
     pub alpha: f64,
     /// Mean change of the other's plan from one step to the next, `β` (eq. 7.28) \[m\].
     pub beta_m: f64,
@@ -39,12 +40,23 @@ impl PersuasionBelief {
         let range = settings.w_1_max - settings.w_1_min;
         self.w_1 = settings.w_1_min + range * libm::exp(-self.beta_m / settings.beta_0_m);
         let strayed = expected.states.first().map_or(0.0, |state| squared(state.position(), other.state.position()));
-        self.deviation = self.w_1 * strayed;
+        self.deviation = self.w_1 * strayed / (other.body.scale * other.body.scale);
     }
 
     /// Updates the belief by what the ego itself plans now; `before` is what it planned a step ago.
-    pub(super) fn observe_own_plan(&mut self, plan: &Trajectory, before: &Trajectory, settings: &Settings) {
-        self.alpha = mean_change(plan, &before.shifted(), |a, b| squared(a.to_array(), b.to_array()));
+    pub(super) fn observe_own_plan(
+        &mut self,
+        plan: &Trajectory,
+        before: &Trajectory,
+        body: &Body,
+        settings: &Settings,
+    ) {
+        let (length, speed) = (body.scale, body.time_ratio());
+        let normalised = |state: &State| {
+            let [x_m, y_m, heading_rad, speed_mps] = state.to_array();
+            [x_m / length, y_m / length, heading_rad, speed_mps / speed]
+        };
+        self.alpha = mean_change(plan, &before.shifted(), |a, b| squared(normalised(a), normalised(b)));
         self.variance = (settings.variance_per_change * self.alpha).min(settings.variance_max);
     }
 }
@@ -101,11 +113,11 @@ mod tests {
     fn a_consistent_plan_is_a_clear_signal() {
         let settings = Settings::default();
         let mut belief = PersuasionBelief::initial(&settings);
-        belief.observe_own_plan(&at(0.1, 1.0), &at(0.0, 1.0), &settings);
+        belief.observe_own_plan(&at(0.1, 1.0), &at(0.0, 1.0), &Body::default(), &settings);
         assert!(belief.variance < 1e-12);
-        belief.observe_own_plan(&at(0.12, 1.0), &at(0.0, 1.0), &settings);
+        belief.observe_own_plan(&at(0.12, 1.0), &at(0.0, 1.0), &Body::default(), &settings);
         assert!((belief.variance - 0.01).abs() < 1e-12);
-        belief.observe_own_plan(&at(1.1, 1.0), &at(0.0, 1.0), &settings);
+        belief.observe_own_plan(&at(1.1, 1.0), &at(0.0, 1.0), &Body::default(), &settings);
         assert_eq!(belief.variance, settings.variance_max);
     }
 }

@@ -71,7 +71,7 @@ impl Bayesian {
         let diagnostics = self.diagnostics(&problem, &optimum);
         let trajectory = optimum.trajectory(0);
         if let Some(before) = &self.last {
-            self.belief.observe_own_plan(&trajectory, before, &self.settings);
+            self.belief.observe_own_plan(&trajectory, before, &scene.ego.body, &self.settings);
         }
         self.last = Some(trajectory.clone());
         let events = choice.event("persuades", "to persuade").into_iter().chain(event).collect();

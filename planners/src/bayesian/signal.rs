@@ -41,9 +41,11 @@ pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &PersuasionBelief
     problem
 }
 
-/// `2ΣW_2` of every component (along, across, θ, v).
+/// `2ΣW_2` of every component (along, across, θ, v), `W_2` in the units of a 1/10 scale car, as `Σ`.
 fn doubts(scene: &Scene, belief: &PersuasionBelief) -> [f64; 4] {
-    scene.goal.tracking.map(|weight| (2.0 * belief.variance * weight).min(MAX_SIGNAL_DOUBT))
+    let (scale, [along, across, heading, speed]) = (scene.ego.body.scale, scene.goal.tracking);
+    let weights = [along * (scale * scale), across * (scale * scale), heading, speed * scale];
+    weights.map(|weight| (2.0 * belief.variance * weight).min(MAX_SIGNAL_DOUBT))
 }
 
 /// The price of `ω` at `x*`: with `D = 2ΣW_2`, `x* − x_sᴾ = (x̂ − D x_g − (1 − D) x_sᴾ)/(1 − D)`.

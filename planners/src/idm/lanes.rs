@@ -9,6 +9,9 @@ use crate::{Agent, Scene, State};
 /// What is missing of the width of a lane beside the route may be up to this share.
 const LEAST_LANE_SHARE: f64 = 0.1;
 
+/// Width of lanes where nothing is said of it, for 1/10 scale cars \[m\].
+const LANE_WIDTH_M: f64 = 0.37;
+
 /// The lanes of a road.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lanes {
@@ -26,8 +29,9 @@ impl Lanes {
             return Lanes::beside_route(road.same_direction_edges_m(along_m), 2.0 * road.half_width.value(along_m));
         }
         let [right_m, left_m] = road.edges_before_end_m(along_m);
-        let count = ((left_m - right_m) / mobil.lane_width_m).round().max(1.0) as usize;
-        Lanes { right_m, width_m: mobil.lane_width_m, count }
+        let width_m = mobil.lane_width_m.unwrap_or(LANE_WIDTH_M * scene.ego.body.scale);
+        let count = ((left_m - right_m) / width_m).round().max(1.0) as usize;
+        Lanes { right_m, width_m, count }
     }
 
     /// The lane that the route follows, and those beside it that have room between the edges.

@@ -48,9 +48,9 @@ impl Default for Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mobil {
-    /// Width of the lanes, which are counted from the right edge of the road \[m\].
-    #[schemars(range(min = 0.001))]
-    pub lane_width_m: f64,
+    /// Width of the lanes, which are counted from the right edge of the road; by default that of the road's lanes \[m\].
+    #[schemars(range(min = 0.001), example = 0.37)]
+    pub lane_width_m: Option<f64>,
     /// What others' accelerations count against the own, `p`.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub politeness: f64,
@@ -67,6 +67,6 @@ pub struct Mobil {
 
 impl Default for Mobil {
     fn default() -> Self {
-        Mobil { lane_width_m: 0.37, politeness: 0.2, threshold_mps2: 0.05, safe_braking_mps2: 0.6, bias_mps2: 1.0 }
+        Mobil { lane_width_m: None, politeness: 0.2, threshold_mps2: 0.05, safe_braking_mps2: 0.6, bias_mps2: 1.0 }
     }
 }

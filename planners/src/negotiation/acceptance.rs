@@ -35,9 +35,9 @@ pub enum Acceptance {
 /// Intrusion below which a motion leaves the room free: less than a tenth of an ellipse at one step.
 const MIN_INTRUSION: f64 = 0.1;
 
-/// Squared distance of proposal and old prediction below which nothing was asked \[m²\].
+/// Squared distance of proposal and old prediction below which nothing was asked, for 1/10 scale cars \[m²\].
 const MIN_ASKED_DEVIATION_M2: f64 = 1e-3;
-/// Keeps the share defined when the other neither moved nor was far from the proposal \[m²\].
+/// Keeps the share defined when the other neither moved nor was far from the proposal, for 1/10 scale cars \[m²\].
 const SHARE_REGULARISATION_M2: f64 = 1e-4;
 
 /// The acceptance probability `p_a` (eq. 6.19, corrected): with `a` the squared distance of the other's new prediction
@@ -46,14 +46,21 @@ const SHARE_REGULARISATION_M2: f64 = 1e-4;
 /// As printed it is 0/0 when nothing changes and tends to one half when the proposal is the old plan, so that the ego
 /// concedes to a driver who does all it asks. Here a proposal that asks for nothing is always accepted.
 ///
-/// All three trajectories begin at the present step.
-pub fn printed_acceptance(prediction: &Trajectory, old_prediction: &Trajectory, proposal: &Trajectory) -> f64 {
-    if proposal.squared_distance(old_prediction) < MIN_ASKED_DEVIATION_M2 {
+/// All three trajectories begin at the present step; `scale` is the length of the other as a multiple of a 1/10 scale car's.
+pub fn printed_acceptance(
+    prediction: &Trajectory,
+    old_prediction: &Trajectory,
+    proposal: &Trajectory,
+    scale: f64,
+) -> f64 {
+    let area = scale * scale;
+    if proposal.squared_distance(old_prediction) < MIN_ASKED_DEVIATION_M2 * area {
         return 1.0;
     }
     let moved = prediction.squared_distance(old_prediction);
     let missed = prediction.squared_distance(proposal);
-    (moved + SHARE_REGULARISATION_M2) / (moved + missed + SHARE_REGULARISATION_M2)
+    let regularisation_m2 = SHARE_REGULARISATION_M2 * area;
+    (moved + regularisation_m2) / (moved + missed + regularisation_m2)
 }
 
 /// Willingness: the share of its first plan's intrusion into the room of the ego's proposed motion that the other has given up.
@@ -134,18 +141,19 @@ mod tests {
 
     #[test]
     fn it_is_one_when_the_proposal_is_followed_and_near_zero_when_it_is_ignored() {
-        assert!(printed_acceptance(&at(0.5), &at(1.0), &at(0.5)) > 0.9999);
-        assert!(printed_acceptance(&at(1.0), &at(1.0), &at(0.5)) < 1e-4);
+        assert!(printed_acceptance(&at(0.5), &at(1.0), &at(0.5), 1.0) > 0.9999);
+        assert!(printed_acceptance(&at(1.0), &at(1.0), &at(0.5), 1.0) < 1e-4);
     }
 
     #[test]
     fn it_grows_as_the_prediction_moves_to_the_proposal() {
-        let shares = [1.0, 0.9, 0.8, 0.7, 0.6, 0.5].map(|speed| printed_acceptance(&at(speed), &at(1.0), &at(0.5)));
+        let shares =
+            [1.0, 0.9, 0.8, 0.7, 0.6, 0.5].map(|speed| printed_acceptance(&at(speed), &at(1.0), &at(0.5), 1.0));
         assert!(shares.windows(2).all(|pair| pair[0] < pair[1]), "{shares:?}");
     }
 
     #[test]
     fn a_proposal_that_asks_for_nothing_is_accepted() {
-        assert_eq!(printed_acceptance(&at(1.0), &at(1.0), &at(1.0)), 1.0);
+        assert_eq!(printed_acceptance(&at(1.0), &at(1.0), &at(1.0), 1.0), 1.0);
     }
 }

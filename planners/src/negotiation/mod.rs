@@ -78,7 +78,10 @@ impl Negotiation {
             return Ok(Plan { events, ..conservative::answer(retreat?) });
         };
         let accepted = self.update_acceptance(scene, partner);
-        let persuasion = persuasion::next_constraint(&self.settings, &self.negotiation, accepted);
+        let persuasion = {
+            let scale = scene.ego.body.scale;
+            persuasion::next_constraint(&self.settings, &self.negotiation, accepted, scale)
+        };
         let outcome = self.propose(scene, partner, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
@@ -88,7 +91,7 @@ impl Negotiation {
             }
         };
         self.remember(&optimum, &retreat, partner);
-        let mut plan = self.to_plan(&optimum, partner, accepted, persuasion.as_ref());
+        let mut plan = self.to_plan(scene, (&optimum, partner), accepted, persuasion.as_ref());
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
@@ -151,9 +154,16 @@ impl Negotiation {
     }
 
     /// The answer of the planner for an optimum of the negotiation problem.
-    fn to_plan(&self, optimum: &Optimum, partner: &Agent, accepted: f64, persuasion: Option<&Persuasion>) -> Plan {
+    fn to_plan(
+        &self,
+        scene: &Scene,
+        (optimum, partner): (&Optimum, &Agent),
+        accepted: f64,
+        persuasion: Option<&Persuasion>,
+    ) -> Plan {
         let trajectory = optimum.trajectory(0);
-        let active = persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory));
+        let active =
+            persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory, scene.ego.body.scale));
         Plan {
             trajectory,
             statistics: optimum.statistics,

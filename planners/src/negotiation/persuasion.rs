@@ -6,9 +6,9 @@ use crate::Trajectory;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::Persuasion;
 
-/// Below this squared distance of cooperative and conservative plan the ball has collapsed \[m²\].
+/// Below this squared distance of cooperative and conservative plan of a 1/10 scale car the ball has collapsed \[m²\].
 const MIN_REFERENCE_DISTANCE_M2: f64 = 1e-3;
-/// What falling short costs: mild, as persuasion must never overrule safety.
+/// What falling short costs a 1/10 scale car: mild, as persuasion must never overrule safety.
 const PENALTY: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
 
 /// The persuasion constraint `‖trj − con‖² ≥ α ‖trj − coop‖²`, `α = 1 + γ p_a` (eq. 6.23, corrected: as printed the right
@@ -20,15 +20,22 @@ pub(super) fn next_constraint(
     settings: &Settings,
     negotiation: &NegotiationState,
     accepted: f64,
+    scale: f64,
 ) -> Option<Persuasion> {
     let round = negotiation.round(settings.references).filter(|_| settings.persuasion)?;
-    persuasion(&round.cooperative, round.conservative.as_ref()?, 1.0 + settings.gamma * accepted)
+    persuasion(&round.cooperative, round.conservative.as_ref()?, 1.0 + settings.gamma * accepted, scale)
 }
 
 /// The persuasion constraint of strength `α` with a cooperative and a conservative reference; none where the two nearly
-/// coincide.
-pub fn persuasion(cooperative: &Trajectory, conservative: &Trajectory, strength: f64) -> Option<Persuasion> {
-    if conservative.squared_distance(cooperative) < MIN_REFERENCE_DISTANCE_M2 {
+/// coincide. `scale` is the length of the vehicle as a multiple of a 1/10 scale car's.
+pub fn persuasion(
+    cooperative: &Trajectory,
+    conservative: &Trajectory,
+    strength: f64,
+    scale: f64,
+) -> Option<Persuasion> {
+    let area = scale * scale;
+    if conservative.squared_distance(cooperative) < MIN_REFERENCE_DISTANCE_M2 * area {
         return None;
     }
     Some(Persuasion {
@@ -36,19 +43,19 @@ pub fn persuasion(cooperative: &Trajectory, conservative: &Trajectory, strength:
         toward: positions(cooperative),
         away: positions(conservative),
         strength,
-        penalty: PENALTY,
+        penalty: Penalty { linear: PENALTY.linear / area, ..PENALTY },
     })
 }
 
 /// Whether the constraint holds with equality (or falls short).
-pub(super) fn is_active(constraint: &Persuasion, trajectory: &Trajectory) -> bool {
+pub(super) fn is_active(constraint: &Persuasion, trajectory: &Trajectory, scale: f64) -> bool {
     let apart: f64 = constraint
         .toward
         .iter()
         .zip(&constraint.away)
         .map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2))
         .sum();
-    constraint.value(&trajectory.states) > -1e-4 * apart.max(1.0)
+    constraint.value(&trajectory.states) > -1e-4 * apart.max(scale * scale)
 }
 
 /// Positions at `t = 0…N−1`.
@@ -101,7 +108,7 @@ mod tests {
                 [share, 1.0, 0.0, 0.0].map(|share| motion(share, step));
             let conservative = Some(conservative);
             negotiation.remember(NegotiationRound { cooperative, conservative, proposal, prediction });
-            let Some(constraint) = next_constraint(&settings, &negotiation, accepted) else { return 1.0 };
+            let Some(constraint) = next_constraint(&settings, &negotiation, accepted, 1.0) else { return 1.0 };
             let holds = |share: f64| constraint.value(&motion(share, step + 1).states) <= 0.0;
             let mut bounds = [share, 1.0];
             for _ in 0..50 {

@@ -18,7 +18,7 @@ use crate::trajectory::terms::{Comfort, Persuasion, Separation, Tracking};
 use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, Term};
 use crate::{Agent, Axes, Bicycle, Goal, Scene};
 
-/// Diagonal of `D` on (x, y, θ, v).
+/// Diagonal of `D` on (x, y, θ, v) for 1/10 scale cars.
 const DEVIATION_WEIGHTS: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
 /// Weight of the other's changes of input.
 const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
@@ -76,7 +76,8 @@ fn partner_terms(scene: &Scene, partner: &Agent, share: f64) -> [Term; 3] {
     let states = &partner.prediction.states;
     let last = states.last().copied().unwrap_or(partner.state);
     let targets = (1..=scene.horizon).map(|t| states.get(t).copied().unwrap_or(last)).collect();
-    let weights = DEVIATION_WEIGHTS.map(|d| share * d);
+    let (scale, [x, y, heading, speed]) = (partner.body.scale, DEVIATION_WEIGHTS);
+    let weights = [x / (scale * scale), y / (scale * scale), heading, speed / scale].map(|d| share * d);
     [
         Term::Comfort(Comfort { vehicle: 1, weights: [OTHER_COMFORT_WEIGHT; 2] }),
         Term::Tracking(Tracking { vehicle: 1, weights, axes: Axes::WORLD, targets }),

@@ -25,7 +25,10 @@ impl NegotiationState {
                 let ellipse = |centre| scene.goal.safety.oriented(partner.route.heading_at(centre));
                 willingness(&partner.prediction, &first.prediction, &last.cooperative, ellipse)
             }
-            Acceptance::AsPrinted => printed_acceptance(&partner.prediction, &last.prediction, &last.proposal),
+            Acceptance::AsPrinted => {
+                let scale = partner.body.scale;
+                printed_acceptance(&partner.prediction, &last.prediction, &last.proposal, scale)
+            }
         })
     }
 

@@ -26,12 +26,18 @@ impl Penalty {
     /// The exact penalty of the safety rows, on `1 − d²`.
     pub const EXACT: Penalty = Penalty { linear: 1e3, quadratic: 1e3 };
 
-    /// The exact penalty of the road-edge rows, on metres beyond the edge.
+    /// The exact penalty of the road-edge rows of a 1/10 scale car, on metres beyond the edge.
     ///
     /// A plan that can keep either the road or its distance trades metres for `1 − d²`, which falls by up to `2/b_s` (4 to 6)
     /// a metre. With 10³ for both, as in the source, an ego whose partner hesitates drives up to 80 mm off the road to come
     /// out of an ellipse; from 2·10³ on it stays on the road (`scenarios` `intersection/late` with `hesitation_s`).
     pub const ROAD_EDGE: Penalty = Penalty { linear: 2e3, quadratic: 2e3 };
+
+    /// [`Penalty::ROAD_EDGE`] of a vehicle whose lengths are `scale` times those of a 1/10 scale car.
+    pub fn road_edge(scale: f64) -> Penalty {
+        let Penalty { linear, quadratic } = Penalty::ROAD_EDGE;
+        Penalty { linear: linear / scale, quadratic: quadratic / (scale * scale) }
+    }
 
     /// A hinge: no cost inside, `weight·s²` beyond (the human driver's discomfort).
     pub fn hinge(weight: f64) -> Penalty {

@@ -22,6 +22,8 @@ pub struct Bicycle {
     rear_share: f64,
     /// Time step `T` \[s\].
     step_s: f64,
+    /// [`Body::time_ratio`].
+    time_ratio: f64,
 }
 
 /// Non-zero first derivatives of the step that are not constant. `∂x⁺/∂x`, `∂y⁺/∂y`, `∂θ⁺/∂θ`, `∂v⁺/∂v` are 1 and
@@ -99,12 +101,18 @@ struct Slip {
 impl Bicycle {
     /// The model of a body stepped every `step_s` seconds.
     pub fn new(body: &Body, step_s: f64) -> Self {
-        Bicycle { rear_axle_m: body.rear_axle_m, rear_share: body.rear_axle_m / body.wheelbase_m(), step_s }
+        let rear_share = body.rear_axle_m / body.wheelbase_m();
+        Bicycle { rear_axle_m: body.rear_axle_m, rear_share, step_s, time_ratio: body.time_ratio() }
     }
 
     /// The time step `T` \[s\].
     pub fn step_s(&self) -> f64 {
         self.step_s
+    }
+
+    /// The body's [`Body::time_ratio`].
+    pub(crate) fn time_ratio(&self) -> f64 {
+        self.time_ratio
     }
 
     /// Distance from the mass centre to the rear axle, `L_r` \[m\].

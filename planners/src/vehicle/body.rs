@@ -24,11 +24,15 @@ pub struct Body {
     /// Distance from the mass centre to the rear axle, `L_r` \[m\].
     #[schemars(range(min = 0.001))]
     pub rear_axle_m: f64,
+    /// Length of the vehicle as a multiple of a 1/10 scale car's, by its `class`. Constants of the planners that are lengths
+    /// are multiplied by it, times and speeds by its square root.
+    #[schemars(range(min = 0.01, max = 1000.0), extend("x-unit" = "dimensionless"))]
+    pub scale: f64,
 }
 
 impl Default for Body {
     fn default() -> Self {
-        Body { front_m: 0.21, rear_m: 0.19, width_m: 0.19, front_axle_m: 0.21, rear_axle_m: 0.19 }
+        Body { front_m: 0.21, rear_m: 0.19, width_m: 0.19, front_axle_m: 0.21, rear_axle_m: 0.19, scale: 1.0 }
     }
 }
 
@@ -36,6 +40,12 @@ impl Body {
     /// Distance between the axles, `L = L_f + L_r` \[m\].
     pub fn wheelbase_m(&self) -> f64 {
         self.front_axle_m + self.rear_axle_m
+    }
+
+    /// Ratio of times to those of a 1/10 scale car by Froude's law of similarity: `√λ` with the ratio `λ` of lengths, so that
+    /// accelerations are the same. It is also the ratio of speeds.
+    pub fn time_ratio(&self) -> f64 {
+        self.scale.sqrt()
     }
 
     /// The corners in the body's own frame (x forward, y left), in the order of eq. 6.7: front right, front left,

@@ -251,7 +251,7 @@ impl Vehicle {
 
     fn body(&self) -> Body {
         let [front_m, rear_m, width_m, front_axle_m, rear_axle_m] = self.body;
-        Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m }
+        Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m, ..Body::default() }
     }
 
     fn participant(&self, step_s: f64) -> Participant {

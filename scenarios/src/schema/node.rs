@@ -72,6 +72,17 @@ impl SchemaNode {
         Bound::of(self.definition()).chain(Bound::of(self.stated).filter(move |_| self.definition_name().is_some()))
     }
 
+    /// The default.
+    pub fn default(self) -> Option<&'static Json> {
+        self.stated.get("default")
+    }
+
+    /// The bounds of a number in place of which a word may stand.
+    pub fn number_beside_words(self) -> Option<SchemaNode> {
+        let is_number = |one: &&Json| one.get("type").is_some_and(|name| name == "number");
+        self.alternatives().find(is_number).map(|one| self.at(one))
+    }
+
     /// The default, or else the first example.
     pub fn default_or_example(self) -> Option<&'static Json> {
         self.stated.get("default").or_else(|| self.stated.get("examples")?.get(0))

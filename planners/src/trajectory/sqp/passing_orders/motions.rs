@@ -126,6 +126,7 @@ fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> O
         rear_axle_m: participant.model.rear_axle_m(),
         wheelbase_m: participant.model.wheelbase_m(),
         steering_max_rad: participant.limits.steering_max_rad,
+        time_ratio: participant.model.time_ratio(),
     };
     let limits = &participant.limits;
     let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };

@@ -1,0 +1,124 @@
+//! What vehicles of a class measure and can do.
+
+use interplay_planners::{Body, Limits, SafetyEllipse};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::similarity::FULL_SCALE;
+
+/// What sort of vehicle it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum VehicleClass {
+    /// A car at 1/10 scale: Tables 6.1 and 6.2 of the source.
+    ScaleCar,
+    /// A compact car, 4.5 m long.
+    Car,
+    /// A delivery van, 6 m long.
+    Van,
+    /// A rigid lorry, 12 m long.
+    Truck,
+    /// A bicycle with its rider, 1.8 m long.
+    Bicycle,
+}
+
+/// Body, limits and safety ellipse of a class.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(super) struct ClassDimensions {
+    pub body: Body,
+    pub limits: Limits,
+    pub safety: SafetyEllipse,
+}
+
+/// Half axis of the safety ellipse across the road \[m\]: vehicles in the centres of adjacent lanes of 3.5 m are outside.
+const FULL_SIZE_ACROSS_M: f64 = 3.3;
+
+impl VehicleClass {
+    /// The class of vehicles that state none, in a scenario of a scale.
+    pub(super) fn of_scale(is_full: bool) -> VehicleClass {
+        if is_full { VehicleClass::Car } else { VehicleClass::ScaleCar }
+    }
+
+    /// The ratio of lengths to those of a 1/10 scale car by which settings are scaled.
+    ///
+    /// It is the same for all vehicles of real roads, whatever their own length: settings weigh lane widths, gaps and speeds,
+    /// which are those of the traffic.
+    pub(super) fn scale(self) -> f64 {
+        match self {
+            VehicleClass::ScaleCar => 1.0,
+            VehicleClass::Car | VehicleClass::Van | VehicleClass::Truck | VehicleClass::Bicycle => FULL_SCALE,
+        }
+    }
+
+    /// What vehicles of the class measure and can do.
+    ///
+    /// An ellipse `(a, b)` of a class contains the corner `(l, w)` of what is covered by two parallel bodies that touch, half
+    /// their lengths and half their widths together: `(l/a)² + (w/b)² ≤ 1`, with every other class.
+    pub(super) fn dimensions(self) -> ClassDimensions {
+        match self {
+            VehicleClass::ScaleCar => {
+                ClassDimensions { body: Body::default(), limits: Limits::default(), safety: SafetyEllipse::default() }
+            }
+            // A compact car such as a VW Golf (4.3 m × 1.8 m) or a Toyota Corolla (4.6 m × 1.8 m), wheelbase 2.6 to 2.7 m.
+            // Brakes by UN Regulation 13-H (at least 6.43 m/s²), 100 km/h from rest in 9 s, turning circle 10 m.
+            VehicleClass::Car => of([2.2, 2.3, 1.8, 1.25, 1.45], [-6.4, 3.0, 0.55, 50.0], 12.0),
+            // A Mercedes Sprinter (5.9 m × 2.0 m, wheelbase 3.7 m). Brakes by UN Regulation 13 for category N1.
+            VehicleClass::Van => of([2.8, 3.2, 2.0, 1.8, 1.9], [-5.0, 2.5, 0.6, 40.0], 14.0),
+            // The longest and widest rigid lorry of EU Directive 96/53 (12 m × 2.55 m). Brakes by UN Regulation 13 for category
+            // N3 (5 m/s²), 1 m/s² as loaded lorries accelerate, and 90 km/h by the limiter of EU Directive 92/6.
+            VehicleClass::Truck => of([6.5, 5.5, 2.55, 4.0, 2.0], [-5.0, 1.0, 0.7, 25.0], 20.0),
+            // Brakes 3.4 m/s² and is 1.8 m long in the design guide of AASHTO; handlebars 0.65 m, wheelbase 1.05 m.
+            VehicleClass::Bicycle => of([0.9, 0.9, 0.65, 0.55, 0.5], [-3.4, 1.0, 0.8, 12.0], 9.0),
+        }
+    }
+}
+
+/// A vehicle of real roads: front, rear, width, front and rear axle \[m\]; braking and acceleration \[m/s²\], steering \[rad\]
+/// and speed \[m/s\]; half axis of its safety ellipse along the road \[m\].
+fn of(
+    [front_m, rear_m, width_m, front_axle_m, rear_axle_m]: [f64; 5],
+    [acceleration_min_mps2, acceleration_max_mps2, steering_max_rad, speed_max_mps]: [f64; 4],
+    along_m: f64,
+) -> ClassDimensions {
+    ClassDimensions {
+        body: Body { front_m, rear_m, width_m, front_axle_m, rear_axle_m, scale: FULL_SCALE },
+        limits: Limits {
+            acceleration_min_mps2,
+            acceleration_max_mps2,
+            steering_max_rad,
+            speed_min_mps: 0.0,
+            speed_max_mps,
+        },
+        safety: SafetyEllipse { along_m, across_m: FULL_SIZE_ACROSS_M },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FULL_SIZE: [VehicleClass; 4] =
+        [VehicleClass::Car, VehicleClass::Van, VehicleClass::Truck, VehicleClass::Bicycle];
+
+    /// Outside each other's ellipses, parallel vehicles do not touch.
+    #[test]
+    fn safety_ellipses_keep_bodies_apart() {
+        let pairs = FULL_SIZE.iter().flat_map(|own| FULL_SIZE.iter().map(move |other| (*own, *other)));
+        for (own, other) in pairs.chain([(VehicleClass::ScaleCar, VehicleClass::ScaleCar)]) {
+            let ClassDimensions { body, safety, .. } = own.dimensions();
+            let beside = other.dimensions().body;
+            let length_m = (body.front_m + beside.rear_m).max(body.rear_m + beside.front_m);
+            let width_m = 0.5 * (body.width_m + beside.width_m);
+            let corner = (length_m / safety.along_m).powi(2) + (width_m / safety.across_m).powi(2);
+            assert!(corner <= 1.0, "{own:?} beside {other:?}: {corner}");
+        }
+    }
+
+    #[test]
+    fn axles_are_below_the_body() {
+        for class in FULL_SIZE {
+            let body = class.dimensions().body;
+            assert!(body.front_axle_m < body.front_m && body.rear_axle_m < body.rear_m, "{class:?}");
+        }
+    }
+}

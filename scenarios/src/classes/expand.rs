@@ -1,0 +1,107 @@
+//! A scenario in which everything is stated that depends on its size.
+
+use serde_json::{Map, Value as Json, json};
+
+use super::class::VehicleClass;
+use super::fill::{fill_key, scaled};
+use super::similarity::{NamedScale, ScenarioScale};
+use crate::road::Road;
+use crate::schema::{self, SchemaNode};
+
+/// What of a scenario is scaled besides its vehicles.
+const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_jitter"];
+
+/// Writes the defaults of a scenario's size into it: of the scenario where it states a `scale` or the `class` of a vehicle, and
+/// of each vehicle. A scenario that states none of them has the defaults of 1/10 scale cars and is left as it is, but for
+/// the lanes of IDM drivers. What is no table of the format is left too.
+pub(crate) fn expand(scenario: &mut Json) {
+    let Some(root) = scenario.as_object_mut() else { return };
+    root.remove("defaults");
+    let size = size(root);
+    if let Some(Size { scale, .. }) = size {
+        if !root.contains_key("road") {
+            root.insert("road".to_owned(), json!({ "kind": "lanes" }));
+        }
+        for (key, property) in schema::complete().properties().filter(|(key, _)| SCALED_KEYS.contains(&key.as_str())) {
+            fill_key(key, property, root, scale);
+        }
+    }
+    let road = root.get("road").cloned().map_or_else(|| Ok(Road::default()), serde_json::from_value);
+    let lane_width_m = road.ok().map(|road: Road| road.lane_width_m());
+    let vehicles = root.get_mut("vehicle").and_then(Json::as_array_mut).into_iter().flatten();
+    for vehicle in vehicles.filter_map(Json::as_object_mut) {
+        if let Some(lane_width_m) = lane_width_m {
+            state_lane_width(vehicle, lane_width_m);
+        }
+        expand_vehicle(vehicle, size);
+    }
+}
+
+/// The size of a scenario.
+#[derive(Clone, Copy)]
+struct Size {
+    /// Ratio of lengths to those of 1/10 scale.
+    scale: f64,
+    /// Whether vehicles that state no class are real cars.
+    is_full: bool,
+}
+
+/// The stated scale, or else that of the largest class; none where nothing is said of it.
+fn size(root: &Map<String, Json>) -> Option<Size> {
+    if let Some(stated) = root.get("scale").and_then(read::<ScenarioScale>) {
+        return Some(Size { scale: stated.ratio(), is_full: stated == ScenarioScale::Named(NamedScale::Full) });
+    }
+    let vehicles = root.get("vehicle").and_then(Json::as_array).into_iter().flatten();
+    let scales = vehicles.filter_map(|vehicle| read::<VehicleClass>(vehicle.get("class")?).map(VehicleClass::scale));
+    scales.max_by(f64::total_cmp).map(|scale| Size { scale, is_full: scale > VehicleClass::ScaleCar.scale() })
+}
+
+fn read<T: serde::de::DeserializeOwned>(value: &Json) -> Option<T> {
+    serde_json::from_value(value.clone()).ok()
+}
+
+/// Writes the defaults of a vehicle's class and scale into it.
+fn expand_vehicle(vehicle: &mut Map<String, Json>, size: Option<Size>) {
+    let stated = vehicle.get("class").and_then(read::<VehicleClass>);
+    let own_scale = vehicle.get("body").and_then(|body| body.get("scale")?.as_f64());
+    if size.is_none() && own_scale.is_none() {
+        return;
+    }
+    let class = stated.unwrap_or_else(|| VehicleClass::of_scale(size.is_some_and(|size| size.is_full)));
+    let of_scenario = size.filter(|size| stated.is_none() && !size.is_full).map(|size| size.scale);
+    let scale = own_scale.or(of_scenario).unwrap_or_else(|| class.scale());
+    let Some(schema) = schema::complete().property("vehicle").and_then(SchemaNode::entries) else { return };
+    let dimensions = serde_json::to_value(class.dimensions()).unwrap_or_default();
+    let mut dimensions = scaled(schema, &dimensions, scale / class.scale());
+    dimensions["body"]["scale"] = json!(scale);
+    lay_under(vehicle, dimensions);
+    vehicle.entry("driver").or_insert_with(|| json!({ "kind": "human" }));
+    for (key, property) in schema.properties().filter(|(key, _)| ["weights", "driver"].contains(&key.as_str())) {
+        fill_key(key, property, vehicle, scale);
+    }
+}
+
+/// Writes what a table does not state, tables below it included.
+fn lay_under(table: &mut Map<String, Json>, under: Json) {
+    let Json::Object(under) = under else { return };
+    for (key, value) in under {
+        match (table.get_mut(&key), value) {
+            (Some(Json::Object(below)), value) => lay_under(below, value),
+            (Some(_), _) => {}
+            (None, value) => {
+                table.insert(key, value);
+            }
+        }
+    }
+}
+
+/// Tells an IDM driver who states no width of its lanes that of the road's.
+fn state_lane_width(vehicle: &mut Map<String, Json>, lane_width_m: f64) {
+    let Some(driver) = vehicle.get_mut("driver").and_then(Json::as_object_mut) else { return };
+    if driver.get("kind").is_some_and(|kind| kind == "idm") {
+        let mobil = driver.entry("mobil").or_insert_with(|| json!({})).as_object_mut();
+        if let Some(mobil) = mobil {
+            mobil.entry("lane_width_m").or_insert(json!(lane_width_m));
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! The scale of a scenario, and Froude's law of similarity: by how much a quantity grows with it.
+
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Serialize};
+
+/// How large a scenario is, as a multiple of 1/10 scale.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ScenarioScale {
+    /// A size with a name.
+    Named(NamedScale),
+    /// Any ratio of lengths to those of a 1/10 scale car.
+    Ratio(f64),
+}
+
+/// A size with a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NamedScale {
+    /// Cars of 0.4 m on lanes of 0.37 m.
+    Tenth,
+    /// Real cars on real roads.
+    Full,
+}
+
+/// Full size as a multiple of 1/10 scale.
+pub(super) const FULL_SCALE: f64 = 10.0;
+
+impl ScenarioScale {
+    /// The ratio `λ` of lengths to those of 1/10 scale cars.
+    pub fn ratio(self) -> f64 {
+        match self {
+            ScenarioScale::Named(NamedScale::Tenth) => 1.0,
+            ScenarioScale::Named(NamedScale::Full) => FULL_SCALE,
+            ScenarioScale::Ratio(ratio) => ratio,
+        }
+    }
+}
+
+impl JsonSchema for ScenarioScale {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "ScenarioScale".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "oneOf": [
+                { "type": "string", "const": "tenth", "description": "Cars of 0.4 m on lanes of 0.37 m." },
+                { "type": "string", "const": "full", "description": "Real cars on real roads." },
+                { "type": "number", "minimum": 0.01, "maximum": 1000.0,
+                  "description": "Any ratio of lengths to those of a 1/10 scale car." },
+            ]
+        })
+    }
+}
+
+/// By how much a quantity of that unit is larger where lengths are `scale` times as large: lengths by `λ`, times and speeds by
+/// `√λ`, accelerations and angles by 1. What is not made of metres and seconds stays.
+pub(super) fn factor(unit: &str, scale: f64) -> f64 {
+    let mut halves = 0;
+    for (position, part) in unit.split('/').enumerate() {
+        let sign = if position == 0 { 1 } else { -1 };
+        halves += part.trim_matches(['(', ')']).split('·').map(|base| sign * half_powers(base)).sum::<i32>();
+    }
+    power(scale, halves)
+}
+
+/// The power of `√λ` with which one base unit grows.
+fn half_powers(base: &str) -> i32 {
+    let of_one = match base.trim_end_matches(|character: char| SUPERSCRIPTS.contains(&character)) {
+        "m" => 2,
+        "s" => 1,
+        _ => return 0,
+    };
+    let exponent = base.chars().last().and_then(|last| SUPERSCRIPTS.iter().position(|digit| *digit == last));
+    of_one * exponent.map_or(1, |index| index as i32 + 2)
+}
+
+/// The exponents from 2.
+const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
+
+/// `λ^(halves/2)`. Whole powers need no root, so that they are exact for small whole ratios.
+fn power(scale: f64, halves: i32) -> f64 {
+    let root = if halves % 2 == 0 { 1.0 } else { scale.sqrt() };
+    let whole = (0..halves.abs() / 2).fold(root, |product, _| product * scale);
+    if halves < 0 { 1.0 / whole } else { whole }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_grow_by_froude_s_law() {
+        for (unit, expected) in [
+            ("m", 16.0),
+            ("m²", 256.0),
+            ("s", 4.0),
+            ("m/s", 4.0),
+            ("m/s²", 1.0),
+            ("m/s³", 0.25),
+            ("1/m²", 1.0 / 256.0),
+            ("s²/m²", 1.0 / 16.0),
+            ("s⁴/m²", 1.0),
+            ("s/m", 0.25),
+            ("rad", 1.0),
+            ("1/rad²", 1.0),
+            ("rad/s", 0.25),
+            ("deg", 1.0),
+            ("dimensionless", 1.0),
+            ("kW/(K·h)", 1.0),
+        ] {
+            assert_eq!(factor(unit, 16.0), expected, "{unit}");
+        }
+        assert_eq!((factor("m", 10.0), factor("1/m²", 10.0)), (10.0, 0.01));
+    }
+}
