@@ -132,7 +132,8 @@ impl Checker<'_> {
         let pairs = || scenario.vehicles.iter().zip(&starts).enumerate();
         for (index, (vehicle, start)) in pairs() {
             let path = format!("vehicle.{index}.start");
-            if !scenario.road.contains(vehicle.road, &vehicle.body, start, ROUNDING_M) {
+            // Only the corners count: on a curve, the inner side of a long body reaches further than they do.
+            if !vehicle.route.contains(&vehicle.body, start, ROUNDING_M) {
                 let message = format!("vehicle {} starts outside the road{moved}", quoted(&vehicle.name));
                 let help = format!("{}, and the whole body must lie on it", extent(&scenario.road, vehicle.road));
                 self.refuse(&path, "a corner is beside the road", message, &help);

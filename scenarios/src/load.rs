@@ -72,6 +72,9 @@ fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
     }
     let mut scenario: Scenario = serde_json::from_value(stated)
         .map_err(|error| vec![Fault::at(&tree.place, "in this file", error.to_string())])?;
+    for vehicle in &mut scenario.vehicles {
+        vehicle.route = scenario.road.route(vehicle.road);
+    }
     let days = scenario.days();
     let unread = match &mut scenario.weather {
         Some(WeatherConfig::Epw(file)) => weather_file::attach(file, days, tree).err(),

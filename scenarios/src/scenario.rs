@@ -3,12 +3,14 @@
 //! Everything here is plain data in SI units, already checked: a [`Scenario`] that came from [`load`](crate::load) keeps
 //! every promise that the descriptions below make.
 
+use std::sync::Arc;
+
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::Controller;
 use interplay_building::control::pid::PidSettings;
 use interplay_building::occupancy::Occupancy;
 use interplay_building::random::SplitMix64;
-use interplay_planners::{Body, Driver, Limits, SafetyEllipse, State, human};
+use interplay_planners::{Body, Driver, Limits, Route, SafetyEllipse, State, human};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -176,6 +178,12 @@ impl Scenario {
         self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
     }
 
+    /// The route along which positions on the whole road are measured: that of the main road.
+    pub fn main_route(&self) -> Arc<Route> {
+        let main = self.vehicles.iter().find(|vehicle| vehicle.road == Branch::Main);
+        main.map_or_else(|| self.road.route(Branch::Main), |vehicle| Arc::clone(&vehicle.route))
+    }
+
     /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
     /// same seed gives the same starts.
     pub fn starts(&self) -> Vec<State> {
@@ -225,6 +233,13 @@ pub struct Vehicle {
     /// Its driver, `kind` choosing; by default a nice human.
     #[serde(default = "default_driver")]
     pub driver: Driver,
+    /// Its way along the road, once the file is loaded; until then that of the default road.
+    #[serde(skip, default = "default_route")]
+    pub route: Arc<Route>,
+}
+
+fn default_route() -> Arc<Route> {
+    Road::default().route(Branch::default())
 }
 
 fn default_driver() -> Driver {
@@ -235,7 +250,7 @@ impl Vehicle {
     /// The state that the vehicle wants: the lateral position of its goal (that of its start without one), along the
     /// road, at the wanted speed. The coordinate along the road is that of the start and nobody tracks it.
     pub fn target(&self, road: &Road) -> State {
-        let route = road.route(self.road);
+        let route = &self.route;
         let start = route.locate(self.start.position(), None);
         let lane_centre_m = self.goal.lane.map(|lane| road.lane_centre_m(self.road, lane));
         let [x_m, y_m] =

@@ -54,10 +54,7 @@ fn the_order_is_that_of_the_road_or_of_the_crossing() {
             let place = match film.scenario.road {
                 Road::Intersection(_) => reached(film, index).expect("everybody crosses") as f64,
                 Road::Lanes(_) | Road::RampMerge(_) => -vehicle.last.x_m,
-                Road::Curve(_) => {
-                    let route = film.scenario.road.route(Branch::Main);
-                    -route.along(vehicle.last.position())
-                }
+                Road::Curve(_) => -film.scenario.vehicles[index].route.along(vehicle.last.position()),
             };
             (place, &vehicle.name)
         });
@@ -81,7 +78,7 @@ fn reached(film: &Film, index: usize) -> Option<usize> {
             passed_m > half_m * (1.0 + cos.abs()) / sin.abs()
         }
         (road @ Road::Curve(_), branch) => {
-            let at = road.route(branch).locate(state.position(), None);
+            let at = vehicle.route.locate(state.position(), None);
             let goal_m = vehicle.goal.lane.map_or(at.across_m, |lane| road.lane_centre_m(branch, lane));
             (at.across_m - goal_m).abs() <= 0.15 * road.lane_width_m()
         }

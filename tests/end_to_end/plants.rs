@@ -98,8 +98,7 @@ fn on_tyres_vehicles_stay_on_their_road() {
         let film = film(name, authored(name, &[DYNAMIC]));
         for frame in &film.frames {
             for (seen, vehicle) in frame.vehicles.iter().zip(&film.scenario.vehicles) {
-                let route = film.scenario.road.route(vehicle.road);
-                assert!(route.contains(&vehicle.body, &seen.state, ASTRAY_M), "{name}: {:?}", seen.state);
+                assert!(vehicle.route.contains(&vehicle.body, &seen.state, ASTRAY_M), "{name}: {:?}", seen.state);
                 assert!(seen.input.steering_rad.abs() <= vehicle.limits.steering_max_rad, "{name}: {:?}", seen.input);
             }
         }

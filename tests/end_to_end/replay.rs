@@ -4,6 +4,8 @@
 //! (humans from the front of the road to its rear, each knowing the plans of those before; then the others, who know the
 //! humans' plans) and to the source's assumption of perfect prediction.
 
+use std::sync::Arc;
+
 use interplay_planners::predict::steadily_along;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
@@ -22,7 +24,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
         previous_input: before.map(|frame| frame.vehicles[index].input).unwrap_or_default(),
         body: vehicle.body,
         limits: vehicle.limits,
-        route: scenario.road.route(vehicle.road),
+        route: Arc::clone(&vehicle.route),
         prediction: expected(scenario, before.map(|frame| &frame.vehicles[index]), now, vehicle),
         shared_goal: vehicle.driver.shared_goal(&goal(scenario, vehicle)),
         can_be_asked: vehicle.driver.can_be_asked(),
@@ -33,8 +35,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
 /// What is expected of a vehicle that has not planned in this tick: its last plan, else constant velocity.
 fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFrame, vehicle: &Vehicle) -> Trajectory {
     let Some(before) = before else {
-        let route = scenario.road.route(vehicle.road);
-        return steadily_along(&route, &vehicle.body, &now.state, scenario.horizon_steps, scenario.step_s);
+        return steadily_along(&vehicle.route, &vehicle.body, &now.state, scenario.horizon_steps, scenario.step_s);
     };
     let mut plan = before.plan.trajectory.shifted();
     plan.states[0] = now.state;
@@ -43,10 +44,7 @@ fn expected(scenario: &Scenario, before: Option<&VehicleFrame>, now: &VehicleFra
 
 /// Who plans when.
 fn order(scenario: &Scenario, frame: &Frame) -> Vec<usize> {
-    let along = |index: usize| {
-        let route = scenario.road.route(scenario.vehicles[index].road);
-        route.along(frame.vehicles[index].state.position())
-    };
+    let along = |index: usize| scenario.vehicles[index].route.along(frame.vehicles[index].state.position());
     let (mut first, then): (Vec<usize>, Vec<usize>) =
         (0..scenario.vehicles.len()).partition(|index| scenario.vehicles[*index].driver.goes_first());
     first.sort_by(|a, b| along(*b).total_cmp(&along(*a)));

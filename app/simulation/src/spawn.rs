@@ -1,5 +1,7 @@
 //! From a scenario to entities.
 
+use std::sync::Arc;
+
 use bevy_ecs::prelude::*;
 use interplay_planners::{Goal, Input};
 use interplay_scenarios::Scenario;
@@ -31,7 +33,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
         world.spawn((
             Identity { index, name: vehicle.name.clone() },
             Motion { state, input: Input::default(), crashed: false },
-            VehicleParameters { body: vehicle.body, limits: vehicle.limits, route: scenario.road.route(vehicle.road) },
+            VehicleParameters { body: vehicle.body, limits: vehicle.limits, route: Arc::clone(&vehicle.route) },
             VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             Driving {
                 can_be_asked: vehicle.driver.can_be_asked(),

@@ -147,7 +147,7 @@ impl Checker<'_> {
             self.refuse(&format!("{path}.road"), "no such road", message, help);
             return;
         }
-        let heading = road.route(vehicle.road).heading_at(vehicle.start.position());
+        let heading = vehicle.route.heading_at(vehicle.start.position());
         if libm::cos(vehicle.start.heading_rad - heading) >= MIN_COS_OF_START {
             return;
         }
@@ -176,7 +176,7 @@ impl Checker<'_> {
         if turns.is_empty() {
             return;
         }
-        let start_m = road.route(vehicle.road).across(vehicle.start.position());
+        let start_m = vehicle.route.across(vehicle.start.position());
         let goal_m = vehicle.goal.lane.map_or(start_m, |lane| road.lane_centre_m(vehicle.road, lane));
         let radius_m = |turn: &crate::road::Turn| turn.radius_at_m(start_m).min(turn.radius_at_m(goal_m));
         let Some(turn) = turns.iter().min_by(|a, b| radius_m(a).total_cmp(&radius_m(b))) else { return };

@@ -14,7 +14,7 @@ mod ramp_merge;
 
 use std::sync::Arc;
 
-use interplay_planners::{Body, Corridor, LaneEnd, Route, State};
+use interplay_planners::{Corridor, LaneEnd, Route};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -58,7 +58,7 @@ impl Default for Road {
 impl Road {
     /// The way of a vehicle on `branch` along the road, from one edge to the other.
     ///
-    /// It is computed anew each time.
+    /// It is computed anew each time: a loaded [`Vehicle`](crate::Vehicle) has its own.
     pub fn route(&self, branch: Branch) -> Arc<Route> {
         match (self, self.corridor(branch)) {
             (_, Some(corridor)) => corridor.into(),
@@ -109,13 +109,6 @@ impl Road {
             Road::Curve(curve) => curve.turns().collect(),
             Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_) => Vec::new(),
         }
-    }
-
-    /// Whether the footprint of a vehicle on `branch` is on the road, to within `tolerance_m`.
-    ///
-    /// Only the corners count: on a curve, the inner side of a long body reaches further than they do.
-    pub(crate) fn contains(&self, branch: Branch, body: &Body, state: &State, tolerance_m: f64) -> bool {
-        self.route(branch).contains(body, state, tolerance_m)
     }
 
     /// Between which longitudinal coordinates of `branch` any part of it lies on the other road; none where no roads cross

@@ -1,7 +1,7 @@
 //! Pictures of a run with vehicles.
 
 use interplay_planners::State;
-use interplay_scenarios::{Branch, Road, Scenario, Vehicle};
+use interplay_scenarios::{Road, Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
 
 use super::recorded_run::RecordedRun;
@@ -119,7 +119,7 @@ fn strip(road: &Road, vehicle: &Vehicle) -> Option<Strip> {
 fn curves(recorded: &RecordedRun) -> Vec<CurvedStrip> {
     let road = &recorded.scenario.road;
     let Some(curved) = CurvedRoad::new(road) else { return Vec::new() };
-    let route = road.route(Branch::Main);
+    let route = recorded.scenario.main_route();
     let states = recorded.frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| &vehicle.state);
     let [from_m, to_m] = states.fold([f64::INFINITY, f64::NEG_INFINITY], |[from_m, to_m], state| {
         let along_m = route.along(state.position());

@@ -43,7 +43,7 @@ use ::re_sdk_types;
 use blueprint::LayoutNode;
 use building::BuildingLayer;
 use interplay_planners::Route;
-use interplay_scenarios::{Branch, Scenario};
+use interplay_scenarios::Scenario;
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
@@ -142,7 +142,7 @@ impl Recorder {
         let vehicles = VehicleLayer::begin(&stream, scenario, &vehicle_colours)?;
         let plots = Plots::begin(&stream, scenario, &vehicle_colours)?;
         let building_layer = BuildingLayer::begin(&stream, scenario)?;
-        let (scenario, route) = (scenario.clone(), scenario.road.route(Branch::Main));
+        let (scenario, route) = (scenario.clone(), scenario.main_route());
         Ok(Recorder { stream, output, scenario, route, vehicles, plots, building_layer, command: None, driven_m: None })
     }
 
@@ -254,7 +254,7 @@ fn margin(scenario: &Scenario) -> f64 {
 
 /// The longitudinal coordinates between which the vehicles will stay if they drive as they wish \[m\].
 fn expected_road(scenario: &Scenario) -> [f64; 2] {
-    let route = scenario.road.route(Branch::Main);
+    let route = scenario.main_route();
     let mut road = [f64::INFINITY, f64::NEG_INFINITY];
     for vehicle in &scenario.vehicles {
         let start = route.along(vehicle.start.position());

@@ -49,7 +49,7 @@ impl VehicleLayer {
         let mut vehicles = Vec::new();
         for (vehicle, vehicle_colour) in scenario.vehicles.iter().zip(vehicle_colours) {
             let path = format!("world/vehicle/{}", vehicle.name);
-            let route = scenario.road.route(vehicle.road);
+            let route = Arc::clone(&vehicle.route);
             let (vehicle_colour, body) = (*vehicle_colour, vehicle.body);
             let drawn = DrawnVehicle { path, vehicle_colour, body, route, last: None, asks: false };
             drawn.log_style(stream)?;

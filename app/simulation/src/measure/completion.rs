@@ -34,7 +34,7 @@ enum Task {
 impl Completion {
     /// The goal of a vehicle.
     pub fn new(vehicle: &Vehicle, road: &Road) -> Self {
-        let route = road.route(vehicle.road);
+        let route = Arc::clone(&vehicle.route);
         let task = match road.conflict_zone_m(vehicle.road) {
             Some([_, end_m]) => Task::Cross { end_m, body: vehicle.body },
             None => Task::Lane {
