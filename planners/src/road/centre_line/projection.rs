@@ -15,6 +15,19 @@ pub struct RoadPoint {
     pub curvature_1pm: f64,
 }
 
+impl RoadPoint {
+    /// The arc length beside a place `[a, b]` along and across the line from here \[m\]: exact, to the fifth power of `κ a`, where
+    /// the line is a circle.
+    ///
+    /// On a circle it is `s + atan(z)/κ` with `z = κ a/(1 − κ (n + b))`.
+    pub(in crate::road) fn along_beside_m(&self, [a, b]: [f64; 2]) -> f64 {
+        let stretch = (1.0 - self.curvature_1pm * (self.across_m + b)).max(RoadExpansion::MIN_STRETCH);
+        let shift_m = a / stretch;
+        let turn = self.curvature_1pm * shift_m;
+        self.along_m + shift_m * (1.0 - turn * turn * (1.0 / 3.0))
+    }
+}
+
 /// The road coordinates `(s, n)` of a position, expanded to second order over `(x, y)`.
 ///
 /// With the curve `p(s)`, its speed `v = |p′|`, tangent `t`, normal `m` (to the left), curvature `κ` and `q = 1 − κ n`:

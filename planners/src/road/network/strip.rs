@@ -66,12 +66,14 @@ impl Route {
         }
         let (sin, cos) = libm::sincos(state.heading_rad);
         let [x, y] = state.position();
-        let near_m = self.centre.project([x, y], Some(near_m)).along_m;
+        let middle = self.centre.project([x, y], Some(near_m));
+        let (turn_sin, turn_cos) = libm::sincos(state.heading_rad - middle.heading_rad);
         body.local_corners().map(|[ahead, left]| {
             let arm = [ahead * cos - left * sin, ahead * sin + left * cos];
+            let arm_in_road = [ahead * turn_cos - left * turn_sin, ahead * turn_sin + left * turn_cos];
             let turn = [-arm[1], arm[0]];
             let (edge, sign) = if left < 0.0 { (&self.right, 1.0) } else { (&self.left, -1.0) };
-            let at = self.centre.expand([x + arm[0], y + arm[1]], Some(near_m + ahead));
+            let at = self.centre.expand([x + arm[0], y + arm[1]], Some(middle.along_beside_m(arm_in_road)));
             let [value, slope, bend] = edge.at(at.along_m);
             let gradient: [f64; 2] = std::array::from_fn(|i| at.across_gradient[i] - slope * at.along_gradient[i]);
             let [sx, sy] = at.along_gradient;
@@ -118,7 +120,7 @@ impl Route {
                 return bound_m;
             }
             let position = [state.x_m + arm[0], state.y_m + arm[1]];
-            let corner = self.centre.project(position, Some(at.along_m + along_m));
+            let corner = self.centre.project(position, Some(at.along_beside_m([along_m, across_m])));
             if is_right {
                 corner.across_m - self.right.value(corner.along_m)
             } else {
