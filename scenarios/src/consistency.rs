@@ -11,6 +11,7 @@ use interplay_building::nearest::suggestion;
 use interplay_planners::State;
 
 use crate::error::{Fault, quoted};
+use crate::lane_reference::LaneReference;
 use crate::road::{Branch, Road};
 use crate::scenario::{Scenario, Vehicle};
 use crate::tree::TomlNode;
@@ -88,21 +89,24 @@ impl Checker<'_> {
     }
 
     fn goal(&mut self, index: usize, vehicle: &Vehicle) {
-        let (name, goal, road) = (&vehicle.name, vehicle.goal, &self.scenario.road);
+        let (name, goal, road) = (&vehicle.name, &vehicle.goal, &self.scenario.road);
         let path = format!("vehicle.{index}.goal");
-        let refused = goal.lane.and_then(|lane| no_such_lane(&format!("vehicle.{name}.goal.lane"), lane, road));
+        let number = goal.lane.as_ref().and_then(LaneReference::number);
+        let refused = number.and_then(|lane| no_such_lane(&format!("vehicle.{name}.goal.lane"), lane, road));
         if let Some((message, help)) = refused {
             self.refuse(&format!("{path}.lane"), "no such lane", message, &help);
         }
-        if goal.lane == Some(0) && road.lane_end().is_some() {
+        if number == Some(0) && road.lane_end().is_some() {
             let (ramp, it) = if matches!(road, Road::Curve(_)) { ("", "it") } else { ("the ramp, ", "the ramp") };
             let message = format!("`vehicle.{name}.goal.lane` is 0, {ramp}which ends");
             self.refuse(&format!("{path}.lane"), "this lane ends", message, &format!("lane 1 is the one beside {it}"));
         }
-        if goal.y_m.is_some() && (vehicle.road == Branch::Cross || matches!(road, Road::Curve(_))) {
-            let crosses = vehicle.road == Branch::Cross;
-            let (which, label) =
-                if crosses { ("the crossing road", "along this road") } else { ("a curve", "y of the world") };
+        if goal.y_m.is_some() && (vehicle.road == Branch::Cross || road.corridor(vehicle.road).is_none()) {
+            let (which, label) = match (vehicle.road, road) {
+                (Branch::Cross, _) => ("the crossing road", "along this road"),
+                (Branch::Main, Road::Curve(_)) => ("a curve", "y of the world"),
+                (Branch::Main, _) => ("a network of lanes", "y of the world"),
+            };
             let message = format!("`vehicle.{name}.goal.y_m` is no lateral position on {which}");
             self.refuse(&format!("{path}.y_m"), label, message, "state its `lane`");
             return;
@@ -226,6 +230,9 @@ impl Checker<'_> {
 
 fn extent(road: &Road, branch: Branch) -> String {
     let width = road.width_m();
+    if road.parallel_lanes().is_none() {
+        return "a vehicle may use its own lane and those beside it into which it may change".to_owned();
+    }
     match (road, branch) {
         (Road::Curve(curve), _) => {
             let end = curve.lane_end.map(|end| format!(", and its lane 0 narrows until it ends after {} m", end.end_m));

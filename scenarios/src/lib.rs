@@ -28,6 +28,7 @@ mod embedded;
 mod error;
 mod expect;
 mod files;
+mod lane_reference;
 mod load;
 mod merge;
 mod name;
@@ -54,10 +55,15 @@ pub use embedded::{Embedded, embedded};
 pub use error::{Fault, LoadError};
 pub use expect::{BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedSpeed};
 pub use files::files;
+pub use lane_reference::LaneReference;
 pub use load::{from_text, load};
 pub use overrides::Override;
 pub use plant::{Dynamic, Kinematic, Plant};
-pub use road::{Branch, CurveLaneEnd, CurvePiece, Intersection, Lanes, RampMerge, Road, RoadCurve};
+pub use road::{
+    AllWayStop, Branch, Crossing, CurveLaneEnd, CurvePiece, DrivingDirection, Intersection, LaneConfig, LaneNetwork,
+    LanePlaceConfig, LaneWidth, Lanes, MinorRoadRule, NarrowPassage, NeighbourConfig, NeighbourTable, OnRamp,
+    ParallelLanes, RampMerge, Road, RoadCurve, Roundabout, TJunction, TwoWayRoad,
+};
 pub use scenario::{GoalConfig, Scenario, Vehicle, Weights};
 pub use schema::{controller_kinds, driver_kinds, schema};
 pub use source::Source;

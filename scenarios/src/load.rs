@@ -66,14 +66,12 @@ fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
     }
     let mut stated = tree.to_json();
     expand(&mut stated);
-    let faults = resolve_starts(&mut stated, tree);
-    if !faults.is_empty() {
-        return Err(faults);
-    }
+    let placed = resolve_starts(&mut stated, tree)?;
     let mut scenario: Scenario = serde_json::from_value(stated)
         .map_err(|error| vec![Fault::at(&tree.place, "in this file", error.to_string())])?;
-    for vehicle in &mut scenario.vehicles {
-        vehicle.route = scenario.road.route(vehicle.road);
+    scenario.network = placed.network;
+    for (vehicle, route) in scenario.vehicles.iter_mut().zip(placed.routes) {
+        vehicle.route = route;
     }
     let days = scenario.days();
     let unread = match &mut scenario.weather {

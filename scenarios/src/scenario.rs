@@ -10,7 +10,8 @@ use interplay_building::control::Controller;
 use interplay_building::control::pid::PidSettings;
 use interplay_building::occupancy::Occupancy;
 use interplay_building::random::SplitMix64;
-use interplay_planners::{Body, Driver, Limits, Route, SafetyEllipse, State, human};
+use interplay_planners::road::network::RoadNetwork;
+use interplay_planners::{Body, Corridor, Driver, Limits, Route, SafetyEllipse, State, human};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -19,6 +20,7 @@ use crate::building::BuildingConfig;
 use crate::classes::{ScenarioScale, VehicleClass, VehicleDefaults};
 use crate::counterfactual::Counterfactual;
 use crate::expect::Expect;
+use crate::lane_reference::LaneReference;
 use crate::name;
 use crate::plant::Plant;
 use crate::road::{Branch, Road};
@@ -70,6 +72,9 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(extend("x-concerns" = "vehicles"))]
     pub road: Road,
+    /// The lanes of the road once the file is loaded, if they have names.
+    #[serde(skip)]
+    pub network: Option<Arc<RoadNetwork>>,
     /// Random change of every start, drawn from the seed; none by default.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "vehicles"))]
@@ -178,10 +183,12 @@ impl Scenario {
         self.controller.unwrap_or(Controller::Pid(PidSettings::default()))
     }
 
-    /// The route along which positions on the whole road are measured: that of the main road.
+    /// The route along which positions on the whole road are measured: that of the main road, and on a network that of the ego.
     pub fn main_route(&self) -> Arc<Route> {
-        let main = self.vehicles.iter().find(|vehicle| vehicle.road == Branch::Main);
-        main.map_or_else(|| self.road.route(Branch::Main), |vehicle| Arc::clone(&vehicle.route))
+        let on_main = || self.vehicles.iter().find(|vehicle| vehicle.road == Branch::Main);
+        let vehicle = if self.network.is_some() { self.ego() } else { on_main() };
+        let route = vehicle.map(|vehicle| Arc::clone(&vehicle.route));
+        route.or_else(|| self.road.route(Branch::Main)).unwrap_or_else(default_route)
     }
 
     /// The state in which each vehicle starts: as written, plus the random change that `start_jitter` asks for. The
@@ -215,6 +222,11 @@ pub struct Vehicle {
     /// Where it starts, in a lane or in world coordinates, and its speed there.
     #[schemars(with = "StartConfig", example = json!({ "x_m": 0.0, "y_m": 0.185, "speed_mps": 1.0 }))]
     pub start: State,
+    /// The names of the lanes on which it drives, from that of its start on, each a successor of the one before or a lane
+    /// beside it. By default the shortest way to the lane of its goal, or without one the only way there is.
+    #[serde(rename = "route", default)]
+    #[schemars(length(max = 1000), example = vec!["west-in", "west-to-north", "north-out"])]
+    pub route_lanes: Vec<String>,
     /// Its goal; by default to keep its lateral position and its speed.
     #[serde(default)]
     pub goal: GoalConfig,
@@ -233,13 +245,14 @@ pub struct Vehicle {
     /// Its driver, `kind` choosing; by default a nice human.
     #[serde(default = "default_driver")]
     pub driver: Driver,
-    /// Its way along the road, once the file is loaded; until then that of the default road.
+    /// Its way along the road, once the file is loaded; until then the x axis.
     #[serde(skip, default = "default_route")]
     pub route: Arc<Route>,
 }
 
 fn default_route() -> Arc<Route> {
-    Road::default().route(Branch::default())
+    let straight = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.0, end: None };
+    Arc::new(Route::from(straight))
 }
 
 fn default_driver() -> Driver {
@@ -247,14 +260,15 @@ fn default_driver() -> Driver {
 }
 
 impl Vehicle {
-    /// The state that the vehicle wants: the lateral position of its goal (that of its start without one), along the
-    /// road, at the wanted speed. The coordinate along the road is that of the start and nobody tracks it.
+    /// The state that the vehicle wants: the lateral position of its goal (that of its start without one, and on a network the
+    /// middle of its route), along the road, at the wanted speed. The coordinate along the road is that of the start and nobody
+    /// tracks it.
     pub fn target(&self, road: &Road) -> State {
         let route = &self.route;
         let start = route.locate(self.start.position(), None);
-        let lane_centre_m = self.goal.lane.map(|lane| road.lane_centre_m(self.road, lane));
-        let [x_m, y_m] =
-            route.centre.position(start.along_m, lane_centre_m.or(self.goal.y_m).unwrap_or(start.across_m));
+        let stated_m = self.goal_lane_centre_m(road).or(self.goal.y_m);
+        let start_m = if road.parallel_lanes().is_some() { start.across_m } else { 0.0 };
+        let [x_m, y_m] = route.centre.position(start.along_m, stated_m.unwrap_or(start_m));
         State {
             x_m,
             y_m,
@@ -264,13 +278,21 @@ impl Vehicle {
     }
 }
 
+impl Vehicle {
+    /// Lateral coordinate of the lane that is the goal, if parallel lanes have one \[m\].
+    pub(crate) fn goal_lane_centre_m(&self, road: &Road) -> Option<f64> {
+        road.lane_centre_m(self.road, self.goal.lane.as_ref()?.number()?)
+    }
+}
+
 /// The goal of a vehicle. What is not stated stays as at the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GoalConfig {
-    /// The lane whose centre it aims at, counted from the right; 0 is the rightmost.
+    /// The lane whose centre it aims at: its number from the right, 0 being the rightmost. On a road whose lanes have names, the
+    /// name of the lane to which it drives, by the shortest way.
     #[schemars(example = 1, extend("x-excludes" = ["y_m"]))]
-    pub lane: Option<usize>,
+    pub lane: Option<LaneReference>,
     /// The lateral position that it aims at, on the road along x \[m\].
     #[schemars(example = 0.555)]
     pub y_m: Option<f64>,

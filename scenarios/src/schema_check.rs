@@ -70,6 +70,10 @@ impl Checker {
         if !kinds.is_empty() {
             return self.table_of_a_kind(node, &kinds, schema, path);
         }
+        let mut forms = schema.forms().peekable();
+        if forms.peek().is_some() {
+            return self.one_of_several_forms(node, forms, schema, path);
+        }
         match (schema.type_name(), &node.value) {
             // Its keys are checked where they lead.
             (Some("object"), TomlValue::Table(_)) if schema.holds_paths() => {}
@@ -82,6 +86,27 @@ impl Checker {
             (Some("number"), TomlValue::Float(float)) => self.number(node, *float, schema, path),
             (wanted, _) => self.wrong_type(node, wanted, schema, path),
         }
+    }
+
+    /// A value that may be a number or a text, for example: the form of its type counts.
+    fn one_of_several_forms(
+        &mut self,
+        node: &TomlNode,
+        forms: impl Iterator<Item = SchemaNode>,
+        schema: SchemaNode,
+        path: &Path,
+    ) {
+        let mut wanted = Vec::new();
+        for form in forms {
+            let type_name = form.type_name().or_else(|| form.properties().next().map(|_| "object"));
+            if is_of_type(node, type_name) {
+                return self.node(node, form, path);
+            }
+            wanted.push(type_in_words(type_name));
+        }
+        let (wanted, got) = (wanted.join(" or "), kind_of(&node.value));
+        let message = format!("{} must be {wanted}, not {got}", quoted(&path.0));
+        self.refuse(&node.place, &format!("not {wanted}"), message, schema.description());
     }
 
     fn wrong_type(&mut self, node: &TomlNode, wanted: Option<&str>, schema: SchemaNode, path: &Path) {
@@ -225,6 +250,19 @@ impl Checker {
     }
 }
 
+/// Whether a value has a type of the schema.
+fn is_of_type(node: &TomlNode, type_name: Option<&str>) -> bool {
+    match node.value {
+        TomlValue::Table(_) => type_name == Some("object"),
+        TomlValue::Array(_) => type_name == Some("array"),
+        TomlValue::Text(_) => type_name == Some("string"),
+        TomlValue::Bool(_) => type_name == Some("boolean"),
+        TomlValue::Integer(_) => matches!(type_name, Some("integer" | "number")),
+        TomlValue::Float(_) => type_name == Some("number"),
+        TomlValue::Datetime => false,
+    }
+}
+
 /// Whether an unknown key names the quantity of a known one with another unit, or with none: `speed` and `speed_kmh` are
 /// `speed_mps`.
 fn differ_by_unit(key: &str, known: &str) -> bool {
@@ -241,7 +279,7 @@ mod tests {
     use super::*;
 
     /// Keywords that the check obeys, and those that only inform.
-    const UNDERSTOOD: &str = "$ref $defs oneOf const enum type properties required additionalProperties items minItems \
+    const UNDERSTOOD: &str = "$ref $defs oneOf anyOf const enum type properties required additionalProperties items minItems \
         maxItems minLength pattern minimum maximum exclusiveMinimum exclusiveMaximum format default description title \
         examples $schema x-unit x-excludes x-concerns x-mechanism x-merge-by x-paths";
 
@@ -256,7 +294,7 @@ mod tests {
                 assert!(UNDERSTOOD.split_whitespace().any(|word| word == keyword), "unknown keyword {keyword}");
                 match (keyword.as_str(), value) {
                     ("properties" | "$defs", Json::Object(below)) => below.values().for_each(walk),
-                    ("oneOf", Json::Array(alternatives)) => alternatives.iter().for_each(walk),
+                    ("oneOf" | "anyOf", Json::Array(alternatives)) => alternatives.iter().for_each(walk),
                     ("items", below) => walk(below),
                     ("additionalProperties", value) => assert_eq!(value, false),
                     ("pattern", value) => assert_eq!(value, &name::pattern()),

@@ -3,9 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::lane_reference::LaneReference;
+
 // A loaded scenario has a `State` in its place.
 /// Where a vehicle starts, in a lane (`lane`, `along_m`) or in world coordinates (`x_m`, `y_m`), and its speed there.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StartConfig {
     /// Position of the mass centre along the world's x axis \[m\].
@@ -20,10 +22,12 @@ pub(crate) struct StartConfig {
     /// Yaw angle, counter-clockwise from the x axis \[deg\].
     #[schemars(example = 0.0, extend("x-excludes" = ["heading_rad"]))]
     pub heading_deg: Option<f64>,
-    /// The lane in whose centre it starts, along the road; counted from the right, 0 is the rightmost.
+    /// The lane in whose centre it starts, along the lane: its number from the right, 0 being the rightmost, or its name on a
+    /// road whose lanes have names.
     #[schemars(example = 1, extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"]))]
-    pub lane: Option<usize>,
-    /// Position along the vehicle's road: x of the world on a road along x, otherwise the distance along the road \[m\].
+    pub lane: Option<LaneReference>,
+    /// Position along the vehicle's road: x of the world on a road along x, otherwise the distance along the road, or along a
+    /// lane with a name \[m\].
     #[schemars(example = 0.0, extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"]))]
     pub along_m: Option<f64>,
     /// Distance from the centre of `lane`, positive to the left; 0 if not stated \[m\].

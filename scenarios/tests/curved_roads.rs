@@ -20,8 +20,11 @@ fn curved(vehicle: &str, overrides: &[Override]) -> Scenario {
 #[test]
 fn a_curve_begins_at_the_origin_and_turns_as_its_pieces_say() {
     let scenario = curved("start = { lane = 0, along_m = 4.0, speed_mps = 5.0 }", &[]);
-    let (road, route) = (&scenario.road, scenario.road.route(Branch::Main));
-    assert_eq!((road.lane_count(), road.width_m(), road.heading_rad(Branch::Main)), (2, 7.0, 0.0));
+    let (road, route) = (&scenario.road, scenario.main_route());
+    assert_eq!(
+        (road.parallel_lanes().map(|lanes| lanes.count), road.width_m(), road.heading_rad(Branch::Main)),
+        (Some(2), 7.0, 0.0)
+    );
     assert_eq!((road.conflict_zone_m(Branch::Main), road.corridor(Branch::Main)), (None, None));
     assert!(route.straight().is_none());
     let begin = route.centre.at(0.0);
@@ -37,7 +40,7 @@ fn a_curve_begins_at_the_origin_and_turns_as_its_pieces_say() {
     let turn = route.tightest_turn().expect("it turns");
     assert!((turn.curvature_1pm + 1.0 / 15.0).abs() < 1e-6, "{turn:?}");
     assert_eq!((route.right.value(0.0), route.left.value(0.0)), (-3.5, 3.5));
-    assert_eq!([0, 1].map(|lane| road.lane_centre_m(Branch::Main, lane)), [-1.75, 1.75]);
+    assert_eq!([0, 1].map(|lane| road.lane_centre_m(Branch::Main, lane)), [Some(-1.75), Some(1.75)]);
 }
 
 #[test]
@@ -47,7 +50,7 @@ fn the_default_transition_fits_the_pieces() {
         let stated = curved("start = { lane = 0, along_m = 4.0, speed_mps = 5.0 }", &set);
         let Road::Curve(mut curve) = stated.road else { panic!("not a curve") };
         curve.transition_m = None;
-        let route = Road::Curve(curve).route(Branch::Main);
+        let route = Road::Curve(curve).route(Branch::Main).expect("a road without fault");
         let curvature = |index: u32| route.centre.at(f64::from(index) * 0.01).curvature_1pm;
         let changes =
             (0..(100.0 * route.end_m()) as u32).filter(|&index| (curvature(index) - curvature(index + 1)).abs() > 1e-6);
@@ -87,7 +90,7 @@ fn the_target_on_a_curve_is_beside_the_start_in_the_lane_of_the_goal() {
             "start = {{ lane = 0, along_m = {along_m}, speed_mps = 5.0 }}\ngoal = {{ lane = 1, speed_mps = 6.0 }}"
         );
         let scenario = curved(&vehicle, &[]);
-        let (target, route) = (scenario.vehicles[0].target(&scenario.road), scenario.road.route(Branch::Main));
+        let (target, route) = (scenario.vehicles[0].target(&scenario.road), scenario.main_route());
         let place = route.locate(target.position(), None);
         assert!((place.across_m - 1.75).abs() < 1e-9 && (place.along_m - along_m).abs() < 1e-9, "{place:?}");
         assert!((target.heading_rad - route.centre.at(along_m).heading_rad).abs() < 1e-9);
@@ -114,14 +117,14 @@ fn straight_roads_take_places_in_lanes() {
     assert_eq!(back.vehicles[0].start.to_array(), [1.0, 0.3, 0.0, 1.0], "and the other way round");
     let stated = load("intersection/nice", &[]).expect("authored");
     let crossing = stated.vehicles.iter().find(|vehicle| vehicle.road == Branch::Cross).expect("it crosses");
-    let place = stated.road.route(Branch::Cross).locate(crossing.start.position(), None);
+    let place = crossing.route.locate(crossing.start.position(), None);
     let change = format!("vehicle.{}.start={{ lane = 0, along_m = {:?} }}", crossing.name, place.along_m);
     let by_lane = load("intersection/nice", &[set(&change)]).expect("a start by lane");
     let start = by_lane.vehicle(&crossing.name).expect("there").start;
     let same = crossing.start.to_array().iter().zip(start.to_array()).all(|(a, b)| (a - b).abs() < 1e-12);
     assert!(same, "{start:?} is not {:?}", crossing.start);
     let merge = load(ramp_merge(), &[]).expect("authored");
-    assert_eq!(merge.road.route(Branch::Main).straight().copied(), merge.road.corridor(Branch::Main));
+    assert_eq!(merge.main_route().straight().copied(), merge.road.corridor(Branch::Main));
 }
 
 /// Some scenario with a ramp.
@@ -133,7 +136,7 @@ fn ramp_merge() -> &'static str {
 fn a_lane_of_a_curve_ends() {
     let end = [set("road.lane_end={ end_m = 90.0, taper_m = 4.0 }")];
     let scenario = curved("start = { lane = 0, along_m = 10.0, speed_mps = 5.0 }\ngoal = { lane = 1 }", &end);
-    let route = scenario.road.route(Branch::Main);
+    let route = scenario.main_route();
     assert!((route.right.value(10.0) + 3.5).abs() < 1e-9 && route.right.value(90.0).abs() < 0.1);
     assert_eq!(scenario.road.lane_end().map(|end| end.height_m), Some(3.5));
 }

@@ -8,7 +8,9 @@ use std::path::Path;
 
 use interplay_building::bounds::Bound;
 use interplay_planners::{Driver, human::Style};
-use interplay_scenarios::{Override, Road, Scenario, Source, commented, embedded, from_text, load, schema};
+use interplay_scenarios::{
+    Override, ParallelLanes, Road, Scenario, Source, commented, embedded, from_text, load, schema,
+};
 use least::{LEAST, least, set};
 use serde_json::{Map, Value as Json};
 
@@ -71,8 +73,12 @@ fn a_file_extends_a_file_beside_it() {
     );
     let path = folder.path().join("a.toml");
     let scenario = load(&path.to_string_lossy(), &[]).expect("a chain of three");
-    let goal = scenario.vehicle("rear").expect("inherited").goal;
-    assert_eq!((goal.lane, goal.y_m, goal.speed_mps), (None, Some(0.5), Some(0.7)), "`y_m` takes the place of `lane`");
+    let goal = &scenario.vehicle("rear").expect("inherited").goal;
+    assert_eq!(
+        (&goal.lane, goal.y_m, goal.speed_mps),
+        (&None, Some(0.5), Some(0.7)),
+        "`y_m` takes the place of `lane`"
+    );
     assert_eq!((scenario.title.as_str(), scenario.vehicles.len()), ("Sub", 3));
     assert_eq!(Source::find(&path.to_string_lossy()).expect("there").name(), "a");
 }
@@ -95,7 +101,7 @@ fn overrides_change_what_they_name_in_their_order() {
     assert_eq!((front.style, front.weight()), (None, 8.0), "`safety_weight` takes the place of `style`");
     assert_eq!(scenario.expect.completes[0].before_s, Some(9.0));
     assert_eq!((scenario.title.as_str(), scenario.seed, scenario.duration_s), ("Not TOML but a text", u64::MAX, 10.0));
-    assert_eq!((scenario.road.lane_count(), scenario.road.lane_width_m()), (3, 0.37));
+    assert_eq!(scenario.road.parallel_lanes(), Some(ParallelLanes { count: 3, width_m: 0.37 }));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Every figure of the report, worked out again from the frames.
 
 use interplay_planners::State;
-use interplay_scenarios::{Branch, Road};
+use interplay_scenarios::{Branch, LaneReference, Road};
 use interplay_simulation::frame::Origin;
 
 use crate::film::{FILMS, Film, kinematic};
@@ -54,7 +54,7 @@ fn the_order_is_that_of_the_road_or_of_the_crossing() {
             let place = match film.scenario.road {
                 Road::Intersection(_) => reached(film, index).expect("everybody crosses") as f64,
                 Road::Lanes(_) | Road::RampMerge(_) => -vehicle.last.x_m,
-                Road::Curve(_) => -film.scenario.vehicles[index].route.along(vehicle.last.position()),
+                _ => -film.scenario.vehicles[index].route.along(vehicle.last.position()),
             };
             (place, &vehicle.name)
         });
@@ -79,11 +79,21 @@ fn reached(film: &Film, index: usize) -> Option<usize> {
         }
         (road @ Road::Curve(_), branch) => {
             let at = vehicle.route.locate(state.position(), None);
-            let goal_m = vehicle.goal.lane.map_or(at.across_m, |lane| road.lane_centre_m(branch, lane));
+            let goal_m = vehicle
+                .goal
+                .lane
+                .as_ref()
+                .and_then(|lane| road.lane_centre_m(branch, lane.number()?))
+                .unwrap_or(at.across_m);
             (at.across_m - goal_m).abs() <= 0.15 * road.lane_width_m()
         }
         (road, _) => {
-            let goal_m = vehicle.goal.lane.map_or(state.y_m, |lane| (lane as f64 + 0.5) * road.lane_width_m());
+            let goal_m = vehicle
+                .goal
+                .lane
+                .as_ref()
+                .and_then(LaneReference::number)
+                .map_or(state.y_m, |lane| (lane as f64 + 0.5) * road.lane_width_m());
             (state.y_m - goal_m).abs() <= 0.15 * road.lane_width_m()
         }
     };

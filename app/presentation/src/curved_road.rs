@@ -20,9 +20,9 @@ pub struct CurvedRoad<'a> {
 }
 
 impl<'a> CurvedRoad<'a> {
-    /// The lines of a road; none if it is straight.
+    /// The lines of a road; none if it is straight or a network.
     pub fn new(road: &'a Road) -> Option<CurvedRoad<'a>> {
-        let route = road.route(Branch::Main);
+        let route = road.route(Branch::Main)?;
         route.straight().is_none().then_some(CurvedRoad { road, route })
     }
 
@@ -34,7 +34,7 @@ impl<'a> CurvedRoad<'a> {
 
     /// The lines between lanes \[m\]. Where lane 0 ends, the line to its left ends as well.
     pub fn dividers(&self, range_m: [f64; 2]) -> Vec<WorldLine> {
-        let stretches = (1..self.road.lane_count()).map(|between| (between, self.divided(between, range_m)));
+        let stretches = (1..self.lane_count()).map(|between| (between, self.divided(between, range_m)));
         stretches.map(|(between, range_m)| self.line(&self.divider(between), range_m)).collect()
     }
 
@@ -46,7 +46,7 @@ impl<'a> CurvedRoad<'a> {
             let whole = starts.take_while(move |start_m| start_m + dash_m <= to_m);
             whole.map(|start_m| self.line(&divider, [start_m, start_m + dash_m])).collect::<Vec<_>>()
         };
-        (1..self.road.lane_count()).flat_map(of_divider).collect()
+        (1..self.lane_count()).flat_map(of_divider).collect()
     }
 
     /// The smallest rectangle around the road between two arc lengths: its least and greatest coordinates \[m\].
@@ -56,8 +56,13 @@ impl<'a> CurvedRoad<'a> {
         })
     }
 
+    fn lane_count(&self) -> usize {
+        self.road.parallel_lanes().map_or(0, |lanes| lanes.count)
+    }
+
     fn divider(&self, between: usize) -> Profile {
-        Profile::constant(self.road.lane_centre_m(Branch::Main, between) - 0.5 * self.road.lane_width_m())
+        let centre_m = self.road.lane_centre_m(Branch::Main, between).unwrap_or_default();
+        Profile::constant(centre_m - 0.5 * self.road.lane_width_m())
     }
 
     /// The part of a stretch with a lane on both sides of a divider.
@@ -114,7 +119,7 @@ mod tests {
     fn nothing_divides_a_single_lane_and_straight_roads_have_no_curve() {
         let road = quarter();
         let curved = CurvedRoad::new(&road).expect("it turns");
-        let route = road.route(Branch::Main);
+        let route = road.route(Branch::Main).expect("it is no network");
         let dashes = curved.dashes(3.0, [0.0, 125.0]);
         assert!(dashes.len() > 10);
         for point in dashes.iter().chain(&curved.dividers([0.0, 125.0])).flatten() {

@@ -1,5 +1,6 @@
 //! The check of the road, and of vehicles against its form.
 
+use interplay_planners::road::network::RouteError;
 use interplay_planners::{Body, Limits};
 
 use super::checker::Checker;
@@ -111,7 +112,7 @@ fn rounded_down(length_m: f64) -> f64 {
 
 /// Why a road has no such lane, and what would work; none if it has it.
 pub(crate) fn no_such_lane(path: &str, lane: usize, road: &Road) -> Option<(String, String)> {
-    let lanes = road.lane_count();
+    let lanes = road.parallel_lanes()?.count;
     let message = format!("`{path}` is {lane}, but the road has only {lanes} {}", plural(lanes, "lane"));
     let help = format!("lanes are counted from the right: 0 to {}", lanes.saturating_sub(1));
     (lane >= lanes).then_some((message, help))
@@ -147,6 +148,10 @@ impl Checker<'_> {
             self.refuse(&format!("{path}.road"), "no such road", message, help);
             return;
         }
+        // On a network the lane of the start was found by its direction.
+        if self.scenario.network.is_some() {
+            return;
+        }
         let heading = vehicle.route.heading_at(vehicle.start.position());
         if libm::cos(vehicle.start.heading_rad - heading) >= MIN_COS_OF_START {
             return;
@@ -173,11 +178,16 @@ impl Checker<'_> {
     pub(super) fn turns(&mut self, index: usize, vehicle: &Vehicle) {
         let road = &self.scenario.road;
         let (turns, smallest_m) = (road.turns(), smallest_radius_m(&vehicle.body, &vehicle.limits));
+        if self.scenario.network.is_some()
+            && let Err(error) = vehicle.route.check_turns(smallest_m)
+        {
+            self.too_tight(index, vehicle, error);
+        }
         if turns.is_empty() {
             return;
         }
         let start_m = vehicle.route.across(vehicle.start.position());
-        let goal_m = vehicle.goal.lane.map_or(start_m, |lane| road.lane_centre_m(vehicle.road, lane));
+        let goal_m = vehicle.goal_lane_centre_m(road).unwrap_or(start_m);
         let radius_m = |turn: &crate::road::Turn| turn.radius_at_m(start_m).min(turn.radius_at_m(goal_m));
         let Some(turn) = turns.iter().min_by(|a, b| radius_m(a).total_cmp(&radius_m(b))) else { return };
         if radius_m(turn) < smallest_m {
@@ -193,6 +203,28 @@ impl Checker<'_> {
             let turn = self.place(&format!("road.pieces.{}.radius_m", turn.piece));
             self.faults.push(fault.also(turn, "this turn").help(help));
         }
+    }
+}
+
+impl Checker<'_> {
+    /// A lane on the route of a vehicle turns with a smaller radius than the vehicle.
+    fn too_tight(&mut self, index: usize, vehicle: &Vehicle, error: RouteError) {
+        let RouteError::TooTight { lane, radius_m, smallest_m, .. } = error else { return };
+        let message = format!(
+            "lane {} on the route of vehicle {} turns with a radius of {} m, but the vehicle needs {} m",
+            quoted(&lane),
+            quoted(&vehicle.name),
+            rounded(radius_m),
+            rounded(smallest_m)
+        );
+        let help = "a larger radius works, or a vehicle that steers more: `steering_max_rad` in its `limits`";
+        let fault = Fault::at(self.place(&format!("vehicle.{index}.start")), "its route is too tight", message);
+        let written = self.scenario.network.as_ref().and_then(|network| {
+            let number = network.lanes().iter().position(|other| other.name == lane)?;
+            self.tree.at(&format!("road.lane.{number}"))
+        });
+        let fault = written.into_iter().fold(fault, |fault, lane| fault.also(&lane.place, "this lane"));
+        self.faults.push(fault.help(help));
     }
 }
 

@@ -10,6 +10,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use super::piece::{CurvePiece, PieceFault};
+
 /// A road of straight and curved pieces with parallel lanes. Its middle begins at x = 0 and half of the road's width in y,
 /// with heading 0, so that the right edge there is y = 0. Before and after its pieces the road goes on straight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -49,21 +51,6 @@ mod defaults {
     pub fn lane_width_m() -> f64 {
         Lanes::default().lane_width_m
     }
-}
-
-/// A piece of a curved road: `straight_m`, or `turn_deg` with `radius_m`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct CurvePiece {
-    /// Length of a straight piece \[m\].
-    #[schemars(range(min = 0.001), example = 3.0, extend("x-excludes" = ["turn_deg", "radius_m"]))]
-    pub straight_m: Option<f64>,
-    /// By how much the road turns, positive to the left \[deg\].
-    #[schemars(range(min = -360.0, max = 360.0), example = 90.0)]
-    pub turn_deg: Option<f64>,
-    /// Radius of the road's middle in the turn \[m\].
-    #[schemars(range(min = 0.001), example = 2.5)]
-    pub radius_m: Option<f64>,
 }
 
 /// Where lane 0 of a curved road ends.
@@ -112,19 +99,6 @@ pub(crate) enum CurveFault {
     NoLaneBeside,
     /// Lane 0 ends beyond the road.
     EndsBeyond { end_m: f64, length_m: f64 },
-}
-
-/// What is wrong with a piece of a curved road.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum PieceFault {
-    /// It is neither straight nor a turn.
-    NoPiece,
-    /// It does not say both the angle and the radius of a turn; this key is missing.
-    HalfTurn { key: &'static str },
-    /// A turn by 0.
-    NoTurn,
-    /// The inner edge of the turn crosses itself.
-    TooTight { radius_m: f64, least_m: f64 },
 }
 
 /// Longest road, as a multiple of its width: bounds the cost of loading it.
@@ -216,19 +190,9 @@ impl RoadCurve {
     /// The pieces as those of a centre line.
     fn piece_list(&self) -> Result<Vec<Piece>, CurveFault> {
         let least_m = 0.5 * self.width_m();
-        let one = |stated: &CurvePiece| match (stated.straight_m, stated.turn_deg, stated.radius_m) {
-            (Some(length_m), ..) => Ok(Piece::Straight { length_m }),
-            (None, None, None) => Err(PieceFault::NoPiece),
-            (None, Some(_), None) => Err(PieceFault::HalfTurn { key: "radius_m" }),
-            (None, None, Some(_)) => Err(PieceFault::HalfTurn { key: "turn_deg" }),
-            (None, Some(0.0), Some(_)) => Err(PieceFault::NoTurn),
-            (None, Some(_), Some(radius_m)) if radius_m <= least_m => Err(PieceFault::TooTight { radius_m, least_m }),
-            (None, Some(turn_deg), Some(radius_m)) => Ok(Piece::Arc {
-                length_m: turn_deg.abs().to_radians() * radius_m,
-                curvature_1pm: turn_deg.signum() / radius_m,
-            }),
+        let located = |(piece, stated): (usize, &CurvePiece)| {
+            stated.piece(least_m).map_err(|fault| CurveFault::Piece { piece, fault })
         };
-        let located = |(piece, stated)| one(stated).map_err(|fault| CurveFault::Piece { piece, fault });
         self.pieces.iter().enumerate().map(located).collect()
     }
 

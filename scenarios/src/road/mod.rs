@@ -1,27 +1,41 @@
 //! Where vehicles may drive, one file for each form of road.
 //!
-//! The main road begins along x and its right edge there is y = 0; another one may cross it. Lanes are counted from the right
-//! of who drives: the centre of lane `i` lies `(i + ½) w` to the left of the right edge.
+//! A road of parallel lanes begins along x and its right edge there is y = 0; another one may cross it. Lanes are counted from
+//! the right of who drives: the centre of lane `i` lies `(i + ½) w` to the left of the right edge.
 //!
-//! Coordinates along and across a road are those of its [`Route`]. On a straight road they are the projections on its
+//! Other roads are networks of lanes with names.
+//!
+//! Coordinates along and across a road are those of a [`Route`]. On a straight road they are the projections on its
 //! direction and on the normal of that, from the origin. On a curve, along is the arc length of the road's middle, and across
-//! is the distance from the middle, positive to the left.
+//! is the distance from the middle, positive to the left. On a network they are those of the lanes of the route.
 
 mod curve;
+mod fault;
 mod intersection;
+mod junctions;
 mod lanes;
+mod network;
+mod piece;
 mod ramp_merge;
 
 use std::sync::Arc;
 
+use interplay_planners::road::network::Lane;
 use interplay_planners::{Corridor, LaneEnd, Route};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub(crate) use curve::{CurveFault, PieceFault, Turn};
-pub use curve::{CurveLaneEnd, CurvePiece, RoadCurve};
+pub(crate) use curve::{CurveFault, Turn};
+pub use curve::{CurveLaneEnd, RoadCurve};
+pub(crate) use fault::{RoadFault, to_centimetres};
 pub use intersection::Intersection;
+pub use junctions::{
+    AllWayStop, Crossing, DrivingDirection, MinorRoadRule, NarrowPassage, OnRamp, Roundabout, TJunction, TwoWayRoad,
+};
 pub use lanes::Lanes;
+pub use network::{LaneConfig, LaneNetwork, LanePlaceConfig, LaneWidth, NeighbourConfig, NeighbourTable};
+pub use piece::CurvePiece;
+pub(crate) use piece::PieceFault;
 pub use ramp_merge::RampMerge;
 
 /// A road; `kind` chooses.
@@ -36,6 +50,22 @@ pub enum Road {
     Intersection(Intersection),
     /// A road of straight and curved pieces with parallel lanes, of which lane 0 may end.
     Curve(RoadCurve),
+    /// Lanes with names, each with its line, its width, and the lanes after and beside it.
+    Network(LaneNetwork),
+    /// A ring with three to six arms.
+    Roundabout(Roundabout),
+    /// A minor road that ends at a main one.
+    TJunction(TJunction),
+    /// Two roads with both directions that cross, the main one with priority.
+    Crossing(Crossing),
+    /// Two roads with both directions that cross, where everybody stops.
+    AllWayStop(AllWayStop),
+    /// A motorway that a ramp joins with an acceleration lane.
+    OnRamp(OnRamp),
+    /// A road with both directions that narrows to the width of one lane.
+    NarrowPassage(NarrowPassage),
+    /// A straight road with a lane in each direction.
+    TwoWay(TwoWayRoad),
 }
 
 /// The road that a vehicle drives on.
@@ -49,6 +79,15 @@ pub enum Branch {
     Cross,
 }
 
+/// Lanes side by side that are driven in the same direction, counted from the right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParallelLanes {
+    /// How many lanes there are.
+    pub count: usize,
+    /// Width of each lane \[m\].
+    pub width_m: f64,
+}
+
 impl Default for Road {
     fn default() -> Self {
         Road::Lanes(Lanes::default())
@@ -56,35 +95,33 @@ impl Default for Road {
 }
 
 impl Road {
-    /// The way of a vehicle on `branch` along the road, from one edge to the other.
+    /// The way along a road of parallel lanes, from one edge to the other; none on a network, where each vehicle has its own,
+    /// and on a curve with a fault.
     ///
     /// It is computed anew each time: a loaded [`Vehicle`](crate::Vehicle) has its own.
-    pub fn route(&self, branch: Branch) -> Arc<Route> {
-        match (self, self.corridor(branch)) {
-            (_, Some(corridor)) => corridor.into(),
-            // A loaded scenario has no curve with a fault.
-            (Road::Curve(curve), None) => curve.route().unwrap_or_else(|_| self.strip(branch).into()),
-            (Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_), None) => self.strip(branch).into(),
+    pub fn route(&self, branch: Branch) -> Option<Arc<Route>> {
+        match self {
+            Road::Curve(curve) => curve.route().ok(),
+            _ => self.corridor(branch).map(Arc::from),
         }
     }
 
-    /// The straight strip that a vehicle on `branch` may use; none on a curve.
+    /// The straight strip that a vehicle on `branch` may use; none on a curve and on a network.
     pub fn corridor(&self, branch: Branch) -> Option<Corridor> {
-        (!matches!(self, Road::Curve(_))).then(|| self.strip(branch))
-    }
-
-    /// The strip of a straight road.
-    fn strip(&self, branch: Branch) -> Corridor {
+        if matches!(self, Road::Curve(_)) {
+            return None;
+        }
+        self.parallel_lanes()?;
         let heading_rad = self.heading_rad(branch);
         let (width, middle) = (self.width_m(), self.middle_m(branch));
         let (right_m, left_m) = match branch {
             Branch::Main => (0.0, width),
             Branch::Cross => (middle - 0.5 * width, middle + 0.5 * width),
         };
-        Corridor { heading_rad, right_m, left_m, end: self.lane_end() }
+        Some(Corridor { heading_rad, right_m, left_m, end: self.lane_end() })
     }
 
-    /// Direction of the lanes of `branch`; on a curve, where it begins \[rad\].
+    /// Direction of the lanes of `branch`, of parallel lanes where they begin \[rad\].
     pub fn heading_rad(&self, branch: Branch) -> f64 {
         match (self, branch) {
             (Road::Intersection(crossing), Branch::Cross) => crossing.angle_deg.to_radians(),
@@ -92,14 +129,14 @@ impl Road {
         }
     }
 
-    /// The end of lane 0, if it ends.
+    /// The end of lane 0 of parallel lanes, if it ends.
     pub fn lane_end(&self) -> Option<LaneEnd> {
         match self {
             Road::RampMerge(ramp) => {
                 Some(LaneEnd { end_m: ramp.ramp_end_m, height_m: ramp.lane_width_m, taper_m: ramp.taper_m })
             }
             Road::Curve(curve) => curve.lane_end(),
-            Road::Lanes(_) | Road::Intersection(_) => None,
+            _ => None,
         }
     }
 
@@ -107,7 +144,7 @@ impl Road {
     pub(crate) fn turns(&self) -> Vec<Turn> {
         match self {
             Road::Curve(curve) => curve.turns().collect(),
-            Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_) => Vec::new(),
+            _ => Vec::new(),
         }
     }
 
@@ -135,35 +172,64 @@ impl Road {
         Some([reaches[0].min(reaches[1]), reaches[0].max(reaches[1])])
     }
 
-    /// How many lanes there are.
-    pub fn lane_count(&self) -> usize {
+    /// The lanes of a road that is no network.
+    pub fn parallel_lanes(&self) -> Option<ParallelLanes> {
+        let (count, width_m) = match self {
+            Road::Lanes(lanes) => (lanes.lane_count, lanes.lane_width_m),
+            Road::RampMerge(ramp) => (ramp.lane_count, ramp.lane_width_m),
+            Road::Intersection(crossing) => (crossing.lane_count, crossing.lane_width_m),
+            Road::Curve(curve) => (curve.lane_count, curve.lane_width_m),
+            _ => return None,
+        };
+        Some(ParallelLanes { count, width_m })
+    }
+
+    /// The lanes of a network, unchecked; none on a road of parallel lanes.
+    ///
+    /// # Errors
+    /// For lanes that have no line or no width.
+    pub(crate) fn network_lanes(&self) -> Option<Result<Vec<Lane>, RoadFault>> {
         match self {
-            Road::Lanes(lanes) => lanes.lane_count,
-            Road::RampMerge(ramp) => ramp.lane_count,
-            Road::Intersection(crossing) => crossing.lane_count,
-            Road::Curve(curve) => curve.lane_count,
+            Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_) | Road::Curve(_) => None,
+            Road::Network(network) => Some(network.lanes()),
+            Road::Roundabout(roundabout) => Some(roundabout.lanes()),
+            Road::TJunction(junction) => Some(junction.lanes()),
+            Road::Crossing(crossing) => Some(crossing.lanes()),
+            Road::AllWayStop(crossing) => Some(crossing.lanes()),
+            Road::OnRamp(ramp) => Some(ramp.lanes()),
+            Road::NarrowPassage(passage) => Some(passage.lanes()),
+            Road::TwoWay(road) => Some(road.lanes()),
         }
     }
 
-    /// Width of one lane \[m\].
+    /// Width of one lane; where lanes differ, of the first of them where it begins \[m\].
     pub fn lane_width_m(&self) -> f64 {
         match self {
             Road::Lanes(lanes) => lanes.lane_width_m,
             Road::RampMerge(ramp) => ramp.lane_width_m,
             Road::Intersection(crossing) => crossing.lane_width_m,
             Road::Curve(curve) => curve.lane_width_m,
+            Road::Network(network) => network.lanes.first().map_or(0.0, |lane| lane.width_m.first_m()),
+            Road::Roundabout(roundabout) => roundabout.lane_width_m,
+            Road::TJunction(junction) => junction.lane_width_m,
+            Road::Crossing(crossing) => crossing.lane_width_m,
+            Road::AllWayStop(crossing) => crossing.lane_width_m,
+            Road::OnRamp(ramp) => ramp.lane_width_m,
+            Road::NarrowPassage(passage) => passage.lane_width_m,
+            Road::TwoWay(road) => road.lane_width_m,
         }
     }
 
-    /// Width of all lanes together, of each road \[m\].
+    /// Width of all parallel lanes together, of each road; on a network, of one lane \[m\].
     pub fn width_m(&self) -> f64 {
-        self.lane_count() as f64 * self.lane_width_m()
+        self.parallel_lanes().map_or(1.0, |lanes| lanes.count as f64) * self.lane_width_m()
     }
 
-    /// Lateral coordinate of the centre of a lane of `branch`, 0 being the rightmost \[m\].
-    pub fn lane_centre_m(&self, branch: Branch, lane: usize) -> f64 {
+    /// Lateral coordinate of the centre of a lane of `branch`, 0 being the rightmost; none on a network \[m\].
+    pub fn lane_centre_m(&self, branch: Branch, lane: usize) -> Option<f64> {
+        self.parallel_lanes()?;
         let right_m = self.corridor(branch).map_or(-0.5 * self.width_m(), |corridor| corridor.right_m);
-        right_m + (lane as f64 + 0.5) * self.lane_width_m()
+        Some(right_m + (lane as f64 + 0.5) * self.lane_width_m())
     }
 
     /// Lateral coordinate of the middle of `branch` \[m\].
@@ -187,8 +253,8 @@ mod tests {
         let road = Road::Lanes(Lanes { lane_count: 5, lane_width_m: 3.5 });
         let corridor = straight(&road, Branch::Main);
         assert_eq!((corridor.right_m, corridor.left_m), (0.0, 17.5));
-        assert_eq!(road.lane_centre_m(Branch::Main, 0), 1.75);
-        assert_eq!(road.lane_centre_m(Branch::Main, 4), 15.75);
+        assert_eq!(road.lane_centre_m(Branch::Main, 0), Some(1.75));
+        assert_eq!(road.lane_centre_m(Branch::Main, 4), Some(15.75));
     }
 
     /// Whatever the direction, the point in the middle of one road is in the middle of the other.
@@ -200,7 +266,8 @@ mod tests {
             for branch in [Branch::Main, Branch::Cross] {
                 let corridor = straight(&road, branch);
                 assert!((corridor.across(meeting) - 0.5 * (corridor.right_m + corridor.left_m)).abs() < 1e-12);
-                assert!((corridor.across(meeting) - road.lane_centre_m(branch, 1)).abs() < 1e-12);
+                let centre_m = road.lane_centre_m(branch, 1).expect("a lane");
+                assert!((corridor.across(meeting) - centre_m).abs() < 1e-12);
                 let [from, to] = road.conflict_zone_m(branch).expect("they cross");
                 assert!((corridor.along(meeting) - 0.5 * (from + to)).abs() < 1e-12);
                 let (sin, cos) = angle_deg.to_radians().sin_cos();

@@ -144,6 +144,12 @@ impl SchemaNode {
         self.alternatives().find(|one| kind_of(one) == Some(kind)).map(|one| self.at(one))
     }
 
+    /// The forms that a value may have, if there are several: a number or a text, for example.
+    pub fn forms(self) -> impl Iterator<Item = SchemaNode> {
+        let forms = self.definition().get("anyOf").and_then(Json::as_array);
+        forms.into_iter().flatten().map(move |form| self.at(form))
+    }
+
     /// The keys of a table, in the order of the fields; none if this is no table, or one of several kinds.
     pub fn properties(self) -> impl Iterator<Item = (&'static String, SchemaNode)> {
         let properties = self.definition().get("properties").and_then(Json::as_object);

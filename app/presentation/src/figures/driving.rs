@@ -110,7 +110,7 @@ fn strip(road: &Road, vehicle: &Vehicle) -> Option<Strip> {
     Some(Strip {
         heading_rad: corridor.heading_rad,
         edges_m: [corridor.right_m, corridor.left_m],
-        dividers_m: (1..road.lane_count()).map(divider).collect(),
+        dividers_m: (1..road.parallel_lanes()?.count).map(divider).collect(),
         shoulder_m: shoulder_m.unwrap_or_default(),
     })
 }

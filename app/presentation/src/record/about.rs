@@ -2,7 +2,7 @@
 
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
-use interplay_scenarios::{Scenario, Vehicle};
+use interplay_scenarios::{LaneReference, Scenario, Vehicle};
 use interplay_simulation::report::CounterfactualReport;
 use rerun::{RecordingStream, RecordingStreamResult};
 
@@ -69,8 +69,9 @@ fn verdicts(counterfactuals: &[CounterfactualReport]) -> String {
 
 fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: NamedColour) -> String {
     let target = vehicle.target(&scenario.road);
-    let goal = match vehicle.goal.lane {
-        Some(lane) => format!("lane {lane} at {:.2} m/s", target.speed_mps),
+    let goal = match &vehicle.goal.lane {
+        Some(LaneReference::Number(lane)) => format!("lane {lane} at {:.2} m/s", target.speed_mps),
+        Some(LaneReference::Name(lane)) => format!("lane `{lane}` at {:.2} m/s", target.speed_mps),
         None => format!("{:.2} m/s", target.speed_mps),
     };
     format!("| **{}** | {} | {} | {goal} |\n", vehicle.name, vehicle_colour.word, vehicle.driver.kind())

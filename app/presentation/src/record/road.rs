@@ -120,7 +120,8 @@ impl Strip<'_> {
             let free = starts.filter(|start| is_free(between, *start));
             free.map(|start| along(lateral_m(between), start, start + 0.5 * period)).collect::<Vec<_>>()
         };
-        (1..self.road.lane_count()).flat_map(marking).collect()
+        let count = self.road.parallel_lanes().map_or(0, |lanes| lanes.count);
+        (1..count).flat_map(marking).collect()
     }
 }
 

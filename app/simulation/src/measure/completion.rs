@@ -9,7 +9,8 @@ use interplay_scenarios::{Road, Vehicle};
 const LATERAL_TOLERANCE_SHARE: f64 = 0.15;
 
 /// On a road of parallel lanes a vehicle has completed its task once its centre is within 15 % of a lane's width of the
-/// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone.
+/// goal's lateral position; at an intersection, once its rear bumper has left the conflict zone; on a network, once its rear
+/// bumper is on the last lane of its route.
 ///
 /// A vehicle that starts there has nothing to complete.
 #[derive(Clone, Debug)]
@@ -29,15 +30,19 @@ enum Task {
     Lane { lateral_m: f64, tolerance_m: f64 },
     /// The far side of the other road, with the whole body.
     Cross { end_m: f64, body: Body },
+    /// The last lane of the route, with the whole body.
+    LastLane { from_m: f64, body: Body },
 }
 
 impl Completion {
     /// The goal of a vehicle.
     pub fn new(vehicle: &Vehicle, road: &Road) -> Self {
         let route = Arc::clone(&vehicle.route);
-        let task = match road.conflict_zone_m(vehicle.road) {
-            Some([_, end_m]) => Task::Cross { end_m, body: vehicle.body },
-            None => Task::Lane {
+        let last = route.legs.last().filter(|_| road.parallel_lanes().is_none() && route.legs.len() > 1);
+        let task = match (road.conflict_zone_m(vehicle.road), last) {
+            (Some([_, end_m]), _) => Task::Cross { end_m, body: vehicle.body },
+            (None, Some(leg)) => Task::LastLane { from_m: leg.from_m, body: vehicle.body },
+            (None, None) => Task::Lane {
                 lateral_m: route.across(vehicle.target(road).position()),
                 tolerance_m: LATERAL_TOLERANCE_SHARE * road.lane_width_m(),
             },
@@ -51,7 +56,9 @@ impl Completion {
         let position = state.position();
         match self.task {
             Task::Lane { lateral_m, tolerance_m } => (self.route.across(position) - lateral_m).abs() <= tolerance_m,
-            Task::Cross { end_m, body } => self.route.along(position) - body.rear_m > end_m,
+            Task::Cross { end_m: place_m, body } | Task::LastLane { from_m: place_m, body } => {
+                self.route.along(position) - body.rear_m > place_m
+            }
         }
     }
 

@@ -83,13 +83,16 @@ fn digest(scenario: &Scenario, phases: &PhaseDigests, building: Option<&Building
     }
 }
 
-/// Names from the front of the road to its rear; at an intersection, in the order in which they left the conflict zone,
-/// and then by how far they still have to go.
+/// Names from the front of the road to its rear, on a network along the route of the ego; at an intersection, in the order in
+/// which they left the conflict zone, and then by how far they still have to go.
 fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
     let road = &scenario.road;
     let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
+    let of_all = scenario.network.is_some().then(|| scenario.main_route());
     let place = |(vehicle, measured): (&Vehicle, &VehicleMeasures)| {
-        let along = measured.completion.along_m(measured.last.position());
+        let position = measured.last.position();
+        let along =
+            of_all.as_ref().map_or_else(|| measured.completion.along_m(position), |route| route.along(position));
         match road.conflict_zone_m(vehicle.road) {
             Some([_, end]) => {
                 let never = if along > end { 0.0 } else { f64::INFINITY };

@@ -1,5 +1,8 @@
 //! A lane and what it says of other lanes.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::super::centre_line::CentreLine;
 use super::super::profile::Profile;
 
@@ -45,7 +48,8 @@ pub enum NeighbourRelation {
 }
 
 /// Who goes first at the end of a lane.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum RightOfWay {
     /// The vehicles on this lane.
     #[default]

@@ -1,0 +1,176 @@
+//! The network of a road, and what keeps lanes from being one.
+
+use interplay_building::nearest::suggestion;
+use interplay_planners::road::network::{Lane, LaneFault, RoadNetwork, RoadNetworkError};
+
+use crate::error::{Fault, quoted};
+use crate::road::{Road, RoadFault, to_centimetres};
+use crate::tree::TomlNode;
+
+/// The network of a road; none for a road of parallel lanes.
+///
+/// # Errors
+/// For lanes that are no network, and a network that cannot be left.
+pub(super) fn network(road: &Road, tree: &TomlNode) -> Result<Option<RoadNetwork>, Fault> {
+    let lanes = match road.network_lanes() {
+        None => return Ok(None),
+        Some(Err(fault)) => return Err(located(fault, tree)),
+        Some(Ok(lanes)) => lanes,
+    };
+    let describer = Describer { road, lanes: &lanes, tree };
+    let network = RoadNetwork::new(lanes.clone()).map_err(|error| describer.described(&error))?;
+    if let Some(fault) = describer.without_end(&network) {
+        return Err(fault);
+    }
+    Ok(Some(network))
+}
+
+fn located(fault: RoadFault, tree: &TomlNode) -> Fault {
+    let path = if fault.path.is_empty() { "road".to_owned() } else { format!("road.{}", fault.path) };
+    Fault::at(tree.place_of(&path), &fault.label, fault.message).help(fault.help)
+}
+
+struct Describer<'a> {
+    road: &'a Road,
+    lanes: &'a [Lane],
+    tree: &'a TomlNode,
+}
+
+impl Describer<'_> {
+    /// A fault at a key of a lane; in a short form, which has no lanes to point at, at the road.
+    fn at(&self, index: usize, key: &str, label: &str, message: String) -> Fault {
+        let path = match self.road {
+            Road::Network(_) => format!("road.lane.{index}.{key}"),
+            _ => "road".to_owned(),
+        };
+        Fault::at(self.tree.place_of(&path), label, message)
+    }
+
+    /// Lanes that form a loop which cannot be left.
+    fn without_end(&self, network: &RoadNetwork) -> Option<Fault> {
+        let caught = network.lanes_without_end();
+        let first = caught.first()?;
+        let index = self.lanes.iter().position(|lane| lane.name == first.name)?;
+        let message = match caught.as_slice() {
+            [_] => {
+                format!("lane {} leads only to itself: vehicles on it drive in a circle for ever", quoted(&first.name))
+            }
+            more => format!(
+                "lane {} and {} more lead only into a loop: vehicles on them drive in a circle for ever",
+                quoted(&first.name),
+                more.len() - 1
+            ),
+        };
+        let fault = self.at(index, "successors", "never ends", message);
+        Some(fault.help("give a lane of the loop a successor that leads out of it, or no successor"))
+    }
+
+    fn described(&self, error: &RoadNetworkError) -> Fault {
+        let RoadNetworkError { lane, index, fault, .. } = error;
+        let of = format!("lane {}", quoted(lane));
+        let (key, label) = (self.key(error), label(fault));
+        let at = |message: String| self.at(*index, &key, label, message);
+        let reached = self.lanes.get(*index).map(|lane| lane.centre.at(lane.centre.length_m()));
+        match fault {
+            LaneFault::SameName => {
+                let first = self.lanes.iter().position(|other| other.name == *lane).unwrap_or_default();
+                let first = self.tree.place_of(&format!("road.lane.{first}.name"));
+                at(format!("two lanes are called {}", quoted(lane)))
+                    .also(first, "the first")
+                    .help("give each lane a name of its own")
+            }
+            LaneFault::NotPositive { value, along_m } => {
+                at(format!("{of} has the width {} m, {} m along it", to_centimetres(*value), to_centimetres(*along_m)))
+                    .help("widths are above 0 m everywhere; 3.5 m is a usual one")
+            }
+            LaneFault::EdgesCross { width_m, radius_m, along_m } => at(format!(
+                "{of} is {} m wide where it turns with a radius of {} m, {} m along it: its inner edge crosses itself",
+                to_centimetres(*width_m),
+                to_centimetres(*radius_m),
+                to_centimetres(*along_m)
+            ))
+            .help(format!("less than {} m works there, or a larger radius", to_centimetres(2.0 * radius_m))),
+            LaneFault::UnknownLane { other } => {
+                let names: Vec<&str> = self.lanes.iter().map(|lane| lane.name.as_str()).collect();
+                at(format!("{of} names lane {}, which the road does not have", quoted(other))).help(suggestion(
+                    other,
+                    "the lanes are",
+                    &names,
+                ))
+            }
+            LaneFault::NamedTwice { other } => {
+                at(format!("{of} names lane {} twice among its successors", quoted(other))).help("name it once")
+            }
+            LaneFault::OwnNeighbour => {
+                at(format!("{of} is named as its own neighbour")).help("name the lane beside it")
+            }
+            LaneFault::Gap { other, gap_m, most_m } => {
+                let [x, y] = reached.map_or([0.0; 2], |end| end.position.map(to_centimetres));
+                at(format!(
+                    "{of} does not touch its successor `{other}`: {} m are between them",
+                    to_centimetres(*gap_m)
+                ))
+                .help(format!(
+                    "`{other}` must begin where `{lane}` ends, at x = {x}, y = {y}, to within {} m",
+                    to_centimetres(*most_m)
+                ))
+            }
+            LaneFault::Kink { other, turn_deg, most_deg } => {
+                let end_deg = reached.map_or(0.0, |end| to_centimetres(end.heading_rad.to_degrees()));
+                at(format!(
+                    "{of} and its successor `{other}` differ by {} degrees in direction",
+                    to_centimetres(*turn_deg)
+                ))
+                .help(format!(
+                    "`{other}` must begin at `heading_deg = {end_deg}`, in which `{lane}` ends, to within {most_deg:.0} degrees"
+                ))
+            }
+            LaneFault::WrongDirection { other } => {
+                at(format!("lane `{other}` beside {of} does not run in the direction that is said of it"))
+                    .help(format!("`{{ lane = \"{other}\", oncoming = true }}` is a lane in the opposite direction"))
+            }
+            LaneFault::WrongSide { other } => at(format!("lane `{other}` is not on this side of {of}"))
+                .help("`left` and `right` are as who drives on the lane sees them"),
+            other @ (LaneFault::NoName | LaneFault::NoEnds) => at(format!("{of} is none: {other}")),
+        }
+    }
+
+    /// The key of the lane that is wrong, as files call it.
+    fn key(&self, error: &RoadNetworkError) -> String {
+        let successor = |other: &String| {
+            let stated = self.lanes.get(error.index).map(|lane| lane.successors.as_slice()).unwrap_or_default();
+            let last = stated.iter().rposition(|name| name == other);
+            last.map_or_else(|| "successors".to_owned(), |place| format!("successors.{place}"))
+        };
+        match (error.field, &error.fault) {
+            (
+                "successors",
+                LaneFault::UnknownLane { other }
+                | LaneFault::NamedTwice { other }
+                | LaneFault::Gap { other, .. }
+                | LaneFault::Kink { other, .. },
+            ) => successor(other),
+            ("width", _) => "width_m".to_owned(),
+            ("centre", _) => "pieces".to_owned(),
+            (field, _) => field.to_owned(),
+        }
+    }
+}
+
+/// What stands beside the underlined text.
+fn label(fault: &LaneFault) -> &'static str {
+    match fault {
+        LaneFault::NoName => "no name",
+        LaneFault::SameName => "the second",
+        LaneFault::NoEnds => "no ends",
+        LaneFault::NotPositive { .. } => "no width",
+        LaneFault::EdgesCross { .. } => "too wide",
+        LaneFault::UnknownLane { .. } => "no such lane",
+        LaneFault::NamedTwice { .. } => "again",
+        LaneFault::OwnNeighbour => "the lane itself",
+        LaneFault::Gap { .. } => "does not begin there",
+        LaneFault::Kink { .. } => "begins in another direction",
+        LaneFault::WrongDirection { .. } => "in the other direction",
+        LaneFault::WrongSide { .. } => "on the other side",
+    }
+}

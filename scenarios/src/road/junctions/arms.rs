@@ -1,0 +1,233 @@
+//! Junctions of straight arms along the axes.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use interplay_planners::road::network::{Lane, NeighbourRelation, RightOfWay};
+
+use super::super::fault::{RoadFault, to_centimetres};
+use super::connector::{Connector, LanePose, connector, tangent_ratio};
+use super::{beside, lane, limit_in_turn_mps, numbered, straight};
+
+/// The direction in which an arm leads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Compass {
+    East,
+    North,
+    West,
+    South,
+}
+
+/// A straight road that ends at a junction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arm {
+    pub compass: Compass,
+    /// Who goes first at the end of its lanes.
+    pub right_of_way: RightOfWay,
+    /// Whether a lane of its own leads to the left.
+    pub has_turning_lane: bool,
+}
+
+/// Arms that meet, and their sizes.
+pub(super) struct Arms<'a> {
+    /// They are in the order of [`Compass`], and opposite arms are equal.
+    pub arms: &'a [Arm],
+    /// How far they reach from the middle of the junction \[m\].
+    pub arm_length_m: f64,
+    pub lane_width_m: f64,
+    pub speed_limit_mps: f64,
+    /// Smallest radius of turns to the right \[m\].
+    pub turn_radius_m: f64,
+}
+
+impl Compass {
+    pub fn name(self) -> &'static str {
+        match self {
+            Compass::East => "east",
+            Compass::North => "north",
+            Compass::West => "west",
+            Compass::South => "south",
+        }
+    }
+
+    /// Direction from the middle \[rad\].
+    pub fn heading_rad(self) -> f64 {
+        match self {
+            Compass::East => 0.0,
+            Compass::North => FRAC_PI_2,
+            Compass::West => PI,
+            Compass::South => -FRAC_PI_2,
+        }
+    }
+
+    fn opposite(self) -> Compass {
+        match self {
+            Compass::East => Compass::West,
+            Compass::North => Compass::South,
+            Compass::West => Compass::East,
+            Compass::South => Compass::North,
+        }
+    }
+
+    fn is_beside(self, other: Compass) -> bool {
+        let along_x = |compass: Compass| matches!(compass, Compass::East | Compass::West);
+        along_x(self) != along_x(other)
+    }
+}
+
+/// Exact directions along the axes: cosine and sine.
+fn axis(compass: Compass) -> [f64; 2] {
+    match compass {
+        Compass::East => [1.0, 0.0],
+        Compass::North => [0.0, 1.0],
+        Compass::West => [-1.0, 0.0],
+        Compass::South => [0.0, -1.0],
+    }
+}
+
+impl Arm {
+    /// An arm with one lane in each direction.
+    pub fn new(compass: Compass, right_of_way: RightOfWay) -> Arm {
+        Arm { compass, right_of_way, has_turning_lane: false }
+    }
+
+    fn lanes_in(&self) -> usize {
+        if self.has_turning_lane { 2 } else { 1 }
+    }
+
+    /// Distance of the outer lanes from the middle of the arm, in lane widths.
+    fn outer_lanes(&self) -> f64 {
+        if self.has_turning_lane { 1.0 } else { 0.5 }
+    }
+
+    fn name_in(&self, number: usize) -> String {
+        numbered(&format!("{}-in", self.compass.name()), number, self.lanes_in())
+    }
+
+    fn name_out(&self) -> String {
+        format!("{}-out", self.compass.name())
+    }
+}
+
+impl Arms<'_> {
+    /// The lanes of all arms, and those that connect them.
+    ///
+    /// # Errors
+    /// For sizes that leave no room for the lanes.
+    pub fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
+        let half_m = 0.5 * self.lane_width_m;
+        if self.turn_radius_m <= half_m {
+            let message = format!(
+                "`road.turn_radius_m` ({}) is not above half of a lane's width: the inner edge would cross itself",
+                self.turn_radius_m
+            );
+            return Err(RoadFault::new("turn_radius_m", "too tight", message)
+                .help(format!("more than {half_m} m works; a car needs about 5.5 m")));
+        }
+        for arm in self.arms {
+            let least_m = self.end_m(arm)?;
+            if self.arm_length_m <= least_m {
+                let message =
+                    format!("`road.arm_length_m` ({}) is all within the junction", to_centimetres(self.arm_length_m));
+                return Err(RoadFault::new("arm_length_m", "too short", message).help(format!(
+                    "more than {} m works; a smaller `turn_radius_m` makes the junction smaller",
+                    to_centimetres(least_m)
+                )));
+            }
+        }
+        let mut lanes = Vec::new();
+        for arm in self.arms {
+            self.add_arm(arm, &mut lanes)?;
+        }
+        for arm in self.arms {
+            self.add_connectors(arm, &mut lanes)?;
+        }
+        Ok(lanes)
+    }
+
+    /// Distance from the middle at which the lanes of an arm end \[m\].
+    fn end_m(&self, arm: &Arm) -> Result<f64, RoadFault> {
+        let crossed = self.arms.iter().filter(|other| other.compass.is_beside(arm.compass));
+        let outer_m = crossed.map(|other| other.outer_lanes() * self.lane_width_m).fold(0.0, f64::max);
+        Ok(outer_m + self.turn_radius_m * tangent_ratio(FRAC_PI_2)?)
+    }
+
+    /// The place on an arm at a distance from the middle and to the right of who leaves \[m\].
+    fn place(arm: &Arm, along_m: f64, right_m: f64) -> [f64; 2] {
+        let [cos, sin] = axis(arm.compass);
+        [cos * along_m + sin * right_m, sin * along_m - cos * right_m]
+    }
+
+    /// Where a lane of an arm enters the junction.
+    fn entering(&self, arm: &Arm, number: usize) -> Result<LanePose, RoadFault> {
+        let left_m = (arm.outer_lanes() - number as f64) * self.lane_width_m;
+        let position = Arms::place(arm, self.end_m(arm)?, -left_m);
+        Ok(LanePose { position, heading_rad: arm.compass.opposite().heading_rad() })
+    }
+
+    /// Where the lane of an arm leaves the junction.
+    fn leaving(&self, arm: &Arm) -> Result<LanePose, RoadFault> {
+        let position = Arms::place(arm, self.end_m(arm)?, arm.outer_lanes() * self.lane_width_m);
+        Ok(LanePose { position, heading_rad: arm.compass.heading_rad() })
+    }
+
+    fn add_arm(&self, arm: &Arm, lanes: &mut Vec<Lane>) -> Result<(), RoadFault> {
+        let length_m = self.arm_length_m - self.end_m(arm)?;
+        let count = arm.lanes_in();
+        for number in 0..count {
+            let end = self.entering(arm, number)?;
+            let [cos, sin] = axis(arm.compass);
+            let begin = [end.position[0] + length_m * cos, end.position[1] + length_m * sin];
+            let centre = straight(begin, end.heading_rad, length_m)?;
+            let is_last = number + 1 == count;
+            lanes.push(Lane {
+                successors: self.connected(arm, number).map(|to| connector_name(arm, to)).collect(),
+                left: if is_last {
+                    beside(&arm.name_out(), NeighbourRelation::Oncoming, false)
+                } else {
+                    beside(&arm.name_in(number + 1), NeighbourRelation::SameDirection, true)
+                },
+                right: number
+                    .checked_sub(1)
+                    .and_then(|before| beside(&arm.name_in(before), NeighbourRelation::SameDirection, true)),
+                right_of_way: arm.right_of_way,
+                ..lane(&arm.name_in(number), centre, self.lane_width_m, self.speed_limit_mps)
+            });
+        }
+        let begin = self.leaving(arm)?;
+        let centre = straight(begin.position, begin.heading_rad, length_m)?;
+        lanes.push(Lane {
+            left: beside(&arm.name_in(count - 1), NeighbourRelation::Oncoming, false),
+            ..lane(&arm.name_out(), centre, self.lane_width_m, self.speed_limit_mps)
+        });
+        Ok(())
+    }
+
+    /// The arms to which a lane of an arm leads. Where there is a lane for turns to the left, the other one leads elsewhere.
+    fn connected<'a>(&'a self, from: &'a Arm, number: usize) -> impl Iterator<Item = &'a Arm> {
+        let to_left = |to: &Arm| {
+            let ([x, y], [to_x, to_y]) = (axis(from.compass), axis(to.compass));
+            // Who comes in drives against the direction of the arm.
+            to_x * y - to_y * x > 0.5
+        };
+        let is_served = move |to: &Arm| !from.has_turning_lane || to_left(to) == (number == 1);
+        self.arms.iter().filter(move |to| to.compass != from.compass && is_served(to))
+    }
+
+    fn add_connectors(&self, from: &Arm, lanes: &mut Vec<Lane>) -> Result<(), RoadFault> {
+        for number in 0..from.lanes_in() {
+            for to in self.connected(from, number) {
+                let Connector { centre, radius_m } = connector(self.entering(from, number)?, self.leaving(to)?)?;
+                let limit_mps = limit_in_turn_mps(radius_m, self.speed_limit_mps);
+                lanes.push(Lane {
+                    successors: vec![to.name_out()],
+                    ..lane(&connector_name(from, to), centre, self.lane_width_m, limit_mps)
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn connector_name(from: &Arm, to: &Arm) -> String {
+    format!("{}-to-{}", from.compass.name(), to.compass.name())
+}

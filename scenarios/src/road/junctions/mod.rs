@@ -1,0 +1,71 @@
+//! Junctions and roads in a few numbers, one file for each form, and how they become lanes of a network.
+//!
+//! Traffic keeps to the right. The middle of a junction is the origin, x leads to the east and y to the north.
+
+mod all_way_stop;
+mod arms;
+mod connector;
+mod crossing;
+mod narrow_passage;
+mod on_ramp;
+mod ring;
+mod roundabout;
+mod t_junction;
+mod two_way;
+
+use interplay_planners::road::centre_line::{CentreLineError, Piece};
+use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation};
+use interplay_planners::{CentreLine, Profile};
+
+pub use all_way_stop::AllWayStop;
+pub use crossing::Crossing;
+pub use narrow_passage::{DrivingDirection, NarrowPassage};
+pub use on_ramp::OnRamp;
+pub use roundabout::Roundabout;
+pub use t_junction::{MinorRoadRule, TJunction};
+pub use two_way::TwoWayRoad;
+
+use super::fault::RoadFault;
+
+/// Sideways acceleration of a vehicle that drives through a turn at its speed limit \[m/s²\].
+const ACCELERATION_IN_TURNS_MPS2: f64 = 2.0;
+
+/// The speed limit in a turn of a radius \[m\]: at most that of the road \[m/s\].
+fn limit_in_turn_mps(radius_m: f64, limit_mps: f64) -> f64 {
+    (ACCELERATION_IN_TURNS_MPS2 * radius_m).sqrt().min(limit_mps)
+}
+
+/// A lane of constant width \[m\] with a speed limit \[m/s\].
+fn lane(name: &str, centre: CentreLine, width_m: f64, limit_mps: f64) -> Lane {
+    Lane { speed_limit_mps: Some(limit_mps), ..Lane::new(name, centre, width_m) }
+}
+
+/// A straight line of a length from a place in a direction \[m, rad\].
+fn straight(start: [f64; 2], heading_rad: f64, length_m: f64) -> Result<CentreLine, CentreLineError> {
+    CentreLine::from_pieces(start, heading_rad, &[Piece::Straight { length_m }])
+}
+
+/// A lane beside another one.
+fn beside(lane: &str, relation: NeighbourRelation, may_change: bool) -> Option<LaneNeighbour> {
+    Some(LaneNeighbour { lane: lane.to_owned(), relation, may_change })
+}
+
+/// The name of a lane, with its number from the right where there are several.
+fn numbered(name: &str, number: usize, count: usize) -> String {
+    if count == 1 { name.to_owned() } else { format!("{name}-{number}") }
+}
+
+/// A width that changes between two places \[m\].
+fn changing_width(places_m: [f64; 2], widths_m: [f64; 2]) -> Profile {
+    let knots = [[places_m[0], widths_m[0]], [places_m[1], widths_m[1]]];
+    // Places that do not increase are refused before.
+    Profile::steps(&knots).unwrap_or(Profile::constant(widths_m[0]))
+}
+
+/// The refusal of a form whose sizes make no smooth line.
+impl From<CentreLineError> for RoadFault {
+    fn from(error: CentreLineError) -> RoadFault {
+        RoadFault::new("", "sizes that do not fit", format!("no smooth lanes have these sizes: {error}"))
+            .help("larger radii, longer lanes or narrower lanes work")
+    }
+}

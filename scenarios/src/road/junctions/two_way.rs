@@ -1,0 +1,56 @@
+//! A straight road with a lane in each direction.
+
+use std::f64::consts::PI;
+
+use interplay_planners::road::network::{Lane, NeighbourRelation};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::super::fault::RoadFault;
+use super::{beside, lane, straight};
+
+/// A straight road along x with its middle at the origin. Lane `east` leads to the east and lane `west` to the west.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct TwoWayRoad {
+    /// Length of the road \[m\].
+    #[schemars(range(min = 0.001, max = 10000.0))]
+    pub length_m: f64,
+    /// Width of each lane \[m\].
+    #[schemars(range(min = 0.001, max = 100.0))]
+    pub lane_width_m: f64,
+    /// Highest permitted speed \[m/s\].
+    #[schemars(range(min = 0.001))]
+    pub speed_limit_mps: f64,
+    /// Whether vehicles on lane `east` may use lane `west` to overtake.
+    pub overtaking: bool,
+}
+
+impl Default for TwoWayRoad {
+    fn default() -> Self {
+        TwoWayRoad { length_m: 600.0, lane_width_m: 3.5, speed_limit_mps: 27.8, overtaking: true }
+    }
+}
+
+impl TwoWayRoad {
+    /// Both lanes.
+    ///
+    /// # Errors
+    /// For sizes that are no numbers.
+    pub(crate) fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
+        let TwoWayRoad { length_m, lane_width_m, speed_limit_mps, overtaking } = *self;
+        let (begin_m, side_m) = (-0.5 * length_m, -0.5 * lane_width_m);
+        let east = straight([begin_m, side_m], 0.0, length_m)?;
+        let west = straight([-begin_m, -side_m], PI, length_m)?;
+        Ok(vec![
+            Lane {
+                left: beside("west", NeighbourRelation::Oncoming, overtaking),
+                ..lane("east", east, lane_width_m, speed_limit_mps)
+            },
+            Lane {
+                left: beside("east", NeighbourRelation::Oncoming, false),
+                ..lane("west", west, lane_width_m, speed_limit_mps)
+            },
+        ])
+    }
+}

@@ -1,0 +1,171 @@
+//! A lane as a file states it.
+
+use interplay_planners::Profile;
+use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use super::super::fault::RoadFault;
+use super::super::piece::CurvePiece;
+use super::geometry;
+use crate::name;
+
+/// A lane: a line with a width. The line is stated by `start` and `pieces`, or by `points`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LaneConfig {
+    /// Its name, unique in the network.
+    #[schemars(extend("pattern" = name::pattern()), example = &"main-0")]
+    pub name: String,
+    /// Where the middle of the lane begins, and in which direction.
+    #[serde(default)]
+    #[schemars(example = json!({ "x_m": 0.0, "y_m": 0.0, "heading_deg": 0.0 }), extend("x-excludes" = ["points"]))]
+    pub start: Option<LanePlaceConfig>,
+    /// The pieces of the lane's middle, one after the other, each straight or a turn. Where they meet, a smooth curve takes the
+    /// place of a short part of both.
+    #[serde(default)]
+    #[schemars(
+        length(max = 200),
+        extend("x-excludes" = ["points"]),
+        example = json!([{ "straight_m": 30.0 }, { "turn_deg": 90.0, "radius_m": 8.0 }])
+    )]
+    pub pieces: Vec<CurvePiece>,
+    /// Points of the lane's middle, each `[x, y]`; a smooth curve leads through them \[m\].
+    #[serde(default)]
+    #[schemars(length(max = 5000), example = json!([[0.0, 0.0], [20.0, 1.0], [40.0, 4.0]]))]
+    pub points: Vec<[f64; 2]>,
+    /// By how much the curve may miss `points`, but for the first and the last, in order to bend less \[m\].
+    #[serde(default = "defaults::tolerance_m")]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub tolerance_m: f64,
+    /// Width of the lane: a number, or a list of `[along_m, width_m]` in the order of the distance along the lane \[m\].
+    #[schemars(example = 3.5)]
+    pub width_m: LaneWidth,
+    /// The lanes that begin where it ends.
+    #[serde(default)]
+    #[schemars(length(max = 64), example = vec!["main-1"])]
+    pub successors: Vec<String>,
+    /// The lane to its left: its name, or `{ lane, oncoming, may_change }`.
+    #[serde(default)]
+    #[schemars(example = &"main-1")]
+    pub left: Option<NeighbourConfig>,
+    /// The lane to its right, in the same way.
+    #[serde(default)]
+    #[schemars(example = json!({ "lane": "against", "oncoming": true, "may_change": false }))]
+    pub right: Option<NeighbourConfig>,
+    /// Highest permitted speed; by default none is known \[m/s\].
+    #[serde(default)]
+    #[schemars(range(min = 0.001), example = 13.9)]
+    pub speed_limit_mps: Option<f64>,
+    /// Who goes first at its end.
+    #[serde(default)]
+    pub right_of_way: RightOfWay,
+}
+
+mod defaults {
+    pub fn tolerance_m() -> f64 {
+        0.02
+    }
+    pub fn may_change() -> bool {
+        true
+    }
+}
+
+/// A place in world coordinates and a direction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LanePlaceConfig {
+    /// Position along the world's x axis \[m\].
+    #[schemars(example = 0.0)]
+    pub x_m: f64,
+    /// Position along the world's y axis \[m\].
+    #[schemars(example = 0.0)]
+    pub y_m: f64,
+    /// Direction, counter-clockwise from the x axis \[deg\].
+    #[serde(default)]
+    pub heading_deg: f64,
+}
+
+/// The width of a lane.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum LaneWidth {
+    /// The same everywhere \[m\].
+    Constant(#[schemars(range(min = 0.001, max = 1000.0))] f64),
+    /// Pairs of a distance along the lane and the width there \[m\].
+    Knots(#[schemars(length(min = 1, max = 5000))] Vec<[f64; 2]>),
+}
+
+/// A lane beside another one.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum NeighbourConfig {
+    /// Its name: it is driven in the same direction, and one may change into it.
+    Name(String),
+    /// Its name, and what is different.
+    Table(NeighbourTable),
+}
+
+/// A lane beside another one, with its direction.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NeighbourTable {
+    /// Its name.
+    #[schemars(example = &"main-1")]
+    pub lane: String,
+    /// Whether it is driven in the opposite direction.
+    #[serde(default)]
+    pub oncoming: bool,
+    /// Whether a vehicle may change into it.
+    #[serde(default = "defaults::may_change")]
+    pub may_change: bool,
+}
+
+impl NeighbourConfig {
+    fn neighbour(&self) -> LaneNeighbour {
+        let (lane, oncoming, may_change) = match self {
+            NeighbourConfig::Name(lane) => (lane, false, true),
+            NeighbourConfig::Table(table) => (&table.lane, table.oncoming, table.may_change),
+        };
+        let relation = if oncoming { NeighbourRelation::Oncoming } else { NeighbourRelation::SameDirection };
+        LaneNeighbour { lane: lane.clone(), relation, may_change }
+    }
+}
+
+impl LaneWidth {
+    /// The width at the begin of the lane \[m\].
+    pub(crate) fn first_m(&self) -> f64 {
+        match self {
+            LaneWidth::Constant(width_m) => *width_m,
+            LaneWidth::Knots(knots) => knots.first().map_or(0.0, |[_, width_m]| *width_m),
+        }
+    }
+
+    /// The width over the distance along the lane; `path` is that of the lane below `road`.
+    fn profile(&self, path: &str) -> Result<Profile, RoadFault> {
+        match self {
+            LaneWidth::Constant(width_m) => Ok(Profile::constant(*width_m)),
+            LaneWidth::Knots(knots) => Profile::through(knots).map_err(|error| {
+                RoadFault::new(format!("{path}.width_m"), "no width", format!("the width of a lane is none: {error}"))
+                    .help("write pairs of increasing distances and widths, such as `[[0.0, 3.5], [20.0, 3.0]]`")
+            }),
+        }
+    }
+}
+
+impl LaneConfig {
+    /// The lane; `path` is that of its table below `road`.
+    pub(super) fn lane(&self, path: &str) -> Result<Lane, RoadFault> {
+        Ok(Lane {
+            name: self.name.clone(),
+            centre: geometry::centre(self, path)?,
+            width: self.width_m.profile(path)?,
+            successors: self.successors.clone(),
+            left: self.left.as_ref().map(NeighbourConfig::neighbour),
+            right: self.right.as_ref().map(NeighbourConfig::neighbour),
+            speed_limit_mps: self.speed_limit_mps,
+            right_of_way: self.right_of_way,
+        })
+    }
+}
