@@ -62,6 +62,10 @@ pub(crate) fn resolve_starts(scenario: &mut Json, tree: &TomlNode) -> Result<Pla
             Err(fault) => faults.push(fault),
         }
     }
+    if placed.network.is_some() {
+        // On a network the routes know where they meet.
+        placed.routes = Route::set_of(placed.routes.into_iter().map(Arc::unwrap_or_clone).collect());
+    }
     if faults.is_empty() { Ok(placed) } else { Err(faults) }
 }
 

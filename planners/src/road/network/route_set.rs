@@ -61,26 +61,33 @@ impl RoadNetwork {
     /// # Errors
     /// The number of the first list that is no route, and why.
     pub fn routes<Name: AsRef<str>>(&self, lists: &[Vec<Name>]) -> Result<Vec<Arc<Route>>, (usize, RouteError)> {
+        let routes = lists.iter().enumerate();
+        let routes = routes.map(|(index, names)| self.route(names).map_err(|error| (index, error)));
+        Ok(Route::set_of(routes.collect::<Result<_, _>>()?))
+    }
+}
+
+impl Route {
+    /// Routes of one network that know where they meet each other and who goes first there, as by [`RoadNetwork::routes`].
+    /// Routes along the same lanes become one.
+    pub fn set_of(routes: Vec<Route>) -> Vec<Arc<Route>> {
         let mut distinct: Vec<Route> = Vec::new();
-        let mut first_lists: Vec<&[Name]> = Vec::new();
-        let mut numbers = Vec::with_capacity(lists.len());
-        for (index, names) in lists.iter().enumerate() {
-            let is_same = |known: &&[Name]| known.iter().map(AsRef::as_ref).eq(names.iter().map(AsRef::as_ref));
-            let number = first_lists.iter().position(|known| is_same(&known));
+        let mut numbers = Vec::with_capacity(routes.len());
+        for mut route in routes {
+            let lanes = |route: &Route| route.legs.iter().map(|leg| leg.lane.clone()).collect::<Vec<String>>();
+            let number = distinct.iter().position(|known| lanes(known) == lanes(&route));
+            numbers.push(number.unwrap_or(distinct.len()));
             if number.is_none() {
-                let mut route = self.route(names).map_err(|error| (index, error))?;
                 route.number = Some(distinct.len());
                 distinct.push(route);
-                first_lists.push(names);
             }
-            numbers.push(number.unwrap_or(distinct.len() - 1));
         }
         let known: Vec<Vec<RouteConflict>> = distinct.iter().map(|own| with_all(own, &distinct)).collect();
         for (route, conflicts) in distinct.iter_mut().zip(known) {
             route.conflicts = conflicts;
         }
         let routes: Vec<Arc<Route>> = distinct.into_iter().map(Arc::new).collect();
-        Ok(numbers.into_iter().map(|number| Arc::clone(&routes[number])).collect())
+        numbers.into_iter().map(|number| Arc::clone(&routes[number])).collect()
     }
 }
 
