@@ -4,7 +4,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::class::VehicleClass;
 use super::fill::{fill_key, scaled};
-use super::similarity::{NamedScale, ScenarioScale};
+use super::similarity::{FULL_SCALE, NamedScale, ScenarioScale};
 use crate::road::Road;
 use crate::schema::{self, SchemaNode};
 
@@ -23,7 +23,8 @@ pub(crate) fn expand(scenario: &mut Json) {
             root.insert("road".to_owned(), json!({ "kind": "lanes" }));
         }
         for (key, property) in schema::complete().properties().filter(|(key, _)| SCALED_KEYS.contains(&key.as_str())) {
-            fill_key(key, property, root, scale);
+            let native = if key == "road" { native_scale_of_road(root) } else { 1.0 };
+            fill_key(key, property, root, scale / native);
         }
     }
     let road = root.get("road").cloned().map_or_else(|| Ok(Road::default()), serde_json::from_value);
@@ -46,14 +47,24 @@ struct Size {
     is_full: bool,
 }
 
-/// The stated scale, or else that of the largest class; none where nothing is said of it.
+/// The scale of the defaults of the stated kind of road: networks of lanes are those of real cars.
+fn native_scale_of_road(root: &Map<String, Json>) -> f64 {
+    if is_network(root) { FULL_SCALE } else { 1.0 }
+}
+
+fn is_network(root: &Map<String, Json>) -> bool {
+    root.get("road").and_then(read::<Road>).is_some_and(|road| road.is_network())
+}
+
+/// The stated scale, or else that of the largest class, or else that of a network of lanes; none where nothing is said of it.
 fn size(root: &Map<String, Json>) -> Option<Size> {
     if let Some(stated) = root.get("scale").and_then(read::<ScenarioScale>) {
         return Some(Size { scale: stated.ratio(), is_full: stated == ScenarioScale::Named(NamedScale::Full) });
     }
     let vehicles = root.get("vehicle").and_then(Json::as_array).into_iter().flatten();
     let scales = vehicles.filter_map(|vehicle| read::<VehicleClass>(vehicle.get("class")?).map(VehicleClass::scale));
-    scales.max_by(f64::total_cmp).map(|scale| Size { scale, is_full: scale > VehicleClass::ScaleCar.scale() })
+    let of_road = || is_network(root).then_some(FULL_SCALE);
+    scales.max_by(f64::total_cmp).or_else(of_road).map(|scale| Size { scale, is_full: scale > VehicleClass::ScaleCar.scale() })
 }
 
 fn read<T: serde::de::DeserializeOwned>(value: &Json) -> Option<T> {

@@ -121,6 +121,11 @@ impl Road {
         Some(Corridor { heading_rad, right_m, left_m, end: self.lane_end() })
     }
 
+    /// Whether the road is a network of lanes with names.
+    pub fn is_network(&self) -> bool {
+        self.parallel_lanes().is_none()
+    }
+
     /// Direction of the lanes of `branch`, of parallel lanes where they begin \[rad\].
     pub fn heading_rad(&self, branch: Branch) -> f64 {
         match (self, branch) {
