@@ -210,7 +210,8 @@ pub struct Vehicle {
     /// Its goal; by default to keep its lateral position and its speed.
     #[serde(default)]
     pub goal: GoalConfig,
-    /// Weights of deviations from its goal and of changes of its inputs.
+    /// Weights of deviations from its goal and of changes of its inputs. With a `class` of real vehicles, those of angles grow by
+    /// default with the speed at the start or of the goal.
     #[serde(default)]
     pub weights: Weights,
     /// Its size and axles; by default those of its class, or Table 6.1.
