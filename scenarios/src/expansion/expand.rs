@@ -2,9 +2,8 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::class::VehicleClass;
 use super::fill::{fill_key, scaled};
-use super::similarity::{NamedScale, ScenarioScale};
+use crate::classes::{NamedScale, ScenarioScale, VehicleClass};
 use crate::road::Road;
 use crate::schema::{self, SchemaNode};
 
