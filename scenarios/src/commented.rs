@@ -80,7 +80,8 @@ impl Writer {
             let below = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
             let stated = value.get(key).filter(|value| !value.is_null());
             let shown = stated.or_else(|| property.default_or_example().filter(|_| first));
-            let Some(shown) = shown.filter(|_| self.concerns(property)) else { continue };
+            let is_written = stated.is_some() || !property.is_deprecated();
+            let Some(shown) = shown.filter(|_| is_written && self.concerns(property)) else { continue };
             let live = live && stated.is_some();
             let is_new = |table: &Map<String, Json>| !self.explained.contains(&table_type(property, table));
             let is_list = property.table_entries().is_some();

@@ -32,6 +32,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     checker.road();
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         checker.limits(index, vehicle);
+        checker.width(index, vehicle);
         checker.branch(index, vehicle);
         checker.goal(index, vehicle);
         checker.turns(index, vehicle);
@@ -85,6 +86,15 @@ impl Checker<'_> {
                 );
                 self.refuse(&format!("{path}.{table}.speed_mps"), "outside the limits", message, &help);
             }
+        }
+    }
+
+    fn width(&mut self, index: usize, vehicle: &Vehicle) {
+        let (width_m, lane_m) = (vehicle.body.width_m, self.scenario.road.lane_width_m());
+        if width_m > lane_m {
+            let message = format!("vehicle {} is {width_m} m wide, but a lane only {lane_m} m", quoted(&vehicle.name));
+            let help = "widen `road.lane_width_m`, or state the `class` and `scale` that both are of";
+            self.refuse(&format!("vehicle.{index}.body.width_m"), "wider than its lane", message, help);
         }
     }
 

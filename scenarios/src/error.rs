@@ -158,6 +158,11 @@ impl Fault {
         Fault { message: format!("in the counterfactual {}: {}", quoted(name), self.message), ..self }
     }
 
+    /// What would work, if something is known.
+    pub fn hint(&self) -> Option<&str> {
+        self.help.as_deref()
+    }
+
     /// What is wrong.
     pub fn message(&self) -> &str {
         &self.message

@@ -24,8 +24,10 @@ mod classes;
 mod commented;
 mod consistency;
 mod counterfactual;
+mod degrees;
 mod embedded;
 mod error;
+mod expansion;
 mod expect;
 mod files;
 mod lane_reference;
@@ -35,6 +37,8 @@ mod name;
 mod overrides;
 mod placement;
 mod plant;
+mod remark;
+mod remarks;
 mod road;
 mod scenario;
 mod schema;
@@ -44,11 +48,13 @@ mod standard_changes;
 mod start;
 mod start_jitter;
 mod tree;
+mod vehicle_defaults;
 mod weather;
 mod weather_file;
+mod weights;
 
 pub use building::{BuildingConfig, FloorPlan, Grid, Preset};
-pub use classes::{GoalDefaults, NamedScale, ScenarioScale, VehicleClass, VehicleDefaults};
+pub use classes::{NamedScale, ScenarioScale, VehicleClass};
 pub use commented::commented;
 pub use counterfactual::Counterfactual;
 pub use embedded::{Embedded, embedded};
@@ -59,14 +65,17 @@ pub use lane_reference::LaneReference;
 pub use load::{from_text, load};
 pub use overrides::Override;
 pub use plant::{Dynamic, Kinematic, Plant};
+pub use remark::{ScenarioRemark, ScenarioRemarks};
 pub use road::{
     AllWayStop, Branch, Crossing, CurveLaneEnd, CurvePiece, DrivingDirection, Intersection, LaneConfig, LaneNetwork,
     LanePlaceConfig, LaneWidth, Lanes, MinorRoadRule, NarrowPassage, NeighbourConfig, NeighbourTable, OnRamp,
     ParallelLanes, RampMerge, Road, RoadCurve, Roundabout, TJunction, TwoWayRoad,
 };
-pub use scenario::{GoalConfig, Scenario, Vehicle, Weights};
+pub use scenario::{GoalConfig, Scenario, Vehicle};
 pub use schema::{controller_kinds, driver_kinds, schema};
 pub use source::Source;
 pub use standard_changes::{StandardChange, standard_changes};
 pub use start_jitter::StartJitter;
+pub use vehicle_defaults::{GoalDefaults, VehicleDefaults};
 pub use weather::{EpwFile, Synthetic, WeatherConfig};
+pub use weights::Weights;

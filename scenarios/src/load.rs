@@ -1,7 +1,7 @@
 //! From a name to a checked [`Scenario`]; see the crate's documentation for the way.
 
-use crate::classes::{expand, with_defaults};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
+use crate::expansion::{expand, with_defaults};
 use crate::merge::merge_tables;
 use crate::overrides::Override;
 use crate::placement::resolve_starts;
@@ -9,7 +9,7 @@ use crate::scenario::Scenario;
 use crate::source::Source;
 use crate::tree::{self, Table, TomlNode, TomlValue};
 use crate::weather::WeatherConfig;
-use crate::{changed, consistency, schema, schema_check, weather_file};
+use crate::{changed, consistency, degrees, remarks, schema, schema_check, weather_file};
 
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;
@@ -65,6 +65,7 @@ fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
         return Err(faults);
     }
     let mut stated = tree.to_json();
+    degrees::to_radians(schema::complete(), &mut stated);
     expand(&mut stated);
     let placed = resolve_starts(&mut stated, tree)?;
     let mut scenario: Scenario = serde_json::from_value(stated)
@@ -79,6 +80,7 @@ fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
         Some(WeatherConfig::Synthetic(_)) | None => None,
     };
     let faults: Vec<Fault> = consistency::check(&scenario, tree).into_iter().chain(unread).collect();
+    scenario.remarks = remarks::of(&scenario, tree);
     if faults.is_empty() { Ok(scenario) } else { Err(faults) }
 }
 

@@ -17,16 +17,19 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::building::BuildingConfig;
-use crate::classes::{ScenarioScale, VehicleClass, VehicleDefaults};
+use crate::classes::{ScenarioScale, VehicleClass};
 use crate::counterfactual::Counterfactual;
 use crate::expect::Expect;
 use crate::lane_reference::LaneReference;
 use crate::name;
 use crate::plant::Plant;
+use crate::remark::ScenarioRemarks;
 use crate::road::{Branch, Road};
 use crate::start::StartConfig;
 use crate::start_jitter::StartJitter;
+use crate::vehicle_defaults::VehicleDefaults;
 use crate::weather::WeatherConfig;
+use crate::weights::Weights;
 
 /// One scenario: agents, their world, and the expectations of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -121,6 +124,9 @@ pub struct Scenario {
     /// The changed scenario of each counterfactual, once the file is loaded; its expectations are the counterfactual's.
     #[serde(skip)]
     pub changed: Vec<Scenario>,
+    /// What is allowed and may not have been meant, once the file is loaded.
+    #[serde(skip)]
+    pub remarks: ScenarioRemarks,
     /// Counterfactuals that flags have made impossible, each with the reason: a setting that another planner does not have.
     #[serde(skip)]
     pub left_out: Vec<[String; 2]>,
@@ -230,7 +236,8 @@ pub struct Vehicle {
     /// Its goal; by default to keep its lateral position and its speed.
     #[serde(default)]
     pub goal: GoalConfig,
-    /// Weights of deviations from its goal and of changes of its inputs.
+    /// Weights of deviations from its goal and of changes of its inputs. With a `class` of real vehicles, those of angles grow by
+    /// default with the speed at the start or of the goal.
     #[serde(default)]
     pub weights: Weights,
     /// Its size and axles; by default those of its class, or Table 6.1.
@@ -299,46 +306,4 @@ pub struct GoalConfig {
     /// The speed that it aims at \[m/s\].
     #[schemars(example = 1.0)]
     pub speed_mps: Option<f64>,
-}
-
-/// Diagonals of `Q` (on the deviation from the goal) and of `R` (on the change of the inputs) in eq. 6.6.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Weights {
-    /// Of the position along the vehicle's road: must be 0, since goals have no longitudinal position.
-    #[schemars(range(min = 0.0), extend("x-unit" = "1/m²"))]
-    pub x: f64,
-    /// Of the position across the vehicle's road, which is y where the road runs along x \[1/m²\].
-    #[schemars(range(min = 0.0), extend("x-unit" = "1/m²"))]
-    pub y: f64,
-    /// Of the heading \[1/rad²\].
-    #[schemars(range(min = 0.0), extend("x-unit" = "1/rad²"))]
-    pub heading: f64,
-    /// Of the speed \[s²/m²\].
-    #[schemars(range(min = 0.0), extend("x-unit" = "s²/m²"))]
-    pub speed: f64,
-    /// Of the change of acceleration from one tick to the next \[s⁴/m²\].
-    #[schemars(range(min = 0.0), extend("x-unit" = "s⁴/m²"))]
-    pub acceleration_change: f64,
-    /// Of the change of the steering angle from one tick to the next \[1/rad²\].
-    #[schemars(range(min = 0.0), extend("x-unit" = "1/rad²"))]
-    pub steering_change: f64,
-}
-
-impl Default for Weights {
-    fn default() -> Self {
-        Weights { x: 0.0, y: 1.0, heading: 0.5, speed: 1.0, acceleration_change: 0.1, steering_change: 0.1 }
-    }
-}
-
-impl Weights {
-    /// Diagonal of `Q` on (position along the vehicle's road, across it, θ, v).
-    pub fn tracking(&self) -> [f64; 4] {
-        [self.x, self.y, self.heading, self.speed]
-    }
-
-    /// Diagonal of `R` on (Δa, Δδ).
-    pub fn comfort(&self) -> [f64; 2] {
-        [self.acceleration_change, self.steering_change]
-    }
 }

@@ -8,12 +8,14 @@
 //! - `x-concerns`: `vehicles` or `building`, for what means nothing without them,
 //! - `x-mechanism`: the mechanism of a planner that it switches off, with the value that does so,
 //! - `x-paths`: its keys are paths of other settings,
+//! - `x-radians`: the key in radians whose value it gives in degrees (`twins`),
 //! - `x-merge-by`: the key by which a variant's entries of a list are merged with its parent's.
 //!
 //! [`complete`] describes a whole scenario, all that it extends included. [`schema`] describes one file, which may leave to
 //! its parent whatever it does not state.
 
 mod node;
+mod twins;
 mod units;
 
 use std::sync::LazyLock;
@@ -25,6 +27,7 @@ use serde_json::{Map, Value as Json, json};
 use crate::scenario::Scenario;
 
 pub(crate) use node::{Concern, SchemaNode};
+pub(crate) use twins::{TWIN_OF, in_degrees, rounded};
 pub(crate) use units::{quantity_of, unit_of};
 
 static COMPLETE: LazyLock<Json> = LazyLock::new(|| {
@@ -101,6 +104,7 @@ fn polish(schema: &mut Json) {
             object.values_mut().for_each(polish);
             if let Some(properties) = object.get_mut("properties").and_then(Json::as_object_mut) {
                 properties.iter_mut().for_each(|(key, property)| state_unit(key, property));
+                twins::add_twins(properties);
                 state_exclusions(properties);
             }
         }

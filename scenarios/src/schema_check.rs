@@ -281,7 +281,8 @@ mod tests {
     /// Keywords that the check obeys, and those that only inform.
     const UNDERSTOOD: &str = "$ref $defs oneOf anyOf const enum type properties required additionalProperties items minItems \
         maxItems minLength pattern minimum maximum exclusiveMinimum exclusiveMaximum format default description title \
-        examples $schema x-unit x-excludes x-concerns x-mechanism x-merge-by x-paths";
+        examples $schema x-unit x-excludes x-concerns x-mechanism x-merge-by x-paths \
+        x-radians deprecated";
 
     #[test]
     fn every_keyword_of_the_schema_is_understood() {

@@ -105,6 +105,9 @@ impl Run {
         for [counterfactual, reason] in &scenario.left_out {
             print_error(&format!("the counterfactual \"{counterfactual}\" does not fit the flags: {reason}"));
         }
+        for remark in scenario.remarks.iter() {
+            print_error(&format!("note: {remark}"));
+        }
         let name = short_name(self.scenario());
         let recording = match self.begin_recording(&scenario, &name) {
             Ok(recording) => recording,

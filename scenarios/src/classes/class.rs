@@ -4,7 +4,7 @@ use interplay_planners::{Body, Limits, SafetyEllipse};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::similarity::FULL_SCALE;
+use super::scale::FULL_SCALE;
 
 /// What sort of vehicle it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -24,7 +24,7 @@ pub enum VehicleClass {
 
 /// Body, limits and safety ellipse of a class.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub(super) struct ClassDimensions {
+pub(crate) struct ClassDimensions {
     pub body: Body,
     pub limits: Limits,
     pub safety: SafetyEllipse,
@@ -35,7 +35,7 @@ const FULL_SIZE_ACROSS_M: f64 = 3.3;
 
 impl VehicleClass {
     /// The class of vehicles that state none, in a scenario of a scale.
-    pub(super) fn of_scale(is_full: bool) -> VehicleClass {
+    pub(crate) fn of_scale(is_full: bool) -> VehicleClass {
         if is_full { VehicleClass::Car } else { VehicleClass::ScaleCar }
     }
 
@@ -43,7 +43,7 @@ impl VehicleClass {
     ///
     /// It is the same for all vehicles of real roads, whatever their own length: settings weigh lane widths, gaps and speeds,
     /// which are those of the traffic.
-    pub(super) fn scale(self) -> f64 {
+    pub(crate) fn scale(self) -> f64 {
         match self {
             VehicleClass::ScaleCar => 1.0,
             VehicleClass::Car | VehicleClass::Van | VehicleClass::Truck | VehicleClass::Bicycle => FULL_SCALE,
@@ -54,7 +54,7 @@ impl VehicleClass {
     ///
     /// An ellipse `(a, b)` of a class contains the corner `(l, w)` of what is covered by two parallel bodies that touch, half
     /// their lengths and half their widths together: `(l/a)² + (w/b)² ≤ 1`, with every other class.
-    pub(super) fn dimensions(self) -> ClassDimensions {
+    pub(crate) fn dimensions(self) -> ClassDimensions {
         match self {
             VehicleClass::ScaleCar => {
                 ClassDimensions { body: Body::default(), limits: Limits::default(), safety: SafetyEllipse::default() }

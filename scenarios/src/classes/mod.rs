@@ -1,24 +1,8 @@
-//! Vehicles of any size: classes, defaults for all vehicles of a file, and settings scaled by Froude's law.
-//!
-//! The defaults of the format are those of 1/10 scale cars. A file of another size states its `scale` or the `class` of its
-//! vehicles, and whatever else it leaves out is scaled: a length by the ratio `λ` of lengths, a time and a speed by `√λ`, an
-//! acceleration by 1, and a weight such that what it weighs costs the same. Two scenarios of which one is the other scaled in
-//! this way have the same motion, scaled.
-//!
-//! - [`class`]: what a vehicle of a class measures and can do.
-//! - [`for_all`]: `[defaults]`, laid under every vehicle.
-//! - [`similarity`]: by how much a unit is scaled.
-//! - [`fill`]: the defaults of a table, scaled, where it states nothing.
-//! - [`expand`]: all of this for a scenario.
+//! The size of a scenario, and the classes of its vehicles.
 
 mod class;
-mod expand;
-mod fill;
-mod for_all;
-mod similarity;
+mod scale;
 
 pub use class::VehicleClass;
-pub(crate) use expand::expand;
-pub(crate) use for_all::with_defaults;
-pub use for_all::{GoalDefaults, VehicleDefaults};
-pub use similarity::{NamedScale, ScenarioScale};
+pub(crate) use scale::FULL_SCALE;
+pub use scale::{NamedScale, ScenarioScale};

@@ -93,6 +93,11 @@ impl SchemaNode {
         self.stated.get("default").is_some_and(|default| same(default, value))
     }
 
+    /// Whether the key is still accepted and no longer written.
+    pub fn is_deprecated(self) -> bool {
+        self.keyword("deprecated").is_some()
+    }
+
     /// What the key concerns, if a scenario may have none of it.
     pub fn concerns(self) -> Option<Concern> {
         match self.stated.get("x-concerns")?.as_str()? {

@@ -2,9 +2,8 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::class::VehicleClass;
 use super::fill::{fill_key, scaled};
-use super::similarity::{FULL_SCALE, NamedScale, ScenarioScale};
+use crate::classes::{FULL_SCALE, NamedScale, ScenarioScale, VehicleClass};
 use crate::road::Road;
 use crate::schema::{self, SchemaNode};
 
@@ -87,8 +86,33 @@ fn expand_vehicle(vehicle: &mut Map<String, Json>, size: Option<Size>) {
     dimensions["body"]["scale"] = json!(scale);
     lay_under(vehicle, dimensions);
     vehicle.entry("driver").or_insert_with(|| json!({ "kind": "human" }));
+    if class != VehicleClass::ScaleCar {
+        state_angle_weights(vehicle, schema, scale);
+    }
     for (key, property) in schema.properties().filter(|(key, _)| ["weights", "driver"].contains(&key.as_str())) {
         fill_key(key, property, vehicle, scale);
+    }
+}
+
+/// Speed of a 1/10 scale car for which the weights of angles are meant \[m/s\].
+const WEIGHED_SPEED_MPS: f64 = 1.0;
+
+/// Writes the weights of a vehicle's angles at its speed.
+///
+/// Real cars drive much faster than Froude's law makes of a 1/10 scale car: 25 m/s and not 3. A heading `θ` moves a vehicle
+/// sideways by `ẏ = v θ`, and a steering angle `δ` accelerates it by `ÿ = v² δ/L`. At `r` times the speed of the law, the weight
+/// of the heading is multiplied by `r²` and that of changes of steering by `r⁴`, so that sideways motion costs the same.
+fn state_angle_weights(vehicle: &mut Map<String, Json>, schema: SchemaNode, scale: f64) {
+    let speed = |table: &str| vehicle.get(table).and_then(|table| table.get("speed_mps")?.as_f64());
+    let fastest_mps = speed("start").into_iter().chain(speed("goal")).fold(0.0, f64::max);
+    let ratio = (fastest_mps / (WEIGHED_SPEED_MPS * scale.sqrt())).max(1.0);
+    let Some(property) = schema.property("weights") else { return };
+    let weights = vehicle.entry("weights").or_insert_with(|| json!({}));
+    for (key, factor) in [("heading", ratio * ratio), ("steering_change", ratio * ratio * ratio * ratio)] {
+        let default = property.property(key).and_then(SchemaNode::default).and_then(Json::as_f64);
+        if let (Some(default), Some(weights)) = (default, weights.as_object_mut()) {
+            weights.entry(key).or_insert(json!(default * factor));
+        }
     }
 }
 
