@@ -1,7 +1,7 @@
 //! The network of a road, and what keeps lanes from being one.
 
 use interplay_building::nearest::suggestion;
-use interplay_planners::road::network::{Lane, LaneFault, RoadNetwork, RoadNetworkError};
+use interplay_planners::road::network::{Lane, LaneFault, NeighbourRelation, RoadNetwork, RoadNetworkError};
 
 use crate::error::{Fault, quoted};
 use crate::road::{Road, RoadFault, to_centimetres};
@@ -126,8 +126,14 @@ impl Describer<'_> {
                 ))
             }
             LaneFault::WrongDirection { other } => {
-                at(format!("lane `{other}` beside {of} does not run in the direction that is said of it"))
-                    .help(format!("`{{ lane = \"{other}\", oncoming = true }}` is a lane in the opposite direction"))
+                let is_oncoming = self.lanes.get(*index).is_some_and(|lane| says_oncoming(lane, other));
+                at(format!("lane `{other}` beside {of} does not run in the direction that is said of it")).help(
+                    if is_oncoming {
+                        "it runs in the same direction: leave `oncoming` out".to_owned()
+                    } else {
+                        format!("`{{ lane = \"{other}\", oncoming = true }}` is a lane in the opposite direction")
+                    },
+                )
             }
             LaneFault::WrongSide { other } => at(format!("lane `{other}` is not on this side of {of}"))
                 .help("`left` and `right` are as who drives on the lane sees them"),
@@ -155,6 +161,12 @@ impl Describer<'_> {
             (field, _) => field.to_owned(),
         }
     }
+}
+
+/// Whether a lane says of its neighbour that it is driven in the opposite direction.
+fn says_oncoming(lane: &Lane, other: &str) -> bool {
+    let mut beside = [&lane.left, &lane.right].into_iter().flatten();
+    beside.any(|neighbour| neighbour.lane == other && neighbour.relation == NeighbourRelation::Oncoming)
 }
 
 /// What stands beside the underlined text.
