@@ -89,7 +89,7 @@ impl Describer<'_> {
                 to_centimetres(*radius_m),
                 to_centimetres(*along_m)
             ))
-            .help(format!("less than {} m works there, or a larger radius", to_centimetres(2.0 * radius_m))),
+            .help(format!("less than {} m works there, or a larger radius", (200.0 * radius_m).floor() / 100.0)),
             LaneFault::UnknownLane { other } => {
                 let names: Vec<&str> = self.lanes.iter().map(|lane| lane.name.as_str()).collect();
                 at(format!("{of} names lane {}, which the road does not have", quoted(other))).help(suggestion(
