@@ -70,7 +70,6 @@ impl Describer<'_> {
         let of = format!("lane {}", quoted(lane));
         let (key, label) = (self.key(error), label(fault));
         let at = |message: String| self.at(*index, &key, label, message);
-        let reached = self.lanes.get(*index).map(|lane| lane.centre.at(lane.centre.length_m()));
         match fault {
             LaneFault::SameName => {
                 let first = self.lanes.iter().position(|other| other.name == *lane).unwrap_or_default();
@@ -104,27 +103,7 @@ impl Describer<'_> {
             LaneFault::OwnNeighbour => {
                 at(format!("{of} is named as its own neighbour")).help("name the lane beside it")
             }
-            LaneFault::Gap { other, gap_m, most_m } => {
-                let [x, y] = reached.map_or([0.0; 2], |end| end.position.map(to_centimetres));
-                at(format!(
-                    "{of} does not touch its successor `{other}`: {} m are between them",
-                    to_centimetres(*gap_m)
-                ))
-                .help(format!(
-                    "`{other}` must begin where `{lane}` ends, at x = {x}, y = {y}, to within {} m",
-                    to_centimetres(*most_m)
-                ))
-            }
-            LaneFault::Kink { other, turn_deg, most_deg } => {
-                let end_deg = reached.map_or(0.0, |end| to_centimetres(end.heading_rad.to_degrees()));
-                at(format!(
-                    "{of} and its successor `{other}` differ by {} degrees in direction",
-                    to_centimetres(*turn_deg)
-                ))
-                .help(format!(
-                    "`{other}` must begin at `heading_deg = {end_deg}`, in which `{lane}` ends, to within {most_deg:.0} degrees"
-                ))
-            }
+            LaneFault::Gap { .. } | LaneFault::Kink { .. } => self.not_touching(error),
             LaneFault::WrongDirection { other } => {
                 let is_oncoming = self.lanes.get(*index).is_some_and(|lane| says_oncoming(lane, other));
                 at(format!("lane `{other}` beside {of} does not run in the direction that is said of it")).help(
@@ -139,6 +118,36 @@ impl Describer<'_> {
                 .help("`left` and `right` are as who drives on the lane sees them"),
             other @ (LaneFault::NoName | LaneFault::NoEnds) => at(format!("{of} is none: {other}")),
         }
+    }
+
+    /// A successor that does not begin where the lane ends, or not in its direction.
+    fn not_touching(&self, error: &RoadNetworkError) -> Fault {
+        let RoadNetworkError { lane, index, fault, .. } = error;
+        let end = self.lanes.get(*index).map(|lane| lane.centre.at(lane.centre.length_m()));
+        let (message, help) = match fault {
+            LaneFault::Gap { other, gap_m, most_m } => {
+                let ([x, y], gap_m) =
+                    (end.map_or([0.0; 2], |end| end.position.map(to_centimetres)), to_centimetres(*gap_m));
+                let message =
+                    format!("lane `{lane}` does not touch its successor `{other}`: {gap_m} m are between them");
+                let most_m = to_centimetres(*most_m);
+                let help =
+                    format!("`{other}` must begin where `{lane}` ends, at x = {x}, y = {y}, to within {most_m} m");
+                (message, help)
+            }
+            LaneFault::Kink { other, turn_deg, most_deg } => {
+                let end_deg = end.map_or(0.0, |end| to_centimetres(end.heading_rad.to_degrees()));
+                let turn_deg = to_centimetres(*turn_deg);
+                let message =
+                    format!("lane `{lane}` and its successor `{other}` differ by {turn_deg} degrees in direction");
+                let help = format!(
+                    "`{other}` must begin at `heading_deg = {end_deg}`, in which `{lane}` ends, to within {most_deg:.0} degrees"
+                );
+                (message, help)
+            }
+            other => (format!("lane `{lane}` does not go on: {other}"), String::new()),
+        };
+        self.at(*index, &self.key(error), label(fault), message).help(help)
     }
 
     /// The key of the lane that is wrong, as files call it.
