@@ -13,6 +13,8 @@ const POINT_DISTANCE_RATIO: f64 = 0.25;
 const MAX_POINTS: f64 = 2000.0;
 /// Edges that are nearer to each other than this share of the lane's width are one line.
 const SHARED_RATIO: f64 = 0.15;
+/// A line is inside of a lane if it is further from its edges than this share of the width.
+const INSIDE_RATIO: f64 = 0.01;
 /// Length of the dashes across a lane that yields at its end, and of the spaces between them, by its width.
 const YIELD_DASH_RATIO: f64 = 0.125;
 
@@ -151,7 +153,10 @@ impl<'a> NetworkLines<'a> {
             }
         }
         let beyond = edge_position(lane, side, along_m, shared_m);
-        let is_inside = (0..self.lanes.len()).any(|other| other != number && self.holds(other, beyond));
+        // Where one lane joins another, the edge of one may be inside of the other, and a place beyond it outside of both.
+        let inside_m = INSIDE_RATIO * lane.width.value(along_m);
+        let is_inside = (0..self.lanes.len())
+            .any(|other| other != number && (self.holds(other, beyond, 0.0) || self.holds(other, at, inside_m)));
         if is_inside { EdgeStyle::Hidden } else { EdgeStyle::Solid }
     }
 
@@ -188,8 +193,8 @@ impl<'a> NetworkLines<'a> {
             .map(|(other, neighbour)| (other, neighbour.relation, neighbour.may_change))
     }
 
-    /// Whether a position is on a lane, its edges excluded.
-    fn holds(&self, number: usize, position: [f64; 2]) -> bool {
+    /// Whether a position is on a lane, further from its edges than a distance \[m\].
+    fn holds(&self, number: usize, position: [f64; 2], inside_m: f64) -> bool {
         let [low, high] = self.bounds[number];
         if !(0..2).all(|axis| (low[axis]..=high[axis]).contains(&position[axis])) {
             return false;
@@ -198,7 +203,7 @@ impl<'a> NetworkLines<'a> {
         let point = lane.centre.project(position, None);
         point.along_m > 0.0
             && point.along_m < lane.centre.length_m()
-            && point.across_m.abs() < lane.half_width_m(point.along_m)
+            && point.across_m.abs() < lane.half_width_m(point.along_m) - inside_m
     }
 }
 
