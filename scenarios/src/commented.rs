@@ -85,7 +85,7 @@ impl Writer {
             let live = live && stated.is_some();
             let is_new = |table: &Map<String, Json>| !self.explained.contains(&table_type(property, table));
             let is_list = property.table_entries().is_some();
-            let is_inline = property.holds_paths();
+            let is_inline = property.holds_paths() || property.forms().next().is_some();
             if !is_list && !is_inline && shown.as_object().is_some_and(is_new) || is_list && (first || !is_empty(shown))
             {
                 sections.push(Section { path: below, schema: property, value: shown, live });
@@ -166,10 +166,11 @@ impl Writer {
     }
 }
 
-/// The properties of a table; of a tagged one, those of its `kind`.
+/// The properties of a table; of a tagged one, those of its `kind`, and where a value has several forms, those of the table.
 fn keys(schema: SchemaNode, value: &Map<String, Json>) -> impl Iterator<Item = (&'static String, SchemaNode)> {
     let kind = value.get("kind").and_then(Json::as_str);
-    kind.and_then(|kind| schema.of_kind(kind)).unwrap_or(schema).properties()
+    let form = || schema.forms().find(|form| form.properties().next().is_some());
+    kind.and_then(|kind| schema.of_kind(kind)).or_else(form).unwrap_or(schema).properties()
 }
 
 /// What makes two tables the same sort of table: definition and kind.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use interplay_planners::Route;
-use interplay_planners::road::network::RoadNetwork;
-use interplay_scenarios::{Scenario, from_text};
+use interplay_planners::road::network::{NeighbourRelation, RightOfWay, RoadNetwork};
+use interplay_scenarios::{Override, Scenario, commented, from_text, load};
 
 /// A scenario with a car on a road.
 fn scenario(road: &str, vehicle: &str) -> Scenario {
@@ -78,4 +78,155 @@ fn every_way_through_a_short_form_can_be_driven() {
     assert_drivable("kind = 'on-ramp'", "ramp", 7);
     assert_drivable("kind = 'narrow-passage'", "east-in", 2);
     assert_drivable("kind = 'two-way'", "east", 2);
+}
+
+/// A start names a lane and a goal the lane to reach: the state lies on the lane, and the route leads there.
+#[test]
+fn a_start_by_lane_is_a_state_and_begins_the_route() {
+    let vehicle = "start = { lane = 'west-in', along_m = 12.0, lateral_offset_m = 0.5, heading_error_deg = 5.0, \
+        speed_mps = 7.0 }\ngoal = { lane = 'north-out', speed_mps = 9.0 }";
+    let scenario = scenario("kind = 'crossing'", vehicle);
+    let car = &scenario.vehicles[0];
+    assert!((car.start.x_m + 88.0).abs() < 1e-9 && (car.start.y_m + 1.25).abs() < 1e-9, "{:?}", car.start);
+    assert!((car.start.heading_rad - 5_f64.to_radians()).abs() < 1e-12);
+    let lanes: Vec<&str> = car.route.legs.iter().map(|leg| leg.lane.as_str()).collect();
+    assert_eq!(lanes, ["west-in", "west-to-north", "north-out"]);
+    let place = car.route.locate(car.start.position(), None);
+    assert!((place.along_m - 12.0).abs() < 1e-9 && (place.across_m - 0.5).abs() < 1e-9, "{place:?}");
+    let target = car.target(&scenario.road);
+    assert!((target.x_m + 88.0).abs() < 1e-9 && (target.y_m + 1.75).abs() < 1e-9, "the middle of the lane: {target:?}");
+    assert_eq!((target.heading_rad, target.speed_mps), (0.0, 9.0));
+    assert_eq!(scenario.main_route(), car.route);
+}
+
+#[test]
+fn the_same_route_can_be_stated_lane_by_lane_and_from_world_coordinates() {
+    let on = |vehicle: &str| scenario("kind = 't-junction'", vehicle).vehicles[0].clone();
+    let by_goal = on("start = { lane = 'south-in', along_m = 20.0, speed_mps = 5.0 }\ngoal = { lane = 'west-out' }");
+    let by_lanes = on("start = { lane = 'south-in', along_m = 20.0, speed_mps = 5.0 }\n\
+        route = ['south-in', 'south-to-west', 'west-out']");
+    let by_place = on("start = { x_m = 1.75, y_m = -80.0, heading_deg = 95.0, speed_mps = 5.0 }\n\
+        goal = { lane = 'west-out' }");
+    assert_eq!((&by_goal.route, &by_goal.route), (&by_lanes.route, &by_place.route));
+    assert!(by_goal.start.to_array().iter().zip(by_lanes.start.to_array()).all(|(a, b)| (a - b).abs() < 1e-12));
+    assert!((by_place.start.heading_rad - 95_f64.to_radians()).abs() < 1e-12);
+    // In the junction three lanes overlap: the one that leads to the goal is taken.
+    let inside = on("start = { x_m = 1.75, y_m = -11.0, heading_deg = 90.0, speed_mps = 5.0 }\n\
+        goal = { lane = 'east-out' }");
+    assert_eq!(inside.route.legs[0].lane, "south-to-east");
+}
+
+/// Headings are those of the route, which may turn by more than half a circle.
+#[test]
+fn headings_go_on_along_a_ring() {
+    let car = |along_m: f64| {
+        let start = format!(
+            "start = {{ lane = 'ring-north', along_m = {along_m:?}, speed_mps = 5.0 }}\ngoal = {{ lane = 'north-out' }}"
+        );
+        scenario("kind = 'roundabout'", &start).vehicles[0].clone()
+    };
+    let (early, late) = (car(1.0), car(5.0));
+    assert!(early.start.heading_rad < late.start.heading_rad);
+    assert!((late.start.heading_rad - early.start.heading_rad - 4.0 / 15.0).abs() < 1e-6);
+    let route = &late.route;
+    let turned = route.centre.at(route.end_m()).heading_rad - route.centre.at(0.0).heading_rad;
+    assert!(turned > std::f64::consts::PI, "it goes on around the ring: {turned}");
+}
+
+#[test]
+fn without_a_goal_the_only_way_is_taken() {
+    let lanes = |road: &str, lane: &str| {
+        let vehicle = format!("start = {{ lane = '{lane}', along_m = 20.0, speed_mps = 5.0 }}");
+        let car = scenario(road, &vehicle).vehicles[0].clone();
+        car.route.legs.iter().map(|leg| leg.lane.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(lanes("kind = 'narrow-passage'", "west-in"), ["west-in", "west-passage", "west-out"]);
+    assert_eq!(lanes("kind = 'on-ramp'", "ramp"), ["ramp", "acceleration"]);
+    assert_eq!(lanes("kind = 'two-way'", "east"), ["east"]);
+}
+
+/// What the forms say of priority and of lanes side by side.
+#[test]
+fn short_forms_say_who_goes_first_and_who_may_change() {
+    let right_of_way = |road: &str, lane: &str| network(road, lane).lane(lane).expect("it is there").right_of_way;
+    assert_eq!(right_of_way("kind = 'roundabout'", "north-in"), RightOfWay::Yield);
+    assert_eq!(right_of_way("kind = 't-junction'", "south-in"), RightOfWay::Yield);
+    assert_eq!(right_of_way("kind = 't-junction'\nright_of_way = 'stop'", "south-in"), RightOfWay::Stop);
+    assert_eq!(right_of_way("kind = 't-junction'", "west-in"), RightOfWay::Priority);
+    assert_eq!(right_of_way("kind = 'crossing'\nminor = 'stop'", "north-in"), RightOfWay::Stop);
+    assert_eq!(right_of_way("kind = 'all-way-stop'", "east-in"), RightOfWay::AllWayStop);
+    assert_eq!(right_of_way("kind = 'on-ramp'", "acceleration"), RightOfWay::Yield);
+    assert_eq!(right_of_way("kind = 'narrow-passage'\npriority_to = 'east'", "west-in"), RightOfWay::Yield);
+    assert_eq!(right_of_way("kind = 'narrow-passage'", "west-in"), RightOfWay::Priority);
+    let left = |road: &str, lane: &str| {
+        let network = network(road, lane);
+        let left = network.lane(lane).and_then(|lane| lane.left.clone()).expect("a neighbour");
+        (left.lane.clone(), left.relation, left.may_change)
+    };
+    let oncoming = NeighbourRelation::Oncoming;
+    assert_eq!(left("kind = 'two-way'", "east"), ("west".to_owned(), oncoming, true));
+    assert_eq!(left("kind = 'two-way'\novertaking = false", "east"), ("west".to_owned(), oncoming, false));
+    assert_eq!(left("kind = 'on-ramp'", "acceleration"), ("main-0".to_owned(), NeighbourRelation::SameDirection, true));
+    assert!(
+        network("kind = 'on-ramp'", "main-0").lane("main-0").is_some_and(|lane| !lane.may_change_to("acceleration"))
+    );
+}
+
+/// Pieces end where they would end without smooth curves between them, so that lanes can be laid out by hand.
+#[test]
+fn a_lane_of_pieces_ends_where_they_do() {
+    let road = "kind = 'network'\nlane = [{ name = 'bend', start = { x_m = 5.0, y_m = 3.0, heading_deg = 90.0 }, \
+        width_m = [[0.0, 3.5], [20.0, 3.0]], speed_limit_mps = 8.0, right_of_way = 'stop', \
+        pieces = [{ straight_m = 20.0 }, { turn_deg = -90.0, radius_m = 10.0 }, { straight_m = 15.0 }] }]";
+    let network = network(road, "bend");
+    let bend = network.lane("bend").expect("it is there");
+    let end = bend.centre.at(bend.centre.length_m());
+    assert!((end.position[0] - 30.0).abs() < 1e-9 && (end.position[1] - 33.0).abs() < 1e-9, "{end:?}");
+    assert!(libm::sin(end.heading_rad).abs() < 1e-9, "{end:?}");
+    assert_smooth(&network.route(&["bend"]).expect("a lane"), "the bend");
+    let widths_m = [0.0, 20.0, 40.0].map(|along_m| bend.width.value(along_m));
+    assert!(widths_m.iter().zip([3.5, 3.0, 3.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{widths_m:?}");
+    assert_eq!((bend.speed_limit_mps, bend.right_of_way), (Some(8.0), RightOfWay::Stop));
+}
+
+/// `interplay new` writes a file that means the same.
+#[test]
+fn networks_survive_writing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lanes = "kind = 'network'\n[[road.lane]]\nname = 'a'\npoints = [[0.0, 0.0], [50.0, 1.0]]\nwidth_m = 3.5\n\
+        left = 'b'\nsuccessors = ['c']\n[[road.lane]]\nname = 'b'\npoints = [[0.0, 3.5], [50.0, 4.5]]\n\
+        width_m = [[0.0, 3.5], [50.0, 3.0]]\nright = { lane = 'a', may_change = false }\n[[road.lane]]\nname = 'c'\n\
+        points = [[50.0, 1.0], [90.0, 2.0]]\nwidth_m = 3.0\nright_of_way = 'yield'";
+    let cases = [
+        (lanes, "start = { lane = 'a', along_m = 9.0, speed_mps = 1.0 }\nroute = ['a', 'c']"),
+        (
+            "kind = 'roundabout'",
+            "start = { lane = 'west-in', along_m = 9.0, speed_mps = 1.0 }\ngoal = { lane = 'east-out' }",
+        ),
+        (
+            "kind = 'narrow-passage'\npriority_to = 'east'",
+            "start = { lane = 'east-in', along_m = 9.0, speed_mps = 1.0 }",
+        ),
+    ];
+    for (road, vehicle) in cases {
+        let text = format!("title = 'a'\nshows = 'b'\n[[vehicle]]\nname = 'car'\n{vehicle}\n[road]\n{road}\n");
+        let path = folder.path().join("first.toml");
+        std::fs::write(&path, &text).expect("the folder can be written");
+        let first = load(&path.to_string_lossy(), &[]).unwrap_or_else(|error| panic!("{road}: {error:?}"));
+        let written = commented(&path.to_string_lossy(), folder.path()).expect("it loads");
+        let second = from_text("second.toml", &written, &[]).unwrap_or_else(|error| panic!("{written}\n{error:?}"));
+        assert_eq!(first, second, "{written}");
+        assert!(second.network.is_some());
+    }
+}
+
+/// A variant changes one lane of its parent's network by name.
+#[test]
+fn flags_change_a_lane_by_name() {
+    let text = "title = 'a'\nshows = 'b'\n[[vehicle]]\nname = 'car'\nstart = { lane = 'a', along_m = 9.0, speed_mps = 1.0 }\n\
+        [road]\nkind = 'network'\n[[road.lane]]\nname = 'a'\npoints = [[0.0, 0.0], [50.0, 1.0]]\nwidth_m = 3.5\n";
+    let set = Override::Set("road.lane.a.speed_limit_mps=9.5".to_owned());
+    let scenario = from_text("a.toml", text, &[set]).expect("a sound change");
+    let network = scenario.network.expect("a network");
+    assert_eq!(network.lane("a").and_then(|lane| lane.speed_limit_mps), Some(9.5));
 }

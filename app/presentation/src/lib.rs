@@ -4,6 +4,7 @@
 
 mod curved_road;
 pub mod figures;
+mod network_lines;
 pub mod page;
 pub mod plot;
 pub mod record;

@@ -1,7 +1,7 @@
 //! The network of a road, and what keeps lanes from being one.
 
 use interplay_building::nearest::suggestion;
-use interplay_planners::road::network::{Lane, LaneFault, RoadNetwork, RoadNetworkError};
+use interplay_planners::road::network::{Lane, LaneFault, NeighbourRelation, RoadNetwork, RoadNetworkError};
 
 use crate::error::{Fault, quoted};
 use crate::road::{Road, RoadFault, to_centimetres};
@@ -70,7 +70,6 @@ impl Describer<'_> {
         let of = format!("lane {}", quoted(lane));
         let (key, label) = (self.key(error), label(fault));
         let at = |message: String| self.at(*index, &key, label, message);
-        let reached = self.lanes.get(*index).map(|lane| lane.centre.at(lane.centre.length_m()));
         match fault {
             LaneFault::SameName => {
                 let first = self.lanes.iter().position(|other| other.name == *lane).unwrap_or_default();
@@ -89,7 +88,7 @@ impl Describer<'_> {
                 to_centimetres(*radius_m),
                 to_centimetres(*along_m)
             ))
-            .help(format!("less than {} m works there, or a larger radius", to_centimetres(2.0 * radius_m))),
+            .help(format!("less than {} m works there, or a larger radius", (200.0 * radius_m).floor() / 100.0)),
             LaneFault::UnknownLane { other } => {
                 let names: Vec<&str> = self.lanes.iter().map(|lane| lane.name.as_str()).collect();
                 at(format!("{of} names lane {}, which the road does not have", quoted(other))).help(suggestion(
@@ -104,35 +103,51 @@ impl Describer<'_> {
             LaneFault::OwnNeighbour => {
                 at(format!("{of} is named as its own neighbour")).help("name the lane beside it")
             }
-            LaneFault::Gap { other, gap_m, most_m } => {
-                let [x, y] = reached.map_or([0.0; 2], |end| end.position.map(to_centimetres));
-                at(format!(
-                    "{of} does not touch its successor `{other}`: {} m are between them",
-                    to_centimetres(*gap_m)
-                ))
-                .help(format!(
-                    "`{other}` must begin where `{lane}` ends, at x = {x}, y = {y}, to within {} m",
-                    to_centimetres(*most_m)
-                ))
-            }
-            LaneFault::Kink { other, turn_deg, most_deg } => {
-                let end_deg = reached.map_or(0.0, |end| to_centimetres(end.heading_rad.to_degrees()));
-                at(format!(
-                    "{of} and its successor `{other}` differ by {} degrees in direction",
-                    to_centimetres(*turn_deg)
-                ))
-                .help(format!(
-                    "`{other}` must begin at `heading_deg = {end_deg}`, in which `{lane}` ends, to within {most_deg:.0} degrees"
-                ))
-            }
+            LaneFault::Gap { .. } | LaneFault::Kink { .. } => self.not_touching(error),
             LaneFault::WrongDirection { other } => {
-                at(format!("lane `{other}` beside {of} does not run in the direction that is said of it"))
-                    .help(format!("`{{ lane = \"{other}\", oncoming = true }}` is a lane in the opposite direction"))
+                let is_oncoming = self.lanes.get(*index).is_some_and(|lane| says_oncoming(lane, other));
+                at(format!("lane `{other}` beside {of} does not run in the direction that is said of it")).help(
+                    if is_oncoming {
+                        "it runs in the same direction: leave `oncoming` out".to_owned()
+                    } else {
+                        format!("`{{ lane = \"{other}\", oncoming = true }}` is a lane in the opposite direction")
+                    },
+                )
             }
             LaneFault::WrongSide { other } => at(format!("lane `{other}` is not on this side of {of}"))
                 .help("`left` and `right` are as who drives on the lane sees them"),
             other @ (LaneFault::NoName | LaneFault::NoEnds) => at(format!("{of} is none: {other}")),
         }
+    }
+
+    /// A successor that does not begin where the lane ends, or not in its direction.
+    fn not_touching(&self, error: &RoadNetworkError) -> Fault {
+        let RoadNetworkError { lane, index, fault, .. } = error;
+        let end = self.lanes.get(*index).map(|lane| lane.centre.at(lane.centre.length_m()));
+        let (message, help) = match fault {
+            LaneFault::Gap { other, gap_m, most_m } => {
+                let ([x, y], gap_m) =
+                    (end.map_or([0.0; 2], |end| end.position.map(to_centimetres)), to_centimetres(*gap_m));
+                let message =
+                    format!("lane `{lane}` does not touch its successor `{other}`: {gap_m} m are between them");
+                let most_m = to_centimetres(*most_m);
+                let help =
+                    format!("`{other}` must begin where `{lane}` ends, at x = {x}, y = {y}, to within {most_m} m");
+                (message, help)
+            }
+            LaneFault::Kink { other, turn_deg, most_deg } => {
+                let end_deg = end.map_or(0.0, |end| to_centimetres(end.heading_rad.to_degrees()));
+                let turn_deg = to_centimetres(*turn_deg);
+                let message =
+                    format!("lane `{lane}` and its successor `{other}` differ by {turn_deg} degrees in direction");
+                let help = format!(
+                    "`{other}` must begin at `heading_deg = {end_deg}`, in which `{lane}` ends, to within {most_deg:.0} degrees"
+                );
+                (message, help)
+            }
+            other => (format!("lane `{lane}` does not go on: {other}"), String::new()),
+        };
+        self.at(*index, &self.key(error), label(fault), message).help(help)
     }
 
     /// The key of the lane that is wrong, as files call it.
@@ -155,6 +170,12 @@ impl Describer<'_> {
             (field, _) => field.to_owned(),
         }
     }
+}
+
+/// Whether a lane says of its neighbour that it is driven in the opposite direction.
+fn says_oncoming(lane: &Lane, other: &str) -> bool {
+    let mut beside = [&lane.left, &lane.right].into_iter().flatten();
+    beside.any(|neighbour| neighbour.lane == other && neighbour.relation == NeighbourRelation::Oncoming)
 }
 
 /// What stands beside the underlined text.

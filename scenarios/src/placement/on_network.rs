@@ -179,8 +179,8 @@ impl NetworkVehicle<'_> {
         Err(self.written.fault("name", "without a goal lane", message).help(help))
     }
 
-    /// The lanes without successors that can be reached from a lane.
-    fn ends_from<'b>(&'b self, lane: &'b Lane) -> Vec<&'b str> {
+    /// The lanes that can be reached from a lane, if there were room for every change.
+    fn reached_from<'b>(&'b self, lane: &'b Lane) -> Vec<&'b str> {
         let mut reached: Vec<&str> = vec![&lane.name];
         let mut index = 0;
         while let Some(lane) = reached.get(index).and_then(|name| self.network.lane(name)) {
@@ -192,8 +192,13 @@ impl NetworkVehicle<'_> {
             }
             index += 1;
         }
+        reached
+    }
+
+    /// Those of them without successors.
+    fn ends_from<'b>(&'b self, lane: &'b Lane) -> Vec<&'b str> {
         let is_end = |name: &&str| self.network.lane(name).is_some_and(|lane| lane.successors.is_empty());
-        reached.into_iter().filter(is_end).collect()
+        self.reached_from(lane).into_iter().filter(is_end).collect()
     }
 
     /// Where a lane of the route is written.
@@ -224,7 +229,14 @@ impl NetworkVehicle<'_> {
                 self.written.fault(&self.key_of(&to), "no room to change", message).help(help)
             }
             RouteError::NoWay { from, to } => {
-                let ends = self.network.lane(&from).map(|lane| self.ends_from(lane)).unwrap_or_default();
+                let from_lane = self.network.lane(&from);
+                if from_lane.is_some_and(|lane| self.reached_from(lane).contains(&to.as_str())) {
+                    let message =
+                        format!("{of} has no room to change lanes on the way from lane `{from}` to lane `{to}`");
+                    let fault = self.written.fault("goal.lane", "no room to change", message);
+                    return fault.help("let it start on a lane that leads there, or lengthen the lanes");
+                }
+                let ends = from_lane.map(|lane| self.ends_from(lane)).unwrap_or_default();
                 let message = format!("no way leads from lane `{from}` to lane `{to}`");
                 let help = format!("from there one can reach {}", some(&ends));
                 self.written.fault("goal.lane", "not reachable", message).help(help)

@@ -6,6 +6,7 @@ use interplay_simulation::frame::Frame;
 
 use super::recorded_run::RecordedRun;
 use crate::curved_road::CurvedRoad;
+use crate::network_lines::NetworkLines;
 use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
 use crate::plot::{Curve, CurvedStrip, FootprintPlot, FootprintSnapshot, Panel, Panels, Strip};
 
@@ -115,9 +116,14 @@ fn strip(road: &Road, vehicle: &Vehicle) -> Option<Strip> {
     })
 }
 
-/// The road if it turns, as far as somebody drives on it.
+/// The road if it turns, as far as somebody drives on it, or the network.
 fn curves(recorded: &RecordedRun) -> Vec<CurvedStrip> {
     let road = &recorded.scenario.road;
+    if let Some(network) = &recorded.scenario.network {
+        let lines = NetworkLines::new(network);
+        let edges_m = lines.edges().into_iter().chain(lines.stop_lines()).collect();
+        return vec![CurvedStrip { surfaces_m: lines.surfaces().to_vec(), edges_m, dividers_m: lines.dividers() }];
+    }
     let Some(curved) = CurvedRoad::new(road) else { return Vec::new() };
     let route = recorded.scenario.main_route();
     let states = recorded.frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| &vehicle.state);
@@ -130,7 +136,12 @@ fn curves(recorded: &RecordedRun) -> Vec<CurvedStrip> {
     }
     let beyond_m = ROAD_BEYOND_WIDTHS * road.width_m();
     let range_m = [from_m - beyond_m, to_m + beyond_m];
-    vec![CurvedStrip { edges_m: curved.edges(range_m), dividers_m: curved.dividers(range_m) }]
+    let edges_m = curved.edges(range_m);
+    vec![CurvedStrip {
+        surfaces_m: vec![edges_m.clone()],
+        edges_m: edges_m.to_vec(),
+        dividers_m: curved.dividers(range_m),
+    }]
 }
 
 /// Speeds over time, with uprights where somebody reaches its goal.

@@ -99,7 +99,11 @@ mod tests {
             let at = move |i: u32| libm::sincos(0.05 * f64::from(i));
             (0..=30).map(move |i| [radius * at(i).0, 40.0 - radius * at(i).1]).collect::<Vec<_>>()
         };
-        let curve = CurvedStrip { edges_m: [arc(38.0), arc(31.0)], dividers_m: vec![arc(34.5)] };
+        let curve = CurvedStrip {
+            surfaces_m: vec![[arc(38.0), arc(31.0)]],
+            edges_m: vec![arc(38.0), arc(31.0)],
+            dividers_m: vec![arc(34.5)],
+        };
         let footprints = FootprintPlot { roads: Vec::new(), curves: vec![curve], ..drive(10.0) };
         let drawing = footprints.drawing();
         assert_eq!(drawing.illegible(), Vec::<String>::new());

@@ -17,6 +17,7 @@ use super::plots::{self, Plots};
 use super::timelines::{SIM_TIME, TICK};
 use super::vehicles::FOLLOW;
 use crate::curved_road::CurvedRoad;
+use crate::network_lines::expected_bounds_m;
 
 /// Width of the close-up as a multiple of its height.
 const CLOSE_UP_ASPECT: f64 = 5.6;
@@ -24,6 +25,8 @@ const CLOSE_UP_ASPECT: f64 = 5.6;
 const BESIDE_LANES: f64 = 0.5;
 /// How far the close-up of a road that turns reaches from the ego, in widths of the road and the land beside it.
 const AROUND_WIDTHS: f64 = 2.0;
+/// The same on a network, where the width is that of one lane.
+const AROUND_WIDTHS_ON_NETWORK: f64 = 4.0;
 /// How much of the close-up lies behind the ego.
 const SHARE_BEHIND: f64 = 0.42;
 
@@ -35,8 +38,12 @@ pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> LayoutNod
         let above = LayoutNode::Row(vec![(1.0, crossing(scenario, 0.5 * (from_m + to_m))), (1.2, beside)]);
         return LayoutNode::Column(vec![(3.4, above), words]);
     }
-    if let Some(curved) = CurvedRoad::new(&scenario.road) {
-        let views = vec![(1.2, around_the_ego(scenario)), (1.0, whole_curve(scenario, curved.bounds_m(road_m)))];
+    let bounds_m = match (&scenario.network, CurvedRoad::new(&scenario.road)) {
+        (Some(_), _) => Some(expected_bounds_m(scenario)),
+        (None, curved) => curved.map(|curved| curved.bounds_m(road_m)),
+    };
+    if let Some(bounds_m) = bounds_m {
+        let views = vec![(1.2, around_the_ego(scenario)), (1.0, whole_curve(scenario, bounds_m))];
         let beside = LayoutNode::Column(rows(numbers(scenario, plots), 2));
         let above = LayoutNode::Row(vec![(2.2, LayoutNode::Row(views)), (1.4, beside)]);
         return LayoutNode::Column(vec![(3.4, above), words]);
@@ -132,11 +139,12 @@ fn close_up(scenario: &Scenario) -> LayoutNode {
 
 /// A square around the ego on a road that turns.
 fn around_the_ego(scenario: &Scenario) -> LayoutNode {
-    let reach = AROUND_WIDTHS * (scenario.road.width_m() + 2.0 * BESIDE_LANES * scenario.road.lane_width_m());
+    let widths = if scenario.network.is_some() { AROUND_WIDTHS_ON_NETWORK } else { AROUND_WIDTHS };
+    let reach = widths * (scenario.road.width_m() + 2.0 * BESIDE_LANES * scenario.road.lane_width_m());
     LayoutNode::View(traced(scenario, top_view("Around the ego", [-reach, reach], [-reach, reach]).from(FOLLOW)))
 }
 
-/// The whole of a road that turns, between its least and greatest coordinates in the world.
+/// The whole of a road that turns or of a network, between least and greatest coordinates in the world.
 fn whole_curve(scenario: &Scenario, [low, high]: [[f64; 2]; 2]) -> LayoutNode {
     let beside = BESIDE_LANES * scenario.road.lane_width_m();
     let across = [-high[1] - beside, -low[1] + beside];

@@ -8,6 +8,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::palette::{ASPHALT, MARKING};
 use crate::curved_road::{CurvedRoad, WorldLine, taper_m};
+use crate::network_lines::NetworkLines;
 
 /// Length of a lane marking and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;
@@ -29,6 +30,9 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, [from_m, to_m]: [f64;
         let edges = edges.iter().map(points).collect();
         let markings = curved.dashes(dash_m, [from_m, to_m]).iter().map(points).collect();
         return log_lines(stream, "world/road", surface, [edges, markings]);
+    }
+    if let Some(network) = &scenario.network {
+        return log_network(stream, &NetworkLines::new(network), DASH_LANES * road.lane_width_m());
     }
     let strip = Strip { road, branch: Branch::Main, from_m, to_m };
     strip.log(stream, "world/road")?;
@@ -141,6 +145,25 @@ fn log_lines(
     stream.log_static(format!("{path}/edges"), &edges)?;
     let markings = line(0.8).with_strips(markings).with_colors([MARKING.solid()]).with_draw_order(-2.0);
     stream.log_static(format!("{path}/markings"), &markings)
+}
+
+/// Logs the lanes of a network, with dashes of a length \[m\].
+fn log_network(stream: &RecordingStream, lines: &NetworkLines, dash_m: f64) -> RecordingStreamResult<()> {
+    let (mut surface, mut radii) = (Vec::new(), Vec::new());
+    for edges in lines.surfaces() {
+        let (slices, widths) = slices(edges);
+        surface.extend(slices);
+        radii.extend(widths);
+    }
+    let edges = lines.edges().iter().map(points).collect();
+    let markings = lines.dashes(dash_m).iter().map(points).collect();
+    log_lines(stream, "world/road", (surface, radii), [edges, markings])?;
+    let across: Vec<Line> = lines.stop_lines().iter().map(points).collect();
+    let across = LineStrips2D::new(across)
+        .with_radii([Radius::new_ui_points(2.0)])
+        .with_colors([MARKING.solid()])
+        .with_draw_order(-2.0);
+    stream.log_static("world/road/stop-lines", &across)
 }
 
 fn points(line: &WorldLine) -> Line {

@@ -144,15 +144,25 @@ impl LaneWidth {
 
     /// The width over the distance along the lane; `path` is that of the lane below `road`.
     fn profile(&self, path: &str) -> Result<Profile, RoadFault> {
-        match self {
-            LaneWidth::Constant(width_m) => Ok(Profile::constant(*width_m)),
-            LaneWidth::Knots(knots) => Profile::through(knots).map_err(|error| {
-                RoadFault::new(format!("{path}.width_m"), "no width", format!("the width of a lane is none: {error}"))
-                    .help("write pairs of increasing distances and widths, such as `[[0.0, 3.5], [20.0, 3.0]]`")
-            }),
+        let knots = match self {
+            LaneWidth::Constant(width_m) => return Ok(Profile::constant(*width_m)),
+            LaneWidth::Knots(knots) => knots,
+        };
+        if let Some(knot) = knots.iter().position(|[_, width_m]| *width_m < MIN_WIDTH_M) {
+            let path = format!("{path}.width_m.{knot}.1");
+            let message = format!("a lane has the width {} m", knots[knot][1]);
+            return Err(RoadFault::new(path, "no width", message)
+                .help(format!("widths are at least {MIN_WIDTH_M} m everywhere; 3.5 m is a usual one")));
         }
+        Profile::through(knots).map_err(|error| {
+            RoadFault::new(format!("{path}.width_m"), "no width", format!("the width of a lane is none: {error}"))
+                .help("write pairs of increasing distances and widths, such as `[[0.0, 3.5], [20.0, 3.0]]`")
+        })
     }
 }
+
+/// Least width of a lane \[m\].
+const MIN_WIDTH_M: f64 = 0.001;
 
 impl LaneConfig {
     /// The lane; `path` is that of its table below `road`.

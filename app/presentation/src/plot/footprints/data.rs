@@ -21,7 +21,7 @@ pub struct FootprintPlot {
     pub title: String,
     /// The straight roads.
     pub roads: Vec<Strip>,
-    /// The roads that turn.
+    /// The roads that turn, and networks.
     pub curves: Vec<CurvedStrip>,
     /// The vehicles, each with its label and colour.
     pub vehicles: Vec<(String, Colour)>,
@@ -44,11 +44,13 @@ pub struct Strip {
     pub shoulder_m: Vec<[f64; 2]>,
 }
 
-/// A road that turns, in the frame of the picture \[m\].
+/// A road that turns or a network of lanes, in the frame of the picture \[m\].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurvedStrip {
-    /// Its right and its left edge.
-    pub edges_m: [Vec<[f64; 2]>; 2],
+    /// Its surfaces, each between a right and a left edge.
+    pub surfaces_m: Vec<[Vec<[f64; 2]>; 2]>,
+    /// Its edges.
+    pub edges_m: Vec<Vec<[f64; 2]>>,
     /// The lines between its lanes.
     pub dividers_m: Vec<Vec<[f64; 2]>>,
 }

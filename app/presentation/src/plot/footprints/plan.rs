@@ -150,10 +150,11 @@ impl Map {
     }
 
     fn draw_curve(&self, drawing: &mut Drawing, road: &CurvedStrip) {
-        let [right, left] = &road.edges_m;
-        let ring: Vec<[f64; 2]> = right.iter().chain(left.iter().rev()).copied().collect();
-        let surface = clipped(&ring, self.low_m, self.high_m);
-        drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
+        for [right, left] in &road.surfaces_m {
+            let ring: Vec<[f64; 2]> = right.iter().chain(left.iter().rev()).copied().collect();
+            let surface = clipped(&ring, self.low_m, self.high_m);
+            drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
+        }
         let edges = road.edges_m.iter().map(|edge| (edge, Dash::Solid));
         let dividers = road.dividers_m.iter().map(|divider| (divider, Dash::Long));
         for (line, dash) in edges.chain(dividers) {
