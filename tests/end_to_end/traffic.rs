@@ -12,7 +12,7 @@ use interplay_simulation::run::run;
 use serde_json::{Value, json};
 
 use crate::command::{interplay, scratch};
-use crate::film::{FILMS, Film, authored, kinematic};
+use crate::film::{FILMS, Film, authored, film, kinematic};
 use crate::rectangles::{Point, corners, distance};
 
 /// Every two vehicles of a film by index.
@@ -53,10 +53,11 @@ fn the_smallest_gap_is_that_of_the_closest_pair() {
         assert!((there_m - gap.m).abs() < 1e-4, "{}: {gap:?}, but {there_m} m", film.name());
         assert!(film.report.min_gap_m.is_none_or(|of_ego_m| gap.m <= of_ego_m), "{}", film.name());
     }
+    // Bodies of the dynamic plant may be at distance 0 for a sub-step of a millisecond before they push each other.
     for film in FILMS.iter().filter(|film| !film.report.collisions.is_empty()) {
         let (gap, collision) = (film.report.smallest_gap.as_ref().expect("two"), &film.report.collisions[0]);
         assert_eq!((gap.m, &gap.between), (0.0, &collision.between), "{}", film.name());
-        assert!((gap.time_s - collision.time_s).abs() < 1e-9, "{}: {gap:?} {collision:?}", film.name());
+        assert!((gap.time_s - collision.time_s).abs() < 1.5e-3, "{}: {gap:?} {collision:?}", film.name());
     }
 }
 
@@ -164,15 +165,12 @@ fn off_road_m(film: &Film, index: usize) -> f64 {
 
 #[test]
 fn off_road_is_the_farthest_corner_beyond_the_edge() {
-    // A goal right at the edge: half of the vehicle would be beside the road, and what it wants outweighs that.
-    let astray = |name: &'static str, changes: &[&str]| crate::film::film(name, authored(name, changes));
-    let strayed = [
-        astray(
-            "lane-change/front-nice",
-            &["duration_s=4", "vehicle.ego.goal={ y_m = 0.74 }", "vehicle.ego.weights.y=1e5"],
-        ),
-        astray("full-size/bend", &["duration_s=12", "vehicle.ego.limits.steering_max_rad=0.02"]),
-    ];
+    // A goal right at the edge: half of the vehicle would be beside the road, and what it wants outweighs that. And a bend that
+    // is too fast for a slippery road.
+    let goal = ["duration_s=4", "vehicle.ego.goal={ y_m = 0.74 }", "vehicle.ego.weights.y=1e5"];
+    let ice = ["duration_s=7", "plant={ kind = \"dynamic\", friction = 0.25 }"];
+    let strayed = [("lane-change/front-nice", goal.as_slice()), ("full-size/bend", &ice)]
+        .map(|(name, changes)| film(name, authored(name, changes)));
     for film in FILMS.iter().chain(&strayed) {
         for (index, vehicle) in film.report.vehicles.iter().enumerate() {
             let expected_m = off_road_m(film, index);

@@ -6,6 +6,9 @@ use interplay_planners::{Body, Route, State};
 
 use super::peak::Peak;
 
+/// Shorter distances beyond an edge are treated as zero: rounding, and the tolerance of planners that drive along the edge \[m\].
+const ROUNDING_M: f64 = 1e-6;
+
 /// The largest distance of a corner of the footprint beyond the edge of the route's strip that is beside the corner \[m\].
 #[derive(Clone, Debug)]
 pub struct OffRoad {
@@ -28,7 +31,10 @@ impl OffRoad {
             let corner = [state.x_m + ahead * cos - left * sin, state.y_m + ahead * sin + left * cos];
             let at = self.route.locate(corner, Some(along_m + ahead));
             let [right_m, left_m] = [self.route.right.value(at.along_m), self.route.left.value(at.along_m)];
-            self.peak.observe((right_m - at.across_m).max(at.across_m - left_m), time_s);
+            let beyond_m = (right_m - at.across_m).max(at.across_m - left_m);
+            if beyond_m > ROUNDING_M {
+                self.peak.observe(beyond_m, time_s);
+            }
         }
     }
 }
@@ -54,6 +60,7 @@ mod tests {
     fn distances_beyond_a_straight_edge_are_exact() {
         let at = |across_m: f64, turn_rad: f64| beyond("lane-change/front-nice", 3.0, across_m, turn_rad);
         assert_eq!((at(0.095, 0.0), at(0.4, 0.3)), (Peak::default(), Peak::default()));
+        assert_eq!(at(0.095 - 1e-9, 0.0), Peak::default(), "a rounding error is not off the road");
         for (across_m, turn_rad, wanted_m) in [(0.05, 0.0, 0.045), (0.70, 0.0, 0.055), (0.74, 0.5, 0.0)] {
             let (sin, cos) = libm::sincos(turn_rad);
             let wanted_m = if turn_rad == 0.0 { wanted_m } else { 0.21 * sin + 0.095 * cos };
