@@ -5,9 +5,9 @@
 mod building;
 mod checker;
 pub(crate) mod counterfactual;
+mod expectations;
 mod road;
 
-use interplay_building::nearest::suggestion;
 use interplay_planners::State;
 
 use crate::error::{Fault, quoted};
@@ -168,72 +168,6 @@ impl Checker<'_> {
                     );
                 }
             }
-        }
-    }
-
-    fn expectations(&mut self) {
-        let expect = &self.scenario.expect;
-        let order = expect.order.iter().flatten();
-        for (index, name) in order.clone().enumerate() {
-            let path = format!("expect.order.{index}");
-            self.known(&path, name);
-            if order.clone().take(index).any(|earlier| earlier == name) {
-                let message = format!("`expect.order` names {} twice", quoted(name));
-                self.refuse(&path, "again", message, "");
-            }
-        }
-        self.collisions();
-        for (index, completes) in expect.completes.iter().enumerate() {
-            let path = format!("expect.completes.{index}");
-            self.known(&format!("{path}.vehicle"), &completes.vehicle);
-            self.window(&path, completes.after_s, completes.before_s);
-        }
-        for (index, speed) in expect.speed.iter().enumerate() {
-            let path = format!("expect.speed.{index}");
-            self.known(&format!("{path}.vehicle"), &speed.vehicle);
-            let bounds = [speed.min_below_mps, speed.min_above_mps, speed.max_below_mps, speed.max_above_mps];
-            if bounds.iter().all(Option::is_none) {
-                let message = format!("`expect.speed` for {} expects nothing", quoted(&speed.vehicle));
-                let help = "state `min_below_mps`, `min_above_mps`, `max_below_mps` or `max_above_mps`";
-                self.refuse(&path, "no bound", message, help);
-            }
-        }
-    }
-
-    fn collisions(&mut self) {
-        let expect = &self.scenario.expect;
-        for (index, pair) in expect.collisions.iter().flatten().enumerate() {
-            let path = format!("expect.collisions.{index}");
-            for (end, name) in pair.iter().enumerate() {
-                self.known(&format!("{path}.{end}"), name);
-            }
-            if pair[0] == pair[1] {
-                let message = format!("nobody collides with itself, and {} is named twice", quoted(&pair[0]));
-                self.refuse(&path, "the same vehicle", message, "");
-            }
-        }
-    }
-
-    fn known(&mut self, path: &str, name: &str) {
-        if self.scenario.vehicle(name).is_none() {
-            let names: Vec<&str> = self.scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()).collect();
-            let message = format!("there is no vehicle {}", quoted(name));
-            self.refuse(path, "unknown vehicle", message, &suggestion(name, "the vehicles are", &names));
-        }
-    }
-
-    fn window(&mut self, path: &str, after_s: Option<f64>, before_s: Option<f64>) {
-        let duration_s = self.scenario.duration_s;
-        match (after_s, before_s) {
-            (Some(after), Some(before)) if after >= before => {
-                let message = format!("nothing is both after {after} s and before {before} s");
-                self.refuse(&format!("{path}.after_s"), "not before `before_s`", message, "");
-            }
-            (Some(after), _) if after >= duration_s => {
-                let message = format!("`after_s` ({after}) is not before the end of the run at {duration_s} s");
-                self.refuse(&format!("{path}.after_s"), "after the end", message, "");
-            }
-            _ => {}
         }
     }
 }

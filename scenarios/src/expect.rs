@@ -23,6 +23,18 @@ pub struct Expect {
     /// The smallest gap allowed between the footprint of the ego and any other \[m\].
     #[schemars(range(min = 0.0), example = 0.05, extend("x-concerns" = "vehicles"))]
     pub min_gap_m: Option<f64>,
+    /// The smallest gap allowed between the footprints of any two vehicles \[m\].
+    #[schemars(range(min = 0.0), example = 0.05, extend("x-concerns" = "vehicles"))]
+    pub gap_at_least_m: Option<f64>,
+    /// The shortest time allowed until any two footprints would touch if both vehicles kept their present velocities \[s\].
+    #[schemars(range(min = 0.0, max = 100.0), example = 0.5, extend("x-concerns" = "vehicles"))]
+    pub time_to_collision_at_least_s: Option<f64>,
+    /// The largest distance by which a corner of any vehicle may be beyond an edge of its road \[m\].
+    #[schemars(range(min = 0.0), example = 0.01, extend("x-concerns" = "vehicles"))]
+    pub off_road_at_most_m: Option<f64>,
+    /// The largest speed above the limit of its lane that any vehicle may have \[m/s\].
+    #[schemars(range(min = 0.0), example = 0.5, extend("x-concerns" = "vehicles"))]
+    pub speed_limit_exceeded_by_at_most_mps: Option<f64>,
     /// The largest number of failed plans, over all vehicles.
     #[schemars(example = 0, extend("x-concerns" = "vehicles"))]
     pub plan_failures_at_most: Option<usize>,
@@ -32,6 +44,12 @@ pub struct Expect {
     /// Bounds on the extremes of speeds over the run, one `[[expect.speed]]` each.
     #[schemars(extend("x-concerns" = "vehicles"))]
     pub speed: Vec<ExpectedSpeed>,
+    /// Bounds on the peaks of accelerations and jerk, one `[[expect.comfort]]` each.
+    #[schemars(extend("x-concerns" = "vehicles"))]
+    pub comfort: Vec<ExpectedComfort>,
+    /// Vehicles that let another one go first where their ways cross or merge, one `[[expect.yields]]` each.
+    #[schemars(extend("x-concerns" = "vehicles"))]
+    pub yields: Vec<ExpectedYield>,
     /// What the building must achieve.
     #[schemars(example = json!({ "after_iterations": 2 }), extend("x-concerns" = "building"))]
     pub building: Option<BuildingExpect>,
@@ -72,16 +90,17 @@ pub struct CompletionShift {
 }
 
 impl Expect {
-    /// The names under which reports list these expectations, such as `order`, `completes.ego`, `speed.ego.max_above_mps` and
-    /// `building.energy_kwh_at_most`; without repetition.
+    /// The names under which reports list these expectations, such as `order`, `completes.ego`, `speed.ego.max_above_mps`,
+    /// `yields.ego.to.human` and `building.energy_kwh_at_most`; without repetition.
     pub fn names(&self) -> BTreeSet<String> {
         let mut names = BTreeSet::new();
         let whole = serde_json::to_value(self).unwrap_or_default();
         for (key, value) in whole.as_object().into_iter().flatten().filter(|(_, value)| !value.is_null()) {
             match (key.as_str(), value) {
                 ("completes", Json::Array(items)) => names.extend(items.iter().map(|item| named("completes", item))),
-                ("speed", Json::Array(items)) => {
-                    let bounds = items.iter().flat_map(|item| stated(item).map(move |key| (named("speed", item), key)));
+                ("yields", Json::Array(items)) => names.extend(items.iter().map(yield_name)),
+                (list @ ("speed" | "comfort"), Json::Array(items)) => {
+                    let bounds = items.iter().flat_map(|item| stated(item).map(move |key| (named(list, item), key)));
                     names.extend(bounds.filter(|(_, key)| key != "vehicle").map(|(name, key)| format!("{name}.{key}")));
                 }
                 ("building", building) => {
@@ -98,6 +117,11 @@ impl Expect {
 /// The name of an expectation about a vehicle.
 fn named(key: &str, item: &Json) -> String {
     format!("{key}.{}", item["vehicle"].as_str().unwrap_or_default())
+}
+
+/// The name of an expectation about who goes first.
+fn yield_name(item: &Json) -> String {
+    format!("{}.to.{}", named("yields", item), item["to"].as_str().unwrap_or_default())
 }
 
 /// The keys of a table that have a value.
@@ -191,4 +215,53 @@ pub struct ExpectedSpeed {
     #[serde(default)]
     #[schemars(example = 1.1)]
     pub max_above_mps: Option<f64>,
+}
+
+/// Bounds on the peaks of the accelerations and of the jerk of a vehicle over the run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExpectedComfort {
+    /// Name of the vehicle.
+    #[schemars(example = &"ego")]
+    pub vehicle: String,
+    /// The largest magnitude of its acceleration along its heading, when it speeds up and when it brakes \[m/s²\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 2.0)]
+    pub acceleration_at_most_mps2: Option<f64>,
+    /// The largest deceleration along its heading \[m/s²\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 1.5)]
+    pub braking_at_most_mps2: Option<f64>,
+    /// The largest magnitude of its jerk, the change of acceleration from one tick to the next over a tick \[m/s³\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 10.0)]
+    pub jerk_at_most_mps3: Option<f64>,
+    /// The largest magnitude of its lateral acceleration, speed times yaw rate \[m/s²\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 1.5)]
+    pub lateral_acceleration_at_most_mps2: Option<f64>,
+}
+
+impl ExpectedComfort {
+    /// Every bound by its key.
+    pub fn bounds(&self) -> [(&'static str, Option<f64>); 4] {
+        [
+            ("acceleration_at_most_mps2", self.acceleration_at_most_mps2),
+            ("braking_at_most_mps2", self.braking_at_most_mps2),
+            ("jerk_at_most_mps3", self.jerk_at_most_mps3),
+            ("lateral_acceleration_at_most_mps2", self.lateral_acceleration_at_most_mps2),
+        ]
+    }
+}
+
+/// A vehicle lets another one go first where their ways cross or merge: the other one enters the conflict zone first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExpectedYield {
+    /// Name of the vehicle that waits.
+    #[schemars(example = &"ego")]
+    pub vehicle: String,
+    /// Name of the vehicle that goes first.
+    #[schemars(example = &"human")]
+    pub to: String,
 }

@@ -22,6 +22,7 @@ mod building;
 mod changed;
 mod classes;
 mod commented;
+mod conflict_zones;
 mod consistency;
 mod counterfactual;
 mod degrees;
@@ -56,10 +57,14 @@ mod weights;
 pub use building::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
 pub use commented::commented;
+pub use conflict_zones::ConflictZone;
 pub use counterfactual::Counterfactual;
 pub use embedded::{Embedded, embedded};
 pub use error::{Fault, LoadError};
-pub use expect::{BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedSpeed};
+pub use expect::{
+    BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedSpeed,
+    ExpectedYield,
+};
 pub use files::files;
 pub use lane_reference::LaneReference;
 pub use load::{from_text, load};

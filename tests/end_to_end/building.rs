@@ -74,7 +74,7 @@ fn costs(report: &Value) -> Vec<f64> {
 fn the_report_of_a_building_has_the_keys_of_the_contract() {
     let report =
         interplay(&scratch("building-report"), &["run", "building/four-room-ilc", "--no-record", "--json"]).json();
-    for key in ["vehicles", "collisions", "order", "min_gap_m", "phase_digests"] {
+    for key in ["vehicles", "collisions", "order", "min_gap_m", "smallest_gap", "right_of_way", "phase_digests"] {
         assert!(report.get(key).is_none(), "{key} without vehicles");
     }
     let days = report["building"]["iterations"].as_array().expect("a list");

@@ -2,7 +2,7 @@
 //!
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`authoring`], [`documents`], [`book`]
-//! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`collisions`], [`failures`]
+//! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`]
 //! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
@@ -39,4 +39,5 @@ mod replacements;
 mod replay;
 mod similarity;
 mod suite;
+mod traffic;
 mod unsuited;

@@ -26,8 +26,8 @@ fn the_report_has_the_keys_of_the_contract() {
     assert_eq!(outcome.stderr, "");
     has_keys(
         &report,
-        "scenario passed seed simulated_s wall_s digest phase_digests collisions min_gap_m order vehicles expectations \
-         counterfactuals",
+        "scenario passed seed simulated_s wall_s digest phase_digests collisions min_gap_m smallest_gap \
+         shortest_time_to_collision right_of_way order vehicles expectations counterfactuals",
     );
     assert_eq!(report["scenario"], "lane-change/front-nice");
     assert_eq!(report["seed"], 5);
@@ -35,11 +35,18 @@ fn the_report_has_the_keys_of_the_contract() {
     assert!(report["wall_s"].as_f64().is_some_and(|wall_s| wall_s > 0.0));
     assert!(report["digest"].as_str().is_some_and(|digest| digest.len() == 32));
     has_keys(&report["phase_digests"], "sense predict plan act physics");
+    has_keys(&report["smallest_gap"], "m between time_s");
+    has_keys(&report["shortest_time_to_collision"], "s between time_s");
+    assert_eq!(report["right_of_way"], serde_json::json!([]), "on one road, nobody's way crosses another's");
     for vehicle in report["vehicles"].as_array().expect("a list") {
         has_keys(
             vehicle,
-            "name driver completed_s final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk plans",
+            "name driver completed_s final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk \
+             peak_acceleration_mps2 peak_braking_mps2 peak_jerk_mps3 peak_lateral_acceleration_mps2 off_road_m \
+             speeding_mps peak_times_s plans",
         );
+        has_keys(&vehicle["peak_times_s"], "acceleration braking jerk lateral_acceleration off_road speeding");
+        assert_eq!(vehicle["speeding_mps"], Value::Null, "this road has no limits");
         has_keys(&vehicle["final"], "x_m y_m heading_rad speed_mps");
         has_keys(&vehicle["plans"], "count failed unfinished median_ms p99_ms");
         assert_eq!(vehicle["plans"]["count"], 20);

@@ -2,10 +2,10 @@
 
 use interplay_planners::{Body, State};
 
-type Point = [f64; 2];
+pub type Point = [f64; 2];
 
 /// The corners of a footprint, counter-clockwise.
-fn corners(body: &Body, state: &State) -> [Point; 4] {
+pub fn corners(body: &Body, state: &State) -> [Point; 4] {
     let (sin, cos) = state.heading_rad.sin_cos();
     let half = body.width_m / 2.0;
     let local = [[body.front_m, -half], [body.front_m, half], [-body.rear_m, half], [-body.rear_m, -half]];

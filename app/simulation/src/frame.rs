@@ -24,6 +24,8 @@ pub struct Frame {
     pub gap_m: Option<f64>,
     /// The smallest such distance during the tick, its end included \[m\].
     pub smallest_gap_m: Option<f64>,
+    /// The two vehicles that came closest to each other during the tick, its end included; none if there is only one.
+    pub closest: Option<PairGap>,
     /// The building, if this is one of its steps.
     pub building: Option<BuildingFrame>,
 }
@@ -82,6 +84,17 @@ pub struct VehicleFrame {
     pub prediction: Trajectory,
     /// Wall time of planning \[ms\]; never part of a digest.
     pub plan_ms: f64,
+}
+
+/// The distance between the footprints of two vehicles.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PairGap {
+    /// The distance; 0 where they touch \[m\].
+    pub m: f64,
+    /// Who, in the scenario's order.
+    pub between: [String; 2],
+    /// When \[s\].
+    pub time_s: f64,
 }
 
 /// Two vehicles that began to touch.

@@ -1,8 +1,13 @@
 //! How smoothly a vehicle drives.
 
-use interplay_planners::Input;
+use interplay_planners::{Input, State};
 
-/// Means of the absolute acceleration and of its change.
+use super::peak::Peak;
+
+/// Means and peaks of accelerations and of jerk.
+///
+/// Longitudinal acceleration is that of the inputs; jerk is its change from one tick to the next over a tick, and a vehicle
+/// begins without acceleration. Lateral acceleration is the mean speed of a tick times the yaw rate in it.
 #[derive(Clone, Copy, Debug)]
 pub struct RideComfort {
     step_s: f64,
@@ -10,19 +15,45 @@ pub struct RideComfort {
     acceleration_sum: f64,
     jerk_sum: f64,
     count: usize,
+    /// Magnitude of the longitudinal acceleration \[m/s²\].
+    pub acceleration: Peak,
+    /// Deceleration \[m/s²\].
+    pub braking: Peak,
+    /// Magnitude of the jerk \[m/s³\].
+    pub jerk: Peak,
+    /// Magnitude of the lateral acceleration \[m/s²\].
+    pub lateral_acceleration: Peak,
 }
 
 impl RideComfort {
     /// A vehicle that has not accelerated yet.
     pub fn new(step_s: f64) -> Self {
-        RideComfort { step_s, previous: 0.0, acceleration_sum: 0.0, jerk_sum: 0.0, count: 0 }
+        RideComfort {
+            step_s,
+            previous: 0.0,
+            acceleration_sum: 0.0,
+            jerk_sum: 0.0,
+            count: 0,
+            acceleration: Peak::default(),
+            braking: Peak::default(),
+            jerk: Peak::default(),
+            lateral_acceleration: Peak::default(),
+        }
     }
 
-    /// Takes the input of one tick.
-    pub fn observe(&mut self, input: &Input) {
-        self.acceleration_sum += input.acceleration_mps2.abs();
-        self.jerk_sum += (input.acceleration_mps2 - self.previous).abs() / self.step_s;
-        self.previous = input.acceleration_mps2;
+    /// Takes the input of a tick that begins at `time_s`, and the states before and after it.
+    pub fn observe(&mut self, input: &Input, [before, after]: [&State; 2], time_s: f64) {
+        let acceleration = input.acceleration_mps2;
+        let jerk = (acceleration - self.previous).abs() / self.step_s;
+        let yaw_rate_radps = (after.heading_rad - before.heading_rad) / self.step_s;
+        let lateral = 0.5 * (before.speed_mps + after.speed_mps) * yaw_rate_radps;
+        self.acceleration_sum += acceleration.abs();
+        self.jerk_sum += jerk;
+        self.acceleration.observe(acceleration.abs(), time_s);
+        self.braking.observe(-acceleration, time_s);
+        self.jerk.observe(jerk, time_s);
+        self.lateral_acceleration.observe(lateral.abs(), time_s);
+        self.previous = acceleration;
         self.count += 1;
     }
 
@@ -41,13 +72,40 @@ impl RideComfort {
 mod tests {
     use super::*;
 
+    fn input(acceleration_mps2: f64) -> Input {
+        Input { acceleration_mps2, steering_rad: 0.0 }
+    }
+
     #[test]
-    fn means_of_a_pulse() {
-        let mut comfort = RideComfort::new(0.1);
-        for acceleration_mps2 in [0.0, 1.0, -1.0, 0.0] {
-            comfort.observe(&Input { acceleration_mps2, steering_rad: 0.0 });
+    fn means_and_peaks_of_a_pulse() {
+        let (mut comfort, still) = (RideComfort::new(0.1), State::default());
+        for (tick, acceleration_mps2) in [0.0, 1.0, -2.0, 0.0].into_iter().enumerate() {
+            comfort.observe(&input(acceleration_mps2), [&still, &still], tick as f64);
         }
-        assert!((comfort.mean_abs_acceleration() - 0.5).abs() < 1e-12);
-        assert!((comfort.mean_abs_jerk() - 10.0).abs() < 1e-12);
+        assert!((comfort.mean_abs_acceleration() - 0.75).abs() < 1e-12);
+        assert!((comfort.mean_abs_jerk() - 15.0).abs() < 1e-12);
+        let peak = |value, time_s| Peak { value, time_s: Some(time_s) };
+        assert_eq!((comfort.acceleration, comfort.braking), (peak(2.0, 2.0), peak(2.0, 2.0)));
+        assert!((comfort.jerk.value - 30.0).abs() < 1e-12 && comfort.jerk.time_s == Some(2.0));
+        assert_eq!(comfort.lateral_acceleration, Peak::default());
+        let mut faster = RideComfort::new(0.1);
+        faster.observe(&input(1.5), [&still, &still], 0.0);
+        assert_eq!((faster.acceleration, faster.braking), (peak(1.5, 0.0), Peak::default()), "it never brakes");
+    }
+
+    /// On a circle, lateral acceleration is the speed squared over the radius, in both directions.
+    #[test]
+    fn lateral_acceleration_on_a_circle() {
+        let (speed_mps, radius_m, step_s) = (12.0, 40.0, 0.1);
+        for sign in [1.0, -1.0] {
+            let mut comfort = RideComfort::new(step_s);
+            let turn_rad = sign * speed_mps * step_s / radius_m;
+            let [before, after] =
+                [0.0, turn_rad].map(|heading_rad| State { heading_rad, speed_mps, ..State::default() });
+            comfort.observe(&input(0.0), [&before, &after], 0.4);
+            let found = comfort.lateral_acceleration;
+            assert!((found.value - speed_mps * speed_mps / radius_m).abs() < 1e-12, "{found:?}");
+            assert_eq!(found.time_s, Some(0.4));
+        }
     }
 }

@@ -11,7 +11,7 @@ use rapier2d::prelude::{MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilde
 use super::actuators::Actuators;
 use super::contacts::{Contacts, mass_kg, transmitted_ns};
 use super::footprint::pose;
-use super::gap::EgoGap;
+use super::gap::FootprintGaps;
 use super::moving::{Contact, Moving};
 use super::tyres::{Chassis, Planar};
 
@@ -63,7 +63,7 @@ impl DynamicPlant {
         world: &mut PhysicsWorld,
         moving: &[Moving],
         step_s: f64,
-        gap: &mut EgoGap,
+        gaps: &mut FootprintGaps,
     ) -> (Vec<State>, Vec<Contact>) {
         let steps = (step_s / SUB_STEP_S).ceil().max(1.0) as usize;
         let sub_step_s = step_s / steps as f64;
@@ -82,10 +82,11 @@ impl DynamicPlant {
             for (vehicle, state) in moving.iter().zip(&mut states) {
                 *state = self.sense(world, vehicle.handle, state);
             }
-            gap.observe(&states);
+            let share = step as f64 / steps as f64;
+            gaps.observe(&states, share);
             for touch in contacts.into_touches() {
                 let impulse_ns = transmitted_ns(world, touch.pair.map(|index| moving[index].handle));
-                found.push(Contact { pair: touch.pair, share: step as f64 / steps as f64, impulse_ns });
+                found.push(Contact { pair: touch.pair, share, impulse_ns });
             }
         }
         (states, found)

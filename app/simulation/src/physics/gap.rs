@@ -1,49 +1,86 @@
-//! The true distance of the ego's footprint to the others' during a tick.
+//! The true distances between footprints during a tick: of the ego to the others, and of any two vehicles.
 
 use interplay_planners::{Body, State};
 use interplay_scenarios::Scenario;
 
-use super::footprint::gap_m;
+use super::footprint::{gap_m, radius_m};
 
-/// The smallest distance so far in a tick.
+/// The smallest distances so far in a tick.
 #[derive(Clone, Debug)]
-pub(super) struct EgoGap {
+pub(super) struct FootprintGaps {
     ego: usize,
     bodies: Vec<Body>,
     smallest_m: Option<f64>,
+    closest: Option<Closest>,
 }
 
-impl EgoGap {
+/// The two vehicles that came closest to each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Closest {
+    /// The distance \[m\].
+    pub m: f64,
+    /// Their indices, ascending.
+    pub pair: [usize; 2],
+    /// The share of the tick that had passed.
+    pub share: f64,
+}
+
+impl FootprintGaps {
     /// Nothing seen yet.
     pub fn new(scenario: &Scenario) -> Self {
         let bodies = scenario.vehicles.iter().map(|vehicle| vehicle.body).collect();
-        EgoGap { ego: scenario.ego_index(), bodies, smallest_m: None }
+        FootprintGaps { ego: scenario.ego_index(), bodies, smallest_m: None, closest: None }
     }
 
-    /// Begins a tick; returns the distance there \[m\], none without other vehicles.
+    /// Begins a tick; returns the distance of the ego there \[m\], none without other vehicles.
     pub fn begin(&mut self, states: &[State]) -> Option<f64> {
-        self.smallest_m = None;
-        self.observe(states);
+        (self.smallest_m, self.closest) = (None, None);
+        self.observe(states, 0.0);
         self.smallest_m
     }
 
-    /// Looks at one time within the tick.
-    pub fn observe(&mut self, states: &[State]) {
+    /// Looks at the time when a share of the tick has passed.
+    pub fn observe(&mut self, states: &[State], share: f64) {
         let (Some(body), Some(state)) = (self.bodies.get(self.ego), states.get(self.ego)) else { return };
         let others = self.bodies.iter().zip(states).enumerate().filter(|(index, _)| *index != self.ego);
         let now_m = others.map(|(_, other)| gap_m((body, state), other));
         self.smallest_m = self.smallest_m.into_iter().chain(now_m).min_by(f64::total_cmp);
-    }
-
-    /// Notes that two vehicles touch.
-    pub fn touch(&mut self, pair: [usize; 2]) {
-        if pair.contains(&self.ego) {
-            self.smallest_m = Some(0.0);
+        for (index, a) in self.bodies.iter().zip(states).enumerate() {
+            for (other, b) in self.bodies.iter().zip(states).enumerate().skip(index + 1) {
+                let smallest_m = self.closest.map_or(f64::INFINITY, |closest| closest.m);
+                if smallest_m > 0.0 && least_gap_m(a, b) < smallest_m {
+                    let m = gap_m(a, b);
+                    if m < smallest_m {
+                        self.closest = Some(Closest { m, pair: [index, other], share });
+                    }
+                }
+            }
         }
     }
 
-    /// The smallest distance of the tick \[m\]; none without other vehicles.
+    /// Notes that two vehicles begin to touch when a share of the tick has passed.
+    pub fn touch(&mut self, pair: [usize; 2], share: f64) {
+        if pair.contains(&self.ego) {
+            self.smallest_m = Some(0.0);
+        }
+        if self.closest.is_none_or(|closest| closest.m > 0.0) {
+            self.closest = Some(Closest { m: 0.0, pair, share });
+        }
+    }
+
+    /// The smallest distance of the ego in the tick \[m\]; none without other vehicles.
     pub fn smallest_m(&self) -> Option<f64> {
         self.smallest_m
     }
+
+    /// The two vehicles that came closest to each other in the tick; none if there is only one.
+    pub fn closest(&self) -> Option<Closest> {
+        self.closest
+    }
+}
+
+/// A lower bound of the distance between two footprints, from the circles around them \[m\].
+fn least_gap_m((body, state): (&Body, &State), (other_body, other): (&Body, &State)) -> f64 {
+    let apart_m = libm::hypot(state.x_m - other.x_m, state.y_m - other.y_m);
+    apart_m - radius_m(body) - radius_m(other_body)
 }

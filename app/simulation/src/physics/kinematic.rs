@@ -6,7 +6,7 @@ use rapier2d::prelude::{PhysicsWorld, RigidBodyBuilder};
 
 use super::contacts::{Contacts, Touch, impulse_ns};
 use super::footprint::pose;
-use super::gap::EgoGap;
+use super::gap::FootprintGaps;
 use super::moving::{Contact, Moving};
 use super::path::{Path, next_look};
 
@@ -20,7 +20,7 @@ pub(super) fn advance(
     world: &mut PhysicsWorld,
     vehicles: &[Moving],
     step_s: f64,
-    gap: &mut EgoGap,
+    gaps: &mut FootprintGaps,
 ) -> (Vec<State>, Vec<Contact>) {
     let path = |vehicle: &Moving| Path {
         body: vehicle.body,
@@ -32,7 +32,7 @@ pub(super) fn advance(
     while share < 1.0 {
         share = next_look(&paths, share);
         let states: Vec<State> = paths.iter().map(|path| path.at(share)).collect();
-        gap.observe(&states);
+        gaps.observe(&states, share);
         for Touch { pair: [a, b], normal } in look(world, vehicles, &states) {
             let impulse_ns = impulse_ns((&paths[a].body, &states[a]), (&paths[b].body, &states[b]), normal);
             contacts.push(Contact { pair: [a, b], share, impulse_ns });

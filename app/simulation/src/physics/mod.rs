@@ -18,6 +18,7 @@ mod moving;
 mod path;
 #[cfg(test)]
 mod tests;
+mod time_to_collision;
 mod tyres;
 
 use bevy_ecs::prelude::*;
@@ -26,12 +27,13 @@ use interplay_scenarios::{Plant, Scenario};
 use rapier2d::prelude::{ActiveCollisionTypes, ActiveEvents, ColliderBuilder, PhysicsWorld, RigidBodyHandle, Vector};
 
 pub use footprint::gap_m;
+pub use time_to_collision::{MovingFootprint, time_to_collision_s};
 
 use crate::components::{Clock, CurrentFrame, Identity, Motion, VehicleParameters};
-use crate::frame::{Collision, Event, Level};
+use crate::frame::{Collision, Event, Level, PairGap};
 use dynamic::DynamicPlant;
 use footprint::{centre, length_m, shape};
-use gap::EgoGap;
+use gap::{Closest, FootprintGaps};
 use moving::{Contact, Moving};
 
 /// Largest distance of two bodies that Rapier reports as a contact, for vehicles of passenger cars' size \[m\].
@@ -49,7 +51,7 @@ pub struct Physics {
     world: PhysicsWorld,
     /// The dynamic plant; without it, bodies follow the bicycle.
     dynamic: Option<DynamicPlant>,
-    gap: EgoGap,
+    gaps: FootprintGaps,
 }
 
 impl Physics {
@@ -65,7 +67,7 @@ impl Physics {
             Plant::Kinematic(_) => None,
             Plant::Dynamic(settings) => Some(DynamicPlant::new(*settings, origin)),
         };
-        Physics { world, dynamic, gap: EgoGap::new(scenario) }
+        Physics { world, dynamic, gaps: FootprintGaps::new(scenario) }
     }
 
     /// Adds a vehicle.
@@ -104,25 +106,31 @@ pub fn step(
     };
     let moving: Vec<Moving> = sorted.iter().map(moving).collect();
     let frame = &mut current_frame.0;
-    let Physics { world, dynamic, gap } = &mut *physics;
+    let Physics { world, dynamic, gaps } = &mut *physics;
     let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
-    frame.gap_m = gap.begin(&before);
+    frame.gap_m = gaps.begin(&before);
     let (states, contacts) = match dynamic {
-        None => kinematic::advance(world, &moving, clock.step_s, gap),
-        Some(plant) => plant.advance(world, &moving, clock.step_s, gap),
+        None => kinematic::advance(world, &moving, clock.step_s, gaps),
+        Some(plant) => plant.advance(world, &moving, clock.step_s, gaps),
     };
-    gap.observe(&states);
+    gaps.observe(&states, 1.0);
     for Contact { pair: [a, b], share, impulse_ns } in contacts {
         let between = [a, b].map(|index| sorted[index].0.name.clone());
         let text = format!("collides with {} ({impulse_ns:.2} Ns)", between[1]);
         frame.events.push(Event { vehicle: between[0].clone(), level: Level::Alarm, text });
         frame.collisions.push(Collision { time_s: clock.within_s(share), between, impulse_ns });
-        gap.touch([a, b]);
+        gaps.touch([a, b], share);
         for index in [a, b] {
             sorted[index].2.crashed |= dynamic.is_some();
         }
     }
-    frame.smallest_gap_m = gap.smallest_m();
+    frame.smallest_gap_m = gaps.smallest_m();
+    let name = |index: usize| sorted[index].0.name.clone();
+    frame.closest = gaps.closest().map(|Closest { m, pair, share }| PairGap {
+        m,
+        between: pair.map(name),
+        time_s: clock.within_s(share),
+    });
     for ((_, _, motion, _), state) in sorted.iter_mut().zip(states) {
         motion.state = state;
     }

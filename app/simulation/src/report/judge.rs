@@ -6,6 +6,7 @@ use interplay_scenarios::{BuildingExpect, Completes, Expect, ExpectedSpeed};
 use serde_json::{Value, json};
 
 use super::building::BuildingReport;
+use super::driving;
 use super::expectation::Expectation;
 use super::outcome::Report;
 use crate::day::DayFigures;
@@ -38,12 +39,15 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
         let failed: usize = report.vehicles.iter().map(|vehicle| vehicle.plans.failed).sum();
         add("plan_failures_at_most".into(), json!(most), json!(failed), failed <= most);
     }
+    judged.extend(driving::of_all(expect, report));
     for window in &expect.completes {
         judged.push(completes(window, report));
     }
     for range in &expect.speed {
         judged.extend(speed(range, report));
     }
+    judged.extend(expect.comfort.iter().flat_map(|bounds| driving::comfort(bounds, report)));
+    judged.extend(expect.yields.iter().map(|expected| driving::yields(expected, report)));
     if let (Some(expect), Some(building)) = (&expect.building, &report.building) {
         judged.extend(judge_building(expect, building));
     }

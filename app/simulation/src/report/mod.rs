@@ -2,6 +2,7 @@
 
 mod building;
 mod counterfactual;
+mod driving;
 mod expectation;
 mod judge;
 mod outcome;
@@ -11,7 +12,7 @@ use xxhash_rust::xxh3::xxh3_128;
 
 pub use building::BuildingReport;
 pub use expectation::Expectation;
-pub use outcome::{CounterfactualReport, PlansReport, Report, VehicleReport};
+pub use outcome::{CounterfactualReport, PeakTimes, PlansReport, Report, VehicleReport};
 
 use crate::components::to_nanosecond;
 use crate::measure::{BuildingMeasures, Measures, PhaseDigests, VehicleMeasures};
@@ -40,6 +41,9 @@ impl Report {
             phase_digests,
             collisions: measures.collisions.clone(),
             min_gap_m: measures.gap.smallest_m,
+            smallest_gap: measures.gap.closest.clone(),
+            shortest_time_to_collision: measures.time_to_collision.shortest.clone(),
+            right_of_way: measures.passages.passages(),
             order: order(scenario, measures),
             vehicles,
             building,
