@@ -66,7 +66,7 @@ impl RoadNetwork {
         let mut numbers = Vec::with_capacity(lists.len());
         for (index, names) in lists.iter().enumerate() {
             let is_same = |known: &&[Name]| known.iter().map(AsRef::as_ref).eq(names.iter().map(AsRef::as_ref));
-            let number = first_lists.iter().position(|known| is_same(&known));
+            let number = first_lists.iter().position(|known| is_same(known));
             if number.is_none() {
                 let mut route = self.route(names).map_err(|error| (index, error))?;
                 route.number = Some(distinct.len());
