@@ -131,7 +131,9 @@ fn beyond_m(road: &Road, vehicle: &Vehicle, [x, y]: Point) -> f64 {
             let tanh = ((x - (ramp.ramp_end_m - 2.0 * ramp.taper_m)) / ramp.taper_m).tanh();
             (0.5 * ramp.lane_width_m * (1.0 + tanh) - y).max(y - width_m)
         }
-        (Road::Curve(_), _) => {
+        (Road::Lanes(_) | Road::Intersection(_), _) => (-y).max(y - width_m),
+        // On curves and networks the strip is that of the vehicle's route.
+        _ => {
             // The nearest of finely spaced places of the centre line, refined by halving the steps.
             let apart_m = |along_m: f64| {
                 let [cx, cy] = vehicle.route.position(along_m, 0.0);
@@ -152,7 +154,6 @@ fn beyond_m(road: &Road, vehicle: &Vehicle, [x, y]: Point) -> f64 {
             let across_m = (x - ax) * (bx - ax) + (y - ay) * (by - ay);
             (vehicle.route.right.value(along_m) - across_m).max(across_m - vehicle.route.left.value(along_m))
         }
-        (Road::Lanes(_) | Road::Intersection(_), _) => (-y).max(y - width_m),
     }
 }
 

@@ -63,7 +63,10 @@ fn size(root: &Map<String, Json>) -> Option<Size> {
     let vehicles = root.get("vehicle").and_then(Json::as_array).into_iter().flatten();
     let scales = vehicles.filter_map(|vehicle| read::<VehicleClass>(vehicle.get("class")?).map(VehicleClass::scale));
     let of_road = || is_network(root).then_some(FULL_SCALE);
-    scales.max_by(f64::total_cmp).or_else(of_road).map(|scale| Size { scale, is_full: scale > VehicleClass::ScaleCar.scale() })
+    scales
+        .max_by(f64::total_cmp)
+        .or_else(of_road)
+        .map(|scale| Size { scale, is_full: scale > VehicleClass::ScaleCar.scale() })
 }
 
 fn read<T: serde::de::DeserializeOwned>(value: &Json) -> Option<T> {

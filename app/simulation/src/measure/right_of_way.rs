@@ -1,6 +1,5 @@
 //! Who goes first where the ways of two vehicles cross or merge.
 
-use interplay_planners::State;
 use interplay_scenarios::Scenario;
 use serde::Serialize;
 
