@@ -87,21 +87,28 @@ fn digest(scenario: &Scenario, phases: &PhaseDigests, building: Option<&Building
     }
 }
 
-/// Names from the front of the road to its rear, on a network along the route of the ego; at an intersection, in the order in
-/// which they left the conflict zone, and then by how far they still have to go.
+/// Names from the front of the road to its rear; at an intersection, in the order in which they left the conflict zone, and
+/// then by how far they still have to go. On a network those whose routes end on one lane are ordered along it; otherwise
+/// vehicles are in the order in which they reached their goals, and then by how far they still have to go.
 fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
     let road = &scenario.road;
     let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
-    let of_all = scenario.network.is_some().then(|| scenario.main_route());
+    let is_network = scenario.network.is_some();
+    let follow_one_another = {
+        let mut last_lanes = scenario.vehicles.iter().map(|vehicle| vehicle.route.legs.last().map(|leg| &leg.lane));
+        let first = last_lanes.next();
+        last_lanes.all(|lane| Some(lane) == first)
+    };
     let place = |(vehicle, measured): (&Vehicle, &VehicleMeasures)| {
-        let position = measured.last.position();
-        let along =
-            of_all.as_ref().map_or_else(|| measured.completion.along_m(position), |route| route.along(position));
+        let along = measured.completion.along_m(measured.last.position());
+        let remaining = vehicle.route.end_m() - along;
         match road.conflict_zone_m(vehicle.road) {
             Some([_, end]) => {
                 let never = if along > end { 0.0 } else { f64::INFINITY };
                 [measured.completion.completed_s.unwrap_or(never), end - along]
             }
+            None if is_network && follow_one_another => [0.0, remaining],
+            None if is_network => [measured.completion.completed_s.unwrap_or(f64::INFINITY), remaining],
             None => [0.0, -along],
         }
     };
