@@ -24,10 +24,8 @@ impl Road {
                 .map(|conflict| ConflictZone { first_m: conflict.own_m, second_m: conflict.their_m })
                 .collect();
         }
-        if first.road == second.road {
-            return Vec::new();
-        }
         let zones = self.conflict_zone_m(first.road).zip(self.conflict_zone_m(second.road));
+        let zones = zones.filter(|_| first.road != second.road);
         zones.map(|(first_m, second_m)| ConflictZone { first_m, second_m }).into_iter().collect()
     }
 }
