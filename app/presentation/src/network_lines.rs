@@ -252,7 +252,7 @@ mod tests {
 
     fn scenario(road: &str, lane: &str) -> Scenario {
         let text = format!(
-            "title = 'a'\nshows = 'b'\n[road]\n{road}\n[[vehicle]]\nname = 'car'\n\
+            "title = 'a'\nshows = 'b'\nduration_s = 12.0\n[road]\n{road}\n[[vehicle]]\nname = 'car'\n\
              start = {{ lane = '{lane}', along_m = 10.0, speed_mps = 1.0 }}\nroute = ['{lane}']\n"
         );
         from_text("network.toml", &text, &[]).expect("a scenario without fault")

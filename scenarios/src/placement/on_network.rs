@@ -6,7 +6,7 @@ use interplay_building::nearest::{listed, suggestion};
 use interplay_planners::road::network::{Lane, RoadNetwork, RouteError};
 use interplay_planners::{Route, State};
 
-use super::{Start, VehicleAsWritten, next_to};
+use super::written::{Start, VehicleAsWritten, next_to};
 use crate::error::{Fault, quoted};
 use crate::lane_reference::LaneReference;
 use crate::road::to_centimetres;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use interplay_planners::{Route, State};
 
-use super::{Start, VehicleAsWritten, next_to};
+use super::written::{Start, VehicleAsWritten, next_to};
 use crate::consistency::no_such_lane;
 use crate::error::Fault;
 use crate::lane_reference::LaneReference;

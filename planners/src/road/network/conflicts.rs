@@ -1,6 +1,7 @@
 //! Where two routes cross or merge.
 
 use super::route::Route;
+use super::route_conflict::ConflictKind;
 
 /// Parts of two routes whose lanes overlap without being the same lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,19 +12,6 @@ pub struct Conflict {
     pub on_b: [f64; 2],
     /// What the routes do there.
     pub kind: ConflictKind,
-}
-
-/// What two routes do where they overlap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ConflictKind {
-    /// They come from different lanes and go on to different lanes.
-    Crossing,
-    /// They go on to the same lane.
-    Merging,
-    /// They come from the same lane and go on to different lanes.
-    Diverging,
-    /// They use the same strip in opposite directions.
-    HeadOn,
 }
 
 /// Ends of conflicts are found to this share of the narrowest lane.

@@ -11,6 +11,7 @@ mod lane;
 mod locating;
 mod road_network;
 mod route;
+mod route_conflict;
 mod route_set;
 mod routing;
 mod search;
@@ -19,10 +20,10 @@ mod strip;
 #[cfg(test)]
 mod tests;
 
-pub use conflicts::{CONFLICT_TOLERANCE_RATIO, Conflict, ConflictKind, conflicts};
+pub use conflicts::{CONFLICT_TOLERANCE_RATIO, Conflict, conflicts};
 pub use error::{LaneFault, RoadNetworkError, RouteError};
 pub use lane::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay};
 pub use locating::LanePlace;
 pub use road_network::RoadNetwork;
 pub use route::{Route, RouteLeg, TightestTurn};
-pub use route_set::{Precedence, RouteConflict};
+pub use route_conflict::{ConflictKind, Precedence, RouteConflict};

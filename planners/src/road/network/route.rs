@@ -7,7 +7,7 @@ use super::super::corridor::Corridor;
 use super::super::profile::Profile;
 use super::error::RouteError;
 use super::lane::RightOfWay;
-use super::route_set::RouteConflict;
+use super::route_conflict::RouteConflict;
 
 /// The way of a vehicle: a centre line, and the strip beside it that the vehicle may use.
 ///

@@ -3,45 +3,12 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::conflicts::{ConflictKind, conflicts};
+use super::conflicts::conflicts;
 use super::error::RouteError;
 use super::lane::RightOfWay;
 use super::road_network::{RoadNetwork, turn_rad};
 use super::route::{Route, RouteLeg};
-
-/// A place where a route meets another one of the same network, as the first one sees it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RouteConflict {
-    /// The number of the other route.
-    pub(super) with: usize,
-    /// Where the route is on the lanes of the other one, from and to \[m\].
-    pub own_m: [f64; 2],
-    /// Where the other one is on the lanes of this one \[m\].
-    pub their_m: [f64; 2],
-    /// Where a vehicle on this route waits before the conflict \[m\].
-    pub own_line_m: f64,
-    /// Where a vehicle on the other route waits \[m\].
-    pub their_line_m: f64,
-    /// Where the centre lines meet, on this route \[m\].
-    pub own_meeting_m: f64,
-    /// Where the centre lines meet, on the other one \[m\].
-    pub their_meeting_m: f64,
-    /// What the routes do there.
-    pub kind: ConflictKind,
-    /// Who goes first.
-    pub precedence: Precedence,
-}
-
-/// Who goes first where two routes meet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Precedence {
-    /// The vehicles on this route.
-    Own,
-    /// The vehicles on the other route.
-    Other,
-    /// Whoever arrives first.
-    ByArrival,
-}
+use super::route_conflict::{ConflictKind, Precedence, RouteConflict};
 
 /// Approaches whose directions differ by less than this come from the same side, and by more than 180° less this from opposite
 /// sides \[rad\].

@@ -1,14 +1,13 @@
 //! A lane as a file states it.
 
 use interplay_planners::Profile;
-use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay};
+use interplay_planners::road::network::{LaneNeighbour, NeighbourRelation, RightOfWay};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::super::fault::RoadFault;
 use super::super::piece::CurvePiece;
-use super::geometry;
 use crate::name;
 
 /// A lane: a line with a width. The line is stated by `start` and `pieces`, or by `points`.
@@ -123,7 +122,7 @@ pub struct NeighbourTable {
 }
 
 impl NeighbourConfig {
-    fn neighbour(&self) -> LaneNeighbour {
+    pub(super) fn neighbour(&self) -> LaneNeighbour {
         let (lane, oncoming, may_change) = match self {
             NeighbourConfig::Name(lane) => (lane, false, true),
             NeighbourConfig::Table(table) => (&table.lane, table.oncoming, table.may_change),
@@ -143,7 +142,7 @@ impl LaneWidth {
     }
 
     /// The width over the distance along the lane; `path` is that of the lane below `road`.
-    fn profile(&self, path: &str) -> Result<Profile, RoadFault> {
+    pub(super) fn profile(&self, path: &str) -> Result<Profile, RoadFault> {
         let knots = match self {
             LaneWidth::Constant(width_m) => return Ok(Profile::constant(*width_m)),
             LaneWidth::Knots(knots) => knots,
@@ -163,19 +162,3 @@ impl LaneWidth {
 
 /// Least width of a lane \[m\].
 const MIN_WIDTH_M: f64 = 0.001;
-
-impl LaneConfig {
-    /// The lane; `path` is that of its table below `road`.
-    pub(super) fn lane(&self, path: &str) -> Result<Lane, RoadFault> {
-        Ok(Lane {
-            name: self.name.clone(),
-            centre: geometry::centre(self, path)?,
-            width: self.width_m.profile(path)?,
-            successors: self.successors.clone(),
-            left: self.left.as_ref().map(NeighbourConfig::neighbour),
-            right: self.right.as_ref().map(NeighbourConfig::neighbour),
-            speed_limit_mps: self.speed_limit_mps,
-            right_of_way: self.right_of_way,
-        })
-    }
-}

@@ -32,6 +32,20 @@ impl LaneNetwork {
     /// # Errors
     /// For the first lane without a line or a width.
     pub(crate) fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
-        self.lanes.iter().enumerate().map(|(index, lane)| lane.lane(&format!("lane.{index}"))).collect()
+        self.lanes.iter().enumerate().map(|(index, stated)| lane(stated, &format!("lane.{index}"))).collect()
     }
+}
+
+/// The lane that a table states; `path` is that of the table below `road`.
+fn lane(stated: &LaneConfig, path: &str) -> Result<Lane, RoadFault> {
+    Ok(Lane {
+        name: stated.name.clone(),
+        centre: geometry::centre(stated, path)?,
+        width: stated.width_m.profile(path)?,
+        successors: stated.successors.clone(),
+        left: stated.left.as_ref().map(NeighbourConfig::neighbour),
+        right: stated.right.as_ref().map(NeighbourConfig::neighbour),
+        speed_limit_mps: stated.speed_limit_mps,
+        right_of_way: stated.right_of_way,
+    })
 }

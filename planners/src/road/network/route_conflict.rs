@@ -1,0 +1,48 @@
+//! What a route knows of the places where it meets another one.
+
+/// A place where a route meets another one of the same network, as the first one sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RouteConflict {
+    /// The number of the other route.
+    pub(super) with: usize,
+    /// Where the route is on the lanes of the other one, from and to \[m\].
+    pub own_m: [f64; 2],
+    /// Where the other one is on the lanes of this one \[m\].
+    pub their_m: [f64; 2],
+    /// Where a vehicle on this route waits before the conflict \[m\].
+    pub own_line_m: f64,
+    /// Where a vehicle on the other route waits \[m\].
+    pub their_line_m: f64,
+    /// Where the centre lines meet, on this route \[m\].
+    pub own_meeting_m: f64,
+    /// Where the centre lines meet, on the other one \[m\].
+    pub their_meeting_m: f64,
+    /// What the routes do there.
+    pub kind: ConflictKind,
+    /// Who goes first.
+    pub precedence: Precedence,
+}
+
+/// Who goes first where two routes meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precedence {
+    /// The vehicles on this route.
+    Own,
+    /// The vehicles on the other route.
+    Other,
+    /// Whoever arrives first.
+    ByArrival,
+}
+
+/// What two routes do where they overlap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConflictKind {
+    /// They come from different lanes and go on to different lanes.
+    Crossing,
+    /// They go on to the same lane.
+    Merging,
+    /// They come from the same lane and go on to different lanes.
+    Diverging,
+    /// They use the same strip in opposite directions.
+    HeadOn,
+}
