@@ -6,7 +6,7 @@
 //! - until it has stood there once, if the sign says so,
 //! - while somebody who goes first comes so soon that the driver could not clear the conflict before,
 //! - while somebody is in the conflict, or past the own line towards it,
-//! - where the first to arrive goes first, while somebody stands who has stood for longer.
+//! - where the first to arrive goes first, while somebody waits who came before.
 //!
 //! A driver who is past its line, or could no longer stop before it, goes on.
 
@@ -18,8 +18,8 @@ use crate::{Agent, Scene};
 /// A vehicle stands if it would come to rest within this share of its length, braking at [`REFERENCE_MPS2`].
 const STANDING_LENGTHS: f64 = 0.02;
 
-/// A vehicle that stands within this many lengths before its line waits there.
-const WAITING_LENGTHS: f64 = 1.0;
+/// A vehicle that comes within this many lengths of its line has arrived there.
+const ARRIVAL_LENGTHS: f64 = 1.0;
 
 /// A driver stops this many lengths before a line.
 const STOPPING_LENGTHS: f64 = 0.15;
@@ -37,18 +37,19 @@ const ENTERING_SHARE: f64 = 0.6;
 /// A driver brakes for a line with at most this share of its strongest braking.
 const BRAKING_SHARE: f64 = 0.8;
 
-/// What a driver remembers of who waits since when.
+/// What a driver remembers of who has arrived when.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct WaitingMemory {
-    /// Since which tick each vehicle has stood at its line, with the line \[m\].
-    waiting: BTreeMap<String, Waiting>,
+pub(crate) struct ArrivalMemory {
+    /// Who has arrived at its line and is not past it.
+    arrivals: BTreeMap<String, Arrival>,
     /// The last line at which the driver itself has stood \[m\].
     stood_at_m: Option<f64>,
 }
 
+/// The arrival of a vehicle at its line.
 #[derive(Clone, Copy, Debug)]
-struct Waiting {
-    since: usize,
+struct Arrival {
+    tick: usize,
     line_m: f64,
 }
 
@@ -60,7 +61,7 @@ struct Pair<'a> {
     wanted_mps: f64,
 }
 
-impl WaitingMemory {
+impl ArrivalMemory {
     /// How far along its route the front of the planning vehicle may come now; none if nothing holds it \[m\].
     pub(crate) fn stop_line_m(&mut self, scene: &Scene) -> Option<f64> {
         let ego = &scene.ego;
@@ -74,8 +75,8 @@ impl WaitingMemory {
         let signs = signed_lines(ego);
         let own_lines = scene.others.iter().flat_map(|other| ego.route.conflicts_with(&other.route));
         self.note(ego, own_lines.map(|conflict| conflict.own_line_m).chain(signs.iter().copied()), scene.tick);
-        if let Some(waiting) = self.waiting.get(&ego.name) {
-            self.stood_at_m = Some(waiting.line_m);
+        if let Some(arrival) = self.arrivals.get(&ego.name).filter(|_| is_standing(ego)) {
+            self.stood_at_m = Some(arrival.line_m);
         }
         let stop = signs.into_iter().filter(|line_m| self.stood_at_m.is_none_or(|stood_m| stood_m < *line_m));
         let pairs = scene.others.iter().flat_map(|other| {
@@ -88,18 +89,12 @@ impl WaitingMemory {
         lines.min_by(f64::total_cmp).map(|line_m| line_m - before_m)
     }
 
-    /// Notes whether a vehicle stands at one of its lines.
+    /// Notes whether a vehicle has arrived at one of its lines. It keeps its place in the order until it is past the line.
     fn note(&mut self, agent: &Agent, mut lines: impl Iterator<Item = f64>, tick: usize) {
-        let (front_m, near_m) = (front_m(agent), WAITING_LENGTHS * length_m(agent));
-        let at_m = lines.find(|line_m| is_standing(agent) && (0.0..near_m).contains(&(line_m - front_m)));
-        match at_m {
-            Some(line_m) => {
-                self.waiting.entry(agent.name.clone()).or_insert(Waiting { since: tick, line_m });
-            }
-            // Whoever has stood keeps its place in the order until it is past the line.
-            None => {
-                self.waiting.retain(|name, waiting| *name != agent.name || front_m < waiting.line_m);
-            }
+        let (front_m, near_m) = (front_m(agent), ARRIVAL_LENGTHS * length_m(agent));
+        self.arrivals.retain(|name, arrival| *name != agent.name || front_m < arrival.line_m);
+        if let Some(line_m) = lines.find(|line_m| (0.0..near_m).contains(&(line_m - front_m))) {
+            self.arrivals.entry(agent.name.clone()).or_insert(Arrival { tick, line_m });
         }
     }
 
@@ -126,7 +121,7 @@ impl WaitingMemory {
     /// Whether the other has arrived before the driver, or will.
     fn arrived_later(&self, pair: &Pair) -> bool {
         let Pair { ego, other, conflict, .. } = pair;
-        let [own, their] = [ego, other].map(|agent| self.waiting.get(&agent.name).map(|waiting| waiting.since));
+        let [own, their] = [ego, other].map(|agent| self.arrivals.get(&agent.name).map(|arrival| arrival.tick));
         match (own, their) {
             (Some(own), Some(their)) => (their, &other.name) < (own, &ego.name),
             (Some(_), None) => front_m(other) > conflict.their_line_m,

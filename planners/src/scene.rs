@@ -11,6 +11,9 @@ use crate::{Axes, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
 /// Drivers brake for a speed limit with this share of their strongest braking.
 const COMFORTABLE_BRAKING_SHARE: f64 = 0.4;
 
+/// Drivers come up to a line with this share of their strongest acceleration.
+const COMFORTABLE_ACCELERATION_SHARE: f64 = 0.5;
+
 /// A vehicle as anyone sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Agent {
@@ -104,6 +107,23 @@ impl Agent {
     fn slips_rad(&self, along_m: &[f64]) -> Vec<f64> {
         let curvature_1pm = |along_m: &f64| self.route.centre.at(*along_m).curvature_1pm;
         along_m.iter().map(|along_m| slip_on_curve_rad(self.body.rear_axle_m, curvature_1pm(along_m))).collect()
+    }
+
+    /// The speeds at `t = 1…N` of a comfortable approach to a line at which its front stops, from its present speed on \[m/s\].
+    pub(crate) fn approach_speeds_mps(&self, line_m: f64, wanted_mps: f64, horizon: usize, step_s: f64) -> Vec<f64> {
+        let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;
+        let braking_mps2 = COMFORTABLE_BRAKING_SHARE * acceleration_min_mps2.abs();
+        let mut speed_mps = self.state.speed_mps;
+        let mut room_m = line_m - self.body.front_m - self.route.along(self.state.position());
+        let speeds = (0..horizon).map(|_| {
+            let permitted_mps = (2.0 * braking_mps2 * room_m.max(0.0)).sqrt().min(wanted_mps);
+            let (low, high) =
+                (acceleration_min_mps2 * step_s, COMFORTABLE_ACCELERATION_SHARE * acceleration_max_mps2 * step_s);
+            speed_mps = (speed_mps + (permitted_mps - speed_mps).clamp(low, high)).max(0.0);
+            room_m -= step_s * speed_mps;
+            speed_mps
+        });
+        speeds.collect()
     }
 
     /// A line that its front stays before, as number `vehicle` of a trajectory problem.

@@ -5,7 +5,8 @@
 //! ```text
 //! tracking       Σ_{t=1…N} ‖x_t − x_des‖²_Q                            eq. 6.6
 //! comfort        Σ_{t=0…N−1} ‖u_t − u_{t−1}‖²_R                        eq. 6.6
-//! stop line     Σ 2·10³ (q + q²), q how far the front is beyond a line    only while the driver must wait there
+//! stop line     Σ 2·10³ (q + q²), q how far the front is beyond a line    only while the driver must wait there, and
+//!               with the speeds of a comfortable approach in place of a higher desired speed
 //! road edges     Σ 2·10³ (q + q²), q how far a corner is off the road    eq. 6.7, soft
 //! yielding       w Σ_{t=1…N} max(0, 1 − d²(p_t, q_t))²                 per vehicle that might cut in or cross
 //! following      w_f Σ_{t=1…N} max(0, 1 − d²(p_t, l_t))²               the vehicle ahead in the same lane
@@ -53,7 +54,7 @@ pub use settings::{Settings, Style};
 use std::borrow::Cow;
 
 use crate::predict::steady_inputs;
-use crate::right_of_way::WaitingMemory;
+use crate::right_of_way::ArrivalMemory;
 use crate::scene::ellipses;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
@@ -75,7 +76,7 @@ pub struct Human {
     settings: Settings,
     perception: Perception,
     decision: Decision,
-    waiting: WaitingMemory,
+    arrivals: ArrivalMemory,
     optimiser: Optimiser<Robust>,
     last: Option<Trajectory>,
 }
@@ -87,7 +88,7 @@ impl Human {
             settings,
             perception: Perception::default(),
             decision: Decision::default(),
-            waiting: WaitingMemory::default(),
+            arrivals: ArrivalMemory::default(),
             optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
             last: None,
         }
@@ -106,9 +107,8 @@ impl Human {
         }
         let scene = wanted.as_ref();
         let mut problem = pose(scene, &expected.others, &self.settings);
-        if let Some(line_m) = self.waiting.stop_line_m(scene) {
-            let line = scene.ego.stop_line(0, line_m, scene.horizon, scene.step_s);
-            problem.terms.push(Term::StopLine(line));
+        if let Some(line_m) = self.arrivals.stop_line_m(scene) {
+            wait_at(&mut problem, scene, line_m);
         }
         let optimum = self.optimiser.optimise(&problem, &[guess(scene, self.last.as_ref())])?;
         let trajectory = optimum.trajectory(0);
@@ -133,6 +133,21 @@ fn pose(scene: &Scene, expected: &[Agent], settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     terms.extend(followed(scene, settings).into_iter().chain(yielded_to(scene, expected, settings)).map(Term::KeepOut));
     Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
+}
+
+/// Makes the driver come to a line at a usual pace, and wait there.
+///
+/// Against a constant wanted speed the cheapest way to a line within the horizon is a slow and even one, at every step anew:
+/// the driver would creep for ever.
+fn wait_at(problem: &mut Problem, scene: &Scene, line_m: f64) {
+    let ego = &scene.ego;
+    for term in &mut problem.terms {
+        if let Term::RoadTracking(tracking) = term {
+            tracking.permitted_mps =
+                ego.approach_speeds_mps(line_m, tracking.target.speed_mps, scene.horizon, scene.step_s);
+        }
+    }
+    problem.terms.push(Term::StopLine(ego.stop_line(0, line_m, scene.horizon, scene.step_s)));
 }
 
 /// The guess of keeping on: the last plan one step later, or at first a little braking.

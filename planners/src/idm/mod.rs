@@ -13,7 +13,7 @@ mod settings;
 pub use settings::{Mobil, Settings};
 
 use crate::relation::Relation;
-use crate::right_of_way::WaitingMemory;
+use crate::right_of_way::ArrivalMemory;
 use crate::steering::{admissible, roll_out, steer};
 use crate::{Input, Plan, PlanError, PlanEvent, Scene};
 use car_following::Leader;
@@ -26,13 +26,13 @@ pub struct Idm {
     settings: Settings,
     /// The lane it drives in or changes to.
     lane: Option<usize>,
-    waiting: WaitingMemory,
+    arrivals: ArrivalMemory,
 }
 
 impl Idm {
     /// A driver who has not chosen a lane yet.
     pub fn new(settings: Settings) -> Self {
-        Idm { settings, lane: None, waiting: WaitingMemory::default() }
+        Idm { settings, lane: None, arrivals: ArrivalMemory::default() }
     }
 
     /// Chooses a lane and plans the next moves.
@@ -40,7 +40,7 @@ impl Idm {
     /// # Errors
     /// Never; the signature is that of all planners.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
-        let line_m = self.waiting.stop_line_m(scene);
+        let line_m = self.arrivals.stop_line_m(scene);
         let scene = &along_the_road(&self.settings.prediction.applied_to(scene));
         let lanes = Lanes::of_road(scene, &self.settings.mobil);
         let nearest_lane = lanes.at(scene.ego.route.across(scene.ego.state.position()));

@@ -7,6 +7,7 @@ mod expectation;
 mod judge;
 mod outcome;
 
+use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_scenarios::{Expect, Scenario, Vehicle};
 use xxhash_rust::xxh3::xxh3_128;
 
@@ -88,27 +89,28 @@ fn digest(scenario: &Scenario, phases: &PhaseDigests, building: Option<&Building
 }
 
 /// Names from the front of the road to its rear; at an intersection, in the order in which they left the conflict zone, and
-/// then by how far they still have to go. On a network those whose routes end on one lane are ordered along it; otherwise
+/// then by how far they still have to go. On a network whose routes all end on one lane, or on lanes side
+/// by side, they are ordered along the ego's; otherwise
 /// vehicles are in the order in which they reached their goals, and then by how far they still have to go.
 fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
     let road = &scenario.road;
     let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
     let is_network = scenario.network.is_some();
-    let follow_one_another = {
-        let mut last_lanes = scenario.vehicles.iter().map(|vehicle| vehicle.route.legs.last().map(|leg| &leg.lane));
-        let first = last_lanes.next();
-        last_lanes.all(|lane| Some(lane) == first)
-    };
+    let common = scenario.network.as_ref().filter(|network| end_side_by_side(scenario, network));
+    let common = common.map(|_| scenario.main_route());
     let place = |(vehicle, measured): (&Vehicle, &VehicleMeasures)| {
-        let along = measured.completion.along_m(measured.last.position());
+        let position = measured.last.position();
+        let along =
+            common.as_ref().map_or_else(|| measured.completion.along_m(position), |route| route.along(position));
         let remaining = vehicle.route.end_m() - along;
         match road.conflict_zone_m(vehicle.road) {
             Some([_, end]) => {
                 let never = if along > end { 0.0 } else { f64::INFINITY };
                 [measured.completion.completed_s.unwrap_or(never), end - along]
             }
-            None if is_network && follow_one_another => [0.0, remaining],
-            None if is_network => [measured.completion.completed_s.unwrap_or(f64::INFINITY), remaining],
+            None if is_network && common.is_none() => {
+                [measured.completion.completed_s.unwrap_or(f64::INFINITY), remaining]
+            }
             None => [0.0, -along],
         }
     };
@@ -116,4 +118,18 @@ fn order(scenario: &Scenario, measures: &Measures) -> Vec<String> {
         vehicles.map(|(one, seen)| (place((one, seen)), one.name.as_str())).collect();
     places.sort_by(|([a, behind_a], _), ([b, behind_b], _)| a.total_cmp(b).then(behind_a.total_cmp(behind_b)));
     places.into_iter().map(|(_, name)| name.to_owned()).collect()
+}
+
+/// Whether the routes of all vehicles end on one lane, or on lanes side by side into which one may change.
+fn end_side_by_side(scenario: &Scenario, network: &RoadNetwork) -> bool {
+    let last = |vehicle: &Vehicle| vehicle.route.legs.last().and_then(|leg| network.lane(&leg.lane));
+    let mut beside: Vec<&Lane> = scenario.vehicles.first().and_then(last).into_iter().collect();
+    let mut next = 0;
+    while let Some(lane) = beside.get(next) {
+        let neighbours = [&lane.left, &lane.right].into_iter().flatten().filter(|neighbour| neighbour.is_open());
+        let found: Vec<&Lane> = neighbours.filter_map(|neighbour| network.lane(&neighbour.lane)).collect();
+        beside.extend(found.into_iter().filter(|lane| !beside.contains(lane)).collect::<Vec<_>>());
+        next += 1;
+    }
+    scenario.vehicles.iter().all(|vehicle| last(vehicle).is_some_and(|lane| beside.contains(&lane)))
 }
