@@ -1,5 +1,7 @@
 //! The part of a centre line between two neighbouring knots.
 
+use super::polynomials::LinePolynomial;
+
 /// Position, first and second derivative at a knot, over some parameter.
 pub(super) type Knot = [[f64; 2]; 3];
 
@@ -48,6 +50,16 @@ impl Segment {
         Segment { from_m: 0.0, length_m, x, y, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
     }
 
+    /// The segment of a polynomial, at arc length 0.
+    pub fn of(&LinePolynomial { length_m, x, y }: &LinePolynomial) -> Segment {
+        Segment { from_m: 0.0, length_m, x, y, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
+    }
+
+    /// Its polynomial.
+    pub fn polynomial(&self) -> LinePolynomial {
+        LinePolynomial { length_m: self.length_m, x: self.x, y: self.y }
+    }
+
     fn with_middle(self) -> Segment {
         let [_, [x, y], ..] = self.jet(0.5 * self.length_m);
         let speed = (x * x + y * y).sqrt();
@@ -86,6 +98,12 @@ impl Segment {
     pub fn heading_rad(&self, [x, y]: [f64; 2]) -> f64 {
         let [cos, sin] = self.middle;
         self.middle_heading_rad + small_arctangent((cos * y - sin * x) / (cos * x + sin * y))
+    }
+
+    /// The angle from the heading in the middle to a tangent of any polynomial, between −π and π \[rad\].
+    pub fn turn_from_middle_rad(&self, [x, y]: [f64; 2]) -> f64 {
+        let [cos, sin] = self.middle;
+        libm::atan2(cos * y - sin * x, cos * x + sin * y)
     }
 
     /// The part between two distances from the first knot, at arc length 0.
