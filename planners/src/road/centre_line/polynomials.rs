@@ -3,6 +3,7 @@
 use super::error::CentreLineError;
 use super::joining::continues;
 use super::line::{CentreLine, Curve, Shape};
+use super::reparametrisation::by_arc_length;
 use super::segment::{MAX_HALF_TURN_RAD, Segment};
 
 /// The part of a centre line between two neighbouring knots.
@@ -49,7 +50,7 @@ impl CentreLine {
                 let [x_m, y_m] = begin[0];
                 return Err(CentreLineError::Cusp { x_m, y_m });
             }
-            if segments.last().is_some_and(|last| !continues([last.knot(last.length_m), begin])) {
+            if segments.last().is_some_and(|last| !continues([last.knot(last.length_m), begin].map(by_arc_length))) {
                 return Err(CentreLineError::Gap { piece });
             }
             segments.push(segment);

@@ -66,10 +66,12 @@ impl Segment {
         Segment { middle: [x / speed, y / speed], middle_heading_rad: libm::atan2(y, x), ..self }
     }
 
-    /// The same segment at another arc length, with a heading that is the next one to `heading_rad`.
+    /// The same segment at another arc length, with a heading that is the next one to `heading_rad`. The heading does not depend
+    /// on where the segment was placed before, in any bit.
     pub fn placed(self, from_m: f64, heading_rad: f64) -> Segment {
-        let turns = ((heading_rad - self.middle_heading_rad) / std::f64::consts::TAU).round();
-        Segment { from_m, middle_heading_rad: self.middle_heading_rad + turns * std::f64::consts::TAU, ..self }
+        let principal_rad = self.with_middle().middle_heading_rad;
+        let turns = ((heading_rad - principal_rad) / std::f64::consts::TAU).round();
+        Segment { from_m, middle_heading_rad: principal_rad + turns * std::f64::consts::TAU, ..self }
     }
 
     /// Arc length of the line at the second knot \[m\].
