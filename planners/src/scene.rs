@@ -123,7 +123,16 @@ impl Agent {
 pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]]) -> Vec<OrientedEllipse> {
     match route.straight() {
         Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
-        None => centres.iter().map(|centre| safety.oriented(route.heading_at(*centre))).collect(),
+        None => {
+            // A motion goes on near where it was a stage before.
+            let mut near_m = None;
+            let along = centres.iter().map(|centre| {
+                let at = route.locate(*centre, near_m);
+                near_m = Some(at.along_m);
+                safety.oriented(at.heading_rad)
+            });
+            along.collect()
+        }
     }
 }
 

@@ -338,8 +338,10 @@ class Programme:
                     unknowns.append(u)
                 x = np.array(bicycle(ca.DM(x), ca.DM(u), v["body"][3], v["body"][4], step)).ravel()
                 unknowns.append(x)
-                if self.arc_lengths[i][t]:
-                    unknowns.append(self.places(v, x)[-self.arc_lengths[i][t]:])
+                count = self.arc_lengths[i][t]
+                if count:
+                    places = self.places(v, x)
+                    unknowns.append(places[1:] if count == 4 else places[:count])
         path = np.concatenate(unknowns)
         violations = np.maximum(0.0, -np.array(self.soft_values(path, self.numbers(problem))).ravel())
         return np.concatenate([path, violations])

@@ -225,8 +225,13 @@ impl Profile {
     /// The least and the greatest value between two arc lengths \[m\]. It is exact: between knots a profile is monotone.
     pub fn extremes(&self, from_m: f64, to_m: f64) -> [f64; 2] {
         let knots = match &self.0 {
-            Form::Stretches(stretches) => stretches.as_ref(),
-            _ => &[],
+            Form::Constant(value) => return [*value; 2],
+            Form::LaneEnd { .. } => &[],
+            Form::Stretches(stretches) => {
+                let first = stretches.partition_point(|stretch| stretch.to_m < from_m);
+                let count = stretches[first..].partition_point(|stretch| stretch.from_m <= to_m);
+                &stretches[first..first + count]
+            }
         };
         let between =
             knots.iter().flat_map(|knot| [knot.from_m, knot.to_m]).filter(|at_m| (from_m..=to_m).contains(at_m));
