@@ -80,6 +80,7 @@ impl Segment {
     }
 
     /// Position and derivatives at the distance `u` from the first knot.
+    #[inline]
     pub fn jet(&self, u: f64) -> Jet {
         let (x, y) = (derivatives(&self.x, u), derivatives(&self.y, u));
         std::array::from_fn(|order| [x[order], y[order]])
@@ -97,6 +98,7 @@ impl Segment {
     }
 
     /// Heading of a tangent of this segment \[rad\].
+    #[inline]
     pub fn heading_rad(&self, [x, y]: [f64; 2]) -> f64 {
         let [cos, sin] = self.middle;
         self.middle_heading_rad + small_arctangent((cos * y - sin * x) / (cos * x + sin * y))
@@ -115,6 +117,7 @@ impl Segment {
 }
 
 /// A polynomial of degree 5 and its first three derivatives; in pairs (Estrin), which a processor evaluates side by side.
+#[inline]
 fn derivatives(c: &[f64; 6], u: f64) -> [f64; 4] {
     let (square, fourth) = (u * u, u * u * (u * u));
     [
@@ -126,6 +129,7 @@ fn derivatives(c: &[f64; 6], u: f64) -> [f64; 4] {
 }
 
 /// The arctangent of a number below 0.1 in magnitude: its series up to the power 15, of which the rest is below `1e-17`.
+#[inline]
 fn small_arctangent(z: f64) -> f64 {
     let second = z * z;
     let (fourth, eighth) = (second * second, second * second * (second * second));
