@@ -19,7 +19,7 @@ use crate::scene::ellipses;
 use crate::trajectory::terms::{DistanceCost, RoadTracking, Tracking};
 use crate::trajectory::{Problem, Term};
 use crate::vehicle::OrientedEllipse;
-use crate::{Agent, Scene, conservative};
+use crate::{Agent, Axes, Scene, conservative};
 
 /// Largest `2ΣW_2`.
 const MAX_SIGNAL_DOUBT: f64 = 0.9;
@@ -58,9 +58,8 @@ fn impression(
 ) -> DistanceCost {
     let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
     let centres = scene.centres(&partner.prediction);
-    let place = |(centre, ellipse): (&[f64; 2], &OrientedEllipse)| {
-        let axes = scene.goal_axes(*centre);
-        let [goal_along, goal_across] = axes.components(scene.goal_beside(*centre));
+    let place = |((centre, ellipse), (axes, goal)): ((&[f64; 2], &OrientedEllipse), (Axes, [f64; 2]))| {
+        let [goal_along, goal_across] = axes.components(goal);
         let [along, across] = axes.components(*centre);
         let moved = axes.vector([
             doubt_along * goal_along + (1.0 - doubt_along) * along,
@@ -71,6 +70,6 @@ fn impression(
         (moved, axes.matrix([stretch * stretch * along, stretch * widen * mixed, widen * widen * across]))
     };
     let ellipses = ellipses(scene.goal.safety, &partner.route, &centres);
-    let (centres, metrics) = centres.iter().zip(&ellipses).map(place).unzip();
+    let (centres, metrics) = centres.iter().zip(&ellipses).zip(scene.goals_beside(&centres)).map(place).unzip();
     DistanceCost { vehicle: 0, centres, metrics, price: value::price(settings, belief.w_1, belief.deviation) }
 }

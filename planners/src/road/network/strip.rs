@@ -25,6 +25,16 @@ impl Route {
         self.centre.project(position, near_m)
     }
 
+    /// Road coordinates of the positions of a motion, each searched from the place of the one before.
+    pub fn locate_all(&self, positions: &[[f64; 2]]) -> impl Iterator<Item = RoadPoint> {
+        let mut near_m = None;
+        positions.iter().map(move |position| {
+            let at = self.locate(*position, near_m);
+            near_m = Some(at.along_m);
+            at
+        })
+    }
+
     /// The longitudinal coordinate `s` of a position \[m\].
     pub fn along(&self, position: [f64; 2]) -> f64 {
         self.locate(position, None).along_m
