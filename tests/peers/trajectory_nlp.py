@@ -95,7 +95,7 @@ def shape_of(problem):
 
 
 def curve_of(vehicle):
-    """Of a curved road: how many rows its tables have, how many stop lines there are, and whether the goal is in road coordinates."""
+    """Of a curved road: how many rows its tables have, how many stop lines there are, whether the goal is in road coordinates."""
     if "curve" not in vehicle:
         return None
     tables = [len(table) for table in tables_of(vehicle["curve"])]
@@ -216,7 +216,8 @@ class Programme:
         line = self.parameter(f"line{i}", 17, line_rows)
         edges = [self.parameter(f"right{i}", 8, right_rows), self.parameter(f"left{i}", 8, left_rows)]
         goal = self.parameter(f"goal{i}", 3) if in_road else None
-        permitted, slips = (self.parameter(f"{name}{i}", self.horizon) if in_road else None for name in ("permitted", "slips"))
+        permitted = self.parameter(f"permitted{i}", self.horizon) if in_road else None
+        slips = self.parameter(f"slips{i}", self.horizon) if in_road else None
         lines = [(self.parameter(f"stop{i}_{j}", 1), self.parameter(f"stop_price{i}_{j}", 2)) for j in range(stop_lines)]
 
         def beside(t, position):

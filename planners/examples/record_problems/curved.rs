@@ -40,8 +40,7 @@ pub fn is_on_curve(problem: &Problem) -> bool {
 }
 
 /// Who has priority at the junction: the road from west to east.
-const SIGNS: [RightOfWay; 4] =
-    [RightOfWay::Priority, RightOfWay::Yield, RightOfWay::Priority, RightOfWay::Yield];
+const SIGNS: [RightOfWay; 4] = [RightOfWay::Priority, RightOfWay::Yield, RightOfWay::Priority, RightOfWay::Yield];
 
 /// The ego is the first.
 pub fn vehicles(road: CurvedRoad, ego: &Driver, styles: [Style; 2]) -> Vec<Vehicle> {

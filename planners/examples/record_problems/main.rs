@@ -55,7 +55,14 @@ struct Collection {
 impl Collection {
     fn straight() -> Collection {
         let kept = KINDS.into_iter().zip([200, 200, 200, 100, 100, 100]).collect();
-        Collection { prefix: "", kept, scenarios: &SCENARIOS, egos: egos().to_vec(), is_wanted: |_| true, first_ticks: 2 }
+        Collection {
+            prefix: "",
+            kept,
+            scenarios: &SCENARIOS,
+            egos: egos().to_vec(),
+            is_wanted: |_| true,
+            first_ticks: 2,
+        }
     }
 
     fn curved() -> Collection {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use interplay_planners::road::Stretch;
 use interplay_planners::road::centre_line::LinePolynomial;
-use interplay_planners::trajectory::terms::{RoadEdge, RoadTarget, RoadTracking, StopLine};
 use interplay_planners::trajectory::Penalty;
+use interplay_planners::trajectory::terms::{RoadEdge, RoadTarget, RoadTracking, StopLine};
 use interplay_planners::{Body, CentreLine, LaneEnd, Profile, Route};
 use serde::{Deserialize, Serialize};
 
