@@ -9,7 +9,6 @@ use interplay_planners::{CentreLine, Driver, Profile, Route, Scene};
 use crate::common::world::{begin, lane_change, moved_to};
 
 /// The names of the roads.
-#[allow(dead_code, reason = "each binary uses its own part")]
 pub const ROADS: [&str; 3] = ["straight", "pieces", "bend"];
 
 const TICKS: usize = 40;
