@@ -42,7 +42,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The shortest time of the plans on each road, as a ratio to that on the first.
 fn ratios(driver: &Driver) -> Option<String> {
-    let roads: Vec<Vec<Scene>> = scenes::ROADS.iter().map(|road| scenes::scenes(driver, road)).collect::<Option<_>>()?;
+    let roads: Vec<Vec<Scene>> =
+        scenes::ROADS.iter().map(|road| scenes::scenes(driver, road)).collect::<Option<_>>()?;
     let mut shortest_ms = [f64::INFINITY; scenes::ROADS.len()];
     for _ in 0..ROUNDS {
         for (shortest_ms, scenes) in shortest_ms.iter_mut().zip(&roads) {
