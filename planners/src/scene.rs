@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::road::centre_line::RoadPoint;
 use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, StopLine, Tracking};
 use crate::trajectory::{Participant, Penalty, Term};
 use crate::vehicle::Bicycle;
@@ -143,7 +144,7 @@ impl Agent {
 pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]]) -> Vec<OrientedEllipse> {
     match route.straight() {
         Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
-        None => centres.iter().map(|centre| safety.oriented(route.heading_at(*centre))).collect(),
+        None => route.locate_all(centres).map(|at| safety.oriented(at.heading_rad)).collect(),
     }
 }
 
@@ -215,21 +216,16 @@ impl Scene {
         others.into_iter().map(|other| Term::KeepOut(self.keep_out(&other.prediction, &other.route, Penalty::EXACT)))
     }
 
-    /// Along the ego's road beside a position, and across it.
-    pub fn goal_axes(&self, position: [f64; 2]) -> Axes {
-        match self.ego.route.straight() {
-            Some(_) => self.goal.axes(),
-            None => Axes::along(self.ego.route.heading_at(position)),
-        }
-    }
-
-    /// The goal's position; on a curved road, where the goal's lateral position is beside `position` \[m\].
-    pub fn goal_beside(&self, position: [f64; 2]) -> [f64; 2] {
+    /// Beside each position of a motion, the axes along the ego's road and across it, and the goal's position; on a curved road,
+    /// where the goal's lateral position is beside it \[m\].
+    pub fn goals_beside(&self, positions: &[[f64; 2]]) -> Vec<(Axes, [f64; 2])> {
         let (route, target) = (&self.ego.route, self.goal.target.position());
-        match route.straight() {
-            Some(_) => target,
-            None => route.position(route.along(position), route.across(target)),
+        if route.straight().is_some() {
+            return vec![(self.goal.axes(), target); positions.len()];
         }
+        let across_m = route.across(target);
+        let beside = |at: RoadPoint| (Axes::along(at.heading_rad), route.position(at.along_m, across_m));
+        route.locate_all(positions).map(beside).collect()
     }
 
     /// The positions of a predicted motion at `t = 1…N` \[m\]; where it ends early it stays at its end.

@@ -1,6 +1,7 @@
 """Compares our optima of the recorded problems with those of CasADi + IPOPT.
 
-    python tests/peers/compare_ipopt.py            # all kinds, table on standard output, details in compare_ipopt.json
+    python tests/peers/compare_ipopt.py            # straight roads, table on standard output, details in compare_ipopt.json
+    python tests/peers/compare_ipopt.py --curved   # curved roads
 
 For every problem both solvers start from the recorded guess, IPOPT with a tolerance of 1e-8 and then on from there to the
 last digits. Then each starts at the other's optimum, to tell a second local optimum from unfinished work. IPOPT's inputs
@@ -20,6 +21,7 @@ from trajectory_nlp import Ipopt
 
 ROOT = pathlib.Path(__file__).absolute().parents[2]
 KINDS = ["human", "conservative", "negotiation", "bayesian", "game", "cooperative"]
+CURVED_KINDS = ["curved-human", "curved-conservative", "curved-negotiation"]
 #: Costs below this count as this much in a relative difference.
 FLOOR = 1e-2
 
@@ -63,6 +65,7 @@ def compare(kind, ipopt, solver):
         rows.append({
             "id": p["id"], "ours": m["cost"], "error": m["error"], "residual": m["residual"],
             "programmes": m["programmes"], "safety_slack": m["safety_slack"], "guess": m["start_cost"],
+            "guess_difference": abs(ipopt.programme(p).cost_at(p, p["guess"]) - m["start_cost"]) / (1 + m["start_cost"]),
             "clarabel": c["cost"], "penalty": ipopt.programme(p).penalty(p, m["inputs"]) if solved else None,
             "ipopt": min(better, default=None), "ipopt_status": f["status"], "ipopt_iterations": f["iterations"],
             "ipopt_objectives": [f["cost"], t["cost"]],
@@ -147,6 +150,8 @@ def table(results):
          lambda rows: sum(r["verdict"] == "ours is a dearer optimum" and r["other_side"] for r in rows))
     line("cheaper, and IPOPT's passes on another side",
          lambda rows: sum(r["verdict"] == "ours is a cheaper optimum" and r["other_side"] for r in rows))
+    line("largest difference of both costs of a guess, by 1 + cost",
+         lambda rows: f"{max(row['guess_difference'] for row in rows):.0e}")
     line("largest KKT residual", lambda rows: f"{max(r['residual'] for r in rows if not r['error']):.1e}")
     line("KKT residual above 1e-6", lambda rows: sum(r["residual"] > 1e-6 for r in rows if not r["error"]))
     line("largest safety slack", lambda rows: f"{max(r['safety_slack'] for r in rows if not r['error']):.1e}")
@@ -156,11 +161,12 @@ def table(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--solver", default="planner", choices=["planner", "resumed", "robust", "structured", "sparse"])
-    parser.add_argument("--kind", action="append", choices=KINDS)
+    parser.add_argument("--kind", action="append", choices=KINDS + CURVED_KINDS)
+    parser.add_argument("--curved", action="store_true", help="the problems on curved roads")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "tests/peers/compare_ipopt.json")
     arguments = parser.parse_args()
     ipopt = Ipopt()
-    results = {kind: compare(kind, ipopt, arguments.solver) for kind in arguments.kind or KINDS}
+    results = {kind: compare(kind, ipopt, arguments.solver) for kind in arguments.kind or (CURVED_KINDS if arguments.curved else KINDS)}
     arguments.out.write_text(json.dumps(results, indent=1))
     print(table(results))
     for kind, rows in results.items():

@@ -1,9 +1,10 @@
-//! Lane changes, ramp merges and intersections in the loop of the application, with the bicycle as the plant.
+//! Lane changes, ramp merges, intersections and curved roads in the loop of the application, with the bicycle as the plant.
 
 use interplay_planners::human::Style::{self, Nice, Tough};
 use interplay_planners::{Driver, Plan, Scene, Trajectory};
 
 use crate::Result;
+use crate::curved::{self, CurvedRoad};
 use crate::world::{Vehicle, begin, intersection, lane_change, ramp_merge};
 
 const TICKS: usize = 80;
@@ -15,6 +16,7 @@ enum Place {
     RampMerge([Style; 2]),
     /// The crossing driver, how far it is from the ego's road and where the ego starts \[m\].
     Intersection(Style, f64, f64),
+    Curved(CurvedRoad, [Style; 2]),
 }
 
 /// A scenario by its name.
@@ -24,7 +26,7 @@ pub struct Scenario {
     place: Place,
 }
 
-/// What is recorded.
+/// What is recorded on straight roads.
 pub const SCENARIOS: [Scenario; 9] = [
     Scenario { name: "front-nice", place: Place::LaneChange([Nice, Nice]) },
     Scenario { name: "front-tough", place: Place::LaneChange([Tough, Nice]) },
@@ -35,6 +37,18 @@ pub const SCENARIOS: [Scenario; 9] = [
     Scenario { name: "crossing-tough", place: Place::Intersection(Tough, 1.965, -2.4) },
     Scenario { name: "crossing-near-nice", place: Place::Intersection(Nice, 1.9, -2.0) },
     Scenario { name: "crossing-near-tough", place: Place::Intersection(Tough, 1.75, -2.0) },
+];
+
+/// What is recorded on curved roads.
+pub const CURVED_SCENARIOS: [Scenario; 8] = [
+    Scenario { name: "bend-nice", place: Place::Curved(CurvedRoad::Bend, [Nice, Nice]) },
+    Scenario { name: "bend-tough", place: Place::Curved(CurvedRoad::Bend, [Tough, Nice]) },
+    Scenario { name: "lane-drop-nice", place: Place::Curved(CurvedRoad::LaneDrop, [Nice, Nice]) },
+    Scenario { name: "lane-drop-tough", place: Place::Curved(CurvedRoad::LaneDrop, [Tough, Nice]) },
+    Scenario { name: "left-turn", place: Place::Curved(CurvedRoad::LeftTurn, [Nice, Tough]) },
+    Scenario { name: "merge", place: Place::Curved(CurvedRoad::Merge, [Tough, Nice]) },
+    Scenario { name: "roundabout-nice", place: Place::Curved(CurvedRoad::Roundabout, [Nice, Nice]) },
+    Scenario { name: "roundabout-tough", place: Place::Curved(CurvedRoad::Roundabout, [Tough, Nice]) },
 ];
 
 /// One driver's decision.
@@ -57,6 +71,7 @@ fn vehicles(scenario: &Scenario, ego: &Driver) -> Vec<Vehicle> {
     let mut vehicles = match scenario.place {
         Place::LaneChange(styles) => lane_change(ego.clone(), styles),
         Place::RampMerge(styles) => ramp_merge(ego.clone(), styles),
+        Place::Curved(road, styles) => curved::vehicles(road, ego, styles),
         Place::Intersection(style, away_m, start_m) => {
             let mut vehicles = intersection(ego.clone(), style, away_m);
             vehicles[0].agent.state.x_m = start_m;

@@ -18,7 +18,6 @@ use super::{Settings, value};
 use crate::scene::ellipses;
 use crate::trajectory::terms::{DistanceCost, RoadTracking, Tracking};
 use crate::trajectory::{Problem, Term};
-use crate::vehicle::OrientedEllipse;
 use crate::{Agent, Scene, conservative};
 
 /// Largest `2ΣW_2`.
@@ -58,19 +57,20 @@ fn impression(
 ) -> DistanceCost {
     let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
     let centres = scene.centres(&partner.prediction);
-    let place = |(centre, ellipse): (&[f64; 2], &OrientedEllipse)| {
-        let axes = scene.goal_axes(*centre);
-        let [goal_along, goal_across] = axes.components(scene.goal_beside(*centre));
-        let [along, across] = axes.components(*centre);
+    let ellipses = ellipses(scene.goal.safety, &partner.route, &centres);
+    let goals = scene.goals_beside(&centres);
+    let place = |stage: usize| {
+        let (axes, goal) = goals[stage];
+        let [goal_along, goal_across] = axes.components(goal);
+        let [along, across] = axes.components(centres[stage]);
         let moved = axes.vector([
             doubt_along * goal_along + (1.0 - doubt_along) * along,
             doubt_across * goal_across + (1.0 - doubt_across) * across,
         ]);
         // The curvature of a squared distance is twice its metric.
-        let [along, mixed, across] = axes.entries(ellipse.hessian().map(|bend| 0.5 * bend));
+        let [along, mixed, across] = axes.entries(ellipses[stage].hessian().map(|bend| 0.5 * bend));
         (moved, axes.matrix([stretch * stretch * along, stretch * widen * mixed, widen * widen * across]))
     };
-    let ellipses = ellipses(scene.goal.safety, &partner.route, &centres);
-    let (centres, metrics) = centres.iter().zip(&ellipses).map(place).unzip();
+    let (centres, metrics) = (0..centres.len()).map(place).unzip();
     DistanceCost { vehicle: 0, centres, metrics, price: value::price(settings, belief.w_1, belief.deviation) }
 }

@@ -14,4 +14,4 @@ pub use axes::Axes;
 pub use centre_line::CentreLine;
 pub use corridor::{Corridor, LaneEnd};
 pub use network::Route;
-pub use profile::{Profile, ProfileError};
+pub use profile::{Profile, ProfileError, Stretch};

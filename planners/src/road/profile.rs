@@ -23,11 +23,13 @@ enum Form {
 
 /// A polynomial of degree 5 between two knots; monotone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Stretch {
-    from_m: f64,
-    to_m: f64,
-    /// Coefficients over the distance from the first knot.
-    coefficients: [f64; 6],
+pub struct Stretch {
+    /// Arc length at the first knot \[m\].
+    pub from_m: f64,
+    /// Arc length at the second knot \[m\].
+    pub to_m: f64,
+    /// Coefficients over the distance from the first knot, from the constant on.
+    pub coefficients: [f64; 6],
 }
 
 /// Why knots are no [`Profile`]. Knots are counted from 0.
@@ -50,7 +52,16 @@ pub enum ProfileError {
         /// Its arc length \[m\].
         along_m: f64,
     },
+    /// A stretch does not begin with the arc length, value, slope and bend of the end before it.
+    #[error("stretch {stretch} does not continue the one before it")]
+    Gap {
+        /// The number of the stretch.
+        stretch: usize,
+    },
 }
+
+/// Values, slopes and bends that differ by less continue each other.
+const JOINT_TOLERANCE: f64 = 1e-9;
 
 impl Profile {
     /// The same value everywhere.
@@ -130,6 +141,40 @@ impl Profile {
         Ok(Profile(Form::Stretches(needed.windows(2).map(stretch).collect())))
     }
 
+    /// The polynomials between its knots, in the order of arc length; none for a profile that is constant or the edge at a lane
+    /// end.
+    pub fn stretches(&self) -> &[Stretch] {
+        match &self.0 {
+            Form::Stretches(stretches) => stretches,
+            _ => &[],
+        }
+    }
+
+    /// The profile of [`Profile::stretches`]. Each must be monotone, which is not checked: [`Profile::extremes`] relies on it.
+    ///
+    /// # Errors
+    /// [`ProfileError`] where there are no stretches, one has no length, one does not continue the one before, or a number is not
+    /// finite.
+    pub fn from_stretches(stretches: &[Stretch]) -> Result<Profile, ProfileError> {
+        for (knot, stretch) in stretches.iter().enumerate() {
+            if !stretch.coefficients.iter().chain([&stretch.from_m, &stretch.to_m]).all(|number| number.is_finite()) {
+                return Err(ProfileError::NotFinite { knot });
+            }
+            if stretch.to_m <= stretch.from_m {
+                return Err(ProfileError::NotIncreasing { knot: knot + 1, along_m: stretch.to_m });
+            }
+        }
+        let is_gap = |pair: &[Stretch]| {
+            let (end, begin) = (pair[0].at(pair[0].to_m - pair[0].from_m), pair[1].at(0.0));
+            pair[0].to_m != pair[1].from_m || end.iter().zip(begin).any(|(a, b)| (a - b).abs() > JOINT_TOLERANCE)
+        };
+        match stretches.windows(2).position(is_gap) {
+            _ if stretches.is_empty() => Err(ProfileError::NoKnots),
+            Some(before) => Err(ProfileError::Gap { stretch: before + 1 }),
+            None => Ok(Profile(Form::Stretches(stretches.into()))),
+        }
+    }
+
     /// The end of a lane, for an edge that moves there.
     pub fn end(&self) -> Option<LaneEnd> {
         match &self.0 {
@@ -180,8 +225,13 @@ impl Profile {
     /// The least and the greatest value between two arc lengths \[m\]. It is exact: between knots a profile is monotone.
     pub fn extremes(&self, from_m: f64, to_m: f64) -> [f64; 2] {
         let knots = match &self.0 {
-            Form::Stretches(stretches) => stretches.as_ref(),
-            _ => &[],
+            Form::Constant(value) => return [*value; 2],
+            Form::LaneEnd { .. } => &[],
+            Form::Stretches(stretches) => {
+                let first = stretches.partition_point(|stretch| stretch.to_m < from_m);
+                let count = stretches[first..].partition_point(|stretch| stretch.from_m <= to_m);
+                &stretches[first..first + count]
+            }
         };
         let between =
             knots.iter().flat_map(|knot| [knot.from_m, knot.to_m]).filter(|at_m| (from_m..=to_m).contains(at_m));
@@ -269,5 +319,16 @@ mod tests {
         let back = [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0]];
         assert_eq!(Profile::steps(&back), Err(ProfileError::NotIncreasing { knot: 2, along_m: 2.0 }));
         assert_eq!(Profile::steps(&[[3.0, 7.0]]), Ok(Profile::constant(7.0)));
+        assert_eq!(Profile::from_stretches(&[]), Err(ProfileError::NoKnots));
+        let parts = Profile::steps(&[[0.0, 1.0], [2.0, 4.0], [3.0, 5.0]]).expect("sound knots").stretches().to_vec();
+        assert_eq!(Profile::from_stretches(&[parts[1], parts[0]]), Err(ProfileError::Gap { stretch: 1 }));
+    }
+
+    #[test]
+    fn stretches_make_the_same_profile() {
+        let knots = [[1.0, 3.0], [4.0, 3.0], [6.0, 5.0], [7.0, 2.0], [9.0, 1.0], [12.0, 0.5]];
+        for profile in [Profile::steps(&knots), Profile::through(&knots)].map(|profile| profile.expect("sound knots")) {
+            assert_eq!(Profile::from_stretches(profile.stretches()), Ok(profile));
+        }
     }
 }

@@ -2,6 +2,8 @@
 //! numbers instead of named fields, so that hundreds of problems fit a small file.
 #![allow(dead_code, reason = "each binary uses its own part")]
 
+#[path = "recorded_curve.rs"]
+mod recorded_curve;
 #[path = "warm_start_record.rs"]
 mod warm_start_record;
 
@@ -15,14 +17,21 @@ use interplay_planners::vehicle::OrientedEllipse;
 use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, SafetyEllipse, State, negotiation};
 use serde::{Deserialize, Serialize};
 
+use recorded_curve::{Curve, RoadGoal, curve_alone};
 use warm_start_record::WarmStartRecord;
 
 /// The planners whose problems are recorded.
 pub const KINDS: [&str; 6] = ["human", "conservative", "negotiation", "bayesian", "game", "cooperative"];
 
+/// The planners whose problems on curved roads are recorded; each file is named after one, behind [`CURVED`].
+pub const CURVED_KINDS: [&str; 3] = ["human", "conservative", "negotiation"];
+
+/// What the names of the files of problems on curved roads begin with.
+pub const CURVED: &str = "curved-";
+
 /// What planners of a kind solve their problems with.
 pub fn optimiser(kind: &str) -> Optimiser<Robust> {
-    match kind {
+    match kind.strip_prefix(CURVED).unwrap_or(kind) {
         "negotiation" => negotiation::optimiser(&Default::default()),
         _ => Optimiser::resuming(Robust::default()),
     }
@@ -59,8 +68,17 @@ pub struct Vehicle {
     pub body: [f64; 5],
     /// Acceleration from, to; steering up to; speed from, to.
     pub limits: [f64; 5],
-    /// Heading, right edge, left edge of the road.
+    /// Heading, right edge, left edge of the road; zeros beside `curve`.
     pub road: [f64; 3],
+    /// A curved road.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curve: Option<Curve>,
+    /// What the vehicle wants on a curved road; without it, it tracks the targets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub road_goal: Option<RoadGoal>,
+    /// Lines that its front stays before.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stop_lines: Vec<Line>,
     /// End, height, taper of a lane that ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lane_end: Option<[f64; 3]>,
@@ -76,7 +94,7 @@ pub struct Vehicle {
     /// Heading of the axes in which `Q` is diagonal, if they are not those of the world \[rad\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weights_heading: Option<f64>,
-    /// Desired states at `t = 1…N`; a single one holds throughout.
+    /// Desired states at `t = 1…N`; a single one holds throughout. None beside `road_goal`.
     pub targets: Vec<[f64; 4]>,
     /// Diagonal of `R`.
     pub comfort: [f64; 2],
@@ -89,6 +107,15 @@ pub struct Vehicle {
     /// Bounds on its mean speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_speed: Option<Mean>,
+}
+
+/// A line that a front stays before.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub struct Line {
+    /// Where it is along the road \[m\].
+    pub line_m: f64,
+    /// Linear and quadratic weight.
+    pub penalty: [f64; 2],
 }
 
 /// The cost of distances from a moving centre.
@@ -128,6 +155,9 @@ pub struct Ellipse {
     pub centres: Vec<[f64; 2]>,
     /// Direction of the long axis, half axes along and across.
     pub shape: [f64; 3],
+    /// Directions of the long axis at `t = 1…N` where they differ \[rad\].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub headings: Vec<f64>,
     /// Linear and quadratic weight.
     pub penalty: [f64; 2],
 }
@@ -139,6 +169,9 @@ pub struct Apart {
     pub pair: [usize; 2],
     /// Direction of the long axis, half axes along and across.
     pub shape: [f64; 3],
+    /// Directions of the long axis at `t = 1…N` where they differ \[rad\].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub headings: Vec<f64>,
     /// Linear and quadratic weight.
     pub penalty: [f64; 2],
 }
@@ -171,7 +204,8 @@ impl Recorded {
         }
     }
 
-    /// The problem, equal to the recorded one in every bit.
+    /// The problem, equal to the recorded one in every bit. Of curved roads it holds the centre line and the edges, and not the
+    /// lanes that they are made of.
     pub fn problem(&self) -> Problem {
         let own = self.vehicles.iter().enumerate().flat_map(|(index, vehicle)| vehicle.terms(index, self.horizon));
         let pairs = self.separations.iter().map(|pair| Term::Separation(pair.separation(self.horizon)));
@@ -192,6 +226,19 @@ impl Recorded {
     pub fn guess(&self) -> Vec<Vec<Input>> {
         self.guess.iter().map(|inputs| inputs.iter().copied().map(Input::from_array).collect()).collect()
     }
+}
+
+/// A problem with what [`Recorded::problem`] keeps of its roads.
+pub fn without_lanes(mut problem: Problem) -> Problem {
+    for term in &mut problem.terms {
+        match term {
+            Term::RoadTracking(of) => of.route = curve_alone(&of.route),
+            Term::RoadEdge(of) => of.route = curve_alone(&of.route),
+            Term::StopLine(of) => of.route = curve_alone(&of.route),
+            _ => {}
+        }
+    }
+    problem
 }
 
 /// What of the terms of a problem is to be kept.
@@ -232,11 +279,23 @@ impl Vehicle {
                     self.targets.truncate(1);
                 }
             }
+            Term::RoadTracking(of) if of.vehicle == vehicle => {
+                self.weights = of.weights;
+                self.road_goal = Some(RoadGoal::new(of));
+            }
             Term::RoadEdge(of) if of.vehicle == vehicle => {
-                let (body, road) = (&of.body, of.route.straight().expect("problems on curved roads are not recorded"));
+                let body = &of.body;
                 self.body = [body.front_m, body.rear_m, body.width_m, body.front_axle_m, body.rear_axle_m];
-                self.road = [road.heading_rad, road.right_m, road.left_m];
-                self.lane_end = road.end.map(|end| [end.end_m, end.height_m, end.taper_m]);
+                match of.route.straight() {
+                    Some(road) => {
+                        self.road = [road.heading_rad, road.right_m, road.left_m];
+                        self.lane_end = road.end.map(|end| [end.end_m, end.height_m, end.taper_m]);
+                    }
+                    None => self.curve = Some(Curve::new(of)),
+                }
+            }
+            Term::StopLine(of) if of.vehicle == vehicle => {
+                self.stop_lines.push(Line { line_m: of.line_m, penalty: of.penalty.into() });
             }
             Term::KeepOut(of) if of.vehicle == vehicle => self.keep_outs.push(Ellipse::new(of)),
             Term::DistanceCost(of) if of.vehicle == vehicle => self.distance_costs.push(Distance::new(of)),
@@ -274,21 +333,38 @@ impl Vehicle {
 
     /// Its own terms, in the order in which planners pose them.
     fn terms(&self, vehicle: usize, horizon: usize) -> Vec<Term> {
-        let [heading_rad, right_m, left_m] = self.road;
-        let end = self.lane_end.map(|[end_m, height_m, taper_m]| LaneEnd { end_m, height_m, taper_m });
-        let corridor = Corridor { heading_rad, right_m, left_m, end };
-        let axes = self.weights_heading.map_or(Axes::WORLD, Axes::along);
-        let target = |t: usize| State::from_array(self.targets[t.min(self.targets.len() - 1)]);
-        let targets = (0..horizon).map(target).collect();
-        let mut terms = vec![
-            Term::Comfort(Comfort { vehicle, weights: self.comfort }),
-            Term::Tracking(Tracking { vehicle, weights: self.weights, axes, targets }),
-            Term::RoadEdge(RoadEdge::straight(vehicle, self.body(), corridor, Penalty::ROAD_EDGE)),
-        ];
+        let mut terms = vec![Term::Comfort(Comfort { vehicle, weights: self.comfort })];
+        let mut stop_lines = Vec::new();
+        match &self.curve {
+            None => terms.extend([self.tracking(vehicle, horizon), self.straight_edge(vehicle)]),
+            Some(curve) => {
+                let (body, route) = (self.body(), curve.route());
+                let in_road = |goal: &RoadGoal| Term::RoadTracking(goal.tracking(vehicle, self.weights, curve, &route));
+                terms.push(self.road_goal.as_ref().map_or_else(|| self.tracking(vehicle, horizon), in_road));
+                terms.push(Term::RoadEdge(curve.edge(vehicle, body, &route)));
+                let stop_line = |line: &Line| Term::StopLine(curve.stop_line(vehicle, &body, &route, line));
+                stop_lines.extend(self.stop_lines.iter().map(stop_line));
+            }
+        }
         terms.extend(self.keep_outs.iter().map(|of| Term::KeepOut(of.keep_out(vehicle))));
         terms.extend(self.distance_costs.iter().map(|of| Term::DistanceCost(of.distance_cost(vehicle))));
         terms.extend(self.mean_speed.iter().flat_map(|of| of.mean_speed().bounds(vehicle)).map(Term::MeanSpeed));
+        terms.extend(stop_lines);
         terms
+    }
+
+    fn tracking(&self, vehicle: usize, horizon: usize) -> Term {
+        let axes = self.weights_heading.map_or(Axes::WORLD, Axes::along);
+        let target = |t: usize| State::from_array(self.targets[t.min(self.targets.len() - 1)]);
+        let targets = (0..horizon).map(target).collect();
+        Term::Tracking(Tracking { vehicle, weights: self.weights, axes, targets })
+    }
+
+    fn straight_edge(&self, vehicle: usize) -> Term {
+        let [heading_rad, right_m, left_m] = self.road;
+        let end = self.lane_end.map(|[end_m, height_m, taper_m]| LaneEnd { end_m, height_m, taper_m });
+        let corridor = Corridor { heading_rad, right_m, left_m, end };
+        Term::RoadEdge(RoadEdge::straight(vehicle, self.body(), corridor, Penalty::ROAD_EDGE))
     }
 }
 
@@ -305,13 +381,29 @@ fn ellipse([heading_rad, along_m, across_m]: [f64; 3]) -> OrientedEllipse {
     SafetyEllipse { along_m, across_m }.oriented(heading_rad)
 }
 
+/// The directions of ellipses, if they differ.
+fn headings(of: &[OrientedEllipse]) -> Vec<f64> {
+    let is_one = of.windows(2).all(|pair| pair[0] == pair[1]);
+    of.iter().filter(|_| !is_one).map(OrientedEllipse::heading_rad).collect()
+}
+
+fn ellipses(shape: [f64; 3], headings: &[f64], count: usize) -> Vec<OrientedEllipse> {
+    let turned = |stage| ellipse([*headings.get(stage).unwrap_or(&shape[0]), shape[1], shape[2]]);
+    (0..count).map(turned).collect()
+}
+
 impl Ellipse {
     fn new(of: &KeepOut) -> Self {
-        Ellipse { centres: of.centres.clone(), shape: shape(&of.ellipses[0]), penalty: of.penalty.into() }
+        Ellipse {
+            centres: of.centres.clone(),
+            shape: shape(&of.ellipses[0]),
+            headings: headings(&of.ellipses),
+            penalty: of.penalty.into(),
+        }
     }
 
     fn keep_out(&self, vehicle: usize) -> KeepOut {
-        let ellipses = vec![ellipse(self.shape); self.centres.len()];
+        let ellipses = ellipses(self.shape, &self.headings, self.centres.len());
         KeepOut { vehicle, centres: self.centres.clone(), ellipses, penalty: self.penalty.into() }
     }
 }
@@ -343,14 +435,19 @@ impl Mean {
 impl Apart {
     fn of(term: &Term) -> Option<Self> {
         let Term::Separation(of) = term else { return None };
-        Some(Apart { pair: [of.vehicle, of.from], shape: shape(&of.ellipses[0]), penalty: of.penalty.into() })
+        Some(Apart {
+            pair: [of.vehicle, of.from],
+            shape: shape(&of.ellipses[0]),
+            headings: headings(&of.ellipses),
+            penalty: of.penalty.into(),
+        })
     }
 
     fn separation(&self, horizon: usize) -> Separation {
         Separation {
             vehicle: self.pair[0],
             from: self.pair[1],
-            ellipses: vec![ellipse(self.shape); horizon],
+            ellipses: ellipses(self.shape, &self.headings, horizon),
             penalty: self.penalty.into(),
         }
     }

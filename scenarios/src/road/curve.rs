@@ -182,6 +182,7 @@ impl RoadCurve {
                 | CentreLineError::CurvatureJump { .. }
                 | CentreLineError::TooFewPoints
                 | CentreLineError::Cusp { .. }
+                | CentreLineError::Gap { .. }
                 | CentreLineError::NoSection { .. } => CurveFault::Piece { piece: 0, fault: PieceFault::NoPiece },
             },
         )

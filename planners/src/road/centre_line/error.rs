@@ -56,6 +56,12 @@ pub enum CentreLineError {
         /// Where \[m\].
         y_m: f64,
     },
+    /// A polynomial does not begin with the position, tangent and second derivative of the end before it.
+    #[error("polynomial {piece} does not continue the one before it")]
+    Gap {
+        /// The number of the polynomial.
+        piece: usize,
+    },
     /// The section of a line that was asked for is empty or not on the line.
     #[error("there is no line between {from_m} m and {to_m} m")]
     NoSection {

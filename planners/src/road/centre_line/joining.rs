@@ -156,7 +156,8 @@ fn section(section: &LineSection) -> Result<Vec<Segment>, CentreLineError> {
     Ok(parts)
 }
 
-fn continues([before, after]: [Knot; 2]) -> bool {
+/// Whether two knots are the same, up to rounding.
+pub(super) fn continues([before, after]: [Knot; 2]) -> bool {
     before.iter().flatten().zip(after.iter().flatten()).all(|(before, after)| (before - after).abs() < JOINT_TOLERANCE)
 }
 

@@ -67,6 +67,7 @@ impl CurvePoint<'_> {
     }
 
     /// The place a small distance along the curve, by Taylor's series.
+    #[inline]
     pub fn moved(self, by_m: f64) -> Self {
         let [place, first, second, third] = self.jet;
         let jet = [
@@ -113,6 +114,7 @@ impl Curve {
     }
 
     /// The segment that holds an arc length between 0 and the length; at a knot, up to rounding, one of both.
+    #[inline]
     fn segment(&self, along_m: f64) -> &Segment {
         let section = ((along_m * self.sections_per_m) as usize).min(self.sections.len() - 2);
         let (first, last) = (self.sections[section] as usize, self.sections[section + 1] as usize);
@@ -129,6 +131,7 @@ impl Curve {
     }
 
     /// The curve at an arc length, straight beyond its ends.
+    #[inline]
     pub fn point(&self, along_m: f64) -> CurvePoint<'_> {
         let [first, last] = self.ends();
         if along_m < 0.0 {
@@ -142,6 +145,7 @@ impl Curve {
     }
 
     /// The same as [`Curve::point`], without a search where the arc length is on the segment of another point.
+    #[inline]
     pub fn point_near<'a>(&'a self, along_m: f64, other: &CurvePoint<'a>) -> CurvePoint<'a> {
         let u = along_m - other.segment.from_m;
         if u >= 0.0 && u <= other.segment.length_m {

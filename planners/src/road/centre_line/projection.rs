@@ -178,6 +178,7 @@ impl Curve {
         [distance(foot, [x, y]), segment.from_m + share * segment.length_m]
     }
 
+    #[inline]
     fn foot(&self, position: [f64; 2], near_m: Option<f64>) -> (f64, CurvePoint<'_>) {
         match near_m {
             Some(near_m) if near_m.is_finite() => self.descend(position, near_m),
@@ -209,6 +210,7 @@ impl CentreLine {
     ///
     /// The result is finite for every position up to `1e100` m. At the centre of curvature the nearest point is not unique, and
     /// which of the nearest points is returned depends on `near_m`.
+    #[inline]
     pub fn project(&self, position: [f64; 2], near_m: Option<f64>) -> RoadPoint {
         let curve = match &self.0 {
             Shape::Straight { heading_rad, cos, sin } => {
@@ -231,6 +233,7 @@ impl CentreLine {
     /// Like [`CentreLine::project`], with the derivatives over the position that [`RoadExpansion`] states.
     ///
     /// The third derivative of the line is continuous between knots only, and so is the second derivative of `s`.
+    #[inline]
     pub fn expand(&self, position: [f64; 2], near_m: Option<f64>) -> RoadExpansion {
         match &self.0 {
             Shape::Straight { heading_rad, cos, sin } => {
@@ -257,6 +260,7 @@ fn straight_coordinates(cos: f64, sin: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     [cos * x + sin * y, -sin * x + cos * y]
 }
 
+#[inline]
 fn expansion(position: [f64; 2], along_m: f64, point: &CurvePoint) -> RoadExpansion {
     let [place, first, second, third] = point.jet;
     let slowness = point.inverse_speed();

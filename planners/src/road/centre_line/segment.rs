@@ -1,5 +1,7 @@
 //! The part of a centre line between two neighbouring knots.
 
+use super::polynomials::LinePolynomial;
+
 /// Position, first and second derivative at a knot, over some parameter.
 pub(super) type Knot = [[f64; 2]; 3];
 
@@ -48,16 +50,28 @@ impl Segment {
         Segment { from_m: 0.0, length_m, x, y, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
     }
 
+    /// The segment of a polynomial, at arc length 0.
+    pub fn of(&LinePolynomial { length_m, x, y }: &LinePolynomial) -> Segment {
+        Segment { from_m: 0.0, length_m, x, y, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
+    }
+
+    /// Its polynomial.
+    pub fn polynomial(&self) -> LinePolynomial {
+        LinePolynomial { length_m: self.length_m, x: self.x, y: self.y }
+    }
+
     fn with_middle(self) -> Segment {
         let [_, [x, y], ..] = self.jet(0.5 * self.length_m);
         let speed = (x * x + y * y).sqrt();
         Segment { middle: [x / speed, y / speed], middle_heading_rad: libm::atan2(y, x), ..self }
     }
 
-    /// The same segment at another arc length, with a heading that is the next one to `heading_rad`.
+    /// The same segment at another arc length, with a heading that is the next one to `heading_rad`. The heading does not depend
+    /// on where the segment was placed before, in any bit.
     pub fn placed(self, from_m: f64, heading_rad: f64) -> Segment {
-        let turns = ((heading_rad - self.middle_heading_rad) / std::f64::consts::TAU).round();
-        Segment { from_m, middle_heading_rad: self.middle_heading_rad + turns * std::f64::consts::TAU, ..self }
+        let principal_rad = self.with_middle().middle_heading_rad;
+        let turns = ((heading_rad - principal_rad) / std::f64::consts::TAU).round();
+        Segment { from_m, middle_heading_rad: principal_rad + turns * std::f64::consts::TAU, ..self }
     }
 
     /// Arc length of the line at the second knot \[m\].
@@ -66,6 +80,7 @@ impl Segment {
     }
 
     /// Position and derivatives at the distance `u` from the first knot.
+    #[inline]
     pub fn jet(&self, u: f64) -> Jet {
         let (x, y) = (derivatives(&self.x, u), derivatives(&self.y, u));
         std::array::from_fn(|order| [x[order], y[order]])
@@ -83,9 +98,16 @@ impl Segment {
     }
 
     /// Heading of a tangent of this segment \[rad\].
+    #[inline]
     pub fn heading_rad(&self, [x, y]: [f64; 2]) -> f64 {
         let [cos, sin] = self.middle;
         self.middle_heading_rad + small_arctangent((cos * y - sin * x) / (cos * x + sin * y))
+    }
+
+    /// The angle from the heading in the middle to a tangent of any polynomial, between −π and π \[rad\].
+    pub fn turn_from_middle_rad(&self, [x, y]: [f64; 2]) -> f64 {
+        let [cos, sin] = self.middle;
+        libm::atan2(cos * y - sin * x, cos * x + sin * y)
     }
 
     /// The part between two distances from the first knot, at arc length 0.
@@ -95,6 +117,7 @@ impl Segment {
 }
 
 /// A polynomial of degree 5 and its first three derivatives; in pairs (Estrin), which a processor evaluates side by side.
+#[inline]
 fn derivatives(c: &[f64; 6], u: f64) -> [f64; 4] {
     let (square, fourth) = (u * u, u * u * (u * u));
     [
@@ -106,6 +129,7 @@ fn derivatives(c: &[f64; 6], u: f64) -> [f64; 4] {
 }
 
 /// The arctangent of a number below 0.1 in magnitude: its series up to the power 15, of which the rest is below `1e-17`.
+#[inline]
 fn small_arctangent(z: f64) -> f64 {
     let second = z * z;
     let (fourth, eighth) = (second * second, second * second * (second * second));

@@ -361,3 +361,17 @@ proptest! {
         prop_assert!((apart(foot.position, [x, y]) - expansion.across_m.abs()).abs() < 1e-6);
     }
 }
+
+#[test]
+fn polynomials_make_the_same_line() {
+    for line in [winding(), loop_road(), loop_road().between(100.0, 150.0).expect("a part")] {
+        let (parts, heading_rad) = (line.polynomials(), line.at(0.0).heading_rad);
+        assert_eq!(CentreLine::from_polynomials(&parts, heading_rad), Ok(line.clone()));
+        let turned = CentreLine::from_polynomials(&parts, heading_rad + TAU).expect("the same line");
+        assert!((turned.at(9.0).heading_rad - line.at(9.0).heading_rad - TAU).abs() < 1e-12);
+        assert_eq!(CentreLine::from_polynomials(&parts[..1], f64::NAN).ok(), None);
+        let gap = [parts[0], parts[2]];
+        assert_eq!(CentreLine::from_polynomials(&gap, heading_rad), Err(CentreLineError::Gap { piece: 1 }));
+    }
+    assert_eq!(CentreLine::from_polynomials(&[], 0.0), Err(CentreLineError::NoPieces));
+}

@@ -5,10 +5,34 @@ use super::super::corridor::LaneEnd;
 use super::route::Route;
 use crate::vehicle::{Body, PoseExpansion, State};
 
+/// A corner of a body beside a road.
+struct Corner {
+    /// Where it is \[m\].
+    position: [f64; 2],
+    /// From the mass centre to the corner \[m\].
+    arm: [f64; 2],
+    /// The same along and across the road beside the mass centre \[m\].
+    arm_in_road: [f64; 2],
+    /// Whether its edge is the right one.
+    is_right: bool,
+    /// It is at least so far inside its edge \[m\].
+    least_m: f64,
+}
+
 impl Route {
     /// Road coordinates of a position, searched from an arc length on where one is known.
     pub fn locate(&self, position: [f64; 2], near_m: Option<f64>) -> RoadPoint {
         self.centre.project(position, near_m)
+    }
+
+    /// Road coordinates of the positions of a motion, each searched from the place of the one before.
+    pub fn locate_all(&self, positions: &[[f64; 2]]) -> impl Iterator<Item = RoadPoint> {
+        let mut near_m = None;
+        positions.iter().map(move |position| {
+            let at = self.locate(*position, near_m);
+            near_m = Some(at.along_m);
+            at
+        })
     }
 
     /// The longitudinal coordinate `s` of a position \[m\].
@@ -61,72 +85,104 @@ impl Route {
     /// ∂/∂θ = ∇h·c_θ,      ∂²/∂p∂θ = ∇²h c_θ,    ∂²/∂θ² = c_θᵀ ∇²h c_θ + ∇h·c_θθ
     /// ```
     pub fn clearances(&self, body: &Body, state: &State, near_m: f64) -> [PoseExpansion; 4] {
+        self.clearances_exact_below(f64::INFINITY, body, state, near_m)
+    }
+
+    /// The same, where on a curved road a corner that is certainly farther than `exact_m` inside its edge has the row of a
+    /// straight road along the tangent beside the mass centre \[m\]: a lower bound of its distance, above `exact_m`, with the
+    /// derivatives of that straight road. They need no projection of the corner.
+    pub(crate) fn clearances_exact_below(
+        &self,
+        exact_m: f64,
+        body: &Body,
+        state: &State,
+        near_m: f64,
+    ) -> [PoseExpansion; 4] {
         if let Some(corridor) = self.straight() {
             return corridor.clearances(body, state);
         }
-        let (sin, cos) = libm::sincos(state.heading_rad);
-        let [x, y] = state.position();
-        let middle = self.centre.project([x, y], Some(near_m));
-        let (turn_sin, turn_cos) = libm::sincos(state.heading_rad - middle.heading_rad);
-        body.local_corners().map(|[ahead, left]| {
-            let arm = [ahead * cos - left * sin, ahead * sin + left * cos];
-            let arm_in_road = [ahead * turn_cos - left * turn_sin, ahead * turn_sin + left * turn_cos];
-            let turn = [-arm[1], arm[0]];
-            let (edge, sign) = if left < 0.0 { (&self.right, 1.0) } else { (&self.left, -1.0) };
-            let at = self.centre.expand([x + arm[0], y + arm[1]], Some(middle.along_beside_m(arm_in_road)));
-            let [value, slope, bend] = edge.at(at.along_m);
-            let gradient: [f64; 2] = std::array::from_fn(|i| at.across_gradient[i] - slope * at.along_gradient[i]);
-            let [sx, sy] = at.along_gradient;
-            let squares = [sx * sx, sx * sy, sy * sy];
-            let [xx, xy, yy]: [f64; 3] =
-                std::array::from_fn(|i| at.across_hessian[i] - slope * at.along_hessian[i] - bend * squares[i]);
-            let mixed = [xx * turn[0] + xy * turn[1], xy * turn[0] + yy * turn[1]];
-            let round = mixed[0] * turn[0] + mixed[1] * turn[1] - gradient[0] * arm[0] - gradient[1] * arm[1];
-            let about = gradient[0] * turn[0] + gradient[1] * turn[1];
-            PoseExpansion {
-                value: sign * (at.across_m - value),
-                gradient: [gradient[0], gradient[1], about].map(|slope| sign * slope),
-                hessian: [xx, xy, mixed[0], yy, mixed[1], round].map(|bend| sign * bend),
+        let middle = self.centre.project(state.position(), Some(near_m));
+        let ([sin, cos], corners) = self.corners(body, state, &middle);
+        corners.map(|corner| {
+            if corner.least_m > exact_m {
+                let ([ahead, left], sign) = (corner.arm_in_road, if corner.is_right { 1.0 } else { -1.0 });
+                return PoseExpansion {
+                    value: corner.least_m,
+                    gradient: [-sign * sin, sign * cos, sign * ahead],
+                    hessian: [0.0, 0.0, 0.0, 0.0, 0.0, -sign * left],
+                };
             }
+            self.clearance(&corner, middle.along_beside_m(corner.arm_in_road))
         })
     }
 
-    /// The values of [`Route::clearances`]; where one is positive, a positive lower bound may stand in its place.
-    ///
-    /// On a line of curvature at most `K`, a point at `(a, b)` in the frame of the centre's foot point has a lateral coordinate
-    /// within `K a²` of `b`, as long as `K |b| ≤ ½` and `K |a| ≤ ½`: the line lies between two circles of radius `1/K`. So most corners need no
-    /// projection of their own.
+    /// How far a corner is inside its edge.
+    fn clearance(&self, corner: &Corner, near_m: f64) -> PoseExpansion {
+        let (edge, sign) = if corner.is_right { (&self.right, 1.0) } else { (&self.left, -1.0) };
+        let arm = corner.arm;
+        let turn = [-arm[1], arm[0]];
+        let at = self.centre.expand(corner.position, Some(near_m));
+        let [value, slope, bend] = edge.at(at.along_m);
+        let gradient: [f64; 2] = std::array::from_fn(|i| at.across_gradient[i] - slope * at.along_gradient[i]);
+        let [sx, sy] = at.along_gradient;
+        let squares = [sx * sx, sx * sy, sy * sy];
+        let [xx, xy, yy]: [f64; 3] =
+            std::array::from_fn(|i| at.across_hessian[i] - slope * at.along_hessian[i] - bend * squares[i]);
+        let mixed = [xx * turn[0] + xy * turn[1], xy * turn[0] + yy * turn[1]];
+        let round = mixed[0] * turn[0] + mixed[1] * turn[1] - gradient[0] * arm[0] - gradient[1] * arm[1];
+        let about = gradient[0] * turn[0] + gradient[1] * turn[1];
+        PoseExpansion {
+            value: sign * (at.across_m - value),
+            gradient: [gradient[0], gradient[1], about].map(|slope| sign * slope),
+            hessian: [xx, xy, mixed[0], yy, mixed[1], round].map(|bend| sign * bend),
+        }
+    }
+
+    /// The values of [`Route::clearances`]; where one is positive, a positive lower bound may stand in its place. So most corners
+    /// need no projection of their own.
     pub fn clearance_bounds(&self, body: &Body, state: &State, near_m: f64) -> [f64; 4] {
         if self.straight().is_some() {
             return self.clearances(body, state, near_m).map(|corner| corner.value);
         }
         let at = self.centre.project(state.position(), Some(near_m));
-        let (sin, cos) = libm::sincos(state.heading_rad);
-        let (road_sin, road_cos) = libm::sincos(at.heading_rad);
-        let corners = body.local_corners().map(|[ahead, left]| {
-            let arm = [ahead * cos - left * sin, ahead * sin + left * cos];
-            (arm, road_cos * arm[0] + road_sin * arm[1], road_cos * arm[1] - road_sin * arm[0], left < 0.0)
-        });
-        let reach_m =
-            corners.iter().map(|(_, along_m, across_m, _)| along_m.abs().max(across_m.abs())).fold(0.0, f64::max);
-        let span = [at.along_m - 2.0 * reach_m, at.along_m + 2.0 * reach_m];
-        let ([_, right_m], [left_m, _]) = (self.right.extremes(span[0], span[1]), self.left.extremes(span[0], span[1]));
-        let is_gentle = self.max_curvature_1pm * (at.across_m.abs() + reach_m) <= 0.5;
-        corners.map(|(arm, along_m, across_m, is_right)| {
-            let sag_m = self.max_curvature_1pm * along_m * along_m;
-            let lateral_m = at.across_m + across_m;
-            let bound_m = if is_right { lateral_m - right_m } else { left_m - lateral_m } - sag_m;
-            if is_gentle && bound_m > 0.0 {
-                return bound_m;
+        self.corners(body, state, &at).1.map(|corner| {
+            if corner.least_m > 0.0 {
+                return corner.least_m;
             }
-            let position = [state.x_m + arm[0], state.y_m + arm[1]];
-            let corner = self.centre.project(position, Some(at.along_beside_m([along_m, across_m])));
-            if is_right {
-                corner.across_m - self.right.value(corner.along_m)
+            let beside = self.centre.project(corner.position, Some(at.along_beside_m(corner.arm_in_road)));
+            if corner.is_right {
+                beside.across_m - self.right.value(beside.along_m)
             } else {
-                self.left.value(corner.along_m) - corner.across_m
+                self.left.value(beside.along_m) - beside.across_m
             }
         })
+    }
+
+    /// Sine and cosine of the direction of the road beside the mass centre of a body, at `middle`, and its corners in the order of
+    /// [`Body::local_corners`].
+    ///
+    /// On a line of curvature at most `K`, a point at `(a, b)` in the frame of the centre's foot point has a lateral coordinate
+    /// within `K a²` of `b`, as long as `K |b| ≤ ½` and `K |a| ≤ ½`: the line lies between two circles of radius `1/K`.
+    fn corners(&self, body: &Body, state: &State, middle: &RoadPoint) -> ([f64; 2], [Corner; 4]) {
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        let (turn_sin, turn_cos) = libm::sincos(state.heading_rad - middle.heading_rad);
+        let direction = [sin * turn_cos - cos * turn_sin, cos * turn_cos + sin * turn_sin];
+        let (ahead_m, beside_m) = (body.front_m.max(body.rear_m), 0.5 * body.width_m);
+        let reach_m = (ahead_m * ahead_m + beside_m * beside_m).sqrt();
+        let span = [middle.along_m - 2.0 * reach_m, middle.along_m + 2.0 * reach_m];
+        let ([_, right_m], [left_m, _]) = (self.right.extremes(span[0], span[1]), self.left.extremes(span[0], span[1]));
+        let is_gentle = self.max_curvature_1pm * (middle.across_m.abs() + reach_m) <= 0.5;
+        let corners = body.local_corners().map(|[ahead, left]| {
+            let arm = [ahead * cos - left * sin, ahead * sin + left * cos];
+            let arm_in_road = [ahead * turn_cos - left * turn_sin, ahead * turn_sin + left * turn_cos];
+            let is_right = left < 0.0;
+            let lateral_m = middle.across_m + arm_in_road[1];
+            let sag_m = self.max_curvature_1pm * arm_in_road[0] * arm_in_road[0];
+            let inside_m = if is_right { lateral_m - right_m } else { left_m - lateral_m };
+            let least_m = if is_gentle { inside_m - sag_m } else { f64::NEG_INFINITY };
+            Corner { position: [state.x_m + arm[0], state.y_m + arm[1]], arm, arm_in_road, is_right, least_m }
+        });
+        (direction, corners)
     }
 
     /// Whether the whole footprint is on the road, to within `tolerance_m`.

@@ -11,6 +11,10 @@ use crate::trajectory::penalty::Penalty;
 use crate::vehicle::PoseExpansion;
 use crate::{Body, Corridor, Route};
 
+/// On a curved road, corners that are farther inside their edge than this many widths of the body have approximate derivatives in
+/// step problems. The rows of an optimum that hold it back are zero there, so they are exact.
+const EXACT_WIDTHS: f64 = 1.0;
+
 /// The road that a vehicle may use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadEdge {
@@ -52,7 +56,9 @@ impl RowTerm for RoadEdge {
 
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
         let near_m = self.near_m.get(stage).copied().unwrap_or_default();
-        rows.copy_from_slice(&self.route.clearances(&self.body, &iterate.states[self.vehicle][stage + 1], near_m));
+        let state = &iterate.states[self.vehicle][stage + 1];
+        let exact_m = EXACT_WIDTHS * self.body.width_m;
+        rows.copy_from_slice(&self.route.clearances_exact_below(exact_m, &self.body, state, near_m));
     }
 
     fn evaluate(&self, stage: usize, iterate: &Iterate, _room: &mut [PoseExpansion], values: &mut [f64]) {
