@@ -62,7 +62,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("t-junction/bayesian-nice", "conservative", "yields.main.to.ego"),
     ("roundabout/nice", "human", "yields.ring.to.ego"),
     ("roundabout/tough", "negotiation", "yields.ego.to.ring"),
-    ("left-turn/cooperative", "human", "yields.oncoming.to.ego"),
+    ("left-turn/cooperative", "human", "completes.ego"),
     ("roundabout/bayesian-nice", "human", "yields.ring.to.ego"),
     ("roundabout/bayesian-tough", "negotiation", "yields.ego.to.ring"),
     ("t-junction/conservative-nice", "bayesian", "yields.ego.to.main"),
