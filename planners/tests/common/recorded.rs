@@ -4,20 +4,20 @@
 
 #[path = "recorded_curve.rs"]
 mod recorded_curve;
+#[path = "recorded_rows.rs"]
+mod recorded_rows;
 #[path = "warm_start_record.rs"]
 mod warm_start_record;
 
 use std::path::{Path, PathBuf};
 
-use interplay_planners::trajectory::terms::{
-    Comfort, DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, RoadEdge, Separation, Tracking,
-};
+use interplay_planners::trajectory::terms::{Comfort, RoadEdge, Tracking};
 use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, Term, WarmStart};
-use interplay_planners::vehicle::OrientedEllipse;
-use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, SafetyEllipse, State, negotiation};
+use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, State, negotiation};
 use serde::{Deserialize, Serialize};
 
 use recorded_curve::{Curve, RoadGoal, curve_alone};
+use recorded_rows::{Apart, Distance, Ellipse, Line, Mean, PersuasionRow};
 use warm_start_record::WarmStartRecord;
 
 /// The planners whose problems are recorded.
@@ -107,86 +107,6 @@ pub struct Vehicle {
     /// Bounds on its mean speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_speed: Option<Mean>,
-}
-
-/// A line that a front stays before.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
-pub struct Line {
-    /// Where it is along the road \[m\].
-    pub line_m: f64,
-    /// Linear and quadratic weight.
-    pub penalty: [f64; 2],
-}
-
-/// The cost of distances from a moving centre.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Distance {
-    /// Centres at `t = 1…N`.
-    pub centres: Vec<[f64; 2]>,
-    /// `M`: xx, xy, yy.
-    pub metric: [f64; 3],
-    /// What a distance costs.
-    pub price: Price,
-}
-
-/// `φ(ω)`.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Price {
-    /// Weight.
-    Linear(f64),
-    /// Base, loyalty, aversion.
-    Exact([f64; 3]),
-}
-
-/// Bounds on a mean speed.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
-pub struct Mean {
-    /// Lower and upper bound.
-    pub bounds: [Option<f64>; 2],
-    /// Linear and quadratic weight.
-    pub penalty: [f64; 2],
-}
-
-/// A moving ellipse.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Ellipse {
-    /// Centres at `t = 1…N`.
-    pub centres: Vec<[f64; 2]>,
-    /// Direction of the long axis, half axes along and across.
-    pub shape: [f64; 3],
-    /// Directions of the long axis at `t = 1…N` where they differ \[rad\].
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub headings: Vec<f64>,
-    /// Linear and quadratic weight.
-    pub penalty: [f64; 2],
-}
-
-/// Two vehicles that keep apart.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Apart {
-    /// Who keeps out, from whom.
-    pub pair: [usize; 2],
-    /// Direction of the long axis, half axes along and across.
-    pub shape: [f64; 3],
-    /// Directions of the long axis at `t = 1…N` where they differ \[rad\].
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub headings: Vec<f64>,
-    /// Linear and quadratic weight.
-    pub penalty: [f64; 2],
-}
-
-/// The persuasion constraint.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct PersuasionRow {
-    /// Reference to stay near at `t = 0…N−1`.
-    pub toward: Vec<[f64; 2]>,
-    /// Reference to keep away from at `t = 0…N−1`.
-    pub away: Vec<[f64; 2]>,
-    /// `α`.
-    pub strength: f64,
-    /// Linear and quadratic weight.
-    pub penalty: [f64; 2],
 }
 
 impl Recorded {
@@ -371,103 +291,6 @@ impl Vehicle {
 /// The heading of the axes of a tracking cost, nothing for those of the world: planners take the heading of the goal.
 fn axes_heading_rad(of: &Tracking) -> Option<f64> {
     (of.axes != Axes::WORLD).then(|| of.targets[0].heading_rad)
-}
-
-fn shape(of: &OrientedEllipse) -> [f64; 3] {
-    [of.heading_rad(), of.shape().along_m, of.shape().across_m]
-}
-
-fn ellipse([heading_rad, along_m, across_m]: [f64; 3]) -> OrientedEllipse {
-    SafetyEllipse { along_m, across_m }.oriented(heading_rad)
-}
-
-/// The directions of ellipses, if they differ.
-fn headings(of: &[OrientedEllipse]) -> Vec<f64> {
-    let is_one = of.windows(2).all(|pair| pair[0] == pair[1]);
-    of.iter().filter(|_| !is_one).map(OrientedEllipse::heading_rad).collect()
-}
-
-fn ellipses(shape: [f64; 3], headings: &[f64], count: usize) -> Vec<OrientedEllipse> {
-    let turned = |stage| ellipse([*headings.get(stage).unwrap_or(&shape[0]), shape[1], shape[2]]);
-    (0..count).map(turned).collect()
-}
-
-impl Ellipse {
-    fn new(of: &KeepOut) -> Self {
-        Ellipse {
-            centres: of.centres.clone(),
-            shape: shape(&of.ellipses[0]),
-            headings: headings(&of.ellipses),
-            penalty: of.penalty.into(),
-        }
-    }
-
-    fn keep_out(&self, vehicle: usize) -> KeepOut {
-        let ellipses = ellipses(self.shape, &self.headings, self.centres.len());
-        KeepOut { vehicle, centres: self.centres.clone(), ellipses, penalty: self.penalty.into() }
-    }
-}
-
-impl Distance {
-    fn new(of: &DistanceCost) -> Self {
-        let price = match of.price {
-            DistancePrice::Linear { weight } => Price::Linear(weight),
-            DistancePrice::Exact { base, loyalty, aversion } => Price::Exact([base, loyalty, aversion]),
-        };
-        Distance { centres: of.centres.clone(), metric: of.metrics[0], price }
-    }
-
-    fn distance_cost(&self, vehicle: usize) -> DistanceCost {
-        let price = match self.price {
-            Price::Linear(weight) => DistancePrice::Linear { weight },
-            Price::Exact([base, loyalty, aversion]) => DistancePrice::Exact { base, loyalty, aversion },
-        };
-        DistanceCost { vehicle, centres: self.centres.clone(), metrics: vec![self.metric; self.centres.len()], price }
-    }
-}
-
-impl Mean {
-    fn mean_speed(&self) -> MeanSpeed {
-        MeanSpeed { lower_mps: self.bounds[0], upper_mps: self.bounds[1], penalty: self.penalty.into() }
-    }
-}
-
-impl Apart {
-    fn of(term: &Term) -> Option<Self> {
-        let Term::Separation(of) = term else { return None };
-        Some(Apart {
-            pair: [of.vehicle, of.from],
-            shape: shape(&of.ellipses[0]),
-            headings: headings(&of.ellipses),
-            penalty: of.penalty.into(),
-        })
-    }
-
-    fn separation(&self, horizon: usize) -> Separation {
-        Separation {
-            vehicle: self.pair[0],
-            from: self.pair[1],
-            ellipses: ellipses(self.shape, &self.headings, horizon),
-            penalty: self.penalty.into(),
-        }
-    }
-}
-
-impl PersuasionRow {
-    fn of(term: &Term) -> Option<Self> {
-        let Term::Persuasion(Persuasion { toward, away, strength, penalty, .. }) = term.clone() else { return None };
-        Some(PersuasionRow { toward, away, strength, penalty: penalty.into() })
-    }
-
-    fn persuasion(&self) -> Persuasion {
-        Persuasion {
-            vehicle: 0,
-            toward: self.toward.clone(),
-            away: self.away.clone(),
-            strength: self.strength,
-            penalty: self.penalty.into(),
-        }
-    }
 }
 
 /// Where the problems of a kind are kept.

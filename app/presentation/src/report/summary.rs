@@ -19,7 +19,7 @@ fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::R
     let factor = report.simulated_s / report.wall_s.max(1e-9);
     let simulated = match &report.building {
         Some(building) if report.vehicles.is_empty() => format!("{} days", building.iterations.len()),
-        _ => format!("{:?} s", report.simulated_s),
+        _ => format!("{:?} s", to_milliseconds(report.simulated_s)),
     };
     writeln!(text, "{title}  [{}]", report.scenario)?;
     writeln!(text, "  {simulated} simulated in {:.2} s ({factor:.0} times real time)", report.wall_s)?;
@@ -33,10 +33,15 @@ fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::R
     write_counterfactuals(text, &report.counterfactuals)
 }
 
+/// A time to the millisecond: steps of real roads are no round numbers \[s\].
+fn to_milliseconds(time_s: f64) -> f64 {
+    (1e3 * time_s).round() / 1e3
+}
+
 fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     for vehicle in &report.vehicles {
         if let Some(time_s) = vehicle.completed_s {
-            writeln!(text, "  {} reached its goal at {time_s:?} s", vehicle.name)?;
+            writeln!(text, "  {} reached its goal at {:?} s", vehicle.name, to_milliseconds(time_s))?;
         }
     }
     writeln!(text, "  order at the end: {}", report.order.join(", "))?;

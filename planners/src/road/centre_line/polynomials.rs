@@ -3,19 +3,9 @@
 use super::error::CentreLineError;
 use super::joining::continues;
 use super::line::{CentreLine, Curve, Shape};
+use super::line_polynomial::LinePolynomial;
 use super::reparametrisation::by_arc_length;
 use super::segment::{MAX_HALF_TURN_RAD, Segment};
-
-/// The part of a centre line between two neighbouring knots.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinePolynomial {
-    /// Arc length between the knots \[m\].
-    pub length_m: f64,
-    /// Coefficients of x over the distance `u` from the first knot, from the constant to `u⁵`.
-    pub x: [f64; 6],
-    /// Coefficients of y.
-    pub y: [f64; 6],
-}
 
 impl CentreLine {
     /// The polynomials of the line in the order of arc length; none for [`CentreLine::straight`].
