@@ -15,13 +15,16 @@ use std::collections::BTreeMap;
 use crate::road::network::{ConflictKind, Precedence, RightOfWay, RouteConflict};
 use crate::{Agent, Scene};
 
-/// A vehicle stands if it would come to rest within this share of its length, braking at [`REFERENCE_MPS2`].
+/// Length of a car at 1/10 scale \[m\].
+const CAR_LENGTH_M: f64 = 0.45;
+
+/// A vehicle stands if it would come to rest within this share of a car's length, braking at [`REFERENCE_MPS2`].
 const STANDING_LENGTHS: f64 = 0.02;
 
-/// A vehicle that comes within this many lengths of its line has arrived there.
+/// A vehicle that comes within this many lengths of a car of its line has arrived there.
 const ARRIVAL_LENGTHS: f64 = 1.0;
 
-/// A driver stops this many lengths before a line.
+/// A driver stops this many lengths of a car before a line.
 const STOPPING_LENGTHS: f64 = 0.15;
 
 /// Time to spare between leaving a conflict and the other's arrival there: so often the time `√(length / 1 m/s²)`. For a
@@ -84,14 +87,14 @@ impl ArrivalMemory {
             ego.route.conflicts_with(&other.route).map(move |conflict| Pair { ego, other, conflict, wanted_mps })
         });
         let held = pairs.filter(|pair| self.holds(pair)).map(|pair| pair.conflict.own_line_m);
-        let before_m = STOPPING_LENGTHS * length_m(ego);
+        let before_m = STOPPING_LENGTHS * car_length_m(ego);
         let lines = stop.chain(held).filter(|line_m| can_stop(ego, *line_m - before_m));
         lines.min_by(f64::total_cmp).map(|line_m| line_m - before_m)
     }
 
     /// Notes whether a vehicle has arrived at one of its lines. It keeps its place in the order until it is past the line.
     fn note(&mut self, agent: &Agent, mut lines: impl Iterator<Item = f64>, tick: usize) {
-        let (front_m, near_m) = (front_m(agent), ARRIVAL_LENGTHS * length_m(agent));
+        let (front_m, near_m) = (front_m(agent), ARRIVAL_LENGTHS * car_length_m(agent));
         self.arrivals.retain(|name, arrival| *name != agent.name || front_m < arrival.line_m);
         if let Some(line_m) = lines.find(|line_m| (0.0..near_m).contains(&(line_m - front_m))) {
             self.arrivals.entry(agent.name.clone()).or_insert(Arrival { tick, line_m });
@@ -113,9 +116,16 @@ impl ArrivalMemory {
         match conflict.precedence {
             _ if is_committed && conflict.kind != ConflictKind::Merging => pair.comes_too_soon(),
             Precedence::Own => false,
-            Precedence::Other => pair.comes_too_soon(),
+            Precedence::Other => pair.comes_too_soon() || self.stands_first(pair),
             Precedence::ByArrival => self.arrived_later(pair),
         }
+    }
+
+    /// Whether the other stands at its line and came to it before the driver came to its own: of several who stand and have to
+    /// let one another pass, the first to arrive goes.
+    fn stands_first(&self, Pair { ego, other, .. }: &Pair) -> bool {
+        let [own, their] = [ego, other].map(|agent| self.arrivals.get(&agent.name).map(|arrival| arrival.tick));
+        is_standing(other) && own.zip(their).is_some_and(|(own, their)| (their, &other.name) < (own, &ego.name))
     }
 
     /// Whether the other has arrived before the driver, or will.
@@ -136,16 +146,16 @@ impl ArrivalMemory {
 }
 
 impl Pair<'_> {
-    /// Whether the other, at its present speed, is in the conflict before the driver could have cleared it, with time to
+    /// Whether the other, which may speed up, is in the conflict before the driver could have cleared it, with time to
     /// spare.
     fn comes_too_soon(&self) -> bool {
         let Pair { ego, other, conflict, .. } = self;
         let their_way_m = conflict.their_m[0] - front_m(other);
-        let speed_mps = other.state.speed_mps;
         if their_way_m > 0.0 && is_standing(other) {
             return false;
         }
-        let their_s = if their_way_m > 0.0 { their_way_m / speed_mps } else { 0.0 };
+        let their_mps2 = ENTERING_SHARE * other.limits.acceleration_max_mps2;
+        let their_s = time_s(their_way_m.max(0.0), other.state.speed_mps, self.wanted_mps, their_mps2);
         let own_end_m = match conflict.kind {
             // Whoever joins must be as fast as the one behind by then; half of the way is as good as that.
             ConflictKind::Merging => conflict.own_meeting_m,
@@ -175,9 +185,14 @@ fn length_m(agent: &Agent) -> f64 {
     agent.body.front_m + agent.body.rear_m
 }
 
+/// The length of a car of the scale of a vehicle, by which distances to lines are measured whatever the vehicle \[m\].
+fn car_length_m(agent: &Agent) -> f64 {
+    CAR_LENGTH_M * agent.body.scale
+}
+
 fn is_standing(agent: &Agent) -> bool {
     let speed_mps = agent.state.speed_mps;
-    speed_mps * speed_mps < 2.0 * REFERENCE_MPS2 * STANDING_LENGTHS * length_m(agent)
+    speed_mps * speed_mps < 2.0 * REFERENCE_MPS2 * STANDING_LENGTHS * car_length_m(agent)
 }
 
 /// Whether a vehicle can stop before a place.
@@ -185,7 +200,7 @@ fn can_stop(agent: &Agent, place_m: f64) -> bool {
     let speed_mps = agent.state.speed_mps;
     let braking_m = speed_mps * speed_mps / (2.0 * BRAKING_SHARE * agent.limits.acceleration_min_mps2.abs());
     // Whoever stands a little beyond still waits.
-    front_m(agent) + braking_m <= place_m + STOPPING_LENGTHS * length_m(agent)
+    front_m(agent) + braking_m <= place_m + STOPPING_LENGTHS * car_length_m(agent)
 }
 
 /// The time for a way from a speed on, with a constant acceleration up to a wanted speed \[s\].

@@ -122,3 +122,21 @@ fn a_free_junction_is_crossed_without_waiting_unless_a_sign_says_so() {
         }
     }
 }
+
+/// Where all have to let the one from the right pass and all stand, the first to arrive goes, and nobody is touched.
+#[test]
+fn a_circle_of_yielding_drivers_is_broken_by_the_first_to_arrive() {
+    for sign in [RightOfWay::Yield, RightOfWay::Stop, RightOfWay::Priority] {
+        for driver in drivers() {
+            let ways = [["south", "north"], ["west", "east"], ["north", "south"], ["east", "west"]];
+            let found = routes(&crossing([sign; 4]), &ways);
+            let named = found.iter().zip(["a", "b", "c", "d"]);
+            let vehicles = named.map(|(route, name)| on_route(name, route, 1.2, 0.8, driver.clone())).collect();
+            let run = run(vehicles, 400);
+            assert_eq!(run.collision, None, "{driver:?} {sign:?}");
+            let ticks = crossing_ticks(&run, 4);
+            let last = run.states.last();
+            assert!(ticks.iter().all(Option::is_some), "{driver:?} {sign:?} {ticks:?} {last:?}");
+        }
+    }
+}
