@@ -52,6 +52,13 @@ pub(crate) fn distance_to_path(agent: &Agent, other: &Agent) -> Option<f64> {
     (closing.abs() > libm::sin(PARALLEL_RAD)).then(|| -side / closing)
 }
 
+/// The names of all others in the order in which a planner turns to them.
+pub(crate) fn from_front_to_rear(scene: &Scene) -> Vec<String> {
+    let mut others: Vec<&Agent> = scene.others.iter().collect();
+    others.sort_by(|a, b| scene.ego.lead_or_nearness_of(b).total_cmp(&scene.ego.lead_or_nearness_of(a)));
+    others.into_iter().map(|other| other.name.clone()).collect()
+}
+
 /// The vehicle that is interacted with, and those before and after it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PartnerSequence {
@@ -79,9 +86,7 @@ impl PartnerSequence {
     /// The first vehicle with which something is left to settle.
     pub(crate) fn choose<'a>(&mut self, scene: &'a Scene, clear_lead_m: f64) -> PartnerChoice<'a> {
         if self.order.is_empty() {
-            let mut others: Vec<&Agent> = scene.others.iter().collect();
-            others.sort_by(|a, b| scene.ego.lead_or_nearness_of(b).total_cmp(&scene.ego.lead_or_nearness_of(a)));
-            self.order = others.iter().map(|other| other.name.clone()).collect();
+            self.order = from_front_to_rear(scene);
         }
         let known = self.order.iter().filter_map(|name| scene.others.iter().find(|other| other.name == *name));
         let partner = known.into_iter().find(|other| !is_settled(scene, other, clear_lead_m));

@@ -61,6 +61,10 @@ struct Pair<'a> {
     ego: &'a Agent,
     other: &'a Agent,
     conflict: &'a RouteConflict,
+    /// Where the front of the driver is on its route \[m\].
+    own_front_m: f64,
+    /// Where the front of the other is on its own \[m\].
+    their_front_m: f64,
     wanted_mps: f64,
 }
 
@@ -83,8 +87,9 @@ impl ArrivalMemory {
         }
         let stop = signs.into_iter().filter(|line_m| self.stood_at_m.is_none_or(|stood_m| stood_m < *line_m));
         let pairs = scene.others.iter().flat_map(|other| {
-            let wanted_mps = scene.goal.target.speed_mps;
-            ego.route.conflicts_with(&other.route).map(move |conflict| Pair { ego, other, conflict, wanted_mps })
+            let (own_front_m, their_front_m, wanted_mps) = (front_m(ego), front_m(other), scene.goal.target.speed_mps);
+            let pair = move |conflict| Pair { ego, other, conflict, own_front_m, their_front_m, wanted_mps };
+            ego.route.conflicts_with(&other.route).map(pair)
         });
         let held = pairs.filter(|pair| self.holds(pair)).map(|pair| pair.conflict.own_line_m);
         let before_m = STOPPING_LENGTHS * car_length_m(ego);
@@ -103,45 +108,42 @@ impl ArrivalMemory {
 
     /// Whether somebody keeps the driver from a conflict.
     fn holds(&self, pair: &Pair) -> bool {
-        let Pair { ego, other, conflict, .. } = pair;
-        let (own_rear_m, their_rear_m) = (front_m(ego) - length_m(ego), front_m(other) - length_m(other));
-        if front_m(ego) > conflict.own_line_m
-            || own_rear_m > conflict.own_m[1]
-            || their_rear_m > conflict.their_m[1]
+        let Pair { ego, other, conflict, own_front_m, their_front_m, .. } = *pair;
+        if own_front_m > conflict.own_line_m
+            || own_front_m - length_m(ego) > conflict.own_m[1]
+            || their_front_m - length_m(other) > conflict.their_m[1]
             || ego.shares_lane_with(other)
         {
             return false;
         }
-        let is_committed = front_m(other) > conflict.their_line_m;
+        let is_committed = their_front_m > conflict.their_line_m;
         match conflict.precedence {
             _ if is_committed && conflict.kind != ConflictKind::Merging => pair.comes_too_soon(),
             Precedence::Own => false,
-            Precedence::Other => pair.comes_too_soon() || self.stands_first(pair),
+            // Of several who stand and have to let one another pass, the first to arrive goes.
+            Precedence::Other => pair.comes_too_soon() || (is_standing(other) && self.came_before(pair) == Some(true)),
             Precedence::ByArrival => self.arrived_later(pair),
         }
     }
 
-    /// Whether the other stands at its line and came to it before the driver came to its own: of several who stand and have to
-    /// let one another pass, the first to arrive goes.
-    fn stands_first(&self, Pair { ego, other, .. }: &Pair) -> bool {
-        let [own, their] = [ego, other].map(|agent| self.arrivals.get(&agent.name).map(|arrival| arrival.tick));
-        is_standing(other) && own.zip(their).is_some_and(|(own, their)| (their, &other.name) < (own, &ego.name))
+    /// Whether the other came to its line before the driver came to its own; none unless both have.
+    fn came_before(&self, Pair { ego, other, .. }: &Pair) -> Option<bool> {
+        let [own, their] = [ego, other].map(|agent| Some((self.arrivals.get(&agent.name)?.tick, &agent.name)));
+        Some(their? < own?)
     }
 
     /// Whether the other has arrived before the driver, or will.
     fn arrived_later(&self, pair: &Pair) -> bool {
-        let Pair { ego, other, conflict, .. } = pair;
-        let [own, their] = [ego, other].map(|agent| self.arrivals.get(&agent.name).map(|arrival| arrival.tick));
-        match (own, their) {
-            (Some(own), Some(their)) => (their, &other.name) < (own, &ego.name),
-            (Some(_), None) => front_m(other) > conflict.their_line_m,
-            (None, Some(_)) => true,
-            (None, None) => {
-                let own_m = conflict.own_line_m - front_m(ego);
-                let their_m = conflict.their_line_m - front_m(other);
-                (their_m, &other.name) < (own_m, &ego.name) && pair.comes_too_soon()
-            }
+        let Pair { ego, other, conflict, own_front_m, their_front_m, .. } = *pair;
+        if let Some(came_before) = self.came_before(pair) {
+            return came_before;
         }
+        let has_arrived = |agent: &Agent| self.arrivals.contains_key(&agent.name);
+        if has_arrived(ego) {
+            return their_front_m > conflict.their_line_m;
+        }
+        let (own_m, their_m) = (conflict.own_line_m - own_front_m, conflict.their_line_m - their_front_m);
+        has_arrived(other) || ((their_m, &other.name) < (own_m, &ego.name) && pair.comes_too_soon())
     }
 }
 
@@ -150,7 +152,7 @@ impl Pair<'_> {
     /// spare.
     fn comes_too_soon(&self) -> bool {
         let Pair { ego, other, conflict, .. } = self;
-        let their_way_m = conflict.their_m[0] - front_m(other);
+        let their_way_m = conflict.their_m[0] - self.their_front_m;
         if their_way_m > 0.0 && is_standing(other) {
             return false;
         }
@@ -161,7 +163,7 @@ impl Pair<'_> {
             ConflictKind::Merging => conflict.own_meeting_m,
             ConflictKind::Crossing | ConflictKind::Diverging | ConflictKind::HeadOn => conflict.own_m[1],
         };
-        let own_way_m = own_end_m + length_m(ego) - front_m(ego);
+        let own_way_m = own_end_m + length_m(ego) - self.own_front_m;
         let own_s =
             time_s(own_way_m, ego.state.speed_mps, self.wanted_mps, ENTERING_SHARE * ego.limits.acceleration_max_mps2);
         their_s < own_s + SPARE_TIMES * (length_m(ego) / REFERENCE_MPS2).sqrt()

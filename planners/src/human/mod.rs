@@ -5,9 +5,8 @@
 //! ```text
 //! tracking       Σ_{t=1…N} ‖x_t − x_des‖²_Q                            eq. 6.6
 //! comfort        Σ_{t=0…N−1} ‖u_t − u_{t−1}‖²_R                        eq. 6.6
-//! stop line     Σ 2·10³ (q + q²), q how far the front is beyond a line    only while the driver must wait there, and
-//!               with the speeds of a comfortable approach in place of a higher desired speed
 //! road edges     Σ 2·10³ (q + q²), q how far a corner is off the road    eq. 6.7, soft
+//! stop line      Σ 2·10³ (q + q²), q how far the front is beyond it      while the driver must wait at a line
 //! yielding       w Σ_{t=1…N} max(0, 1 − d²(p_t, q_t))²                 per vehicle that might cut in or cross
 //! following      w_f Σ_{t=1…N} max(0, 1 − d²(p_t, l_t))²               the vehicle ahead in the same lane
 //! firm wall      Σ_{t=1…N} 10³ (q + q²), q = max(0, 1 − d_f²(p_t, l_t))  the same vehicle
@@ -32,9 +31,11 @@
 //!
 //! Going first and yielding are two classes of motion, which the optimiser compares (`passing_orders`).
 //!
+//! On a network of lanes every driver keeps to the right of way, whatever its style (module `right_of_way`). While it must
+//! wait at a line, its desired speed is at most that of a comfortable approach.
+//!
 //! Drivers differ from this one by their settings:
 //!
-//! - On a road network every driver keeps to the right of way (module `right_of_way`), whatever its style.
 //! - A driver who **closes gaps** (`closing_mps`, module `closing`) wants to be faster while somebody is about to cut
 //!   in ahead.
 //! - A driver who **reacts late** (`reaction_s`) sees all others as they were that long ago, continued to the present

@@ -41,7 +41,7 @@ impl Idm {
     /// Never; the signature is that of all planners.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let line_m = self.arrivals.stop_line_m(scene);
-        let scene = &along_the_road(&self.settings.prediction.applied_to(scene));
+        let scene = &along_the_road(self.settings.prediction.applied_to(scene).into_owned());
         let lanes = Lanes::of_road(scene, &self.settings.mobil);
         let nearest_lane = lanes.at(scene.ego.route.across(scene.ego.state.position()));
         // On a network the lanes beside the route, by which its lane is counted, come and go.
@@ -54,9 +54,12 @@ impl Idm {
         let trajectory = roll_out(scene, |t, state| {
             // In the lane that it leaves it minds the vehicle ahead until it is out of it.
             let [left, taken] = [now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t));
-            let along_m = || own.route.along(state.position());
-            let line = line_m.map(|line_m| Leader { gap_m: line_m - along_m() - own.body.front_m, speed_mps: 0.0 });
-            let permitted_mps = own.permitted_speed_mps(if own.route.is_in_network() { along_m() } else { 0.0 });
+            // Lines and speed limits exist on networks only.
+            let along_m = own.route.is_in_network().then(|| own.route.along(state.position()));
+            let line = line_m
+                .zip(along_m)
+                .map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
+            let permitted_mps = along_m.and_then(|along_m| own.permitted_speed_mps(along_m));
             let wanted_mps = permitted_mps.map_or(wanted, |permitted_mps| permitted_mps.min(wanted));
             let acceleration = self.settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
             Input {
@@ -76,8 +79,7 @@ impl Idm {
 }
 
 /// The scene with those others only that are on the same road.
-fn along_the_road(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
+fn along_the_road(mut scene: Scene) -> Scene {
     let Scene { ego, others, .. } = &mut scene;
     others.retain(|other| ego.relation(other) == Relation::Alongside);
     scene

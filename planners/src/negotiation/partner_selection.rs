@@ -7,7 +7,7 @@
 //! the ego keeps out of its predicted way.
 
 use super::settings::Settings;
-use crate::encounter::is_settled;
+use crate::encounter::{from_front_to_rear, is_settled};
 use crate::{Agent, Scene};
 
 /// An acceptance below this counts as a refusal.
@@ -33,9 +33,7 @@ impl PartnerSelection {
     /// The vehicle to ask now, if any.
     pub(super) fn choose<'a>(&mut self, scene: &'a Scene, settings: &Settings) -> Option<&'a Agent> {
         if self.order.is_empty() {
-            let mut others: Vec<&Agent> = scene.others.iter().collect();
-            others.sort_by(|a, b| scene.ego.lead_or_nearness_of(b).total_cmp(&scene.ego.lead_or_nearness_of(a)));
-            self.order = others.iter().map(|other| other.name.clone()).collect();
+            self.order = from_front_to_rear(scene);
         }
         let open: Vec<&Agent> = self
             .order

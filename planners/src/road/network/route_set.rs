@@ -83,7 +83,7 @@ fn with_all(own: &Route, all: &[Route]) -> Vec<RouteConflict> {
             let meeting = |route: &Route, partner: &Route, [from_m, to_m]: [f64; 2]| match kind {
                 ConflictKind::Crossing | ConflictKind::Diverging => 0.5 * (from_m + to_m),
                 // The lanes overlap before the centre lines meet.
-                ConflictKind::Merging => 0.5 * (from_m + to_m).min(2.0 * from_m + 2.0 * partner.half_width.value(0.0)),
+                ConflictKind::Merging => (0.5 * (from_m + to_m)).min(from_m + partner.half_width.value(0.0)),
                 ConflictKind::HeadOn => (from_m + route.half_width.value(from_m)).min(to_m),
             };
             RouteConflict {
