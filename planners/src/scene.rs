@@ -12,6 +12,9 @@ use crate::{Axes, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
 /// Drivers brake for a speed limit with this share of their strongest braking.
 const COMFORTABLE_BRAKING_SHARE: f64 = 0.4;
 
+/// Drivers take curves with this share of their largest lateral acceleration.
+const COMFORTABLE_LATERAL_SHARE: f64 = 0.5;
+
 /// Drivers come up to a line with this share of their strongest acceleration.
 const COMFORTABLE_ACCELERATION_SHARE: f64 = 0.5;
 
@@ -91,17 +94,33 @@ impl Agent {
 }
 
 impl Agent {
-    /// The highest permitted speeds at arc lengths of its route, braking comfortably for lower limits ahead; empty without
-    /// limits \[m/s\].
+    /// The highest permitted speeds at arc lengths of its route, braking comfortably for lower limits and curves ahead; empty
+    /// without limits \[m/s\].
     fn permitted_speeds_mps(&self, along_m: &[f64]) -> Vec<f64> {
         let permitted = along_m.iter().filter_map(|along_m| self.permitted_speed_mps(*along_m)).collect::<Vec<_>>();
         if permitted.len() == along_m.len() { permitted } else { Vec::new() }
     }
 
-    /// The highest permitted speed at an arc length of its route, braking comfortably for lower limits ahead; none without
-    /// limits \[m/s\].
+    /// The highest permitted speed at an arc length of its route, braking comfortably for lower limits and curves ahead; none
+    /// without limits \[m/s\].
     pub(crate) fn permitted_speed_mps(&self, along_m: f64) -> Option<f64> {
-        self.route.permitted_speed_mps(along_m, COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs())
+        let braking_mps2 = COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs();
+        let permitted_mps = self.route.permitted_speed_mps(along_m, braking_mps2);
+        let lateral_mps2 = self.limits.lateral_acceleration_max_mps2.map(|most| COMFORTABLE_LATERAL_SHARE * most);
+        let in_curves_mps = lateral_mps2.and_then(|most| self.route.curve_speed_mps(along_m, most, braking_mps2));
+        permitted_mps.into_iter().chain(in_curves_mps).min_by(f64::total_cmp)
+    }
+
+    /// The largest steering angles at `t = 0…N−1`, at the speeds that it is expected to have; empty where they do not depend on
+    /// the speed \[rad\].
+    pub(crate) fn steering_bounds_rad(&self, horizon: usize) -> Vec<f64> {
+        if self.limits.lateral_acceleration_max_mps2.is_none() {
+            return Vec::new();
+        }
+        let expected = self.prediction.states.iter().skip(1).map(|state| state.speed_mps);
+        let last_mps = self.prediction.states.last().unwrap_or(&self.state).speed_mps;
+        let speeds = std::iter::once(self.state.speed_mps).chain(expected).chain(std::iter::repeat(last_mps));
+        speeds.take(horizon).map(|speed_mps| self.limits.steering_max_at_rad(&self.body, speed_mps)).collect()
     }
 
     /// The slip angles with which it follows its route at arc lengths \[rad\].
@@ -166,6 +185,7 @@ impl Scene {
         Participant {
             model: self.model(),
             limits: self.ego.limits,
+            steering_bounds_rad: self.ego.steering_bounds_rad(self.horizon),
             start: self.ego.state,
             previous_input: self.ego.previous_input,
             known_inputs: Vec::new(),

@@ -8,7 +8,7 @@ pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
     let geometry = SteeringGeometry {
         rear_axle_m: agent.body.rear_axle_m,
         wheelbase_m: agent.body.wheelbase_m(),
-        steering_max_rad: agent.limits.steering_max_rad,
+        steering_max_rad: agent.limits.steering_max_at_rad(&agent.body, state.speed_mps),
         time_ratio: agent.body.time_ratio(),
     };
     let at = agent.route.locate(state.position(), None);

@@ -58,6 +58,9 @@ fn inputs_and_speeds_stay_within_the_limits() {
                 let accelerations = limits.acceleration_min_mps2..=limits.acceleration_max_mps2;
                 assert!(accelerations.contains(&input.acceleration_mps2), "{at}: {input:?}");
                 assert!(input.steering_rad.abs() <= limits.steering_max_rad, "{at}: {input:?}");
+                let before_mps = seen.state.speed_mps;
+                let bound_rad = limits.steering_max_at_rad(&vehicle.body, before_mps);
+                assert!(input.steering_rad.abs() <= bound_rad, "{at}: {input:?} at {before_mps} m/s");
                 let speeds = limits.speed_min_mps - 1e-12..=limits.speed_max_mps + 1e-12;
                 assert!(speeds.contains(&speed), "{at}: {speed}");
             }

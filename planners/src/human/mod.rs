@@ -144,8 +144,11 @@ fn wait_at(problem: &mut Problem, scene: &Scene, line_m: f64) {
     let ego = &scene.ego;
     for term in &mut problem.terms {
         if let Term::RoadTracking(tracking) = term {
-            tracking.permitted_mps =
-                ego.approach_speeds_mps(line_m, tracking.target.speed_mps, scene.horizon, scene.step_s);
+            let approach_mps = ego.approach_speeds_mps(line_m, tracking.target.speed_mps, scene.horizon, scene.step_s);
+            let permitted_mps = std::mem::take(&mut tracking.permitted_mps);
+            let no_limits = std::iter::repeat(f64::INFINITY);
+            let permitted_mps = permitted_mps.into_iter().chain(no_limits).zip(approach_mps);
+            tracking.permitted_mps = permitted_mps.map(|(limit_mps, speed_mps)| speed_mps.min(limit_mps)).collect();
         }
     }
     problem.terms.push(Term::StopLine(ego.stop_line(0, line_m, scene.horizon, scene.step_s)));

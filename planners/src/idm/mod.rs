@@ -54,8 +54,8 @@ impl Idm {
         let trajectory = roll_out(scene, |t, state| {
             // In the lane that it leaves it minds the vehicle ahead until it is out of it.
             let [left, taken] = [now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t));
-            // Lines and speed limits exist on networks only.
-            let along_m = own.route.is_in_network().then(|| own.route.along(state.position()));
+            // Straight roads have neither lines nor speed limits.
+            let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
             let line = line_m
                 .zip(along_m)
                 .map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });

@@ -65,6 +65,7 @@ fn asked(scene: &Scene, partner: &Agent, settings: &Settings) -> Participant {
     Participant {
         model: Bicycle::new(&partner.body, scene.step_s),
         limits: partner.limits,
+        steering_bounds_rad: partner.steering_bounds_rad(scene.horizon),
         start: partner.state,
         previous_input: partner.previous_input,
         known_inputs: (0..settled).map(|t| inputs.get(t).copied().unwrap_or_default()).collect(),

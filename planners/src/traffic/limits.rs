@@ -1,18 +1,19 @@
 //! What a vehicle applies of what its plan asks for.
 
-use crate::{Input, Limits, State};
+use crate::{Body, Input, Limits, State};
 
 /// The input nearest to `wanted` within the limits of the vehicle.
 ///
-/// The acceleration also keeps the speed within its bounds during the next `step_s` seconds, whatever a fallback asks for.
+/// The steering also keeps the lateral acceleration within its bound. The acceleration also keeps the speed within its bounds during the next `step_s` seconds, whatever a fallback asks for.
 /// Where a plant has driven the speed so far out of its bounds that no admissible acceleration leads back in one step, the
 /// limits of the acceleration win.
-pub fn applied_input(wanted: &Input, state: &State, limits: &Limits, step_s: f64) -> Input {
+pub fn applied_input(wanted: &Input, state: &State, body: &Body, limits: &Limits, step_s: f64) -> Input {
+    let steering_max_rad = limits.steering_max_at_rad(body, state.speed_mps);
     let low = limits.acceleration_min_mps2.max((limits.speed_min_mps - state.speed_mps) / step_s);
     let high = limits.acceleration_max_mps2.min((limits.speed_max_mps - state.speed_mps) / step_s);
     Input {
         acceleration_mps2: wanted.acceleration_mps2.max(low).min(high),
-        steering_rad: wanted.steering_rad.clamp(-limits.steering_max_rad, limits.steering_max_rad),
+        steering_rad: wanted.steering_rad.clamp(-steering_max_rad, steering_max_rad),
     }
 }
 
@@ -32,7 +33,7 @@ mod tests {
             let limits = Limits::default();
             let speed_mps = limits.speed_min_mps + speed * (limits.speed_max_mps - limits.speed_min_mps);
             let state = State { speed_mps, ..State::default() };
-            let applied = applied_input(&Input { acceleration_mps2, steering_rad }, &state, &limits, STEP_S);
+            let applied = applied_input(&Input { acceleration_mps2, steering_rad }, &state, &Body::default(), &limits, STEP_S);
             let bounds = limits.acceleration_min_mps2..=limits.acceleration_max_mps2;
             prop_assert!(bounds.contains(&applied.acceleration_mps2));
             prop_assert!(applied.steering_rad.abs() <= limits.steering_max_rad);
@@ -46,7 +47,7 @@ mod tests {
             let limits = Limits::default();
             let state = State { speed_mps: 0.5 * limits.speed_max_mps, ..State::default() };
             let wanted = Input { acceleration_mps2, steering_rad };
-            prop_assert_eq!(applied_input(&wanted, &state, &limits, STEP_S), wanted);
+            prop_assert_eq!(applied_input(&wanted, &state, &Body::default(), &limits, STEP_S), wanted);
         }
     }
 
@@ -54,7 +55,9 @@ mod tests {
     fn far_outside_its_bounds_a_speed_is_led_back_as_fast_as_the_vehicle_can() {
         let limits = Limits::default();
         let at = |speed_mps| State { speed_mps, ..State::default() };
-        let applied = |speed_mps| applied_input(&Input::default(), &at(speed_mps), &limits, STEP_S).acceleration_mps2;
+        let applied = |speed_mps| {
+            applied_input(&Input::default(), &at(speed_mps), &Body::default(), &limits, STEP_S).acceleration_mps2
+        };
         assert_eq!(applied(limits.speed_min_mps - 10.0), limits.acceleration_max_mps2);
         // Too fast by less than one step of braking: exactly back to the bound.
         let slightly = limits.speed_max_mps + 0.5 * STEP_S * limits.acceleration_min_mps2.abs();

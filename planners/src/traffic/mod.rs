@@ -112,7 +112,7 @@ impl Traffic {
     pub fn applied_inputs(&self) -> Vec<Input> {
         let applied = |RoadUser { agent, committed, .. }: &RoadUser| {
             let planned = committed.trajectory.as_ref().and_then(|plan| plan.inputs.first());
-            applied_input(&planned.copied().unwrap_or_default(), &agent.state, &agent.limits, self.step_s)
+            applied_input(&planned.copied().unwrap_or_default(), &agent.state, &agent.body, &agent.limits, self.step_s)
         };
         self.road_users.iter().map(applied).collect()
     }

@@ -9,6 +9,9 @@ pub struct Participant {
     pub model: Bicycle,
     /// Its hard bounds.
     pub limits: Limits,
+    /// Largest steering angles at `t = 0…N−1` where they depend on the speed, which is the expected one; `N` long, or empty where
+    /// `limits` alone bound the steering \[rad\].
+    pub steering_bounds_rad: Vec<f64>,
     /// State at `t = 0`.
     pub start: State,
     /// Input applied before `t = 0`, for the first `Δu`.
@@ -27,7 +30,7 @@ impl Participant {
     /// The nearest admissible inputs to a guess: known inputs kept, accelerations and steering clipped to their
     /// bounds, and the speed kept within its own.
     pub fn admissible(&self, guess: &[Input], horizon: usize) -> Vec<Input> {
-        let (limits, step) = (&self.limits, self.model.step_s());
+        let step = self.model.step_s();
         let mut speed = self.start.speed_mps;
         (0..horizon)
             .map(|t| {
@@ -35,15 +38,21 @@ impl Participant {
                     self.known_inputs[t]
                 } else {
                     let wanted = guess.get(t).copied().unwrap_or_default();
+                    let bound_rad = self.steering_max_rad(t);
                     Input {
                         acceleration_mps2: self.reachable_acceleration(t, speed, wanted.acceleration_mps2),
-                        steering_rad: wanted.steering_rad.clamp(-limits.steering_max_rad, limits.steering_max_rad),
+                        steering_rad: wanted.steering_rad.clamp(-bound_rad, bound_rad),
                     }
                 };
                 speed += step * input.acceleration_mps2;
                 input
             })
             .collect()
+    }
+
+    /// The largest steering angle in step `t` \[rad\].
+    pub fn steering_max_rad(&self, t: usize) -> f64 {
+        self.steering_bounds_rad.get(t).copied().unwrap_or(self.limits.steering_max_rad)
     }
 
     /// The acceleration in step `t`, at a speed, nearest to a wanted one that keeps itself and the next speed within bounds

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Body;
+
 /// Hard bounds on input and speed (eq. 6.9). The default is Table 6.2.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -22,6 +24,27 @@ pub struct Limits {
     /// Largest speed \[m/s\].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub speed_max_mps: f64,
+    /// Largest lateral acceleration that the tyres take, `|v θ′|`: at each speed it bounds the steering angle. Without it only
+    /// `steering_max` bounds the steering \[m/s²\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.1, max = 100.0), example = 7.0)]
+    pub lateral_acceleration_max_mps2: Option<f64>,
+}
+
+impl Limits {
+    /// Largest steering angle of a body at a speed \[rad\].
+    ///
+    /// The bicycle turns at `θ′ = v sin β/L_r` (eq. 6.3), so the lateral acceleration `v² sin β/L_r` bounds the slip angle `β`, and
+    /// `tan δ = L/L_r tan β` the steering angle.
+    pub fn steering_max_at_rad(&self, body: &Body, speed_mps: f64) -> f64 {
+        let Some(lateral_mps2) = self.lateral_acceleration_max_mps2 else { return self.steering_max_rad };
+        let sin_slip = lateral_mps2 * body.rear_axle_m / (speed_mps * speed_mps);
+        if sin_slip.is_nan() || sin_slip >= 1.0 {
+            return self.steering_max_rad;
+        }
+        let tan_slip = sin_slip / (1.0 - sin_slip * sin_slip).sqrt();
+        libm::atan(body.wheelbase_m() / body.rear_axle_m * tan_slip).min(self.steering_max_rad)
+    }
 }
 
 impl Default for Limits {
@@ -32,6 +55,29 @@ impl Default for Limits {
             steering_max_rad: std::f64::consts::FRAC_PI_3,
             speed_min_mps: 0.0,
             speed_max_mps: 1.5,
+            lateral_acceleration_max_mps2: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Bicycle, Input, State};
+
+    /// At the largest steering angle of a speed, `|v θ′|` of the bicycle is the limit; where the limit says nothing, so does it.
+    #[test]
+    fn the_largest_steering_angle_makes_the_largest_lateral_acceleration() {
+        let (body, step_s) = (Body::default(), 1e-3);
+        let limits = Limits { lateral_acceleration_max_mps2: Some(2.0), ..Limits::default() };
+        for speed_mps in [1.0, 1.5, 3.0, 30.0] {
+            let state = State { speed_mps, ..State::default() };
+            let input = Input { acceleration_mps2: 0.0, steering_rad: limits.steering_max_at_rad(&body, speed_mps) };
+            let turned_rad = Bicycle::new(&body, step_s).step(&state, &input).heading_rad;
+            assert!((speed_mps * turned_rad / step_s - 2.0).abs() < 1e-9, "{speed_mps} m/s");
+        }
+        assert_eq!(limits.steering_max_at_rad(&body, 0.0), limits.steering_max_rad);
+        assert_eq!(limits.steering_max_at_rad(&body, 0.1), limits.steering_max_rad);
+        assert_eq!(Limits::default().steering_max_at_rad(&body, 30.0), limits.steering_max_rad);
     }
 }

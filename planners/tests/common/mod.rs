@@ -73,6 +73,7 @@ pub fn lane_change(random: &mut Random) -> Vehicle {
     let participant = Participant {
         model: Bicycle::new(&Body::default(), 0.1),
         limits: Limits::default(),
+        steering_bounds_rad: Vec::new(),
         start: State {
             x_m: 0.0,
             y_m: 0.185 + random.between(-0.05, 0.05),

@@ -4,6 +4,7 @@
 //! through it: one centre line, and the strip beside it that the vehicle may use. [`conflicts`] says where two routes cross
 //! or merge.
 
+mod bend;
 mod conflicts;
 mod edges;
 mod error;

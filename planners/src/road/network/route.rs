@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::super::centre_line::CentreLine;
 use super::super::corridor::Corridor;
 use super::super::profile::Profile;
+use super::bend::{Bend, CHECKS_PER_KNOT, bends, highest_speed_mps};
 use super::error::RouteError;
 use super::lane::RightOfWay;
 use super::route_conflict::RouteConflict;
@@ -36,6 +37,8 @@ pub struct Route {
     pub(super) straight: Option<Corridor>,
     /// Largest curvature of the centre line \[1/m\].
     pub(super) max_curvature_1pm: f64,
+    /// Its curves, in order.
+    pub(super) bends: Vec<Bend>,
 }
 
 /// The part of a route on one lane.
@@ -66,9 +69,6 @@ pub struct TightestTurn {
     pub curvature_1pm: f64,
 }
 
-/// How many places are checked between two knots of the centre line.
-const CHECKS_PER_KNOT: usize = 8;
-
 impl From<Corridor> for Route {
     /// A straight road without ends.
     fn from(corridor: Corridor) -> Route {
@@ -85,6 +85,7 @@ impl From<Corridor> for Route {
             conflicts: Vec::new(),
             straight: Some(corridor),
             max_curvature_1pm: 0.0,
+            bends: Vec::new(),
         }
     }
 }
@@ -99,6 +100,7 @@ impl Route {
     /// A curved road: the strip between two edges beside a line, given as lateral coordinates over its arc length \[m\].
     pub fn curved(centre: CentreLine, right: Profile, left: Profile, half_width: Profile) -> Route {
         let max_curvature_1pm = max_curvature(&centre).1.abs();
+        let bends = bends(&centre);
         let (legs, conflicts) = (Vec::new(), Vec::new());
         Route {
             centre,
@@ -111,6 +113,7 @@ impl Route {
             conflicts,
             straight: None,
             max_curvature_1pm,
+            bends,
         }
     }
 
@@ -146,6 +149,12 @@ impl Route {
             leg.speed_limit_mps.map(|limit_mps| (limit_mps * limit_mps + 2.0 * braking_mps2 * room_m).sqrt())
         });
         limits.min_by(f64::total_cmp)
+    }
+
+    /// The speed at an arc length from which every curve ahead is taken with at most a lateral acceleration, braking at
+    /// `braking_mps2`; none without curves ahead \[m/s\].
+    pub fn curve_speed_mps(&self, along_m: f64, lateral_mps2: f64, braking_mps2: f64) -> Option<f64> {
+        highest_speed_mps(&self.bends, along_m, lateral_mps2, braking_mps2)
     }
 
     /// The place with the largest curvature; none for a route without legs.

@@ -191,12 +191,12 @@ fn pose_vehicle(
     stages.curvatures.clear();
     stages.curvatures.resize(problem.horizon, DynamicsCurvature::default());
     for k in 0..problem.horizon {
-        let input = inputs[k].to_array();
+        let (input, steering_max_rad) = (inputs[k].to_array(), participant.steering_max_rad(k));
         stages.jacobians.push(participant.model.jacobian(&states[k], &inputs[k]));
         stages.changes.push(problem.input_change(vehicle, k, iterate));
         stages.input_boxes.push([
             Interval { lower: limits.acceleration_min_mps2 - input[0], upper: limits.acceleration_max_mps2 - input[0] },
-            Interval { lower: -limits.steering_max_rad - input[1], upper: limits.steering_max_rad - input[1] },
+            Interval { lower: -steering_max_rad - input[1], upper: steering_max_rad - input[1] },
         ]);
         let [slowest, fastest] = participant.speed_bounds(k + 1);
         let speed = states[k + 1].speed_mps;
