@@ -10,6 +10,7 @@ use crate::diagnostic::Explanation;
 use crate::game::{self, Game};
 use crate::human::{self, Human};
 use crate::idm::{self, Idm};
+use crate::nash::{self, Nash};
 use crate::negotiation::{self, Negotiation};
 use crate::passing::PassingOrderLog;
 use crate::scripted::{self, Scripted};
@@ -35,6 +36,8 @@ pub enum Driver {
     Game(game::Settings),
     /// Cooperation: one problem for all vehicles that have this driver (eq. 6.12).
     Cooperative(cooperative::Settings),
+    /// A general-sum game of up to four vehicles: the ego's part of a generalised Nash equilibrium.
+    Nash(nash::Settings),
 }
 
 /// A driver at work: its settings and all that it remembers.
@@ -55,6 +58,7 @@ enum Method {
     Bayesian(Box<Bayesian>),
     Game(Box<Game>),
     Cooperative(Box<Cooperative>),
+    Nash(Box<Nash>),
 }
 
 impl Driver {
@@ -69,6 +73,7 @@ impl Driver {
             Driver::Bayesian(settings) => Method::Bayesian(Box::new(Bayesian::new(*settings))),
             Driver::Game(settings) => Method::Game(Box::new(Game::new(*settings))),
             Driver::Cooperative(settings) => Method::Cooperative(Box::new(Cooperative::new(*settings))),
+            Driver::Nash(settings) => Method::Nash(Box::new(Nash::new(*settings))),
         };
         Planner { method, passing_orders: PassingOrderLog::default() }
     }
@@ -84,6 +89,7 @@ impl Driver {
             Driver::Bayesian(_) => "bayesian",
             Driver::Game(_) => "game",
             Driver::Cooperative(_) => "cooperative",
+            Driver::Nash(_) => "nash",
         }
     }
 
@@ -97,7 +103,8 @@ impl Driver {
             | Driver::Negotiation(_)
             | Driver::Bayesian(_)
             | Driver::Game(_)
-            | Driver::Cooperative(_) => self.kind().to_owned(),
+            | Driver::Cooperative(_)
+            | Driver::Nash(_) => self.kind().to_owned(),
         }
     }
 
@@ -112,6 +119,7 @@ impl Driver {
             Driver::Bayesian(_) => &bayesian::diagnostics::EXPLANATION,
             Driver::Game(_) => &game::diagnostics::EXPLANATION,
             Driver::Cooperative(_) => &cooperative::diagnostics::EXPLANATION,
+            Driver::Nash(_) => &nash::diagnostics::EXPLANATION,
         }
     }
 
@@ -125,7 +133,8 @@ impl Driver {
             | Driver::Conservative(_)
             | Driver::Negotiation(_)
             | Driver::Bayesian(_)
-            | Driver::Game(_) => None,
+            | Driver::Game(_)
+            | Driver::Nash(_) => None,
         }
     }
 
@@ -139,7 +148,8 @@ impl Driver {
             | Driver::Negotiation(_)
             | Driver::Bayesian(_)
             | Driver::Game(_)
-            | Driver::Cooperative(_) => true,
+            | Driver::Cooperative(_)
+            | Driver::Nash(_) => true,
         }
     }
 
@@ -156,7 +166,8 @@ impl Driver {
             | Driver::Scripted(_)
             | Driver::Conservative(_)
             | Driver::Game(_)
-            | Driver::Cooperative(_) => Ok(()),
+            | Driver::Cooperative(_)
+            | Driver::Nash(_) => Ok(()),
         }
     }
 
@@ -168,7 +179,8 @@ impl Driver {
             | Driver::Negotiation(_)
             | Driver::Bayesian(_)
             | Driver::Game(_)
-            | Driver::Cooperative(_) => false,
+            | Driver::Cooperative(_)
+            | Driver::Nash(_) => false,
         }
     }
 }
@@ -188,6 +200,7 @@ impl Planner {
             Method::Bayesian(planner) => planner.plan(scene),
             Method::Game(planner) => planner.plan(scene),
             Method::Cooperative(planner) => planner.plan(scene),
+            Method::Nash(planner) => planner.plan(scene),
         }?;
         if plan.problem.is_some() {
             self.passing_orders.note(scene, &mut plan);

@@ -8,7 +8,8 @@
 //! - [`road`]: where a vehicle may drive
 //! - [`predict`]: what the others will do
 //! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`conservative`], [`cooperative`], [`negotiation`],
-//!   [`bayesian`], [`game`]; [`Driver`] lists them
+//!   [`bayesian`], [`game`], [`nash`]; [`Driver`] lists them
+//! - [`joint`]: the problem of several deciding vehicles
 //! - [`passing_order`]: before or behind whom a plan leads
 //! - [`trajectory`]: one trajectory optimiser
 //! - [`traffic`]: the closed loop of all vehicles on a road
@@ -30,6 +31,8 @@ mod fixture;
 pub mod game;
 pub mod human;
 pub mod idm;
+pub mod joint;
+pub mod nash;
 pub mod negotiation;
 mod passing;
 pub mod passing_order;

@@ -4,9 +4,10 @@ mod common;
 
 use common::world::{HORIZON, LANES, STEP_S, Vehicle, run, vehicle};
 use interplay_planners::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COST};
-use interplay_planners::cooperative::{self, Cooperator, cooperators, problem};
+use interplay_planners::cooperative::{self, cooperators};
 use interplay_planners::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
 use interplay_planners::human::Style;
+use interplay_planners::joint::{JointVehicle, problem};
 use interplay_planners::trajectory::{Optimiser, Problem, Robust, Term};
 use interplay_planners::{Driver, Plan, Planner, Scene};
 
@@ -107,7 +108,7 @@ fn solutions_are_pareto_optimal() {
 #[test]
 fn the_list_of_cooperators_is_the_same_for_all() {
     let vehicles = convoy(3);
-    let lists: Vec<Vec<Cooperator>> = (0..3).map(|i| cooperators(&scene(&vehicles, i), vehicles[i].goal)).collect();
+    let lists: Vec<Vec<JointVehicle>> = (0..3).map(|i| cooperators(&scene(&vehicles, i), vehicles[i].goal)).collect();
     assert!(lists.windows(2).all(|pair| pair[0] == pair[1]));
     let problems: Vec<Problem> = (0..3).map(|i| problem(&scene(&vehicles, i), &lists[i])).collect();
     assert!(problems.windows(2).all(|pair| pair[0] == pair[1]));

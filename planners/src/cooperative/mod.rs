@@ -17,18 +17,27 @@
 //! in which it accelerates and the others brake.
 
 pub mod diagnostics;
-mod problem;
 mod settings;
 
-pub use problem::{Cooperator, cooperators, problem};
 pub use settings::Settings;
 
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::joint::{JointVehicle, problem};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
+
+/// The vehicles of the joint problem, sorted by name. Each of them computes a bit-identical list.
+pub fn cooperators(scene: &Scene, own: Goal) -> Vec<JointVehicle> {
+    let others = scene.others.iter().filter_map(|agent| Some((agent, agent.shared_goal?)));
+    let everybody = others.chain([(&scene.ego, own)]);
+    let mut found: Vec<JointVehicle> =
+        everybody.map(|(agent, goal)| JointVehicle { agent: agent.clone(), goal }).collect();
+    found.sort_by(|a, b| a.agent.name.cmp(&b.agent.name));
+    found
+}
 
 /// A cooperative planner, with its last joint plan.
 #[derive(Clone, Debug)]

@@ -5,6 +5,7 @@
 //! by a [`StageSolver`]. [`kkt`] checks optimality independently.
 
 pub(crate) mod activity;
+mod alone;
 mod cost;
 mod iterate;
 mod participant;

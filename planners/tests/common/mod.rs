@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 pub mod derivatives;
+pub mod games;
 pub mod junction;
 pub mod world;
 

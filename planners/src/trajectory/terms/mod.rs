@@ -61,6 +61,25 @@ pub enum Term {
 }
 
 impl Term {
+    /// The term of one vehicle, in a problem in which it is number 0; none if the term is of another vehicle, or of two.
+    pub(in crate::trajectory) fn of_vehicle(&self, vehicle: usize) -> Option<Term> {
+        let mut own = self.clone();
+        let number = match &mut own {
+            Term::Tracking(term) => &mut term.vehicle,
+            Term::RoadTracking(term) => &mut term.vehicle,
+            Term::Comfort(term) => &mut term.vehicle,
+            Term::RoadEdge(term) => &mut term.vehicle,
+            Term::StopLine(term) => &mut term.vehicle,
+            Term::KeepOut(term) => &mut term.vehicle,
+            Term::Persuasion(term) => &mut term.vehicle,
+            Term::MeanSpeed(term) => &mut term.vehicle,
+            Term::DistanceCost(term) => &mut term.vehicle,
+            Term::Separation(_) => return None,
+        };
+        let is_own = std::mem::replace(number, 0) == vehicle;
+        is_own.then_some(own)
+    }
+
     /// The term by its shape.
     pub(in crate::trajectory) fn shape(&self) -> Shape<'_> {
         match self {

@@ -1,0 +1,108 @@
+//! How many random games of 2, 3 and 4 vehicles the Nash solver solves, how fast, and with what certificate.
+//!
+//! ```sh
+//! cargo run --release -p interplay-planners --example nash_games -- [GAMES [SEED]]
+//! ```
+//!
+//! Each game is solved once without a guess, over 30 steps of 0.1 s, to the tolerances of planners. *Local* is one descent whose certificate holds against
+//! small deviations; *all classes* compares the classes of motion, for the joint motion and for each player's deviation. A game
+//! counts as solved if the descent converged, nobody enters a safety ellipse by more than 0.001 (of `1 − d²`), and no
+//! player gains more than 1e-4 by leaving. Shares have Wilson's 95 % interval. The times include the certificate.
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use std::error::Error;
+use std::io::Write;
+use std::time::Instant;
+
+use common::Random;
+use common::games::joint_problem;
+use interplay_planners::nash::equilibrium;
+use interplay_planners::trajectory::{Optimiser, Problem, Robust, Tolerances, Violation};
+
+/// Largest KKT residual of a solved game.
+const LARGEST_RESIDUAL: f64 = 1e-6;
+
+/// What one solution of a game was like.
+struct Solution {
+    solved: bool,
+    /// Why not, in a word.
+    because: &'static str,
+    time_ms: f64,
+    departures: usize,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = std::env::args().skip(1);
+    let games: usize = words.next().map_or(Ok(1000), |word| word.parse())?;
+    let seed: u64 = words.next().map_or(Ok(1), |word| word.parse())?;
+    let mut out = std::io::stdout();
+    writeln!(
+        out,
+        "| players | certificate | solved | 95 % interval | median ms | p99 ms | max ms | departures | unsolved because |"
+    )?;
+    writeln!(out, "|---|---|---|---|---|---|---|---|---|")?;
+    for players in 2..=4 {
+        for (name, all_classes) in [("local", false), ("all classes", true)] {
+            let mut random = Random(seed);
+            let solutions: Vec<Solution> =
+                (0..games).map(|_| solve(&joint_problem(&mut random, players), all_classes)).collect();
+            writeln!(out, "| {players} | {name} | {}", row(&solutions))?;
+        }
+    }
+    Ok(())
+}
+
+fn solve(problem: &Problem, all_classes: bool) -> Solution {
+    let mut joint = Optimiser::resuming(Robust::default()).comparing(all_classes);
+    let mut replies = joint.clone();
+    replies.resumes = false;
+    let began = Instant::now();
+    let outcome = equilibrium(&mut joint, &mut replies, problem, &[]);
+    let time_ms = 1e3 * began.elapsed().as_secs_f64();
+    let Ok(found) = outcome else { return Solution { solved: false, because: "failed", time_ms, departures: 0 } };
+    let optimum = &found.optimum;
+    let because = if optimum.statistics.unfinished > 0 || optimum.statistics.residual > LARGEST_RESIDUAL {
+        "not converged"
+    } else if optimum.cost.violation(Violation::Safety) > Tolerances::default().slack {
+        "ellipse entered"
+    } else if !found.is_certified() {
+        "a player gains"
+    } else {
+        ""
+    };
+    Solution { solved: because.is_empty(), because, time_ms, departures: found.departures }
+}
+
+fn row(solutions: &[Solution]) -> String {
+    let mut times_ms: Vec<f64> = solutions.iter().map(|solution| solution.time_ms).collect();
+    times_ms.sort_by(f64::total_cmp);
+    let quantile = |share: f64| times_ms[((times_ms.len() - 1) as f64 * share).round() as usize];
+    let solved = solutions.iter().filter(|solution| solution.solved).count();
+    let [low, high] = wilson(solved, solutions.len());
+    let departures: usize = solutions.iter().map(|solution| solution.departures).sum();
+    let reasons = ["failed", "not converged", "ellipse entered", "a player gains"].map(|reason| {
+        let count = solutions.iter().filter(|solution| solution.because == reason).count();
+        format!("{reason} {count}")
+    });
+    format!(
+        "{:.1} % | {:.1} to {:.1} | {:.2} | {:.2} | {:.1} | {departures} | {} |",
+        100.0 * solved as f64 / solutions.len() as f64,
+        100.0 * low,
+        100.0 * high,
+        quantile(0.5),
+        quantile(0.99),
+        quantile(1.0),
+        reasons.join(", ")
+    )
+}
+
+/// Wilson's score interval of 95 % for a share.
+fn wilson(count: usize, of: usize) -> [f64; 2] {
+    let (n, z2) = (of as f64, 1.96 * 1.96);
+    let share = count as f64 / n;
+    let centre = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
+    let half = (z2 * (share * (1.0 - share) / n + z2 / (4.0 * n * n))).sqrt() / (1.0 + z2 / n);
+    [centre - half, centre + half]
+}

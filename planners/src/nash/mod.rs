@@ -1,0 +1,116 @@
+//! A general-sum game of the vehicles that meet: the ego follows its part of a generalised Nash equilibrium.
+//!
+//! Each of 2 to 4 players minimises the cost of its own motion (eq. 6.6) and shares with every other the constraint that their safety
+//! ellipses are not entered. `equilibrium.rs` says how an equilibrium is found and certified. What the others want is not known:
+//! the ego supposes that they want to stay where their predicted motions lead, at the highest speed at which it saw them.
+//! Whoever does not play is an obstacle on its predicted way.
+
+pub mod diagnostics;
+mod equilibrium;
+mod players;
+mod prioritised;
+mod settings;
+
+pub use equilibrium::{Equilibrium, TOLERATED_GAIN, equilibrium};
+pub use settings::Settings;
+
+use crate::conservative;
+use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::joint::{JointVehicle, problem};
+use crate::trajectory::activity::Activity;
+use crate::trajectory::{Optimiser, Problem, Robust, Violation};
+use crate::{Diagnostic, Input, Plan, PlanError, PlanEvent, Proposal, Scene, Trajectory};
+use diagnostics::{DEVIATION_GAIN, EGO_COST, PLAYERS};
+use players::{SeenSpeeds, players};
+
+/// A player of the general-sum game, with its last equilibrium.
+#[derive(Clone, Debug)]
+pub struct Nash {
+    settings: Settings,
+    joint: Optimiser<Robust>,
+    replies: Optimiser<Robust>,
+    seen: SeenSpeeds,
+    /// The last trajectory of each player, with its name; the ego is the first.
+    last: Vec<(String, Trajectory)>,
+}
+
+impl Nash {
+    /// A planner that has not seen anybody yet.
+    pub fn new(settings: Settings) -> Self {
+        Nash {
+            settings,
+            joint: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            // The comparison of the joint problem looks into the other classes of motion.
+            replies: Optimiser::new(Robust::default()).comparing(false),
+            seen: SeenSpeeds::default(),
+            last: Vec::new(),
+        }
+    }
+
+    /// Finds an equilibrium and returns the ego's part of it.
+    ///
+    /// # Errors
+    /// [`PlanError`] if neither the game nor the conservative problem can be solved.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        let scene = &self.settings.prediction.applied_to(scene);
+        self.seen.look(scene);
+        let players = players(scene, &self.seen, &self.settings);
+        let names = players.iter().map(|player| player.agent.name.as_str());
+        if !names.eq(self.last.iter().map(|(name, _)| name.as_str())) {
+            self.last.retain(|(name, _)| players.iter().any(|player| player.agent.name == *name));
+        }
+        let problem = problem(scene, &players);
+        let guess = self.guess(&players);
+        match equilibrium(&mut self.joint, &mut self.replies, &problem, &guess) {
+            Ok(equilibrium) => {
+                let named = players.iter().enumerate();
+                self.last =
+                    named.map(|(i, part)| (part.agent.name.clone(), equilibrium.optimum.trajectory(i))).collect();
+                Ok(self.answer(problem, &equilibrium))
+            }
+            Err(error) => {
+                let last = std::mem::take(&mut self.last);
+                let last = last.first().map(|(_, trajectory)| trajectory);
+                Ok(conservative::answer(conservative::retreat(&mut self.joint, scene, last, &error)?))
+            }
+        }
+    }
+
+    /// The last motion of each player one step later; of one that did not play, its prediction.
+    fn guess(&self, players: &[JointVehicle]) -> Vec<Vec<Input>> {
+        let guess = players.iter().map(|player| {
+            let last = self.last.iter().find(|(name, _)| *name == player.agent.name);
+            last.map_or_else(|| player.agent.prediction.inputs.clone(), |(_, motion)| motion.later_inputs())
+        });
+        guess.collect()
+    }
+
+    fn answer(&self, problem: Problem, equilibrium: &Equilibrium) -> Plan {
+        let Equilibrium { optimum, .. } = equilibrium;
+        let proposal = match &self.last[1..] {
+            [(to, trajectory)] => Some(Proposal { to: to.clone(), trajectory: trajectory.clone(), acceptance: None }),
+            _ => None,
+        };
+        let mut diagnostics: Vec<Diagnostic> = vec![
+            PLAYERS.is(self.last.len() as f64),
+            DEVIATION_GAIN.is(equilibrium.largest_gain()),
+            EGO_COST.is(problem.own_cost(0, &optimum.iterate)),
+            COST.is(optimum.cost.total),
+            SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
+        ];
+        diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
+        diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
+        let gain = equilibrium.largest_gain();
+        let event = (!equilibrium.is_certified())
+            .then(|| PlanEvent::note(format!("no equilibrium: a player gains {gain:.1e} by leaving")));
+        Plan {
+            trajectory: optimum.trajectory(0),
+            proposal,
+            diagnostics,
+            events: event.into_iter().collect(),
+            problem: Some(Box::new(problem)),
+            statistics: optimum.statistics,
+            ..Plan::default()
+        }
+    }
+}

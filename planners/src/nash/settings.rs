@@ -1,0 +1,41 @@
+//! The settings of the Nash planner in a scenario file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::predict::Prediction;
+
+/// A general-sum game of 2 to 4 vehicles: everybody minimises its own cost, and nobody may collide.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Divides the costs that the ego supposes the others to have. Of several equilibria, a larger number chooses one in which the
+    /// others give way more.
+    #[schemars(range(min = 0.000001), extend("x-unit" = "dimensionless"))]
+    pub other_normaliser: f64,
+    /// Most vehicles that play, the ego included: the nearest with which something is left to settle. The ego keeps out of the
+    /// predicted ways of all others.
+    #[schemars(range(min = 2, max = 4))]
+    pub players_at_most: usize,
+    /// A vehicle that is this far ahead in the target lane does not play \[m\].
+    #[schemars(range(min = 0.0))]
+    pub clear_lead_m: f64,
+    /// How the others are predicted: where their motions lead is what they are supposed to want.
+    pub prediction: Prediction,
+    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
+    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
+    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
+    pub passing_orders: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            other_normaliser: 1.0,
+            players_at_most: 4,
+            clear_lead_m: 0.2,
+            prediction: Prediction::ConstantVelocity,
+            passing_orders: true,
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Equilibria of several vehicles: nobody gains by leaving, whoever checks it, and what one gains the sum of all costs gains.
+
+mod common;
+
+use common::Random;
+use common::games::joint_problem;
+use common::world::{lane_change, run};
+use interplay_planners::human::Style;
+use interplay_planners::nash::diagnostics::{DEVIATION_GAIN, PLAYERS};
+use interplay_planners::nash::{self, Equilibrium, TOLERATED_GAIN, equilibrium};
+use interplay_planners::trajectory::{Iterate, Optimiser, Problem, Robust};
+use interplay_planners::{Driver, Input};
+
+const GAMES: usize = 20;
+
+fn solve(problem: &Problem) -> Equilibrium {
+    let mut joint = Optimiser::new(Robust::default()).comparing(false);
+    let mut replies = joint.clone();
+    equilibrium(&mut joint, &mut replies, problem, &[]).expect("a joint optimum")
+}
+
+/// The inputs of one player moved at random, by little or by much.
+fn moved(random: &mut Random, iterate: &Iterate, player: usize) -> Vec<Input> {
+    let [acceleration, steering] = [random.between(-3.0, -0.3), random.between(-3.5, -1.0)].map(|power| 10f64.powf(power));
+    let moved = iterate.inputs[player].iter().map(|input| Input {
+        acceleration_mps2: input.acceleration_mps2 + acceleration * random.between(-1.0, 1.0),
+        steering_rad: input.steering_rad + steering * random.between(-1.0, 1.0),
+    });
+    moved.collect()
+}
+
+/// Random deviations, which share nothing with the solver: no player gains by any of them.
+#[test]
+fn nobody_gains_by_a_random_deviation() {
+    let mut random = Random(7);
+    for players in 2..=3 {
+        for game in 0..GAMES {
+            let problem = joint_problem(&mut random, players);
+            let found = solve(&problem);
+            if !found.is_certified() {
+                continue;
+            }
+            let iterate = &found.optimum.iterate;
+            for player in 0..players {
+                let alone = problem.alone(player, iterate);
+                let cost = alone.cost_of(&[iterate.inputs[player].clone()]);
+                for _ in 0..100 {
+                    let deviation = alone.cost_of(&[moved(&mut random, iterate, player)]);
+                    assert!(cost - deviation <= TOLERATED_GAIN, "game {game}: player {player} gains {}", cost - deviation);
+                }
+            }
+        }
+    }
+}
+
+/// The game has a potential: whatever a player does alone changes its own cost and the joint cost by the same amount.
+#[test]
+fn what_a_player_gains_alone_the_sum_gains() {
+    let mut random = Random(11);
+    for players in [2, 3, 4] {
+        let problem = joint_problem(&mut random, players);
+        let iterate = problem.start(&[]);
+        for player in 0..players {
+            let alone = problem.alone(player, &iterate);
+            let mut changed = iterate.inputs.clone();
+            changed[player] = moved(&mut random, &iterate, player);
+            let own = alone.cost_of(&[changed[player].clone()]) - alone.cost_of(&[iterate.inputs[player].clone()]);
+            let joint = problem.cost_of(&changed) - problem.cost_of(&iterate.inputs);
+            assert!((own - joint).abs() < 1e-9 * (1.0 + problem.cost_of(&changed)), "{own} against {joint}");
+        }
+    }
+}
+
+/// Most games are solved; the share is measured by the example `nash_games`.
+#[test]
+fn most_random_games_have_a_certified_equilibrium() {
+    let mut random = Random(3);
+    let certified = (0..GAMES).filter(|_| solve(&joint_problem(&mut random, 2)).is_certified()).count();
+    assert!(certified >= GAMES - 1, "{certified} of {GAMES}");
+}
+
+/// A motion that is no equilibrium is not certified: players whose joint descent may take one step only would gain by leaving.
+#[test]
+fn an_unfinished_descent_is_not_certified() {
+    let mut random = Random(5);
+    let mut gains = 0;
+    for _ in 0..GAMES {
+        let problem = joint_problem(&mut random, 2);
+        let mut joint = Optimiser::new(Robust::default()).comparing(false);
+        let mut replies = joint.clone();
+        joint.tolerances.iteration_limit = 1;
+        let guess = vec![Vec::new(), Vec::new()];
+        let Ok(found) = equilibrium(&mut joint, &mut replies, &problem, &guess) else { continue };
+        gains += usize::from(found.largest_gain() > TOLERATED_GAIN || found.departures > 0);
+    }
+    assert!(gains > 0, "no player noticed");
+}
+
+/// In closed loop among drivers who are not players: no contact, every plan an equilibrium, and the lane is reached.
+#[test]
+fn the_ego_changes_lane_among_humans() {
+    for styles in [[Style::Nice; 2], [Style::Tough; 2]] {
+        let run = run(lane_change(Driver::Nash(nash::Settings::default()), styles), 100);
+        assert_eq!(run.collision, None, "{styles:?}");
+        assert!(run.failures.is_empty(), "{styles:?}: {:?}", run.failures);
+        let last = run.states.last().expect("states")[0];
+        assert!((last.y_m - 0.555).abs() < 0.05, "{styles:?}: {last:?}");
+        assert!(run.plans.iter().any(|plan| plan.value_of(&PLAYERS).is_some_and(|players| players >= 2.0)));
+        let gains = run.plans.iter().filter_map(|plan| plan.value_of(&DEVIATION_GAIN));
+        assert!(gains.clone().all(f64::is_finite) && gains.filter(|gain| *gain > TOLERATED_GAIN).count() <= 5);
+    }
+}
