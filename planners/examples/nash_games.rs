@@ -2,15 +2,21 @@
 //!
 //! ```sh
 //! cargo run --release -p interplay-planners --example nash_games -- [GAMES [SEED]]
+//! cargo run --release -p interplay-planners --example nash_games -- GAMES SEED FILE.json
 //! ```
 //!
 //! Each game is solved once without a guess, over 30 steps of 0.1 s, to the tolerances of planners. *Local* is one descent whose certificate holds against
 //! small deviations; *all classes* compares the classes of motion, for the joint motion and for each player's deviation. A game
 //! counts as solved if the descent converged, nobody enters a safety ellipse by more than 0.001 (of `1 − d²`), and no
 //! player gains more than 1e-4 by leaving. Shares have Wilson's 95 % interval. The times include the certificate.
+//!
+//! With a file, it writes the own problem of every player of the solved games, with the equilibrium as the guess, for
+//! `tests/peers/nash_second_opinion.py`.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
+#[path = "../tests/common/recorded.rs"]
+mod recorded;
 
 use std::error::Error;
 use std::io::Write;
@@ -18,8 +24,9 @@ use std::time::Instant;
 
 use common::Random;
 use common::games::joint_problem;
-use interplay_planners::nash::equilibrium;
-use interplay_planners::trajectory::{Optimiser, Problem, Robust, Tolerances, Violation};
+use interplay_planners::nash::{Equilibrium, equilibrium};
+use interplay_planners::trajectory::{DescentError, Optimiser, Problem, Robust, Tolerances, Violation, WarmStart};
+use recorded::Recorded;
 
 /// Largest KKT residual of a solved game.
 const LARGEST_RESIDUAL: f64 = 1e-6;
@@ -38,6 +45,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let games: usize = words.next().map_or(Ok(1000), |word| word.parse())?;
     let seed: u64 = words.next().map_or(Ok(1), |word| word.parse())?;
     let mut out = std::io::stdout();
+    if let Some(file) = words.next() {
+        let records = own_problems(games, seed)?;
+        std::fs::write(&file, serde_json::to_string(&records)?)?;
+        writeln!(out, "{} problems of players in {file}", records.len())?;
+        return Ok(());
+    }
     writeln!(
         out,
         "| players | certificate | solved | 95 % interval | median ms | p99 ms | max ms | departures | unsolved because |"
@@ -54,12 +67,36 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn solve(problem: &Problem, all_classes: bool) -> Solution {
+/// The own problem of every player of the certified games, a third of the games with 2, 3 and 4 players each.
+fn own_problems(games: usize, seed: u64) -> Result<Vec<Recorded>, Box<dyn Error>> {
+    let (mut random, mut records) = (Random(seed), Vec::new());
+    for game in 0..games {
+        let players = 2 + game % 3;
+        let problem = joint_problem(&mut random, players);
+        let found = find(&problem, true)?;
+        if !found.is_certified() {
+            continue;
+        }
+        let iterate = &found.optimum.iterate;
+        records.extend((0..players).map(|player| {
+            let alone = problem.alone(player, iterate);
+            let guess = [iterate.inputs[player].clone()];
+            Recorded::new(format!("{game}/{players}/{player}"), &alone, &guess, &WarmStart::default())
+        }));
+    }
+    Ok(records)
+}
+
+fn find(problem: &Problem, all_classes: bool) -> Result<Equilibrium, DescentError> {
     let mut joint = Optimiser::resuming(Robust::default()).comparing(all_classes);
     let mut replies = joint.clone();
     replies.resumes = false;
+    equilibrium(&mut joint, &mut replies, problem, &[])
+}
+
+fn solve(problem: &Problem, all_classes: bool) -> Solution {
     let began = Instant::now();
-    let outcome = equilibrium(&mut joint, &mut replies, problem, &[]);
+    let outcome = find(problem, all_classes);
     let time_ms = 1e3 * began.elapsed().as_secs_f64();
     let Ok(found) = outcome else { return Solution { solved: false, because: "failed", time_ms, departures: 0 } };
     let optimum = &found.optimum;

@@ -21,7 +21,8 @@ fn solve(problem: &Problem) -> Equilibrium {
 
 /// The inputs of one player moved at random, by little or by much.
 fn moved(random: &mut Random, iterate: &Iterate, player: usize) -> Vec<Input> {
-    let [acceleration, steering] = [random.between(-3.0, -0.3), random.between(-3.5, -1.0)].map(|power| 10f64.powf(power));
+    let [acceleration, steering] =
+        [random.between(-3.0, -0.3), random.between(-3.5, -1.0)].map(|power| 10f64.powf(power));
     let moved = iterate.inputs[player].iter().map(|input| Input {
         acceleration_mps2: input.acceleration_mps2 + acceleration * random.between(-1.0, 1.0),
         steering_rad: input.steering_rad + steering * random.between(-1.0, 1.0),
@@ -46,7 +47,11 @@ fn nobody_gains_by_a_random_deviation() {
                 let cost = alone.cost_of(&[iterate.inputs[player].clone()]);
                 for _ in 0..100 {
                     let deviation = alone.cost_of(&[moved(&mut random, iterate, player)]);
-                    assert!(cost - deviation <= TOLERATED_GAIN, "game {game}: player {player} gains {}", cost - deviation);
+                    assert!(
+                        cost - deviation <= TOLERATED_GAIN,
+                        "game {game}: player {player} gains {}",
+                        cost - deviation
+                    );
                 }
             }
         }
@@ -103,8 +108,9 @@ fn the_ego_changes_lane_among_humans() {
         let run = run(lane_change(Driver::Nash(nash::Settings::default()), styles), 100);
         assert_eq!(run.collision, None, "{styles:?}");
         assert!(run.failures.is_empty(), "{styles:?}: {:?}", run.failures);
+        // The whole body is in the left lane.
         let last = run.states.last().expect("states")[0];
-        assert!((last.y_m - 0.555).abs() < 0.05, "{styles:?}: {last:?}");
+        assert!(last.y_m > 0.37 + 0.095 && last.y_m < 0.74 - 0.095, "{styles:?}: {last:?}");
         assert!(run.plans.iter().any(|plan| plan.value_of(&PLAYERS).is_some_and(|players| players >= 2.0)));
         let gains = run.plans.iter().filter_map(|plan| plan.value_of(&DEVIATION_GAIN));
         assert!(gains.clone().all(f64::is_finite) && gains.filter(|gain| *gain > TOLERATED_GAIN).count() <= 5);

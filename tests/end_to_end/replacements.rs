@@ -17,6 +17,8 @@ const REPLACEMENTS: &[Replacement] = &[
     ("intersection/bayesian-nice", "conservative", "order"),
     ("intersection/game-friendly", "conservative", "order"),
     ("intersection/game-nash", "conservative", "order"),
+    ("intersection/nash-nice", "conservative", "order"),
+    ("lane-change/nash-front-nice", "conservative", "order"),
     ("intersection/conservative-nice", "negotiation", "order"),
     ("intersection/negotiation-meets-game", "conservative", "order"),
     ("lane-change/front-nice", "conservative", "order"),

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::film::{Film, film};
 
 /// The ego's drivers and the families in which they are compared.
-const DRIVERS: [&str; 8] = [
+const DRIVERS: [&str; 9] = [
     "kind = 'human'",
     "kind = 'conservative'",
     "kind = 'negotiation'",
@@ -19,6 +19,7 @@ const DRIVERS: [&str; 8] = [
     "kind = 'bayesian'",
     "kind = 'game'",
     "kind = 'cooperative'",
+    "kind = 'nash'",
     "kind = 'idm'",
 ];
 
