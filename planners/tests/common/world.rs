@@ -172,7 +172,7 @@ pub fn begin(vehicles: &[Vehicle]) -> (Traffic, Vec<Planner>) {
     let road_user = |Vehicle { agent, goal, driver }: &Vehicle| {
         let agent =
             Agent { shared_goal: driver.shared_goal(goal), can_be_asked: driver.can_be_asked(), ..agent.clone() };
-        RoadUser::new(agent, *goal, driver.goes_first())
+        RoadUser { knows_plans: driver.knows_plans(), ..RoadUser::new(agent, *goal, driver.goes_first()) }
     };
     let road_users = vehicles.iter().map(road_user).collect();
     let planners = vehicles.iter().map(|vehicle| vehicle.driver.planner()).collect();
