@@ -22,7 +22,10 @@ pub fn plan(
         let Driving { planner, sensor, .. } = &mut *drivers[index].1;
         let sensed = sensor.as_mut().map(|sensor| sensor.sense(scene));
         let began = Instant::now();
-        let outcome = sensed.map_or_else(|| planner.plan(scene), |sensed| planner.plan_sensed(&sensed));
+        let outcome = match &sensed {
+            Some(sensed) => planner.plan_sensed(sensed),
+            None => planner.plan(scene),
+        };
         frame.vehicles[index].plan_ms = 1e3 * began.elapsed().as_secs_f64();
         outcome
     });
