@@ -12,6 +12,13 @@ use crate::{Goal, PlanError, Scene, Trajectory};
 /// Ellipses count as free below this difference of the costs, relative to `1 + cost`.
 const FREE_COST_RATIO: f64 = 1e-9;
 
+/// Root mean square distance below which two plans of 1/10 scale cars nearly coincide \[m\].
+const COINCIDENCE_M: f64 = 0.02;
+
+/// Places of styles in the list of weights.
+const NORMAL: usize = 1;
+const NICE: usize = 2;
+
 /// The humans with one wish.
 #[derive(Clone, Debug)]
 pub(super) struct WishfulHumans {
@@ -34,24 +41,42 @@ impl WishfulHumans {
         self.plans = [None, None, None];
     }
 
-    /// Plans for each style; returns how many problems were posed. `scene` is seen by the driver; its goal is replaced.
-    pub(super) fn plan(&mut self, scene: &mut Scene) -> usize {
+    /// Plans for the styles that are asked for, and for the tough one in any case; returns how many problems were posed. `scene`
+    /// is seen by the driver; its goal is replaced.
+    pub(super) fn plan(&mut self, scene: &mut Scene, is_asked: impl Fn(usize) -> bool) -> usize {
         scene.goal = self.wish.goal;
         let Ok(tough) = self.tough.plan(scene) else {
             self.split = [None, None];
             return 1;
         };
-        if is_free(scene, &tough.trajectory) {
+        let tough = tough.trajectory;
+        if is_free(scene, &tough) {
             self.split = [None, None];
-            self.plans = [0; 3].map(|_| Some(tough.trajectory.clone()));
+            self.plans = [0; 3].map(|_| Some(tough.clone()));
             return 1;
         }
-        for (split, (plan, weight)) in self.split.iter_mut().zip(self.plans[1..].iter_mut().zip(&SAFETY_WEIGHTS[1..])) {
-            let human = split.get_or_insert_with(|| self.tough.with_safety_weight(*weight));
-            *plan = human.plan(scene).ok().map(|plan| plan.trajectory);
+        self.plans[0] = Some(tough);
+        let mut problems = 1;
+        for style in [NICE, NORMAL] {
+            if !is_asked(style) {
+                self.split[style - 1] = None;
+            } else if style == NORMAL && self.is_between_equals(scene.ego.body.scale) {
+                (self.split[style - 1], self.plans[style]) = (None, self.plans[NICE].clone());
+            } else {
+                let human =
+                    self.split[style - 1].get_or_insert_with(|| self.tough.with_safety_weight(SAFETY_WEIGHTS[style]));
+                self.plans[style] = human.plan(scene).ok().map(|plan| plan.trajectory);
+                problems += 1;
+            }
         }
-        self.plans[0] = Some(tough.trajectory);
-        3
+        problems
+    }
+
+    /// Whether tough and nice nearly coincide, and so what lies between them.
+    fn is_between_equals(&self, scale: f64) -> bool {
+        let [Some(tough), _, Some(nice)] = &self.plans else { return false };
+        let steps = tough.states.len().max(1) as f64;
+        tough.squared_distance(nice) <= steps * (COINCIDENCE_M * scale) * (COINCIDENCE_M * scale)
     }
 
     /// The human of a style as it is after its last plan.

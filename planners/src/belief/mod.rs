@@ -18,8 +18,9 @@
 //! **Delay.** The last sighting may be some ticks old. The chosen driver then lives through these ticks again: it is shown what the
 //! observer really did, plans, and moves on. A shifted plan would ignore how it has answered meanwhile.
 //!
-//! **Work.** Each sighting poses at most eleven problems per vehicle, however many wishes there are: the chosen wish and
-//! the likeliest other one are always planned for, the rest in turn. Where nobody is in the way all styles share one plan.
+//! **Work.** Each sighting poses at most five problems per vehicle, however many wishes there are: the chosen wish and
+//! the likeliest other one are always planned for, the rest in turn. Where nobody is in the way all styles share one plan, and
+//! where tough and nice nearly coincide the normal driver has no plan of its own.
 
 pub mod diagnostics;
 mod estimate;

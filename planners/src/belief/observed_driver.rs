@@ -12,7 +12,7 @@ use crate::sensing::Sighting;
 use crate::{Agent, Bicycle, Input, Scene, State, Trajectory};
 
 /// Problems posed per sighting after which no further wish is looked at.
-const MAX_PROBLEMS: usize = 6;
+const MAX_PROBLEMS: usize = 4;
 /// Speed below which the steering of a vehicle is not read from its motion, for 1/10 scale cars \[m/s\].
 const MIN_STEERED_SPEED_MPS: f64 = 0.05;
 
@@ -169,15 +169,17 @@ impl ObservedDriver {
         all[..3 * self.humans.len()].chunks(3).map(mass).collect()
     }
 
-    /// Plans for the hypotheses in a scene that the observed driver sees: for the wish that is chosen, for the likeliest other
-    /// one, and in turn for the rest until enough problems have been posed.
+    /// Plans for the hypotheses in a scene that the observed driver sees: in all styles for the wish that is chosen, and in the
+    /// chosen style for the likeliest other one, and in turn for the rest until enough problems have been posed.
     pub(super) fn plan(&mut self, scene: &mut Scene, sighting: &Sighting) {
         self.humans.iter_mut().for_each(WishfulHumans::forget_plans);
         let masses = self.wish_masses();
-        let likely = (0..masses.len()).filter(|wish| *wish != self.wish).rev().max_by(|a, b| masses[*a].total_cmp(&masses[*b]));
-        let mut problems = 0;
-        for wish in [Some(self.wish), likely].into_iter().flatten() {
-            problems += self.humans[wish].plan(scene);
+        let others = (0..masses.len()).filter(|wish| *wish != self.wish);
+        let likely = others.rev().max_by(|a, b| masses[*a].total_cmp(&masses[*b]));
+        let is_chosen = |style: usize| style == self.model.index();
+        let mut problems = self.humans[self.wish].plan(scene, |_| true);
+        if let Some(likely) = likely {
+            problems += self.humans[likely].plan(scene, is_chosen);
         }
         for _ in 0..self.humans.len() {
             if problems >= MAX_PROBLEMS {
@@ -186,7 +188,7 @@ impl ObservedDriver {
             let wish = self.next_wish;
             self.next_wish = (wish + 1) % self.humans.len();
             if wish != self.wish && Some(wish) != likely {
-                problems += self.humans[wish].plan(scene);
+                problems += self.humans[wish].plan(scene, is_chosen);
             }
         }
         scene.goal = self.humans[0].goal();
