@@ -120,17 +120,16 @@ fn a_nice_driver_who_yields_is_not_taken_for_tough() {
     }
 }
 
-/// A driver of no hypothesis: it brakes and accelerates for no reason.
+/// A driver of no hypothesis: it weaves, brakes and accelerates for no reason.
 #[test]
 fn a_driver_of_no_known_model_is_named_and_not_touched() {
-    let orders = [(0.0, 0.2), (0.6, 1.0), (1.3, 0.2), (2.0, 1.0)];
-    let script = orders.map(|(from_s, speed_mps)| scripted::Order {
-        from_s,
-        speed_mps: Some(speed_mps),
-        acceleration_mps2: None,
-        lateral_m: None,
+    let script = (0..12).map(|number| {
+        let is_odd = number % 2 == 1;
+        let (speed_mps, lateral_m) = if is_odd { (1.2, 0.05) } else { (0.3, -0.05) };
+        let from_s = 0.3 * f64::from(number);
+        scripted::Order { from_s, speed_mps: Some(speed_mps), acceleration_mps2: None, lateral_m: Some(lateral_m) }
     });
-    let erratic = Driver::Scripted(scripted::Settings { script: script.into() });
+    let erratic = Driver::Scripted(scripted::Settings { script: script.collect() });
     for mut vehicles in starts(|| world::intersection(negotiation(Prediction::Inferred), Style::Tough, 1.75), 4) {
         vehicles[1].drive(erratic.clone());
         let run = world::run_inferring(vehicles, TICKS, &belief::Settings::default(), None);
