@@ -48,7 +48,8 @@ fn crossed_first(run: &Run) -> bool {
 
 #[test]
 fn what_is_won_with_known_plans_is_won_with_inferred_ones_and_not_at_constant_velocity() {
-    let keeping = |prediction| wins(|| world::lane_keeping(negotiation(prediction), Style::Nice), &belief::Settings::default());
+    let keeping =
+        |prediction| wins(|| world::lane_keeping(negotiation(prediction), Style::Nice), &belief::Settings::default());
     assert_eq!(keeping(Prediction::Plan), 6);
     assert_eq!(keeping(Prediction::Inferred), 6);
     assert!(keeping(Prediction::ConstantVelocity) <= 1, "lane keeping");
@@ -92,10 +93,8 @@ fn named(run: &Run) -> Vec<DriverModel> {
 
 #[test]
 fn a_tough_driver_is_named_within_a_second_of_interaction() {
-    let families: [&dyn Fn(Driver) -> Vec<Vehicle>; 2] = [
-        &|ego| world::intersection(ego, Style::Tough, 1.75),
-        &|ego| world::lane_keeping(ego, Style::Tough),
-    ];
+    let families: [&dyn Fn(Driver) -> Vec<Vehicle>; 2] =
+        [&|ego| world::intersection(ego, Style::Tough, 1.75), &|ego| world::lane_keeping(ego, Style::Tough)];
     for family in families {
         for vehicles in starts(|| family(negotiation(Prediction::Inferred)), 4) {
             let run = world::run_inferring(vehicles, 3 * NAMED_WITHIN_TICKS, &belief::Settings::default(), None);
@@ -152,7 +151,9 @@ fn late_and_noisy_measurements_cost_little() {
         ..sensing::Settings::default()
     };
     let mut won = 0;
-    for (seed, vehicles) in starts(|| world::intersection(negotiation(Prediction::Inferred), Style::Nice, 1.9), 6).enumerate() {
+    for (seed, vehicles) in
+        starts(|| world::intersection(negotiation(Prediction::Inferred), Style::Nice, 1.9), 6).enumerate()
+    {
         let sensor = Sensor::new(sensing, seed as u64);
         let run = world::run_inferring(vehicles, TICKS, &belief::Settings::default(), Some(sensor));
         assert_eq!(run.collision, None);

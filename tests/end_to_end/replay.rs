@@ -74,8 +74,7 @@ fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {
 #[test]
 fn fresh_planners_given_the_same_scenes_decide_the_same() {
     for film in FILMS.iter() {
-        let mut planners: Vec<Planner> =
-            film.scenario.vehicles.iter().map(|vehicle| vehicle.planner()).collect();
+        let mut planners: Vec<Planner> = film.scenario.vehicles.iter().map(|vehicle| vehicle.planner()).collect();
         let mut sensors: Vec<Option<Sensor>> =
             film.scenario.vehicles.iter().map(|vehicle| vehicle.sensor(film.scenario.seed)).collect();
         for (tick, frame) in film.frames.iter().enumerate().take(60) {

@@ -33,9 +33,8 @@ impl Evidence {
         if !highest.is_finite() {
             return;
         }
-        let (mass, weighted) = compared().fold((0.0, 0.0), |(mass, weighted), (p, found)| {
-            (mass + p, weighted + p * libm::exp(found - highest))
-        });
+        let (mass, weighted) = compared()
+            .fold((0.0, 0.0), |(mass, weighted), (p, found)| (mass + p, weighted + p * libm::exp(found - highest)));
         if !(mass > 0.0 && weighted > 0.0) {
             return;
         }

@@ -81,13 +81,7 @@ impl ObservedDriver {
     }
 
     /// The log-likelihood of each hypothesis: the humans wish by wish, then IDM, then none of these.
-    fn log_likelihoods(
-        &self,
-        observed: &Agent,
-        last: &Sighting,
-        sighting: &Sighting,
-        step_s: f64,
-    ) -> Vec<Option<f64>> {
+    fn log_likelihoods(&self, observed: &Agent, last: &Sighting, sighting: &Sighting, step_s: f64) -> Vec<Option<f64>> {
         let ticks = sighting.tick - last.tick;
         let motion = ObservedMotion {
             end: sighting.measured,
@@ -230,11 +224,7 @@ fn steady(scene: &Scene) -> Trajectory {
 /// The intelligent driver model for a vehicle of that size.
 fn idm_settings(observed: &Agent) -> idm::Settings {
     let (settings, body) = (idm::Settings::default(), &observed.body);
-    idm::Settings {
-        headway_s: settings.headway_s * body.time_ratio(),
-        gap_m: settings.gap_m * body.scale,
-        ..settings
-    }
+    idm::Settings { headway_s: settings.headway_s * body.time_ratio(), gap_m: settings.gap_m * body.scale, ..settings }
 }
 
 /// Where a plan leads that was made some ticks ago, from the state in which the vehicle is.

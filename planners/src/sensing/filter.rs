@@ -44,11 +44,7 @@ impl Filter {
             acceleration_mps2: 0.0,
             position: settings.position_sd_m * settings.position_sd_m,
             heading: settings.heading_sd_rad * settings.heading_sd_rad,
-            motion: [
-                settings.speed_sd_mps * settings.speed_sd_mps,
-                0.0,
-                FIRST_ACCELERATION_SD * FIRST_ACCELERATION_SD,
-            ],
+            motion: [settings.speed_sd_mps * settings.speed_sd_mps, 0.0, FIRST_ACCELERATION_SD * FIRST_ACCELERATION_SD],
         }
     }
 
@@ -102,13 +98,7 @@ impl Filter {
 }
 
 /// Where a state leads in some ticks at a constant acceleration within the limits of speed, along the road.
-pub(super) fn driven_on(
-    state: &State,
-    acceleration_mps2: f64,
-    observed: &Agent,
-    ticks: usize,
-    step_s: f64,
-) -> State {
+pub(super) fn driven_on(state: &State, acceleration_mps2: f64, observed: &Agent, ticks: usize, step_s: f64) -> State {
     let Limits { speed_min_mps, speed_max_mps, .. } = observed.limits;
     let mut state = *state;
     for _ in 0..ticks {
@@ -151,7 +141,8 @@ mod tests {
 
     #[test]
     fn estimates_are_closer_to_the_truth_than_measurements() {
-        let settings = Settings { position_sd_m: 0.02, speed_sd_mps: 0.05, heading_sd_rad: 0.02, ..Settings::default() };
+        let settings =
+            Settings { position_sd_m: 0.02, speed_sd_mps: 0.05, heading_sd_rad: 0.02, ..Settings::default() };
         let observed = agent(0.0, 0.2, 0.0, 1.0);
         let (mut raw, mut filtered) = ([0.0; 3], [0.0; 3]);
         for seed in 0..40 {

@@ -130,8 +130,8 @@ impl Sensor {
     fn measure(&mut self, scene: &Scene, index: usize) {
         let (other, settings, tick) = (&scene.others[index], &self.settings, scene.tick);
         let noise = Noise::new(self.seed, &scene.ego.name, &other.name);
-        let is_measured = visibility::is_visible(scene, index, settings)
-            && noise.uniform(tick, Draw::Missing) >= settings.drop_rate;
+        let is_measured =
+            visibility::is_visible(scene, index, settings) && noise.uniform(tick, Draw::Missing) >= settings.drop_rate;
         let erroneous = |value: f64, sd: f64, draw: Draw| {
             if sd == 0.0 { value } else { value + sd * noise.normal(tick, draw) }
         };
