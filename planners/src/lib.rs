@@ -26,6 +26,7 @@ pub mod conservative;
 pub mod cooperative;
 pub mod diagnostic;
 mod driver;
+pub mod driver_estimate;
 mod driver_setting;
 mod encounter;
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use thiserror::Error;
 
 use crate::Trajectory;
-use crate::belief::DriverEstimate;
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
+use crate::driver_estimate::DriverEstimate;
 use crate::passing_order::PassingOrder;
 use crate::trajectory::{DescentError, Problem, StageError, Statistics};
 

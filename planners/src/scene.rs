@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::predict::steadily_along;
 use crate::road::centre_line::RoadPoint;
 use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, StopLine, Tracking};
 use crate::trajectory::{Participant, Penalty, Term};
@@ -176,19 +175,6 @@ impl Goal {
 }
 
 impl Scene {
-    /// The scene as somebody sees it who is told neither plans nor inputs nor kinds of drivers: everybody is expected to keep its
-    /// speed and its angle to the road. Goals that are shared stay.
-    pub fn without_plans(self) -> Scene {
-        let Scene { horizon, step_s, .. } = self;
-        let others = self.others.into_iter().map(|other| Agent {
-            prediction: steadily_along(&other.route, &other.body, &other.state, horizon, step_s),
-            previous_input: Input::default(),
-            can_be_asked: true,
-            ..other
-        });
-        Scene { others: others.collect(), ..self }
-    }
-
     /// The bicycle of the planning vehicle.
     pub fn model(&self) -> Bicycle {
         Bicycle::new(&self.ego.body, self.step_s)

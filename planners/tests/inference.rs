@@ -3,7 +3,8 @@
 mod common;
 
 use common::world::{self, Run, Vehicle};
-use interplay_planners::belief::{self, DriverModel, Prior};
+use interplay_planners::belief::{self, Prior};
+use interplay_planners::driver_estimate::DriverModel;
 use interplay_planners::human::Style;
 use interplay_planners::predict::Prediction;
 use interplay_planners::sensing::{self, Sensor};

@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use interplay_planners::predict::steadily_along;
+use interplay_planners::predict::{steadily_along, without_plans};
 use interplay_planners::sensing::Sensor;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
@@ -59,7 +59,7 @@ fn scene(film: &Film, tick: usize, index: usize, agents: &[Agent]) -> Scene {
     let ego = others.remove(index);
     let goal = goal(scenario, vehicle);
     let scene = Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others };
-    if vehicle.driver.knows_plans() { scene } else { scene.without_plans() }
+    if vehicle.driver.knows_plans() { scene } else { without_plans(scene) }
 }
 
 fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {

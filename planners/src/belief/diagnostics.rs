@@ -1,9 +1,8 @@
 //! What a planner reports that infers the others' plans: its belief about the nearest vehicle that it may meet.
 
-use super::estimate::DriverEstimate;
-use super::model::DriverModel;
 use crate::Diagnostic;
 use crate::diagnostic::{DiagnosticPanel, DiagnosticQuantity, ValueSet};
+use crate::driver_estimate::{DriverEstimate, DriverModel};
 
 /// Probabilities of the kinds of driver, in the order of [`DriverModel::ALL`].
 pub const PROBABILITIES: [DiagnosticQuantity; 5] = [

@@ -4,8 +4,8 @@
 //! plan of the others: it costs them the same, and no motion costs them less than it costs the tough one. Only where the plans
 //! may differ are they computed.
 
-use super::model::SAFETY_WEIGHTS;
 use super::wishes::Wish;
+use crate::driver_estimate::SAFETY_WEIGHTS;
 use crate::human::{self, Human};
 use crate::{Goal, PlanError, Scene, Trajectory};
 
@@ -41,9 +41,8 @@ impl WishfulHumans {
         self.plans = [None, None, None];
     }
 
-    /// Plans for the styles that are asked for, and for the tough one in any case; returns how many problems were posed. `scene`
-    /// is seen by the driver; its goal is replaced.
-    pub(super) fn plan(&mut self, scene: &mut Scene, is_asked: impl Fn(usize) -> bool) -> usize {
+    /// Plans for each style; returns how many problems were posed. `scene` is seen by the driver; its goal is replaced.
+    pub(super) fn plan(&mut self, scene: &mut Scene) -> usize {
         scene.goal = self.wish.goal;
         let Ok(tough) = self.tough.plan(scene) else {
             self.split = [None, None];
@@ -58,9 +57,7 @@ impl WishfulHumans {
         self.plans[0] = Some(tough);
         let mut problems = 1;
         for style in [NICE, NORMAL] {
-            if !is_asked(style) {
-                self.split[style - 1] = None;
-            } else if style == NORMAL && self.is_between_equals(scene.ego.body.scale) {
+            if style == NORMAL && self.is_between_equals(scene.ego.body.scale) {
                 (self.split[style - 1], self.plans[style]) = (None, self.plans[NICE].clone());
             } else {
                 let human =

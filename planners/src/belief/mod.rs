@@ -3,7 +3,7 @@
 //! A driver with `prediction = "inferred"` is told nobody's plan. Of each vehicle that it sees it asks which of a list of
 //! drivers would move like that:
 //!
-//! - our human driver, with a safety weight of 0, 8 or 50 and one of several wishes ([`DriverModel`], `wishes`);
+//! - our human driver, with a safety weight of 0, 8 or 50 and one of several wishes ([`DriverModel`](crate::driver_estimate::DriverModel), `wishes`);
 //! - the intelligent driver model;
 //! - none of these: constant velocity with large errors.
 //!
@@ -18,26 +18,23 @@
 //! **Delay.** The last sighting may be some ticks old. The chosen driver then lives through these ticks again: it is shown what the
 //! observer really did, plans, and moves on. A shifted plan would ignore how it has answered meanwhile.
 //!
-//! **Work.** Each sighting poses at most five problems per vehicle, however many wishes there are: the chosen wish and
+//! **Work.** Each sighting poses at most eleven problems per vehicle, however many wishes there are: the chosen wish and
 //! the likeliest other one are always planned for, the rest in turn. Where nobody is in the way all styles share one plan, and
 //! where tough and nice nearly coincide the normal driver has no plan of its own.
 
 pub mod diagnostics;
-mod estimate;
 mod evidence;
 mod hypotheses;
 mod likelihood;
-mod model;
 mod observed_driver;
 mod settings;
 mod wishes;
 
-pub use estimate::DriverEstimate;
-pub use model::DriverModel;
 pub use settings::{Prior, Settings, StyleOdds};
 
 use std::collections::VecDeque;
 
+use crate::driver_estimate::DriverEstimate;
 use crate::predict::steadily_along;
 use crate::sensing::{SensedScene, Sighting};
 use crate::{Agent, Diagnostic, PlanEvent, Scene};

@@ -3,16 +3,18 @@
 use super::evidence::Evidence;
 use super::hypotheses::{Continuing, WishfulHumans};
 use super::likelihood::{ObservedMotion, Spread};
-use super::model::{DriverModel, HUMAN_PRIOR};
 use super::settings::Settings;
 use super::wishes::wishes;
+use crate::driver_estimate::DriverModel;
 use crate::idm::{self, Idm};
 use crate::predict::steadily_along;
 use crate::sensing::Sighting;
 use crate::{Agent, Bicycle, Input, Scene, State, Trajectory};
 
+/// Prior probability that a driver is like our human driver, of whatever style and with whatever wish.
+const HUMAN_PRIOR: f64 = 0.9;
 /// Problems posed per sighting after which no further wish is looked at.
-const MAX_PROBLEMS: usize = 4;
+const MAX_PROBLEMS: usize = 6;
 /// Speed below which the steering of a vehicle is not read from its motion, for 1/10 scale cars \[m/s\].
 const MIN_STEERED_SPEED_MPS: f64 = 0.05;
 
@@ -163,17 +165,16 @@ impl ObservedDriver {
         all[..3 * self.humans.len()].chunks(3).map(mass).collect()
     }
 
-    /// Plans for the hypotheses in a scene that the observed driver sees: in all styles for the wish that is chosen, and in the
-    /// chosen style for the likeliest other one, and in turn for the rest until enough problems have been posed.
+    /// Plans for the hypotheses in a scene that the observed driver sees: for the wish that is chosen, for the likeliest other
+    /// one, and in turn for the rest until enough problems have been posed.
     pub(super) fn plan(&mut self, scene: &mut Scene, sighting: &Sighting) {
         self.humans.iter_mut().for_each(WishfulHumans::forget_plans);
         let masses = self.wish_masses();
         let others = (0..masses.len()).filter(|wish| *wish != self.wish);
         let likely = others.rev().max_by(|a, b| masses[*a].total_cmp(&masses[*b]));
-        let is_chosen = |style: usize| style == self.model.index();
-        let mut problems = self.humans[self.wish].plan(scene, |_| true);
+        let mut problems = self.humans[self.wish].plan(scene);
         if let Some(likely) = likely {
-            problems += self.humans[likely].plan(scene, is_chosen);
+            problems += self.humans[likely].plan(scene);
         }
         for _ in 0..self.humans.len() {
             if problems >= MAX_PROBLEMS {
@@ -182,7 +183,7 @@ impl ObservedDriver {
             let wish = self.next_wish;
             self.next_wish = (wish + 1) % self.humans.len();
             if wish != self.wish && Some(wish) != likely {
-                problems += self.humans[wish].plan(scene, is_chosen);
+                problems += self.humans[wish].plan(scene);
             }
         }
         scene.goal = self.humans[0].goal();

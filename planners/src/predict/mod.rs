@@ -48,6 +48,19 @@ impl Prediction {
     }
 }
 
+/// A scene as somebody sees it who is told neither plans nor inputs nor kinds of drivers: everybody is expected to keep its speed
+/// and its angle to the road. Goals that are shared stay.
+pub fn without_plans(scene: Scene) -> Scene {
+    let Scene { horizon, step_s, .. } = scene;
+    let others = scene.others.into_iter().map(|other| Agent {
+        prediction: steadily_along(&other.route, &other.body, &other.state, horizon, step_s),
+        previous_input: Input::default(),
+        can_be_asked: true,
+        ..other
+    });
+    Scene { others: others.collect(), ..scene }
+}
+
 /// The motion of a vehicle that keeps its present heading and speed.
 pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajectory {
     let (sin, cos) = libm::sincos(state.heading_rad);

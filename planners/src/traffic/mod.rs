@@ -32,6 +32,7 @@ pub use limits::applied_input;
 pub use planning_order::planning_order;
 pub use road_user::RoadUser;
 
+use crate::predict::without_plans;
 use crate::{Bicycle, Input, Plan, PlanError, Scene};
 
 /// Everybody on the road at the start of a tick.
@@ -80,7 +81,7 @@ impl Traffic {
             goal: self.road_users[vehicle].goal,
             others: others.map(|(_, other)| other.agent.clone()).collect(),
         };
-        if self.road_users[vehicle].knows_plans { scene } else { scene.without_plans() }
+        if self.road_users[vehicle].knows_plans { scene } else { without_plans(scene) }
     }
 
     /// Lets everybody decide; returns the decisions in the order in which they were made.

@@ -1,6 +1,53 @@
-//! What a belief says of one driver, in a few numbers.
+//! What is believed of another driver, in a few numbers: the kinds of driver that it may be, and their probabilities.
 
-use super::model::{DriverModel, SAFETY_WEIGHTS};
+/// The safety weights of the hypothesised humans, from tough to nice. Weights between them need no hypothesis of their own:
+/// their plans nearly coincide with one of these.
+pub(crate) const SAFETY_WEIGHTS: [f64; 3] = [0.0, 8.0, 50.0];
+
+/// A kind of driver; the humans come in the order of [`SAFETY_WEIGHTS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriverModel {
+    /// Our human driver with safety weight 0.
+    Tough,
+    /// Our human driver with safety weight 8.
+    Normal,
+    /// Our human driver with safety weight 50.
+    Nice,
+    /// The intelligent driver model.
+    Idm,
+    /// None of these: it goes on at constant velocity, with large errors.
+    Unknown,
+}
+
+impl DriverModel {
+    /// All kinds, in the order in which probabilities are listed.
+    pub const ALL: [DriverModel; 5] =
+        [DriverModel::Tough, DriverModel::Normal, DriverModel::Nice, DriverModel::Idm, DriverModel::Unknown];
+
+    /// Its place in [`DriverModel::ALL`].
+    pub(crate) fn index(self) -> usize {
+        self as usize
+    }
+
+    /// The kind in words, as part of a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            DriverModel::Tough => "tough",
+            DriverModel::Normal => "normal",
+            DriverModel::Nice => "nice",
+            DriverModel::Idm => "an IDM driver",
+            DriverModel::Unknown => "none of the known drivers",
+        }
+    }
+
+    /// Whether it takes notice of vehicles outside its own lane, as far as is known.
+    pub fn can_be_asked(self) -> bool {
+        match self {
+            DriverModel::Tough | DriverModel::Normal | DriverModel::Nice => true,
+            DriverModel::Idm | DriverModel::Unknown => false,
+        }
+    }
+}
 
 /// The probability that the interval of the safety weight contains, at least.
 const INTERVAL_PROBABILITY: f64 = 0.9;
@@ -24,7 +71,7 @@ pub struct DriverEstimate {
 
 impl DriverEstimate {
     /// The estimate that follows from the probabilities of the kinds of driver.
-    pub(super) fn new(vehicle: &str, model: DriverModel, probabilities: [f64; 5]) -> DriverEstimate {
+    pub(crate) fn new(vehicle: &str, model: DriverModel, probabilities: [f64; 5]) -> DriverEstimate {
         let [tough, normal, nice, ..] = probabilities;
         let human = tough + normal + nice;
         let styles = [tough, normal, nice].map(|p| p / human);
