@@ -100,6 +100,7 @@ impl Driver {
             Driver::Bayesian(settings) => Some(settings.prediction),
             Driver::Game(settings) => Some(settings.prediction),
             Driver::Cooperative(settings) => Some(settings.prediction),
+            Driver::Nash(settings) => Some(settings.prediction),
         }
     }
 
