@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::bayesian::{self, Bayesian};
+use crate::belief::{self, DriverBeliefs};
 use crate::conservative::{self, Conservative};
 use crate::cooperative::{self, Cooperative};
 use crate::diagnostic::Explanation;
@@ -13,7 +14,9 @@ use crate::idm::{self, Idm};
 use crate::nash::{self, Nash};
 use crate::negotiation::{self, Negotiation};
 use crate::passing::PassingOrderLog;
+use crate::predict::Prediction;
 use crate::scripted::{self, Scripted};
+use crate::sensing::SensedScene;
 use crate::{DriverSettingError, Goal, Plan, PlanError, Scene};
 
 /// The driver of a vehicle with its settings; `kind` in a scenario file chooses.
@@ -44,6 +47,8 @@ pub enum Driver {
 #[derive(Clone, Debug)]
 pub struct Planner {
     method: Method,
+    /// What it believes of the others, if it is not told their plans.
+    beliefs: Option<Box<DriverBeliefs>>,
     passing_orders: PassingOrderLog,
 }
 
@@ -62,8 +67,13 @@ enum Method {
 }
 
 impl Driver {
-    /// A planner of this kind that has not planned yet.
+    /// A planner of this kind that has not planned yet; where it infers plans, with the default settings.
     pub fn planner(&self) -> Planner {
+        self.planner_believing(&belief::Settings::default())
+    }
+
+    /// The same with settings for how it infers plans.
+    pub fn planner_believing(&self, inference: &belief::Settings) -> Planner {
         let method = match self {
             Driver::Human(settings) => Method::Human(Human::new(*settings)),
             Driver::Idm(settings) => Method::Idm(Idm::new(*settings)),
@@ -75,7 +85,28 @@ impl Driver {
             Driver::Cooperative(settings) => Method::Cooperative(Box::new(Cooperative::new(*settings))),
             Driver::Nash(settings) => Method::Nash(Box::new(Nash::new(*settings))),
         };
-        Planner { method, passing_orders: PassingOrderLog::default() }
+        let beliefs = (!self.knows_plans()).then(|| Box::new(DriverBeliefs::new(*inference)));
+        Planner { method, beliefs, passing_orders: PassingOrderLog::default() }
+    }
+
+    /// How the driver predicts the others; none for one who does not look.
+    pub fn prediction(&self) -> Option<Prediction> {
+        match self {
+            Driver::Human(settings) => Some(settings.prediction),
+            Driver::Idm(settings) => Some(settings.prediction),
+            Driver::Scripted(_) => None,
+            Driver::Conservative(settings) => Some(settings.prediction),
+            Driver::Negotiation(settings) => Some(settings.prediction),
+            Driver::Bayesian(settings) => Some(settings.prediction),
+            Driver::Game(settings) => Some(settings.prediction),
+            Driver::Cooperative(settings) => Some(settings.prediction),
+            Driver::Nash(settings) => Some(settings.prediction),
+        }
+    }
+
+    /// Whether the driver is told the plans of the others; one who infers them is not.
+    pub fn knows_plans(&self) -> bool {
+        self.prediction() != Some(Prediction::Inferred)
     }
 
     /// The word for this kind of driver in a scenario file.
@@ -186,11 +217,33 @@ impl Driver {
 }
 
 impl Planner {
-    /// Plans the next move, and says of a plan with a problem how it passes the others.
+    /// Plans the next move in a scene in which everybody is seen as it is.
     ///
     /// # Errors
     /// [`PlanError`] if there is no plan; the caller falls back.
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        match self.beliefs {
+            Some(_) => self.plan_sensed(&SensedScene::perfect(scene)),
+            None => self.plan_as_told(scene),
+        }
+    }
+
+    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver is told no plans.
+    ///
+    /// # Errors
+    /// As [`Planner::plan`].
+    pub fn plan_sensed(&mut self, sensed: &SensedScene) -> Result<Plan, PlanError> {
+        let Some(beliefs) = &mut self.beliefs else { return self.plan_as_told(&sensed.scene) };
+        let inferred = beliefs.infer(sensed);
+        let mut plan = self.plan_as_told(&inferred.scene)?;
+        plan.diagnostics.extend(inferred.diagnostics);
+        plan.events.splice(0..0, inferred.events);
+        plan.beliefs = inferred.estimates;
+        Ok(plan)
+    }
+
+    /// Plans the next move with the predictions of the scene, and says of a plan with a problem how it passes the others.
+    fn plan_as_told(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let mut plan = match &mut self.method {
             Method::Human(planner) => planner.plan(scene),
             Method::Idm(planner) => planner.plan(scene),

@@ -7,6 +7,7 @@
 //! - [`vehicle`]: state, body, limits and the bicycle with its derivatives
 //! - [`road`]: where a vehicle may drive
 //! - [`predict`]: what the others will do
+//! - [`sensing`]: what a driver sees of them; [`belief`]: what it believes of their drivers
 //! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`conservative`], [`cooperative`], [`negotiation`],
 //!   [`bayesian`], [`game`], [`nash`]; [`Driver`] lists them
 //! - [`joint`]: the problem of several deciding vehicles
@@ -20,10 +21,12 @@
 //! 2019); "corrected" marks where the printed equation is in error.
 
 pub mod bayesian;
+pub mod belief;
 pub mod conservative;
 pub mod cooperative;
 pub mod diagnostic;
 mod driver;
+pub mod driver_estimate;
 mod driver_setting;
 mod encounter;
 #[cfg(test)]
@@ -43,6 +46,7 @@ mod right_of_way;
 pub mod road;
 mod scene;
 pub mod scripted;
+pub mod sensing;
 mod solo;
 mod steering;
 pub mod traffic;

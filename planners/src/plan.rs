@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::Trajectory;
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
+use crate::driver_estimate::DriverEstimate;
 use crate::passing_order::PassingOrder;
 use crate::trajectory::{DescentError, Problem, StageError, Statistics};
 
@@ -18,6 +19,8 @@ pub struct Plan {
     pub passing_orders: Vec<PassingOrder>,
     /// Numbers that explain it, in a fixed order for one planner.
     pub diagnostics: Vec<Diagnostic>,
+    /// What is believed of the others, where their plans are inferred.
+    pub beliefs: Vec<DriverEstimate>,
     /// What happened in this step.
     pub events: Vec<PlanEvent>,
     /// The trajectory problem that the plan solves, for whoever checks it; none of a planner that poses none.

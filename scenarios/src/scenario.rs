@@ -11,7 +11,8 @@ use interplay_building::control::pid::PidSettings;
 use interplay_building::occupancy::Occupancy;
 use interplay_building::random::SplitMix64;
 use interplay_planners::road::network::RoadNetwork;
-use interplay_planners::{Body, Corridor, Driver, Limits, Route, SafetyEllipse, State, human};
+use interplay_planners::sensing::{self, Sensor};
+use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State, belief, human};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -252,6 +253,14 @@ pub struct Vehicle {
     /// Its driver, `kind` choosing; by default a nice human.
     #[serde(default = "default_driver")]
     pub driver: Driver,
+    /// What it senses of the others; without it, it sees every state as it is.
+    #[serde(default)]
+    #[schemars(example = json!({ "speed_sd_mps": 0.05, "delay_s": 0.3 }))]
+    pub sensing: Option<sensing::Settings>,
+    /// How it learns from the others' motion what they will do, where its driver says `prediction = "inferred"`.
+    #[serde(default)]
+    #[schemars(example = json!({ "prior": "tough" }))]
+    pub inference: Option<belief::Settings>,
     /// Its way along the road, once the file is loaded; until then the x axis.
     #[serde(skip, default = "default_route")]
     pub route: Arc<Route>,
@@ -286,6 +295,16 @@ impl Vehicle {
 }
 
 impl Vehicle {
+    /// Its planner, which has not planned yet.
+    pub fn planner(&self) -> Planner {
+        self.driver.planner_believing(&self.inference.unwrap_or_default())
+    }
+
+    /// Its sensor with the errors of a seed; none where it sees everybody as it is.
+    pub fn sensor(&self, seed: u64) -> Option<Sensor> {
+        self.sensing.map(|settings| Sensor::new(settings, seed))
+    }
+
     /// Lateral coordinate of the lane that is the goal, if parallel lanes have one \[m\].
     pub(crate) fn goal_lane_centre_m(&self, road: &Road) -> Option<f64> {
         road.lane_centre_m(self.road, self.goal.lane.as_ref()?.number()?)

@@ -2,11 +2,13 @@
 //!
 //! The test rebuilds every scene of a run from its frames and asks planners of its own. That holds the loop to its order
 //! (humans from the front of the road to its rear, each knowing the plans of those before; then the others, who know the
-//! humans' plans) and to the source's assumption of perfect prediction.
+//! humans' plans) and to the source's assumption of perfect prediction. Who infers plans is shown states only, through a sensor
+//! of its own if it has one.
 
 use std::sync::Arc;
 
-use interplay_planners::predict::steadily_along;
+use interplay_planners::predict::{steadily_along, without_plans};
+use interplay_planners::sensing::Sensor;
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
@@ -56,7 +58,8 @@ fn scene(film: &Film, tick: usize, index: usize, agents: &[Agent]) -> Scene {
     let mut others = agents.to_vec();
     let ego = others.remove(index);
     let goal = goal(scenario, vehicle);
-    Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others }
+    let scene = Scene { tick, step_s: scenario.step_s, horizon: scenario.horizon_steps, ego, goal, others };
+    if vehicle.driver.knows_plans() { scene } else { without_plans(scene) }
 }
 
 fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {
@@ -71,8 +74,9 @@ fn goal(scenario: &Scenario, vehicle: &Vehicle) -> Goal {
 #[test]
 fn fresh_planners_given_the_same_scenes_decide_the_same() {
     for film in FILMS.iter() {
-        let mut planners: Vec<Planner> =
-            film.scenario.vehicles.iter().map(|vehicle| vehicle.driver.planner()).collect();
+        let mut planners: Vec<Planner> = film.scenario.vehicles.iter().map(|vehicle| vehicle.planner()).collect();
+        let mut sensors: Vec<Option<Sensor>> =
+            film.scenario.vehicles.iter().map(|vehicle| vehicle.sensor(film.scenario.seed)).collect();
         for (tick, frame) in film.frames.iter().enumerate().take(60) {
             let mut agents = agents(film, tick);
             for index in order(&film.scenario, frame) {
@@ -82,7 +86,12 @@ fn fresh_planners_given_the_same_scenes_decide_the_same() {
                     agents[index].prediction = seen.plan.trajectory.clone();
                     continue;
                 }
-                match planners[index].plan(&scene(film, tick, index, &agents)) {
+                let scene = scene(film, tick, index, &agents);
+                let outcome = match &mut sensors[index] {
+                    Some(sensor) => planners[index].plan_sensed(&sensor.sense(&scene)),
+                    None => planners[index].plan(&scene),
+                };
+                match outcome {
                     Ok(plan) => assert!(plan == seen.plan, "{at}: another plan"),
                     Err(error) => assert_ne!(seen.origin, Origin::Planned, "{at}: {error}"),
                 }

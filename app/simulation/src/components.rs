@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
+use interplay_planners::sensing::Sensor;
 use interplay_planners::traffic::{CommittedPlan, Traffic};
 use interplay_planners::{Body, Goal, Input, Limits, Planner, Route, State};
 
@@ -57,6 +58,10 @@ pub struct Driving {
     pub planner: Planner,
     /// Whether it plans before those who rely on knowing its plan.
     pub goes_first: bool,
+    /// Whether it is told the plans of the others.
+    pub knows_plans: bool,
+    /// What it senses of the others; none for one who sees everybody as it is.
+    pub sensor: Option<Sensor>,
 }
 
 /// What a vehicle decided last, to be expected by others and continued if its planner fails.

@@ -1,4 +1,4 @@
-//! Plan: every driver decides, in the order and with the fallbacks of [`interplay_planners::traffic`]; here planning is timed,
+//! Plan: every driver decides on what it senses, in the order and with the fallbacks of [`interplay_planners::traffic`]; here planning is timed,
 //! and failures become events.
 
 use std::time::Instant;
@@ -19,8 +19,13 @@ pub fn plan(
     drivers.sort_by_key(|(identity, ..)| identity.index);
     let (traffic, frame) = (&mut sensed.0, &mut current_frame.0);
     let decisions = traffic.plan(|index, scene| {
+        let Driving { planner, sensor, .. } = &mut *drivers[index].1;
+        let sensed = sensor.as_mut().map(|sensor| sensor.sense(scene));
         let began = Instant::now();
-        let outcome = drivers[index].1.planner.plan(scene);
+        let outcome = match &sensed {
+            Some(sensed) => planner.plan_sensed(sensed),
+            None => planner.plan(scene),
+        };
         frame.vehicles[index].plan_ms = 1e3 * began.elapsed().as_secs_f64();
         outcome
     });

@@ -34,6 +34,7 @@ pub fn sense(
         },
         goal: objective.goal,
         goes_first: driving.goes_first,
+        knows_plans: driving.knows_plans,
         is_crashed: motion.crashed,
         committed: committed.0.clone(),
     });

@@ -37,8 +37,10 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
             VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             Driving {
                 can_be_asked: vehicle.driver.can_be_asked(),
-                planner: vehicle.driver.planner(),
+                planner: vehicle.planner(),
                 goes_first: vehicle.driver.goes_first(),
+                knows_plans: vehicle.driver.knows_plans(),
+                sensor: vehicle.sensor(scenario.seed),
             },
             Committed::default(),
             VehicleBody(handle),

@@ -95,6 +95,13 @@ impl Human {
         }
     }
 
+    /// A driver of another safety weight who remembers the same.
+    pub(crate) fn with_safety_weight(&self, safety_weight: f64) -> Human {
+        let mut human = self.clone();
+        human.settings = Settings { safety_weight: Some(safety_weight), style: None, ..self.settings };
+        human
+    }
+
     /// Plans the next move.
     ///
     /// # Errors

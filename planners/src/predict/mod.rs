@@ -20,13 +20,15 @@ pub enum Prediction {
     Plan,
     /// At constant velocity with their present headings; along a curved road, with their present angle to it.
     ConstantVelocity,
+    /// By what their motion says of their drivers: nobody's plan is told. `inference` has the settings.
+    Inferred,
 }
 
 impl Prediction {
-    /// The predicted motion of a vehicle.
+    /// The predicted motion of a vehicle. What is inferred stands in the scene already.
     pub fn of(self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
         match self {
-            Prediction::Plan => agent.prediction.clone(),
+            Prediction::Plan | Prediction::Inferred => agent.prediction.clone(),
             Prediction::ConstantVelocity => steadily_along(&agent.route, &agent.body, &agent.state, horizon, step_s),
         }
     }
@@ -34,7 +36,7 @@ impl Prediction {
     /// The scene with the others' motions predicted in this way.
     pub fn applied_to(self, scene: &Scene) -> Cow<'_, Scene> {
         match self {
-            Prediction::Plan => Cow::Borrowed(scene),
+            Prediction::Plan | Prediction::Inferred => Cow::Borrowed(scene),
             Prediction::ConstantVelocity => {
                 let mut scene = scene.clone();
                 for other in &mut scene.others {
@@ -44,6 +46,19 @@ impl Prediction {
             }
         }
     }
+}
+
+/// A scene as somebody sees it who is told neither plans nor inputs nor kinds of drivers: everybody is expected to keep its speed
+/// and its angle to the road. Goals that are shared stay.
+pub fn without_plans(scene: Scene) -> Scene {
+    let Scene { horizon, step_s, .. } = scene;
+    let others = scene.others.into_iter().map(|other| Agent {
+        prediction: steadily_along(&other.route, &other.body, &other.state, horizon, step_s),
+        previous_input: Input::default(),
+        can_be_asked: true,
+        ..other
+    });
+    Scene { others: others.collect(), ..scene }
 }
 
 /// The motion of a vehicle that keeps its present heading and speed.

@@ -18,6 +18,7 @@
 //! **Who knows which plan.** Those who go first ([`RoadUser::goes_first`]) plan from the front of the road to its rear and
 //! publish their plans at once. All the others plan afterwards and know these plans (the source's assumption of perfect
 //! prediction); of one another they know the last plans only, so that the order in which they are listed has no influence.
+//! Whoever infers plans ([`RoadUser::knows_plans`]) is told none: its scene has the states of the others only.
 
 mod committed;
 mod limits;
@@ -31,6 +32,7 @@ pub use limits::applied_input;
 pub use planning_order::planning_order;
 pub use road_user::RoadUser;
 
+use crate::predict::without_plans;
 use crate::{Bicycle, Input, Plan, PlanError, Scene};
 
 /// Everybody on the road at the start of a tick.
@@ -68,17 +70,18 @@ impl Traffic {
         }
     }
 
-    /// The moment as one vehicle sees it.
+    /// The moment as one vehicle sees it: with the plans of the others if it is told them.
     pub fn scene(&self, vehicle: usize) -> Scene {
         let others = self.road_users.iter().enumerate().filter(|(other, _)| *other != vehicle);
-        Scene {
+        let scene = Scene {
             tick: self.tick,
             step_s: self.step_s,
             horizon: self.horizon,
             ego: self.road_users[vehicle].agent.clone(),
             goal: self.road_users[vehicle].goal,
             others: others.map(|(_, other)| other.agent.clone()).collect(),
-        }
+        };
+        if self.road_users[vehicle].knows_plans { scene } else { without_plans(scene) }
     }
 
     /// Lets everybody decide; returns the decisions in the order in which they were made.

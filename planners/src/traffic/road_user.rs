@@ -12,6 +12,8 @@ pub struct RoadUser {
     pub goal: Goal,
     /// Whether it plans before, and publishes its plan to, those who do not.
     pub goes_first: bool,
+    /// Whether it is told the plans of the others.
+    pub knows_plans: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
     pub is_crashed: bool,
     /// What it decided last.
@@ -19,8 +21,8 @@ pub struct RoadUser {
 }
 
 impl RoadUser {
-    /// A vehicle that has not planned yet.
+    /// A vehicle that has not planned yet and is told the plans of the others.
     pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
-        RoadUser { agent, goal, goes_first, is_crashed: false, committed: CommittedPlan::default() }
+        RoadUser { agent, goal, goes_first, knows_plans: true, is_crashed: false, committed: CommittedPlan::default() }
     }
 }

@@ -7,10 +7,11 @@ use std::time::Instant;
 
 use interplay_planners::human::{self, Style};
 use interplay_planners::predict::{constant_velocity, steadily_along};
+use interplay_planners::sensing::Sensor;
 use interplay_planners::traffic::{Decision, RoadUser, Traffic};
 use interplay_planners::{
     Agent, Body, Corridor, Driver, Goal, Input, LaneEnd, Limits, Plan, PlanError, Planner, Route, SafetyEllipse, State,
-    bayesian, conservative, cooperative, game, negotiation,
+    bayesian, belief, conservative, cooperative, game, negotiation,
 };
 
 /// Two lanes along x.
@@ -172,7 +173,7 @@ pub fn begin(vehicles: &[Vehicle]) -> (Traffic, Vec<Planner>) {
     let road_user = |Vehicle { agent, goal, driver }: &Vehicle| {
         let agent =
             Agent { shared_goal: driver.shared_goal(goal), can_be_asked: driver.can_be_asked(), ..agent.clone() };
-        RoadUser::new(agent, *goal, driver.goes_first())
+        RoadUser { knows_plans: driver.knows_plans(), ..RoadUser::new(agent, *goal, driver.goes_first()) }
     };
     let road_users = vehicles.iter().map(road_user).collect();
     let planners = vehicles.iter().map(|vehicle| vehicle.driver.planner()).collect();
@@ -181,13 +182,29 @@ pub fn begin(vehicles: &[Vehicle]) -> (Traffic, Vec<Planner>) {
 
 /// Drives the vehicles through the loop of the application, with the bicycle as the plant.
 pub fn run(vehicles: Vec<Vehicle>, ticks: usize) -> Run {
-    let (mut traffic, mut planners) = begin(&vehicles);
+    run_inferring(vehicles, ticks, &belief::Settings::default(), None)
+}
+
+/// The same with settings for how planners infer plans, and a sensor of vehicle 0.
+pub fn run_inferring(
+    vehicles: Vec<Vehicle>,
+    ticks: usize,
+    inference: &belief::Settings,
+    mut sensor: Option<Sensor>,
+) -> Run {
+    let (mut traffic, _) = begin(&vehicles);
+    let mut planners: Vec<Planner> =
+        vehicles.iter().map(|vehicle| vehicle.driver.planner_believing(inference)).collect();
     let names = vehicles.iter().map(|vehicle| vehicle.agent.name.clone()).collect();
     let mut run = Run { names, states: vec![states(&traffic)], nearest: f64::INFINITY, ..Run::default() };
     for tick in 0..ticks {
         let decisions = traffic.drive(|index, scene| {
+            let sensed = sensor.as_mut().filter(|_| index == 0).map(|sensor| sensor.sense(scene));
             let began = Instant::now();
-            let outcome = planners[index].plan(scene);
+            let outcome = match &sensed {
+                Some(sensed) => planners[index].plan_sensed(sensed),
+                None => planners[index].plan(scene),
+            };
             if index == 0 {
                 run.plan_ms.push(1e3 * began.elapsed().as_secs_f64());
             }

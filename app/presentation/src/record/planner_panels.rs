@@ -1,6 +1,7 @@
 //! Panels for the numbers that planners report. The planners declare what they report and what of it belongs together
 //! ([`interplay_planners::diagnostic`]); here that becomes paths, panels and a text.
 
+use interplay_planners::belief::diagnostics::PANELS as BELIEF_PANELS;
 use interplay_planners::diagnostic::{COMMON_PANELS, DiagnosticPanel, DiagnosticQuantity, Explanation};
 use interplay_scenarios::{Scenario, Vehicle};
 
@@ -24,12 +25,15 @@ impl PlannerPanel {
     }
 }
 
-/// The panels of the planners of a scenario, the ego's first, and in the end those that all planners share.
+/// The panels of the planners of a scenario, the ego's first, then those of beliefs where plans are inferred, and in the end those
+/// that all planners share.
 pub fn panels(scenario: &Scenario) -> Vec<PlannerPanel> {
     let own = explanations(scenario).into_iter().flat_map(|(kind, explanation)| {
         explanation.panels.iter().map(move |content| PlannerPanel { kind: Some(kind), content })
     });
-    own.chain(COMMON_PANELS.iter().map(|content| PlannerPanel { kind: None, content })).collect()
+    let infers = scenario.vehicles.iter().any(|vehicle| !vehicle.driver.knows_plans());
+    let beliefs = if infers { BELIEF_PANELS } else { &[] };
+    own.chain(beliefs.iter().chain(COMMON_PANELS).map(|content| PlannerPanel { kind: None, content })).collect()
 }
 
 /// What to look for in the panels of the planners of a scenario, as Markdown.
@@ -51,7 +55,7 @@ fn explanations(scenario: &Scenario) -> Vec<(&'static str, &'static Explanation)
 
 /// The place of a quantity among those that share its panel.
 pub fn place(explanation: &Explanation, quantity: &DiagnosticQuantity) -> Option<usize> {
-    let mut panels = explanation.panels.iter().chain(COMMON_PANELS);
+    let mut panels = explanation.panels.iter().chain(BELIEF_PANELS).chain(COMMON_PANELS);
     panels.find_map(|panel| panel.quantities.iter().position(|other| other.name == quantity.name))
 }
 
@@ -66,6 +70,7 @@ pub fn slug(quantity: &DiagnosticQuantity) -> String {
 mod tests {
     use std::collections::BTreeSet;
 
+    use interplay_planners::belief::diagnostics::QUANTITIES as BELIEF_QUANTITIES;
     use interplay_planners::diagnostic::{COMMON_QUANTITIES, ValueSet};
     use interplay_scenarios::{Override, driver_kinds, load};
 
@@ -85,7 +90,7 @@ mod tests {
             let scenario =
                 load("lane-change/front-nice", &[Override::Planner(kind.to_owned())]).expect("every kind may drive");
             let (_, explanation) = explanations(&scenario)[0];
-            let quantities = || explanation.quantities.iter().chain(COMMON_QUANTITIES);
+            let quantities = || explanation.quantities.iter().chain(BELIEF_QUANTITIES).chain(COMMON_QUANTITIES);
             let slugs: BTreeSet<String> = quantities().map(slug).collect();
             assert_eq!(slugs.len(), quantities().count(), "{kind}");
         }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use interplay_simulation::report::{CounterfactualReport, Report, VehicleReport};
+use interplay_simulation::report::{BeliefReport, CounterfactualReport, Report, VehicleReport};
 
 use super::building;
 use super::columns::{Align, lines};
@@ -48,6 +48,13 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     match report.min_gap_m {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
         None => writeln!(text, "  the ego is alone")?,
+    }
+    for vehicle in &report.vehicles {
+        for belief in &vehicle.beliefs {
+            let (percent, since_s) = (100.0 * belief.probability, to_milliseconds(belief.since_s));
+            let BeliefReport { about, taken_for, .. } = belief;
+            writeln!(text, "  {} takes {about} for {taken_for} since {since_s:?} s ({percent:.0} %)", vehicle.name)?;
+        }
     }
     for collision in &report.collisions {
         let [a, b] = &collision.between;

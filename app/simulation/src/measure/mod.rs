@@ -1,5 +1,6 @@
 //! Measure: one metric a file, all fed with the same frames.
 
+mod beliefs;
 mod building;
 mod comfort;
 mod completion;
@@ -20,6 +21,7 @@ use bevy_ecs::prelude::*;
 use interplay_planners::{Route, State};
 use interplay_scenarios::{Scenario, Vehicle};
 
+pub use beliefs::{Beliefs, HeldBelief};
 pub use building::{BuildingDigests, BuildingMeasures, Fallback, measure_building};
 pub use comfort::RideComfort;
 pub use completion::Completion;
@@ -71,6 +73,8 @@ pub struct VehicleMeasures {
     pub speeding: Speeding,
     /// How its planner did.
     pub planning: Planning,
+    /// What it believes of the others.
+    pub beliefs: Beliefs,
     /// Its last state.
     pub last: State,
     /// Its way.
@@ -89,6 +93,7 @@ impl VehicleMeasures {
             off_road: OffRoad::new(&vehicle.route, vehicle.body),
             speeding: Speeding::new(&vehicle.route),
             planning: Planning::default(),
+            beliefs: Beliefs::default(),
             last: start,
             route: Arc::clone(&vehicle.route),
             along_m: vehicle.route.along(start.position()),
@@ -141,6 +146,7 @@ pub fn measure(
     }
     for ((vehicle, measured), state) in frame.vehicles.iter().zip(&mut measures.vehicles).zip(&after) {
         measured.planning.observe(vehicle);
+        measured.beliefs.observe(&vehicle.plan.beliefs, frame.time_s);
         measured.comfort.observe(&vehicle.input, [&vehicle.state, state], frame.time_s);
         if measured.completion.observe(state, clock.time_s()) {
             frame.events.push(milestones::arrival(&vehicle.name, measured.completion.crosses()));

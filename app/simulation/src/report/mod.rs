@@ -1,5 +1,6 @@
 //! What a run amounts to: figures, and whether the scenario's expectations held.
 
+mod belief;
 mod building;
 mod counterfactual;
 mod driving;
@@ -11,6 +12,7 @@ use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_scenarios::{Expect, Scenario, Vehicle};
 use xxhash_rust::xxh3::xxh3_128;
 
+pub use belief::BeliefReport;
 pub use building::BuildingReport;
 pub use expectation::Expectation;
 pub use outcome::{CounterfactualReport, PeakTimes, PlansReport, Report, VehicleReport};

@@ -3,6 +3,7 @@
 use interplay_planners::State;
 use serde::{Serialize, Serializer};
 
+use super::belief::BeliefReport;
 use super::building::BuildingReport;
 use super::expectation::Expectation;
 use crate::frame::{Collision, PairGap};
@@ -129,6 +130,9 @@ pub struct VehicleReport {
     pub peak_times_s: PeakTimes,
     /// Its planner.
     pub plans: PlansReport,
+    /// What it believed of the others when it planned last, where it infers their plans.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub beliefs: Vec<BeliefReport>,
 }
 
 /// When peaks were reached; none for what was 0 all the time \[s\].
@@ -211,6 +215,7 @@ impl VehicleReport {
                 median_ms: measured.planning.quantile_ms(0.5),
                 p99_ms: measured.planning.quantile_ms(0.99),
             },
+            beliefs: measured.beliefs.held().map(BeliefReport::new).collect(),
         }
     }
 }
