@@ -38,6 +38,7 @@ mod name;
 mod overrides;
 mod placement;
 mod plant;
+mod regular_file;
 mod remark;
 mod remarks;
 mod road;
@@ -70,6 +71,7 @@ pub use lane_reference::LaneReference;
 pub use load::{from_text, load};
 pub use overrides::Override;
 pub use plant::{Dynamic, Kinematic, Plant};
+pub use regular_file::{open_regular, read_regular};
 pub use remark::{ScenarioRemark, ScenarioRemarks};
 pub use road::{
     AllWayStop, Branch, Crossing, CurveLaneEnd, CurvePiece, DrivingDirection, Intersection, LaneConfig, LaneNetwork,

@@ -1,7 +1,7 @@
 //! Where a scenario comes from: a file, or the authored ones inside the binary.
 
-use std::fs::{self, File};
-use std::io::Read;
+use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,6 +9,7 @@ use interplay_building::nearest::nearest;
 
 use crate::embedded::{self, Embedded};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
+use crate::regular_file::read_regular;
 
 /// The largest file that is read; a scenario takes a few kilobytes.
 const MAX_FILE_BYTES: u64 = 1 << 20;
@@ -124,18 +125,16 @@ fn other_names(missing: &str) -> String {
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     let name = quoted(&path.display().to_string());
-    let unreadable = |error: std::io::Error| Fault::new(format!("cannot read {name}: {error}"));
-    let file = File::open(path).map_err(unreadable)?;
-    if file.metadata().map_err(unreadable)?.is_dir() {
-        return Err(Fault::new(format!("{name} is a directory")).help("give the path of a TOML file in it"));
-    }
-    let mut bytes = Vec::new();
-    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
+    let bytes = read_regular(path, MAX_FILE_BYTES).map_err(|error| match error.kind() {
+        ErrorKind::IsADirectory => {
+            Fault::new(format!("{name} is a directory")).help("give the path of a TOML file in it")
+        }
+        _ => Fault::new(format!("cannot read {name}: {error}")),
+    })?;
+    bytes.ok_or_else(|| {
         let help = "a scenario takes a few kilobytes: is this the file that you meant?";
-        return Err(Fault::new(format!("{name} is larger than 1 MiB")).help(help));
-    }
-    Ok(bytes)
+        Fault::new(format!("{name} is larger than 1 MiB")).help(help)
+    })
 }
 
 /// The bytes as text; the error points at the first byte that is not UTF-8.

@@ -11,10 +11,10 @@ use crate::lane_reference::LaneReference;
 #[serde(deny_unknown_fields)]
 pub(crate) struct StartConfig {
     /// Position of the mass centre along the world's x axis \[m\].
-    #[schemars(example = 0.0)]
+    #[schemars(range(min = -100_000.0, max = 100_000.0), example = 0.0)]
     pub x_m: Option<f64>,
     /// Position of the mass centre along the world's y axis \[m\].
-    #[schemars(example = 0.185)]
+    #[schemars(range(min = -100_000.0, max = 100_000.0), example = 0.185)]
     pub y_m: Option<f64>,
     /// Yaw angle, counter-clockwise from the x axis; 0 if neither this nor `heading_deg` is stated \[rad\].
     #[schemars(example = 0.0)]
@@ -28,7 +28,11 @@ pub(crate) struct StartConfig {
     pub lane: Option<LaneReference>,
     /// Position along the vehicle's road: x of the world on a road along x, otherwise the distance along the road, or along a
     /// lane with a name \[m\].
-    #[schemars(example = 0.0, extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"]))]
+    #[schemars(
+        range(min = -100_000.0, max = 100_000.0),
+        example = 0.0,
+        extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"])
+    )]
     pub along_m: Option<f64>,
     /// Distance from the centre of `lane`, positive to the left; 0 if not stated \[m\].
     #[schemars(example = 0.0, extend("x-excludes" = ["x_m", "y_m", "heading_rad", "heading_deg"]))]

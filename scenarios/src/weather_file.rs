@@ -1,7 +1,5 @@
 //! Reads the weather file of a scenario, when the scenario is loaded: whatever is wrong with it is said then, with its line.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,6 +8,7 @@ use interplay_building::weather::Epw;
 
 use crate::building::DAY_S;
 use crate::error::{Document, Fault, Place, quoted};
+use crate::regular_file::read_regular;
 use crate::tree::TomlNode;
 use crate::weather::EpwFile;
 
@@ -63,15 +62,9 @@ fn read(file: &str, place: &Place) -> Result<(String, String), Fault> {
         );
         Fault::at(place, "this file", format!("cannot read {}: {reason}", quoted(&title))).help(help)
     };
-    let opened = File::open(&path).map_err(|error| refused(error.to_string()))?;
-    if opened.metadata().is_ok_and(|found| found.is_dir()) {
-        return Err(refused("it is a directory".to_owned()));
-    }
-    let mut bytes = Vec::new();
-    opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| refused(error.to_string()))?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(refused("it is larger than 128 MiB, and no weather file is".to_owned()));
-    }
+    let bytes = read_regular(&path, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;
+    let too_large = || refused("it is larger than 128 MiB, and no weather file is".to_owned());
+    let bytes = bytes.ok_or_else(too_large)?;
     Ok((title, String::from_utf8_lossy(&bytes).into_owned()))
 }
 

@@ -1,12 +1,12 @@
 //! `interplay view`
 
-use std::fs::File;
 use std::io::Read;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use clap::Args;
 use interplay_presentation::record::{MAGIC, viewer_version};
+use interplay_scenarios::open_regular;
 use thiserror::Error;
 
 use crate::exit_status::ExitStatus;
@@ -58,8 +58,8 @@ impl View {
             let mut start = [0; MAGIC.len()];
             let unreadable =
                 |error: std::io::Error| ViewError::Unreadable { path: path.clone(), reason: error.to_string() };
-            let mut file = File::open(path).map_err(unreadable)?;
-            if file.metadata().map_err(unreadable)?.is_dir() || file.read_exact(&mut start).is_err() || start != MAGIC {
+            let mut file = open_regular(path).map_err(unreadable)?;
+            if file.read_exact(&mut start).is_err() || start != MAGIC {
                 return Err(ViewError::NoRecording(path.clone()));
             }
         }

@@ -10,19 +10,19 @@ use super::State;
 #[serde(deny_unknown_fields, default)]
 pub struct Body {
     /// Distance from the mass centre to the front bumper \[m\].
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001, max = 100.0))]
     pub front_m: f64,
     /// Distance from the mass centre to the rear bumper \[m\].
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001, max = 100.0))]
     pub rear_m: f64,
     /// Width of the body, `W` \[m\].
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001, max = 100.0))]
     pub width_m: f64,
     /// Distance from the mass centre to the front axle, `L_f` \[m\].
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001, max = 100.0))]
     pub front_axle_m: f64,
     /// Distance from the mass centre to the rear axle, `L_r` \[m\].
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001, max = 100.0))]
     pub rear_axle_m: f64,
     /// Length of the vehicle as a multiple of a 1/10 scale car's, by its `class`. Constants of the planners that are lengths
     /// are multiplied by it, times and speeds by its square root.

@@ -12,6 +12,8 @@ use crate::network_lines::NetworkLines;
 
 /// Length of a lane marking and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;
+/// Most dashes of one line: on a longer road they are farther apart.
+const MAX_DASHES: usize = 4000;
 /// In how many pieces the end of a lane is drawn.
 const TAPER_SLICES: usize = 60;
 
@@ -110,8 +112,9 @@ impl Strip<'_> {
     /// Dashes between lanes, as far as there are two of them and no other road.
     fn markings(&self, corridor: &Corridor) -> Vec<Line> {
         let lane = self.road.lane_width_m();
-        let period = 2.0 * DASH_LANES * lane;
-        let dashes = ((self.to_m - self.from_m) / period).ceil() as usize;
+        let length_m = self.to_m - self.from_m;
+        let period = (2.0 * DASH_LANES * lane).max(length_m / MAX_DASHES as f64);
+        let dashes = ((length_m / period).ceil() as usize).min(MAX_DASHES);
         let lateral_m = |between: usize| corridor.right_m + between as f64 * lane;
         let is_free = |between: usize, start: f64| {
             let ramp = corridor.end.filter(|_| between == 1).is_some_and(|end| start > taper_m(end)[0]);

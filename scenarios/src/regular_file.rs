@@ -1,0 +1,60 @@
+//! Reads files that people name: ordinary ones only, up to a size, and without waiting.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Opens a file for reading.
+///
+/// A pipe or a device is refused, because reading it may wait for ever or never end. Where a file that claims to be ordinary would make
+/// a reader wait, as some below `/proc` do, reading it fails instead.
+///
+/// # Errors
+/// That of the system, or what the path leads to instead of an ordinary file.
+pub fn open_regular(path: &Path) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.read(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK);
+    let file = options.open(path)?;
+    let found = file.metadata()?;
+    if found.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a directory"));
+    }
+    if !found.is_file() {
+        return Err(io::Error::other("it is a pipe or a device, not an ordinary file"));
+    }
+    Ok(file)
+}
+
+/// The content of an ordinary file of at most `limit` bytes; none of a larger one.
+///
+/// # Errors
+/// As [`open_regular`], and those of reading.
+pub fn read_regular(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    open_regular(path)?.take(limit + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= limit).then_some(bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ordinary_files_are_read_up_to_the_limit() {
+        let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+        let length = std::fs::metadata(&here).expect("there").len();
+        assert_eq!(read_regular(&here, length).expect("read").expect("within the limit").len() as u64, length);
+        assert_eq!(read_regular(&here, length - 1).expect("read"), None);
+    }
+
+    /// A device that never ends, one whose reader waits, and a folder.
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_ordinary_file_is_refused_at_once() {
+        for path in ["/dev/zero", "/dev/tty", "/dev", "/nowhere"] {
+            assert!(read_regular(Path::new(path), 10).is_err(), "{path}");
+        }
+    }
+}
