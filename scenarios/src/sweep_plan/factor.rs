@@ -57,7 +57,12 @@ pub(super) fn factors(vary: &Table, settings: DrawSettings) -> Result<Vec<Factor
 fn collect(before: &SettingPath, vary: &Table, settings: DrawSettings, found: &mut Vec<Factor>, faults: &mut Vec<Fault>) {
     for (key, entry) in vary {
         let path = match before.join(key, &entry.key) {
-            Ok(path) => path,
+            Ok(path) if path.written() != "seed" => path,
+            Ok(_) => {
+                let fault = Fault::at(&entry.key, "cannot vary", "the seed of a run follows from its sample");
+                faults.push(fault.help("state `samples`, and the `seed` of the first"));
+                continue;
+            }
             Err(fault) => {
                 faults.push(fault);
                 continue;
@@ -179,6 +184,14 @@ fn integer(node: &TomlNode) -> Option<i128> {
 }
 
 impl Factor {
+    /// Whether all values are numbers.
+    pub fn is_numeric(&self) -> bool {
+        match &self.values {
+            Values::List(items) => items.iter().all(|item| number(item).is_some()),
+            _ => true,
+        }
+    }
+
     /// How many values there are, if they can be counted.
     pub fn count(&self) -> Option<usize> {
         match &self.values {

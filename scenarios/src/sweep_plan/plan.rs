@@ -1,5 +1,7 @@
 //! A plan that has been read, and its runs.
 
+use std::collections::BTreeMap;
+
 use serde_json::Value as Json;
 
 use super::arm::{Arm, path_of};
@@ -95,13 +97,13 @@ impl SweepPlan {
         one.checked_mul(scenarios as u64)?.checked_mul(self.planners.len() as u64)
     }
 
-    /// The names of everything that varies, sorted.
-    pub fn input_names(&self) -> Vec<String> {
-        let all = self.styles.iter().chain([&self.changes]).flat_map(|arm| &arm.factors);
-        let mut names: Vec<String> = all.map(|factor| factor.path.written()).collect();
-        names.sort_unstable();
-        names.dedup();
-        names
+    /// The paths of everything that varies, sorted, each with whether all of its values are numbers.
+    pub fn inputs(&self) -> Vec<(String, bool)> {
+        let mut found = BTreeMap::new();
+        for factor in self.styles.iter().chain([&self.changes]).flat_map(|arm| &arm.factors) {
+            *found.entry(factor.path.written()).or_insert(true) &= factor.is_numeric();
+        }
+        found.into_iter().collect()
     }
 
     /// The names of the scenarios, the styles and the planners.
