@@ -25,7 +25,7 @@ pub(crate) const PLAN_FILE: &str = "plan.toml";
 pub(crate) const PLAN_NOTE: &str = "interplay.plan";
 pub(crate) const SHARD_NOTE: &str = "interplay.shard";
 /// How many refused runs are told about.
-const MAX_REFUSALS: usize = 5;
+const MAX_REFUSALS: usize = 3;
 
 /// Keeps a recording of a run that is worth looking at. Called from several threads.
 pub type KeepRecording<'a> = &'a (dyn Fn(&SweepRow, &Scenario) -> Result<(), String> + Sync);

@@ -14,7 +14,7 @@ pub(super) struct Factor {
     /// The path.
     pub path: SettingPath,
     /// Where its values are written.
-    place: Place,
+    pub place: Place,
     values: Values,
     draws: UnitDraws,
 }

@@ -209,13 +209,14 @@ impl SweepPlan {
     fn assembled(&self, place: &Indices, instead: Option<(usize, TomlNode)>) -> Result<Scenario, Vec<Fault>> {
         let planned = &self.scenarios[place.scenario];
         let mut tree = planned.tree.clone();
+        let in_run = |fault: Fault| self.in_run(fault, place, instead.as_ref());
         if let TomlValue::Table(root) = &mut tree.value {
-            self.lay(root, place, instead).map_err(|fault| vec![self.in_run(fault, place)])?;
+            self.lay(root, place, instead.as_ref()).map_err(|fault| vec![in_run(fault)])?;
         }
-        assemble(&tree).map_err(|faults| faults.into_iter().map(|fault| self.in_run(fault, place)).collect())
+        assemble(&tree).map_err(|faults| faults.into_iter().map(in_run).collect())
     }
 
-    fn lay(&self, root: &mut Table, place: &Indices, instead: Option<(usize, TomlNode)>) -> Result<(), Fault> {
+    fn lay(&self, root: &mut Table, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Result<(), Fault> {
         let at = |value: TomlValue| TomlNode { place: self.place.clone(), value };
         if let Some(jitter) = self.scenarios[place.scenario].jitter {
             for (key, value) in [("position_m", jitter.position_m), ("speed_mps", jitter.speed_mps)] {
@@ -228,17 +229,32 @@ impl SweepPlan {
         self.styles[place.style].lay(root)?;
         self.planners[place.planner].lay(root)?;
         for (index, (factor, value)) in self.values(place).enumerate() {
-            let other = instead.as_ref().filter(|(other, _)| *other == index).map(|(_, value)| value);
+            let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value);
             factor.path.lay(root, other.unwrap_or(&value))?;
         }
         Ok(())
     }
 
-    /// The same fault, with the run in which it shows.
-    fn in_run(&self, fault: Fault, place: &Indices) -> Fault {
+    /// The same fault, with the run in which it shows. What is wrong with a scenario once values vary is blamed on these values.
+    fn in_run(&self, fault: Fault, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Fault {
         let scenario = &self.scenarios[place.scenario].named.name;
         let (style, planner) = (&self.styles[place.style].name, &self.planners[place.planner].name);
-        fault.within(&format!("in the runs of `{scenario}` with `{style}` and `{planner}`"))
+        let run = format!("in the runs of `{scenario}` with the style `{style}` and the planner `{planner}`");
+        let values: Vec<String> = self
+            .values(place)
+            .enumerate()
+            .map(|(index, (factor, value))| {
+                let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value);
+                format!("`{} = {}`", factor.path.written(), other.unwrap_or(&value).to_json())
+            })
+            .collect();
+        let varied = instead.map_or(0, |(index, _)| *index);
+        match self.factors(place.style).nth(varied) {
+            Some(factor) if fault.file() != Some(&self.name) => {
+                fault.moved_to(&factor.place).within(&format!("{run}, at {}", values.join(", ")))
+            }
+            _ => fault.within(&run),
+        }
     }
 
     /// What is wrong with the plan's arms and with the values at the ends of what can be drawn. It stops at the first

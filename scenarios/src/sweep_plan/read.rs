@@ -38,13 +38,14 @@ pub fn embedded_plans() -> Vec<&'static str> {
 }
 
 impl SweepPlan {
-    /// The plan of that name in the binary, otherwise the file at that path.
+    /// The plan of that name in the binary, otherwise the file at that path; with a number of samples, with so many instead of
+    /// its own.
     ///
     /// # Errors
     /// Whatever is wrong with it, each error located.
-    pub fn load(name_or_path: &str) -> Result<SweepPlan, LoadError> {
+    pub fn load(name_or_path: &str, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
         if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == name_or_path) {
-            return SweepPlan::from_text(name, text, Path::new(""));
+            return SweepPlan::from_text(name, &with_samples(text, samples), Path::new(""));
         }
         let refused = |fault: Fault| LoadError::of_plan(name_or_path, vec![fault]);
         let path = Path::new(name_or_path);
@@ -53,7 +54,7 @@ impl SweepPlan {
             return Err(refused(Fault::new(message).help(suggestion(name_or_path, "plans in the binary are", &embedded_plans()))));
         }
         let (_, text) = Source::File(path.to_owned()).read(0).map_err(refused)?;
-        SweepPlan::from_text(name_or_path, &text, path.parent().unwrap_or(Path::new("")))
+        SweepPlan::from_text(name_or_path, &with_samples(&text, samples), path.parent().unwrap_or(Path::new("")))
     }
 
     /// The plan of a text that errors call `name`; paths in it are relative to `folder`.
@@ -66,6 +67,15 @@ impl SweepPlan {
         let plan = tree::parse(&document, text).and_then(|tree| read(name, text, place, &tree, folder));
         plan.map_err(|faults| LoadError::of_plan(name, faults))
     }
+}
+
+/// The text of a plan with another number of samples: its own line for that, if there is one, becomes a comment. The new line
+/// comes first, since at the end it would belong to a table.
+fn with_samples(text: &str, samples: Option<u64>) -> String {
+    let Some(samples) = samples else { return text.to_owned() };
+    let own = |line: &str| line.split_once('=').is_some_and(|(key, _)| key.trim() == "samples");
+    let lines = text.lines().map(|line| if own(line) { format!("# {line}\n") } else { format!("{line}\n") });
+    std::iter::once(format!("samples = {samples}\n")).chain(lines).collect()
 }
 
 fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) -> Result<SweepPlan, Vec<Fault>> {
