@@ -182,7 +182,9 @@ pub(crate) fn settings_of(set: Table) -> Result<Vec<(SettingPath, TomlNode)>, Ve
 /// The names of all vehicles but the ego.
 fn other_names(root: &Table) -> Vec<String> {
     let ego = ego_name(root);
-    let Some(TomlValue::Array(vehicles)) = root.get("vehicle").map(|entry| &entry.node.value) else { return Vec::new() };
+    let Some(TomlValue::Array(vehicles)) = root.get("vehicle").map(|entry| &entry.node.value) else {
+        return Vec::new();
+    };
     vehicles.iter().filter_map(TomlNode::label).filter(|name| *name != ego).map(str::to_owned).collect()
 }
 

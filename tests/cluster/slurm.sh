@@ -52,7 +52,7 @@ done
 grep -l "shard 3/8, as the scheduler says" task-3.log >/dev/null
 echo "rows of the killed task before it was requeued: $(wc -l <killed.jsonl)"
 [ "$(grep -c 'as the scheduler says' task-3.log)" -ge 2 ] || { echo "the third task was not requeued"; exit 1; }
-grep -h 'are there' task-3.log
+grep -h 'made before' task-3.log
 
 "$interplay" sweep merge shards >/dev/null
 "$interplay" sweep merge shards --to shards.parquet --no-timings

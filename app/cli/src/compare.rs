@@ -14,12 +14,14 @@ use crate::refusal::gave_up;
 
 /// Say what the rows of a sweep tell of the planners, or what two sweeps of one plan do differently.
 #[derive(Debug, Args)]
-#[command(after_help = "Shares come with Wilson's intervals, means with bootstrapped ones; differences are those of pairs of runs \
+#[command(
+    after_help = "Shares come with Wilson's intervals, means with bootstrapped ones; differences are those of pairs of runs \
     under the same conditions, tested exactly and corrected for how many tests there are.\n\n\
     Examples:\n  \
     interplay compare sweeps/quick\n  \
     interplay compare results --baseline idm --by scenario --json\n  \
-    interplay compare results-of-old-version results-of-new-version")]
+    interplay compare results-of-old-version results-of-new-version"
+)]
 pub(crate) struct Compare {
     /// The folder of a sweep, or a file of its rows
     #[arg(value_name = "DIR|FILE")]
@@ -116,13 +118,7 @@ fn write(target: &Path, page: &Page) -> Result<(), CommandError> {
 
 /// Compares the rows of a folder and writes their page, as a sweep does at its end.
 pub(crate) fn after_sweep(folder: &Path) -> ExitStatus {
-    let compare = Compare {
-        first: folder.to_owned(),
-        second: None,
-        baseline: None,
-        by: By::Family,
-        page: None,
-        json: false,
-    };
+    let compare =
+        Compare { first: folder.to_owned(), second: None, baseline: None, by: By::Family, page: None, json: false };
     compare.execute()
 }

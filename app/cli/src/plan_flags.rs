@@ -81,7 +81,8 @@ fn quoted(word: &str) -> String {
 
 /// A value as it is written in TOML; what is a bare word is taken as text, as `--set` does.
 fn value_of(value: &str) -> String {
-    let is_word = value.chars().all(|c| c.is_alphanumeric() || "-_".contains(c)) && value.starts_with(char::is_alphabetic);
+    let is_word =
+        value.chars().all(|c| c.is_alphanumeric() || "-_".contains(c)) && value.starts_with(char::is_alphabetic);
     if is_word && !["true", "false", "inf", "nan"].contains(&value) || value.is_empty() {
         quoted(value)
     } else {
@@ -107,7 +108,8 @@ mod tests {
     #[test]
     fn flags_make_a_plan() {
         let words = ["x", "--scenario", "intersection/nice", "--planner", "idm", "--planner", "conservative"];
-        let more = ["--style", "tough", "--vary", "vehicle.ego.start.speed_mps={ uniform = [0.6, 0.8] }", "--starts", "5"];
+        let more =
+            ["--style", "tough", "--vary", "vehicle.ego.start.speed_mps={ uniform = [0.6, 0.8] }", "--starts", "5"];
         let flags = Alone::try_parse_from(words.into_iter().chain(more)).expect("sound").flags;
         let plan = SweepPlan::from_text("the flags", &flags.text().expect("a plan"), Path::new("")).expect("sound");
         assert_eq!(plan.run_count(), 10);

@@ -21,13 +21,15 @@ use crate::threads::pool;
 /// Run a plan of many runs, a row each: scenarios, times drivers, times values that vary, times planners.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
-#[command(after_help = "A sweep that was stopped goes on where it was, and a bigger one reuses the rows of a smaller one.\n\n\
+#[command(
+    after_help = "A sweep that was stopped goes on where it was, and a bigger one reuses the rows of a smaller one.\n\n\
     Examples:\n  \
     interplay sweep                                        (a small one, well below a minute)\n  \
     interplay sweep my-plan.toml --out results --keep failures\n  \
     interplay sweep --scenario intersection/nice --planner negotiation --planner idm --samples 20\n  \
     interplay sweep my-plan.toml --out results --shard 3/8\n  \
-    interplay sweep merge results")]
+    interplay sweep merge results"
+)]
 pub(crate) struct Sweep {
     #[command(subcommand)]
     action: Option<Action>,
@@ -159,7 +161,7 @@ impl Sweep {
             shard,
             keep: (self.keep == Keep::Failures).then_some(&keep),
             begin: &|to_make, there| {
-                print_error(&format!("{} to make, {there} are there", runs(to_make)));
+                print_error(&format!("{} to make, {there} made before", runs(to_make)));
                 progress.get_or_init(|| Progress::with_time_left(to_make as usize));
             },
             advance: &|| {
@@ -211,7 +213,7 @@ fn record(folder: &Path, row: &SweepRow, scenario: &Scenario) -> Result<(), Stri
 /// Says where the rows are; of a whole plan, also what they tell.
 fn said(outcome: &SweepOutcome, shard: Shard, folder: &Path) -> ExitStatus {
     let SweepOutcome { table, rows, made, unfinished } = outcome;
-    print(&format!("{} in {}, {made} of them made now\n", runs(*rows as u64), table.display()));
+    print(&format!("{} in {}, {made} of them new\n", runs(*rows as u64), table.display()));
     if *unfinished > 0 {
         print_error(&format!("{} could not be finished: see the column `error`", runs(*unfinished as u64)));
     }

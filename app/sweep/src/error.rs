@@ -1,10 +1,10 @@
 //! Why a sweep gave up.
 
+use std::error::Error;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use interplay_scenarios::LoadError;
-use parquet::errors::ParquetError;
 use thiserror::Error;
 
 /// Why a sweep, a merge or a comparison gave up.
@@ -23,15 +23,15 @@ pub enum SweepError {
         /// Why it failed.
         reason: io::Error,
     },
-    /// A Parquet file cannot be read or written.
+    /// A table cannot be read or written.
     #[error("cannot {what} the rows of `{}`: {reason}", path.display())]
-    Parquet {
+    Table {
         /// What was tried.
         what: &'static str,
         /// Which file.
         path: PathBuf,
         /// Why it failed.
-        reason: Box<ParquetError>,
+        reason: Box<dyn Error + Send + Sync>,
     },
     /// A line of a journal is damaged.
     #[error("{}:{line}: this is no row: {reason}; without this line the run is made again", path.display())]
@@ -64,7 +64,10 @@ impl SweepError {
         move |reason| SweepError::File { what, path: path.to_owned(), reason }
     }
 
-    pub(crate) fn parquet<'a>(what: &'static str, path: &'a Path) -> impl Fn(ParquetError) -> SweepError + 'a {
-        move |reason| SweepError::Parquet { what, path: path.to_owned(), reason: Box::new(reason) }
+    pub(crate) fn table<'a, E: Error + Send + Sync + 'static>(
+        what: &'static str,
+        path: &'a Path,
+    ) -> impl Fn(E) -> SweepError + 'a {
+        move |reason| SweepError::Table { what, path: path.to_owned(), reason: Box::new(reason) }
     }
 }

@@ -161,8 +161,7 @@ impl JournalIndex {
                     line,
                     reason,
                 })?;
-                let place =
-                    LinePlace { journal: journal as u32, line: line as u32, start, length: length as u32 };
+                let place = LinePlace { journal: journal as u32, line: line as u32, start, length: length as u32 };
                 self.places.entry(keyed.key).or_insert(place);
             }
             start += length as u64;
@@ -248,7 +247,8 @@ mod tests {
     fn a_damaged_line_is_located() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("journal-2-of-3.jsonl");
-        fs::write(&path, format!("{}\n{{\"key\": 1}}\n", serde_json::to_string(&row("one")).expect("JSON"))).expect("written");
+        fs::write(&path, format!("{}\n{{\"key\": 1}}\n", serde_json::to_string(&row("one")).expect("JSON")))
+            .expect("written");
         let error = JournalIndex::read(folder.path()).err().expect("damaged").to_string();
         assert!(error.contains("journal-2-of-3.jsonl:2: this is no row"), "{error}");
     }

@@ -8,8 +8,8 @@
 //! a sweep that was killed goes on where it was, and a bigger one reuses the rows of a smaller one. Shards divide the keys, and
 //! need not know of one another.
 
-pub mod compare;
 mod column;
+pub mod compare;
 mod error;
 mod journal;
 mod key;

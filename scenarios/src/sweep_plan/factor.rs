@@ -54,7 +54,13 @@ pub(super) fn factors(vary: &Table, settings: DrawSettings) -> Result<Vec<Factor
     if faults.is_empty() { Ok(found) } else { Err(faults) }
 }
 
-fn collect(before: &SettingPath, vary: &Table, settings: DrawSettings, found: &mut Vec<Factor>, faults: &mut Vec<Fault>) {
+fn collect(
+    before: &SettingPath,
+    vary: &Table,
+    settings: DrawSettings,
+    found: &mut Vec<Factor>,
+    faults: &mut Vec<Fault>,
+) {
     for (key, entry) in vary {
         let path = match before.join(key, &entry.key) {
             Ok(path) if path.written() != "seed" => path,
@@ -93,7 +99,8 @@ fn values_of(node: &TomlNode) -> Result<Values, Fault> {
         TomlValue::Table(table) => distribution(node, table),
         other => {
             let message = format!("{} is no list and no distribution", kind_of(other));
-            Err(Fault::at(&node.place, "does not vary", message).help(format!("{EXAMPLE}; one value belongs in `[set]`")))
+            Err(Fault::at(&node.place, "does not vary", message)
+                .help(format!("{EXAMPLE}; one value belongs in `[set]`")))
         }
     }
 }
@@ -112,8 +119,13 @@ fn distribution(node: &TomlNode, table: &Table) -> Result<Values, Fault> {
         let part = |name: &str| entry.node.table().and_then(|table| number(&table.get(name)?.node));
         return match (part("mean"), part("sd")) {
             (Some(mean), Some(sd)) if sd > 0.0 => Ok(Values::Normal(mean, sd)),
-            (Some(_), Some(_)) => Err(Fault::at(&entry.node.place, "not above 0", "`sd` must be above 0").help(EXAMPLE)),
-            _ => Err(Fault::at(&entry.node.place, "incomplete", "`normal` needs the numbers `mean` and `sd`").help(EXAMPLE)),
+            (Some(_), Some(_)) => {
+                Err(Fault::at(&entry.node.place, "not above 0", "`sd` must be above 0").help(EXAMPLE))
+            }
+            _ => {
+                Err(Fault::at(&entry.node.place, "incomplete", "`normal` needs the numbers `mean` and `sd`")
+                    .help(EXAMPLE))
+            }
         };
     }
     let ends = match &entry.node.value {

@@ -51,7 +51,11 @@ impl SweepPlan {
         let path = Path::new(name_or_path);
         if !path.exists() {
             let message = format!("there is no plan and no file {}", quoted(name_or_path));
-            return Err(refused(Fault::new(message).help(suggestion(name_or_path, "plans in the binary are", &embedded_plans()))));
+            return Err(refused(Fault::new(message).help(suggestion(
+                name_or_path,
+                "plans in the binary are",
+                &embedded_plans(),
+            ))));
         }
         let (_, text) = Source::File(path.to_owned()).read(0).map_err(refused)?;
         SweepPlan::from_text(name_or_path, &with_samples(&text, samples), path.parent().unwrap_or(Path::new("")))
@@ -116,7 +120,9 @@ fn arms(
     key: &str,
     arm: impl Fn(&TomlNode) -> Result<Arm, Vec<Fault>>,
 ) -> Result<Vec<Arm>, Vec<Fault>> {
-    let Some(TomlValue::Array(items)) = tree.at(key).map(|node| &node.value) else { return Ok(vec![Arm::as_written()]) };
+    let Some(TomlValue::Array(items)) = tree.at(key).map(|node| &node.value) else {
+        return Ok(vec![Arm::as_written()]);
+    };
     let mut found: Vec<Arm> = Vec::new();
     for node in items {
         let arm = arm(node)?;

@@ -183,7 +183,8 @@ fn grouped(all: &[RunRecord], by: GroupBy) -> Vec<(GroupName<'_>, Vec<&RunRecord
         GroupBy::Family => Arc::clone(&record.family),
         GroupBy::Scenario => Arc::clone(&record.scenario),
     };
-    let [mut families, mut styles] = [all.iter().map(family).collect::<Vec<_>>(), all.iter().map(|one| Arc::clone(&one.style)).collect()];
+    let [mut families, mut styles] =
+        [all.iter().map(family).collect::<Vec<_>>(), all.iter().map(|one| Arc::clone(&one.style)).collect()];
     for names in [&mut families, &mut styles] {
         names.sort_unstable();
         names.dedup();
@@ -227,7 +228,8 @@ fn planner_figures(records: &[&RunRecord], baseline: &str, stream: u64) -> Vec<P
 fn figures_of(planner: &str, records: &[&RunRecord], stream: u64) -> PlannerFigures {
     let finished: Vec<&RunRecord> = records.iter().copied().filter(|record| record.is_finished()).collect();
     let count = |is: fn(&RunRecord) -> bool| finished.iter().filter(|record| is(record)).count();
-    let numbers = |of: fn(&RunRecord) -> Option<f64>| -> Vec<f64> { finished.iter().filter_map(|one| of(one)).collect() };
+    let numbers =
+        |of: fn(&RunRecord) -> Option<f64>| -> Vec<f64> { finished.iter().filter_map(|one| of(one)).collect() };
     let median = |of: fn(&RunRecord) -> Option<f64>| Quantiles::of(numbers(of)).map(|quantiles| quantiles.median);
     let times_s = numbers(|record| record.completed_s.filter(|_| record.success));
     let completed_s =

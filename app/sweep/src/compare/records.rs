@@ -102,11 +102,15 @@ impl Records {
     fn of(table: &RowTable) -> Result<Records, &'static str> {
         let columns = Columns { table };
         let mut words = Words::default();
-        let [versions, scenarios, families] = [columns.texts("version")?, columns.texts("scenario")?, columns.texts("family")?];
-        let [styles, planners, digests] = [columns.texts("style")?, columns.texts("planner")?, columns.texts("digest")?];
-        let [samples, seeds, failed] = [columns.counts("sample")?, columns.counts("seed")?, columns.counts("plans_failed")?];
+        let [versions, scenarios, families] =
+            [columns.texts("version")?, columns.texts("scenario")?, columns.texts("family")?];
+        let [styles, planners, digests] =
+            [columns.texts("style")?, columns.texts("planner")?, columns.texts("digest")?];
+        let [samples, seeds, failed] =
+            [columns.counts("sample")?, columns.counts("seed")?, columns.counts("plans_failed")?];
         let [places, yields] = [columns.counts("ego_place")?, columns.counts("ego_yields")?];
-        let [passed, success, deadlocks] = [columns.flags("passed")?, columns.flags("success")?, columns.flags("deadlock")?];
+        let [passed, success, deadlocks] =
+            [columns.flags("passed")?, columns.flags("success")?, columns.flags("deadlock")?];
         let [contacts, by_ego] = [columns.flags("ego_contact")?, columns.flags("contact_by_ego")?];
         let [completed, gaps] = [columns.numbers("completed_s")?, columns.numbers("ego_gap_m")?];
         let times = columns.numbers("time_to_collision_s")?;

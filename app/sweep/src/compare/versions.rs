@@ -59,7 +59,9 @@ pub fn compare_versions(first: &Path, second: &Path) -> Result<VersionComparison
     }
     if pairs == 0 {
         let [one, other] = [first, second].map(|path| path.display());
-        return Err(SweepError::Input(format!("no run of `{other}` has a pair in `{one}`: they are of different plans")));
+        return Err(SweepError::Input(format!(
+            "no run of `{other}` has a pair in `{one}`: they are of different plans"
+        )));
     }
     let groups: Vec<([&str; 3], Vec<_>)> = groups.into_iter().collect();
     let mut groups: Vec<VersionGroup> = groups

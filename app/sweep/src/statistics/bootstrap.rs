@@ -20,8 +20,7 @@ pub(crate) fn mean_interval(numbers: &[f64], stream: u64) -> Option<(f64, [f64; 
     let count = numbers.len();
     let mut random = Random::new(SEED, stream);
     let mut draw = || numbers[(random.uniform(0.0, count as f64) as usize).min(count - 1)];
-    let mut means: Vec<f64> =
-        (0..RESAMPLES).map(|_| (0..count).map(|_| draw()).sum::<f64>() / count as f64).collect();
+    let mut means: Vec<f64> = (0..RESAMPLES).map(|_| (0..count).map(|_| draw()).sum::<f64>() / count as f64).collect();
     means.sort_by(f64::total_cmp);
     let mean = numbers.iter().sum::<f64>() / count as f64;
     let bound = |share| quantile(&means, share).unwrap_or(mean);

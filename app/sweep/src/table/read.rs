@@ -23,7 +23,7 @@ impl TableReader {
     /// Opens a table.
     pub fn open(path: &Path) -> Result<TableReader, SweepError> {
         let file = File::open(path).map_err(SweepError::file("read", path))?;
-        let reader = SerializedFileReader::new(file).map_err(SweepError::parquet("read", path))?;
+        let reader = SerializedFileReader::new(file).map_err(SweepError::table("read", path))?;
         Ok(TableReader { path: path.to_owned(), reader })
     }
 
@@ -62,7 +62,7 @@ impl TableReader {
 
     /// One row group: the columns of these names, in their order; a column that is not there is left out.
     pub fn group(&self, group: usize, names: &[String]) -> Result<RowTable, SweepError> {
-        let failed = SweepError::parquet("read", &self.path);
+        let failed = SweepError::table::<ParquetError>("read", &self.path);
         let schema = self.schema()?;
         let reader = self.reader.get_row_group(group).map_err(&failed)?;
         let row_count = usize::try_from(reader.metadata().num_rows()).unwrap_or(0);

@@ -39,7 +39,7 @@ impl<'a> TableWriter<'a> {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let file = builder.tempfile_in(folder).map_err(SweepError::file("write", target))?;
-        let failed = SweepError::parquet("write", target);
+        let failed = SweepError::table::<ParquetError>("write", target);
         let types = schema.iter().map(|(name, kind)| column_type(name, *kind)).collect::<Result<Vec<TypePtr>, _>>();
         let root = types.and_then(|types| Type::group_type_builder("run").with_fields(types).build());
         let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone())).collect();
@@ -79,7 +79,7 @@ impl<'a> TableWriter<'a> {
             }
             group.close().map(drop)
         };
-        write(&mut self.writer, &self.group).map_err(SweepError::parquet("write", self.target))?;
+        write(&mut self.writer, &self.group).map_err(SweepError::table("write", self.target))?;
         self.group = self.schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
         self.rows = 0;
         Ok(())
@@ -88,7 +88,7 @@ impl<'a> TableWriter<'a> {
     /// Ends the table and gives it its place.
     pub fn finish(mut self) -> Result<(), SweepError> {
         self.end_group()?;
-        let file = self.writer.into_inner().map_err(SweepError::parquet("write", self.target))?;
+        let file = self.writer.into_inner().map_err(SweepError::table("write", self.target))?;
         let failed = SweepError::file("write", self.target);
         file.as_file().sync_all().map_err(&failed)?;
         file.persist(self.target).map_err(|error| failed(error.error))?;

@@ -53,11 +53,12 @@ fn section(index: usize, family: String, groups: Vec<&GroupFigures>, baseline: &
         value: planner.success.share(),
         interval: planner.success.share().map(|_| planner.success.interval),
     });
-    let time = bars("Time to the goal", "mean of successful runs [s], with intervals of 95 %", None, |planner| IntervalBar {
-        name: planner.planner.clone(),
-        value: planner.completed_s.map(|time| time.mean),
-        interval: planner.completed_s.map(|time| time.interval),
-    });
+    let time =
+        bars("Time to the goal", "mean of successful runs [s], with intervals of 95 %", None, |planner| IntervalBar {
+            name: planner.planner.clone(),
+            value: planner.completed_s.map(|time| time.mean),
+            interval: planner.completed_s.map(|time| time.interval),
+        });
     let mut pictures = vec![("success of each planner".to_owned(), success.draw().svg()?)];
     if groups.iter().any(|group| group.planners.iter().any(|planner| planner.completed_s.is_some())) {
         pictures.push(("time to the goal of each planner".to_owned(), time.draw().svg()?));
@@ -85,8 +86,7 @@ pub fn version_comparison_page(title: &str, comparison: &VersionComparison) -> P
          pair: {only_before} of the first, {only_after} of the second."
     );
     let changed = groups.iter().filter(|group| group.changed > 0);
-    let rows: Vec<Vec<String>> =
-        changed.map(|group| difference(&version_name(group), &group.difference)).collect();
+    let rows: Vec<Vec<String>> = changed.map(|group| difference(&version_name(group), &group.difference)).collect();
     let tables = vec![table("The second versus the first, where any run differs".to_owned(), &DIFFERENCES, rows)];
     let section = Section { id: "changes".to_owned(), heading: "Changes".to_owned(), tables, ..Section::default() };
     let opening = std::iter::once(summary).chain([LEGEND[1].to_owned()]).collect();

@@ -38,7 +38,8 @@ pub(super) fn heading(group: &GroupFigures) -> String {
 
 /// The figures of a planner.
 pub(super) fn figures(planner: &PlannerFigures) -> Vec<String> {
-    let unfinished = if planner.unfinished > 0 { format!(" (+{} unfinished)", planner.unfinished) } else { String::new() };
+    let unfinished =
+        if planner.unfinished > 0 { format!(" (+{} unfinished)", planner.unfinished) } else { String::new() };
     let time = planner.completed_s.map(|time| format!("{:.2} ({})", time.mean, span(time.interval, 2)));
     let times = |median: Option<f64>, tail: Option<f64>| Some(format!("{:.1}, {:.1}", median?, tail?));
     vec![
@@ -50,7 +51,9 @@ pub(super) fn figures(planner: &PlannerFigures) -> Vec<String> {
         percent(planner.yields.share()),
         planner.deadlocks.to_string(),
         format!("{} ({})", planner.contacts, planner.contacts_by_ego),
-        planner.gap_m.map_or_else(nothing, |Quantiles { least, p05, median }| format!("{least:.3}, {p05:.3}, {median:.3}")),
+        planner
+            .gap_m
+            .map_or_else(nothing, |Quantiles { least, p05, median }| format!("{least:.3}, {p05:.3}, {median:.3}")),
         planner.time_to_collision_s.map_or_else(nothing, |time| format!("{:.2}, {:.2}", time.p05, time.median)),
         times(planner.plan_median_ms, planner.plan_p99_ms).unwrap_or_else(nothing),
     ]

@@ -33,8 +33,7 @@ pub fn version_comparison(comparison: &VersionComparison) -> String {
          first, {only_after} of the second\n"
     );
     let groups = comparison.groups.iter().filter(|group| group.changed > 0);
-    let rows: Vec<Vec<String>> =
-        groups.map(|group| difference(&version_name(group), &group.difference)).collect();
+    let rows: Vec<Vec<String>> = groups.map(|group| difference(&version_name(group), &group.difference)).collect();
     if !rows.is_empty() {
         text += "\nthe second versus the first, where any run differs\n";
         text += &indented(&DIFFERENCES, rows);
