@@ -116,7 +116,7 @@ fn a_star_is_every_vehicle_but_the_ego() {
 #[test]
 fn jitter_is_scaled_to_the_vehicles() {
     let plan = sound(
-        "scenario = ['lane-change/front-nice', 'full-size/lane-change']\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
+        "scenario = ['lane-change/front-nice', 'roundabout/nice']\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
     );
     for (point, scale) in points(&plan).iter().zip([1.0_f64, 10.0]) {
         let scenario = plan.scenario(point).expect("sound");

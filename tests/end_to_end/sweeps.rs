@@ -166,7 +166,7 @@ fn what_is_wrong_is_said_before_anything_is_run_or_written() {
         ),
         (PLAN, &["--shard", "9/8"], "there is no shard 9 of 8"),
         (PLAN, &["--shards", "8"], "JOB_COMPLETION_INDEX"),
-        (PLAN, &["--planner", "idm"], "--scenario"),
+        (PLAN, &["--planner", "idm"], "cannot be used with"),
     ] {
         write(text);
         let refused = interplay(&folder, &[&["sweep", "plan.toml"], arguments].concat());

@@ -15,6 +15,10 @@ pub(crate) struct PlanFlags {
     #[arg(long, value_name = "KIND", requires = "scenario")]
     planner: Vec<String>,
 
+    /// Changes to compare with the scenario as it is written; may be repeated
+    #[arg(long = "arm", value_name = "PATH=VALUE[; PATH=VALUE]...", requires = "scenario")]
+    arms: Vec<String>,
+
     /// Who drives the other vehicles: a style of humans or a kind of driver; may be repeated [default: as each file says]
     #[arg(long, value_name = "STYLE|KIND", requires = "scenario")]
     style: Vec<String>,
@@ -50,9 +54,13 @@ impl PlanFlags {
     }
 
     fn write(&self, text: &mut String) -> std::fmt::Result {
-        for (key, words) in [("scenario", &self.scenario), ("planner", &self.planner), ("style", &self.style)] {
-            if !words.is_empty() {
-                writeln!(text, "{key} = [{}]", words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(", "))?;
+        let all = |words: &[String]| -> Vec<String> { words.iter().map(|word| quoted(word)).collect() };
+        let as_written = if self.arms.is_empty() { None } else { Some(quoted("as-written")) };
+        let arms = self.arms.iter().map(|arm| arm_of(arm));
+        let planners = as_written.into_iter().chain(all(&self.planner)).chain(arms).collect();
+        for (key, entries) in [("scenario", all(&self.scenario)), ("planner", planners), ("style", all(&self.style))] {
+            if !entries.is_empty() {
+                writeln!(text, "{key} = [{}]", entries.join(", "))?;
             }
         }
         if let Some(samples) = self.samples.or(self.starts) {
@@ -66,12 +74,24 @@ impl PlanFlags {
                 writeln!(text, "\n[{table}]")?;
             }
             for assignment in assignments {
-                let (path, value) = assignment.split_once('=').unwrap_or((assignment, "\"\""));
-                writeln!(text, "{} = {}", quoted(path.trim()), value_of(value.trim()))?;
+                writeln!(text, "{}", entry_of(assignment))?;
             }
         }
         Ok(())
     }
+}
+
+/// A planner that differs from the scenario's own by changes, and is called after them.
+fn arm_of(arm: &str) -> String {
+    let changes: Vec<String> =
+        arm.split(';').map(str::trim).filter(|change| !change.is_empty()).map(entry_of).collect();
+    format!("{{ name = {}, set = {{ {} }} }}", quoted(arm.trim()), changes.join(", "))
+}
+
+/// The entry of a table for `PATH=VALUE`.
+fn entry_of(assignment: &str) -> String {
+    let (path, value) = assignment.split_once('=').unwrap_or((assignment, ""));
+    format!("{} = {}", quoted(path.trim()), value_of(value.trim()))
 }
 
 /// A word as a text of TOML, whose escapes are those of JSON.
@@ -115,6 +135,11 @@ mod tests {
         assert_eq!(plan.run_count(), 10);
         assert_eq!(plan.names(), [vec!["intersection/nice"], vec!["tough"], vec!["idm", "conservative"]]);
         assert_eq!(plan.inputs(), [("vehicle.ego.start.speed_mps".to_owned(), true)]);
+        let arm = "vehicle.ego.driver.settled_steps=29; vehicle.ego.driver.gamma=0.5";
+        let words = ["x", "--scenario", "intersection/nice", "--arm", arm];
+        let flags = Alone::try_parse_from(words).expect("sound").flags;
+        let plan = SweepPlan::from_text("the flags", &flags.text().expect("a plan"), Path::new("")).expect("sound");
+        assert_eq!(plan.names()[2], ["as-written", arm]);
         assert_eq!(value_of("nice"), "\"nice\"");
         assert_eq!(value_of("[1, 2]"), "[1, 2]");
     }

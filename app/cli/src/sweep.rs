@@ -34,7 +34,8 @@ pub(crate) struct Sweep {
     #[command(subcommand)]
     action: Option<Action>,
 
-    #[arg(value_name = "PLAN", help = plan_help(), default_value = DEFAULT_PLAN, conflicts_with = "scenario")]
+    #[arg(value_name = "PLAN", help = plan_help(), default_value = DEFAULT_PLAN)]
+    #[arg(conflicts_with_all = ["scenario", "planner", "arms", "style", "vary", "sets", "starts"])]
     plan: String,
 
     #[command(flatten)]

@@ -240,7 +240,7 @@ fn figures_of(planner: &str, records: &[&RunRecord], stream: u64) -> PlannerFigu
         unfinished: records.len() - finished.len(),
         success: Share::of(&finished, |record| record.success),
         completed_s,
-        first: Share::of(&finished, |record| record.goes_first == Some(true)),
+        first: Share::of(&finished, |record| record.place == Some(1)),
         yields: Share::of(&finished, |record| record.yields),
         deadlocks: count(|record| record.is_deadlock),
         contacts: count(|record| record.has_contact),

@@ -28,6 +28,9 @@ pub struct PairedDifference {
     pub pairs: usize,
     /// Who succeeds where the other does not.
     pub success: Split,
+    /// Who has the better place: touches nobody where the other does, or is nearer to the front. Going first where that is
+    /// possible is no failure, and going second is none either.
+    pub place: Split,
     /// Who reaches the goal sooner, of pairs in which both reach it.
     pub time: Split,
     /// How much later the first reaches its goal \[s\]: mean over these pairs; none without any.
@@ -52,6 +55,9 @@ impl PairedDifference {
         let better = |one: &RunRecord, other: &RunRecord| one.success && !other.success;
         let wins = pairs.iter().filter(|(one, other)| better(one, other)).count();
         let losses = pairs.iter().filter(|(one, other)| better(other, one)).count();
+        let rank = |record: &RunRecord| (record.has_any_contact, record.place.unwrap_or(u64::MAX));
+        let ahead = pairs.iter().filter(|(one, other)| rank(one) < rank(other)).count();
+        let behind = pairs.iter().filter(|(one, other)| rank(other) < rank(one)).count();
         let succeeded = pairs.iter().filter(|(one, other)| one.success && other.success);
         let delays_s: Vec<f64> =
             succeeded.filter_map(|(one, other)| Some(one.completed_s? - other.completed_s?)).collect();
@@ -61,6 +67,7 @@ impl PairedDifference {
         PairedDifference {
             pairs: pairs.len(),
             success: Split::of(wins, losses),
+            place: Split::of(ahead, behind),
             time: Split::of(sooner, later),
             delay_s: delay.map(|(mean, _)| mean),
             delay_interval_s: delay.map(|(_, interval)| interval),
@@ -69,15 +76,17 @@ impl PairedDifference {
     }
 }
 
-/// Corrects the probabilities of all differences of a comparison together, those of success and those of time each.
+/// Corrects the probabilities of all differences of a comparison together, those of each kind by themselves.
 pub(super) fn correct(differences: &mut [&mut PairedDifference]) {
-    let corrected_by = |of: fn(&PairedDifference) -> f64, differences: &[&mut PairedDifference]| {
+    let corrected = |of: fn(&PairedDifference) -> f64, differences: &[&mut PairedDifference]| {
         holm(&differences.iter().map(|one| of(one)).collect::<Vec<f64>>())
     };
-    let success = corrected_by(|one| one.success.p, differences);
-    let time = corrected_by(|one| one.time.p, differences);
-    for (one, (success, time)) in differences.iter_mut().zip(success.into_iter().zip(time)) {
-        one.success.p_holm = success;
-        one.time.p_holm = time;
+    let success = corrected(|one| one.success.p, differences);
+    let place = corrected(|one| one.place.p, differences);
+    let time = corrected(|one| one.time.p, differences);
+    for (index, one) in differences.iter_mut().enumerate() {
+        one.success.p_holm = success[index];
+        one.place.p_holm = place[index];
+        one.time.p_holm = time[index];
     }
 }

@@ -9,7 +9,7 @@ use crate::sweep::RUNS_FILE;
 use crate::table::{RowTable, TableColumn};
 
 /// The columns that are read.
-const COLUMNS: [&str; 21] = [
+const COLUMNS: [&str; 22] = [
     "version",
     "scenario",
     "family",
@@ -22,6 +22,7 @@ const COLUMNS: [&str; 21] = [
     "success",
     "completed_s",
     "deadlock",
+    "contacts",
     "ego_contact",
     "contact_by_ego",
     "ego_place",
@@ -49,8 +50,10 @@ pub(super) struct RunRecord {
     pub is_deadlock: bool,
     pub has_contact: bool,
     pub has_contact_by_ego: bool,
-    /// Whether the ego has the first place.
-    pub goes_first: Option<bool>,
+    /// Whether anybody touches anybody.
+    pub has_any_contact: bool,
+    /// The place of the ego, from 1.
+    pub place: Option<u64>,
     /// Whether another went before the ego in a conflict zone.
     pub yields: bool,
     pub gap_m: Option<f64>,
@@ -109,6 +112,7 @@ impl Records {
         let [samples, seeds, failed] =
             [columns.counts("sample")?, columns.counts("seed")?, columns.counts("plans_failed")?];
         let [places, yields] = [columns.counts("ego_place")?, columns.counts("ego_yields")?];
+        let counts = columns.counts("contacts")?;
         let [passed, success, deadlocks] =
             [columns.flags("passed")?, columns.flags("success")?, columns.flags("deadlock")?];
         let [contacts, by_ego] = [columns.flags("ego_contact")?, columns.flags("contact_by_ego")?];
@@ -130,7 +134,8 @@ impl Records {
             is_deadlock: deadlocks[row].unwrap_or(false),
             has_contact: contacts[row].unwrap_or(false),
             has_contact_by_ego: by_ego[row].unwrap_or(false),
-            goes_first: places[row].map(|place| place == 1),
+            has_any_contact: counts[row].is_some_and(|count| count > 0),
+            place: places[row],
             yields: yields[row].is_some_and(|count| count > 0),
             gap_m: gaps[row],
             time_to_collision_s: times[row],

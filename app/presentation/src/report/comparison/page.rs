@@ -12,7 +12,7 @@ const LEGEND: [&str; 3] = [
      the first place in the order, or on a network nobody went before it. Contacts by the ego: it moved towards the other at \
      least as fast as the other towards it.",
     "Intervals of shares are Wilson's, those of means are bootstrapped, at 95 %. Pairs are runs of the same scenario, style, \
-     sample and seed. p is the probability of a split at least as uneven if both were equally good (McNemar's exact test), after \
+     sample and seed. Place: touching nobody where the other does, or nearer to the front; that is no judgement. p is the probability of a split at least as uneven if both were equally good (McNemar's exact test), after \
      Holm's correction for all tests of its kind on the page; a star marks those below 5 %.",
     "Times of plans are wall times of the machine that made the runs.",
 ];

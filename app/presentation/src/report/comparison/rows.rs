@@ -18,8 +18,17 @@ pub(super) const FIGURES: [&str; 11] = [
 ];
 
 /// The columns of differences from the baseline.
-pub(super) const DIFFERENCES: [&str; 7] =
-    ["planner", "pairs", "wins / losses", "p (Holm)", "sooner / later", "p (Holm)", "later by s (95 %), median"];
+pub(super) const DIFFERENCES: [&str; 9] = [
+    "planner",
+    "pairs",
+    "success: wins / losses",
+    "p (Holm)",
+    "place: ahead / behind",
+    "p (Holm)",
+    "sooner / later",
+    "p (Holm)",
+    "later by s (95 %), median",
+];
 
 /// What there is nothing to say of.
 const NOTHING: &str = "-";
@@ -63,12 +72,14 @@ pub(super) fn figures(planner: &PlannerFigures) -> Vec<String> {
 pub(super) fn difference(name: &str, difference: &PairedDifference) -> Vec<String> {
     let delay = difference.delay_s.zip(difference.delay_interval_s).zip(difference.delay_median_s);
     let delay = delay.map(|((mean, interval), median)| format!("{mean:+.2} ({}), {median:+.2}", span(interval, 2)));
-    let PairedDifference { success, time, .. } = difference;
+    let PairedDifference { success, place, time, .. } = difference;
     vec![
         name.to_owned(),
         difference.pairs.to_string(),
         format!("{} / {}", success.wins, success.losses),
         probability(success),
+        format!("{} / {}", place.wins, place.losses),
+        probability(place),
         format!("{} / {}", time.wins, time.losses),
         probability(time),
         delay.unwrap_or_else(nothing),

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tests/cluster/slurm.sh [INTERPLAY]   runs an array of 8 shards on Slurm, kills a task with SIGKILL, requeues it, merges, and
+# tests/cluster/on_slurm.sh [INTERPLAY]   runs an array of 8 shards on Slurm, kills a task with SIGKILL, requeues it, merges, and
 # compares the rows with those of one process. Run by hand where `sbatch` works; a Slurm of one node will do.
 set -euo pipefail
 interplay=$(realpath "${1:-target/release/interplay}")
