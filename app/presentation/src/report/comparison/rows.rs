@@ -32,8 +32,8 @@ pub(super) const DIFFERENCES: [&str; 9] = [
 
 /// What there is nothing to say of.
 const NOTHING: &str = "-";
-/// Probabilities below this are not told apart.
-const LEAST_PROBABILITY: f64 = 1e-4;
+/// Probabilities below this are written as powers of ten.
+const LEAST_PROBABILITY: f64 = 1e-3;
 
 /// The words for a group.
 pub(super) fn heading(group: &GroupFigures) -> String {
