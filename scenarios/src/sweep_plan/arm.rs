@@ -88,7 +88,7 @@ impl Arm {
     /// Lays its changes over a scenario.
     pub fn lay(&self, root: &mut Table) -> Result<(), Fault> {
         if let Some(kind) = &self.kind {
-            if !root.get("vehicle").is_some_and(|entry| !entry.node.is_empty_list()) {
+            if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list()) {
                 let message = "the scenario has no vehicles, so a planner has nothing to drive";
                 return Err(Fault::at(&kind.place, "no vehicle to drive", message));
             }

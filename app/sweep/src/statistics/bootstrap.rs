@@ -1,26 +1,31 @@
 //! The interval of a mean, whatever the distribution.
 
 use interplay_building::random::Random;
+use rayon::prelude::*;
 
 use super::quantile::quantile;
 
 /// How often the numbers are drawn again.
-const RESAMPLES: usize = 1000;
+const RESAMPLES: u64 = 1000;
 /// All intervals are drawn from this seed, so that the same rows give the same intervals.
 const SEED: u64 = 1;
 /// The shares of the resampled means that bound 95 %.
 const BOUNDS: [f64; 2] = [0.025, 0.975];
 
 /// The mean of some numbers and its interval at 95 %: quantiles of the means of as many numbers drawn from them with
-/// replacement (Efron's percentile bootstrap). None without numbers; `stream` tells the draws of one interval from another's.
+/// replacement (Efron's percentile bootstrap). None without numbers; `stream`, below 2⁵⁴, tells the draws of one interval from another's.
 pub(crate) fn mean_interval(numbers: &[f64], stream: u64) -> Option<(f64, [f64; 2])> {
     if numbers.is_empty() {
         return None;
     }
     let count = numbers.len();
-    let mut random = Random::new(SEED, stream);
-    let mut draw = || numbers[(random.uniform(0.0, count as f64) as usize).min(count - 1)];
-    let mut means: Vec<f64> = (0..RESAMPLES).map(|_| (0..count).map(|_| draw()).sum::<f64>() / count as f64).collect();
+    // Each mean has a stream of its own, so that threads do not change it.
+    let resampled = |resample: u64| {
+        let mut random = Random::new(SEED, stream * RESAMPLES + resample);
+        let mut draw = || numbers[(random.uniform(0.0, count as f64) as usize).min(count - 1)];
+        (0..count).map(|_| draw()).sum::<f64>() / count as f64
+    };
+    let mut means: Vec<f64> = (0..RESAMPLES).into_par_iter().map(resampled).collect();
     means.sort_by(f64::total_cmp);
     let mean = numbers.iter().sum::<f64>() / count as f64;
     let bound = |share| quantile(&means, share).unwrap_or(mean);

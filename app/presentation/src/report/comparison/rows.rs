@@ -116,6 +116,7 @@ fn probability(split: &Split) -> String {
     }
     let star = if split.p_holm < 0.05 { " *" } else { "" };
     match split.p_holm {
+        0.0 => format!("< 1e-300{star}"),
         small if small < LEAST_PROBABILITY => format!("{small:.0e}{star}"),
         other => format!("{other:.3}{star}"),
     }
