@@ -158,6 +158,11 @@ impl Fault {
         Fault { message: format!("in the counterfactual {}: {}", quoted(name), self.message), ..self }
     }
 
+    /// The same fault, with where it shows in front.
+    pub(crate) fn within(self, whole: &str) -> Fault {
+        Fault { message: format!("{whole}: {}", self.message), ..self }
+    }
+
     /// What would work, if something is known.
     pub fn hint(&self) -> Option<&str> {
         self.help.as_deref()
@@ -197,11 +202,13 @@ impl Diagnostic for Fault {
     }
 }
 
-/// A scenario that cannot be used, with everything that was found wrong.
+/// A scenario, or a plan of many runs, that cannot be used, with everything that was found wrong.
 #[derive(Clone, Debug, Error, Diagnostic)]
-#[error("cannot use scenario {}: {}", quoted(scenario), counted(faults.len() + left_out))]
+#[error("cannot use {what} {}: {}", quoted(name), counted(faults.len() + left_out))]
 pub struct LoadError {
-    scenario: String,
+    /// `scenario` or `plan`.
+    what: &'static str,
+    name: String,
     #[related]
     faults: Vec<Fault>,
     left_out: usize,
@@ -213,12 +220,21 @@ impl LoadError {
     /// How many faults are reported at most.
     const MAX_FAULTS: usize = 20;
 
-    pub(crate) fn new(scenario: impl Into<String>, mut faults: Vec<Fault>) -> LoadError {
+    pub(crate) fn new(scenario: impl Into<String>, faults: Vec<Fault>) -> LoadError {
+        LoadError::of("scenario", scenario, faults)
+    }
+
+    /// What is wrong with a plan.
+    pub(crate) fn of_plan(plan: impl Into<String>, faults: Vec<Fault>) -> LoadError {
+        LoadError::of("plan", plan, faults)
+    }
+
+    fn of(what: &'static str, name: impl Into<String>, mut faults: Vec<Fault>) -> LoadError {
         faults.sort_by_key(Fault::order);
         let left_out = faults.len().saturating_sub(LoadError::MAX_FAULTS);
         faults.truncate(LoadError::MAX_FAULTS);
         let more = (left_out > 0).then(|| format!("{left_out} more are not shown; fix these first"));
-        LoadError { scenario: scenario.into(), faults, left_out, more }
+        LoadError { what, name: name.into(), faults, left_out, more }
     }
 
     /// What is wrong, in the order of the text; at most 20.

@@ -58,7 +58,7 @@ fn finish(name: &str, mut tree: TomlNode, overrides: &[Override]) -> Result<Scen
 }
 
 /// The scenario that a whole tree describes, but for what its counterfactuals run.
-fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
+pub(crate) fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
     let tree = &with_defaults(tree.clone())?;
     let faults = schema_check::check(tree);
     if !faults.is_empty() {

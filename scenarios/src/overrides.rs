@@ -86,25 +86,11 @@ fn assignments(
     key: &str,
     entry: TomlEntry,
 ) -> Result<Vec<(Vec<Step>, TomlNode)>, Fault> {
-    let mut steps = before.to_vec();
+    let steps = extended(before, key, &entry.key)?;
     let (mut schema, mut in_list) = (schema, false);
-    // A quoted key is longer than its text by its quotes; with escapes in it, the whole of it is underlined.
-    let quotes = entry.key.span.len().saturating_sub(key.len());
-    let mut offset = entry.key.span.start + usize::from(quotes > 0);
-    for word in key.split('.') {
-        let place = match quotes {
-            0 | 2 => Place::new(&entry.key.document, offset..offset + word.len()),
-            _ => entry.key.clone(),
-        };
-        offset += word.len() + 1;
-        if word.trim().is_empty() || steps.len() == MAX_PATH_STEPS {
-            let message = format!("{} is not the path of a setting", quoted(key));
-            let example = "write for example `\"vehicle.ego.goal.speed_mps\" = 1.2`";
-            return Err(Fault::at(&place, "here", message).help(example));
-        }
+    for step in &steps[before.len()..] {
         in_list = schema.is_some_and(|schema| schema.entries().is_some());
-        schema = schema.and_then(|schema| schema.entries().or_else(|| schema.property(word.trim())));
-        steps.push(Step { word: word.trim().to_owned(), place });
+        schema = schema.and_then(|schema| schema.entries().or_else(|| schema.property(&step.word)));
     }
     let is_list = schema.is_some_and(|schema| schema.entries().is_some());
     match entry.node.value {
@@ -118,6 +104,88 @@ fn assignments(
         }
         value => Ok(vec![(steps, TomlNode { place: entry.node.place, value })]),
     }
+}
+
+/// The steps of a path that goes on with a key, in which dots separate the words.
+fn extended(before: &[Step], key: &str, written: &Place) -> Result<Vec<Step>, Fault> {
+    let mut steps = before.to_vec();
+    // A quoted key is longer than its text by its quotes; with escapes in it, the whole of it is underlined.
+    let quotes = written.span.len().saturating_sub(key.len());
+    let mut offset = written.span.start + usize::from(quotes > 0);
+    for word in key.split('.') {
+        let place = match quotes {
+            0 | 2 => Place::new(&written.document, offset..offset + word.len()),
+            _ => written.clone(),
+        };
+        offset += word.len() + 1;
+        if word.trim().is_empty() || steps.len() == MAX_PATH_STEPS {
+            let message = format!("{} is not the path of a setting", quoted(key));
+            let example = "write for example `\"vehicle.ego.goal.speed_mps\" = 1.2`";
+            return Err(Fault::at(&place, "here", message).help(example));
+        }
+        steps.push(Step { word: word.trim().to_owned(), place });
+    }
+    Ok(steps)
+}
+
+/// A path of a setting, as a plan of many runs has it: its second word may be `*`, for every vehicle but the ego.
+#[derive(Clone)]
+pub(crate) struct SettingPath(Vec<Step>);
+
+/// The word of a path that stands for every vehicle but the ego.
+const OTHER_VEHICLES: &str = "*";
+
+impl SettingPath {
+    /// No step yet.
+    pub fn root() -> SettingPath {
+        SettingPath(Vec::new())
+    }
+
+    /// The path that goes on with a key, written at a place.
+    pub fn join(&self, key: &str, place: &Place) -> Result<SettingPath, Fault> {
+        extended(&self.0, key, place).map(SettingPath)
+    }
+
+    /// The path as it is written.
+    pub fn written(&self) -> String {
+        let words: Vec<&str> = self.0.iter().map(|step| step.word.as_str()).collect();
+        words.join(".")
+    }
+
+    /// Lays a value over a scenario at the end of the path.
+    pub fn lay(&self, root: &mut Table, value: &TomlNode) -> Result<(), Fault> {
+        let is_list = |step: &Step| step.word == "vehicle";
+        if !(self.0.first().is_some_and(is_list) && self.0.get(1).is_some_and(|step| step.word == OTHER_VEHICLES)) {
+            return lay(Some(schema::complete()), root, (&self.0, 0), value.clone());
+        }
+        for name in other_names(root) {
+            let mut steps = self.0.clone();
+            steps[1].word = name;
+            lay(Some(schema::complete()), root, (&steps, 0), value.clone())?;
+        }
+        Ok(())
+    }
+}
+
+/// The paths and values of a table such as [`lay_paths`] takes.
+pub(crate) fn settings_of(set: Table) -> Result<Vec<(SettingPath, TomlNode)>, Vec<Fault>> {
+    let (mut all, mut faults) = (Vec::new(), Vec::new());
+    for (key, entry) in set {
+        match assignments(Some(schema::complete()), &[], &key, entry) {
+            Ok(found) => all.extend(found.into_iter().map(|(steps, value)| (SettingPath(steps), value))),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    if faults.is_empty() { Ok(all) } else { Err(faults) }
+}
+
+/// The names of all vehicles but the ego.
+fn other_names(root: &Table) -> Vec<String> {
+    let ego = ego_name(root);
+    let Some(TomlValue::Array(vehicles)) = root.get("vehicle").map(|entry| &entry.node.value) else {
+        return Vec::new();
+    };
+    vehicles.iter().filter_map(TomlNode::label).filter(|name| *name != ego).map(str::to_owned).collect()
 }
 
 /// The whole argument of a flag.

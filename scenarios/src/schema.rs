@@ -21,6 +21,7 @@ mod units;
 use std::sync::LazyLock;
 
 use interplay_building::json_schema::kind_of;
+use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json, json};
 
@@ -30,12 +31,15 @@ pub(crate) use node::{Concern, SchemaNode};
 pub(crate) use twins::{TWIN_OF, in_degrees, rounded};
 pub(crate) use units::{quantity_of, unit_of};
 
-static COMPLETE: LazyLock<Json> = LazyLock::new(|| {
+static COMPLETE: LazyLock<Json> = LazyLock::new(generated::<Scenario>);
+
+/// The schema of a type of files, as the check reads it.
+pub(crate) fn generated<T: JsonSchema>() -> Json {
     let generator = SchemaSettings::draft2020_12().into_generator();
-    let mut schema = generator.into_root_schema_for::<Scenario>().to_value();
+    let mut schema = generator.into_root_schema_for::<T>().to_value();
     polish(&mut schema);
     schema
-});
+}
 
 /// The schema of a whole scenario, all that it extends included.
 pub(crate) fn complete() -> SchemaNode {

@@ -15,8 +15,13 @@ use crate::tree::{Table, TomlNode, TomlValue, kind_of};
 
 /// Everything that is wrong with the shape of the tree.
 pub(crate) fn check(tree: &TomlNode) -> Vec<Fault> {
+    check_file(tree, schema::complete())
+}
+
+/// Everything that is wrong with the shape of a file of which `schema` describes the whole.
+pub(crate) fn check_file(tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut checker = Checker { faults: Vec::new() };
-    checker.node(tree, schema::complete(), &Path::default());
+    checker.node(tree, schema, &Path::default());
     checker.faults
 }
 

@@ -15,8 +15,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("building", &["convex"]),
     ("scenarios", &["planners", "building"]),
     ("app/simulation", &["planners", "building", "scenarios"]),
-    ("app/presentation", &["planners", "building", "scenarios", "app/simulation"]),
-    ("app/cli", &["building", "scenarios", "app/simulation", "app/presentation"]),
+    ("app/sweep", &["building", "scenarios", "app/simulation"]),
+    ("app/presentation", &["planners", "building", "scenarios", "app/simulation", "app/sweep"]),
+    ("app/cli", &["building", "scenarios", "app/simulation", "app/sweep", "app/presentation"]),
     ("tests", &["planners", "building", "scenarios", "app/simulation", "app/cli"]),
 ];
 
@@ -26,6 +27,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("bevy", "app/simulation"),
     ("rapier", "app/simulation"),
     ("parry", "app/simulation"),
+    ("parquet", "app/sweep"),
     ("rerun", "app/presentation"),
     ("re_sdk", "app/presentation"),
     ("plotters", "app/presentation"),
@@ -37,6 +39,7 @@ const OWNERS: &[(&str, &str)] = &[
 const PARTS: &[(&str, &str)] = &[
     ("rapier2d", "app/simulation/src/physics"),
     ("parry2d", "app/simulation/src/physics"),
+    ("parquet", "app/sweep/src/table"),
     ("rerun", "app/presentation/src/record"),
     ("re_sdk_types", "app/presentation/src/record"),
     ("plotters", "app/presentation/src/plot"),

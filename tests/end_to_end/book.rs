@@ -21,6 +21,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("pip ", "needs the network"),
     ("rerun", "another program"),
     ("mdbook ", "another program"),
+    ("tests/cluster/", "needs a scheduler"),
     ("interplay view ", "waits for a viewer: see `authoring`"),
     ("interplay run mine.toml --watch", "never ends: see `authoring`"),
     ("interplay run lane-change/front-tough --connect", "needs a viewer that listens"),

@@ -2,6 +2,7 @@
 //!
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`authoring`], [`documents`], [`book`]
+//! - many runs from one plan: [`sweeps`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`]
 //! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
@@ -39,5 +40,6 @@ mod replacements;
 mod replay;
 mod similarity;
 mod suite;
+mod sweeps;
 mod traffic;
 mod unsuited;

@@ -4,6 +4,7 @@
 //! could not be finished.
 
 mod check;
+mod compare;
 mod completions;
 mod error;
 mod exit_status;
@@ -13,11 +14,14 @@ mod list;
 mod man;
 mod new;
 mod output;
+mod plan_flags;
 mod progress;
+mod refusal;
 mod reproduce;
 mod run;
 mod schema;
 mod suite;
+mod sweep;
 mod threads;
 mod view;
 mod watch;
@@ -44,6 +48,8 @@ enum Command {
     Check(check::Check),
     Suite(suite::Suite),
     Why(why::Why),
+    Sweep(sweep::Sweep),
+    Compare(compare::Compare),
     New(new::New),
     Schema(schema::Schema),
     View(view::View),
@@ -63,6 +69,8 @@ pub fn main() -> ExitCode {
         Some(Command::Check(command)) => command.execute(),
         Some(Command::Suite(command)) => command.execute(),
         Some(Command::Why(command)) => command.execute(),
+        Some(Command::Sweep(command)) => command.execute(),
+        Some(Command::Compare(command)) => command.execute(),
         Some(Command::New(command)) => command.execute(),
         Some(Command::Schema(command)) => command.execute(),
         Some(Command::View(command)) => command.execute(),

@@ -4,6 +4,7 @@
 //! [`Panels`] of curves, a [`FootprintPlot`] of footprints, or a [`TextTable`] of words.
 
 mod axis;
+mod bars;
 mod drawing;
 mod figure;
 mod footprints;
@@ -13,6 +14,7 @@ mod panels;
 pub mod style;
 mod table;
 
+pub use bars::{IntervalBar, IntervalBars};
 pub use drawing::Drawing;
 pub use figure::PlotError;
 pub use footprints::{CurvedStrip, FootprintPlot, FootprintSnapshot, Strip};

@@ -2,12 +2,14 @@
 
 mod building;
 mod columns;
+mod comparison;
 mod identification;
 mod junit;
 mod suite;
 mod summary;
 mod why;
 
+pub use comparison::{comparison, comparison_page, version_comparison, version_comparison_page};
 pub use identification::identification;
 pub use junit::junit;
 pub use suite::{Case, table};

@@ -67,6 +67,11 @@ impl Completion {
         self.route.along(position)
     }
 
+    /// Whether it started elsewhere, so that there is something to complete.
+    pub fn has_task(&self) -> bool {
+        self.has_task
+    }
+
     /// Whether it is the other road that is to be crossed.
     pub fn crosses(&self) -> bool {
         matches!(self.task, Task::Cross { .. })

@@ -103,6 +103,9 @@ pub struct VehicleReport {
     pub driver: String,
     /// When it reached its goal \[s\].
     pub completed_s: Option<f64>,
+    /// Whether it started elsewhere than at its goal.
+    #[serde(skip)]
+    pub has_task: bool,
     /// Its last state.
     #[serde(rename = "final")]
     pub last: State,
@@ -189,6 +192,7 @@ impl VehicleReport {
             name: name.to_owned(),
             driver: driver.to_owned(),
             completed_s: measured.completion.completed_s,
+            has_task: measured.completion.has_task(),
             last: measured.last,
             min_speed_mps: measured.speed.min_mps,
             max_speed_mps: measured.speed.max_mps,

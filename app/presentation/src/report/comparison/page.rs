@@ -1,0 +1,98 @@
+//! Comparisons as a page.
+
+use interplay_sweep::compare::{Comparison, GroupFigures, PlannerFigures, VersionComparison};
+
+use super::rows::{DIFFERENCES, FIGURES, difference, figures, heading, version_name};
+use crate::page::{Page, Section};
+use crate::plot::{IntervalBar, IntervalBars, PlotError, TextTable};
+
+/// How the columns are to be read.
+const LEGEND: [&str; 3] = [
+    "Success: the ego did its task and touched nobody. Stuck: it never did its task, though nobody touched anybody. First: it had \
+     the first place in the order, or on a network nobody went before it. Contacts by the ego: it moved towards the other at \
+     least as fast as the other towards it.",
+    "Intervals of shares are Wilson's, those of means are bootstrapped, at 95 %. Pairs are runs of the same scenario, style, \
+     sample and seed. Place: touching nobody where the other does, or nearer to the front; that is no judgement. p is the probability of a split at least as uneven if both were equally good (McNemar's exact test), after \
+     Holm's correction for all tests of its kind on the page; a star marks those below 5 %.",
+    "Times of plans are wall times of the machine that made the runs.",
+];
+
+/// The page of a comparison of planners.
+///
+/// # Errors
+/// [`PlotError`] if a picture cannot be drawn.
+pub fn comparison_page(title: &str, comparison: &Comparison) -> Result<Page, PlotError> {
+    let Comparison { runs, unfinished, versions, baseline, groups } = comparison;
+    let summary = format!(
+        "{runs} runs, {unfinished} of them without a result; compared with {baseline}; made by version {}.",
+        versions.join(", ")
+    );
+    let opening = std::iter::once(summary).chain(LEGEND.map(str::to_owned)).collect();
+    let mut sections: Vec<Section> = Vec::new();
+    for group in groups {
+        let family = group.family.clone().unwrap_or_else(|| "all".to_owned());
+        if sections.last().is_none_or(|section| section.heading != family) {
+            let same = groups.iter().filter(|other| other.family == group.family);
+            sections.push(section(sections.len(), family, same.collect(), baseline)?);
+        }
+    }
+    // What holds for all comes first.
+    sections.rotate_right(usize::from(groups.iter().any(|group| group.family.is_none())));
+    Ok(Page { title: title.to_owned(), opening, sections })
+}
+
+fn section(index: usize, family: String, groups: Vec<&GroupFigures>, baseline: &str) -> Result<Section, PlotError> {
+    let bars = |title: &str, axis: &str, end, of: fn(&PlannerFigures) -> IntervalBar| IntervalBars {
+        title: title.to_owned(),
+        axis: axis.to_owned(),
+        end,
+        groups: groups.iter().map(|group| (heading(group), group.planners.iter().map(of).collect())).collect(),
+    };
+    let success = bars("Success", "share of runs, with intervals of 95 %", Some(1.0), |planner| IntervalBar {
+        name: planner.planner.clone(),
+        value: planner.success.share(),
+        interval: planner.success.share().map(|_| planner.success.interval),
+    });
+    let time =
+        bars("Time to the goal", "mean of successful runs [s], with intervals of 95 %", None, |planner| IntervalBar {
+            name: planner.planner.clone(),
+            value: planner.completed_s.map(|time| time.mean),
+            interval: planner.completed_s.map(|time| time.interval),
+        });
+    let mut pictures = vec![("success of each planner".to_owned(), success.draw().svg()?)];
+    if groups.iter().any(|group| group.planners.iter().any(|planner| planner.completed_s.is_some())) {
+        pictures.push(("time to the goal of each planner".to_owned(), time.draw().svg()?));
+    }
+    let mut tables = Vec::new();
+    for group in groups {
+        tables.push(table(heading(group), &FIGURES, group.planners.iter().map(figures).collect()));
+        let versus = group.planners.iter().filter_map(|planner| {
+            Some(difference(&planner.planner, planner.versus_baseline.as_ref().filter(|versus| versus.pairs > 0)?))
+        });
+        let versus: Vec<Vec<String>> = versus.collect();
+        if !versus.is_empty() {
+            tables.push(table(format!("{}, versus {baseline}", heading(group)), &DIFFERENCES, versus));
+        }
+    }
+    Ok(Section { id: format!("part-{index}"), heading: family, pictures, tables, ..Section::default() })
+}
+
+/// The page of a comparison of two versions.
+pub fn version_comparison_page(title: &str, comparison: &VersionComparison) -> Page {
+    let [before, after] = comparison.versions.each_ref().map(|versions| versions.join(", "));
+    let VersionComparison { pairs, changed, unpaired: [only_before, only_after], groups, .. } = comparison;
+    let summary = format!(
+        "The first was made by version {before}, the second by {after}. {pairs} pairs of runs, {changed} of them differ; without a \
+         pair: {only_before} of the first, {only_after} of the second."
+    );
+    let changed = groups.iter().filter(|group| group.changed > 0);
+    let rows: Vec<Vec<String>> = changed.map(|group| difference(&version_name(group), &group.difference)).collect();
+    let tables = vec![table("The second versus the first, where any run differs".to_owned(), &DIFFERENCES, rows)];
+    let section = Section { id: "changes".to_owned(), heading: "Changes".to_owned(), tables, ..Section::default() };
+    let opening = std::iter::once(summary).chain([LEGEND[1].to_owned()]).collect();
+    Page { title: title.to_owned(), opening, sections: vec![section] }
+}
+
+fn table(title: String, header: &[&str], rows: Vec<Vec<String>>) -> TextTable {
+    TextTable { title, header: header.iter().map(|word| (*word).to_owned()).collect(), rows }
+}

@@ -1,0 +1,47 @@
+//! The version of the program as far as it decides results: a digest of the sources that a run is computed by.
+//!
+//! A row of an older version must not be taken for one of this version, and the version number of the package changes too
+//! seldom to tell. The digest is of contents, so that it is the same on every machine that builds the same sources.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+/// What decides results, from the root of the repository.
+const SOURCES: [&str; 6] =
+    ["Cargo.lock", "convex/src", "planners/src", "building/src", "scenarios/src", "app/simulation/src"];
+/// How much of the digest is kept \[bytes\].
+const DIGEST_BYTES: usize = 8;
+
+fn main() -> io::Result<()> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut digest = Sha256::new();
+    for source in SOURCES {
+        println!("cargo::rerun-if-changed={}", root.join(source).display());
+        for file in files(&root.join(source))? {
+            let name = file.strip_prefix(&root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
+            let content = fs::read(&file)?;
+            digest.update(format!("{name}\n{}\n", content.len()));
+            digest.update(content);
+        }
+    }
+    let digest: String = digest.finalize().iter().take(DIGEST_BYTES).map(|byte| format!("{byte:02x}")).collect();
+    println!("cargo::rustc-env=INTERPLAY_SOURCES={digest}");
+    Ok(())
+}
+
+/// A file itself, or all files below a folder, sorted; none if there is nothing.
+fn files(path: &Path) -> io::Result<Vec<PathBuf>> {
+    if !path.is_dir() {
+        return Ok(if path.is_file() { vec![path.to_owned()] } else { Vec::new() });
+    }
+    let mut entries: Vec<PathBuf> = fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<io::Result<_>>()?;
+    entries.sort();
+    let mut found = Vec::new();
+    for entry in entries {
+        found.extend(files(&entry)?);
+    }
+    Ok(found)
+}

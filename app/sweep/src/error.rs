@@ -1,0 +1,73 @@
+//! Why a sweep gave up.
+
+use std::error::Error;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use interplay_scenarios::LoadError;
+use thiserror::Error;
+
+/// Why a sweep, a merge or a comparison gave up.
+#[derive(Debug, Error)]
+pub enum SweepError {
+    /// Runs of the plan are refused; nothing was run.
+    #[error("{} runs of the plan cannot be run", .0.len())]
+    Refused(Vec<LoadError>),
+    /// A file cannot be read or written.
+    #[error("cannot {what} `{}`: {reason}", path.display())]
+    File {
+        /// What was tried.
+        what: &'static str,
+        /// Which file.
+        path: PathBuf,
+        /// Why it failed.
+        reason: io::Error,
+    },
+    /// A table cannot be read or written.
+    #[error("cannot {what} the rows of `{}`: {reason}", path.display())]
+    Table {
+        /// What was tried.
+        what: &'static str,
+        /// Which file.
+        path: PathBuf,
+        /// Why it failed.
+        reason: Box<dyn Error + Send + Sync>,
+    },
+    /// A line of a journal is damaged.
+    #[error("{}:{line}: this is no row: {reason}; without this line the run is made again", path.display())]
+    Journal {
+        /// Which journal.
+        path: PathBuf,
+        /// Which line, from 1.
+        line: usize,
+        /// Why it is none.
+        reason: serde_json::Error,
+    },
+    /// Somebody else works on the shard.
+    #[error("`{}` is in use: another process works on this shard", .0.display())]
+    InUse(PathBuf),
+    /// What the user gave does not fit together.
+    #[error("{0}")]
+    Input(String),
+    /// A recording could not be kept.
+    #[error("{0}")]
+    Recording(String),
+}
+
+impl SweepError {
+    /// Whether the input is to blame, and not the machine.
+    pub fn is_bad_input(&self) -> bool {
+        matches!(self, SweepError::Refused(_) | SweepError::Journal { .. } | SweepError::Input(_))
+    }
+
+    pub(crate) fn file<'a>(what: &'static str, path: &'a Path) -> impl Fn(io::Error) -> SweepError + 'a {
+        move |reason| SweepError::File { what, path: path.to_owned(), reason }
+    }
+
+    pub(crate) fn table<'a, E: Error + Send + Sync + 'static>(
+        what: &'static str,
+        path: &'a Path,
+    ) -> impl Fn(E) -> SweepError + 'a {
+        move |reason| SweepError::Table { what, path: path.to_owned(), reason: Box::new(reason) }
+    }
+}

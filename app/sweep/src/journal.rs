@@ -1,0 +1,255 @@
+//! The journals of a folder: one line a run, appended when it is done.
+//!
+//! A line is written at once, so a process that is killed leaves at most the last one torn. A torn line has no end; it is ignored,
+//! and cut off before anything is appended. Everything else in a journal stays as it is for ever: rows of other plans and versions
+//! too.
+
+use std::collections::HashMap;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serde::Deserialize;
+
+use crate::error::SweepError;
+use crate::key::RunKey;
+use crate::row::SweepRow;
+use crate::shard::Shard;
+
+/// How names of journals begin and end.
+const PREFIX: &str = "journal";
+const SUFFIX: &str = ".jsonl";
+/// Time between two times at which what was written is forced onto the disk. A killed process loses nothing of it either way; a
+/// machine that loses its power, at most the runs of this time.
+const SYNC_INTERVAL: Duration = Duration::from_secs(1);
+
+/// The journal of a shard in a folder.
+pub(crate) fn path_of(folder: &Path, shard: Shard) -> PathBuf {
+    folder.join(match shard {
+        Shard::WHOLE => format!("{PREFIX}{SUFFIX}"),
+        Shard { index, count } => format!("{PREFIX}-{index}-of-{count}{SUFFIX}"),
+    })
+}
+
+/// All journals of a folder, sorted by name.
+pub(crate) fn journals(folder: &Path) -> Result<Vec<PathBuf>, SweepError> {
+    let failed = SweepError::file("read", folder);
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).map_err(&failed)? {
+        let path = entry.map_err(&failed)?.path();
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        if name.starts_with(PREFIX) && name.ends_with(SUFFIX) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// A journal that rows are appended to. Only one process can have it.
+pub(crate) struct Journal {
+    path: PathBuf,
+    file: File,
+    synced: Instant,
+}
+
+impl Journal {
+    /// Opens a journal, makes it if it is not there, and cuts off a torn last line.
+    pub fn open(path: &Path) -> Result<Journal, SweepError> {
+        let failed = SweepError::file("open", path);
+        let mut file = OpenOptions::new().read(true).append(true).create(true).open(path).map_err(&failed)?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => return Err(SweepError::InUse(path.to_owned())),
+            // File systems without locks are left to their users.
+            Ok(()) | Err(TryLockError::Error(_)) => {}
+        }
+        let whole = length_of_whole_lines(&mut file).map_err(&failed)?;
+        if whole < file.metadata().map_err(&failed)?.len() {
+            file.set_len(whole).map_err(&failed)?;
+        }
+        Ok(Journal { path: path.to_owned(), file, synced: Instant::now() })
+    }
+
+    /// Appends a row.
+    pub fn append(&mut self, row: &SweepRow) -> Result<(), SweepError> {
+        let failed = |reason: io::Error| SweepError::file("write to", &self.path)(reason);
+        let mut line = serde_json::to_string(row).map_err(|reason| failed(reason.into()))?;
+        line.push('\n');
+        self.file.write_all(line.as_bytes()).map_err(failed)?;
+        if self.synced.elapsed() >= SYNC_INTERVAL {
+            self.file.sync_data().map_err(failed)?;
+            self.synced = Instant::now();
+        }
+        Ok(())
+    }
+
+    /// Forces everything onto the disk.
+    pub fn sync(&self) -> Result<(), SweepError> {
+        self.file.sync_data().map_err(SweepError::file("write to", &self.path))
+    }
+}
+
+/// How long a file is without a last line that has no end \[bytes\].
+fn length_of_whole_lines(file: &mut File) -> io::Result<u64> {
+    const BLOCK: u64 = 64 * 1024;
+    let mut end = file.metadata()?.len();
+    while end > 0 {
+        let start = end.saturating_sub(BLOCK);
+        let mut block = vec![0; (end - start) as usize];
+        file.seek(SeekFrom::Start(start))?;
+        file.read_exact(&mut block)?;
+        if let Some(at) = block.iter().rposition(|byte| *byte == b'\n') {
+            return Ok(start + at as u64 + 1);
+        }
+        end = start;
+    }
+    Ok(0)
+}
+
+/// Where the line of a run is.
+#[derive(Clone, Copy, Debug)]
+struct LinePlace {
+    journal: u32,
+    line: u32,
+    start: u64,
+    length: u32,
+}
+
+/// Where the line of each run of a folder is; of a run with several lines, of the first.
+pub(crate) struct JournalIndex {
+    journals: Vec<PathBuf>,
+    places: HashMap<RunKey, LinePlace>,
+}
+
+/// What of a line says which run it is.
+#[derive(Deserialize)]
+struct Keyed {
+    key: RunKey,
+}
+
+impl JournalIndex {
+    /// No journal.
+    pub fn empty() -> JournalIndex {
+        JournalIndex { journals: Vec::new(), places: HashMap::new() }
+    }
+
+    /// Reads all journals of a folder. It takes some 60 bytes a run.
+    pub fn read(folder: &Path) -> Result<JournalIndex, SweepError> {
+        let mut index = JournalIndex { journals: journals(folder)?, places: HashMap::new() };
+        for journal in 0..index.journals.len() {
+            index.read_journal(journal)?;
+        }
+        Ok(index)
+    }
+
+    fn read_journal(&mut self, journal: usize) -> Result<(), SweepError> {
+        let path = self.journals[journal].clone();
+        let failed = SweepError::file("read", &path);
+        let mut reader = BufReader::new(File::open(&path).map_err(&failed)?);
+        let (mut start, mut line, mut text) = (0, 1, Vec::new());
+        loop {
+            text.clear();
+            let length = reader.read_until(b'\n', &mut text).map_err(&failed)?;
+            if text.last() != Some(&b'\n') {
+                // The end, or a line that is still being written, or never will be.
+                return Ok(());
+            }
+            if text.len() > 1 {
+                let keyed: Keyed = serde_json::from_slice(&text).map_err(|reason| SweepError::Journal {
+                    path: path.clone(),
+                    line,
+                    reason,
+                })?;
+                let place = LinePlace { journal: journal as u32, line: line as u32, start, length: length as u32 };
+                self.places.entry(keyed.key).or_insert(place);
+            }
+            start += length as u64;
+            line += 1;
+        }
+    }
+
+    /// Whether a run is there.
+    pub fn holds(&self, key: RunKey) -> bool {
+        self.places.contains_key(&key)
+    }
+
+    /// Reads the rows of some keys, in their order, as far as they are there.
+    pub fn rows<'a>(&'a self, keys: &'a [RunKey]) -> impl Iterator<Item = Result<SweepRow, SweepError>> + 'a {
+        let mut files: Vec<Option<File>> = self.journals.iter().map(|_| None).collect();
+        let places = keys.iter().filter_map(|key| self.places.get(key));
+        places.map(move |place| self.row(&mut files, place))
+    }
+
+    fn row(&self, files: &mut [Option<File>], place: &LinePlace) -> Result<SweepRow, SweepError> {
+        let path = &self.journals[place.journal as usize];
+        let failed = SweepError::file("read", path);
+        let file = match &mut files[place.journal as usize] {
+            Some(file) => file,
+            closed => closed.insert(File::open(path).map_err(&failed)?),
+        };
+        let mut text = vec![0; place.length as usize];
+        file.seek(SeekFrom::Start(place.start)).map_err(&failed)?;
+        file.read_exact(&mut text).map_err(&failed)?;
+        serde_json::from_slice(&text).map_err(|reason| SweepError::Journal {
+            path: path.clone(),
+            line: place.line as usize,
+            reason,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(name: &str) -> SweepRow {
+        SweepRow {
+            key: RunKey::of_parts(&[name]),
+            version: String::new(),
+            scenario: name.to_owned(),
+            family: String::new(),
+            style: String::new(),
+            planner: String::new(),
+            sample: 0,
+            seed: u64::MAX,
+            inputs: [("a.b".to_owned(), serde_json::json!(0.1 + 0.2))].into(),
+            error: Some("line\nbreak".to_owned()),
+            result: None,
+            wall_s: 1.0 / 3.0,
+            plan_median_ms: None,
+            plan_p99_ms: None,
+        }
+    }
+
+    #[test]
+    fn a_torn_line_is_ignored_and_cut_off_and_rows_are_read_as_they_were() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = path_of(folder.path(), Shard::WHOLE);
+        let mut journal = Journal::open(&path).expect("new");
+        journal.append(&row("one")).expect("written");
+        assert!(matches!(Journal::open(&path), Err(SweepError::InUse(_))), "it is locked");
+        drop(journal);
+        let whole = fs::read(&path).expect("there");
+        for torn in 1..whole.len() - 1 {
+            fs::write(&path, [&whole[..], &whole[..torn]].concat()).expect("written");
+            assert_eq!(JournalIndex::read(folder.path()).expect("sound").places.len(), 1);
+            let mut journal = Journal::open(&path).expect("there");
+            journal.append(&row("two")).expect("written");
+            let keys = ["two", "one", "three"].map(|name| RunKey::of_parts(&[name]));
+            let index = JournalIndex::read(folder.path()).expect("sound");
+            let rows: Vec<SweepRow> = index.rows(&keys).map(|row| row.expect("sound")).collect();
+            assert_eq!(rows, [row("two"), row("one")]);
+        }
+    }
+
+    #[test]
+    fn a_damaged_line_is_located() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("journal-2-of-3.jsonl");
+        fs::write(&path, format!("{}\n{{\"key\": 1}}\n", serde_json::to_string(&row("one")).expect("JSON")))
+            .expect("written");
+        let error = JournalIndex::read(folder.path()).err().expect("damaged").to_string();
+        assert!(error.contains("journal-2-of-3.jsonl:2: this is no row"), "{error}");
+    }
+}

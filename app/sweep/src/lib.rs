@@ -1,0 +1,32 @@
+//! Many runs from one plan, a row each, and what they say of the planners.
+//!
+//! ```text
+//! plan -> runs, each with a key -> journal, a line a run -> rows sorted by key, in one Parquet file a shard -> merged -> compared
+//! ```
+//!
+//! The key of a run is a digest of all that decides its result. So a run that is in a journal is not run again, whoever ran it:
+//! a sweep that was killed goes on where it was, and a bigger one reuses the rows of a smaller one. Shards divide the keys, and
+//! need not know of one another.
+
+mod column;
+pub mod compare;
+mod error;
+mod journal;
+mod key;
+mod measure;
+mod merge;
+mod row;
+mod shard;
+mod statistics;
+mod sweep;
+mod table;
+mod version;
+
+pub use error::SweepError;
+pub use key::RunKey;
+pub use merge::{MergedSweep, merge};
+pub use row::SweepRow;
+pub use shard::{Shard, ShardError};
+pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, sweep};
+pub use table::{RowTable, TableColumn};
+pub use version::program_version;

@@ -1,0 +1,48 @@
+//! Whether a split of unequal pairs is chance.
+
+/// The probability, if both were equally likely, of a split of the unequal pairs at least as uneven: McNemar's exact test, which
+/// is the two-sided sign test. 1 without unequal pairs.
+///
+/// `2 Σ_{k ≤ min} C(n, k) 2⁻ⁿ`, from its largest term downwards, which alone is computed by a logarithm: no power underflows,
+/// however many pairs there are.
+pub(crate) fn sign_test(wins: usize, losses: usize) -> f64 {
+    let (of, least) = ((wins + losses) as f64, wins.min(losses));
+    let ln_choose = libm::lgamma(of + 1.0) - libm::lgamma(least as f64 + 1.0) - libm::lgamma(of - least as f64 + 1.0);
+    let largest = libm::exp(ln_choose - of * std::f64::consts::LN_2);
+    let (mut term, mut sum) = (1.0, 0.0);
+    for count in (0..=least).rev() {
+        sum += term;
+        term *= count as f64 / (of - count as f64 + 1.0);
+    }
+    (2.0 * largest * sum).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `scipy.stats.binomtest(wins, wins + losses).pvalue` of SciPy 1.17.1.
+    #[test]
+    fn the_probability_is_that_of_scipy() {
+        for (wins, losses, expected) in [
+            (0, 194, 7.965_459_555_662_261e-59),
+            (5, 7, 0.774_414_062_5),
+            (23, 1, 2.980_232_238_769_531_2e-6),
+            (1, 0, 1.0),
+            (700, 900, 6.319_484_959_450_105e-7),
+            (3000, 3200, 0.011_488_253_770_871_584),
+        ] {
+            for found in [sign_test(wins, losses), sign_test(losses, wins)] {
+                assert!((found / expected - 1.0).abs() < 1e-9, "{wins} to {losses}: {found:e}");
+            }
+        }
+        assert_eq!((sign_test(0, 0), sign_test(4, 4)), (1.0, 1.0));
+    }
+
+    /// `2^(1 − n)` where all pairs go one way.
+    #[test]
+    fn a_clean_sweep_has_its_closed_form() {
+        assert!((sign_test(10, 0) / 0.5_f64.powi(9) - 1.0).abs() < 1e-12);
+        assert!(sign_test(2000, 0) == 0.0 && sign_test(1000, 0) > 0.0);
+    }
+}

@@ -1,0 +1,200 @@
+//! Runs a plan, or a shard of it.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use interplay_scenarios::{LoadError, Scenario, SweepPlan};
+use rayon::prelude::*;
+
+use crate::column::ColumnKind;
+use crate::error::SweepError;
+use crate::journal::{Journal, JournalIndex, path_of};
+use crate::key::RunKey;
+use crate::measure::measured_run;
+use crate::row::SweepRow;
+use crate::shard::Shard;
+use crate::table::{TableSchema, write_rows};
+
+/// The file with the rows of a whole plan.
+pub const RUNS_FILE: &str = "runs.parquet";
+/// The file with the plan whose rows a folder has.
+pub(crate) const PLAN_FILE: &str = "plan.toml";
+/// What a file of rows says about the whole: the plan's digest, and which shard it is.
+pub(crate) const PLAN_NOTE: &str = "interplay.plan";
+pub(crate) const SHARD_NOTE: &str = "interplay.shard";
+/// How many refused runs are told about.
+const MAX_REFUSALS: usize = 3;
+
+/// Keeps a recording of a run that is worth looking at. Called from several threads.
+pub type KeepRecording<'a> = &'a (dyn Fn(&SweepRow, &Scenario) -> Result<(), String> + Sync);
+
+/// How a plan is run.
+pub struct SweepOptions<'a> {
+    /// The folder of journals and results; it is made if it is not there.
+    pub folder: &'a Path,
+    /// Which part of the plan.
+    pub shard: Shard,
+    /// What to do with a run that failed.
+    pub keep: Option<KeepRecording<'a>>,
+    /// Called when the plan is checked, with how many runs are to be made and how many are there.
+    pub begin: &'a (dyn Fn(u64, u64) + Sync),
+    /// Called after each run, from several threads.
+    pub advance: &'a (dyn Fn() + Sync),
+}
+
+/// What became of a sweep.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SweepOutcome {
+    /// Where the rows are.
+    pub table: PathBuf,
+    /// How many rows there are.
+    pub rows: usize,
+    /// How many runs were made now; the others were there.
+    pub made: u64,
+    /// How many rows have no result.
+    pub unfinished: usize,
+}
+
+/// The rows of a shard.
+pub(crate) fn table_path(folder: &Path, shard: Shard) -> PathBuf {
+    folder.join(match shard {
+        Shard::WHOLE => RUNS_FILE.to_owned(),
+        Shard { index, count } => format!("shard-{index}-of-{count}.parquet"),
+    })
+}
+
+/// The digest of a plan, which its shards have in common.
+pub(crate) fn plan_digest(plan: &SweepPlan) -> String {
+    RunKey::of_parts(&[plan.text()]).to_string()
+}
+
+/// Runs a plan, or a shard of it, in the threads of the current pool: checks every run, makes those that are in no journal of the
+/// folder, and writes the table.
+///
+/// The runs are not held in memory: of each there are 16 bytes for its key and some 60 for where its row is.
+///
+/// # Errors
+/// Runs that are refused, before any is made; files that cannot be read or written.
+pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcome, SweepError> {
+    let (folder, shard) = (options.folder, options.shard);
+    let known = if folder.exists() { JournalIndex::read(folder)? } else { JournalIndex::empty() };
+    let part = Part::of(plan, shard, &known)?;
+    drop(known);
+    make_folder(folder, plan)?;
+    let journal = Mutex::new(Journal::open(&path_of(folder, shard))?);
+    (options.begin)(part.to_make.len() as u64, part.there);
+    part.to_make.par_iter().with_max_len(1).try_for_each(|index| {
+        let point = plan.point(*index);
+        let scenario = plan.scenario(&point).map_err(|error| SweepError::Refused(vec![error]))?;
+        let row = measured_run(RunKey::of(plan, &point), &point, &scenario);
+        if let Some(keep) = options.keep.filter(|_| row.is_failure()) {
+            keep(&row, &scenario).map_err(SweepError::Recording)?;
+        }
+        journal.lock().unwrap_or_else(PoisonError::into_inner).append(&row)?;
+        (options.advance)();
+        Ok(())
+    })?;
+    let journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
+    journal.sync()?;
+    let table = table_path(folder, shard);
+    let (rows, unfinished) = write_table(plan, shard, folder, &table, part.keys)?;
+    Ok(SweepOutcome { table, rows, made: part.to_make.len() as u64, unfinished })
+}
+
+/// The runs of a shard.
+struct Part {
+    /// The keys of all its runs.
+    keys: Vec<RunKey>,
+    /// The numbers of the runs that have no row.
+    to_make: Vec<u64>,
+    /// How many have one.
+    there: u64,
+}
+
+impl Part {
+    /// Finds the runs of a shard, and checks those that have no row.
+    fn of(plan: &SweepPlan, shard: Shard, known: &JournalIndex) -> Result<Part, SweepError> {
+        type Checked = (RunKey, Option<u64>);
+        let check = |index: u64| -> Option<Result<Checked, LoadError>> {
+            let point = plan.point(index);
+            let key = RunKey::of(plan, &point);
+            if !shard.holds(key) {
+                return None;
+            }
+            if known.holds(key) {
+                return Some(Ok((key, None)));
+            }
+            Some(plan.scenario(&point).map(|_| (key, Some(index))))
+        };
+        let refusals = Mutex::new(Vec::new());
+        let is_refused = |refusals: &Mutex<Vec<LoadError>>| {
+            refusals.lock().unwrap_or_else(PoisonError::into_inner).len() >= MAX_REFUSALS
+        };
+        let checked: Vec<Checked> = (0..plan.run_count())
+            .into_par_iter()
+            .take_any_while(|_| !is_refused(&refusals))
+            .filter_map(check)
+            .filter_map(|outcome| {
+                outcome.map_err(|error| refusals.lock().unwrap_or_else(PoisonError::into_inner).push(error)).ok()
+            })
+            .collect();
+        let refusals = refusals.into_inner().unwrap_or_else(PoisonError::into_inner);
+        if !refusals.is_empty() {
+            return Err(SweepError::Refused(refusals));
+        }
+        let mut seen = HashSet::new();
+        // Two runs of one key are one run: a list that states a value twice.
+        let to_make: Vec<u64> =
+            checked.iter().filter(|(key, _)| seen.insert(*key)).filter_map(|(_, index)| *index).collect();
+        let mut keys: Vec<RunKey> = seen.into_iter().collect();
+        keys.sort_unstable();
+        let there = (keys.len() - to_make.len()) as u64;
+        Ok(Part { keys, to_make, there })
+    }
+}
+
+/// Makes the folder and writes the plan into it.
+fn make_folder(folder: &Path, plan: &SweepPlan) -> Result<(), SweepError> {
+    fs::create_dir_all(folder).map_err(SweepError::file("make the folder", folder))?;
+    let path = folder.join(PLAN_FILE);
+    match fs::read_to_string(&path) {
+        Ok(text) if text == plan.text() => return Ok(()),
+        Ok(_) if crate::journal::journals(folder)?.is_empty() => {
+            return Err(SweepError::Input(format!(
+                "`{}` is another plan, and no sweep has been here; choose another folder",
+                path.display()
+            )));
+        }
+        Ok(_) | Err(_) => {}
+    }
+    let failed = SweepError::file("write", &path);
+    let mut file = tempfile::Builder::new();
+    file.prefix(".").suffix(".part");
+    #[cfg(unix)]
+    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = file.tempfile_in(folder).map_err(&failed)?;
+    std::io::Write::write_all(&mut file, plan.text().as_bytes()).map_err(&failed)?;
+    file.persist(&path).map(drop).map_err(|error| failed(error.error))
+}
+
+/// Writes the rows of some keys, sorted, from the journals. Returns how many there are, and how many have no result.
+fn write_table(
+    plan: &SweepPlan,
+    shard: Shard,
+    folder: &Path,
+    table: &Path,
+    keys: Vec<RunKey>,
+) -> Result<(usize, usize), SweepError> {
+    let index = JournalIndex::read(folder)?;
+    let kind = |is_number: bool| if is_number { ColumnKind::Number } else { ColumnKind::Text };
+    let inputs: TableSchema = plan.inputs().into_iter().map(|(path, is_number)| (path, kind(is_number))).collect();
+    let about = [(PLAN_NOTE, plan_digest(plan)), (SHARD_NOTE, shard.to_string())];
+    let mut unfinished = 0;
+    let rows = index.rows(&keys).inspect(|row| {
+        unfinished += usize::from(row.as_ref().is_ok_and(|row| row.error.is_some()));
+    });
+    let count = write_rows(table, &inputs, &about, rows)?;
+    Ok((count, unfinished))
+}

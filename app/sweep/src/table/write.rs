@@ -1,0 +1,152 @@
+//! Writes a table, a row group at a time.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use parquet::basic::{Compression, ZstdLevel};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::{Type, TypePtr};
+use tempfile::NamedTempFile;
+
+use super::{ROWS_PER_GROUP, TableColumn, TableSchema, column_type};
+use crate::column::{Cell, HEAD, TAIL, TIMINGS, input};
+use crate::error::SweepError;
+use crate::row::SweepRow;
+
+/// How hard a file is compressed: the library's own default.
+const ZSTD_LEVEL: i32 = 3;
+
+/// A table that is being written. It appears at its place when it is whole.
+pub(crate) struct TableWriter<'a> {
+    target: &'a Path,
+    writer: SerializedFileWriter<NamedTempFile>,
+    schema: TableSchema,
+    group: Vec<TableColumn>,
+    rows: usize,
+}
+
+impl<'a> TableWriter<'a> {
+    /// Begins a table with these columns and with these words about the whole.
+    pub fn new(target: &'a Path, schema: TableSchema, about: &[(&str, String)]) -> Result<TableWriter<'a>, SweepError> {
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".").suffix(".part");
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let file = builder.tempfile_in(folder).map_err(SweepError::file("write", target))?;
+        let failed = SweepError::table::<ParquetError>("write", target);
+        let types = schema.iter().map(|(name, kind)| column_type(name, *kind)).collect::<Result<Vec<TypePtr>, _>>();
+        let root = types.and_then(|types| Type::group_type_builder("run").with_fields(types).build());
+        let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone())).collect();
+        let zstd = ZstdLevel::try_new(ZSTD_LEVEL).map_err(&failed)?;
+        // Nothing in the file depends on when or where it is written.
+        let properties = WriterProperties::builder()
+            .set_created_by(concat!("interplay ", env!("CARGO_PKG_VERSION")).to_owned())
+            .set_compression(Compression::ZSTD(zstd))
+            .set_key_value_metadata(Some(about));
+        let root = Arc::new(root.map_err(&failed)?);
+        let writer = SerializedFileWriter::new(file, root, Arc::new(properties.build())).map_err(&failed)?;
+        let group = schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
+        Ok(TableWriter { target, writer, schema, group, rows: 0 })
+    }
+
+    /// Appends a row, a value for each column in their order.
+    pub fn push(&mut self, cells: impl IntoIterator<Item = Cell>) -> Result<(), SweepError> {
+        for (column, cell) in self.group.iter_mut().zip(cells) {
+            column.push(cell);
+        }
+        self.rows += 1;
+        if self.rows == ROWS_PER_GROUP { self.end_group() } else { Ok(()) }
+    }
+
+    fn end_group(&mut self) -> Result<(), SweepError> {
+        if self.rows == 0 {
+            return Ok(());
+        }
+        let write = |writer: &mut SerializedFileWriter<NamedTempFile>, columns: &[TableColumn]| {
+            let mut group = writer.next_row_group()?;
+            let mut columns = columns.iter();
+            while let Some(mut writer) = group.next_column()? {
+                if let Some(column) = columns.next() {
+                    write_column(&mut writer, column)?;
+                }
+                writer.close()?;
+            }
+            group.close().map(drop)
+        };
+        write(&mut self.writer, &self.group).map_err(SweepError::table("write", self.target))?;
+        self.group = self.schema.iter().map(|(_, kind)| TableColumn::empty(*kind)).collect();
+        self.rows = 0;
+        Ok(())
+    }
+
+    /// Ends the table and gives it its place.
+    pub fn finish(mut self) -> Result<(), SweepError> {
+        self.end_group()?;
+        let file = self.writer.into_inner().map_err(SweepError::table("write", self.target))?;
+        let failed = SweepError::file("write", self.target);
+        file.as_file().sync_all().map_err(&failed)?;
+        file.persist(self.target).map_err(|error| failed(error.error))?;
+        // The new name is on the disk, too, when this returns; where folders cannot be opened, that is the system's business.
+        if let Some(folder) = self.target.parent().and_then(|folder| fs::File::open(folder).ok()) {
+            let _ = folder.sync_all();
+        }
+        Ok(())
+    }
+}
+
+fn write_column(writer: &mut SerializedColumnWriter<'_>, column: &TableColumn) -> Result<(), ParquetError> {
+    fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
+        values.iter().map(|value| i16::from(value.is_some())).collect()
+    }
+    match column {
+        TableColumn::Flags(all) => {
+            let values: Vec<bool> = all.iter().copied().flatten().collect();
+            writer.typed::<BoolType>().write_batch(&values, Some(&levels(all)), None)?;
+        }
+        TableColumn::Counts(all) => {
+            let values: Vec<i64> = all.iter().flatten().map(|value| value.cast_signed()).collect();
+            writer.typed::<Int64Type>().write_batch(&values, Some(&levels(all)), None)?;
+        }
+        TableColumn::Numbers(all) => {
+            let values: Vec<f64> = all.iter().copied().flatten().collect();
+            writer.typed::<DoubleType>().write_batch(&values, Some(&levels(all)), None)?;
+        }
+        TableColumn::Texts(all) => {
+            let values: Vec<ByteArray> = all.iter().flatten().map(|text| ByteArray::from(text.as_str())).collect();
+            writer.typed::<ByteArrayType>().write_batch(&values, Some(&levels(all)), None)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes rows as a table; `inputs` are the columns of what varies.
+pub(crate) fn write_rows(
+    target: &Path,
+    inputs: &TableSchema,
+    about: &[(&str, String)],
+    rows: impl Iterator<Item = Result<SweepRow, SweepError>>,
+) -> Result<usize, SweepError> {
+    let head = HEAD.iter().map(|column| (column.name.to_owned(), column.kind));
+    let tail = TAIL.iter().map(|column| (column.name.to_owned(), column.kind));
+    let schema: TableSchema = head.chain(inputs.iter().cloned()).chain(tail).collect();
+    debug_assert!(TIMINGS.iter().all(|timing| schema.iter().any(|(name, _)| name == timing)));
+    let mut writer = TableWriter::new(target, schema, about)?;
+    let mut count = 0;
+    for row in rows {
+        let row = row?;
+        let head = HEAD.iter().map(|column| (column.get)(&row));
+        let varied = inputs.iter().map(|(path, kind)| input(&row, path, *kind));
+        let tail = TAIL.iter().map(|column| (column.get)(&row));
+        let cells: Vec<Cell> = head.chain(varied).chain(tail).collect();
+        writer.push(cells)?;
+        count += 1;
+    }
+    writer.finish()?;
+    Ok(count)
+}

@@ -1,0 +1,111 @@
+//! What is compared: planners of the ego, and drivers of the other vehicles.
+
+use interplay_building::nearest::suggestion;
+use interplay_planners::human::Style;
+
+use super::factor::{DrawSettings, Factor, factors};
+use crate::error::{Fault, Place, quoted};
+use crate::overrides::{SettingPath, lay_planner, settings_of};
+use crate::schema::driver_kinds;
+use crate::tree::{Table, TomlEntry, TomlNode, TomlValue};
+
+/// A planner of the ego, or drivers of the others.
+#[derive(Clone)]
+pub(super) struct Arm {
+    /// Its name.
+    pub name: String,
+    /// The kind of driver of the ego, if it is changed.
+    kind: Option<TomlNode>,
+    changes: Vec<(SettingPath, TomlNode)>,
+    /// What varies with it.
+    pub factors: Vec<Factor>,
+}
+
+/// The name of what is left as the scenario has it.
+const AS_WRITTEN: &str = "as-written";
+
+impl Arm {
+    /// Everything as the scenario has it.
+    pub fn as_written() -> Arm {
+        Arm { name: AS_WRITTEN.to_owned(), kind: None, changes: Vec::new(), factors: Vec::new() }
+    }
+
+    /// An arm that changes settings and has factors of its own.
+    pub fn changing(name: &str, changes: Vec<(SettingPath, TomlNode)>, factors: Vec<Factor>) -> Arm {
+        Arm { name: name.to_owned(), kind: None, changes, factors }
+    }
+
+    /// A planner: a kind of driver, or a table.
+    pub fn planner(node: &TomlNode) -> Result<Arm, Vec<Fault>> {
+        match &node.value {
+            TomlValue::Table(table) => {
+                let kind = table.get("kind").map(|entry| entry.node.clone());
+                Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0))? })
+            }
+            _ => {
+                let name = node.text().unwrap_or_default().to_owned();
+                let kind = (name != AS_WRITTEN).then(|| node.clone());
+                Ok(Arm { name, kind, ..Arm::as_written() })
+            }
+        }
+    }
+
+    /// Drivers of the others: a style of humans, a kind of driver, or a table.
+    pub fn style(node: &TomlNode, settings: DrawSettings) -> Result<Arm, Vec<Fault>> {
+        if let TomlValue::Table(table) = &node.value {
+            return Arm::stated(table, settings);
+        }
+        let word = node.text().unwrap_or_default();
+        if word == AS_WRITTEN {
+            return Ok(Arm::as_written());
+        }
+        let styles = Style::ALL.map(Style::name);
+        let kinds = driver_kinds();
+        let text = |word: &str| TomlNode { place: node.place.clone(), value: TomlValue::Text(word.to_owned()) };
+        let entry = |word: &str| TomlEntry { key: node.place.clone(), node: text(word) };
+        let driver = if styles.contains(&word) {
+            Table::from([("kind".to_owned(), entry("human")), ("style".to_owned(), entry(word))])
+        } else if kinds.contains(&word) {
+            Table::from([("kind".to_owned(), entry(word))])
+        } else {
+            let words: Vec<&str> = styles.into_iter().chain(kinds).collect();
+            let message = format!("{} is no style and no kind of driver", quoted(word));
+            return Err(vec![Fault::at(&node.place, "unknown", message).help(suggestion(word, "choose from", &words))]);
+        };
+        let path = path_of("vehicle.*.driver", &node.place).map_err(|fault| vec![fault])?;
+        let changes = vec![(path, TomlNode { place: node.place.clone(), value: TomlValue::Table(driver) })];
+        Ok(Arm { name: word.to_owned(), changes, ..Arm::as_written() })
+    }
+
+    fn stated(table: &Table, settings: DrawSettings) -> Result<Arm, Vec<Fault>> {
+        let name = table.get("name").and_then(|entry| entry.node.text()).unwrap_or_default().to_owned();
+        let part = |key: &str| table.get(key).and_then(|entry| entry.node.table());
+        let changes = part("set").map_or_else(|| Ok(Vec::new()), |set| settings_of(set.clone()))?;
+        let factors = part("vary").map_or_else(|| Ok(Vec::new()), |vary| factors(vary, settings))?;
+        Ok(Arm { name, kind: None, changes, factors })
+    }
+
+    /// Lays its changes over a scenario.
+    pub fn lay(&self, root: &mut Table) -> Result<(), Fault> {
+        if let Some(kind) = &self.kind {
+            if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list()) {
+                let message = "the scenario has no vehicles, so a planner has nothing to drive";
+                return Err(Fault::at(&kind.place, "no vehicle to drive", message));
+            }
+            lay_planner(root, kind.clone())?;
+        }
+        self.changes.iter().try_for_each(|(path, value)| path.lay(root, value))
+    }
+
+    /// Its changes, in words of which no two arms that differ have the same.
+    pub fn canonical(&self) -> String {
+        let kind = self.kind.iter().map(|kind| format!("kind={}", kind.to_json()));
+        let changes = self.changes.iter().map(|(path, value)| format!("{}={}", path.written(), value.to_json()));
+        kind.chain(changes).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// A path whose words are all written at one place.
+pub(super) fn path_of(path: &str, place: &Place) -> Result<SettingPath, Fault> {
+    path.split('.').try_fold(SettingPath::root(), |before, word| before.join(word, place))
+}

@@ -1,0 +1,122 @@
+//! The scenarios that an entry of a plan stands for.
+
+use std::path::{Path, PathBuf};
+
+use interplay_building::nearest::suggestion;
+
+use crate::embedded::embedded;
+use crate::error::{Fault, Place, quoted};
+
+/// A scenario of a plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct NamedScenario {
+    /// What it is called in the results.
+    pub name: String,
+    /// What it is compared with: the folder of an embedded scenario, otherwise its name.
+    pub family: String,
+    /// The name of the embedded scenario, or the path of the file.
+    pub source: String,
+}
+
+/// The scenarios of an entry: an embedded scenario, a pattern with `*` or a family of them, a file, or all .toml files below a
+/// folder, sorted by name. Paths are relative to `folder`.
+pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<NamedScenario>, Fault> {
+    let matching = |fits: &dyn Fn(&str) -> bool| -> Vec<NamedScenario> {
+        embedded().iter().filter(|file| fits(file.name)).map(|file| embedded_scenario(file.name)).collect()
+    };
+    let family = format!("{}/", entry.trim_end_matches('/'));
+    let found = match matching(&|name| fits(entry, name)) {
+        none if none.is_empty() => matching(&|name| name.starts_with(&family)),
+        found => found,
+    };
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    let path = folder.join(entry);
+    if path.is_dir() {
+        let unreadable = |reason: std::io::Error| {
+            Fault::at(place, "unreadable", format!("cannot read folder {}: {reason}", quoted(entry)))
+        };
+        let files = below(&path).map_err(unreadable)?;
+        if files.is_empty() {
+            return Err(Fault::at(place, "empty", format!("there is no .toml file in folder {}", quoted(entry))));
+        }
+        return Ok(files.iter().map(|file| in_folder(file, &path)).collect());
+    }
+    if path.is_file() {
+        let name = path.file_stem().map_or_else(|| entry.to_owned(), |stem| stem.to_string_lossy().into_owned());
+        let source = path.to_string_lossy().into_owned();
+        return Ok(vec![NamedScenario { family: name.clone(), name, source }]);
+    }
+    let mut names: Vec<&str> = embedded().iter().map(|file| file.name).collect();
+    names.extend(families());
+    let message = format!("there is no scenario, no family and no file {}", quoted(entry));
+    let help = format!("{}; `interplay list` shows all of them", suggestion(entry, "families are", &families()));
+    let near = interplay_building::nearest::nearest(entry, names);
+    let help = near.map_or(help, |near| format!("did you mean `{near}`? `interplay list` shows all of them"));
+    Err(Fault::at(place, "unknown", message).help(help))
+}
+
+fn embedded_scenario(name: &str) -> NamedScenario {
+    let family = name.split('/').next().unwrap_or(name).to_owned();
+    NamedScenario { name: name.to_owned(), family, source: name.to_owned() }
+}
+
+fn in_folder(file: &Path, folder: &Path) -> NamedScenario {
+    let name = file.strip_prefix(folder).unwrap_or(file).with_extension("").to_string_lossy().into_owned();
+    let family = name.split('/').next().unwrap_or(&name).to_owned();
+    NamedScenario { name, family, source: file.to_string_lossy().into_owned() }
+}
+
+/// The folders of the embedded scenarios.
+fn families() -> Vec<&'static str> {
+    let mut found: Vec<&str> = embedded().iter().filter_map(|file| file.name.split('/').next()).collect();
+    found.dedup();
+    found
+}
+
+/// Whether a name fits a pattern, in which `*` stands for any characters but `/`.
+fn fits(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((start, rest)) => name.strip_prefix(start).is_some_and(|name| {
+            let reach = name.find('/').unwrap_or(name.len());
+            (0..=reach).any(|end| name.is_char_boundary(end) && fits(rest, &name[end..]))
+        }),
+    }
+}
+
+fn below(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let (mut folders, mut found) = (vec![folder.to_owned()], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder)? {
+            let entry = entry?;
+            if entry.file_type()?.is_dir() {
+                folders.push(entry.path());
+            } else if entry.path().extension().is_some_and(|extension| extension == "toml") {
+                found.push(entry.path());
+            }
+        }
+    }
+    found.sort_by_key(|path| path.with_extension(""));
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_a_part_of_a_name() {
+        for (pattern, name, expected) in [
+            ("lane-change/*", "lane-change/front-nice", true),
+            ("*/nice", "intersection/nice", true),
+            ("*/nice", "lane-change/front-nice", false),
+            ("*nice", "intersection/nice", false),
+            ("*/*-nice", "lane-change/front-nice", true),
+            ("lane-change", "lane-change/front-nice", false),
+        ] {
+            assert_eq!(fits(pattern, name), expected, "{pattern} {name}");
+        }
+    }
+}

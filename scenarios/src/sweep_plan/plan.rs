@@ -1,0 +1,285 @@
+//! A plan that has been read, and its runs.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value as Json;
+
+use super::arm::{Arm, path_of};
+use super::factor::Factor;
+use super::names::NamedScenario;
+use crate::error::{Fault, LoadError, Place};
+use crate::load::assemble;
+use crate::plan_file::Sampling;
+use crate::scenario::Scenario;
+use crate::start_jitter::StartJitter;
+use crate::tree::{Table, TomlNode, TomlValue};
+
+/// A plan of many runs. They are numbered from 0, those of one sample next to each other.
+pub struct SweepPlan {
+    pub(super) name: String,
+    pub(super) title: Option<String>,
+    /// The text as it was written.
+    pub(super) text: String,
+    pub(super) scenarios: Vec<PlannedScenario>,
+    pub(super) styles: Vec<Arm>,
+    pub(super) planners: Vec<Arm>,
+    pub(super) changes: Arm,
+    pub(super) sampling: Sampling,
+    pub(super) samples: u64,
+    pub(super) seed: u64,
+    /// Where a key that no line states is blamed.
+    pub(super) place: Place,
+}
+
+/// A scenario of a plan, without what the plan changes.
+pub(super) struct PlannedScenario {
+    pub named: NamedScenario,
+    pub tree: TomlNode,
+    /// What the scenario is, in words of which no two that differ have the same.
+    pub canonical: String,
+    /// The random change of its starts, scaled to its vehicles.
+    pub jitter: Option<StartJitter>,
+}
+
+/// One run of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepPoint {
+    /// Its number.
+    pub index: u64,
+    /// The scenario's name.
+    pub scenario: String,
+    /// The scenario's family.
+    pub family: String,
+    /// The name of the drivers of the other vehicles.
+    pub style: String,
+    /// The name of the planner.
+    pub planner: String,
+    /// The sample among those of the scenario and style; the runs of all planners have the same values in it.
+    pub sample: u64,
+    /// The seed of the run.
+    pub seed: u64,
+    /// What varies, and its value.
+    pub inputs: Vec<(String, Json)>,
+    place: Indices,
+}
+
+/// The parts of a plan that make a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Indices {
+    scenario: usize,
+    style: usize,
+    planner: usize,
+    /// The combination on the grid.
+    cell: u64,
+    /// The sample within it.
+    draw: u64,
+}
+
+impl SweepPlan {
+    /// What the plan is for.
+    pub fn title(&self) -> &str {
+        self.title.as_deref().unwrap_or(&self.name)
+    }
+
+    /// The plan as it was written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// How many runs it stands for.
+    pub fn run_count(&self) -> u64 {
+        self.count_for(self.scenarios.len()).unwrap_or(u64::MAX)
+    }
+
+    /// How many runs there are with so many scenarios; none if they are more than can be counted.
+    pub(super) fn count_for(&self, scenarios: usize) -> Option<u64> {
+        let one = (0..self.styles.len()).try_fold(0_u64, |sum, style| sum.checked_add(self.samples_of(style)?))?;
+        one.checked_mul(scenarios as u64)?.checked_mul(self.planners.len() as u64)
+    }
+
+    /// The paths of everything that varies, sorted, each with whether all of its values are numbers.
+    pub fn inputs(&self) -> Vec<(String, bool)> {
+        let mut found = BTreeMap::new();
+        for factor in self.styles.iter().chain([&self.changes]).flat_map(|arm| &arm.factors) {
+            *found.entry(factor.path.written()).or_insert(true) &= factor.is_numeric();
+        }
+        found.into_iter().collect()
+    }
+
+    /// The names of the scenarios, the styles and the planners.
+    pub fn names(&self) -> [Vec<&str>; 3] {
+        [
+            self.scenarios.iter().map(|scenario| scenario.named.name.as_str()).collect(),
+            self.styles.iter().map(|arm| arm.name.as_str()).collect(),
+            self.planners.iter().map(|arm| arm.name.as_str()).collect(),
+        ]
+    }
+
+    /// How many combinations there are with a style.
+    fn cells(&self, style: usize) -> Option<u64> {
+        if self.sampling != Sampling::Grid {
+            return Some(1);
+        }
+        let counts = self.factors(style).filter_map(Factor::count);
+        counts.map(|count| count as u64).try_fold(1_u64, u64::checked_mul)
+    }
+
+    fn samples_of(&self, style: usize) -> Option<u64> {
+        self.cells(style)?.checked_mul(self.samples)
+    }
+
+    fn factors(&self, style: usize) -> impl Iterator<Item = &Factor> {
+        self.changes.factors.iter().chain(&self.styles[style].factors)
+    }
+
+    /// A run.
+    ///
+    /// # Panics
+    /// If there are not so many runs.
+    pub fn point(&self, index: u64) -> SweepPoint {
+        assert!(index < self.run_count(), "the plan has no run {index}");
+        let planners = self.planners.len() as u64;
+        let (mut rest, planner) = (index / planners, (index % planners) as usize);
+        let mut style = 0;
+        let scenarios = self.scenarios.len() as u64;
+        // Samples of a style, for one scenario after the other.
+        while rest >= self.samples_of(style).unwrap_or(u64::MAX).saturating_mul(scenarios) {
+            rest -= self.samples_of(style).unwrap_or(0) * scenarios;
+            style += 1;
+        }
+        let of_one = self.samples_of(style).unwrap_or(1);
+        let (scenario, sample) = ((rest / of_one) as usize, rest % of_one);
+        let place = Indices { scenario, style, planner, cell: sample / self.samples, draw: sample % self.samples };
+        let named = &self.scenarios[scenario].named;
+        let inputs = self.values(&place).map(|(factor, value)| (factor.path.written(), value.to_json())).collect();
+        SweepPoint {
+            index,
+            scenario: named.name.clone(),
+            family: named.family.clone(),
+            style: self.styles[style].name.clone(),
+            planner: self.planners[planner].name.clone(),
+            sample,
+            seed: self.seed + place.draw,
+            inputs,
+            place,
+        }
+    }
+
+    /// The values of all factors in a run.
+    fn values(&self, place: &Indices) -> impl Iterator<Item = (&Factor, TomlNode)> {
+        let (mut cell, draw, is_grid) = (place.cell, place.draw, self.sampling == Sampling::Grid);
+        self.factors(place.style).map(move |factor| {
+            let value = match factor.count().filter(|_| is_grid) {
+                Some(count) => {
+                    let index = cell % count as u64;
+                    cell /= count as u64;
+                    factor.value(index as usize)
+                }
+                None => factor.drawn(draw),
+            };
+            (factor, value)
+        })
+    }
+
+    /// What the scenario of a run is, without what the plan changes, in words of which no two that differ have the same.
+    pub fn canonical_scenario(&self, point: &SweepPoint) -> &str {
+        &self.scenarios[point.place.scenario].canonical
+    }
+
+    /// What is changed for a run, likewise.
+    pub fn canonical_changes(&self, point: &SweepPoint) -> String {
+        let place = &point.place;
+        let jitter = self.scenarios[place.scenario].jitter;
+        let jitter = jitter.map(|jitter| format!("jitter={:?}\n", jitter)).unwrap_or_default();
+        let arms = [&self.changes, &self.styles[place.style], &self.planners[place.planner]];
+        let arms = arms.map(Arm::canonical).join("\n;\n");
+        let inputs: Vec<String> = point.inputs.iter().map(|(path, value)| format!("{path}={value}")).collect();
+        format!("{jitter}{arms}\n;\n{}\n;\nseed={}", inputs.join("\n"), point.seed)
+    }
+
+    /// The scenario of a run.
+    ///
+    /// # Errors
+    /// What is wrong with it, located in the plan or in the scenario.
+    pub fn scenario(&self, point: &SweepPoint) -> Result<Scenario, LoadError> {
+        self.assembled(&point.place, None).map_err(|faults| LoadError::of_plan(&self.name, faults))
+    }
+
+    /// The scenario of a run, with another value for one of the factors.
+    fn assembled(&self, place: &Indices, instead: Option<(usize, TomlNode)>) -> Result<Scenario, Vec<Fault>> {
+        let planned = &self.scenarios[place.scenario];
+        let mut tree = planned.tree.clone();
+        let in_run = |fault: Fault| self.in_run(fault, place, instead.as_ref());
+        if let TomlValue::Table(root) = &mut tree.value {
+            self.lay(root, place, instead.as_ref()).map_err(|fault| vec![in_run(fault)])?;
+        }
+        assemble(&tree).map_err(|faults| faults.into_iter().map(in_run).collect())
+    }
+
+    fn lay(&self, root: &mut Table, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Result<(), Fault> {
+        let at = |value: TomlValue| TomlNode { place: self.place.clone(), value };
+        if let Some(jitter) = self.scenarios[place.scenario].jitter {
+            for (key, value) in [("position_m", jitter.position_m), ("speed_mps", jitter.speed_mps)] {
+                path_of(&format!("start_jitter.{key}"), &self.place)?.lay(root, &at(TomlValue::Float(value)))?;
+            }
+        }
+        let seed = TomlValue::Integer(i128::from(self.seed + place.draw));
+        path_of("seed", &self.place)?.lay(root, &at(seed))?;
+        self.changes.lay(root)?;
+        self.styles[place.style].lay(root)?;
+        self.planners[place.planner].lay(root)?;
+        for (index, (factor, value)) in self.values(place).enumerate() {
+            let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value);
+            factor.path.lay(root, other.unwrap_or(&value))?;
+        }
+        Ok(())
+    }
+
+    /// The same fault, with the run in which it shows. What is wrong with a scenario once values vary is blamed on these values.
+    fn in_run(&self, fault: Fault, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Fault {
+        let scenario = &self.scenarios[place.scenario].named.name;
+        let (style, planner) = (&self.styles[place.style].name, &self.planners[place.planner].name);
+        let run = format!("in the runs of `{scenario}` with the style `{style}` and the planner `{planner}`");
+        let values: Vec<String> = self
+            .values(place)
+            .enumerate()
+            .map(|(index, (factor, value))| {
+                let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value);
+                format!("`{} = {}`", factor.path.written(), other.unwrap_or(&value).to_json())
+            })
+            .collect();
+        let varied = instead.map_or(0, |(index, _)| *index);
+        match self.factors(place.style).nth(varied) {
+            Some(factor) if fault.file() != Some(&self.name) => {
+                fault.moved_to(&factor.place).within(&format!("{run}, at {}", values.join(", ")))
+            }
+            _ => fault.within(&run),
+        }
+    }
+
+    /// What is wrong with the plan's arms and with the values at the ends of what can be drawn. It stops at the first
+    /// combination of scenario, style and planner in which something is.
+    pub(super) fn check_extremes(&self) -> Vec<Fault> {
+        for scenario in 0..self.scenarios.len() {
+            for style in 0..self.styles.len() {
+                for planner in 0..self.planners.len() {
+                    let place = Indices { scenario, style, planner, cell: 0, draw: 0 };
+                    let mut faults = self.assembled(&place, None).err().unwrap_or_default();
+                    if faults.is_empty() {
+                        let extremes = self.factors(style).enumerate().flat_map(|(index, factor)| {
+                            factor.extremes(MAX_LISTED).into_iter().map(move |value| (index, value))
+                        });
+                        faults.extend(extremes.filter_map(|one| self.assembled(&place, Some(one)).err()).flatten());
+                    }
+                    if !faults.is_empty() {
+                        return faults;
+                    }
+                }
+            }
+        }
+        Vec::new()
+    }
+}
+
+/// How many values of a list are checked as extremes; every value that is run is checked besides.
+const MAX_LISTED: usize = 100;

@@ -1,0 +1,205 @@
+//! From a text to a checked plan.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::LazyLock;
+
+use interplay_building::nearest::suggestion;
+use serde_json::Value as Json;
+
+use super::arm::Arm;
+use super::factor::{DrawSettings, factors};
+use super::names::{NamedScenario, find};
+use super::plan::{PlannedScenario, SweepPlan};
+use crate::error::{Document, Fault, LoadError, Place, quoted};
+use crate::load;
+use crate::overrides::settings_of;
+use crate::plan_file::PlanFile;
+use crate::scenario::Scenario;
+use crate::schema::{self, SchemaNode};
+use crate::schema_check::check_file;
+use crate::source::Source;
+use crate::start_jitter::StartJitter;
+use crate::tree::{self, TomlNode, TomlValue};
+use crate::weather::WeatherConfig;
+
+static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
+
+/// The plans in the binary: name and text.
+const EMBEDDED: [(&str, &str); 3] = [
+    ("quick", include_str!("../../plans/quick.toml")),
+    ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
+    ("benchmark", include_str!("../../plans/benchmark.toml")),
+];
+
+/// The names of the plans in the binary.
+pub fn embedded_plans() -> Vec<&'static str> {
+    EMBEDDED.iter().map(|(name, _)| *name).collect()
+}
+
+impl SweepPlan {
+    /// The plan of that name in the binary, otherwise the file at that path; with a number of samples, with so many instead of
+    /// its own.
+    ///
+    /// # Errors
+    /// Whatever is wrong with it, each error located.
+    pub fn load(name_or_path: &str, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
+        if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == name_or_path) {
+            return SweepPlan::from_text(name, &with_samples(text, samples), Path::new(""));
+        }
+        let refused = |fault: Fault| LoadError::of_plan(name_or_path, vec![fault]);
+        let path = Path::new(name_or_path);
+        if !path.exists() {
+            let message = format!("there is no plan and no file {}", quoted(name_or_path));
+            return Err(refused(Fault::new(message).help(suggestion(
+                name_or_path,
+                "plans in the binary are",
+                &embedded_plans(),
+            ))));
+        }
+        let (_, text) = Source::File(path.to_owned()).read(0).map_err(refused)?;
+        SweepPlan::from_text(name_or_path, &with_samples(&text, samples), path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// The plan of a text that errors call `name`; paths in it are relative to `folder`.
+    ///
+    /// # Errors
+    /// As [`SweepPlan::load`].
+    pub fn from_text(name: &str, text: &str, folder: &Path) -> Result<SweepPlan, LoadError> {
+        let document = Document::new(name, text, 0);
+        let place = Place::new(&document, 0..0);
+        let plan = tree::parse(&document, text).and_then(|tree| read(name, text, place, &tree, folder));
+        plan.map_err(|faults| LoadError::of_plan(name, faults))
+    }
+}
+
+/// The text of a plan with another number of samples: its own line for that, if there is one, becomes a comment. The new line
+/// comes first, since at the end it would belong to a table.
+fn with_samples(text: &str, samples: Option<u64>) -> String {
+    let Some(samples) = samples else { return text.to_owned() };
+    let own = |line: &str| line.split_once('=').is_some_and(|(key, _)| key.trim() == "samples");
+    let lines = text.lines().map(|line| if own(line) { format!("# {line}\n") } else { format!("{line}\n") });
+    std::iter::once(format!("samples = {samples}\n")).chain(lines).collect()
+}
+
+fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) -> Result<SweepPlan, Vec<Fault>> {
+    let faults = check_file(tree, SchemaNode::of(&SCHEMA));
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let file: PlanFile = serde_json::from_value(tree.to_json())
+        .map_err(|error| vec![Fault::at(&tree.place, "in this file", error.to_string())])?;
+    if file.seed.checked_add(file.samples).is_none() {
+        let message = "`seed` and `samples` together are more than the largest seed";
+        return Err(vec![Fault::at(tree.place_of("seed"), "too large", message)]);
+    }
+    let settings = (file.sampling, file.seed, file.samples);
+    let mut plan = SweepPlan {
+        name: name.to_owned(),
+        title: file.title,
+        text: text.to_owned(),
+        scenarios: Vec::new(),
+        styles: arms(tree, "style", |node| Arm::style(node, settings))?,
+        planners: arms(tree, "planner", Arm::planner)?,
+        changes: changes(tree, settings)?,
+        sampling: file.sampling,
+        samples: file.samples,
+        seed: file.seed,
+        place,
+    };
+    let named = scenarios(tree, folder)?;
+    refuse_too_many(&plan, named.len(), file.max_runs, tree)?;
+    plan.scenarios = named.into_iter().map(|named| planned(named, file.jitter)).collect::<Result<_, _>>()?;
+    let faults = plan.check_extremes();
+    if faults.is_empty() { Ok(plan) } else { Err(faults) }
+}
+
+/// The entries of a list of arms; without any, everything as written.
+fn arms(
+    tree: &TomlNode,
+    key: &str,
+    arm: impl Fn(&TomlNode) -> Result<Arm, Vec<Fault>>,
+) -> Result<Vec<Arm>, Vec<Fault>> {
+    let Some(TomlValue::Array(items)) = tree.at(key).map(|node| &node.value) else {
+        return Ok(vec![Arm::as_written()]);
+    };
+    let mut found: Vec<Arm> = Vec::new();
+    for node in items {
+        let arm = arm(node)?;
+        if found.iter().any(|other| other.name == arm.name) {
+            let message = format!("there are two entries {} in `{key}`", quoted(&arm.name));
+            let help = "their runs could not be told apart; give one of them another `name`";
+            return Err(vec![Fault::at(&node.place, "the second", message).help(help)]);
+        }
+        found.push(arm);
+    }
+    Ok(if found.is_empty() { vec![Arm::as_written()] } else { found })
+}
+
+/// What is changed, and varies, in all runs.
+fn changes(tree: &TomlNode, settings: DrawSettings) -> Result<Arm, Vec<Fault>> {
+    let table = |key: &str| tree.at(key).and_then(TomlNode::table).cloned().unwrap_or_default();
+    Ok(Arm::changing("everywhere", settings_of(table("set"))?, factors(&table("vary"), settings)?))
+}
+
+/// The scenarios of a plan. Two of one name are refused.
+fn scenarios(tree: &TomlNode, folder: &Path) -> Result<Vec<NamedScenario>, Vec<Fault>> {
+    let Some(TomlValue::Array(items)) = tree.at("scenario").map(|node| &node.value) else { return Ok(Vec::new()) };
+    let (mut found, mut faults) = (BTreeMap::new(), Vec::new());
+    let mut order = Vec::new();
+    for node in items {
+        match find(node.text().unwrap_or_default(), &node.place, folder) {
+            Ok(all) => {
+                for named in all {
+                    if let Some(before) = found.insert(named.name.clone(), named.clone()) {
+                        let message = if before == named {
+                            format!("{} is in the plan twice", quoted(&named.name))
+                        } else {
+                            format!("two scenarios are called {}", quoted(&named.name))
+                        };
+                        faults.push(Fault::at(&node.place, "the second", message));
+                    }
+                    order.push(named);
+                }
+            }
+            Err(fault) => faults.push(fault),
+        }
+    }
+    if faults.is_empty() { Ok(order) } else { Err(faults) }
+}
+
+fn refuse_too_many(plan: &SweepPlan, scenarios: usize, most: u64, tree: &TomlNode) -> Result<(), Vec<Fault>> {
+    let count = plan.count_for(scenarios);
+    if count.is_some_and(|count| count <= most) {
+        return Ok(());
+    }
+    let asked = count.map_or("more runs than can be counted".to_owned(), |count| format!("{count} runs"));
+    let blamed = ["samples", "vary", "max_runs", "scenario"].iter().find_map(|key| tree.at(key));
+    let message = format!("the plan asks for {asked}, and at most {most} are allowed");
+    let help = "state fewer samples or values; if so many are meant, state a larger `max_runs`";
+    Err(vec![Fault::at(blamed.map_or(&tree.place, |node| &node.place), "too many", message).help(help)])
+}
+
+/// Reads a scenario and what it extends. Its counterfactuals are no part of a plan.
+fn planned(named: NamedScenario, jitter: Option<StartJitter>) -> Result<PlannedScenario, Vec<Fault>> {
+    let mut tree = load::tree(&named.source).map_err(|error| error.faults().to_vec())?;
+    if let TomlValue::Table(root) = &mut tree.value {
+        root.remove("counterfactual");
+    }
+    let scenario = load::assemble(&tree)?;
+    let scale = scenario.vehicles.first().map_or(1.0, |vehicle| vehicle.body.scale);
+    let scaled = |jitter: StartJitter| StartJitter {
+        position_m: jitter.position_m * scale,
+        speed_mps: jitter.speed_mps * scale.sqrt(),
+    };
+    let canonical = format!("{}{}", tree.to_json(), weather(&scenario));
+    Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(scaled) })
+}
+
+/// What a weather file says, which the tree of the scenario only names.
+fn weather(scenario: &Scenario) -> String {
+    match &scenario.weather {
+        Some(WeatherConfig::Epw(file)) => format!("{file:?}"),
+        Some(WeatherConfig::Synthetic(_)) | None => String::new(),
+    }
+}

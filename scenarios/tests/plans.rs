@@ -1,0 +1,252 @@
+//! Plans of many runs: what they stand for, and what is said of wrong ones.
+
+use std::path::Path;
+
+use interplay_scenarios::{LoadError, SweepPlan, SweepPoint, embedded_plans};
+
+fn read(text: &str) -> Result<SweepPlan, LoadError> {
+    SweepPlan::from_text("plan.toml", text, Path::new(""))
+}
+
+fn sound(text: &str) -> SweepPlan {
+    read(text).unwrap_or_else(|error| panic!("{text}: {:?}", error.faults()))
+}
+
+fn points(plan: &SweepPlan) -> Vec<SweepPoint> {
+    (0..plan.run_count()).map(|index| plan.point(index)).collect()
+}
+
+fn input(point: &SweepPoint, path: &str) -> f64 {
+    let found = point.inputs.iter().find(|(known, _)| known == path);
+    found.and_then(|(_, value)| value.as_f64()).unwrap_or_else(|| panic!("{path} in {point:?}"))
+}
+
+const SPEED: &str = "vehicle.front.start.speed_mps";
+
+#[test]
+fn a_grid_has_every_combination_and_its_samples() {
+    let plan = sound(
+        "scenario = ['lane-change/front-nice', 'lane-change/both-tough']\nplanner = ['idm', 'conservative']\n\
+         style = ['nice', 'tough']\nsamples = 3\nseed = 5\n[vary]\nvehicle.front.start.speed_mps = [1.0, 1.25]\n\
+         horizon_steps = { range = [20, 30], step = 5 }\nvehicle.ego.goal.speed_mps = { uniform = [0.9, 1.1] }\n",
+    );
+    let points = points(&plan);
+    assert_eq!(points.len(), 2 * 2 * 2 * 3 * 2 * 3);
+    let mut cells: Vec<String> = points
+        .iter()
+        .map(|point| {
+            let [speed, horizon] = [SPEED, "horizon_steps"].map(|path| input(point, path));
+            format!("{} {} {} {speed} {horizon} {}", point.scenario, point.style, point.planner, point.seed)
+        })
+        .collect();
+    cells.sort();
+    cells.dedup();
+    assert_eq!(cells.len(), points.len(), "every combination is there once");
+    assert_eq!(points.iter().map(|point| point.seed).min(), Some(5));
+    let scenario = plan.scenario(&points[0]).expect("sound");
+    assert_eq!(scenario.seed, 5);
+    assert!(scenario.counterfactuals.is_empty());
+}
+
+#[test]
+fn planners_get_the_same_values_and_seeds_in_a_sample() {
+    for sampling in ["grid", "random", "latin-hypercube"] {
+        let plan = sound(&format!(
+            "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'conservative', 'negotiation']\nsamples = 20\n\
+             sampling = '{sampling}'\n[vary]\n{SPEED} = {{ normal = {{ mean = 1.2, sd = 0.02 }} }}\n"
+        ));
+        let points = points(&plan);
+        for pair in points.chunks(3) {
+            let same = |point: &SweepPoint| (point.inputs.clone(), point.seed, point.sample);
+            assert!(pair.iter().all(|point| same(point) == same(&pair[0])), "{sampling}: {pair:?}");
+        }
+        let mut speeds: Vec<f64> = points.iter().step_by(3).map(|point| input(point, SPEED)).collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        assert_eq!(speeds.len(), 20, "{sampling}");
+    }
+}
+
+#[test]
+fn what_is_drawn_does_not_depend_on_what_else_is_in_the_plan() {
+    let few = sound(&format!(
+        "scenario = ['lane-change/front-nice']\nsamples = 5\n[vary]\n{SPEED} = {{ uniform = [1.0, 1.3] }}\n"
+    ));
+    let many = sound(&format!(
+        "scenario = ['intersection/nice', 'lane-change/front-nice']\nplanner = ['idm', 'game']\nsamples = 9\n[[style]]\nname = 'x'\n\
+         vary = {{ 'vehicle.*.goal.speed_mps' = {{ uniform = [1.0, 1.2] }}, '{SPEED}' = {{ uniform = [1.0, 1.3] }} }}\n"
+    )
+    .replace("'intersection/nice', ", ""));
+    let values = |plan: &SweepPlan, planner: &str| -> Vec<f64> {
+        let own = points(plan).into_iter().filter(|point| point.planner == planner);
+        own.take(5).map(|point| input(&point, SPEED)).collect()
+    };
+    assert_eq!(values(&few, "as-written"), values(&many, "game"));
+}
+
+/// The mean and the quartiles of many draws, within four standard errors.
+#[test]
+fn drawn_values_have_their_distributions() {
+    let plan = |values: &str| {
+        sound(&format!("scenario = ['lane-change/front-nice']\nsamples = 2000\n[vary]\n{SPEED} = {values}\n"))
+    };
+    let median = |plan: &SweepPlan| {
+        let mut all: Vec<f64> = points(plan).iter().map(|point| input(point, SPEED)).collect();
+        all.sort_by(f64::total_cmp);
+        (all[0], all[1000], all[1999])
+    };
+    let (least, middle, most) = median(&plan("{ log_uniform = [0.5, 1.5] }"));
+    assert!(least >= 0.5 && most <= 1.5 && (middle / (0.75_f64).sqrt() - 1.0).abs() < 0.05, "{least} {middle} {most}");
+    let (_, middle, _) = median(&plan("{ normal = { mean = 1.2, sd = 0.01 } }"));
+    assert!((middle - 1.2).abs() < 0.002, "{middle}");
+}
+
+#[test]
+fn a_star_is_every_vehicle_but_the_ego() {
+    let plan = sound("scenario = ['lane-change/front-nice']\nstyle = ['tough']\nplanner = ['conservative']\n");
+    let scenario = plan.scenario(&plan.point(0)).expect("sound");
+    let drivers: Vec<String> = scenario.vehicles.iter().map(|vehicle| format!("{:?}", vehicle.driver)).collect();
+    assert!(
+        drivers[0].starts_with("Conservative") && drivers[1] == drivers[2] && drivers[1].contains("Tough"),
+        "{drivers:?}"
+    );
+}
+
+/// The change of starts of real cars is that of 1/10 scale cars by Froude's law.
+#[test]
+fn jitter_is_scaled_to_the_vehicles() {
+    let plan = sound(
+        "scenario = ['lane-change/front-nice', 'roundabout/nice']\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
+    );
+    for (point, scale) in points(&plan).iter().zip([1.0_f64, 10.0]) {
+        let scenario = plan.scenario(point).expect("sound");
+        assert_eq!(scenario.vehicles[0].body.scale, scale);
+        let jitter = scenario.start_jitter;
+        assert_eq!((jitter.position_m, jitter.speed_mps), (0.1 * scale, 0.1 * scale.sqrt()));
+    }
+}
+
+#[test]
+fn families_and_patterns_stand_for_scenarios() {
+    let names = |entry: &str| -> Vec<String> {
+        let plan = sound(&format!("scenario = ['{entry}']\n"));
+        plan.names()[0].iter().map(|name| (*name).to_owned()).collect()
+    };
+    assert_eq!(names("narrow-passage").len(), 5);
+    assert_eq!(names("*/nice"), names("*/nice"));
+    assert!(names("*/nice").contains(&"roundabout/nice".to_owned()));
+}
+
+#[test]
+fn the_plans_in_the_binary_are_sound() {
+    for name in embedded_plans() {
+        let plan = SweepPlan::load(name, Some(1)).unwrap_or_else(|error| panic!("{name}: {:?}", error.faults()));
+        let last = plan.point(plan.run_count() - 1);
+        plan.scenario(&last).expect("sound");
+    }
+    assert!(embedded_plans().contains(&"quick"));
+}
+
+/// Each wrong plan, with the line and column of the error and what it says.
+const WRONG: &[(&str, usize, usize, &str)] = &[
+    ("planner = ['idm']\n", 1, 1, "`scenario` is missing"),
+    ("scenario = []\n", 1, 12, "must have at least 1"),
+    ("scenario = ['lane-chnge']\n", 1, 13, "no scenario, no family and no file `lane-chnge`"),
+    ("scenario = ['lane-change', 'lane-change/front-nice']\n", 1, 28, "in the plan twice"),
+    ("scenario = ['lane-change/front-nice']\nsample = 3\n", 2, 1, "unknown key `sample`"),
+    ("scenario = ['lane-change/front-nice']\nsamples = 0\n", 2, 11, "must be at least 1"),
+    ("scenario = ['lane-change/front-nice']\nplanner = ['imd']\n", 2, 12, "cannot be `imd`"),
+    ("scenario = ['lane-change/front-nice']\nplanner = ['idm', 'idm']\n", 2, 19, "two entries `idm`"),
+    ("scenario = ['lane-change/front-nice']\nstyle = ['tuff']\n", 2, 10, "no style and no kind of driver"),
+    ("scenario = ['building/tower']\nplanner = ['idm']\n", 2, 12, "no vehicles"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.sped_mps = [1.0]\n",
+        3,
+        21,
+        "unknown key `sped_mps`",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.fron.start.speed_mps = [1.0]\n",
+        3,
+        9,
+        "there is no `fron`",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = []\n", 3, 33, "must not be empty"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = 1.0\n",
+        3,
+        33,
+        "no list and no distribution",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [2, 1] }\n", 3, 26, "is empty"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [2.0, 1.0], count = 3 }\n",
+        3,
+        24,
+        "is empty",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1.0, 2.0] }\n", 3, 24, "needs a `count`"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1, 2], step = 0 }\n",
+        3,
+        24,
+        "`step` apart",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1.0, 2.0], count = 0 }\n",
+        3,
+        44,
+        "`count` must be",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { normal = { mean = 1.0, sd = 0.0 } }\n",
+        3,
+        25,
+        "above 0",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { normal = { mean = 1.0 } }\n",
+        3,
+        25,
+        "`mean` and `sd`",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { log_uniform = [0.0, 1.0] }\n", 3, 30, "above 0"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [1.0, 2.0], sd = 1 }\n",
+        3,
+        38,
+        "does not belong",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [-1.0, 2.0] }\n",
+        3,
+        14,
+        "must be at least 0.001",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nseed = [1, 2]\n", 3, 1, "follows from its sample"),
+    ("scenario = ['lane-change/front-nice']\nsamples = 1000000000000\n", 2, 11, "1000000000000 runs"),
+    (
+        "scenario = ['lane-change/front-nice']\nsamples = 9223372036854775807\nplanner = ['idm', 'game', 'human']\n",
+        2,
+        11,
+        "more runs than can be counted",
+    ),
+    ("scenario = ['lane-change/front-nice']\nsamples = 2\nmax_runs = 1\n", 2, 11, "2 runs, and at most 1"),
+    // A value that the file accepts and the scenario does not: the vehicles would overlap.
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.x_m = { uniform = [-1.65, -0.3] }\n",
+        3,
+        27,
+        "overlap at the start",
+    ),
+];
+
+#[test]
+fn wrong_plans_are_refused_where_they_are_wrong() {
+    for (text, line, column, words) in WRONG {
+        let error = read(text).err().unwrap_or_else(|| panic!("accepted: {text}"));
+        let fault = &error.faults()[0];
+        assert!(fault.message().contains(words), "{text}: {}", fault.message());
+        assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((*line, *column))), "{text}");
+    }
+}

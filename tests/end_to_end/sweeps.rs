@@ -1,0 +1,204 @@
+//! Sweeps: rows do not depend on how they came about, and whatever is wrong is said before anything is run.
+
+use std::fs;
+use std::path::Path;
+use std::thread::sleep;
+use std::time::Duration;
+
+use crate::command::{command, contents, interplay, scratch};
+
+/// 24 short runs.
+const PLAN: &str = "scenario = ['intersection/nice', 'lane-change/front-nice']\nplanner = ['conservative', 'idm']\n\
+    style = ['nice', 'tough']\njitter = { position_m = 0.1, speed_mps = 0.1 }\nsamples = 3\n\
+    set = { duration_s = 2.0, 'expect' = {} }\n[vary]\nvehicle.ego.start.speed_mps = { uniform = [0.9, 1.0] }\n";
+
+fn plan(folder: &Path) {
+    fs::write(folder.join("plan.toml"), PLAN).expect("a scratch file");
+}
+
+/// The rows of a folder without timings, as bytes.
+fn rows(folder: &Path, out: &str) -> Vec<u8> {
+    let to = format!("{out}.parquet");
+    let merged = interplay(folder, &["sweep", "merge", out, "--to", &to, "--no-timings"]);
+    assert_eq!(merged.code, Some(0), "{merged:?}");
+    fs::read(folder.join(to)).expect("merged")
+}
+
+fn lines(folder: &Path, journal: &str) -> usize {
+    fs::read(folder.join(journal)).map_or(0, |text| text.iter().filter(|byte| **byte == b'\n').count())
+}
+
+#[test]
+fn threads_and_shards_do_not_change_the_rows() {
+    let folder = scratch("sweep-shards");
+    plan(&folder);
+    for (out, jobs) in [("one", "1"), ("two", "2")] {
+        let done = interplay(&folder, &["sweep", "plan.toml", "--out", out, "--jobs", jobs]);
+        assert_eq!(done.code, Some(0), "{done:?}");
+        assert!(done.stdout.contains("24 runs in") && done.stdout.contains("next: interplay compare"), "{done:?}");
+    }
+    for shard in ["1/3", "3/3"] {
+        let done = interplay(&folder, &["sweep", "plan.toml", "--out", "shards", "--shard", shard]);
+        assert_eq!(done.code, Some(0), "{done:?}");
+    }
+    let early = interplay(&folder, &["sweep", "merge", "shards"]);
+    assert_eq!(early.code, Some(2));
+    assert!(early.stderr.contains("shard 2 of 3 is missing"), "{}", early.stderr);
+    // As a task of Slurm.
+    let mut second = command(&folder, &["sweep", "plan.toml", "--out", "shards"]);
+    for (name, value) in [("ID", "1"), ("COUNT", "3"), ("MIN", "0")] {
+        second.env(format!("SLURM_ARRAY_TASK_{name}"), value);
+    }
+    assert!(second.output().expect("started").status.success());
+    let expected = rows(&folder, "one");
+    assert!(rows(&folder, "two") == expected && rows(&folder, "shards") == expected);
+}
+
+/// When a sweep is killed.
+#[cfg(unix)]
+enum Moment {
+    /// When so many rows are there.
+    Rows(usize),
+    /// After so many milliseconds.
+    Millis(u64),
+}
+
+/// Kills a sweep at a moment and goes on. Returns how many rows there were.
+#[cfg(unix)]
+fn killed_at(folder: &Path, out: &str, moment: &Moment) -> usize {
+    let mut child = command(folder, &["sweep", "plan.toml", "--out", out, "--jobs", "2"]);
+    let mut child =
+        child.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::null()).spawn().expect("started");
+    match moment {
+        Moment::Rows(count) => {
+            while lines(folder, &format!("{out}/journal.jsonl")) < *count {
+                sleep(Duration::from_millis(1));
+            }
+        }
+        Moment::Millis(millis) => sleep(Duration::from_millis(*millis)),
+    }
+    // SIGKILL.
+    child.kill().expect("killed, or done");
+    child.wait().expect("ended");
+    let before = lines(folder, &format!("{out}/journal.jsonl"));
+    let done = interplay(folder, &["sweep", "plan.toml", "--out", out]);
+    assert_eq!(done.code, Some(0), "{done:?}");
+    assert!(done.stderr.contains(&format!("{before} made before")), "{done:?}");
+    assert_eq!(lines(folder, &format!("{out}/journal.jsonl")), 24, "no run is made twice");
+    before
+}
+
+#[cfg(unix)]
+fn kill_at(name: &str, moments: impl Iterator<Item = Moment>) {
+    let folder = scratch(name);
+    plan(&folder);
+    assert_eq!(interplay(&folder, &["sweep", "plan.toml", "--out", "whole"]).code, Some(0));
+    let expected = rows(&folder, "whole");
+    let mut partly = 0;
+    for (index, moment) in moments.enumerate() {
+        let out = format!("killed-{index}");
+        let before = killed_at(&folder, &out, &moment);
+        partly += usize::from(before > 0 && before < 24);
+        assert!(rows(&folder, &out) == expected, "killed with {before} rows");
+    }
+    assert!(partly > 0, "no kill came between the first and the last run");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_killed_sweep_goes_on_and_has_the_same_rows() {
+    kill_at("sweep-killed", [1, 7, 16].map(Moment::Rows).into_iter());
+}
+
+#[cfg(unix)]
+#[test]
+#[ignore = "takes a minute: 20 moments"]
+fn a_sweep_killed_at_any_of_20_moments_has_the_same_rows() {
+    // Steps of the golden ratio are spread evenly and never repeat.
+    kill_at("sweep-killed-20", (1..=20).map(|index| Moment::Millis((f64::from(index) * 618.034) as u64 % 1500)));
+}
+
+#[test]
+fn a_bigger_sweep_reuses_the_rows_of_a_smaller_one() {
+    let folder = scratch("sweep-bigger");
+    plan(&folder);
+    assert_eq!(interplay(&folder, &["sweep", "plan.toml", "--out", "out", "--samples", "1"]).code, Some(0));
+    let bigger = interplay(&folder, &["sweep", "plan.toml", "--out", "out"]);
+    assert!(bigger.stderr.contains("16 runs to make, 8 made before"), "{bigger:?}");
+    assert_eq!(interplay(&folder, &["sweep", "plan.toml", "--out", "fresh"]).code, Some(0));
+    assert!(rows(&folder, "out") == rows(&folder, "fresh"));
+}
+
+#[test]
+fn comparisons_are_printed_as_a_page_and_as_json() {
+    let folder = scratch("sweep-compare");
+    plan(&folder);
+    let done = interplay(&folder, &["sweep", "plan.toml", "--out", "out", "--keep", "failures"]);
+    assert!(done.stdout.contains("versus conservative"), "{done:?}");
+    let page = fs::read_to_string(folder.join("out/comparison.html")).expect("a page");
+    assert!(page.contains("<svg") && !page.contains("http://") && !page.contains("<script"), "self-contained");
+    let figures = interplay(&folder, &["compare", "out", "--json", "--baseline", "idm"]).json();
+    assert_eq!((&figures["runs"], &figures["baseline"]), (&24.into(), &"idm".into()));
+    let all = figures["groups"].as_array().expect("a list").last().expect("a group");
+    assert_eq!((&all["family"], &all["style"]), (&serde_json::Value::Null, &serde_json::Value::Null));
+    let planners = all["planners"].as_array().expect("a list");
+    let failures: u64 = planners
+        .iter()
+        .map(|one| one["success"]["of"].as_u64().expect("a count") - one["success"]["count"].as_u64().expect("a count"))
+        .sum();
+    let recordings = contents(&folder.join("out")).iter().filter(|name| name.ends_with(".rrd")).count() as u64;
+    assert_eq!(recordings, failures, "every failure has a recording, and nothing else");
+    assert!(failures > 0, "2 s are too short for some");
+    let wrong = interplay(&folder, &["compare", "out", "--baseline", "imd"]);
+    assert_eq!(wrong.code, Some(2));
+    assert!(wrong.stderr.contains("did you mean `idm`?"), "{}", wrong.stderr);
+}
+
+#[test]
+fn two_sweeps_of_one_version_do_not_differ() {
+    let folder = scratch("sweep-versions");
+    plan(&folder);
+    for out in ["before", "after"] {
+        assert_eq!(interplay(&folder, &["sweep", "plan.toml", "--out", out]).code, Some(0));
+    }
+    let figures = interplay(&folder, &["compare", "before", "after", "--json"]).json();
+    assert_eq!((&figures["pairs"], &figures["changed"]), (&24.into(), &0.into()));
+    assert_eq!(figures["unpaired"], serde_json::json!([0, 0]));
+}
+
+#[test]
+fn what_is_wrong_is_said_before_anything_is_run_or_written() {
+    let folder = scratch("sweep-wrong");
+    let write = |text: &str| fs::write(folder.join("plan.toml"), text).expect("a scratch file");
+    for (text, arguments, words) in [
+        ("scenario = ['nowhere']\n", &[][..], "plan.toml:1:13"),
+        ("scenario = ['lane-change/front-nice']\nsamples = 1000000000000\n", &[], "1000000000000 runs"),
+        // Every drawn value is checked, not only those at the ends.
+        (
+            "scenario = ['lane-change/front-nice']\nsamples = 50\n[vary]\nvehicle.front.start.x_m = \
+             { normal = { mean = -0.35, sd = 2.0 } }\n",
+            &[],
+            "overlap at the start",
+        ),
+        (PLAN, &["--shard", "9/8"], "there is no shard 9 of 8"),
+        (PLAN, &["--shards", "8"], "JOB_COMPLETION_INDEX"),
+        (PLAN, &["--planner", "idm"], "cannot be used with"),
+    ] {
+        write(text);
+        let refused = interplay(&folder, &[&["sweep", "plan.toml"], arguments].concat());
+        assert_eq!(refused.code, Some(2), "{text}: {refused:?}");
+        assert!(refused.stderr.contains(words), "{text}: {}", refused.stderr);
+        assert_eq!(contents(&folder), ["plan.toml"], "{text}");
+    }
+    fs::create_dir(folder.join("mine")).expect("a folder");
+    fs::write(folder.join("mine/plan.toml"), "title = 'mine'").expect("a scratch file");
+    write(PLAN);
+    let refused = interplay(&folder, &["sweep", "plan.toml", "--out", "mine"]);
+    assert_eq!(refused.code, Some(2));
+    assert_eq!(contents(&folder.join("mine")), ["plan.toml"]);
+    for arguments in [&["compare", "nowhere"][..], &["sweep", "merge", "mine"], &["compare", "plan.toml"]] {
+        let refused = interplay(&folder, arguments);
+        assert!(matches!(refused.code, Some(2 | 3)), "{arguments:?}: {refused:?}");
+        assert!(!refused.stderr.contains("panicked"), "{refused:?}");
+    }
+}
