@@ -26,6 +26,7 @@ mod residual;
 mod settings;
 mod shared_walls;
 mod smoothing;
+mod state_space;
 pub mod synthetic_classroom;
 mod telemetry;
 mod train_test_split;
