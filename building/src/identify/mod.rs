@@ -41,8 +41,9 @@ pub use report::{
 };
 pub use settings::{Estimator, IdentifySettings};
 pub use smoothing::local_linear;
+pub use state_space::ModelRow;
 pub use telemetry::{
-    AirFlowUnit, Boundary, BoundaryColumns, DecimalSign, Gaps, HeatColumns, IrradianceUnit, Mapping, MeasuredWall,
+    AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Hold, IrradianceUnit, Mapping, MeasuredWall,
     MeasuredZone, Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem,
     TemperatureUnit, TimeAxis, ValueShape, WaterFlowUnit, ZoneColumns,
 };
@@ -63,6 +64,13 @@ use train_test_split::TrainTestSplit;
 /// data do not determine is no error: its [`ParameterVerdict`] says so.
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
+    if settings.method == Estimator::StateSpace {
+        return state_space::identify(telemetry, settings);
+    }
+    let is_incomplete = |zone: &&MeasuredZone| zone.temperature_c.iter().any(|value| value.is_nan());
+    if let Some(zone) = telemetry.zones.iter().find(is_incomplete) {
+        return Err(IdentifyError::MissingTemperature { zone: zone.name.clone() });
+    }
     let split = TrainTestSplit::new(telemetry, settings);
     let fits = (0..telemetry.zones.len())
         .map(|zone| fit_zone(telemetry, zone, &split.train, settings))
@@ -119,7 +127,7 @@ fn series(telemetry: &Telemetry, settings: &IdentifySettings, zones: &[RunZone],
             measured_c: measured.temperature_c.clone(),
             one_step_c,
             free_run_c,
-            free_run_with_residual_model_c,
+            free_run_with_residual_model_c: Some(free_run_with_residual_model_c),
             innovations_k: residuals.innovations.clone(),
         }
     };

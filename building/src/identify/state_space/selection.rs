@@ -1,0 +1,149 @@
+//! The choice of the order: from one state a zone upwards, as long as the likelihood-ratio test calls for more (Bacher and
+//! Madsen, *Energy and Buildings* 43, 2011).
+//!
+//! Each round tries every kind of hidden node that the model does not have yet. The best one stays if twice its gain of the
+//! log-likelihood is beyond the chi-squared limit for the parameters it adds; the level is divided by the number of kinds
+//! tried. At a boundary of the parameters, where the smaller model lies, the test keeps at least its level.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::likelihood::Observations;
+use super::scoring::{Ascent, Maximum};
+use super::starts::Guess;
+use super::structure::{HiddenNode, Structure, candidates};
+use crate::identify::diagnostics::survival;
+use crate::identify::telemetry::Telemetry;
+
+/// Level of the likelihood-ratio test.
+const LEVEL: f64 = 0.05;
+/// Steps from each start before the best one goes on.
+const SCREENING_STEPS: usize = 8;
+const MOST_STEPS: usize = 100;
+
+/// A model with its estimate.
+#[derive(Debug, Clone)]
+pub(super) struct Fit {
+    pub structure: Structure,
+    pub bounds: Vec<(f64, f64)>,
+    pub maximum: Maximum,
+}
+
+/// A model that was tried.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ModelRow {
+    /// Its hidden nodes in words; `air alone` without any.
+    pub model: String,
+    /// States of a zone, at most.
+    pub states: usize,
+    /// Number of parameters.
+    pub parameters: usize,
+    /// Log-likelihood at the estimate.
+    pub log_likelihood: f64,
+    /// Twice the gain over the model that it extends, and how probable so large a gain is if that one is right.
+    pub gain: Option<(f64, f64)>,
+    /// Whether it is the one that was chosen.
+    pub chosen: bool,
+}
+
+/// The choice.
+pub(super) struct Choice {
+    pub chosen: Fit,
+    /// The best model with one more hidden node, if there is one.
+    pub larger: Option<Fit>,
+    pub table: Vec<ModelRow>,
+}
+
+/// Chooses among models with at most `most_states` states a zone; `None` where no start has a likelihood.
+pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_states: usize) -> Option<Choice> {
+    let guess = Guess::new(telemetry);
+    let smallest = Structure::new(telemetry, Vec::new());
+    let starts = guess.of_smallest(telemetry, &smallest);
+    let mut chosen = fit(&guess, smallest, &starts, observations)?;
+    let mut table = vec![row(telemetry, &chosen, None)];
+    let mut chosen_row = 0;
+    loop {
+        let left: Vec<HiddenNode> =
+            candidates(telemetry).into_iter().filter(|hidden| !chosen.structure.hidden.contains(hidden)).collect();
+        let tried: Vec<(usize, Fit)> = left
+            .iter()
+            .filter_map(|&added| {
+                let larger = extended(telemetry, &guess, &chosen, added, observations)?;
+                table.push(row(telemetry, &larger, Some(&chosen)));
+                Some((table.len() - 1, larger))
+            })
+            .collect();
+        let by_likelihood = |a: &&(usize, Fit), b: &&(usize, Fit)| likelihood(&a.1).total_cmp(&likelihood(&b.1));
+        let best = tried.iter().max_by(by_likelihood).cloned();
+        let Some((index, best)) = best else {
+            table[chosen_row].chosen = true;
+            return Some(Choice { chosen, larger: None, table });
+        };
+        let p_value = table[index].gain.map_or(1.0, |(_, p)| p);
+        if p_value >= LEVEL / left.len() as f64 || chosen.structure.order() >= most_states {
+            table[chosen_row].chosen = true;
+            return Some(Choice { chosen, larger: Some(best), table });
+        }
+        (chosen, chosen_row) = (best, index);
+    }
+}
+
+fn likelihood(fit: &Fit) -> f64 {
+    fit.maximum.evaluation.log_likelihood
+}
+
+/// The best fit of the model with one more hidden node.
+fn extended(
+    telemetry: &Telemetry,
+    guess: &Guess,
+    smaller: &Fit,
+    added: HiddenNode,
+    observations: &Observations,
+) -> Option<Fit> {
+    let mut hidden = smaller.structure.hidden.clone();
+    hidden.push(added);
+    let structure = Structure::new(telemetry, hidden);
+    let starts = guess.of_larger(&smaller.structure, &smaller.maximum.theta, &structure, added);
+    fit(guess, structure, &starts, observations)
+}
+
+/// Ascends from every start for a few steps, and from the best one to the end.
+fn fit(guess: &Guess, structure: Structure, starts: &[Vec<f64>], observations: &Observations) -> Option<Fit> {
+    let bounds = guess.bounds(&structure);
+    let model = |theta: &[super::exponential::Number]| structure.model(theta);
+    let ascent = Ascent { model: &model, observations, bounds: &bounds, constraint: None };
+    let first = starts.iter().filter_map(|start| ascent.run(start, SCREENING_STEPS));
+    let by_likelihood =
+        |a: &Maximum, b: &Maximum| a.evaluation.log_likelihood.total_cmp(&b.evaluation.log_likelihood);
+    let best = first.max_by(by_likelihood)?;
+    let maximum = if best.converged { best } else { ascent.run(&best.theta, MOST_STEPS)? };
+    Some(Fit { structure, bounds, maximum })
+}
+
+fn row(telemetry: &Telemetry, fit: &Fit, smaller: Option<&Fit>) -> ModelRow {
+    let gain = smaller.map(|smaller| {
+        let twice = 2.0 * (likelihood(fit) - likelihood(smaller));
+        let added = fit.structure.parameters.len() - smaller.structure.parameters.len();
+        (twice, if twice > 0.0 { survival(twice, added as f64) } else { 1.0 })
+    });
+    ModelRow {
+        model: in_words(telemetry, &fit.structure.hidden),
+        states: fit.structure.order(),
+        parameters: fit.bounds.iter().filter(|(low, high)| low < high).count(),
+        log_likelihood: likelihood(fit),
+        gain,
+        chosen: false,
+    }
+}
+
+fn in_words(telemetry: &Telemetry, hidden: &[HiddenNode]) -> String {
+    let word = |hidden: &HiddenNode| match hidden {
+        HiddenNode::Wall(boundary) => format!("wall to {}", telemetry.boundaries[*boundary].name),
+        HiddenNode::Interior => "interior mass".to_owned(),
+        HiddenNode::Heater => "heater".to_owned(),
+    };
+    if hidden.is_empty() {
+        return "air alone".to_owned();
+    }
+    format!("air, {}", hidden.iter().map(word).collect::<Vec<_>>().join(", "))
+}
