@@ -25,8 +25,8 @@ pub(super) const MOST_OUTPUTS: usize = 32;
 /// zero.
 #[derive(Debug, Clone)]
 pub(super) struct RowGain {
-    /// K, one vector of n an output.
-    pub gains: Vec<Vec<Number>>,
+    /// K, n numbers an output, one output after the other.
+    pub gains: Vec<Number>,
     /// S, variance of each innovation \[K²\].
     pub variances: Vec<Number>,
 }
@@ -95,7 +95,8 @@ pub(super) fn schedule(
 
 /// The gains of the same arrows for another model, such as one with an infinitesimal change of a parameter.
 pub(super) fn follow(schedule: &Schedule, model: &ContinuousModel, sampled: &SampledModel) -> Option<Vec<RowGain>> {
-    let mut covariances = vec![initial(model)];
+    let mut covariances = Vec::with_capacity(schedule.arrows.len() + 1);
+    covariances.push(initial(model));
     let mut gains = Vec::with_capacity(schedule.arrows.len());
     for arrow in &schedule.arrows {
         let (gain, next) = step(model, sampled, &covariances[arrow.from], arrow.measured)?;
@@ -130,28 +131,51 @@ fn step(
 ) -> Option<(RowGain, DMatrix<Number>)> {
     let n = before.nrows();
     let mut covariance = before.clone();
-    let mut row = RowGain { gains: Vec::new(), variances: Vec::new() };
-    for (index, &state) in model.outputs.iter().enumerate() {
-        if measured >> index & 1 == 0 {
-            row.gains.push(vec![real(0.0); n]);
-            row.variances.push(real(1.0));
-            continue;
-        }
+    let mut row = RowGain { gains: vec![real(0.0); n * model.outputs.len()], variances: vec![real(1.0); model.outputs.len()] };
+    for (index, &state) in model.outputs.iter().enumerate().filter(|(index, _)| measured >> index & 1 == 1) {
         let variance = covariance[(state, state)] + model.sensor_variance[index];
         if !(variance.re > 0.0) || !variance.re.is_finite() {
             return None;
         }
-        let column: Vec<Number> = (0..n).map(|i| covariance[(i, state)]).collect();
-        let gain: Vec<Number> = column.iter().map(|entry| entry / variance).collect();
+        let inverse = real(1.0) / variance;
+        let gain = &mut row.gains[index * n..(index + 1) * n];
         for i in 0..n {
-            for j in 0..n {
-                covariance[(i, j)] -= gain[i] * column[j];
+            gain[i] = covariance[(i, state)] * inverse;
+        }
+        // Column `state` of the covariance is the gain times the variance.
+        for j in 0..n {
+            let weight = gain[j] * variance;
+            for i in 0..=j {
+                covariance[(i, j)] -= gain[i] * weight;
             }
         }
-        row.gains.push(gain);
-        row.variances.push(variance);
+        mirror(&mut covariance);
+        row.variances[index] = variance;
     }
-    let transition = &sampled.transition;
-    let next = product(&product(transition, &covariance), &transition.transpose()) + &sampled.noise;
-    Some((row, next))
+    Some((row, predicted(&sampled.transition, &covariance, &sampled.noise)))
+}
+
+/// Φ P Φᵀ + Q of symmetric P and Q.
+fn predicted(transition: &DMatrix<Number>, covariance: &DMatrix<Number>, noise: &DMatrix<Number>) -> DMatrix<Number> {
+    let n = covariance.nrows();
+    let half = product(transition, covariance);
+    let mut next = noise.clone();
+    for j in 0..n {
+        for i in 0..=j {
+            for k in 0..n {
+                next[(i, j)] += half[(i, k)] * transition[(j, k)];
+            }
+        }
+    }
+    mirror(&mut next);
+    next
+}
+
+/// Copies the upper triangle to the lower one.
+fn mirror(matrix: &mut DMatrix<Number>) {
+    for j in 0..matrix.ncols() {
+        for i in 0..j {
+            matrix[(j, i)] = matrix[(i, j)];
+        }
+    }
 }

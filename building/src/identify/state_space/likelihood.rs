@@ -35,6 +35,20 @@ pub(super) struct Observations {
     pub widths: (usize, usize),
 }
 
+impl Observations {
+    /// The first rows of these, about `rows`.
+    pub fn beginning(&self, rows: usize) -> Self {
+        let mut left = rows;
+        let mut segments = Vec::new();
+        for segment in self.segments.iter().take_while(|_| left > 0) {
+            let end = segment.end.min(segment.start + left);
+            left -= end - segment.start;
+            segments.push(segment.start..end);
+        }
+        Self { segments, ..self.clone() }
+    }
+}
+
 /// Log-likelihood with derivatives.
 #[derive(Debug, Clone)]
 pub(super) struct Evaluation {
@@ -80,22 +94,26 @@ impl StepMatrices {
         }
     }
 
-    /// out += Φ x + Γ₀ u + Γ₁ u'.
-    fn add(&self, out: &mut [f64], x: &[f64], u: &[f64], slope: &[f64]) {
-        for i in 0..self.n {
-            let mut sum = 0.0;
-            for (a, x) in self.transition[i * self.n..(i + 1) * self.n].iter().zip(x) {
-                sum += a * x;
-            }
-            for (b, u) in self.gain[i * self.m..(i + 1) * self.m].iter().zip(u) {
-                sum += b * u;
-            }
-            for (b, s) in self.slope_gain[i * self.m..(i + 1) * self.m].iter().zip(slope) {
-                sum += b * s;
-            }
-            out[i] += sum;
+    /// out += Φ x.
+    fn add_states(&self, out: &mut [f64], x: &[f64]) {
+        for (out, row) in out.iter_mut().zip(self.transition.chunks(self.n)) {
+            *out += dot(row, x);
         }
     }
+
+    /// out += Γ₀ u + Γ₁ u'.
+    fn add_inputs(&self, out: &mut [f64], u: &[f64], slope: &[f64]) {
+        if self.m > 0 {
+            let rows = self.gain.chunks(self.m).zip(self.slope_gain.chunks(self.m));
+            for (out, (gain, slope_gain)) in out.iter_mut().zip(rows) {
+                *out += dot(gain, u) + dot(slope_gain, slope);
+            }
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Real gains of an arrow: n a output, one output after the other, and S.
@@ -107,7 +125,7 @@ struct RealGain {
 impl RealGain {
     fn all(gains: &[RowGain], part: fn(Number) -> f64) -> Vec<Self> {
         let one = |row: &RowGain| Self {
-            gains: row.gains.iter().flatten().map(|entry| part(*entry)).collect(),
+            gains: row.gains.iter().map(|entry| part(*entry)).collect(),
             variances: row.variances.iter().map(|entry| part(*entry)).collect(),
         };
         gains.iter().map(one).collect()
@@ -136,9 +154,17 @@ struct Filter<'a> {
 
 /// Everything that changes with one parameter.
 struct Tangent {
-    matrices: StepMatrices,
+    /// `None` if they do not depend on the parameter.
+    matrices: Option<StepMatrices>,
+    /// Empty if the gains do not depend on the parameter.
     gains: Vec<RealGain>,
     initial: ContinuousModel,
+}
+
+/// Whether a change of the model changes the covariances of its filter.
+fn moves_covariances(model: &ContinuousModel, sampled: &SampledModel) -> bool {
+    let numbers = sampled.transition.iter().chain(&sampled.noise).chain(&model.sensor_variance);
+    numbers.chain(&model.initial.variance).any(|number| number.im != 0.0)
 }
 
 impl<'a> Filter<'a> {
@@ -160,10 +186,15 @@ impl<'a> Filter<'a> {
 
     fn tangent(&self, model: ContinuousModel) -> Option<Tangent> {
         let sampled = model.sampled(self.observations.step_s)?;
-        let gains = follow(&self.schedule, &model, &sampled)?;
+        let gains = match moves_covariances(&model, &sampled) {
+            true => RealGain::all(&follow(&self.schedule, &model, &sampled)?, derivative),
+            false => Vec::new(),
+        };
+        let mut numbers = sampled.transition.iter().chain(&sampled.gain).chain(&sampled.slope_gain);
+        let moves_states = numbers.any(|number| number.im != 0.0);
         Some(Tangent {
-            matrices: StepMatrices::new(&sampled, derivative),
-            gains: RealGain::all(&gains, derivative),
+            matrices: moves_states.then(|| StepMatrices::new(&sampled, derivative)),
+            gains,
             initial: model,
         })
     }
@@ -190,47 +221,65 @@ impl<'a> Filter<'a> {
         let (p, m) = self.observations.widths;
         let mut arrows = self.schedule.of_row.iter();
         let mut found = vec![(f64::NAN, f64::NAN); p];
+        let mut next = vec![0.0; n];
         for segment in &self.observations.segments {
             let mut x = self.initial(&self.model, segment.start, value);
-            let mut dx: Vec<Vec<f64>> =
-                tangents.iter().map(|tangent| self.initial(&tangent.initial, segment.start, derivative)).collect();
+            let mut dx: Vec<f64> =
+                tangents.iter().flat_map(|tangent| self.initial(&tangent.initial, segment.start, derivative)).collect();
             for row in segment.clone() {
                 let Some(&arrow) = arrows.next() else { return };
                 found.fill((f64::NAN, f64::NAN));
                 for output in (0..p).filter(|output| self.measured[row] >> output & 1 == 1) {
-                    let state = self.model.outputs[output];
-                    let innovation = self.observations.outputs[row * p + output] - x[state];
-                    let variance = self.gains[arrow].variances[output];
-                    found[output] = (innovation, variance);
-                    sums.log_likelihood -=
-                        0.5 * (self.logarithms[arrow][output] + innovation * innovation / variance);
-                    let gain = &self.gains[arrow].gains[output * n..(output + 1) * n];
-                    for ((tangent, dx), slot) in tangents.iter().zip(&mut dx).zip(&mut sums.row) {
-                        let dv = -dx[state];
-                        let change = &tangent.gains[arrow];
-                        let dk = &change.gains[output * n..(output + 1) * n];
-                        for i in 0..n {
-                            dx[i] += dk[i] * innovation + gain[i] * dv;
-                        }
-                        *slot = (dv, change.variances[output]);
-                    }
-                    sums.add(innovation, variance);
-                    x.iter_mut().zip(gain).for_each(|(x, gain)| *x += gain * innovation);
+                    found[output] = self.update((row, arrow, output), &mut x, tangents, &mut dx, sums);
                 }
                 visit(row, &x, &found);
-                let (u, slope) =
-                    (&self.observations.inputs[row * m..(row + 1) * m], &self.observations.slopes[row * m..(row + 1) * m]);
-                for (tangent, dx) in tangents.iter().zip(&mut dx) {
-                    let mut next = vec![0.0; n];
-                    self.matrices.add(&mut next, dx, &[], &[]);
-                    tangent.matrices.add(&mut next, &x, u, slope);
-                    *dx = next;
+                let u = &self.observations.inputs[row * m..(row + 1) * m];
+                let slope = &self.observations.slopes[row * m..(row + 1) * m];
+                for (tangent, dx) in tangents.iter().zip(dx.chunks_mut(n)) {
+                    next.fill(0.0);
+                    self.matrices.add_states(&mut next, dx);
+                    if let Some(matrices) = &tangent.matrices {
+                        matrices.add_states(&mut next, &x);
+                        matrices.add_inputs(&mut next, u, slope);
+                    }
+                    dx.copy_from_slice(&next);
                 }
-                let mut next = vec![0.0; n];
-                self.matrices.add(&mut next, &x, u, slope);
-                x = next;
+                next.fill(0.0);
+                self.matrices.add_states(&mut next, &x);
+                self.matrices.add_inputs(&mut next, u, slope);
+                x.copy_from_slice(&next);
             }
         }
+    }
+
+    /// The update of the state and its derivatives by one output. Returns innovation and variance.
+    fn update(
+        &self,
+        (row, arrow, output): (usize, usize, usize),
+        x: &mut [f64],
+        tangents: &[Tangent],
+        dx: &mut [f64],
+        sums: &mut Sums,
+    ) -> (f64, f64) {
+        let n = self.matrices.n;
+        let state = self.model.outputs[output];
+        let innovation = self.observations.outputs[row * self.observations.widths.0 + output] - x[state];
+        let variance = self.gains[arrow].variances[output];
+        let gain = &self.gains[arrow].gains[output * n..(output + 1) * n];
+        sums.log_likelihood -= 0.5 * (self.logarithms[arrow][output] + innovation * innovation / variance);
+        for ((tangent, dx), slot) in tangents.iter().zip(dx.chunks_mut(n)).zip(&mut sums.row) {
+            let dv = -dx[state];
+            dx.iter_mut().zip(gain).for_each(|(dx, gain)| *dx += gain * dv);
+            *slot = (dv, 0.0);
+            if let Some(change) = tangent.gains.get(arrow) {
+                let dk = &change.gains[output * n..(output + 1) * n];
+                dx.iter_mut().zip(dk).for_each(|(dx, dk)| *dx += dk * innovation);
+                slot.1 = change.variances[output];
+            }
+        }
+        sums.add(innovation, variance);
+        x.iter_mut().zip(gain).for_each(|(x, gain)| *x += gain * innovation);
+        (innovation, variance)
     }
 }
 

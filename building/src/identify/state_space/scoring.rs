@@ -18,7 +18,7 @@ const LEAST_DAMPING: f64 = 1e-9;
 /// With more damping than this, no step improves the likelihood any more.
 const MOST_DAMPING: f64 = 1e8;
 /// An ascent ends when a step promises less than this gain of the log-likelihood.
-const LEAST_GAIN: f64 = 1e-6;
+const LEAST_GAIN: f64 = 1e-5;
 /// Smallest share of the largest diagonal entry of I that a parameter counts for in the damping.
 const LEAST_DIAGONAL: f64 = 1e-12;
 

@@ -17,8 +17,11 @@ use crate::identify::telemetry::Telemetry;
 
 /// Level of the likelihood-ratio test.
 const LEVEL: f64 = 0.05;
-/// Steps from each start before the best one goes on.
+/// Steps from each start, and rows of them, before the best ones go on.
 const SCREENING_STEPS: usize = 8;
+const SCREENING_ROWS: usize = 1500;
+/// How many of the best starts go on to the end.
+const FINISHED_STARTS: usize = 2;
 const MOST_STEPS: usize = 100;
 
 /// A model with its estimate.
@@ -59,7 +62,7 @@ pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_st
     let guess = Guess::new(telemetry);
     let smallest = Structure::new(telemetry, Vec::new());
     let starts = guess.of_smallest(telemetry, &smallest);
-    let mut chosen = fit(&guess, smallest, &starts, observations)?;
+    let mut chosen = fit(&guess, smallest, (&starts, None), observations)?;
     let mut table = vec![row(telemetry, &chosen, None)];
     let mut chosen_row = 0;
     loop {
@@ -73,8 +76,7 @@ pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_st
                 Some((table.len() - 1, larger))
             })
             .collect();
-        let by_likelihood = |a: &&(usize, Fit), b: &&(usize, Fit)| likelihood(&a.1).total_cmp(&likelihood(&b.1));
-        let best = tried.iter().max_by(by_likelihood).cloned();
+        let best = tried.iter().max_by(|a, b| likelihood(&a.1).total_cmp(&likelihood(&b.1))).cloned();
         let Some((index, best)) = best else {
             table[chosen_row].chosen = true;
             return Some(Choice { chosen, larger: None, table });
@@ -103,21 +105,34 @@ fn extended(
     let mut hidden = smaller.structure.hidden.clone();
     hidden.push(added);
     let structure = Structure::new(telemetry, hidden);
-    let starts = guess.of_larger(&smaller.structure, &smaller.maximum.theta, &structure, added);
-    fit(guess, structure, &starts, observations)
+    let mut starts = guess.of_larger(&smaller.structure, &smaller.maximum.theta, &structure, added);
+    let near = starts.pop();
+    fit(guess, structure, (&starts, near), observations)
 }
 
-/// Ascends from every start for a few steps, and from the best one to the end.
-fn fit(guess: &Guess, structure: Structure, starts: &[Vec<f64>], observations: &Observations) -> Option<Fit> {
+/// Ascends from every start for a few steps on the first rows, and from the best ones to the end on all rows. The last start
+/// of a model that is not the smallest is near the model that it extends, and always goes to the end.
+fn fit(
+    guess: &Guess,
+    structure: Structure,
+    (starts, near): (&[Vec<f64>], Option<Vec<f64>>),
+    observations: &Observations,
+) -> Option<Fit> {
     let bounds = guess.bounds(&structure);
     let model = |theta: &[super::exponential::Number]| structure.model(theta);
-    let ascent = Ascent { model: &model, observations, bounds: &bounds, constraint: None };
-    let first = starts.iter().filter_map(|start| ascent.run(start, SCREENING_STEPS));
-    let by_likelihood =
-        |a: &Maximum, b: &Maximum| a.evaluation.log_likelihood.total_cmp(&b.evaluation.log_likelihood);
-    let best = first.max_by(by_likelihood)?;
-    let maximum = if best.converged { best } else { ascent.run(&best.theta, MOST_STEPS)? };
+    let beginning = observations.beginning(SCREENING_ROWS);
+    let ascent = |observations| Ascent { model: &model, observations, bounds: &bounds, constraint: None };
+    let mut first: Vec<Maximum> =
+        starts.iter().filter_map(|start| ascent(&beginning).run(start, SCREENING_STEPS)).collect();
+    first.sort_by(|a, b| by_likelihood(b, a));
+    let finished = first.into_iter().take(FINISHED_STARTS).map(|maximum| maximum.theta).chain(near);
+    let all = finished.filter_map(|start| ascent(observations).run(&start, MOST_STEPS));
+    let maximum = all.max_by(by_likelihood)?;
     Some(Fit { structure, bounds, maximum })
+}
+
+fn by_likelihood(a: &Maximum, b: &Maximum) -> std::cmp::Ordering {
+    a.evaluation.log_likelihood.total_cmp(&b.evaluation.log_likelihood)
 }
 
 fn row(telemetry: &Telemetry, fit: &Fit, smaller: Option<&Fit>) -> ModelRow {

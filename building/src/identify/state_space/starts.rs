@@ -24,13 +24,18 @@ struct Split {
     conductance: f64,
 }
 
-const MASS_SPLITS: [Split; 3] = [
+/// The last one of each list is nearly the model without the node.
+const MASS_SPLITS: [Split; 4] = [
     Split { air: 0.3, node: 1.0, conductance: 5.0 },
     Split { air: 0.6, node: 4.0, conductance: 3.0 },
     Split { air: 0.1, node: 1.0, conductance: 12.0 },
+    Split { air: 0.98, node: 0.02, conductance: 10.0 },
 ];
-const HEATER_SPLITS: [Split; 2] =
-    [Split { air: 0.95, node: 0.05, conductance: 2.0 }, Split { air: 0.7, node: 0.3, conductance: 2.0 }];
+const HEATER_SPLITS: [Split; 3] = [
+    Split { air: 0.95, node: 0.05, conductance: 2.0 },
+    Split { air: 0.7, node: 0.3, conductance: 2.0 },
+    Split { air: 0.995, node: 0.005, conductance: 60.0 },
+];
 
 /// What the data suggest at first sight.
 pub(super) struct Guess {
