@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use super::exponential::{Number, exponential, real};
 use super::likelihood::{Observations, evaluate, log_likelihood};
 use super::linear_model::{ContinuousModel, InitialState};
-use super::scoring::Ascent;
+use super::scoring::{Ascent, LEAST_GAIN};
 
 const DAY_S: f64 = 86_400.0;
 
@@ -65,7 +65,13 @@ fn the_armadillo_has_its_published_likelihood_and_parameters() {
     let start: Vec<f64> = start.into_iter().chain([25.0]).collect();
     let mut bounds: Vec<(f64, f64)> = start.iter().map(|value| (value - 12.0, value + 12.0)).collect();
     bounds[6] = (0.0, 50.0);
-    let ascent = Ascent { model: &two_states, observations: &observations, bounds: &bounds, constraint: None };
+    let ascent = Ascent {
+        model: &two_states,
+        observations: &observations,
+        bounds: &bounds,
+        constraint: None,
+        least_gain: LEAST_GAIN,
+    };
     let maximum = ascent.run(&start, 100).expect("a likelihood");
     let found = maximum.evaluation.log_likelihood;
     assert!(maximum.converged && (found - 331.057_569).abs() < 1e-3, "{found}");

@@ -40,7 +40,10 @@ impl Observations {
     pub fn beginning(&self, rows: usize) -> Self {
         let mut left = rows;
         let mut segments = Vec::new();
-        for segment in self.segments.iter().take_while(|_| left > 0) {
+        for segment in &self.segments {
+            if left == 0 {
+                break;
+            }
             let end = segment.end.min(segment.start + left);
             left -= end - segment.start;
             segments.push(segment.start..end);

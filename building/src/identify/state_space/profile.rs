@@ -16,6 +16,8 @@ const WORTH_A_PROFILE: std::ops::Range<f64> = 0.05..2.0;
 const TOLERANCE: f64 = 1e-3;
 /// A profile ends where √(2Δℓ) is this near to 1.96.
 const NEAR: f64 = 0.05;
+/// A trial ends when a step promises less than this gain of the log-likelihood.
+const LEAST_GAIN_OF_TRIAL: f64 = 1e-2;
 const MOST_TRIALS: usize = 6;
 const STEPS_A_TRIAL: usize = 12;
 /// Beyond this factor of the estimate, an interval is called unbounded.
@@ -71,8 +73,13 @@ impl Profiler<'_> {
         let mut distance = guess;
         for _ in 0..MOST_TRIALS {
             let constraint = Constraint { function: &function, target: at + distance, tolerance: TOLERANCE };
-            let ascent =
-                Ascent { model: &model, observations: self.observations, bounds: &self.fit.bounds, constraint: Some(constraint) };
+            let ascent = Ascent {
+                model: &model,
+                observations: self.observations,
+                bounds: &self.fit.bounds,
+                constraint: Some(constraint),
+                least_gain: LEAST_GAIN_OF_TRIAL,
+            };
             let start: Vec<f64> =
                 theta.iter().zip(&direction).map(|(value, direction)| value + direction * distance / slope).collect();
             let held = ascent.run(&start, STEPS_A_TRIAL).or_else(|| ascent.run(theta, STEPS_A_TRIAL))?;

@@ -17,8 +17,8 @@ const FIRST_DAMPING: f64 = 1e-2;
 const LEAST_DAMPING: f64 = 1e-9;
 /// With more damping than this, no step improves the likelihood any more.
 const MOST_DAMPING: f64 = 1e8;
-/// An ascent ends when a step promises less than this gain of the log-likelihood.
-const LEAST_GAIN: f64 = 1e-5;
+/// A full ascent ends when a step promises less than this gain of the log-likelihood.
+pub(super) const LEAST_GAIN: f64 = 1e-5;
 /// Smallest share of the largest diagonal entry of I that a parameter counts for in the damping.
 const LEAST_DIAGONAL: f64 = 1e-12;
 
@@ -38,6 +38,8 @@ pub(super) struct Ascent<'a> {
     /// Least and greatest value of each parameter.
     pub bounds: &'a [(f64, f64)],
     pub constraint: Option<Constraint<'a>>,
+    /// The ascent ends when a step promises less than this gain of the log-likelihood.
+    pub least_gain: f64,
 }
 
 /// The end of an ascent.
@@ -66,7 +68,7 @@ impl Ascent<'_> {
                 let step = self.step(&theta, &current, damping);
                 let candidate = clipped(&theta.iter().zip(&step).map(|(value, step)| value + step).collect::<Vec<_>>());
                 let promised: f64 = current.gradient.iter().zip(&candidate).zip(&theta).map(|((g, c), t)| g * (c - t)).sum();
-                if !(promised > LEAST_GAIN) {
+                if !(promised > self.least_gain) {
                     break (None, promised);
                 }
                 let gain = self.value(&candidate).map(|value| value - current.log_likelihood);
@@ -83,7 +85,7 @@ impl Ascent<'_> {
                 }
             };
             let Some(candidate) = candidate else {
-                converged = promised <= LEAST_GAIN || damping > MOST_DAMPING;
+                converged = promised <= self.least_gain || damping > MOST_DAMPING;
                 break;
             };
             theta = candidate;

@@ -9,20 +9,22 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::likelihood::Observations;
-use super::scoring::{Ascent, Maximum};
+use super::scoring::{Ascent, LEAST_GAIN, Maximum};
 use super::starts::Guess;
 use super::structure::{HiddenNode, Structure, candidates};
 use crate::identify::diagnostics::survival;
 use crate::identify::telemetry::Telemetry;
 
 /// Level of the likelihood-ratio test.
-const LEVEL: f64 = 0.05;
+const LEVEL: f64 = 0.1;
 /// Steps from each start, and rows of them, before the best ones go on.
 const SCREENING_STEPS: usize = 8;
 const SCREENING_ROWS: usize = 1500;
+/// Starts are compared when a step promises less than this gain of the log-likelihood.
+const SCREENING_GAIN: f64 = 0.02;
 /// How many of the best starts go on to the end.
 const FINISHED_STARTS: usize = 2;
-const MOST_STEPS: usize = 100;
+const MOST_STEPS: usize = 60;
 
 /// A model with its estimate.
 #[derive(Debug, Clone)]
@@ -82,7 +84,7 @@ pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_st
             return Some(Choice { chosen, larger: None, table });
         };
         let p_value = table[index].gain.map_or(1.0, |(_, p)| p);
-        if p_value >= LEVEL / left.len() as f64 || chosen.structure.order() >= most_states {
+        if p_value >= LEVEL || chosen.structure.order() >= most_states {
             table[chosen_row].chosen = true;
             return Some(Choice { chosen, larger: Some(best), table });
         }
@@ -121,13 +123,15 @@ fn fit(
     let bounds = guess.bounds(&structure);
     let model = |theta: &[super::exponential::Number]| structure.model(theta);
     let beginning = observations.beginning(SCREENING_ROWS);
-    let ascent = |observations| Ascent { model: &model, observations, bounds: &bounds, constraint: None };
+    let ascent =
+        |observations, least_gain| Ascent { model: &model, observations, bounds: &bounds, constraint: None, least_gain };
     let mut first: Vec<Maximum> =
-        starts.iter().filter_map(|start| ascent(&beginning).run(start, SCREENING_STEPS)).collect();
+        starts.iter().filter_map(|start| ascent(&beginning, SCREENING_GAIN).run(start, SCREENING_STEPS)).collect();
     first.sort_by(|a, b| by_likelihood(b, a));
     let finished = first.into_iter().take(FINISHED_STARTS).map(|maximum| maximum.theta).chain(near);
-    let all = finished.filter_map(|start| ascent(observations).run(&start, MOST_STEPS));
-    let maximum = all.max_by(by_likelihood)?;
+    let all = finished.filter_map(|start| ascent(observations, SCREENING_GAIN).run(&start, MOST_STEPS));
+    let best = all.max_by(by_likelihood)?;
+    let maximum = ascent(observations, LEAST_GAIN).run(&best.theta, MOST_STEPS)?;
     Some(Fit { structure, bounds, maximum })
 }
 
