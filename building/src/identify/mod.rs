@@ -1,14 +1,16 @@
 //! Thermal parameters from telemetry (chapter 2).
 //!
-//! The temperature of each zone follows its neighbours and the known heat; the rest is the non-parametric term q:
+//! The temperature of each zone follows its neighbours and the known heat; what else there is, the source calls the
+//! non-parametric term q:
 //!
 //! ```text
 //! T_i(t+1) = T_i(t) + T_s Σ_k b_ik (T_k(t) − T_i(t)) + T_s a_i (u_i(t) + w_i(t)) + q_i(t) + ε(t)      (2.4, corrected)
 //! ```
 //!
-//! [`identify`] estimates b and a by one of two [`Estimator`]s, turns them into capacities and resistances, and models q. It
-//! reports how certain each number is: standard errors, correlations, whiteness of the residuals, errors of free runs, and
-//! which parameters the data do not determine. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
+//! By default [`identify`] estimates networks with hidden temperatures by maximum likelihood (`state_space`). Two other
+//! [`Estimator`]s estimate b and a by regression, turn them into capacities and resistances, and model q. All report how
+//! certain each number is: standard errors, intervals, whiteness of the residuals, errors of free runs, and which parameters
+//! the data do not determine. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
 
 mod arma;
 mod continuous;
@@ -18,6 +20,7 @@ mod error;
 mod estimate;
 mod findings;
 mod free_run;
+mod identified_network;
 mod normal;
 mod physical;
 mod regression;
@@ -35,6 +38,7 @@ pub use arma::Arma;
 pub use diagnostics::{Confidence, LjungBox, ParameterVerdict, Whiteness};
 pub use error::IdentifyError;
 pub use free_run::ResidualForecast;
+pub use identified_network::{IdentifiedNetwork, NetworkUncertainty};
 pub use report::{
     CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, ResidualReport, WallReport,
     ZoneReport, ZoneSeries,
@@ -78,7 +82,8 @@ pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Id
     let (estimates, zones): (Vec<CheckedEstimate>, Vec<RunZone>) = fits.into_iter().unzip();
     let findings = Findings { telemetry, settings, split: &split, estimates: &estimates, zones: &zones };
     let report = findings.report();
-    Ok(Identification { report, series: series(telemetry, settings, &zones, split.test_start) })
+    let network = Err("only the method `state-space` makes a network of what it finds".into());
+    Ok(Identification { report, series: series(telemetry, settings, &zones, split.test_start), network })
 }
 
 /// Estimates a zone's coefficients and models the residuals.

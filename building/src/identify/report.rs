@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::diagnostics::{ParameterVerdict, Whiteness};
 use super::free_run::ResidualForecast;
+use super::identified_network::IdentifiedNetwork;
 use super::state_space::ModelRow;
 use super::{Arma, Estimator};
 
@@ -15,6 +16,8 @@ pub struct Identification {
     pub report: IdentificationReport,
     /// What to draw, one a zone.
     pub series: Vec<ZoneSeries>,
+    /// The network for a scenario, or why there is none.
+    pub network: Result<IdentifiedNetwork, String>,
 }
 
 /// What an identification found.

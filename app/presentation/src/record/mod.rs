@@ -49,6 +49,7 @@ use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
 pub use error::{RecordError, ViewerAddressError};
+pub use file::write as write_whole;
 pub use live::Viewer;
 pub use open::OpenRecording;
 use plots::Plots;

@@ -1,7 +1,9 @@
 //! From a fitted network to a report.
 
+use std::cell::RefCell;
 use std::ops::Range;
 
+use super::export::identified_network;
 use super::heat_balance;
 use super::likelihood::{Filtered, Observations, filter};
 use super::network_run::{FreeRunErrors, NetworkRun};
@@ -54,6 +56,7 @@ impl StateSpaceFindings<'_> {
             observations: self.train,
             fit,
             precision: Precision::new(fit),
+            known: RefCell::default(),
         };
         let zones: Vec<ZoneReport> = (0..self.telemetry.zones.len())
             .map(|zone| self.zone(zone, &profiler, &filtered, (&train, test.as_ref())))
@@ -70,7 +73,8 @@ impl StateSpaceFindings<'_> {
             models: self.choice.table.clone(),
             zones,
         };
-        Ok(Identification { report, series: self.series(&run, &filtered) })
+        let network = identified_network(&profiler, self.scale_is_known());
+        Ok(Identification { report, series: self.series(&run, &filtered), network })
     }
 
     fn zone(
@@ -127,8 +131,7 @@ impl StateSpaceFindings<'_> {
         zone_evidence: &ZoneEvidence<'_>,
     ) -> Option<Quantity> {
         let (name, symbol, unit) = kind.labels(self.telemetry);
-        let scale_is_known = self.telemetry.zones.iter().any(|zone| zone.has_heat() && zone.power_has_unit);
-        if kind.needs_scale() && !scale_is_known {
+        if kind.needs_scale() && !self.scale_is_known() {
             let reason = "no heat of a known unit was measured, and only that sets the scale";
             let words = format!("{name} cannot be identified: {reason}");
             let verdict = ParameterVerdict { confidence: Confidence::NotIdentifiable, words };
@@ -149,6 +152,11 @@ impl StateSpaceFindings<'_> {
             checks.push(CrossCheck { how: "by the next larger model".into(), value: Some(larger), standard_error: None });
         }
         Some(quantity((name, symbol, unit), Some(&estimated), verdict, checks))
+    }
+
+    /// Whether some heat is in kW.
+    fn scale_is_known(&self) -> bool {
+        self.telemetry.zones.iter().any(|zone| zone.has_heat() && zone.power_has_unit)
     }
 
     fn balance(&self, kind: QuantityKind, zone: usize, filtered: &Filtered) -> Option<heat_balance::BalancedConductance> {

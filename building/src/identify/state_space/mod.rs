@@ -8,6 +8,7 @@
 #[cfg(test)]
 mod armadillo_test;
 mod exponential;
+mod export;
 mod findings;
 mod gains;
 mod heat_balance;

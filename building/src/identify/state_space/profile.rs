@@ -3,6 +3,8 @@
 //!
 //! Where the likelihood is nearly quadratic, the interval of the information matrix is the same, and is kept.
 
+use std::cell::RefCell;
+
 use super::likelihood::Observations;
 use super::quantities::{Precision, QuantityKind, logarithm};
 use super::scoring::{Ascent, Constraint};
@@ -33,17 +35,41 @@ pub(super) struct Estimated {
     pub interval: (Option<f64>, Option<f64>),
 }
 
+impl Estimated {
+    /// Of 1/f.
+    fn inverse(self) -> Self {
+        let inverse = |end: Option<f64>| end.map(|end| 1.0 / end);
+        let interval = (inverse(self.interval.1), inverse(self.interval.0));
+        Self { value: 1.0 / self.value, interval, ..self }
+    }
+}
+
 /// The fit of which quantities are wanted.
 pub(super) struct Profiler<'a> {
     pub telemetry: &'a Telemetry,
     pub observations: &'a Observations,
     pub fit: &'a Fit,
     pub precision: Precision,
+    /// What was found already.
+    pub known: RefCell<Vec<((QuantityKind, usize), Estimated)>>,
 }
 
 impl Profiler<'_> {
     /// Estimate and interval of a quantity of a zone.
     pub fn estimated(&self, kind: QuantityKind, zone: usize) -> Option<Estimated> {
+        if let QuantityKind::Resistance(neighbour) = kind {
+            return self.estimated(QuantityKind::Conductance(neighbour), zone).map(Estimated::inverse);
+        }
+        let known = self.known.borrow().iter().find(|(quantity, _)| *quantity == (kind, zone)).map(|(_, found)| *found);
+        if known.is_some() {
+            return known;
+        }
+        let found = self.find(kind, zone)?;
+        self.known.borrow_mut().push(((kind, zone), found));
+        Some(found)
+    }
+
+    fn find(&self, kind: QuantityKind, zone: usize) -> Option<Estimated> {
         let (log_value, gradient) = logarithm(self.telemetry, &self.fit.structure, (kind, zone), &self.fit.maximum.theta)?;
         let value = libm::exp(log_value);
         let log_error = self.precision.standard_error(&gradient);

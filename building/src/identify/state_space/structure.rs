@@ -94,7 +94,6 @@ pub(super) struct Structure {
     pub conductances: Vec<Conductance>,
     pub parameters: Vec<ParameterKind>,
     pub layout: InputLayout,
-    boundaries: usize,
     zones: usize,
 }
 
@@ -109,7 +108,6 @@ impl Structure {
             conductances: Vec::new(),
             parameters: Vec::new(),
             layout: InputLayout::new(telemetry),
-            boundaries: telemetry.boundaries.len(),
             zones,
         };
         structure.add_hidden_nodes(telemetry);
@@ -294,11 +292,6 @@ impl Structure {
     pub fn total_capacity(&self, theta: &[Number], zone: usize) -> Number {
         let of_zone = self.nodes.iter().filter(|node| node.zone == zone);
         of_zone.fold(real(0.0), |sum, node| sum + self.value(theta, ParameterKind::Capacity(zone, node.place)))
-    }
-
-    /// How many boundaries there are.
-    pub fn boundary_count(&self) -> usize {
-        self.boundaries
     }
 }
 
