@@ -5,7 +5,7 @@
 //! cargo run --release -p interplay-building --example identify_coverage -- 100
 //! ```
 //!
-//! The argument is the number of houses of each kind. A fourth kind is heated and mild all the time alike, so that its data say
+//! The first argument is the number of houses of each kind, the second one, if there is one, the only kind. A fourth kind is heated and mild all the time alike, so that its data say
 //! next to nothing of the conductance. The houses are simulated in steps of six seconds; telemetry is sampled every 5 to 60 minutes.
 
 #![allow(clippy::print_stdout, reason = "this is a program: its results go to standard output")]
@@ -210,12 +210,16 @@ fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
 fn main() {
     let argument = std::env::args().nth(1);
     let houses: u64 = argument.and_then(|text| text.parse().ok()).unwrap_or(10);
+    let only = std::env::args().nth(2);
     for (label, kind, name) in [
         (1, Kind::Air, "one state"),
         (2, Kind::Wall, "two states"),
         (3, Kind::WallAndInterior, "three states"),
         (4, Kind::Silent, "two states, silent"),
     ] {
+        if only.as_deref().is_some_and(|only| only != name) {
+            continue;
+        }
         let count = if kind == Kind::Silent { houses / 4 } else { houses };
         let found: Vec<Outcome> = (0..count).into_par_iter().flat_map_iter(|seed| of_house(kind, 1000 * label + seed)).collect();
         print_kind(name, &found);
@@ -245,6 +249,12 @@ fn print_kind(name: &str, found: &[Outcome]) {
         let holds = |it: &Outcome| {
             it.interval.0.is_none_or(|low| low <= it.truth) && it.interval.1.is_none_or(|high| it.truth <= high)
         };
+        let by_states: Vec<String> = (1..=3)
+            .map(|states| {
+                let of: Vec<&&&Outcome> = bounded.iter().filter(|it| it.states == states).collect();
+                format!("{}/{}", of.iter().filter(|it| holds(it)).count(), of.len())
+            })
+            .collect();
         let covered = bounded.iter().filter(|it| holds(it)).count();
         let identified: Vec<&&Outcome> = of.iter().filter(|it| it.confidence == Confidence::Identified).collect();
         let is_off = |it: &Outcome| it.value.is_none_or(|value| (value / it.truth - 1.0).abs() > 0.25);
@@ -253,9 +263,10 @@ fn print_kind(name: &str, found: &[Outcome]) {
         let errors: Vec<f64> = of.iter().filter_map(|it| Some(it.value? / it.truth - 1.0)).collect();
         let largest = errors.iter().fold(0.0_f64, |largest, error| largest.max(error.abs()));
         println!(
-            "  {quantity:24} {covered} of {} intervals hold the truth; {} identified, of them {wrong} off by more than 25 %, \
+            "  {quantity:24} {covered} of {} intervals hold the truth ({}); {} identified, of them {wrong} off by more than 25 %, \
              {outside} outside of their interval; largest error {:.0} %",
             bounded.len(),
+            by_states.join(", "),
             identified.len(),
             100.0 * largest
         );

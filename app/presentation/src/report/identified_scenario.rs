@@ -32,6 +32,7 @@ fn write_scenario(
     network.remarks.iter().try_for_each(|remark| writeln!(text, "# {}.", remark.replace(char::is_control, " ")))?;
     writeln!(text, "# Weather, set-points and controller are examples: replace them.\n")?;
     writeln!(text, "title = {}", quoted(&format!("As identified from {file}")))?;
+    writeln!(text, "shows = \"What a controller does in the building whose measurements these are\"")?;
     writeln!(text, "iterations = 5\n")?;
     writeln!(text, "[building]")?;
     writeln!(text, "step_s = 1800.0")?;

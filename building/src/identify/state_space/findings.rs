@@ -56,6 +56,7 @@ impl StateSpaceFindings<'_> {
             observations: self.train,
             fit,
             precision: Precision::new(fit),
+            larger: self.choice.larger.as_ref().map(|larger| (larger, Precision::new(larger))),
             known: RefCell::default(),
         };
         let zones: Vec<ZoneReport> = (0..self.telemetry.zones.len())

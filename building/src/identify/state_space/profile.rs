@@ -50,6 +50,8 @@ pub(super) struct Profiler<'a> {
     pub observations: &'a Observations,
     pub fit: &'a Fit,
     pub precision: Precision,
+    /// The next larger model, if there is one, with its precision.
+    pub larger: Option<(&'a Fit, Precision)>,
     /// What was found already.
     pub known: RefCell<Vec<((QuantityKind, usize), Estimated)>>,
 }
@@ -76,15 +78,36 @@ impl Profiler<'_> {
         if !log_error.is_finite() {
             return Some(Estimated { value, log_error, interval: (None, None) });
         }
+        let widening = self.widening((kind, zone), log_value, log_error);
         let reach = STANDARD_ERRORS_OF_95_PERCENT * log_error;
         let end = |sign: f64| -> Option<f64> {
             let distance = match WORTH_A_PROFILE.contains(&log_error) {
                 true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?,
                 false => sign * reach,
             };
+            let distance = widening * distance;
             (distance.abs() < MOST_LOG_RATIO).then(|| value * libm::exp(distance))
         };
-        Some(Estimated { value, log_error, interval: (end(-1.0), end(1.0)) })
+        Some(Estimated { value, log_error: widening * log_error, interval: (end(-1.0), end(1.0)) })
+    }
+
+    /// By how much an interval grows because the next larger model may be the right one:
+    ///
+    /// ```text
+    /// s² = w₁ s₁² + w₂ (s₂² + (ln f₂ − ln f₁)²),      w ∝ exp(−AIC/2)      (Burnham and Anderson, 2002, section 4.3)
+    /// ```
+    fn widening(&self, quantity: (QuantityKind, usize), log_value: f64, log_error: f64) -> f64 {
+        let Some((larger, precision)) = &self.larger else { return 1.0 };
+        let theta = &larger.maximum.theta;
+        let Some((other, gradient)) = logarithm(self.telemetry, &larger.structure, quantity, theta) else { return 1.0 };
+        let other_error = precision.standard_error(&gradient);
+        let other_error = if other_error.is_finite() { other_error } else { log_error };
+        let criterion = |fit: &Fit| fit.maximum.evaluation.log_likelihood - fit.structure.parameters.len() as f64;
+        let ratio = libm::exp((criterion(larger) - criterion(self.fit)).min(0.0));
+        let weight = ratio / (1.0 + ratio);
+        let distance = other - log_value;
+        let variance = (1.0 - weight) * log_error * log_error + weight * (other_error * other_error + distance * distance);
+        libm::sqrt(variance / (log_error * log_error)).max(1.0)
     }
 
     /// How far ln f may move in the direction of `guess`; `None` without a bound.
