@@ -11,8 +11,8 @@
 #![allow(clippy::print_stdout, reason = "this is a program: its results go to standard output")]
 
 use interplay_building::identify::{
-    Boundary, Confidence, Hold, IdentifySettings, IdentificationReport, MeasuredWall, MeasuredZone, Neighbour, Telemetry,
-    identify,
+    Boundary, Confidence, Hold, IdentificationReport, IdentifySettings, MeasuredWall, MeasuredZone, Neighbour,
+    Telemetry, identify,
 };
 use interplay_building::random::Random;
 use rayon::prelude::*;
@@ -99,12 +99,22 @@ impl House {
             cloud = (cloud + random.normal(0.0, 0.15 * libm::sqrt(step_h))).clamp(0.1, 1.0);
             let height = libm::sin(std::f64::consts::PI * (hour - 7.0) / 10.0);
             let day = if (7.0..17.0).contains(&hour) { height } else { 0.0 };
-            outdoor_c.push(if silent { 5.0 } else { 4.0 + 3.5 * libm::sin(std::f64::consts::TAU * (hour - 9.0) / 24.0) + drift_c });
+            outdoor_c.push(if silent {
+                5.0
+            } else {
+                4.0 + 3.5 * libm::sin(std::f64::consts::TAU * (hour - 9.0) / 24.0) + drift_c
+            });
             sun_kw.push(if silent { 0.0 } else { 0.4 * cloud * day });
             if random.chance((step_h / hold_h).min(0.7)) {
                 on = !on;
             }
-            heat_kw.push(if silent { 0.75 * design_kw } else if on { 1.4 * design_kw } else { 0.1 * design_kw });
+            heat_kw.push(if silent {
+                0.75 * design_kw
+            } else if on {
+                1.4 * design_kw
+            } else {
+                0.1 * design_kw
+            });
         }
         let temperature_c = self.temperatures(random, stride, (&outdoor_c, &sun_kw, &heat_kw), design_kw);
         let zone = MeasuredZone {
@@ -190,7 +200,11 @@ struct Outcome {
 
 fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
     let states = report.models.iter().find(|model| model.chosen).map_or(0, |model| model.states);
-    let truths = [("heat capacity", house.capacity()), ("conductance to outdoor", house.ua()), ("aperture to the sun", house.aperture)];
+    let truths = [
+        ("heat capacity", house.capacity()),
+        ("conductance to outdoor", house.ua()),
+        ("aperture to the sun", house.aperture),
+    ];
     truths
         .into_iter()
         .filter_map(|(name, truth)| {
@@ -221,7 +235,8 @@ fn main() {
             continue;
         }
         let count = if kind == Kind::Silent { houses / 4 } else { houses };
-        let found: Vec<Outcome> = (0..count).into_par_iter().flat_map_iter(|seed| of_house(kind, 1000 * label + seed)).collect();
+        let found: Vec<Outcome> =
+            (0..count).into_par_iter().flat_map_iter(|seed| of_house(kind, 1000 * label + seed)).collect();
         print_kind(name, &found);
     }
 }
@@ -241,11 +256,13 @@ fn of_house(kind: Kind, seed: u64) -> Vec<Outcome> {
 
 fn print_kind(name: &str, found: &[Outcome]) {
     let houses = found.iter().filter(|outcome| outcome.quantity == "heat capacity");
-    let states: Vec<usize> = (1..=3).map(|states| houses.clone().filter(|house| house.states == states).count()).collect();
+    let states: Vec<usize> =
+        (1..=3).map(|states| houses.clone().filter(|house| house.states == states).count()).collect();
     println!("{name}: {} houses; 1, 2, 3 states chosen {states:?}", houses.count());
     for quantity in ["heat capacity", "conductance to outdoor", "aperture to the sun"] {
         let of: Vec<&Outcome> = found.iter().filter(|outcome| outcome.quantity == quantity).collect();
-        let bounded: Vec<&&Outcome> = of.iter().filter(|it| it.interval.0.is_some() || it.interval.1.is_some()).collect();
+        let bounded: Vec<&&Outcome> =
+            of.iter().filter(|it| it.interval.0.is_some() || it.interval.1.is_some()).collect();
         let holds = |it: &Outcome| {
             it.interval.0.is_none_or(|low| low <= it.truth) && it.interval.1.is_none_or(|high| it.truth <= high)
         };

@@ -113,7 +113,10 @@ fn both_methods_run_on_every_measured_building() {
         assert!(!report.zones.is_empty(), "{file}");
         for zone in &report.zones {
             assert!(!zone.coefficients.is_empty());
-            assert!(zone.test.as_ref().expect("more than 30 days").one_step_with_residual_model_k.expect("a regression") < 0.5);
+            assert!(
+                zone.test.as_ref().expect("more than 30 days").one_step_with_residual_model_k.expect("a regression")
+                    < 0.5
+            );
             assert!(zone.coefficients.iter().all(|quantity| quantity.value.is_none_or(|value| value >= 0.0)));
         }
     }

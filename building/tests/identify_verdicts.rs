@@ -174,7 +174,8 @@ fn a_building_that_changes_half_way_is_disputed() {
     let middle = telemetry.rows() / 2;
     // As if the meter were exchanged for one that counts half.
     telemetry.zones[0].power_kw[middle..].iter_mut().for_each(|power| *power *= 0.5);
-    let report = identify(&telemetry, &settings(Estimator::PredictionError)).expect("no error: the report says so").report;
+    let report =
+        identify(&telemetry, &settings(Estimator::PredictionError)).expect("no error: the report says so").report;
     let heat = quantity(&report, 0, "effect of heat");
     assert_eq!(heat.verdict.confidence, Confidence::Disputed, "{heat:?}");
     assert_eq!(quantity(&report, 0, "heat capacity").verdict.confidence, Confidence::Disputed);

@@ -27,7 +27,9 @@ pub enum IdentifyError {
         wanted: usize,
     },
     /// There are more zones than a filter can hold.
-    #[error("{zones} zones are too many: at most {most} can be identified together; identify groups of zones, with the others as boundaries")]
+    #[error(
+        "{zones} zones are too many: at most {most} can be identified together; identify groups of zones, with the others as boundaries"
+    )]
     TooManyZones {
         /// The zones.
         zones: usize,

@@ -47,9 +47,9 @@ pub use settings::{Estimator, IdentifySettings};
 pub use smoothing::local_linear;
 pub use state_space::ModelRow;
 pub use telemetry::{
-    AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Hold, IrradianceUnit, Mapping, MeasuredWall,
-    MeasuredZone, Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem,
-    TemperatureUnit, TimeAxis, ValueShape, WaterFlowUnit, ZoneColumns,
+    AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Hold, IrradianceUnit,
+    Mapping, MeasuredWall, MeasuredZone, Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry,
+    TelemetryError, TelemetryProblem, TemperatureUnit, TimeAxis, ValueShape, WaterFlowUnit, ZoneColumns,
 };
 
 use std::ops::Range;

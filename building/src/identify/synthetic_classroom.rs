@@ -75,11 +75,8 @@ impl Classroom {
             irradiance_kw_per_m2: None,
             irradiance_hold: Hold::FirstOrder,
         };
-        let mut boundary = |name: &str, series| Boundary {
-            name: name.into(),
-            temperature_c: measured(series),
-            hold: Hold::ZeroOrder,
-        };
+        let mut boundary =
+            |name: &str, series| Boundary { name: name.into(), temperature_c: measured(series), hold: Hold::ZeroOrder };
         let boundaries = vec![
             boundary("outdoor", &outdoor_c),
             boundary("room-b", &rooms.temperature_c[1]),

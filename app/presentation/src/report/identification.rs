@@ -3,8 +3,7 @@
 use std::fmt::{self, Write};
 
 use interplay_building::identify::{
-    Confidence, ErrorReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualForecast,
-    ZoneReport,
+    Confidence, ErrorReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualForecast, ZoneReport,
 };
 
 use super::columns::{Align, lines};
@@ -77,7 +76,10 @@ fn write_models(text: &mut String, report: &IdentificationReport) -> fmt::Result
             p_value,
         ]
     };
-    writeln!(text, "\nmodels, each with one more hidden temperature than the one it extends (likelihood-ratio test; * chosen)")?;
+    writeln!(
+        text,
+        "\nmodels, each with one more hidden temperature than the one it extends (likelihood-ratio test; * chosen)"
+    )?;
     lines(&header, report.models.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))
 }
 

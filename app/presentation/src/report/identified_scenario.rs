@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use interplay_building::identify::{IdentifiedNetwork, IdentificationReport};
+use interplay_building::identify::{IdentificationReport, IdentifiedNetwork};
 
 /// The smallest and largest factor of `[building.believed]`.
 const BELIEVED: (f64, f64) = (0.1, 10.0);
@@ -67,7 +67,10 @@ fn write_scenario(
 
 fn write_believed(text: &mut String, network: &IdentifiedNetwork) -> fmt::Result {
     let range = &network.uncertainty;
-    writeln!(text, "# What the controller takes the building for: the upper ends of the 95 % intervals. With all factors 1 its model")?;
+    writeln!(
+        text,
+        "# What the controller takes the building for: the upper ends of the 95 % intervals. With all factors 1 its model"
+    )?;
     writeln!(text, "# is the estimate. The intervals, as multiples of the estimates:")?;
     let factors = [
         ("capacity_factor", range.capacity),

@@ -30,9 +30,7 @@ pub(super) fn exponential(x: Number) -> Number {
 ///
 /// The library's own product chooses its instructions by the processor.
 pub(super) fn product(a: &DMatrix<Number>, b: &DMatrix<Number>) -> DMatrix<Number> {
-    DMatrix::from_fn(a.nrows(), b.ncols(), |i, j| {
-        (0..a.ncols()).fold(real(0.0), |sum, k| sum + a[(i, k)] * b[(k, j)])
-    })
+    DMatrix::from_fn(a.nrows(), b.ncols(), |i, j| (0..a.ncols()).fold(real(0.0), |sum, k| sum + a[(i, k)] * b[(k, j)]))
 }
 
 /// exp(M) by scaling and squaring; `None` if an entry of M is not finite or far too large.

@@ -107,7 +107,8 @@ fn walls(profiler: &Profiler<'_>, theta: &[Number]) -> Vec<Wall> {
 
 /// The widest intervals; an error for a quantity that has none.
 fn uncertainty(profiler: &Profiler<'_>) -> Result<NetworkUncertainty, String> {
-    let mut found = NetworkUncertainty { capacity: (1.0, 1.0), inner_resistance: (1.0, 1.0), outer_resistance: (1.0, 1.0) };
+    let mut found =
+        NetworkUncertainty { capacity: (1.0, 1.0), inner_resistance: (1.0, 1.0), outer_resistance: (1.0, 1.0) };
     let telemetry = profiler.telemetry;
     for zone in 0..telemetry.zones.len() {
         let neighbours = telemetry.neighbours(zone).into_iter();

@@ -89,10 +89,8 @@ impl StateSpaceFindings<'_> {
         let free_run_k = (train.free.runs > 0).then(|| (train.free.network_k[zone], train.free.mean_k[zone]));
         let evidence = ZoneEvidence { whiteness: &whiteness, free_run_k };
         let kinds = QuantityKind::of_zone(self.telemetry, &profiler.fit.structure, zone);
-        let physical = kinds
-            .into_iter()
-            .filter_map(|kind| self.quantity(kind, zone, profiler, filtered, &evidence))
-            .collect();
+        let physical =
+            kinds.into_iter().filter_map(|kind| self.quantity(kind, zone, profiler, filtered, &evidence)).collect();
         ZoneReport {
             name: self.telemetry.zones[zone].name.clone(),
             coefficients: Vec::new(),
@@ -150,7 +148,11 @@ impl StateSpaceFindings<'_> {
             checks.push(CrossCheck { how, value: Some(balance.value), standard_error: Some(balance.standard_error) });
         }
         if let Some(larger) = evidence.larger {
-            checks.push(CrossCheck { how: "by the next larger model".into(), value: Some(larger), standard_error: None });
+            checks.push(CrossCheck {
+                how: "by the next larger model".into(),
+                value: Some(larger),
+                standard_error: None,
+            });
         }
         Some(quantity((name, symbol, unit), Some(&estimated), verdict, checks))
     }
@@ -160,7 +162,12 @@ impl StateSpaceFindings<'_> {
         self.telemetry.zones.iter().any(|zone| zone.has_heat() && zone.power_has_unit)
     }
 
-    fn balance(&self, kind: QuantityKind, zone: usize, filtered: &Filtered) -> Option<heat_balance::BalancedConductance> {
+    fn balance(
+        &self,
+        kind: QuantityKind,
+        zone: usize,
+        filtered: &Filtered,
+    ) -> Option<heat_balance::BalancedConductance> {
         let fit = &self.choice.chosen;
         let of = |neighbour| heat_balance::conductance(self.telemetry, self.train, fit, filtered, (zone, neighbour));
         match kind {

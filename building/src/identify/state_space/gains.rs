@@ -131,7 +131,8 @@ fn step(
 ) -> Option<(RowGain, DMatrix<Number>)> {
     let n = before.nrows();
     let mut covariance = before.clone();
-    let mut row = RowGain { gains: vec![real(0.0); n * model.outputs.len()], variances: vec![real(1.0); model.outputs.len()] };
+    let mut row =
+        RowGain { gains: vec![real(0.0); n * model.outputs.len()], variances: vec![real(1.0); model.outputs.len()] };
     for (index, &state) in model.outputs.iter().enumerate().filter(|(index, _)| measured >> index & 1 == 1) {
         let variance = covariance[(state, state)] + model.sensor_variance[index];
         if !(variance.re > 0.0) || !variance.re.is_finite() {

@@ -10,7 +10,7 @@
 use super::exponential::Number;
 use super::likelihood::{Filtered, Observations, numbers};
 use super::selection::Fit;
-use super::structure::{HiddenNode, HOUR_S, ParameterKind, Place};
+use super::structure::{HOUR_S, HiddenNode, ParameterKind, Place};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// With a smaller mean temperature difference \[K\], the balance says nothing of a conductance.

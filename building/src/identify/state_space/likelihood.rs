@@ -181,8 +181,10 @@ impl<'a> Filter<'a> {
         let (of_rows, starts): (Vec<_>, Vec<_>) = rows.iter().map(of).unzip();
         let (schedule, gains) = schedule(&model, &sampled, &of_rows, &starts)?;
         let gains = RealGain::all(&gains, value);
-        let logarithms =
-            gains.iter().map(|gain| gain.variances.iter().map(|&variance| libm::log(TAU * variance)).collect()).collect();
+        let logarithms = gains
+            .iter()
+            .map(|gain| gain.variances.iter().map(|&variance| libm::log(TAU * variance)).collect())
+            .collect();
         let matrices = StepMatrices::new(&sampled, value);
         Some(Self { observations, model, matrices, schedule, gains, logarithms, measured })
     }
@@ -195,11 +197,7 @@ impl<'a> Filter<'a> {
         };
         let mut numbers = sampled.transition.iter().chain(&sampled.gain).chain(&sampled.slope_gain);
         let moves_states = numbers.any(|number| number.im != 0.0);
-        Some(Tangent {
-            matrices: moves_states.then(|| StepMatrices::new(&sampled, derivative)),
-            gains,
-            initial: model,
-        })
+        Some(Tangent { matrices: moves_states.then(|| StepMatrices::new(&sampled, derivative)), gains, initial: model })
     }
 
     /// The state at the start of a segment, as `part` of the numbers of `model`.

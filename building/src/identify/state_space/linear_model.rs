@@ -134,7 +134,8 @@ mod tests {
             let sampled = model.sampled(step).expect("sound");
             let decay = libm::exp(-rate * step);
             let integral = -libm::expm1(-rate * step) / rate;
-            let close = |found: Number, wanted: f64| assert!((found.re / wanted - 1.0).abs() < 1e-9, "{found} {wanted}");
+            let close =
+                |found: Number, wanted: f64| assert!((found.re / wanted - 1.0).abs() < 1e-9, "{found} {wanted}");
             close(sampled.transition[(0, 0)], decay);
             close(sampled.gain[(0, 0)], 2.0 * integral);
             close(sampled.slope_gain[(0, 0)], 2.0 * (step - integral) / rate);

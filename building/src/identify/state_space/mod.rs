@@ -61,5 +61,6 @@ pub(super) fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Re
         return Err(IdentifyError::TooFewRows { rows, parameters, wanted });
     }
     let choice = selection::choose(telemetry, &train, settings.most_states).ok_or(IdentifyError::NotFinite)?;
-    StateSpaceFindings { telemetry, settings, split: &split, train: &train, all: &all, choice: &choice }.identification()
+    StateSpaceFindings { telemetry, settings, split: &split, train: &train, all: &all, choice: &choice }
+        .identification()
 }

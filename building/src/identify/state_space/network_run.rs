@@ -29,7 +29,12 @@ pub(super) struct FreeRunErrors {
 
 impl<'a> NetworkRun<'a> {
     /// `None` if the model has no form in steps.
-    pub fn new(telemetry: &'a Telemetry, observations: &'a Observations, fit: &'a Fit, filtered: &'a Filtered) -> Option<Self> {
+    pub fn new(
+        telemetry: &'a Telemetry,
+        observations: &'a Observations,
+        fit: &'a Fit,
+        filtered: &'a Filtered,
+    ) -> Option<Self> {
         let sampled = fit.structure.model(&numbers(&fit.maximum.theta)).sampled(observations.step_s)?;
         Some(Self { telemetry, observations, fit, sampled, filtered })
     }

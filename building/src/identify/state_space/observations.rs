@@ -77,7 +77,14 @@ pub(super) fn observations(
         (segment.end - first >= 2).then_some(first..segment.end)
     };
     let segments = segments.iter().filter_map(from_first).collect();
-    Ok(Observations { step_s: telemetry.step_s, segments, outputs, inputs, slopes, widths: (zones.len(), layout.count) })
+    Ok(Observations {
+        step_s: telemetry.step_s,
+        segments,
+        outputs,
+        inputs,
+        slopes,
+        widths: (zones.len(), layout.count),
+    })
 }
 
 /// Known heat of a zone in each row \[kW\]. Where its temperature is missing, the last one takes its place.

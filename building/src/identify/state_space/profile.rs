@@ -72,7 +72,8 @@ impl Profiler<'_> {
     }
 
     fn find(&self, kind: QuantityKind, zone: usize) -> Option<Estimated> {
-        let (log_value, gradient) = logarithm(self.telemetry, &self.fit.structure, (kind, zone), &self.fit.maximum.theta)?;
+        let (log_value, gradient) =
+            logarithm(self.telemetry, &self.fit.structure, (kind, zone), &self.fit.maximum.theta)?;
         let value = libm::exp(log_value);
         let log_error = self.precision.standard_error(&gradient);
         if !log_error.is_finite() {
@@ -106,7 +107,8 @@ impl Profiler<'_> {
         let ratio = libm::exp((criterion(larger) - criterion(self.fit)).min(0.0));
         let weight = ratio / (1.0 + ratio);
         let distance = other - log_value;
-        let variance = (1.0 - weight) * log_error * log_error + weight * (other_error * other_error + distance * distance);
+        let variance =
+            (1.0 - weight) * log_error * log_error + weight * (other_error * other_error + distance * distance);
         libm::sqrt(variance / (log_error * log_error)).max(1.0)
     }
 
@@ -117,7 +119,8 @@ impl Profiler<'_> {
         let slope: f64 = direction.iter().zip(gradient).map(|(d, g)| d * g).sum();
         let model = |theta: &[super::exponential::Number]| self.fit.structure.model(theta);
         let function = |theta: &[f64]| {
-            logarithm(self.telemetry, &self.fit.structure, quantity, theta).unwrap_or_else(|| (at, vec![0.0; theta.len()]))
+            logarithm(self.telemetry, &self.fit.structure, quantity, theta)
+                .unwrap_or_else(|| (at, vec![0.0; theta.len()]))
         };
         let mut distance = guess;
         for _ in 0..MOST_TRIALS {

@@ -45,7 +45,8 @@ impl QuantityKind {
     /// Everything that can be said of a zone.
     pub fn of_zone(telemetry: &Telemetry, structure: &Structure, zone: usize) -> Vec<Self> {
         let neighbours = telemetry.neighbours(zone);
-        let places: Vec<Place> = structure.nodes.iter().filter(|node| node.zone == zone).map(|node| node.place).collect();
+        let places: Vec<Place> =
+            structure.nodes.iter().filter(|node| node.zone == zone).map(|node| node.place).collect();
         let mut kinds = vec![Self::Capacity];
         if places.len() > 1 {
             kinds.extend(places.iter().map(|&place| Self::NodeCapacity(place)));
@@ -198,8 +199,12 @@ impl Precision {
         let largest = self.eigen.eigenvalues.iter().fold(0.0_f64, |largest, value| largest.max(*value));
         let mut undetermined = 0.0;
         let project = |k: usize| {
-            let value: f64 =
-                self.free.iter().enumerate().map(|(a, &j)| self.eigen.eigenvectors[(a, k)] * gradient[j] / self.scale[a]).sum();
+            let value: f64 = self
+                .free
+                .iter()
+                .enumerate()
+                .map(|(a, &j)| self.eigen.eigenvectors[(a, k)] * gradient[j] / self.scale[a])
+                .sum();
             let eigenvalue = self.eigen.eigenvalues[k];
             if eigenvalue <= LEAST_EIGENVALUE_SHARE * largest {
                 undetermined += value * value;

@@ -67,7 +67,8 @@ impl Ascent<'_> {
             let (candidate, promised) = loop {
                 let step = self.step(&theta, &current, damping);
                 let candidate = clipped(&theta.iter().zip(&step).map(|(value, step)| value + step).collect::<Vec<_>>());
-                let promised: f64 = current.gradient.iter().zip(&candidate).zip(&theta).map(|((g, c), t)| g * (c - t)).sum();
+                let promised: f64 =
+                    current.gradient.iter().zip(&candidate).zip(&theta).map(|((g, c), t)| g * (c - t)).sum();
                 if !(promised > self.least_gain) {
                     break (None, promised);
                 }
@@ -128,7 +129,11 @@ impl Ascent<'_> {
         let largest = free.iter().map(|&j| current.information[(j, j)]).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
         let matrix = DMatrix::from_fn(free.len(), free.len(), |a, b| {
             let entry = current.information[(free[a], free[b])];
-            if a == b { entry + damping * entry.max(LEAST_DIAGONAL * largest) + LEAST_DIAGONAL * largest } else { entry }
+            if a == b {
+                entry + damping * entry.max(LEAST_DIAGONAL * largest) + LEAST_DIAGONAL * largest
+            } else {
+                entry
+            }
         });
         let gradient = DVector::from_iterator(free.len(), free.iter().map(|&j| current.gradient[j]));
         let Some(factor) = matrix.cholesky() else { return step };

@@ -21,10 +21,10 @@ const LEVEL: f64 = 0.1;
 const SCREENING_STEPS: usize = 8;
 const SCREENING_ROWS: usize = 1500;
 /// Starts are compared when a step promises less than this gain of the log-likelihood.
-const SCREENING_GAIN: f64 = 0.02;
+const SCREENING_GAIN: f64 = 5e-3;
 /// How many of the best starts go on to the end.
-const FINISHED_STARTS: usize = 2;
-const MOST_STEPS: usize = 60;
+const FINISHED_STARTS: usize = 3;
+const MOST_STEPS: usize = 80;
 
 /// A model with its estimate.
 #[derive(Debug, Clone)]
@@ -123,8 +123,13 @@ fn fit(
     let bounds = guess.bounds(&structure);
     let model = |theta: &[super::exponential::Number]| structure.model(theta);
     let beginning = observations.beginning(SCREENING_ROWS);
-    let ascent =
-        |observations, least_gain| Ascent { model: &model, observations, bounds: &bounds, constraint: None, least_gain };
+    let ascent = |observations, least_gain| Ascent {
+        model: &model,
+        observations,
+        bounds: &bounds,
+        constraint: None,
+        least_gain,
+    };
     let mut first: Vec<Maximum> =
         starts.iter().filter_map(|start| ascent(&beginning, SCREENING_GAIN).run(start, SCREENING_STEPS)).collect();
     first.sort_by(|a, b| by_likelihood(b, a));

@@ -25,10 +25,13 @@ struct Split {
 }
 
 /// The last one of each list is nearly the model without the node.
-const MASS_SPLITS: [Split; 4] = [
+const MASS_SPLITS: [Split; 7] = [
     Split { air: 0.3, node: 1.0, conductance: 5.0 },
     Split { air: 0.6, node: 4.0, conductance: 3.0 },
     Split { air: 0.1, node: 1.0, conductance: 12.0 },
+    Split { air: 0.9, node: 1.0, conductance: 2.0 },
+    Split { air: 0.3, node: 0.3, conductance: 20.0 },
+    Split { air: 0.9, node: 0.3, conductance: 6.0 },
     Split { air: 0.98, node: 0.02, conductance: 10.0 },
 ];
 const HEATER_SPLITS: [Split; 3] = [
@@ -89,7 +92,11 @@ impl Guess {
             ParameterKind::RandomHeat(zone, _) => 0.3 * self.change_k[zone],
             ParameterKind::Direct(zone, _) | ParameterKind::Inner(zone, _) | ParameterKind::Outer(zone, _) => {
                 let share = self.conductance[zone] / telemetry.neighbours(zone).len().max(1) as f64;
-                if self.is_unit(zone) { share * UNIT_CAPACITY_KJ_PER_K / (self.conductance[zone] * time_constant_s) } else { share }
+                if self.is_unit(zone) {
+                    share * UNIT_CAPACITY_KJ_PER_K / (self.conductance[zone] * time_constant_s)
+                } else {
+                    share
+                }
             }
             ParameterKind::Aperture(zone) => self.aperture[zone],
             ParameterKind::HeatGain(zone) => self.heat_gain[zone],
@@ -123,7 +130,13 @@ impl Guess {
     }
 
     /// Starts of a model with the hidden node `added`, from the estimate `theta` of the model without it.
-    pub fn of_larger(&self, smaller: &Structure, theta: &[f64], larger: &Structure, added: HiddenNode) -> Vec<Vec<f64>> {
+    pub fn of_larger(
+        &self,
+        smaller: &Structure,
+        theta: &[f64],
+        larger: &Structure,
+        added: HiddenNode,
+    ) -> Vec<Vec<f64>> {
         let splits: &[Split] = if added == HiddenNode::Heater { &HEATER_SPLITS } else { &MASS_SPLITS };
         let known = |kind: ParameterKind| smaller.index(kind).map(|index| libm::exp(theta[index]));
         let value = |split: &Split, kind: &ParameterKind| {
@@ -131,7 +144,9 @@ impl Guess {
             let to_boundary = |zone, boundary| known(ParameterKind::Direct(zone, Neighbour::Boundary(boundary)));
             match *kind {
                 ParameterKind::Capacity(zone, Place::Air) if self.is_unit(zone) => air(zone),
-                ParameterKind::Capacity(zone, Place::Air) if larger.node(zone, added).is_some() => split.air * air(zone),
+                ParameterKind::Capacity(zone, Place::Air) if larger.node(zone, added).is_some() => {
+                    split.air * air(zone)
+                }
                 ParameterKind::Capacity(zone, Place::Hidden(hidden)) if hidden == added => split.node * air(zone),
                 ParameterKind::RandomHeat(zone, Place::Hidden(hidden)) if hidden == added => {
                     0.1 * known(ParameterKind::RandomHeat(zone, Place::Air)).unwrap_or(1.0)
@@ -168,7 +183,8 @@ fn conductance(telemetry: &Telemetry, zone: usize) -> f64 {
     let heat = mean(rows().map(|row| measured.heat_kw(row, measured.temperature_c[row]).abs()));
     let neighbours = telemetry.neighbours(zone);
     let difference = |row: usize| {
-        let differences = neighbours.iter().map(|&other| (telemetry.temperature_c(other)[row] - measured.temperature_c[row]).abs());
+        let differences =
+            neighbours.iter().map(|&other| (telemetry.temperature_c(other)[row] - measured.temperature_c[row]).abs());
         differences.filter(|difference| difference.is_finite()).fold(0.0, f64::max)
     };
     let difference = mean(rows().map(difference)).max(0.5);

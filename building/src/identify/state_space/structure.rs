@@ -144,7 +144,9 @@ impl Structure {
     fn add_walls(&mut self, telemetry: &Telemetry) {
         for wall in &telemetry.walls {
             let through = match wall.other {
-                Neighbour::Boundary(boundary) => self.node(wall.zone, HiddenNode::Wall(boundary)).map(|node| (boundary, node)),
+                Neighbour::Boundary(boundary) => {
+                    self.node(wall.zone, HiddenNode::Wall(boundary)).map(|node| (boundary, node))
+                }
                 Neighbour::Zone(_) => None,
             };
             if let Some((boundary, node)) = through {
@@ -190,11 +192,8 @@ impl Structure {
     /// The model in continuous time.
     pub fn model(&self, theta: &[Number]) -> ContinuousModel {
         let count = self.nodes.len();
-        let capacity: Vec<Number> = self
-            .nodes
-            .iter()
-            .map(|node| self.value(theta, ParameterKind::Capacity(node.zone, node.place)))
-            .collect();
+        let capacity: Vec<Number> =
+            self.nodes.iter().map(|node| self.value(theta, ParameterKind::Capacity(node.zone, node.place))).collect();
         let mut dynamics = DMatrix::from_element(count, count, real(0.0));
         let mut inputs = DMatrix::from_element(count, self.layout.count, real(0.0));
         for link in &self.conductances {
@@ -269,7 +268,13 @@ impl Structure {
                 }
             }
         }
-        InitialState { offset: vec![real(0.0); count], from_outputs, from_inputs, variance, contains_first_outputs: true }
+        InitialState {
+            offset: vec![real(0.0); count],
+            from_outputs,
+            from_inputs,
+            variance,
+            contains_first_outputs: true,
+        }
     }
 
     /// Conductance from a zone to a neighbour, through the wall's mass if it has one \[kW/K\].
@@ -309,6 +314,7 @@ pub(super) fn candidates(telemetry: &Telemetry) -> Vec<HiddenNode> {
     let layout = InputLayout::new(telemetry);
     let walls = (0..telemetry.boundaries.len()).map(HiddenNode::Wall);
     let all = walls.chain([HiddenNode::Interior, HiddenNode::Heater]);
-    let possible = |hidden: &HiddenNode| (0..telemetry.zones.len()).any(|zone| applies(telemetry, &layout, zone, *hidden));
+    let possible =
+        |hidden: &HiddenNode| (0..telemetry.zones.len()).any(|zone| applies(telemetry, &layout, zone, *hidden));
     all.filter(possible).collect()
 }

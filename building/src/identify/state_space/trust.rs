@@ -83,9 +83,14 @@ pub(super) fn judge(
     let (low, high) = match estimated.interval {
         (Some(low), Some(high)) => (low, high),
         (None, Some(high)) => {
-            return verdict(Confidence::NotDistinguishableFromZero, format!("{name} is at most {high:.3}, and may be zero"));
+            return verdict(
+                Confidence::NotDistinguishableFromZero,
+                format!("{name} is at most {high:.3}, and may be zero"),
+            );
         }
-        (Some(low), None) => return verdict(Confidence::Weak, format!("{name} is at least {low:.3}; no upper limit is known")),
+        (Some(low), None) => {
+            return verdict(Confidence::Weak, format!("{name} is at least {low:.3}; no upper limit is known"));
+        }
         (None, None) => {
             return verdict(Confidence::NotIdentifiable, format!("{name} cannot be identified from these data"));
         }

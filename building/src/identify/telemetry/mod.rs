@@ -16,7 +16,8 @@ mod write;
 
 pub use error::{TelemetryError, TelemetryProblem};
 pub use mapping::{
-    BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns,
+    BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis,
+    ZoneColumns,
 };
 pub use measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 pub use units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};

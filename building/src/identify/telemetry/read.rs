@@ -124,8 +124,7 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
         time_s.push(now_s);
         before = Some((now_s, recording));
     }
-    let midnight =
-        time_s.first().map_or(0.0, |first| libm::floor((first + offset_s) / 86_400.0) * 86_400.0 - offset_s);
+    let midnight = time_s.first().map_or(0.0, |first| libm::floor((first + offset_s) / 86_400.0) * 86_400.0 - offset_s);
     time_s.iter_mut().for_each(|time| *time -= midnight);
     Ok(CompleteRows { kept, time_s, segments })
 }
@@ -225,7 +224,8 @@ impl Reader<'_> {
         }
         if let Some(solar) = &columns.solar {
             let values = self.column(&solar.column, "irradiance")?;
-            zone.irradiance_kw_per_m2 = Some(values.iter().map(|value| value * solar.factor * solar.unit.kw_per_m2()).collect());
+            zone.irradiance_kw_per_m2 =
+                Some(values.iter().map(|value| value * solar.factor * solar.unit.kw_per_m2()).collect());
         }
         Ok(zone)
     }

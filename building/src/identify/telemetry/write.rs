@@ -63,7 +63,8 @@ pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
             flow_unit: FLOW,
             temperature: supply(zone, index),
         }));
-        let solar = SolarColumn { column: sun(zone), unit: IrradianceUnit::KwPerM2, factor: 1.0, hold: zone.irradiance_hold };
+        let solar =
+            SolarColumn { column: sun(zone), unit: IrradianceUnit::KwPerM2, factor: 1.0, hold: zone.irradiance_hold };
         ZoneColumns {
             name: zone.name.clone(),
             temperature: temperature(zone),
