@@ -72,6 +72,12 @@ impl<'a> Table<'a> {
             let role = format!("part of {}", computed.name);
             let members = computed.mean_of.iter().map(|name| table.column_of_table(name, &role));
             let members = members.collect::<Result<Vec<_>, _>>()?;
+            if table.column(&computed.name, "").is_ok() {
+                let (name, header) = (computed.name.clone(), table.header.clone());
+                let fault = "the name of another column already";
+                let problem = TelemetryProblem::Column { name, role: "a computed column".into(), fault, header };
+                return Err(TelemetryError::new(file, Some((1, 1)), problem));
+            }
             table.computed.push(Computed { name: computed.name.trim().into(), members, factor: computed.factor });
         }
         Ok(table)
