@@ -36,13 +36,16 @@ pub(super) fn conductance(
     let structure = &fit.structure;
     let rows: Vec<usize> =
         observations.segments.iter().flat_map(|segment| segment.start..segment.end.saturating_sub(1)).collect();
-    let measured = &telemetry.zones[zone].temperature_c;
-    let mean = |value: &dyn Fn(usize) -> f64| {
-        let finite = rows.iter().map(|&row| value(row)).filter(|value| value.is_finite());
-        let (sum, count) = finite.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
-        sum / count.max(1) as f64
+    // The filter's temperatures, since measured ones may be missing.
+    let count = structure.nodes.len();
+    let zone_c = |zone: usize, row: usize| filtered.states[row * count + zone];
+    let temperature_c = |place: Neighbour, row: usize| match place {
+        Neighbour::Zone(other) => zone_c(other, row),
+        Neighbour::Boundary(boundary) => telemetry.boundaries[boundary].temperature_c[row],
     };
-    let difference = |other: Neighbour| mean(&|row| telemetry.temperature_c(other)[row] - measured[row]);
+    let mean =
+        |value: &dyn Fn(usize) -> f64| rows.iter().map(|&row| value(row)).sum::<f64>() / rows.len().max(1) as f64;
+    let difference = |other: Neighbour| mean(&|row| temperature_c(other, row) - zone_c(zone, row));
     let input = |column: Option<usize>| {
         column.map_or(0.0, |column| mean(&|row| observations.inputs[row * observations.widths.1 + column]))
     };

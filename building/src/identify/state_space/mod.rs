@@ -38,7 +38,7 @@ use super::train_test_split::TrainTestSplit;
 use super::{IdentifyError, IdentifySettings};
 
 /// At least this many rows are needed for each parameter of the smallest model.
-const ROWS_PER_PARAMETER: usize = 5;
+const ROWS_PER_PARAMETER: usize = 10;
 
 /// Identifies all zones of the telemetry together.
 ///

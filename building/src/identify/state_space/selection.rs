@@ -5,6 +5,7 @@
 //! log-likelihood is beyond the chi-squared limit for the parameters it adds; the level is divided by the number of kinds
 //! tried. At a boundary of the parameters, where the smaller model lies, the test keeps at least its level.
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -22,7 +23,7 @@ const SCREENING_STEPS: usize = 8;
 const SCREENING_ROWS: usize = 1500;
 /// Starts are compared when a step promises less than this gain of the log-likelihood.
 const SCREENING_GAIN: f64 = 5e-3;
-/// How many of the best starts go on to the end.
+/// How many of the best starts go on to the end, over the number of zones.
 const FINISHED_STARTS: usize = 3;
 const MOST_STEPS: usize = 80;
 
@@ -70,14 +71,13 @@ pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_st
     loop {
         let left: Vec<HiddenNode> =
             candidates(telemetry).into_iter().filter(|hidden| !chosen.structure.hidden.contains(hidden)).collect();
-        let tried: Vec<(usize, Fit)> = left
-            .iter()
-            .filter_map(|&added| {
-                let larger = extended(telemetry, &guess, &chosen, added, observations)?;
-                table.push(row(telemetry, &larger, Some(&chosen)));
-                Some((table.len() - 1, larger))
-            })
-            .collect();
+        let larger: Vec<Option<Fit>> =
+            left.par_iter().map(|&added| extended(telemetry, &guess, &chosen, added, observations)).collect();
+        let mut tried: Vec<(usize, Fit)> = Vec::new();
+        for larger in larger.into_iter().flatten() {
+            table.push(row(telemetry, &larger, Some(&chosen)));
+            tried.push((table.len() - 1, larger));
+        }
         let best = tried.iter().max_by(|a, b| likelihood(&a.1).total_cmp(&likelihood(&b.1))).cloned();
         let Some((index, best)) = best else {
             table[chosen_row].chosen = true;
@@ -133,7 +133,8 @@ fn fit(
     let mut first: Vec<Maximum> =
         starts.iter().filter_map(|start| ascent(&beginning, SCREENING_GAIN).run(start, SCREENING_STEPS)).collect();
     first.sort_by(|a, b| by_likelihood(b, a));
-    let finished = first.into_iter().take(FINISHED_STARTS).map(|maximum| maximum.theta).chain(near);
+    let (zones, _) = observations.widths;
+    let finished = first.into_iter().take((FINISHED_STARTS / zones).max(1)).map(|maximum| maximum.theta).chain(near);
     let all = finished.filter_map(|start| ascent(observations, SCREENING_GAIN).run(&start, MOST_STEPS));
     let best = all.max_by(by_likelihood)?;
     let maximum = ascent(observations, LEAST_GAIN).run(&best.theta, MOST_STEPS)?;
