@@ -36,6 +36,17 @@ fn print_report(report: &IdentificationReport) {
         "{:?}: {} rows, {} trained on, step {} s, {} segments",
         report.method, report.rows, report.train_rows, report.step_s, report.segments
     );
+    for model in &report.models {
+        let (gain, p) = model.gain.unwrap_or((0.0, f64::NAN));
+        println!(
+            "  {} {:45} {} states {:2} parameters, log-likelihood {:.3}, twice the gain {gain:.2}, p = {p:.4}",
+            if model.chosen { "*" } else { " " },
+            model.model,
+            model.states,
+            model.parameters,
+            model.log_likelihood
+        );
+    }
     report.zones.iter().for_each(print_zone);
     for wall in &report.walls {
         let side =
@@ -55,13 +66,13 @@ fn print_report(report: &IdentificationReport) {
 fn print_zone(zone: &ZoneReport) {
     println!("\n{}", zone.name);
     zone.coefficients.iter().chain(&zone.physical).for_each(print_quantity);
-    let condition = zone.condition_number.map_or("infinite".into(), |condition| format!("{condition:.1}"));
-    println!("  condition number {condition}");
-    let arma = &zone.residual_model.profile;
-    println!(
-        "  residual model: α {:?}, μ {:.3}, innovation {:.4} K",
-        arma.autoregressive, arma.moving_average, arma.innovation_sd
-    );
+    if let Some(model) = &zone.residual_model {
+        let arma = &model.profile;
+        println!(
+            "  residual model: α {:?}, μ {:.3}, innovation {:.4} K",
+            arma.autoregressive, arma.moving_average, arma.innovation_sd
+        );
+    }
     let white = &zone.whiteness;
     println!(
         "  residuals: {}; Ljung-Box {:.1} on {}, p = {:.3}; nCPBES {:?}",
@@ -98,11 +109,12 @@ fn print_errors(part: &str, errors: &ErrorReport) {
         .map(|(how, error)| format!("{how:?} {:.3}", error.unwrap_or(f64::NAN)))
         .collect();
     println!(
-        "  {part}: one step {:.4} K, with residual model {:.4} K; free run of {} h ({} runs) [K]: {}",
+        "  {part}: one step {:.4} K, with residual model {:.4} K; free run of {} h ({} runs) [K]: {}, mean of the data {:.3}",
         errors.one_step_k,
-        errors.one_step_with_residual_model_k,
+        errors.one_step_with_residual_model_k.unwrap_or(f64::NAN),
         errors.free_run.horizon_h,
         errors.free_run.runs,
-        free.join(", ")
+        free.join(", "),
+        errors.free_run.mean_of_data_k.unwrap_or(f64::NAN)
     );
 }

@@ -45,7 +45,7 @@ fn dutch_homes_are_predicted_as_well_as_by_the_published_models() {
         let table = table(&file);
         let mapping = Mapping::parse("dutch3.toml", DUTCH).expect("sound");
         let zone = &report(&mapping, &file, &table).zones[0];
-        let ours_k = zone.train.one_step_with_residual_model_k;
+        let ours_k = zone.train.one_step_with_residual_model_k.expect("a regression");
         assert!(ours_k < 1.1 * published_k, "home {home}: {ours_k} K against {published_k} K");
         let excess = zone.whiteness.periodogram_excess.expect("a long series");
         assert!(excess < 0.5 * published_excess, "home {home}: {excess} against {published_excess}");
@@ -89,7 +89,7 @@ fn the_hospital_is_read_in_its_batches_and_its_disputes_are_told() {
     let report = report(&mapping, "riskbr_data.csv", &table);
     assert_eq!((report.rows, report.segments, report.zones.len(), report.walls.len()), (7026, 27, 3, 2));
     for zone in &report.zones {
-        assert!(zone.train.one_step_with_residual_model_k < 0.14);
+        assert!(zone.train.one_step_with_residual_model_k.expect("a regression") < 0.14);
         let error = |wanted| zone.train.free_run.errors_k.iter().find(|(how, _)| *how == wanted).expect("listed").1;
         assert!(
             error(ResidualForecast::ProfileArma).expect("runs") < 0.85 * error(ResidualForecast::None).expect("runs")
@@ -113,7 +113,10 @@ fn both_methods_run_on_every_measured_building() {
         assert!(!report.zones.is_empty(), "{file}");
         for zone in &report.zones {
             assert!(!zone.coefficients.is_empty());
-            assert!(zone.test.as_ref().expect("more than 30 days").one_step_with_residual_model_k < 0.5);
+            assert!(
+                zone.test.as_ref().expect("more than 30 days").one_step_with_residual_model_k.expect("a regression")
+                    < 0.5
+            );
             assert!(zone.coefficients.iter().all(|quantity| quantity.value.is_none_or(|value| value >= 0.0)));
         }
     }

@@ -209,7 +209,7 @@ fn an_unknown_key_is_typed_and_located_and_the_nearest_is_named() {
     );
     assert_eq!(
         misspelt("[[\"living\", \"outdoor\"]]", "[[\"living\", \"outdoor\"]]\nwidgets = 1"),
-        "home.toml:3:1: unknown key `widgets`; the keys here are: `table`, `time`, `boundary`, `zone`, `walls`, `identify`"
+        "home.toml:3:1: unknown key `widgets`; the keys here are: `table`, `time`, `boundary`, `zone`, `walls`, `column`, `identify`"
     );
     assert_eq!(
         misspelt("unit = \"w\" }", "units = \"w\" }"),
@@ -240,7 +240,7 @@ fn a_value_of_the_wrong_type_is_told_what_is_wanted() {
     wanted(
         "{ column = \"sun\", unit = \"w-per-m2\" }",
         "true",
-        "19:9: `zone.living.solar` must be a table with `column`, `unit`, not `true`",
+        "19:9: `zone.living.solar` must be a table with `column`, `unit`, `factor`, `hold`, not `true`",
     );
     wanted(
         "{ kind = \"power\", column = \"P\", unit = \"w\" }",
@@ -266,7 +266,7 @@ fn settings_of_the_identification_are_located_in_the_mapping() {
         Mapping::parse("home.toml", &text).expect_err("out of range").to_string()
     };
     assert_eq!(
-        with("{ harmonics = 3, bandwidth_h = 0.1 }"),
+        with("{ harmonics = 3, bandwidth_h = 0.1, method = \"semiparametric\" }"),
         "home.toml:3:43: `identify.bandwidth_h` is 0.1; it must be at least 0.25"
     );
     assert_eq!(with("{ harmonics = -3 }"), "home.toml:3:26: `identify.harmonics` is -3; it must be at least 0");
@@ -284,8 +284,8 @@ fn settings_of_the_identification_are_located_in_the_mapping() {
         "home.toml:3:14: unknown key `train_day` in `identify`; did you mean `train_days`?"
     );
     // Where a default does not fit, the sampling time is to blame.
-    let coarse = refused("900.0", "14400.0").to_string();
-    assert_eq!(coarse, "home.toml:9:10: `identify.bandwidth_h` is 1.25; it must be at least 4");
+    let coarse = refused("900.0", "172800.0").to_string();
+    assert_eq!(coarse, "home.toml:9:10: `identify.horizon_h` is 24; it must be at least 48");
 }
 
 #[test]

@@ -4,7 +4,9 @@ use interplay_building::discretise;
 use interplay_building::identify::synthetic_classroom::{
     CAPACITY_KJ_PER_K, Classroom, OUTDOOR_K_PER_KW, ROOM_K_PER_KW, RoomDisturbance,
 };
-use interplay_building::identify::{Estimator, Identification, IdentifySettings, ResidualForecast, identify};
+use interplay_building::identify::{
+    ErrorReport, Estimator, Identification, IdentifySettings, ResidualForecast, identify,
+};
 
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=12;
 
@@ -22,6 +24,11 @@ fn settings(method: Estimator) -> IdentifySettings {
         discretisation: discretise::Discretisation::Euler,
         ..IdentifySettings::default()
     }
+}
+
+/// The error one step ahead with the residual model, which every regression has [K].
+fn with_residual_model(errors: &ErrorReport) -> f64 {
+    errors.one_step_with_residual_model_k.expect("a regression")
 }
 
 fn identified(classroom: &Classroom, method: Estimator) -> Identification {
@@ -98,13 +105,13 @@ fn the_residual_model_predicts_better_on_days_it_has_not_seen() {
             let found = identified(&Classroom { seed, ..Classroom::default() }, method);
             let zone = &found.report.zones[0];
             let test = zone.test.as_ref().expect("18 days are left to test");
-            assert!(test.one_step_with_residual_model_k < 0.9 * test.one_step_k, "seed {seed}: {test:?}");
+            assert!(with_residual_model(test) < 0.9 * test.one_step_k, "seed {seed}: {test:?}");
             assert!(test.free_run.runs >= 30 && test.free_run.horizon_h == 24.0);
             for (sum, (_, error)) in mean.iter_mut().zip(&test.free_run.errors_k) {
                 *sum += error.expect("there are runs") / SEEDS.count() as f64;
             }
             // The test is no worse than the training by much: the model is not fitted to chance.
-            assert!(test.one_step_with_residual_model_k < 1.15 * zone.train.one_step_with_residual_model_k);
+            assert!(with_residual_model(test) < 1.15 * with_residual_model(&zone.train));
         }
         let error = |forecast| mean[ResidualForecast::ALL.iter().position(|other| *other == forecast).expect("listed")];
         let place = format!("{method:?}: {mean:.3?}");
@@ -120,14 +127,14 @@ fn series_belong_to_the_telemetry_and_agree_with_the_report() {
     let (series, zone) = (&found.series[0], &found.report.zones[0]);
     let rows = series.measured_c.len();
     assert_eq!((rows, series.test_start), (27 * 96 + 1, 9 * 96));
-    for other in [&series.one_step_c, &series.free_run_c, &series.free_run_with_residual_model_c, &series.innovations_k]
-    {
+    let with = series.free_run_with_residual_model_c.as_ref().expect("a regression");
+    for other in [&series.one_step_c, &series.free_run_c, with, &series.innovations_k] {
         assert_eq!(other.len(), rows);
         assert!(other.iter().all(|value| value.is_finite()));
     }
     let errors: Vec<f64> = (3..series.test_start).map(|row| series.measured_c[row] - series.one_step_c[row]).collect();
     let root_mean_square = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
-    assert!((root_mean_square / zone.train.one_step_with_residual_model_k - 1.0).abs() < 1e-9);
+    assert!((root_mean_square / with_residual_model(&zone.train) - 1.0).abs() < 1e-9);
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use interplay_building::discretise::{self, Model};
 use interplay_building::identify::synthetic_classroom::Classroom;
 use interplay_building::identify::{
-    Boundary, Confidence, Estimator, IdentificationReport, IdentifyError, IdentifySettings, MeasuredWall, MeasuredZone,
-    Neighbour, Quantity, Telemetry, identify,
+    Boundary, Confidence, Estimator, Hold, IdentificationReport, IdentifyError, IdentifySettings, MeasuredWall,
+    MeasuredZone, Neighbour, Quantity, Telemetry, identify,
 };
 use interplay_building::network::Network;
 
@@ -52,8 +52,10 @@ fn testbed(days: usize, step_s: f64) -> Telemetry {
         temperature_c,
         power_kw,
         power_has_unit: true,
+        power_hold: Hold::ZeroOrder,
         supply_air: Vec::new(),
         irradiance_kw_per_m2: None,
+        irradiance_hold: Hold::FirstOrder,
     };
     let pairs =
         (0..4).flat_map(|one| (one + 1..4).map(move |other| MeasuredWall { zone: one, other: Neighbour::Zone(other) }));
@@ -64,7 +66,7 @@ fn testbed(days: usize, step_s: f64) -> Telemetry {
         segments: std::iter::once(0..rows).collect(),
         left_out_rows: 0,
         zones: temperatures.into_iter().zip(heats).enumerate().map(zone).collect(),
-        boundaries: vec![Boundary { name: "outdoor".into(), temperature_c: outdoor }],
+        boundaries: vec![Boundary { name: "outdoor".into(), temperature_c: outdoor, hold: Hold::ZeroOrder }],
         walls: pairs.chain(outward).collect(),
     }
 }
@@ -152,10 +154,10 @@ fn two_neighbours_that_are_one_cannot_be_told_apart_but_the_rest_can() {
 #[test]
 fn a_heat_signal_without_unit_leaves_only_what_needs_none() {
     let mut telemetry = Classroom { days: 9, ..Classroom::default() }.simulate();
-    let with_unit = identify(&telemetry, &IdentifySettings::default()).expect("identifiable").report;
+    let with_unit = identify(&telemetry, &settings(Estimator::PredictionError)).expect("identifiable").report;
     telemetry.zones[0].power_has_unit = false;
     telemetry.zones[0].power_kw.iter_mut().for_each(|power| *power *= 40.0);
-    let without = identify(&telemetry, &IdentifySettings::default()).expect("identifiable").report;
+    let without = identify(&telemetry, &settings(Estimator::PredictionError)).expect("identifiable").report;
     for name in ["heat capacity", "conductance to outdoor", "resistance to outdoor"] {
         assert!(quantity(&with_unit, 0, name).value.is_some());
         let quantity = quantity(&without, 0, name);
@@ -172,7 +174,8 @@ fn a_building_that_changes_half_way_is_disputed() {
     let middle = telemetry.rows() / 2;
     // As if the meter were exchanged for one that counts half.
     telemetry.zones[0].power_kw[middle..].iter_mut().for_each(|power| *power *= 0.5);
-    let report = identify(&telemetry, &IdentifySettings::default()).expect("no error: the report says so").report;
+    let report =
+        identify(&telemetry, &settings(Estimator::PredictionError)).expect("no error: the report says so").report;
     let heat = quantity(&report, 0, "effect of heat");
     assert_eq!(heat.verdict.confidence, Confidence::Disputed, "{heat:?}");
     assert_eq!(quantity(&report, 0, "heat capacity").verdict.confidence, Confidence::Disputed);
@@ -183,14 +186,14 @@ fn a_building_that_changes_half_way_is_disputed() {
 fn too_little_to_go_by_is_an_error_that_says_what_would_do() {
     let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
     telemetry.segments = std::iter::once(0..20).collect();
-    let error = identify(&telemetry, &IdentifySettings::default()).expect_err("20 rows are too few");
+    let error = identify(&telemetry, &settings(Estimator::PredictionError)).expect_err("20 rows are too few");
     assert!(matches!(error, IdentifyError::TooFewRows { rows: 17, parameters: 14, wanted: 42 }), "{error:?}");
     let mut telemetry = Classroom { days: 1, ..Classroom::default() }.simulate();
     telemetry.walls.clear();
     telemetry.zones[0].power_kw.fill(0.0);
-    let error = identify(&telemetry, &IdentifySettings::default()).expect_err("nothing acts on the zone");
+    let error = identify(&telemetry, &settings(Estimator::PredictionError)).expect_err("nothing acts on the zone");
     assert!(matches!(&error, IdentifyError::NothingToIdentify { zone } if zone == "classroom"), "{error:?}");
-    let settings = IdentifySettings { autoregressive_order: 0, ..IdentifySettings::default() };
+    let settings = IdentifySettings { autoregressive_order: 0, ..settings(Estimator::PredictionError) };
     let error = identify(&telemetry, &settings).expect_err("no such order").to_string();
     assert_eq!(error, "setting `autoregressive_order` is 0; it must be at least 1");
 }

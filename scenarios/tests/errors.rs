@@ -86,7 +86,12 @@ fn numbers() {
     let mut errors = Catalogue::default();
     refusal(&mut errors, "not_finite", &[("x_m = 1.0", "x_m = nan")], &["`vehicle.front.start.x_m`", "finite"]);
     refusal(&mut errors, "infinite", &[("5.0", "inf")], &["`duration_s`", "finite"]);
-    refusal(&mut errors, "too_large_to_compute", &[("x_m = 1.0", "x_m = 1e300")], &["must be at most 100000, not 1e300"]);
+    refusal(
+        &mut errors,
+        "too_large_to_compute",
+        &[("x_m = 1.0", "x_m = 1e300")],
+        &["must be at most 100000, not 1e300"],
+    );
     refusal(
         &mut errors,
         "negative_width",

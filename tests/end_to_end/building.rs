@@ -303,6 +303,7 @@ fn classroom(test: &str) -> PathBuf {
     let telemetry = Classroom::default().simulate();
     fs::write(folder.join("room.csv"), telemetry.to_csv()).expect("written");
     let mut mapping = telemetry.mapping();
+    mapping.identify.method = interplay_building::identify::Estimator::PredictionError;
     mapping.identify.discretisation = interplay_building::discretise::Discretisation::Euler;
     let mapping = toml::to_string(&mapping).expect("plain data");
     fs::write(folder.join("room.toml"), mapping).expect("written");

@@ -26,6 +26,7 @@ mod documents;
 mod failures;
 mod figures;
 mod film;
+mod identified_houses;
 mod laws;
 mod learning;
 mod measures;

@@ -5,7 +5,9 @@ use std::{fs, io};
 
 use clap::Args;
 use interplay_building::identify::{Identification, IdentifyError, Mapping, Telemetry, TelemetryError, identify};
-use interplay_presentation::{plot, report};
+use interplay_presentation::record::write_file;
+use interplay_presentation::{plot, report, shell};
+use interplay_scenarios::Fault;
 use thiserror::Error;
 
 use crate::error::CommandError;
@@ -18,13 +20,14 @@ use crate::output::{json, print, print_error};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     interplay identify office.csv                        (its mapping is office.toml)\n  \
-    interplay identify office.csv --mapping columns.toml --out plots/ --json\n\n\
+    interplay identify office.csv --mapping columns.toml --out plots/ --json\n  \
+    interplay identify office.csv --scenario office-scenario.toml\n\n\
     A mapping:\n  \
     walls = [[\"office\", \"outdoor\"]]\n  \
     time = { column = \"time\", format = \"%Y-%m-%d %H:%M:%S\", step_s = 900.0, gaps = \"split\" }\n  \
     boundary = [{ name = \"outdoor\", temperature = \"T_out\" }]\n  \
     zone = [{ name = \"office\", temperature = \"T_in\", heat = [{ kind = \"power\", column = \"P\", unit = \"kw\" }] }]\n  \
-    identify = { method = \"prediction-error\", train_days = 9.0 }")]
+    identify = { train_days = 9.0 }")]
 pub(crate) struct Identify {
     /// The table, with a header
     #[arg(value_name = "FILE.csv")]
@@ -41,6 +44,10 @@ pub(crate) struct Identify {
     /// Draw fit, residuals and autocorrelation of each zone into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    /// Write a scenario with the network that was found and its uncertainty; a file that exists is never overwritten
+    #[arg(long, value_name = "FILE.toml")]
+    scenario: Option<PathBuf>,
 }
 
 impl Identify {
@@ -52,7 +59,14 @@ impl Identify {
                 return ExitStatus::BadInput;
             }
         };
-        let printed = self.print_findings(&found);
+        let scenario = match self.scenario_text(&found) {
+            Ok(scenario) => scenario,
+            Err(error) => {
+                print_error(&format!("Error: {error}"));
+                return ExitStatus::BadInput;
+            }
+        };
+        let printed = self.print_findings(&found).and_then(|()| self.write_scenario(scenario));
         if let Err(error) = printed {
             print_error(&format!("Error: {error}"));
             return ExitStatus::Unfinished;
@@ -60,7 +74,32 @@ impl Identify {
         ExitStatus::Well
     }
 
+    /// The scenario, if one is asked for.
+    fn scenario_text(&self, found: &Identification) -> Result<Option<String>, InputError> {
+        let Some(path) = &self.scenario else { return Ok(None) };
+        let network = found.network.as_ref().map_err(|reason| InputError::NoNetwork { reason: reason.clone() })?;
+        let text = report::identified_scenario(&self.table.display().to_string(), &found.report, network);
+        match interplay_scenarios::from_text(&path.display().to_string(), &text, &[]) {
+            Ok(_) => Ok(Some(text)),
+            Err(error) => {
+                let faults: Vec<&str> = error.faults().iter().map(Fault::message).collect();
+                Err(InputError::NoNetwork { reason: format!("no scenario can hold it: {}", faults.join("; ")) })
+            }
+        }
+    }
+
+    fn write_scenario(&self, text: Option<String>) -> Result<(), CommandError> {
+        let (Some(path), Some(text)) = (&self.scenario, text) else { return Ok(()) };
+        write_file(path, text.as_bytes())?;
+        let run = shell::line(["interplay", "run", &path.to_string_lossy()]);
+        print_error(&format!("wrote {}; to run it: {run}", path.display()));
+        Ok(())
+    }
+
     fn identify(&self) -> Result<Identification, InputError> {
+        if let Some(path) = self.scenario.as_ref().filter(|path| path.exists()) {
+            return Err(InputError::ScenarioExists { path: path.clone() });
+        }
         let mapping_file = self.mapping.clone().unwrap_or_else(|| self.table.with_extension("toml"));
         let table = read(&self.table, "")?;
         let help = match self.mapping {
@@ -97,6 +136,10 @@ enum InputError {
     Unreadable { path: PathBuf, reason: io::Error, help: &'static str },
     #[error("{}:{line}: not UTF-8 text; save it as UTF-8", path.display())]
     NotUtf8 { path: PathBuf, line: usize },
+    #[error("`{}` exists already, and `--scenario` overwrites nothing; choose another name", path.display())]
+    ScenarioExists { path: PathBuf },
+    #[error("there is no network to write as a scenario: {reason}")]
+    NoNetwork { reason: String },
     #[error(transparent)]
     Telemetry(#[from] TelemetryError),
     #[error("{name}: {reason}")]

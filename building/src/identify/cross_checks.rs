@@ -44,7 +44,7 @@ impl CheckedEstimate {
     ) -> Result<Self, IdentifyError> {
         let (other, name) = match settings.method {
             Estimator::Semiparametric => (Estimator::PredictionError, "by prediction-error"),
-            Estimator::PredictionError => (Estimator::Semiparametric, "by semiparametric"),
+            Estimator::PredictionError | Estimator::StateSpace => (Estimator::Semiparametric, "by semiparametric"),
         };
         let other = IdentifySettings { method: other, ..settings.clone() };
         let (first, second) = halves(segments);

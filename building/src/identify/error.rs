@@ -26,6 +26,22 @@ pub enum IdentifyError {
         /// The number of rows that is needed.
         wanted: usize,
     },
+    /// There are more zones than a filter can hold.
+    #[error(
+        "{zones} zones are too many: at most {most} can be identified together; identify groups of zones, with the others as boundaries"
+    )]
+    TooManyZones {
+        /// The zones.
+        zones: usize,
+        /// The most.
+        most: usize,
+    },
+    /// A temperature is missing, which only the method `state-space` allows.
+    #[error("a temperature of zone `{zone}` is missing: set `gaps = \"split\"`, or use the method `state-space`")]
+    MissingTemperature {
+        /// The zone.
+        zone: String,
+    },
     /// A fit has no finite error.
     #[error("the residuals are not finite: check the telemetry for values that are not")]
     NotFinite,

@@ -42,7 +42,8 @@ pub(super) fn estimate(
 ) -> Result<Estimate, IdentifyError> {
     match settings.method {
         Estimator::Semiparametric => semiparametric(telemetry, model, segments, settings),
-        Estimator::PredictionError => prediction_error(telemetry, model, segments, settings),
+        // The method of state space has an estimator of its own, for all zones together.
+        Estimator::PredictionError | Estimator::StateSpace => prediction_error(telemetry, model, segments, settings),
     }
 }
 

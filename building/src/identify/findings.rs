@@ -53,6 +53,7 @@ impl Findings<'_> {
             segments: self.telemetry.segments.len(),
             warnings: self.warnings(&zones),
             walls: self.walls(&physical),
+            models: Vec::new(),
             zones,
         }
     }
@@ -75,11 +76,11 @@ impl Findings<'_> {
                 .map(|i| (0..count).map(|j| correlation(&estimate.covariance, i, j)).collect())
                 .collect(),
             condition_number: Some(estimate.condition_number).filter(|condition| condition.is_finite()),
-            residual_model: ResidualReport {
+            residual_model: Some(ResidualReport {
                 psi: run.constant.0.psi(),
                 constant: run.constant.0.arma.clone(),
                 profile: run.daily.0.arma.clone(),
-            },
+            }),
             whiteness: whiteness(&run.daily.1.innovations, &judged, order + 1),
             train,
             test,
@@ -104,11 +105,12 @@ impl Findings<'_> {
             .map(|how| (how, free_run::errors(self.telemetry, self.zones, how, segments, horizon)));
         let zone_errors = |(index, zone): (usize, &RunZone)| ErrorReport {
             one_step_k: root_mean_square(&zone.daily.1.q),
-            one_step_with_residual_model_k: root_mean_square(&zone.daily.1.innovations),
+            one_step_with_residual_model_k: Some(root_mean_square(&zone.daily.1.innovations)),
             free_run: FreeRunReport {
                 horizon_h: horizon as f64 * self.telemetry.step_s / 3600.0,
                 runs: runs[0].1.runs,
                 errors_k: runs.iter().map(|(how, errors)| (*how, errors.of_zone(index))).collect(),
+                mean_of_data_k: None,
             },
         };
         self.zones.iter().enumerate().map(zone_errors).collect()

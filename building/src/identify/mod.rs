@@ -1,14 +1,16 @@
 //! Thermal parameters from telemetry (chapter 2).
 //!
-//! The temperature of each zone follows its neighbours and the known heat; the rest is the non-parametric term q:
+//! The temperature of each zone follows its neighbours and the known heat; what else there is, the source calls the
+//! non-parametric term q:
 //!
 //! ```text
 //! T_i(t+1) = T_i(t) + T_s Σ_k b_ik (T_k(t) − T_i(t)) + T_s a_i (u_i(t) + w_i(t)) + q_i(t) + ε(t)      (2.4, corrected)
 //! ```
 //!
-//! [`identify`] estimates b and a by one of two [`Estimator`]s, turns them into capacities and resistances, and models q. It
-//! reports how certain each number is: standard errors, correlations, whiteness of the residuals, errors of free runs, and
-//! which parameters the data do not determine. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
+//! By default [`identify`] estimates networks with hidden temperatures by maximum likelihood (`state_space`). Two other
+//! [`Estimator`]s estimate b and a by regression, turn them into capacities and resistances, and model q. All report how
+//! certain each number is: standard errors, intervals, whiteness of the residuals, errors of free runs, and which parameters
+//! the data do not determine. [`Telemetry`] comes from a CSV and a [`Mapping`], or from a simulation such as [`synthetic_classroom`].
 
 mod arma;
 mod continuous;
@@ -18,6 +20,7 @@ mod error;
 mod estimate;
 mod findings;
 mod free_run;
+mod identified_network;
 mod normal;
 mod physical;
 mod regression;
@@ -26,6 +29,7 @@ mod residual;
 mod settings;
 mod shared_walls;
 mod smoothing;
+mod state_space;
 pub mod synthetic_classroom;
 mod telemetry;
 mod train_test_split;
@@ -34,16 +38,18 @@ pub use arma::Arma;
 pub use diagnostics::{Confidence, LjungBox, ParameterVerdict, Whiteness};
 pub use error::IdentifyError;
 pub use free_run::ResidualForecast;
+pub use identified_network::{IdentifiedNetwork, NetworkUncertainty};
 pub use report::{
     CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, ResidualReport, WallReport,
     ZoneReport, ZoneSeries,
 };
 pub use settings::{Estimator, IdentifySettings};
 pub use smoothing::local_linear;
+pub use state_space::ModelRow;
 pub use telemetry::{
-    AirFlowUnit, Boundary, BoundaryColumns, DecimalSign, Gaps, HeatColumns, IrradianceUnit, Mapping, MeasuredWall,
-    MeasuredZone, Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry, TelemetryError, TelemetryProblem,
-    TemperatureUnit, TimeAxis, ValueShape, WaterFlowUnit, ZoneColumns,
+    AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Hold, IrradianceUnit,
+    Mapping, MeasuredWall, MeasuredZone, Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry,
+    TelemetryError, TelemetryProblem, TemperatureUnit, TimeAxis, ValueShape, WaterFlowUnit, ZoneColumns,
 };
 
 use std::ops::Range;
@@ -62,6 +68,13 @@ use train_test_split::TrainTestSplit;
 /// data do not determine is no error: its [`ParameterVerdict`] says so.
 pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Identification, IdentifyError> {
     settings.check(telemetry.step_s)?;
+    if settings.method == Estimator::StateSpace {
+        return state_space::identify(telemetry, settings);
+    }
+    let is_incomplete = |zone: &&MeasuredZone| zone.temperature_c.iter().any(|value| value.is_nan());
+    if let Some(zone) = telemetry.zones.iter().find(is_incomplete) {
+        return Err(IdentifyError::MissingTemperature { zone: zone.name.clone() });
+    }
     let split = TrainTestSplit::new(telemetry, settings);
     let fits = (0..telemetry.zones.len())
         .map(|zone| fit_zone(telemetry, zone, &split.train, settings))
@@ -69,7 +82,8 @@ pub fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Result<Id
     let (estimates, zones): (Vec<CheckedEstimate>, Vec<RunZone>) = fits.into_iter().unzip();
     let findings = Findings { telemetry, settings, split: &split, estimates: &estimates, zones: &zones };
     let report = findings.report();
-    Ok(Identification { report, series: series(telemetry, settings, &zones, split.test_start) })
+    let network = Err("only the method `state-space` makes a network of what it finds".into());
+    Ok(Identification { report, series: series(telemetry, settings, &zones, split.test_start), network })
 }
 
 /// Estimates a zone's coefficients and models the residuals.
@@ -118,7 +132,7 @@ fn series(telemetry: &Telemetry, settings: &IdentifySettings, zones: &[RunZone],
             measured_c: measured.temperature_c.clone(),
             one_step_c,
             free_run_c,
-            free_run_with_residual_model_c,
+            free_run_with_residual_model_c: Some(free_run_with_residual_model_c),
             innovations_k: residuals.innovations.clone(),
         }
     };

@@ -5,6 +5,8 @@ use serde::Serialize;
 
 use super::diagnostics::{ParameterVerdict, Whiteness};
 use super::free_run::ResidualForecast;
+use super::identified_network::IdentifiedNetwork;
+use super::state_space::ModelRow;
 use super::{Arma, Estimator};
 
 /// An identification: what to say, and what to draw.
@@ -14,6 +16,8 @@ pub struct Identification {
     pub report: IdentificationReport,
     /// What to draw, one a zone.
     pub series: Vec<ZoneSeries>,
+    /// The network for a scenario, or why there is none.
+    pub network: Result<IdentifiedNetwork, String>,
 }
 
 /// What an identification found.
@@ -35,6 +39,9 @@ pub struct IdentificationReport {
     pub zones: Vec<ZoneReport>,
     /// Walls between two zones, seen from both.
     pub walls: Vec<WallReport>,
+    /// The models that were compared to choose the order, by `state-space`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub models: Vec<ModelRow>,
     /// Everything that a reader must know before using a number.
     pub warnings: Vec<String>,
 }
@@ -44,7 +51,7 @@ pub struct IdentificationReport {
 pub struct ZoneReport {
     /// Its name.
     pub name: String,
-    /// The coefficients of eq. 2.3: b_ik, a_i, s_i.
+    /// The coefficients of eq. 2.3: b_ik, a_i, s_i; none by `state-space`.
     pub coefficients: Vec<Quantity>,
     /// What they mean: capacity, conductances, resistances, aperture, time constant, gains.
     pub physical: Vec<Quantity>,
@@ -52,8 +59,8 @@ pub struct ZoneReport {
     pub correlations: Vec<Vec<Option<f64>>>,
     /// Condition number of the scaled normal equations; `None` if they are singular.
     pub condition_number: Option<f64>,
-    /// The model of the non-parametric term.
-    pub residual_model: ResidualReport,
+    /// The model of the non-parametric term; `None` by `state-space`, which has none.
+    pub residual_model: Option<ResidualReport>,
     /// Whether what that model leaves is white, on the training rows.
     pub whiteness: Whiteness,
     /// Errors on the training rows.
@@ -108,10 +115,10 @@ pub struct ResidualReport {
 /// How well a zone's model predicts some rows \[K, root mean square\].
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ErrorReport {
-    /// One step ahead, the network alone.
+    /// One step ahead: by `state-space` from all that was measured before, otherwise from the row before by the network alone.
     pub one_step_k: f64,
-    /// One step ahead, with daily profile and ARMA.
-    pub one_step_with_residual_model_k: f64,
+    /// One step ahead, with daily profile and ARMA; `None` by `state-space`.
+    pub one_step_with_residual_model_k: Option<f64>,
     /// Free runs.
     pub free_run: FreeRunReport,
 }
@@ -125,6 +132,9 @@ pub struct FreeRunReport {
     pub runs: usize,
     /// Root mean square error by forecast of the non-parametric term \[K\]; `None` without a run.
     pub errors_k: Vec<(ResidualForecast, Option<f64>)>,
+    /// Root mean square error of the mean of the data over the same rows \[K\]; `None` without a run, and where it is not
+    /// compared.
+    pub mean_of_data_k: Option<f64>,
 }
 
 /// A wall between two zones, whose conductance both sides estimate.
@@ -155,12 +165,12 @@ pub struct ZoneSeries {
     pub test_start: usize,
     /// Measured temperature \[°C\].
     pub measured_c: Vec<f64>,
-    /// Predicted from the row before, with daily profile and ARMA \[°C\].
+    /// Predicted one step ahead \[°C\].
     pub one_step_c: Vec<f64>,
     /// Free run of the network alone, from the measured temperature anew every horizon \[°C\].
     pub free_run_c: Vec<f64>,
-    /// The same with daily profile and ARMA.
-    pub free_run_with_residual_model_c: Vec<f64>,
-    /// Innovations of the residual model \[K\].
+    /// The same with daily profile and ARMA; `None` by `state-space`.
+    pub free_run_with_residual_model_c: Option<Vec<f64>>,
+    /// Innovations \[K\]; NaN where there is none.
     pub innovations_k: Vec<f64>,
 }

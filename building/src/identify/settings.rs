@@ -13,12 +13,15 @@ use crate::setting::{self, SettingError, check_bound};
 pub struct IdentifySettings {
     /// The estimator.
     pub method: Estimator,
+    /// The most temperatures that `state-space` gives a zone: the measured one, and hidden ones of walls, furniture or heater.
+    #[schemars(range(min = 1, max = 3))]
+    pub most_states: usize,
     /// Bandwidth of the kernel smoother \[h\]; only `semiparametric` uses it. Wider ones let slow disturbances bias the
     /// conductances, narrower ones leave only sensor noise.
     #[schemars(range(max = 168.0))]
     pub bandwidth_h: f64,
     /// How a step is understood when rates become capacities and time constants: `exact` for measured buildings, which do
-    /// not live in steps; `euler` for data simulated by eq. 2.3 itself.
+    /// not live in steps; `euler` for data simulated by eq. 2.3 itself. `state-space` is always exact.
     pub discretisation: discretise::Discretisation,
     /// r, the autoregressive order of the residual model.
     #[schemars(range(min = 1, max = 10))]
@@ -37,7 +40,8 @@ pub struct IdentifySettings {
 impl Default for IdentifySettings {
     fn default() -> Self {
         Self {
-            method: Estimator::PredictionError,
+            method: Estimator::StateSpace,
+            most_states: 3,
             bandwidth_h: 1.25,
             discretisation: discretise::Discretisation::Exact,
             autoregressive_order: 2,
@@ -57,8 +61,11 @@ pub enum Estimator {
     Semiparametric,
     /// Parameters, daily harmonics and ARMA errors at once, so that the one-step prediction error is smallest. Copes better
     /// with disturbances and sensor noise, and states its uncertainty more truly.
-    #[default]
     PredictionError,
+    /// Networks with hidden temperatures, by maximum likelihood with a Kalman filter. The only one that knows walls and
+    /// furniture with a temperature of their own, as ordinary buildings have.
+    #[default]
+    StateSpace,
 }
 
 impl IdentifySettings {
@@ -72,6 +79,9 @@ impl IdentifySettings {
     pub(super) fn check(&self, step_s: f64) -> Result<(), SettingError> {
         setting::check(self)?;
         let step_h = step_s / 3600.0;
+        if self.method == Estimator::StateSpace {
+            return check_bound("horizon_h", self.horizon_h, Bound::AtLeast(step_h));
+        }
         check_bound("bandwidth_h", self.bandwidth_h, Bound::AtLeast(step_h))?;
         // The highest harmonic must turn slower than the sampling: at most a quarter of the samples a day.
         check_bound("harmonics", self.harmonics as f64, Bound::AtMost((21_600.0 / step_s).floor()))?;

@@ -7,7 +7,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::telemetry::{Boundary, MeasuredWall, MeasuredZone, Neighbour, Telemetry};
+use super::telemetry::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, Telemetry};
 use crate::random::Random;
 
 /// Sampling time \[s\].
@@ -70,10 +70,13 @@ impl Classroom {
             temperature_c: measured(&rooms.temperature_c[0]),
             power_kw: rooms.cooling_kw.iter().zip(&schedule_kw).map(|(cooling, people)| cooling + people).collect(),
             power_has_unit: true,
+            power_hold: Hold::ZeroOrder,
             supply_air: Vec::new(),
             irradiance_kw_per_m2: None,
+            irradiance_hold: Hold::FirstOrder,
         };
-        let mut boundary = |name: &str, series| Boundary { name: name.into(), temperature_c: measured(series) };
+        let mut boundary =
+            |name: &str, series| Boundary { name: name.into(), temperature_c: measured(series), hold: Hold::ZeroOrder };
         let boundaries = vec![
             boundary("outdoor", &outdoor_c),
             boundary("room-b", &rooms.temperature_c[1]),

@@ -96,8 +96,12 @@ impl Network {
         self.names.push(checks::wall_name(number, wall));
         self.capacities_kj_per_k.push(capacity_kj_per_k);
         self.ambient_kw_per_k.push(0.0);
-        for end in ends {
-            self.connect(Some(node), end, 2.0 * conductance_kw_per_k);
+        let sides = match wall.mass_position {
+            None => [2.0, 2.0],
+            Some(position) => [1.0 / position, 1.0 / (1.0 - position)],
+        };
+        for (end, side) in ends.into_iter().zip(sides) {
+            self.connect(Some(node), end, side * conductance_kw_per_k);
         }
     }
 

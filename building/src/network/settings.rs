@@ -61,16 +61,21 @@ pub struct Wall {
     #[schemars(range(min = 0.000001), example = 31.25)]
     pub resistance_k_per_kw: f64,
     /// Heat that the wall itself stores \[kJ/K\]. With it the wall is a temperature of its own, with half of the
-    /// resistance to either side (2R1C).
+    /// resistance to either side (2R1C), or as `mass_position` says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.000001), example = 200.0)]
     pub capacity_kj_per_k: Option<f64>,
+    /// Share of the resistance that lies between the first place and the stored heat; a half if it is left out. A small one
+    /// together with a very large resistance makes a mass that only the first place exchanges heat with, such as furniture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.000000001, max = 0.999999999), extend("x-unit" = "dimensionless"), example = 0.3)]
+    pub mass_position: Option<f64>,
 }
 
 impl Wall {
     /// A wall that stores no heat.
     pub fn new(one: impl Into<String>, other: impl Into<String>, resistance_k_per_kw: f64) -> Self {
-        Self { between: [one.into(), other.into()], resistance_k_per_kw, capacity_kj_per_k: None }
+        Self { between: [one.into(), other.into()], resistance_k_per_kw, capacity_kj_per_k: None, mass_position: None }
     }
 
     /// The same wall with a heat capacity.

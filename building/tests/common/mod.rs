@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "every test binary uses a part")]
 
+pub mod house;
 pub mod reference;
 
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -13,7 +14,7 @@ fn wall(zones: usize) -> impl Strategy<Value = Wall> {
     (0..zones, 1..=zones, 5.0..200.0, proptest::option::weighted(0.3, 50.0..2000.0)).prop_map(
         move |(one, shift, resistance_k_per_kw, capacity_kj_per_k)| {
             let other = (one + shift) % (zones + 1);
-            Wall { between: [place(one), place(other)], resistance_k_per_kw, capacity_kj_per_k }
+            Wall { between: [place(one), place(other)], resistance_k_per_kw, capacity_kj_per_k, mass_position: None }
         },
     )
 }

@@ -54,7 +54,7 @@ fn fit(title: &str, found: &Identification, test: bool) -> Panels {
         ..Panel::default()
     };
     let one_step = curve("predicted a step (15 min) ahead", LineStyle::new(ORANGE, Dash::Solid), &series.one_step_c);
-    let free_run = &series.free_run_with_residual_model_c;
+    let free_run = series.free_run_with_residual_model_c.as_ref().unwrap_or(&series.free_run_c);
     let free_run = curve("predicted a day ahead, from midnight on", LineStyle::new(BLUE, Dash::Solid), free_run);
     Panels {
         title: title.to_owned(),
@@ -67,10 +67,9 @@ fn fit(title: &str, found: &Identification, test: bool) -> Panels {
 
 fn fit_errors(errors: &ErrorReport) -> TextTable {
     let kelvin = |value: f64| format!("{value:.3}");
-    let mut rows = vec![
-        ["one step ahead, network alone".to_owned(), kelvin(errors.one_step_k)],
-        ["one step ahead, with residual model".to_owned(), kelvin(errors.one_step_with_residual_model_k)],
-    ];
+    let mut rows = vec![["one step ahead, network alone".to_owned(), kelvin(errors.one_step_k)]];
+    let with_residual_model = errors.one_step_with_residual_model_k;
+    rows.extend(with_residual_model.map(|error_k| ["one step ahead, with residual model".to_owned(), kelvin(error_k)]));
     let words = |forecast: &ResidualForecast| match forecast {
         ResidualForecast::None => "network alone",
         ResidualForecast::Constant => "with a constant",

@@ -128,13 +128,15 @@ struct Fit<'a>(&'a ZoneSeries);
 impl Figure for Fit<'_> {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         let series = self.0;
-        let free = [&series.free_run_c, &series.free_run_with_residual_model_c];
-        let y = with_legend(range(free.into_iter().chain([&series.measured_c]).flatten().copied()));
+        let with = series.free_run_with_residual_model_c.as_ref();
+        let shown = [&series.free_run_c, &series.measured_c].into_iter().chain(with).flatten().copied();
+        let y = with_legend(range(shown.filter(|value| value.is_finite())));
         let title = format!("{}: measured, and the model running freely", series.name);
         let mut chart = chart(area, &title, ["time [days]", "temperature [°C]"], (days(series), y.clone()))?;
         line(&mut chart, series, &series.free_run_c, "free run, network alone", ORANGE)?;
-        let with = &series.free_run_with_residual_model_c;
-        line(&mut chart, series, with, "free run with daily profile and ARMA", BLUE)?;
+        if let Some(with) = with {
+            line(&mut chart, series, with, "free run with daily profile and ARMA", BLUE)?;
+        }
         line(&mut chart, series, &series.measured_c, "measured", BLACK)?;
         test_start(&mut chart, series, &y)?;
         legend(&mut chart)
@@ -147,7 +149,7 @@ struct Residuals<'a>(&'a ZoneSeries);
 impl Figure for Residuals<'_> {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         let series = self.0;
-        let y = with_legend(range(series.innovations_k.iter().copied()));
+        let y = with_legend(range(series.innovations_k.iter().copied().filter(|value| value.is_finite())));
         let title = format!("{}: errors of the prediction one step ahead", series.name);
         let mut chart = chart(area, &title, ["time [days]", "error [K]"], (days(series), y.clone()))?;
         line(&mut chart, series, &series.innovations_k, "residuals (innovations)", GREEN)?;

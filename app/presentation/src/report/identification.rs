@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use interplay_building::identify::{
-    Confidence, ErrorReport, Identification, IdentificationReport, Quantity, ResidualForecast, ZoneReport,
+    Confidence, ErrorReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualForecast, ZoneReport,
 };
 
 use super::columns::{Align, lines};
@@ -25,6 +25,7 @@ fn write_report(text: &mut String, file: &str, report: &IdentificationReport) ->
         "  {} rows every {} s in {} pieces, {} trained on, {} left out",
         report.rows, report.step_s, report.segments, report.train_rows, report.left_out_rows
     )?;
+    write_models(text, report)?;
     for zone in &report.zones {
         write_zone(text, zone)?;
     }
@@ -43,6 +44,43 @@ fn write_report(text: &mut String, file: &str, report: &IdentificationReport) ->
         writeln!(text, "\nbeware")?;
     }
     report.warnings.iter().try_for_each(|warning| writeln!(text, "  - {warning}"))
+}
+
+/// The models that were compared.
+fn write_models(text: &mut String, report: &IdentificationReport) -> fmt::Result {
+    if report.models.is_empty() {
+        return Ok(());
+    }
+    use Align::{Left, Right};
+    let header = [
+        ("", Left),
+        ("model", Left),
+        ("states", Right),
+        ("parameters", Right),
+        ("log-likelihood", Right),
+        ("twice the gain", Right),
+        ("p", Right),
+    ];
+    let row = |model: &ModelRow| {
+        let (gain, p_value) = match model.gain {
+            Some((gain, p_value)) => (format!("{gain:.1}"), format!("{p_value:.3}")),
+            None => ("-".to_owned(), "-".to_owned()),
+        };
+        vec![
+            if model.chosen { "*" } else { "" }.to_owned(),
+            model.model.clone(),
+            model.states.to_string(),
+            model.parameters.to_string(),
+            format!("{:.2}", model.log_likelihood),
+            gain,
+            p_value,
+        ]
+    };
+    writeln!(
+        text,
+        "\nmodels, each with one more hidden temperature than the one it extends (likelihood-ratio test; * chosen)"
+    )?;
+    lines(&header, report.models.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))
 }
 
 fn write_zone(text: &mut String, zone: &ZoneReport) -> fmt::Result {
@@ -93,17 +131,19 @@ fn write_errors(text: &mut String, rows: &str, errors: &ErrorReport) -> fmt::Res
         let found = free.errors_k.iter().find(|(forecast, _)| *forecast == wanted).and_then(|(_, error)| *error);
         found.map_or_else(|| "-".to_owned(), |error| format!("{error:.3} K"))
     };
-    writeln!(
-        text,
-        "  {rows}: one step ahead {:.4} K, with residual model {:.4} K; {} free runs of {} h: network alone {}, with \
-         daily profile and ARMA {}",
-        errors.one_step_k,
-        errors.one_step_with_residual_model_k,
-        free.runs,
-        free.horizon_h,
-        of(ResidualForecast::None),
-        of(ResidualForecast::ProfileArma)
-    )
+    write!(text, "  {rows}: one step ahead {:.4} K", errors.one_step_k)?;
+    if let Some(error_k) = errors.one_step_with_residual_model_k {
+        write!(text, ", with residual model {error_k:.4} K")?;
+    }
+    let alone = of(ResidualForecast::None);
+    write!(text, "; {} free runs of {} h: network alone {alone}", free.runs, free.horizon_h)?;
+    match free.mean_of_data_k {
+        Some(mean_k) => writeln!(text, ", mean of the data {mean_k:.3} K"),
+        None if errors.one_step_with_residual_model_k.is_some() => {
+            writeln!(text, ", with daily profile and ARMA {}", of(ResidualForecast::ProfileArma))
+        }
+        None => writeln!(text),
+    }
 }
 
 /// A verdict in a word; the warnings below the tables say more.

@@ -4,6 +4,7 @@ mod building;
 mod columns;
 mod comparison;
 mod identification;
+mod identified_scenario;
 mod junit;
 mod suite;
 mod summary;
@@ -11,6 +12,7 @@ mod why;
 
 pub use comparison::{comparison, comparison_page, version_comparison, version_comparison_page};
 pub use identification::identification;
+pub use identified_scenario::identified_scenario;
 pub use junit::junit;
 pub use suite::{Case, table};
 pub use summary::summary;

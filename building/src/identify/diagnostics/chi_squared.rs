@@ -2,7 +2,7 @@
 
 /// The probability that a chi-squared variable with `degrees` of freedom exceeds `value`: the regularised incomplete gamma
 /// function Q(k/2, x/2), by its series for small x and by Lentz's continued fraction for large x.
-pub(super) fn survival(value: f64, degrees: f64) -> f64 {
+pub(in crate::identify) fn survival(value: f64, degrees: f64) -> f64 {
     let (shape, x) = (degrees / 2.0, value / 2.0);
     if x <= 0.0 {
         return 1.0;

@@ -30,6 +30,7 @@ use toml::de::DeTable;
 
 use super::error::{TelemetryError, TelemetryProblem};
 use super::form;
+use super::measurements::Hold;
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
 use crate::identify::IdentifySettings;
 use crate::setting::SettingKey;
@@ -52,6 +53,9 @@ pub struct Mapping {
     pub zones: Vec<ZoneColumns>,
     /// Pairs of names, zone and zone or zone and boundary, between which heat flows.
     pub walls: Vec<[String; 2]>,
+    /// Columns that are computed from those of the table, and then named like them.
+    #[serde(default, rename = "column", skip_serializing_if = "Vec::is_empty")]
+    pub columns: Vec<ComputedColumn>,
     /// How to identify; defaults for what is left out.
     #[serde(default)]
     pub identify: IdentifySettings,
@@ -104,6 +108,21 @@ impl DecimalSign {
     }
 }
 
+/// A column that is computed: the mean of others, times a factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ComputedColumn {
+    /// Its name, which no column of the table has.
+    pub name: String,
+    /// The columns of the table of which it is the mean; a value is missing where one of theirs is.
+    #[schemars(length(min = 1))]
+    pub mean_of: Vec<String>,
+    /// What the mean is multiplied by.
+    #[serde(default = "one")]
+    #[schemars(extend("not" = { "const": 0.0 }))]
+    pub factor: f64,
+}
+
 /// The time axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -111,7 +130,8 @@ pub struct TimeAxis {
     /// The column of times; without it, rows follow each other at `step_s`, the first at midnight.
     #[serde(default)]
     pub column: Option<String>,
-    /// The form of the times: `seconds`, `hours`, or a pattern of `strptime` such as `%Y-%m-%d %H:%M:%S`.
+    /// The form of the times: `seconds`, `hours`, or a pattern of `strptime` such as `%Y-%m-%d %H:%M:%S`. `%z` stands for an
+    /// offset from UTC, such as `+08:00` or `+0800`.
     #[serde(default = "default_format")]
     pub format: String,
     /// Sampling time \[s\].
@@ -138,6 +158,8 @@ pub enum Gaps {
     Refuse,
     /// Incomplete rows are left out, and what follows is a recording of its own. Time may also go backwards there.
     Split,
+    /// As `split`, but rows that lack only temperatures of zones are kept: `state-space` predicts these.
+    Bridge,
 }
 
 /// A measured temperature that is not modelled.
@@ -148,6 +170,9 @@ pub struct BoundaryColumns {
     pub name: String,
     /// The column of its temperature.
     pub temperature: String,
+    /// How it goes on between rows.
+    #[serde(default = "Hold::first_order")]
+    pub hold: Hold,
 }
 
 /// The columns of a zone.
@@ -161,6 +186,9 @@ pub struct ZoneColumns {
     /// Everything known that heats or cools it: control input u and predicted disturbance w of eq. 2.4, summed.
     #[serde(default)]
     pub heat: Vec<HeatColumns>,
+    /// How the heat goes on between rows.
+    #[serde(default = "Hold::zero_order")]
+    pub heat_hold: Hold,
     /// Irradiance, whose effect gets a coefficient of its own (an aperture).
     #[serde(default)]
     pub solar: Option<SolarColumn>,
@@ -215,6 +243,13 @@ pub struct SolarColumn {
     pub column: String,
     /// Its unit.
     pub unit: IrradianceUnit,
+    /// What the column is multiplied by.
+    #[serde(default = "one")]
+    #[schemars(extend("not" = { "const": 0.0 }))]
+    pub factor: f64,
+    /// How it goes on between rows.
+    #[serde(default = "Hold::first_order")]
+    pub hold: Hold,
 }
 
 impl Mapping {

@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// Measurements of a building. Every series has one value a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Telemetry {
@@ -26,16 +29,20 @@ pub struct Telemetry {
 pub struct MeasuredZone {
     /// Its name.
     pub name: String,
-    /// Its temperature T_i \[°C\].
+    /// Its temperature T_i \[°C\]; NaN where it is missing, which only [`Gaps::Bridge`](super::Gaps::Bridge) leaves in.
     pub temperature_c: Vec<f64>,
     /// Known heat that does not depend on the zone's temperature, u_i + w_i \[kW\], or in a unit of its own.
     pub power_kw: Vec<f64>,
     /// Whether the power is in kW rather than a signal without a unit.
     pub power_has_unit: bool,
+    /// How the power goes on between rows.
+    pub power_hold: Hold,
     /// Known heat that depends on the zone's temperature.
     pub supply_air: Vec<SupplyAir>,
     /// Irradiance \[kW/m²\], if measured.
     pub irradiance_kw_per_m2: Option<Vec<f64>>,
+    /// How the irradiance goes on between rows.
+    pub irradiance_hold: Hold,
 }
 
 /// Air blown into a zone: heat ṁ c_p (T_supply − T_i), eq. 2.2.
@@ -54,6 +61,30 @@ pub struct Boundary {
     pub name: String,
     /// The temperature \[°C\].
     pub temperature_c: Vec<f64>,
+    /// How it goes on between rows.
+    pub hold: Hold,
+}
+
+/// How a measured series goes on from one row to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hold {
+    /// It keeps its value: a switch, or a mean over the time until the next row.
+    ZeroOrder,
+    /// It changes evenly to its next value: weather.
+    FirstOrder,
+}
+
+impl Hold {
+    /// The default of temperatures and irradiance.
+    pub(super) fn first_order() -> Self {
+        Self::FirstOrder
+    }
+
+    /// The default of heat.
+    pub(super) fn zero_order() -> Self {
+        Self::ZeroOrder
+    }
 }
 
 /// A pair between which heat flows.

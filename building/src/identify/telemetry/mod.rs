@@ -16,9 +16,10 @@ mod write;
 
 pub use error::{TelemetryError, TelemetryProblem};
 pub use mapping::{
-    BoundaryColumns, DecimalSign, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis, ZoneColumns,
+    BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Mapping, SolarColumn, TableForm, TimeAxis,
+    ZoneColumns,
 };
-pub use measurements::{Boundary, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
+pub use measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
 pub use units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
 pub use value_shape::ValueShape;
 

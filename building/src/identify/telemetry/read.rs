@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::error::{TelemetryError, TelemetryProblem};
 use super::mapping::{Gaps, HeatColumns, Mapping, ZoneColumns};
-use super::measurements::{Boundary, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
-use super::table::{Column, Row, Table};
+use super::measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, SupplyAir, Telemetry};
+use super::table::{Column, Row, Table, TableTime};
 use super::units::PowerUnit;
 
 /// The lowest and highest temperature that a building or its weather can have \[°C\].
@@ -24,6 +24,7 @@ pub(super) fn read(file: &str, text: &str, mapping: &Mapping) -> Result<Telemetr
             Ok(Boundary {
                 name: boundary.name.clone(),
                 temperature_c: reader.temperature(&boundary.temperature, &role)?,
+                hold: boundary.hold,
             })
         })
         .collect::<Result<_, TelemetryError>>()?;
@@ -81,15 +82,22 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
     let time = axis.column.as_ref().map(|name| table.column(name, "time")).transpose()?;
     let batch = axis.batch.as_ref().map(|name| table.column(name, "batch")).transpose()?;
     let columns = wanted(mapping).iter().map(|(name, role)| table.column(name, role)).collect::<Result<Vec<_>, _>>()?;
+    let columns = match axis.gaps {
+        Gaps::Bridge => without_zone_temperatures(table, mapping, columns)?,
+        Gaps::Refuse | Gaps::Split => columns,
+    };
     let mut segments: Vec<Range<usize>> = Vec::new();
     let (mut kept, mut time_s) = (Vec::new(), Vec::new());
+    // Midnight is that of the place where the first row was measured.
+    let mut offset_s = 0.0;
     // The row before, if it was complete: its time and batch.
     let mut before: Option<(f64, &str)> = None;
     for (index, row) in table.rows.iter().enumerate() {
-        let now_s = match time {
-            Some(column) => table.time_s(row, column, &axis.format)?,
-            None => index as f64 * axis.step_s,
+        let now = match time {
+            Some(column) => table.time(row, column, &axis.format)?,
+            None => TableTime { elapsed_s: index as f64 * axis.step_s, offset_s: 0.0 },
         };
+        let now_s = now.elapsed_s;
         if !is_complete(table, row, &columns, axis.gaps)? {
             before = None;
             continue;
@@ -109,13 +117,27 @@ fn complete_rows(table: &Table<'_>, mapping: &Mapping) -> Result<CompleteRows, T
             Some(segment) if continues => segment.end += 1,
             _ => segments.push(kept.len()..kept.len() + 1),
         }
+        if kept.is_empty() {
+            offset_s = now.offset_s;
+        }
         kept.push(index);
         time_s.push(now_s);
         before = Some((now_s, recording));
     }
-    let midnight = time_s.first().map_or(0.0, |first| libm::floor(first / 86_400.0) * 86_400.0);
+    let midnight = time_s.first().map_or(0.0, |first| libm::floor((first + offset_s) / 86_400.0) * 86_400.0 - offset_s);
     time_s.iter_mut().for_each(|time| *time -= midnight);
     Ok(CompleteRows { kept, time_s, segments })
+}
+
+/// The columns that a row must have although gaps are bridged. Where a zone's heat depends on its temperature, both count.
+fn without_zone_temperatures(
+    table: &Table<'_>,
+    mapping: &Mapping,
+    columns: Vec<Column>,
+) -> Result<Vec<Column>, TelemetryError> {
+    let zones = mapping.zones.iter().map(|zone| table.column(&zone.temperature, "temperature"));
+    let zones = zones.collect::<Result<Vec<_>, _>>()?;
+    Ok(columns.into_iter().filter(|column| !zones.contains(column)).collect())
 }
 
 /// Whether two rows are one sampling time apart, up to a tenth of it.
@@ -178,7 +200,7 @@ impl Reader<'_> {
         let (low, high) = PLAUSIBLE_C;
         for (value, &index) in values.iter_mut().zip(self.rows) {
             *value = self.mapping.table.temperature_unit.to_celsius(*value);
-            if !(low..=high).contains(value) {
+            if !(low..=high).contains(value) && !value.is_nan() {
                 let problem = TelemetryProblem::Range { value: *value, unit: "°C", column: name.into(), low, high };
                 return Err(self.table.at(&self.table.rows[index], column, problem));
             }
@@ -192,15 +214,18 @@ impl Reader<'_> {
             temperature_c: self.temperature(&columns.temperature, "temperature")?,
             power_kw: vec![0.0; self.rows.len()],
             power_has_unit: true,
+            power_hold: columns.heat_hold,
             supply_air: Vec::new(),
             irradiance_kw_per_m2: None,
+            irradiance_hold: columns.solar.as_ref().map_or(Hold::FirstOrder, |solar| solar.hold),
         };
         for heat in &columns.heat {
             self.add_heat(&mut zone, heat)?;
         }
         if let Some(solar) = &columns.solar {
             let values = self.column(&solar.column, "irradiance")?;
-            zone.irradiance_kw_per_m2 = Some(values.iter().map(|value| value * solar.unit.kw_per_m2()).collect());
+            zone.irradiance_kw_per_m2 =
+                Some(values.iter().map(|value| value * solar.factor * solar.unit.kw_per_m2()).collect());
         }
         Ok(zone)
     }

@@ -2,6 +2,7 @@
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 use jiff::civil::DateTime;
+use jiff::fmt::strtime::BrokenDownTime;
 
 use super::error::{TelemetryError, TelemetryProblem};
 use super::mapping::{DecimalSign, Mapping, TableForm};
@@ -12,7 +13,24 @@ pub(super) struct Table<'a> {
     form: &'a TableForm,
     lines: Lines<'a>,
     header: Vec<String>,
+    computed: Vec<Computed>,
     pub rows: Vec<Row>,
+}
+
+/// A column that is the mean of others, times a factor.
+struct Computed {
+    name: String,
+    members: Vec<Column>,
+    factor: f64,
+}
+
+/// A time of a row.
+#[derive(Clone, Copy)]
+pub(super) struct TableTime {
+    /// Since some moment that is the same for all rows \[s\].
+    pub elapsed_s: f64,
+    /// By how much clocks at the place were ahead of it \[s\].
+    pub offset_s: f64,
 }
 
 /// A row and the line on which it starts, from 1.
@@ -21,8 +39,8 @@ pub(super) struct Row {
     fields: StringRecord,
 }
 
-/// A column that the mapping names.
-#[derive(Clone, Copy)]
+/// A column that the mapping names: of the table, or beyond its width a computed one.
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Column(usize);
 
 impl<'a> Table<'a> {
@@ -49,11 +67,31 @@ impl<'a> Table<'a> {
         if rows.is_empty() {
             return Err(empty());
         }
-        Ok(Self { file, form, lines, header, rows })
+        let mut table = Self { file, form, lines, header, computed: Vec::new(), rows };
+        for computed in &mapping.columns {
+            let role = format!("part of {}", computed.name);
+            let members = computed.mean_of.iter().map(|name| table.column_of_table(name, &role));
+            let members = members.collect::<Result<Vec<_>, _>>()?;
+            if table.column(&computed.name, "").is_ok() {
+                let (name, header) = (computed.name.clone(), table.header.clone());
+                let fault = "the name of another column already";
+                let problem = TelemetryProblem::Column { name, role: "a computed column".into(), fault, header };
+                return Err(TelemetryError::new(file, Some((1, 1)), problem));
+            }
+            table.computed.push(Computed { name: computed.name.trim().into(), members, factor: computed.factor });
+        }
+        Ok(table)
     }
 
     /// Finds a column; `role` says in messages what it is wanted for. Spaces around titles and names do not count.
     pub fn column(&self, name: &str, role: &str) -> Result<Column, TelemetryError> {
+        match self.computed.iter().position(|computed| computed.name == name.trim()) {
+            Some(index) => Ok(Column(self.header.len() + index)),
+            None => self.column_of_table(name, role),
+        }
+    }
+
+    fn column_of_table(&self, name: &str, role: &str) -> Result<Column, TelemetryError> {
         let mut found =
             self.header.iter().enumerate().filter(|(_, title)| *title == name.trim()).map(|(index, _)| index);
         let fault = match (found.next(), found.next()) {
@@ -66,13 +104,33 @@ impl<'a> Table<'a> {
         Err(TelemetryError::new(self.file, Some((1, 1)), problem))
     }
 
-    /// The text of a field.
+    /// The text of a field; of the first one where the column is computed.
     pub fn text<'r>(&self, row: &'r Row, column: Column) -> &'r str {
+        let column = self.first_of(column);
         row.fields.get(column.0).unwrap_or_default()
+    }
+
+    /// The column itself, or the first one of those from which it is computed.
+    fn first_of(&self, column: Column) -> Column {
+        let computed = column.0.checked_sub(self.header.len()).and_then(|index| self.computed.get(index));
+        computed.and_then(|computed| computed.members.first()).copied().unwrap_or(column)
     }
 
     /// A field as a number; `None` where it stands for no value.
     pub fn number(&self, row: &Row, column: Column) -> Result<Option<f64>, TelemetryError> {
+        let computed = column.0.checked_sub(self.header.len()).and_then(|index| self.computed.get(index));
+        let Some(computed) = computed else { return self.number_of_table(row, column) };
+        let mut sum = 0.0;
+        for &member in &computed.members {
+            match self.number_of_table(row, member)? {
+                Some(value) => sum += value,
+                None => return Ok(None),
+            }
+        }
+        Ok(Some(computed.factor * sum / computed.members.len() as f64))
+    }
+
+    fn number_of_table(&self, row: &Row, column: Column) -> Result<Option<f64>, TelemetryError> {
         let text = self.text(row, column);
         if text.is_empty() || self.form.missing.iter().any(|missing| missing == text) {
             return Ok(None);
@@ -90,15 +148,20 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// A field as a time \[s\] since some midnight.
-    pub fn time_s(&self, row: &Row, column: Column, format: &str) -> Result<f64, TelemetryError> {
+    /// A field as a time.
+    pub fn time(&self, row: &Row, column: Column, format: &str) -> Result<TableTime, TelemetryError> {
         let text = self.text(row, column);
-        let time_s = match format {
-            "seconds" => text.parse().ok().filter(|time: &f64| time.is_finite()),
-            "hours" => text.parse().ok().filter(|time: &f64| time.is_finite()).map(|hours| hours * 3600.0),
-            _ => DateTime::strptime(format, text).ok().map(seconds_since_1970),
+        let number = |unit_s: f64| {
+            let number = text.parse().ok().filter(|time: &f64| time.is_finite());
+            number.map(|number| TableTime { elapsed_s: number * unit_s, offset_s: 0.0 })
         };
-        time_s.ok_or_else(|| {
+        let time = match format {
+            "seconds" => number(1.0),
+            "hours" => number(3600.0),
+            // One letter for both ways to write an offset.
+            _ => calendar_time(format, text).or_else(|| calendar_time(&format.replace("%z", "%:z"), text)),
+        };
+        time.ok_or_else(|| {
             let (text, column_name, format) = (text.into(), self.title(column), format.into());
             self.at(row, column, TelemetryProblem::Time { text, column: column_name, format })
         })
@@ -106,6 +169,7 @@ impl<'a> Table<'a> {
 
     /// The error that `problem` is with the field at `row` and `column`.
     pub fn at(&self, row: &Row, column: Column, problem: TelemetryProblem) -> TelemetryError {
+        let column = self.first_of(column);
         let line = self.lines.text(row.line);
         let place = Some((row.line, field_start(line, self.form.separator, column.0)));
         TelemetryError::new(self.file, place, problem)
@@ -113,12 +177,16 @@ impl<'a> Table<'a> {
 
     /// The name of a column.
     pub fn title(&self, column: Column) -> String {
-        self.header.get(column.0).cloned().unwrap_or_default()
+        self.header.get(self.first_of(column).0).cloned().unwrap_or_default()
     }
 }
 
-fn seconds_since_1970(time: DateTime) -> f64 {
-    time.duration_since(DateTime::constant(1970, 1, 1, 0, 0, 0, 0)).as_secs_f64()
+/// A time by a pattern of `strptime`: seconds since 1970, in UTC where the pattern has an offset.
+fn calendar_time(format: &str, text: &str) -> Option<TableTime> {
+    let parsed = BrokenDownTime::parse(format, text).ok()?;
+    let offset_s = parsed.offset().map_or(0.0, |offset| f64::from(offset.seconds()));
+    let here = parsed.to_datetime().ok()?.duration_since(DateTime::constant(1970, 1, 1, 0, 0, 0, 0)).as_secs_f64();
+    Some(TableTime { elapsed_s: here - offset_s, offset_s })
 }
 
 /// A text and where its lines begin. (The reader counts lines too, but one short after a carriage return.)

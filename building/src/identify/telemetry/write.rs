@@ -24,7 +24,8 @@ pub(super) fn to_csv(telemetry: &Telemetry) -> String {
             // Writing to a string cannot fail.
             let _ = write!(csv, "\n{},{recording}", telemetry.time_s[row]);
             for (_, values) in &columns {
-                let _ = write!(csv, ",{}", values[row]);
+                let value = values[row];
+                let _ = if value.is_nan() { write!(csv, ",") } else { write!(csv, ",{value}") };
             }
         }
     }
@@ -62,17 +63,20 @@ pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
             flow_unit: FLOW,
             temperature: supply(zone, index),
         }));
-        let solar = SolarColumn { column: sun(zone), unit: IrradianceUnit::KwPerM2 };
+        let solar =
+            SolarColumn { column: sun(zone), unit: IrradianceUnit::KwPerM2, factor: 1.0, hold: zone.irradiance_hold };
         ZoneColumns {
             name: zone.name.clone(),
             temperature: temperature(zone),
             heat,
+            heat_hold: zone.power_hold,
             solar: zone.irradiance_kw_per_m2.is_some().then_some(solar),
         }
     };
     let boundary = |boundary: &Boundary| BoundaryColumns {
         name: boundary.name.clone(),
         temperature: format!("{} [°C]", boundary.name),
+        hold: boundary.hold,
     };
     Mapping {
         table: TableForm::default(),
@@ -80,7 +84,7 @@ pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
             column: Some("time_s".into()),
             format: "seconds".into(),
             step_s: telemetry.step_s,
-            gaps: Gaps::Refuse,
+            gaps: if has_missing(telemetry) { Gaps::Bridge } else { Gaps::Refuse },
             batch: Some("recording".into()),
         },
         boundaries: telemetry.boundaries.iter().map(boundary).collect(),
@@ -88,8 +92,14 @@ pub(super) fn mapping(telemetry: &Telemetry) -> Mapping {
         walls: (telemetry.walls.iter())
             .map(|wall| [telemetry.zones[wall.zone].name.clone(), telemetry.name(wall.other).to_owned()])
             .collect(),
+        columns: Vec::new(),
         identify: IdentifySettings::default(),
     }
+}
+
+/// Whether a temperature of a zone is missing.
+fn has_missing(telemetry: &Telemetry) -> bool {
+    telemetry.zones.iter().any(|zone| zone.temperature_c.iter().any(|value| value.is_nan()))
 }
 
 fn temperature(zone: &MeasuredZone) -> String {

@@ -1,0 +1,291 @@
+//! How often the intervals of the method `state-space` hold the truth, and how often "identified" is wrong: houses with one, two
+//! and three temperatures, simulated with random parameters, weather, heating, disturbances and sampling times.
+//!
+//! ```sh
+//! cargo run --release -p interplay-building --example identify_coverage -- 100
+//! ```
+//!
+//! The first argument is the number of houses of each kind, the second one, if there is one, the only kind. A fourth kind is heated and mild all the time alike, so that its data say
+//! next to nothing of the conductance. The houses are simulated in steps of six seconds; telemetry is sampled every 5 to 60 minutes.
+
+#![allow(clippy::print_stdout, reason = "this is a program: its results go to standard output")]
+
+use interplay_building::identify::{
+    Boundary, Confidence, Hold, IdentificationReport, IdentifySettings, MeasuredWall, MeasuredZone, Neighbour,
+    Telemetry, identify,
+};
+use interplay_building::random::Random;
+use rayon::prelude::*;
+
+const MINUTES_PER_DAY: usize = 1440;
+/// Steps of Euler's method in a minute.
+const SUBSTEPS: u32 = 10;
+const STEPS_S: [f64; 5] = [300.0, 600.0, 900.0, 1800.0, 3600.0];
+
+/// Which house.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Air,
+    Wall,
+    WallAndInterior,
+    /// As `Wall`, but heated by a constant power in weather that does not change.
+    Silent,
+}
+
+/// True parameters [kJ/K], [kW/K], [m²].
+struct House {
+    kind: Kind,
+    air: f64,
+    wall: f64,
+    interior: f64,
+    inner: f64,
+    outer: f64,
+    interior_conductance: f64,
+    aperture: f64,
+    step_s: f64,
+    days: usize,
+}
+
+impl House {
+    fn random(kind: Kind, random: &mut Random) -> Self {
+        let ua = libm::exp(random.uniform(libm::log(0.08), libm::log(0.4)));
+        let hours = random.uniform(20.0, 80.0);
+        let total = ua * hours * 3600.0;
+        let inside = random.uniform(0.1, 0.25);
+        // Inside of the wall's mass there is the smaller part of its resistance.
+        let share = random.uniform(0.1, 0.4);
+        let step_s = STEPS_S[(random.uniform(0.0, 5.0) as usize).min(4)];
+        let (air, wall, interior) = match kind {
+            Kind::Air => (total, 0.0, 0.0),
+            Kind::Wall | Kind::Silent => (inside * total, (1.0 - inside) * total, 0.0),
+            Kind::WallAndInterior => (0.5 * inside * total, 0.6 * total, (0.4 - 0.5 * inside) * total),
+        };
+        Self {
+            kind,
+            air,
+            wall,
+            interior,
+            inner: ua / share,
+            outer: ua / (1.0 - share),
+            interior_conductance: ua * random.uniform(4.0, 10.0),
+            aperture: 10.0 * ua * random.uniform(0.5, 1.5),
+            step_s,
+            days: 14,
+        }
+    }
+
+    fn ua(&self) -> f64 {
+        self.inner * self.outer / (self.inner + self.outer)
+    }
+
+    fn capacity(&self) -> f64 {
+        self.air + self.wall + self.interior
+    }
+
+    /// Heat is constant over a sampling step, weather a straight line, and random heat acts on the air.
+    fn simulate(&self, random: &mut Random) -> Telemetry {
+        let stride = (self.step_s / 60.0) as usize;
+        let silent = self.kind == Kind::Silent;
+        let rows = self.days * MINUTES_PER_DAY / stride + 1;
+        let design_kw = self.ua() * 20.0;
+        let (mut drift_c, mut cloud) = (0.0, 0.5);
+        let (mut outdoor_c, mut sun_kw, mut heat_kw) = (Vec::new(), Vec::new(), Vec::new());
+        let mut on = false;
+        let hold_h = random.uniform(1.0, 4.0);
+        let step_h = self.step_s / 3600.0;
+        for row in 0..rows {
+            let hour = row as f64 * step_h % 24.0;
+            drift_c += -drift_c * step_h / 40.0 + random.normal(0.0, 0.5 * libm::sqrt(step_h));
+            cloud = (cloud + random.normal(0.0, 0.15 * libm::sqrt(step_h))).clamp(0.1, 1.0);
+            let height = libm::sin(std::f64::consts::PI * (hour - 7.0) / 10.0);
+            let day = if (7.0..17.0).contains(&hour) { height } else { 0.0 };
+            outdoor_c.push(if silent {
+                5.0
+            } else {
+                4.0 + 3.5 * libm::sin(std::f64::consts::TAU * (hour - 9.0) / 24.0) + drift_c
+            });
+            sun_kw.push(if silent { 0.0 } else { 0.4 * cloud * day });
+            if random.chance((step_h / hold_h).min(0.7)) {
+                on = !on;
+            }
+            heat_kw.push(if silent {
+                0.75 * design_kw
+            } else if on {
+                1.4 * design_kw
+            } else {
+                0.1 * design_kw
+            });
+        }
+        let temperature_c = self.temperatures(random, stride, (&outdoor_c, &sun_kw, &heat_kw), design_kw);
+        let zone = MeasuredZone {
+            name: "house".into(),
+            temperature_c,
+            power_kw: heat_kw,
+            power_has_unit: true,
+            power_hold: Hold::ZeroOrder,
+            supply_air: Vec::new(),
+            irradiance_kw_per_m2: Some(sun_kw),
+            irradiance_hold: Hold::FirstOrder,
+        };
+        Telemetry {
+            step_s: self.step_s,
+            time_s: (0..rows).map(|row| row as f64 * self.step_s).collect(),
+            segments: std::iter::once(0..rows).collect(),
+            left_out_rows: 0,
+            zones: vec![zone],
+            boundaries: vec![Boundary { name: "outdoor".into(), temperature_c: outdoor_c, hold: Hold::FirstOrder }],
+            walls: vec![MeasuredWall { zone: 0, other: Neighbour::Boundary(0) }],
+        }
+    }
+
+    /// Measured temperature in each row. Random heat changes every minute.
+    fn temperatures(
+        &self,
+        random: &mut Random,
+        stride: usize,
+        (outdoor_c, sun_kw, heat_kw): (&[f64], &[f64], &[f64]),
+        design_kw: f64,
+    ) -> Vec<f64> {
+        let (disturbance_kw, sensor_k) = (design_kw * random.uniform(0.01, 0.05), random.uniform(0.01, 0.05));
+        let (mut air, mut wall, mut interior) = (18.0, 13.0, 18.5);
+        let mut measured = Vec::with_capacity(outdoor_c.len());
+        // The settled state is reached before the first row: two days go by unseen under the first hours' inputs.
+        for minute in 0..2 * MINUTES_PER_DAY + (outdoor_c.len() - 1) * stride + 1 {
+            let seen = minute.saturating_sub(2 * MINUTES_PER_DAY);
+            let (row, part) = (seen / stride, (seen % stride) as f64 / stride as f64);
+            let next = (row + 1).min(outdoor_c.len() - 1);
+            if minute >= 2 * MINUTES_PER_DAY && seen % stride == 0 {
+                measured.push(air + random.normal(0.0, sensor_k));
+            }
+            let outdoor = outdoor_c[row] + part * (outdoor_c[next] - outdoor_c[row]);
+            let sun = sun_kw[row] + part * (sun_kw[next] - sun_kw[row]);
+            // White heat of `disturbance_kw` in hourly means.
+            let noise = random.normal(0.0, disturbance_kw * libm::sqrt(60.0));
+            let gains = heat_kw[row] + self.aperture * sun + noise;
+            for _ in 0..SUBSTEPS {
+                [air, wall, interior] = self.next([air, wall, interior], gains, outdoor);
+            }
+        }
+        measured
+    }
+}
+
+impl House {
+    /// Temperatures of air, wall and interior mass after a part of a minute, by Euler's method.
+    fn next(&self, [air, wall, interior]: [f64; 3], gains_kw: f64, outdoor: f64) -> [f64; 3] {
+        let step_s = 60.0 / f64::from(SUBSTEPS);
+        let to_wall = match self.kind {
+            Kind::Air => self.ua() * (air - outdoor),
+            _ => self.inner * (air - wall),
+        };
+        let to_interior = if self.interior > 0.0 { self.interior_conductance * (air - interior) } else { 0.0 };
+        let change = |heat_kw: f64, capacity: f64| if capacity > 0.0 { step_s * heat_kw / capacity } else { 0.0 };
+        [
+            air + change(gains_kw - to_wall - to_interior, self.air),
+            wall + change(to_wall - self.outer * (wall - outdoor), self.wall),
+            interior + change(to_interior, self.interior),
+        ]
+    }
+}
+
+/// What one house showed of each quantity: name, truth, estimate, interval, verdict.
+struct Outcome {
+    quantity: &'static str,
+    truth: f64,
+    value: Option<f64>,
+    interval: (Option<f64>, Option<f64>),
+    confidence: Confidence,
+    states: usize,
+}
+
+fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
+    let states = report.models.iter().find(|model| model.chosen).map_or(0, |model| model.states);
+    let truths = [
+        ("heat capacity", house.capacity()),
+        ("conductance to outdoor", house.ua()),
+        ("aperture to the sun", house.aperture),
+    ];
+    truths
+        .into_iter()
+        .filter_map(|(name, truth)| {
+            let found = report.zones[0].physical.iter().find(|quantity| quantity.name == name)?;
+            Some(Outcome {
+                quantity: name,
+                truth,
+                value: found.value,
+                interval: found.interval,
+                confidence: found.verdict.confidence,
+                states,
+            })
+        })
+        .collect()
+}
+
+fn main() {
+    let argument = std::env::args().nth(1);
+    let houses: u64 = argument.and_then(|text| text.parse().ok()).unwrap_or(10);
+    let only = std::env::args().nth(2);
+    for (label, kind, name) in [
+        (1, Kind::Air, "one state"),
+        (2, Kind::Wall, "two states"),
+        (3, Kind::WallAndInterior, "three states"),
+        (4, Kind::Silent, "two states, silent"),
+    ] {
+        if only.as_deref().is_some_and(|only| only != name) {
+            continue;
+        }
+        let count = if kind == Kind::Silent { houses / 4 } else { houses };
+        let found: Vec<Outcome> =
+            (0..count).into_par_iter().flat_map_iter(|seed| of_house(kind, 1000 * label + seed)).collect();
+        print_kind(name, &found);
+    }
+}
+
+fn of_house(kind: Kind, seed: u64) -> Vec<Outcome> {
+    let mut random = Random::new(seed, 77);
+    let house = House::random(kind, &mut random);
+    let telemetry = house.simulate(&mut random);
+    match identify(&telemetry, &IdentifySettings::default()) {
+        Ok(found) => outcomes(&house, &found.report),
+        Err(error) => {
+            println!("seed {seed}: {error}");
+            Vec::new()
+        }
+    }
+}
+
+fn print_kind(name: &str, found: &[Outcome]) {
+    let houses = found.iter().filter(|outcome| outcome.quantity == "heat capacity");
+    let states: Vec<usize> =
+        (1..=3).map(|states| houses.clone().filter(|house| house.states == states).count()).collect();
+    println!("{name}: {} houses; 1, 2, 3 states chosen {states:?}", houses.count());
+    for quantity in ["heat capacity", "conductance to outdoor", "aperture to the sun"] {
+        let of: Vec<&Outcome> = found.iter().filter(|outcome| outcome.quantity == quantity).collect();
+        let bounded: Vec<&&Outcome> =
+            of.iter().filter(|it| it.interval.0.is_some() || it.interval.1.is_some()).collect();
+        let holds = |it: &Outcome| {
+            it.interval.0.is_none_or(|low| low <= it.truth) && it.interval.1.is_none_or(|high| it.truth <= high)
+        };
+        let by_states: Vec<String> = (1..=3)
+            .map(|states| {
+                let of: Vec<&&&Outcome> = bounded.iter().filter(|it| it.states == states).collect();
+                format!("{}/{}", of.iter().filter(|it| holds(it)).count(), of.len())
+            })
+            .collect();
+        let covered = bounded.iter().filter(|it| holds(it)).count();
+        let identified: Vec<&&Outcome> = of.iter().filter(|it| it.confidence == Confidence::Identified).collect();
+        let is_off = |it: &Outcome| it.value.is_none_or(|value| (value / it.truth - 1.0).abs() > 0.25);
+        let wrong = identified.iter().filter(|it| is_off(it)).count();
+        let outside = identified.iter().filter(|it| !holds(it)).count();
+        let errors: Vec<f64> = of.iter().filter_map(|it| Some(it.value? / it.truth - 1.0)).collect();
+        let largest = errors.iter().fold(0.0_f64, |largest, error| largest.max(error.abs()));
+        println!(
+            "  {quantity:24} {covered} of {} intervals hold the truth ({}); {} identified, of them {wrong} off by more than 25 %, \
+             {outside} outside of their interval; largest error {:.0} %",
+            bounded.len(),
+            by_states.join(", "),
+            identified.len(),
+            100.0 * largest
+        );
+    }
+}

@@ -1,0 +1,101 @@
+//! The heat balance of a zone over the whole record, which no dynamic error can hide:
+//!
+//! ```text
+//! mean heat + A · mean sun + Σ_k G_k mean(T_k − T) = stored heat / duration + mean random heat
+//! ```
+//!
+//! Solved for one conductance G_k at a time. Heat stored in a wall counts by the share H_in/(H_in + H_out) of it that comes from
+//! the room.
+
+use super::exponential::Number;
+use super::likelihood::{Filtered, Observations, numbers};
+use super::selection::Fit;
+use super::structure::{HOUR_S, HiddenNode, ParameterKind, Place};
+use crate::identify::telemetry::{Neighbour, Telemetry};
+
+/// With a smaller mean temperature difference \[K\], the balance says nothing of a conductance.
+const LEAST_DIFFERENCE_K: f64 = 1.0;
+
+/// A conductance by the heat balance \[kW/K\], and its standard error from the random heat of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct BalancedConductance {
+    pub value: f64,
+    pub standard_error: f64,
+}
+
+/// The conductance between a zone and a neighbour that closes the zone's balance with all else as estimated; `None` where the
+/// mean difference of temperatures is too small.
+pub(super) fn conductance(
+    telemetry: &Telemetry,
+    observations: &Observations,
+    fit: &Fit,
+    filtered: &Filtered,
+    (zone, neighbour): (usize, Neighbour),
+) -> Option<BalancedConductance> {
+    let theta = numbers(&fit.maximum.theta);
+    let structure = &fit.structure;
+    let rows: Vec<usize> =
+        observations.segments.iter().flat_map(|segment| segment.start..segment.end.saturating_sub(1)).collect();
+    // The filter's temperatures, since measured ones may be missing.
+    let count = structure.nodes.len();
+    let zone_c = |zone: usize, row: usize| filtered.states[row * count + zone];
+    let temperature_c = |place: Neighbour, row: usize| match place {
+        Neighbour::Zone(other) => zone_c(other, row),
+        Neighbour::Boundary(boundary) => telemetry.boundaries[boundary].temperature_c[row],
+    };
+    let mean =
+        |value: &dyn Fn(usize) -> f64| rows.iter().map(|&row| value(row)).sum::<f64>() / rows.len().max(1) as f64;
+    let difference = |other: Neighbour| mean(&|row| temperature_c(other, row) - zone_c(zone, row));
+    let input = |column: Option<usize>| {
+        column.map_or(0.0, |column| mean(&|row| observations.inputs[row * observations.widths.1 + column]))
+    };
+    let gain = structure.value(&theta, ParameterKind::HeatGain(zone)).re;
+    let mut known_kw = gain * input(structure.layout.heat[zone]);
+    if structure.layout.sun[zone].is_some() {
+        known_kw += structure.value(&theta, ParameterKind::Aperture(zone)).re * input(structure.layout.sun[zone]);
+    }
+    for other in telemetry.neighbours(zone).into_iter().filter(|&other| other != neighbour) {
+        known_kw += structure.total_conductance(&theta, zone, other)?.re * difference(other);
+    }
+    let difference = difference(neighbour);
+    if !(difference.abs() >= LEAST_DIFFERENCE_K) {
+        return None;
+    }
+    let duration_s = rows.len() as f64 * observations.step_s;
+    let (stored_kj, random_kj2) = stored(fit, observations, filtered, &theta, zone, duration_s);
+    Some(BalancedConductance {
+        value: (stored_kj / duration_s - known_kw) / difference,
+        standard_error: libm::sqrt(random_kj2) / duration_s / difference.abs(),
+    })
+}
+
+/// Heat that the zone's nodes stored over all segments \[kJ\], and the variance of their random heat \[kJ²\].
+fn stored(
+    fit: &Fit,
+    observations: &Observations,
+    filtered: &Filtered,
+    theta: &[Number],
+    zone: usize,
+    duration_s: f64,
+) -> (f64, f64) {
+    let structure = &fit.structure;
+    let count = structure.nodes.len();
+    let (mut stored_kj, mut random_kj2) = (0.0, 0.0);
+    for (index, node) in structure.nodes.iter().enumerate().filter(|(_, node)| node.zone == zone) {
+        let share = match node.place {
+            Place::Hidden(hidden @ HiddenNode::Wall(boundary)) => {
+                let inner = structure.value(theta, ParameterKind::Inner(zone, hidden)).re;
+                inner / (inner + structure.value(theta, ParameterKind::Outer(zone, boundary)).re)
+            }
+            _ => 1.0,
+        };
+        let capacity = share * structure.value(theta, ParameterKind::Capacity(zone, node.place)).re;
+        let random = capacity * structure.value(theta, ParameterKind::RandomHeat(zone, node.place)).re;
+        random_kj2 += random * random * duration_s / HOUR_S;
+        for segment in &observations.segments {
+            let state = |row: usize| filtered.states[row * count + index];
+            stored_kj += capacity * (state(segment.end - 1) - state(segment.start));
+        }
+    }
+    (stored_kj, random_kj2)
+}

@@ -1,0 +1,391 @@
+//! The log-likelihood of measurements under a linear model, by the Kalman filter:
+//!
+//! ```text
+//! ℓ(θ) = −½ Σ (ln 2π S + v²/S)        v = y − x[output],   S = P[output, output] + r
+//! ∂ℓ/∂θ_j  = −Σ v ∂v/S + ½ Σ (v²/S − 1) ∂S/S
+//! I_jk     = Σ ∂_j v ∂_k v/S + ½ Σ ∂_j S ∂_k S/S²            (Fisher information, from the innovations)
+//! ```
+//!
+//! Derivatives of the matrices are exact, by complex steps ([`super::exponential`]). Those of the states follow the filter's own
+//! recursion.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+use super::exponential::{INFINITESIMAL, Number, real};
+use super::gains::{Measured, RowGain, Schedule, follow, schedule};
+use super::linear_model::{ContinuousModel, SampledModel};
+
+/// Measurements in rows. Each row has p outputs and m inputs.
+#[derive(Debug, Clone)]
+pub(super) struct Observations {
+    /// Sampling time \[s\].
+    pub step_s: f64,
+    /// Rows that follow each other at the sampling time.
+    pub segments: Vec<Range<usize>>,
+    /// Outputs \[row · p + output\]; not a number (NaN) where one is missing.
+    pub outputs: Vec<f64>,
+    /// Inputs at each row \[row · m + input\].
+    pub inputs: Vec<f64>,
+    /// Their rates of change until the next row \[1/s\]; zero for inputs that are held.
+    pub slopes: Vec<f64>,
+    /// p and m.
+    pub widths: (usize, usize),
+}
+
+impl Observations {
+    /// The first rows of these, about `rows`.
+    pub fn beginning(&self, rows: usize) -> Self {
+        let mut left = rows;
+        let mut segments = Vec::new();
+        for segment in &self.segments {
+            if left == 0 {
+                break;
+            }
+            let end = segment.end.min(segment.start + left);
+            left -= end - segment.start;
+            segments.push(segment.start..end);
+        }
+        Self { segments, ..self.clone() }
+    }
+}
+
+/// Log-likelihood with derivatives.
+#[derive(Debug, Clone)]
+pub(super) struct Evaluation {
+    pub log_likelihood: f64,
+    pub gradient: Vec<f64>,
+    /// Fisher information.
+    pub information: DMatrix<f64>,
+}
+
+/// What the filter found at each row.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Filtered {
+    /// Innovations v \[row · p + output\] \[K\]; NaN where there is none.
+    pub innovations: Vec<f64>,
+    /// The same divided by √S.
+    pub standardised: Vec<f64>,
+    /// States after the row's measurements \[row · n + state\].
+    pub states: Vec<f64>,
+}
+
+/// From parameters to a model.
+pub(super) type Parametrisation<'a> = dyn Fn(&[Number]) -> ContinuousModel + 'a;
+
+/// Real matrices of a step, row by row.
+struct StepMatrices {
+    n: usize,
+    m: usize,
+    transition: Vec<f64>,
+    gain: Vec<f64>,
+    slope_gain: Vec<f64>,
+}
+
+impl StepMatrices {
+    /// The real parts, or the infinitesimal ones per unit.
+    fn new(sampled: &SampledModel, part: fn(Number) -> f64) -> Self {
+        let rows = |matrix: &DMatrix<Number>| matrix.transpose().iter().map(|entry| part(*entry)).collect();
+        Self {
+            n: sampled.transition.nrows(),
+            m: sampled.gain.ncols(),
+            transition: rows(&sampled.transition),
+            gain: rows(&sampled.gain),
+            slope_gain: rows(&sampled.slope_gain),
+        }
+    }
+
+    /// out += Φ x.
+    fn add_states(&self, out: &mut [f64], x: &[f64]) {
+        for (out, row) in out.iter_mut().zip(self.transition.chunks(self.n)) {
+            *out += dot(row, x);
+        }
+    }
+
+    /// out += Γ₀ u + Γ₁ u'.
+    fn add_inputs(&self, out: &mut [f64], u: &[f64], slope: &[f64]) {
+        if self.m > 0 {
+            let rows = self.gain.chunks(self.m).zip(self.slope_gain.chunks(self.m));
+            for (out, (gain, slope_gain)) in out.iter_mut().zip(rows) {
+                *out += dot(gain, u) + dot(slope_gain, slope);
+            }
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Real gains of an arrow: n a output, one output after the other, and S.
+struct RealGain {
+    gains: Vec<f64>,
+    variances: Vec<f64>,
+}
+
+impl RealGain {
+    fn all(gains: &[RowGain], part: fn(Number) -> f64) -> Vec<Self> {
+        let one = |row: &RowGain| Self {
+            gains: row.gains.iter().map(|entry| part(*entry)).collect(),
+            variances: row.variances.iter().map(|entry| part(*entry)).collect(),
+        };
+        gains.iter().map(one).collect()
+    }
+}
+
+fn value(number: Number) -> f64 {
+    number.re
+}
+
+fn derivative(number: Number) -> f64 {
+    number.im / INFINITESIMAL
+}
+
+/// The filter at one set of parameters.
+struct Filter<'a> {
+    observations: &'a Observations,
+    model: ContinuousModel,
+    matrices: StepMatrices,
+    schedule: Schedule,
+    gains: Vec<RealGain>,
+    /// Logarithms of the variances of `gains`.
+    logarithms: Vec<Vec<f64>>,
+    measured: Vec<Measured>,
+}
+
+/// Everything that changes with one parameter.
+struct Tangent {
+    /// `None` if they do not depend on the parameter.
+    matrices: Option<StepMatrices>,
+    /// Empty if the gains do not depend on the parameter.
+    gains: Vec<RealGain>,
+    initial: ContinuousModel,
+}
+
+/// Whether a change of the model changes the covariances of its filter.
+fn moves_covariances(model: &ContinuousModel, sampled: &SampledModel) -> bool {
+    let numbers = sampled.transition.iter().chain(&sampled.noise).chain(&model.sensor_variance);
+    numbers.chain(&model.initial.variance).any(|number| number.im != 0.0)
+}
+
+impl<'a> Filter<'a> {
+    fn new(model: ContinuousModel, observations: &'a Observations) -> Option<Self> {
+        let sampled = model.sampled(observations.step_s)?;
+        let measured = measured(observations, &model);
+        let mut starts = vec![false; measured.len()];
+        observations.segments.iter().for_each(|segment| starts[segment.start] = true);
+        let rows: Vec<usize> = observations.segments.iter().flat_map(Clone::clone).collect();
+        let of = |row: &usize| (measured[*row], starts[*row]);
+        let (of_rows, starts): (Vec<_>, Vec<_>) = rows.iter().map(of).unzip();
+        let (schedule, gains) = schedule(&model, &sampled, &of_rows, &starts)?;
+        let gains = RealGain::all(&gains, value);
+        let logarithms = gains
+            .iter()
+            .map(|gain| gain.variances.iter().map(|&variance| libm::log(TAU * variance)).collect())
+            .collect();
+        let matrices = StepMatrices::new(&sampled, value);
+        Some(Self { observations, model, matrices, schedule, gains, logarithms, measured })
+    }
+
+    fn tangent(&self, model: ContinuousModel) -> Option<Tangent> {
+        let sampled = model.sampled(self.observations.step_s)?;
+        let gains = match moves_covariances(&model, &sampled) {
+            true => RealGain::all(&follow(&self.schedule, &model, &sampled)?, derivative),
+            false => Vec::new(),
+        };
+        let mut numbers = sampled.transition.iter().chain(&sampled.gain).chain(&sampled.slope_gain);
+        let moves_states = numbers.any(|number| number.im != 0.0);
+        Some(Tangent { matrices: moves_states.then(|| StepMatrices::new(&sampled, derivative)), gains, initial: model })
+    }
+
+    /// The state at the start of a segment, as `part` of the numbers of `model`.
+    fn initial(&self, model: &ContinuousModel, start: usize, part: fn(Number) -> f64) -> Vec<f64> {
+        let (p, m) = self.observations.widths;
+        let initial = &model.initial;
+        let outputs = &self.observations.outputs[start * p..(start + 1) * p];
+        let inputs = &self.observations.inputs[start * m..(start + 1) * m];
+        let state = |i: usize| {
+            let measured = outputs.iter().enumerate().filter(|(_, y)| y.is_finite());
+            let from_outputs = measured.fold(real(0.0), |sum, (k, &y)| sum + initial.from_outputs[(i, k)] * y);
+            let from_inputs =
+                inputs.iter().enumerate().fold(real(0.0), |sum, (k, &u)| sum + initial.from_inputs[(i, k)] * u);
+            part(initial.offset[i] + from_outputs + from_inputs)
+        };
+        (0..self.matrices.n).map(state).collect()
+    }
+
+    /// Runs over all rows; the derivatives are summed into `sums`.
+    fn run(&self, tangents: &[Tangent], sums: &mut Sums, mut visit: impl FnMut(usize, &[f64], &[(f64, f64)])) {
+        let n = self.matrices.n;
+        let (p, m) = self.observations.widths;
+        let mut arrows = self.schedule.of_row.iter();
+        let mut found = vec![(f64::NAN, f64::NAN); p];
+        let mut next = vec![0.0; n];
+        for segment in &self.observations.segments {
+            let mut x = self.initial(&self.model, segment.start, value);
+            let mut dx: Vec<f64> =
+                tangents.iter().flat_map(|tangent| self.initial(&tangent.initial, segment.start, derivative)).collect();
+            for row in segment.clone() {
+                let Some(&arrow) = arrows.next() else { return };
+                found.fill((f64::NAN, f64::NAN));
+                for output in (0..p).filter(|output| self.measured[row] >> output & 1 == 1) {
+                    found[output] = self.update((row, arrow, output), &mut x, tangents, &mut dx, sums);
+                }
+                visit(row, &x, &found);
+                let u = &self.observations.inputs[row * m..(row + 1) * m];
+                let slope = &self.observations.slopes[row * m..(row + 1) * m];
+                for (tangent, dx) in tangents.iter().zip(dx.chunks_mut(n)) {
+                    next.fill(0.0);
+                    self.matrices.add_states(&mut next, dx);
+                    if let Some(matrices) = &tangent.matrices {
+                        matrices.add_states(&mut next, &x);
+                        matrices.add_inputs(&mut next, u, slope);
+                    }
+                    dx.copy_from_slice(&next);
+                }
+                next.fill(0.0);
+                self.matrices.add_states(&mut next, &x);
+                self.matrices.add_inputs(&mut next, u, slope);
+                x.copy_from_slice(&next);
+            }
+        }
+    }
+
+    /// The update of the state and its derivatives by one output. Returns innovation and variance.
+    fn update(
+        &self,
+        (row, arrow, output): (usize, usize, usize),
+        x: &mut [f64],
+        tangents: &[Tangent],
+        dx: &mut [f64],
+        sums: &mut Sums,
+    ) -> (f64, f64) {
+        let n = self.matrices.n;
+        let state = self.model.outputs[output];
+        let innovation = self.observations.outputs[row * self.observations.widths.0 + output] - x[state];
+        let variance = self.gains[arrow].variances[output];
+        let gain = &self.gains[arrow].gains[output * n..(output + 1) * n];
+        sums.log_likelihood -= 0.5 * (self.logarithms[arrow][output] + innovation * innovation / variance);
+        for ((tangent, dx), slot) in tangents.iter().zip(dx.chunks_mut(n)).zip(&mut sums.row) {
+            let dv = -dx[state];
+            dx.iter_mut().zip(gain).for_each(|(dx, gain)| *dx += gain * dv);
+            *slot = (dv, 0.0);
+            if let Some(change) = tangent.gains.get(arrow) {
+                let dk = &change.gains[output * n..(output + 1) * n];
+                dx.iter_mut().zip(dk).for_each(|(dx, dk)| *dx += dk * innovation);
+                slot.1 = change.variances[output];
+            }
+        }
+        sums.add(innovation, variance);
+        x.iter_mut().zip(gain).for_each(|(x, gain)| *x += gain * innovation);
+        (innovation, variance)
+    }
+}
+
+/// Which outputs count at each row.
+fn measured(observations: &Observations, model: &ContinuousModel) -> Vec<Measured> {
+    let (p, _) = observations.widths;
+    let there = |row: &[f64]| {
+        row.iter().enumerate().filter(|(_, y)| y.is_finite()).fold(0, |bits, (output, _)| bits | 1 << output)
+    };
+    let mut measured: Vec<Measured> = observations.outputs.chunks(p).map(there).collect();
+    if model.initial.contains_first_outputs {
+        observations.segments.iter().for_each(|segment| measured[segment.start] = 0);
+    }
+    measured
+}
+
+/// Sums over the innovations.
+struct Sums {
+    log_likelihood: f64,
+    gradient: Vec<f64>,
+    information: DMatrix<f64>,
+    /// ∂v and ∂S of the innovation at hand, one a parameter.
+    row: Vec<(f64, f64)>,
+}
+
+impl Sums {
+    fn new(parameters: usize) -> Self {
+        Self {
+            log_likelihood: 0.0,
+            gradient: vec![0.0; parameters],
+            information: DMatrix::zeros(parameters, parameters),
+            row: vec![(0.0, 0.0); parameters],
+        }
+    }
+
+    fn add(&mut self, innovation: f64, variance: f64) {
+        let (weight, excess) = (1.0 / variance, innovation * innovation / variance - 1.0);
+        for (j, &(dv, ds)) in self.row.iter().enumerate() {
+            let relative = ds * weight;
+            self.gradient[j] += 0.5 * excess * relative - innovation * dv * weight;
+            for (k, &(other_dv, other_ds)) in self.row[..=j].iter().enumerate() {
+                self.information[(j, k)] += (dv * other_dv + 0.5 * relative * other_ds) * weight;
+            }
+        }
+    }
+}
+
+/// The log-likelihood at θ; `None` where the model has none.
+pub(super) fn log_likelihood(model: &Parametrisation, theta: &[f64], observations: &Observations) -> Option<f64> {
+    let filter = Filter::new(model(&numbers(theta)), observations)?;
+    let mut sums = Sums::new(0);
+    filter.run(&[], &mut sums, |_, _, _| {});
+    Some(sums.log_likelihood).filter(|sum| sum.is_finite())
+}
+
+/// The log-likelihood at θ with gradient and Fisher information; `None` where the model has none.
+pub(super) fn evaluate(model: &Parametrisation, theta: &[f64], observations: &Observations) -> Option<Evaluation> {
+    let filter = Filter::new(model(&numbers(theta)), observations)?;
+    let tangents = (0..theta.len())
+        .map(|parameter| filter.tangent(model(&changed(theta, parameter))))
+        .collect::<Option<Vec<_>>>()?;
+    let mut sums = Sums::new(theta.len());
+    filter.run(&tangents, &mut sums, |_, _, _| {});
+    for j in 0..theta.len() {
+        for k in 0..j {
+            sums.information[(k, j)] = sums.information[(j, k)];
+        }
+    }
+    let is_finite = sums.log_likelihood.is_finite() && sums.information.iter().all(|entry| entry.is_finite());
+    is_finite.then_some(Evaluation {
+        log_likelihood: sums.log_likelihood,
+        gradient: sums.gradient,
+        information: sums.information,
+    })
+}
+
+/// Innovations and states at θ; `None` where the model has none.
+pub(super) fn filter(model: &Parametrisation, theta: &[f64], observations: &Observations) -> Option<Filtered> {
+    let filter = Filter::new(model(&numbers(theta)), observations)?;
+    let (p, _) = observations.widths;
+    let n = filter.matrices.n;
+    let rows = observations.outputs.len() / p;
+    let mut filtered = Filtered {
+        innovations: vec![f64::NAN; rows * p],
+        standardised: vec![f64::NAN; rows * p],
+        states: vec![f64::NAN; rows * n],
+    };
+    filter.run(&[], &mut Sums::new(0), |row, x, found| {
+        filtered.states[row * n..(row + 1) * n].copy_from_slice(x);
+        for (output, &(innovation, variance)) in found.iter().enumerate() {
+            filtered.innovations[row * p + output] = innovation;
+            filtered.standardised[row * p + output] = innovation / libm::sqrt(variance);
+        }
+    });
+    Some(filtered)
+}
+
+/// θ as numbers without infinitesimal parts.
+pub(super) fn numbers(theta: &[f64]) -> Vec<Number> {
+    theta.iter().map(|&value| real(value)).collect()
+}
+
+/// θ with an infinitesimal change of one parameter.
+pub(super) fn changed(theta: &[f64], parameter: usize) -> Vec<Number> {
+    let mut numbers = numbers(theta);
+    numbers[parameter].im = INFINITESIMAL;
+    numbers
+}

@@ -1,0 +1,145 @@
+//! Linear stochastic models in continuous time, and their exact form in steps.
+//!
+//! ```text
+//! dx = (A x + B u) dt + dw,   E[dw dwᵀ] = diag(q) dt;        y_k = x[output_k] + v_k,   E[v_k²] = r_k
+//! x(t+h) = Φ x(t) + Γ₀ u(t) + Γ₁ u'(t) + w,   E[w wᵀ] = Q
+//! ```
+//!
+//! exact for inputs that change at a constant rate u' over a step (first-order hold; with u' = 0, zero-order hold):
+//!
+//! ```text
+//!     ⎡A B 0⎤         ⎡Φ Γ₀ Γ₁⎤               ⎡A diag(q)⎤         ⎡Φ  Q Φ⁻ᵀ⎤
+//! exp ⎢0 0 I⎥ h   =   ⎢0 I  hI⎥           exp ⎢0   −Aᵀ  ⎥ h   =   ⎣0   Φ⁻ᵀ ⎦      (Van Loan, 1978)
+//!     ⎣0 0 0⎦         ⎣0 0  I ⎦               ⎣         ⎦
+//! ```
+
+use nalgebra::DMatrix;
+
+use super::exponential::{Number, matrix_exponential, product, real};
+
+/// A model in continuous time with n states, m inputs and p outputs.
+#[derive(Debug, Clone)]
+pub(super) struct ContinuousModel {
+    /// A, n × n \[1/s\].
+    pub dynamics: DMatrix<Number>,
+    /// B, n × m.
+    pub inputs: DMatrix<Number>,
+    /// q, the variance that each state gains in a second \[K²/s\].
+    pub diffusion: Vec<Number>,
+    /// Which state each output measures.
+    pub outputs: Vec<usize>,
+    /// r, variance of the noise of each output \[K²\].
+    pub sensor_variance: Vec<Number>,
+    /// How a segment begins.
+    pub initial: InitialState,
+}
+
+/// The state at the first row of a segment: mean x₀ = offset + F y(0) + G u(0), with independent errors.
+#[derive(Debug, Clone)]
+pub(super) struct InitialState {
+    pub offset: Vec<Number>,
+    /// F, n × p.
+    pub from_outputs: DMatrix<Number>,
+    /// G, n × m.
+    pub from_inputs: DMatrix<Number>,
+    pub variance: Vec<Number>,
+    /// Whether x₀ already contains the outputs of the first row, which then must not count a second time.
+    pub contains_first_outputs: bool,
+}
+
+/// A model in steps.
+#[derive(Debug, Clone)]
+pub(super) struct SampledModel {
+    /// Φ.
+    pub transition: DMatrix<Number>,
+    /// Γ₀.
+    pub gain: DMatrix<Number>,
+    /// Γ₁.
+    pub slope_gain: DMatrix<Number>,
+    /// Q.
+    pub noise: DMatrix<Number>,
+}
+
+impl ContinuousModel {
+    /// The model in steps of `step_s`; `None` if it is too fast for that, or not finite.
+    pub fn sampled(&self, step_s: f64) -> Option<SampledModel> {
+        let (n, m) = (self.dynamics.nrows(), self.inputs.ncols());
+        let size = n + 2 * m;
+        let held = DMatrix::from_fn(size, size, |i, j| match (i < n, j) {
+            (true, j) if j < n => self.dynamics[(i, j)] * step_s,
+            (true, j) if j < n + m => self.inputs[(i, j - n)] * step_s,
+            (false, j) if i < n + m && j == i + m => real(step_s),
+            _ => real(0.0),
+        });
+        let held = matrix_exponential(&held)?;
+        Some(SampledModel {
+            transition: held.view((0, 0), (n, n)).into_owned(),
+            gain: held.view((0, n), (n, m)).into_owned(),
+            slope_gain: held.view((0, n + m), (n, m)).into_owned(),
+            noise: self.sampled_noise(step_s)?,
+        })
+    }
+
+    /// Q over one step.
+    ///
+    /// Van Loan's exponential grows with the fastest mode, so it is formed over a part of the step, and doubled by
+    /// Q(2h) = Q(h) + Φ(h) Q(h) Φ(h)ᵀ.
+    fn sampled_noise(&self, step_s: f64) -> Option<DMatrix<Number>> {
+        let n = self.dynamics.nrows();
+        let fastest = (0..n).map(|i| self.dynamics[(i, i)].re.abs()).fold(0.0, f64::max) * step_s;
+        let (mut part_s, mut doublings) = (step_s, 0);
+        while fastest * part_s / step_s > 1.0 {
+            part_s *= 0.5;
+            doublings += 1;
+        }
+        let block = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, true) => self.dynamics[(i, j)] * part_s,
+            (true, false) if j - n == i => self.diffusion[i] * part_s,
+            (false, false) => -self.dynamics[(j - n, i - n)] * part_s,
+            _ => real(0.0),
+        });
+        let block = matrix_exponential(&block)?;
+        let mut transition = block.view((0, 0), (n, n)).into_owned();
+        let mut noise = product(&block.view((0, n), (n, n)).into_owned(), &transition.transpose());
+        for _ in 0..doublings {
+            noise += product(&product(&transition, &noise), &transition.transpose());
+            transition = product(&transition, &transition);
+        }
+        Some((&noise + noise.transpose()).map(|entry| entry * 0.5))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One state: Φ = e⁻ᵃʰ, Γ₀ = (1−Φ)/a, Γ₁ = (h − Γ₀)/a, Q = q (1−Φ²)/2a.
+    #[test]
+    fn one_state_has_closed_forms() {
+        for (rate, step) in [(0.01, 60.0), (0.01, 3600.0), (1e-5, 900.0)] {
+            let model = ContinuousModel {
+                dynamics: DMatrix::from_element(1, 1, real(-rate)),
+                inputs: DMatrix::from_element(1, 1, real(2.0)),
+                diffusion: vec![real(0.3)],
+                outputs: vec![0],
+                sensor_variance: vec![real(1.0)],
+                initial: InitialState {
+                    offset: vec![real(0.0)],
+                    from_outputs: DMatrix::zeros(1, 1),
+                    from_inputs: DMatrix::zeros(1, 1),
+                    variance: vec![real(1.0)],
+                    contains_first_outputs: false,
+                },
+            };
+            let sampled = model.sampled(step).expect("sound");
+            let decay = libm::exp(-rate * step);
+            let integral = -libm::expm1(-rate * step) / rate;
+            let close =
+                |found: Number, wanted: f64| assert!((found.re / wanted - 1.0).abs() < 1e-9, "{found} {wanted}");
+            close(sampled.transition[(0, 0)], decay);
+            close(sampled.gain[(0, 0)], 2.0 * integral);
+            close(sampled.slope_gain[(0, 0)], 2.0 * (step - integral) / rate);
+            close(sampled.noise[(0, 0)], 0.3 * -libm::expm1(-2.0 * rate * step) / (2.0 * rate));
+        }
+    }
+}

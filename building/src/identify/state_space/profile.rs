@@ -1,0 +1,153 @@
+//! Intervals by profile likelihood: all values of a quantity f for which the best log-likelihood with f held there is less
+//! than 1.92 below the maximum, half of the 95 % point of chi-squared with one degree of freedom.
+//!
+//! Where the likelihood is nearly quadratic, the interval of the information matrix is the same, and is kept.
+
+use std::cell::RefCell;
+
+use super::likelihood::Observations;
+use super::quantities::{Precision, QuantityKind, logarithm};
+use super::scoring::{Ascent, Constraint};
+use super::selection::Fit;
+use crate::identify::diagnostics::STANDARD_ERRORS_OF_95_PERCENT;
+use crate::identify::telemetry::Telemetry;
+
+/// Standard errors of ln f between which a profile is worth its time.
+const WORTH_A_PROFILE: std::ops::Range<f64> = 0.05..2.0;
+/// f is held to this share of itself.
+const TOLERANCE: f64 = 1e-3;
+/// A profile ends where √(2Δℓ) is this near to 1.96.
+const NEAR: f64 = 0.05;
+/// A trial ends when a step promises less than this gain of the log-likelihood.
+const LEAST_GAIN_OF_TRIAL: f64 = 1e-2;
+const MOST_TRIALS: usize = 6;
+const STEPS_A_TRIAL: usize = 12;
+/// Beyond this factor of the estimate, an interval is called unbounded.
+const MOST_LOG_RATIO: f64 = 4.6;
+
+/// Estimate and interval of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Estimated {
+    pub value: f64,
+    /// Standard error of ln f; infinite where the data do not determine it.
+    pub log_error: f64,
+    /// Ends of the interval of 95 %; `None` where there is none.
+    pub interval: (Option<f64>, Option<f64>),
+}
+
+impl Estimated {
+    /// Of 1/f.
+    fn inverse(self) -> Self {
+        let inverse = |end: Option<f64>| end.map(|end| 1.0 / end);
+        let interval = (inverse(self.interval.1), inverse(self.interval.0));
+        Self { value: 1.0 / self.value, interval, ..self }
+    }
+}
+
+/// The fit of which quantities are wanted.
+pub(super) struct Profiler<'a> {
+    pub telemetry: &'a Telemetry,
+    pub observations: &'a Observations,
+    pub fit: &'a Fit,
+    pub precision: Precision,
+    /// The next larger model, if there is one, with its precision.
+    pub larger: Option<(&'a Fit, Precision)>,
+    /// What was found already.
+    pub known: RefCell<Vec<((QuantityKind, usize), Estimated)>>,
+}
+
+impl Profiler<'_> {
+    /// Estimate and interval of a quantity of a zone.
+    pub fn estimated(&self, kind: QuantityKind, zone: usize) -> Option<Estimated> {
+        if let QuantityKind::Resistance(neighbour) = kind {
+            return self.estimated(QuantityKind::Conductance(neighbour), zone).map(Estimated::inverse);
+        }
+        let known = self.known.borrow().iter().find(|(quantity, _)| *quantity == (kind, zone)).map(|(_, found)| *found);
+        if known.is_some() {
+            return known;
+        }
+        let found = self.find(kind, zone)?;
+        self.known.borrow_mut().push(((kind, zone), found));
+        Some(found)
+    }
+
+    fn find(&self, kind: QuantityKind, zone: usize) -> Option<Estimated> {
+        let (log_value, gradient) =
+            logarithm(self.telemetry, &self.fit.structure, (kind, zone), &self.fit.maximum.theta)?;
+        let value = libm::exp(log_value);
+        let log_error = self.precision.standard_error(&gradient);
+        if !log_error.is_finite() {
+            return Some(Estimated { value, log_error, interval: (None, None) });
+        }
+        let widening = self.widening((kind, zone), log_value, log_error);
+        let reach = STANDARD_ERRORS_OF_95_PERCENT * log_error;
+        let end = |sign: f64| -> Option<f64> {
+            let distance = match WORTH_A_PROFILE.contains(&log_error) {
+                true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?,
+                false => sign * reach,
+            };
+            let distance = widening * distance;
+            (distance.abs() < MOST_LOG_RATIO).then(|| value * libm::exp(distance))
+        };
+        Some(Estimated { value, log_error: widening * log_error, interval: (end(-1.0), end(1.0)) })
+    }
+
+    /// By how much an interval grows because the next larger model may be the right one:
+    ///
+    /// ```text
+    /// s² = w₁ s₁² + w₂ (s₂² + (ln f₂ − ln f₁)²),      w ∝ exp(−AIC/2)      (Burnham and Anderson, 2002, section 4.3)
+    /// ```
+    fn widening(&self, quantity: (QuantityKind, usize), log_value: f64, log_error: f64) -> f64 {
+        let Some((larger, precision)) = &self.larger else { return 1.0 };
+        let theta = &larger.maximum.theta;
+        let Some((other, gradient)) = logarithm(self.telemetry, &larger.structure, quantity, theta) else { return 1.0 };
+        let other_error = precision.standard_error(&gradient);
+        let other_error = if other_error.is_finite() { other_error } else { log_error };
+        let criterion = |fit: &Fit| fit.maximum.evaluation.log_likelihood - fit.structure.parameters.len() as f64;
+        let ratio = libm::exp((criterion(larger) - criterion(self.fit)).min(0.0));
+        let weight = ratio / (1.0 + ratio);
+        let distance = other - log_value;
+        let variance =
+            (1.0 - weight) * log_error * log_error + weight * (other_error * other_error + distance * distance);
+        libm::sqrt(variance / (log_error * log_error)).max(1.0)
+    }
+
+    /// How far ln f may move in the direction of `guess`; `None` without a bound.
+    fn profile_end(&self, quantity: (QuantityKind, usize), at: f64, gradient: &[f64], guess: f64) -> Option<f64> {
+        let theta = &self.fit.maximum.theta;
+        let direction = self.precision.direction(gradient, theta.len());
+        let slope: f64 = direction.iter().zip(gradient).map(|(d, g)| d * g).sum();
+        let model = |theta: &[super::exponential::Number]| self.fit.structure.model(theta);
+        let function = |theta: &[f64]| {
+            logarithm(self.telemetry, &self.fit.structure, quantity, theta)
+                .unwrap_or_else(|| (at, vec![0.0; theta.len()]))
+        };
+        let mut distance = guess;
+        for _ in 0..MOST_TRIALS {
+            let constraint = Constraint { function: &function, target: at + distance, tolerance: TOLERANCE };
+            let ascent = Ascent {
+                model: &model,
+                observations: self.observations,
+                bounds: &self.fit.bounds,
+                constraint: Some(constraint),
+                least_gain: LEAST_GAIN_OF_TRIAL,
+            };
+            let start: Vec<f64> =
+                theta.iter().zip(&direction).map(|(value, direction)| value + direction * distance / slope).collect();
+            let held = ascent.run(&start, STEPS_A_TRIAL).or_else(|| ascent.run(theta, STEPS_A_TRIAL))?;
+            let reached = function(&held.theta).0 - at;
+            let drop = 2.0 * (self.fit.maximum.evaluation.log_likelihood - held.evaluation.log_likelihood);
+            let root = libm::sqrt(drop.max(0.0));
+            if (root - STANDARD_ERRORS_OF_95_PERCENT).abs() < NEAR {
+                return Some(reached);
+            }
+            // √(2Δℓ) is nearly proportional to the distance.
+            let factor = (STANDARD_ERRORS_OF_95_PERCENT / root.max(1e-3)).clamp(0.3, 3.0);
+            distance = reached * factor;
+            if distance.abs() > MOST_LOG_RATIO {
+                return None;
+            }
+        }
+        Some(distance)
+    }
+}

@@ -1,0 +1,174 @@
+//! The choice of the order: from one state a zone upwards, as long as the likelihood-ratio test calls for more (Bacher and
+//! Madsen, *Energy and Buildings* 43, 2011).
+//!
+//! Each round tries every kind of hidden node that the model does not have yet. The best one stays if twice its gain of the
+//! log-likelihood is beyond the chi-squared limit for the parameters it adds; the level is divided by the number of kinds
+//! tried. At a boundary of the parameters, where the smaller model lies, the test keeps at least its level.
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::likelihood::Observations;
+use super::scoring::{Ascent, LEAST_GAIN, Maximum};
+use super::starts::Guess;
+use super::structure::{HiddenNode, Structure, candidates};
+use crate::identify::diagnostics::survival;
+use crate::identify::telemetry::Telemetry;
+
+/// Level of the likelihood-ratio test.
+const LEVEL: f64 = 0.1;
+/// Steps from each start, and rows of them, before the best ones go on.
+const SCREENING_STEPS: usize = 8;
+const SCREENING_ROWS: usize = 1500;
+/// Starts are compared when a step promises less than this gain of the log-likelihood.
+const SCREENING_GAIN: f64 = 5e-3;
+/// How many of the best starts go on to the end, over the number of zones.
+const FINISHED_STARTS: usize = 3;
+const MOST_STEPS: usize = 80;
+
+/// A model with its estimate.
+#[derive(Debug, Clone)]
+pub(super) struct Fit {
+    pub structure: Structure,
+    pub bounds: Vec<(f64, f64)>,
+    pub maximum: Maximum,
+}
+
+/// A model that was tried.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ModelRow {
+    /// Its hidden nodes in words; `air alone` without any.
+    pub model: String,
+    /// States of a zone, at most.
+    pub states: usize,
+    /// Number of parameters.
+    pub parameters: usize,
+    /// Log-likelihood at the estimate.
+    pub log_likelihood: f64,
+    /// Twice the gain over the model that it extends, and how probable so large a gain is if that one is right.
+    pub gain: Option<(f64, f64)>,
+    /// Whether it is the one that was chosen.
+    pub chosen: bool,
+}
+
+/// The choice.
+pub(super) struct Choice {
+    pub chosen: Fit,
+    /// The best model with one more hidden node, if there is one.
+    pub larger: Option<Fit>,
+    pub table: Vec<ModelRow>,
+}
+
+/// Chooses among models with at most `most_states` states a zone; `None` where no start has a likelihood.
+pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_states: usize) -> Option<Choice> {
+    let guess = Guess::new(telemetry);
+    let smallest = Structure::new(telemetry, Vec::new());
+    let starts = guess.of_smallest(telemetry, &smallest);
+    let mut chosen = fit(&guess, smallest, (&starts, None), observations)?;
+    let mut table = vec![row(telemetry, &chosen, None)];
+    let mut chosen_row = 0;
+    loop {
+        let left: Vec<HiddenNode> =
+            candidates(telemetry).into_iter().filter(|hidden| !chosen.structure.hidden.contains(hidden)).collect();
+        let larger: Vec<Option<Fit>> =
+            left.par_iter().map(|&added| extended(telemetry, &guess, &chosen, added, observations)).collect();
+        let mut tried: Vec<(usize, Fit)> = Vec::new();
+        for larger in larger.into_iter().flatten() {
+            table.push(row(telemetry, &larger, Some(&chosen)));
+            tried.push((table.len() - 1, larger));
+        }
+        let best = tried.iter().max_by(|a, b| likelihood(&a.1).total_cmp(&likelihood(&b.1))).cloned();
+        let Some((index, best)) = best else {
+            table[chosen_row].chosen = true;
+            return Some(Choice { chosen, larger: None, table });
+        };
+        let p_value = table[index].gain.map_or(1.0, |(_, p)| p);
+        if p_value >= LEVEL || chosen.structure.order() >= most_states {
+            table[chosen_row].chosen = true;
+            return Some(Choice { chosen, larger: Some(best), table });
+        }
+        (chosen, chosen_row) = (best, index);
+    }
+}
+
+fn likelihood(fit: &Fit) -> f64 {
+    fit.maximum.evaluation.log_likelihood
+}
+
+/// The best fit of the model with one more hidden node.
+fn extended(
+    telemetry: &Telemetry,
+    guess: &Guess,
+    smaller: &Fit,
+    added: HiddenNode,
+    observations: &Observations,
+) -> Option<Fit> {
+    let mut hidden = smaller.structure.hidden.clone();
+    hidden.push(added);
+    let structure = Structure::new(telemetry, hidden);
+    let mut starts = guess.of_larger(&smaller.structure, &smaller.maximum.theta, &structure, added);
+    let near = starts.pop();
+    fit(guess, structure, (&starts, near), observations)
+}
+
+/// Ascends from every start for a few steps on the first rows, and from the best ones to the end on all rows. The last start
+/// of a model that is not the smallest is near the model that it extends, and always goes to the end.
+fn fit(
+    guess: &Guess,
+    structure: Structure,
+    (starts, near): (&[Vec<f64>], Option<Vec<f64>>),
+    observations: &Observations,
+) -> Option<Fit> {
+    let bounds = guess.bounds(&structure);
+    let model = |theta: &[super::exponential::Number]| structure.model(theta);
+    let beginning = observations.beginning(SCREENING_ROWS);
+    let ascent = |observations, least_gain| Ascent {
+        model: &model,
+        observations,
+        bounds: &bounds,
+        constraint: None,
+        least_gain,
+    };
+    let mut first: Vec<Maximum> =
+        starts.iter().filter_map(|start| ascent(&beginning, SCREENING_GAIN).run(start, SCREENING_STEPS)).collect();
+    first.sort_by(|a, b| by_likelihood(b, a));
+    let (zones, _) = observations.widths;
+    let finished = first.into_iter().take((FINISHED_STARTS / zones).max(1)).map(|maximum| maximum.theta).chain(near);
+    let all = finished.filter_map(|start| ascent(observations, SCREENING_GAIN).run(&start, MOST_STEPS));
+    let best = all.max_by(by_likelihood)?;
+    let maximum = ascent(observations, LEAST_GAIN).run(&best.theta, MOST_STEPS)?;
+    Some(Fit { structure, bounds, maximum })
+}
+
+fn by_likelihood(a: &Maximum, b: &Maximum) -> std::cmp::Ordering {
+    a.evaluation.log_likelihood.total_cmp(&b.evaluation.log_likelihood)
+}
+
+fn row(telemetry: &Telemetry, fit: &Fit, smaller: Option<&Fit>) -> ModelRow {
+    let gain = smaller.map(|smaller| {
+        let twice = 2.0 * (likelihood(fit) - likelihood(smaller));
+        let added = fit.structure.parameters.len() - smaller.structure.parameters.len();
+        (twice, if twice > 0.0 { survival(twice, added as f64) } else { 1.0 })
+    });
+    ModelRow {
+        model: in_words(telemetry, &fit.structure.hidden),
+        states: fit.structure.order(),
+        parameters: fit.bounds.iter().filter(|(low, high)| low < high).count(),
+        log_likelihood: likelihood(fit),
+        gain,
+        chosen: false,
+    }
+}
+
+fn in_words(telemetry: &Telemetry, hidden: &[HiddenNode]) -> String {
+    let word = |hidden: &HiddenNode| match hidden {
+        HiddenNode::Wall(boundary) => format!("wall to {}", telemetry.boundaries[*boundary].name),
+        HiddenNode::Interior => "interior mass".to_owned(),
+        HiddenNode::Heater => "heater".to_owned(),
+    };
+    if hidden.is_empty() {
+        return "air alone".to_owned();
+    }
+    format!("air, {}", hidden.iter().map(word).collect::<Vec<_>>().join(", "))
+}

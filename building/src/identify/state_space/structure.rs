@@ -1,0 +1,320 @@
+//! Thermal networks with hidden states: which nodes and links there are, and which parameter each of them has.
+//!
+//! Every zone has a measured node (its air and whatever follows the air at once), and may have hidden ones:
+//!
+//! ```text
+//! mass in the wall to a boundary     air ─ H ─ wall(C) ─ H ─ boundary         in place of  air ─ H ─ boundary
+//! interior mass                      air ─ H ─ interior(C)
+//! heater                             heat → heater(C) ─ H ─ air               in place of  heat → air
+//! ```
+//!
+//! Every node gains random heat; its strength σ is stated as the standard deviation of temperature that it makes in one hour.
+
+use nalgebra::DMatrix;
+
+use super::exponential::{Number, exponential, real};
+use super::linear_model::{ContinuousModel, InitialState};
+use super::observations::InputLayout;
+use crate::identify::telemetry::{Neighbour, Telemetry};
+
+/// An hour \[s\].
+pub(super) const HOUR_S: f64 = 3600.0;
+/// Variance of the first temperature of a hidden node about what it would be in a steady state \[K²\]. Chosen: heavy walls are
+/// a few kelvin away from it.
+const HIDDEN_START_VARIANCE: f64 = 9.0;
+
+/// A hidden node that a model has beyond the measured one; all zones to which it can apply have it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum HiddenNode {
+    /// Mass in the walls to a boundary.
+    Wall(usize),
+    /// Furniture, inner walls and floors.
+    Interior,
+    /// Mass between the source of heat and the air.
+    Heater,
+}
+
+/// Which node of a zone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Air,
+    Hidden(HiddenNode),
+}
+
+/// What a parameter is. All are logarithms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ParameterKind {
+    /// Heat capacity of a node \[kJ/K\].
+    Capacity(usize, Place),
+    /// Random heat of a node, as the deviation of its temperature in an hour \[K/√h\].
+    RandomHeat(usize, Place),
+    /// Conductance from a zone's air to a neighbour without mass between \[kW/K\].
+    Direct(usize, Neighbour),
+    /// Conductance between a zone's air and a hidden node of it \[kW/K\].
+    Inner(usize, HiddenNode),
+    /// Conductance between the wall's mass and the boundary \[kW/K\].
+    Outer(usize, usize),
+    /// Aperture of a zone \[m²\].
+    Aperture(usize),
+    /// Heat per unit of a signal without unit \[kW\].
+    HeatGain(usize),
+    /// Standard deviation of a zone's sensor \[K\].
+    Sensor(usize),
+}
+
+/// A node with its zone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Node {
+    pub zone: usize,
+    pub place: Place,
+}
+
+/// The other end of a link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum End {
+    Node(usize),
+    Boundary(usize),
+}
+
+/// A conductance between a node and another, or a boundary.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Conductance {
+    pub from: usize,
+    pub to: End,
+    /// The parameter.
+    pub parameter: usize,
+}
+
+/// A network with its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Structure {
+    /// The hidden nodes, sorted.
+    pub hidden: Vec<HiddenNode>,
+    pub nodes: Vec<Node>,
+    pub conductances: Vec<Conductance>,
+    pub parameters: Vec<ParameterKind>,
+    pub layout: InputLayout,
+    zones: usize,
+}
+
+impl Structure {
+    /// The network of the walls of the telemetry with these hidden nodes.
+    pub fn new(telemetry: &Telemetry, mut hidden: Vec<HiddenNode>) -> Self {
+        hidden.sort_unstable();
+        let zones = telemetry.zones.len();
+        let mut structure = Self {
+            hidden,
+            nodes: (0..zones).map(|zone| Node { zone, place: Place::Air }).collect(),
+            conductances: Vec::new(),
+            parameters: Vec::new(),
+            layout: InputLayout::new(telemetry),
+            zones,
+        };
+        structure.add_hidden_nodes(telemetry);
+        for node in structure.nodes.clone() {
+            structure.parameter(ParameterKind::Capacity(node.zone, node.place));
+            structure.parameter(ParameterKind::RandomHeat(node.zone, node.place));
+        }
+        structure.add_walls(telemetry);
+        for (zone, measured) in telemetry.zones.iter().enumerate() {
+            if structure.layout.sun[zone].is_some() {
+                structure.parameter(ParameterKind::Aperture(zone));
+            }
+            if structure.layout.heat[zone].is_some() && !measured.power_has_unit {
+                structure.parameter(ParameterKind::HeatGain(zone));
+            }
+            structure.parameter(ParameterKind::Sensor(zone));
+        }
+        structure
+    }
+
+    fn parameter(&mut self, kind: ParameterKind) -> usize {
+        self.parameters.push(kind);
+        self.parameters.len() - 1
+    }
+
+    fn add_hidden_nodes(&mut self, telemetry: &Telemetry) {
+        for hidden in self.hidden.clone() {
+            for zone in (0..self.zones).filter(|&zone| applies(telemetry, &self.layout, zone, hidden)) {
+                self.nodes.push(Node { zone, place: Place::Hidden(hidden) });
+            }
+        }
+    }
+
+    fn add_walls(&mut self, telemetry: &Telemetry) {
+        for wall in &telemetry.walls {
+            let through = match wall.other {
+                Neighbour::Boundary(boundary) => {
+                    self.node(wall.zone, HiddenNode::Wall(boundary)).map(|node| (boundary, node))
+                }
+                Neighbour::Zone(_) => None,
+            };
+            if let Some((boundary, node)) = through {
+                let outer = self.parameter(ParameterKind::Outer(wall.zone, boundary));
+                self.conductances.push(Conductance { from: node, to: End::Boundary(boundary), parameter: outer });
+            } else {
+                let direct = self.parameter(ParameterKind::Direct(wall.zone, wall.other));
+                let to = match wall.other {
+                    Neighbour::Zone(other) => End::Node(other),
+                    Neighbour::Boundary(boundary) => End::Boundary(boundary),
+                };
+                self.conductances.push(Conductance { from: wall.zone, to, parameter: direct });
+            }
+        }
+        for (index, node) in self.nodes.clone().into_iter().enumerate() {
+            if let Place::Hidden(hidden) = node.place {
+                let inner = self.parameter(ParameterKind::Inner(node.zone, hidden));
+                self.conductances.push(Conductance { from: node.zone, to: End::Node(index), parameter: inner });
+            }
+        }
+    }
+
+    /// A hidden node of a zone.
+    pub fn node(&self, zone: usize, hidden: HiddenNode) -> Option<usize> {
+        self.nodes.iter().position(|node| *node == Node { zone, place: Place::Hidden(hidden) })
+    }
+
+    /// The place of a parameter.
+    pub fn index(&self, kind: ParameterKind) -> Option<usize> {
+        self.parameters.iter().position(|known| *known == kind)
+    }
+
+    /// States per zone, at most.
+    pub fn order(&self) -> usize {
+        1 + self.hidden.len()
+    }
+
+    /// The value of a parameter that the structure has, 1 if it has not.
+    pub fn value(&self, theta: &[Number], kind: ParameterKind) -> Number {
+        self.index(kind).map_or(real(1.0), |index| exponential(theta[index]))
+    }
+
+    /// The model in continuous time.
+    pub fn model(&self, theta: &[Number]) -> ContinuousModel {
+        let count = self.nodes.len();
+        let capacity: Vec<Number> =
+            self.nodes.iter().map(|node| self.value(theta, ParameterKind::Capacity(node.zone, node.place))).collect();
+        let mut dynamics = DMatrix::from_element(count, count, real(0.0));
+        let mut inputs = DMatrix::from_element(count, self.layout.count, real(0.0));
+        for link in &self.conductances {
+            let conductance = exponential(theta[link.parameter]);
+            let rate = conductance / capacity[link.from];
+            dynamics[(link.from, link.from)] -= rate;
+            match link.to {
+                End::Boundary(boundary) => inputs[(link.from, boundary)] += rate,
+                End::Node(other) => {
+                    let back = conductance / capacity[other];
+                    dynamics[(link.from, other)] += rate;
+                    dynamics[(other, other)] -= back;
+                    dynamics[(other, link.from)] += back;
+                }
+            }
+        }
+        for zone in 0..self.zones {
+            if let Some(column) = self.layout.heat[zone] {
+                let node = self.heated_node(zone);
+                inputs[(node, column)] += self.value(theta, ParameterKind::HeatGain(zone)) / capacity[node];
+            }
+            if let Some(column) = self.layout.sun[zone] {
+                inputs[(zone, column)] += self.value(theta, ParameterKind::Aperture(zone)) / capacity[zone];
+            }
+        }
+        let random = |node: &Node| {
+            let deviation = self.value(theta, ParameterKind::RandomHeat(node.zone, node.place));
+            deviation * deviation / HOUR_S
+        };
+        let sensor = |zone: usize| {
+            let deviation = self.value(theta, ParameterKind::Sensor(zone));
+            deviation * deviation
+        };
+        ContinuousModel {
+            dynamics,
+            inputs,
+            diffusion: self.nodes.iter().map(random).collect(),
+            outputs: (0..self.zones).collect(),
+            sensor_variance: (0..self.zones).map(sensor).collect(),
+            initial: self.initial(theta, sensor),
+        }
+    }
+
+    /// The node that the known heat of a zone enters.
+    pub fn heated_node(&self, zone: usize) -> usize {
+        self.node(zone, HiddenNode::Heater).unwrap_or(zone)
+    }
+
+    /// Air begins at its measured temperature, hidden nodes at what they would have in a steady state beside it.
+    fn initial(&self, theta: &[Number], sensor: impl Fn(usize) -> Number) -> InitialState {
+        let count = self.nodes.len();
+        let mut from_outputs = DMatrix::from_element(count, self.zones, real(0.0));
+        let mut from_inputs = DMatrix::from_element(count, self.layout.count, real(0.0));
+        let mut variance = vec![real(HIDDEN_START_VARIANCE); count];
+        for (index, node) in self.nodes.iter().enumerate() {
+            let zone = node.zone;
+            from_outputs[(index, zone)] = real(1.0);
+            match node.place {
+                Place::Air => variance[index] = sensor(zone),
+                Place::Hidden(HiddenNode::Interior) => {}
+                Place::Hidden(hidden @ HiddenNode::Wall(boundary)) => {
+                    let inner = self.value(theta, ParameterKind::Inner(zone, hidden));
+                    let outer = self.value(theta, ParameterKind::Outer(zone, boundary));
+                    from_outputs[(index, zone)] = inner / (inner + outer);
+                    from_inputs[(index, boundary)] = outer / (inner + outer);
+                }
+                Place::Hidden(hidden @ HiddenNode::Heater) => {
+                    let inner = self.value(theta, ParameterKind::Inner(zone, hidden));
+                    if let Some(column) = self.layout.heat[zone] {
+                        from_inputs[(index, column)] = self.value(theta, ParameterKind::HeatGain(zone)) / inner;
+                    }
+                }
+            }
+        }
+        InitialState {
+            offset: vec![real(0.0); count],
+            from_outputs,
+            from_inputs,
+            variance,
+            contains_first_outputs: true,
+        }
+    }
+
+    /// Conductance from a zone to a neighbour, through the wall's mass if it has one \[kW/K\].
+    pub fn total_conductance(&self, theta: &[Number], zone: usize, neighbour: Neighbour) -> Option<Number> {
+        let direct = |kind| self.index(kind).map(|index| exponential(theta[index]));
+        if let Neighbour::Boundary(boundary) = neighbour {
+            if let Some(outer) = direct(ParameterKind::Outer(zone, boundary)) {
+                let inner = self.value(theta, ParameterKind::Inner(zone, HiddenNode::Wall(boundary)));
+                return Some(inner * outer / (inner + outer));
+            }
+        }
+        let other_way = match neighbour {
+            Neighbour::Zone(other) => direct(ParameterKind::Direct(other, Neighbour::Zone(zone))),
+            Neighbour::Boundary(_) => None,
+        };
+        direct(ParameterKind::Direct(zone, neighbour)).or(other_way)
+    }
+
+    /// Sum of the capacities of a zone's nodes \[kJ/K\].
+    pub fn total_capacity(&self, theta: &[Number], zone: usize) -> Number {
+        let of_zone = self.nodes.iter().filter(|node| node.zone == zone);
+        of_zone.fold(real(0.0), |sum, node| sum + self.value(theta, ParameterKind::Capacity(zone, node.place)))
+    }
+}
+
+/// Whether a zone can have a hidden node of this kind.
+fn applies(telemetry: &Telemetry, layout: &InputLayout, zone: usize, hidden: HiddenNode) -> bool {
+    match hidden {
+        HiddenNode::Wall(boundary) => telemetry.neighbours(zone).contains(&Neighbour::Boundary(boundary)),
+        HiddenNode::Interior => true,
+        HiddenNode::Heater => layout.heat[zone].is_some(),
+    }
+}
+
+/// All kinds of hidden nodes that at least one zone can have.
+pub(super) fn candidates(telemetry: &Telemetry) -> Vec<HiddenNode> {
+    let layout = InputLayout::new(telemetry);
+    let walls = (0..telemetry.boundaries.len()).map(HiddenNode::Wall);
+    let all = walls.chain([HiddenNode::Interior, HiddenNode::Heater]);
+    let possible =
+        |hidden: &HiddenNode| (0..telemetry.zones.len()).any(|zone| applies(telemetry, &layout, zone, *hidden));
+    all.filter(possible).collect()
+}

@@ -1,0 +1,93 @@
+//! From measurements to a run: a house with a heavy wall is simulated, identified, written as a scenario, and run.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use interplay_building::discretise::Model;
+use interplay_building::network::{AMBIENT, Network, Wall, Zone};
+use interplay_building::random::Random;
+
+use crate::command::{interplay, scratch};
+
+const STEP_S: f64 = 900.0;
+/// Outdoors [kW/K], and all capacities [kJ/K].
+const CONDUCTANCE: f64 = 0.2;
+const CAPACITY: f64 = 20_000.0;
+
+const MAPPING: &str = "walls = [['house', 'outdoor']]\n\
+    [time]\ncolumn = 'time'\nformat = 'seconds'\nstep_s = 900.0\n\
+    [[boundary]]\nname = 'outdoor'\ntemperature = 'out'\nhold = 'zero-order'\n\
+    [[zone]]\nname = 'house'\ntemperature = 'in'\nheat = [{ kind = 'power', column = 'heat', unit = 'kw' }]\n";
+
+/// A folder with two weeks of the house and their mapping.
+fn house(test: &str) -> PathBuf {
+    let folder = scratch(test);
+    let zone = Zone { capacity_kj_per_k: 0.15 * CAPACITY, ..Zone::named("house") };
+    let wall = Wall::new("house", AMBIENT, 1.0 / CONDUCTANCE).with_capacity_kj_per_k(0.85 * CAPACITY);
+    let network = Network::new(&[zone], &[Wall { mass_position: Some(0.25), ..wall }]).expect("sound");
+    let model = Model::exact(&network, STEP_S).expect("sound");
+    let mut random = Random::new(3, 9);
+    let (mut state, mut on) = (vec![20.0, 16.0], false);
+    let mut table = String::from("time,in,out,heat\n");
+    for row in 0..14 * 96 {
+        let hour = f64::from(row) * STEP_S / 3600.0;
+        on ^= random.chance(STEP_S / 3600.0 / 3.0);
+        let outdoor = 5.0 + 4.0 * (hour * std::f64::consts::TAU / 24.0).sin() + 3.0 * (hour * 0.061).sin();
+        let heat = if on { 5.0 } else { 0.3 };
+        let inside = state[0] + random.normal(0.0, 0.03);
+        table.push_str(&format!("{},{inside:.4},{outdoor:.6},{heat}\n", f64::from(row) * STEP_S));
+        model.step(&mut state, &[heat], outdoor, &[random.normal(0.0, 0.1)]);
+    }
+    fs::write(folder.join("house.csv"), table).expect("written");
+    fs::write(folder.join("house.toml"), MAPPING).expect("written");
+    folder
+}
+
+/// A scenario as a table.
+fn written(path: &Path) -> toml::Table {
+    fs::read_to_string(path).expect("written").parse().expect("TOML")
+}
+
+#[test]
+fn an_identified_house_runs_under_any_controller() {
+    let folder = house("identify-scenario");
+    let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "found.toml"]);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    for piece in ["air, wall to outdoor", "log-likelihood", "conductance to outdoor", "mean of the data"] {
+        assert!(outcome.stdout.contains(piece), "{piece}: {}", outcome.stdout);
+    }
+    assert!(outcome.stderr.contains("interplay run found.toml"), "{}", outcome.stderr);
+
+    let building = &written(&folder.join("found.toml"))["building"];
+    let number = |table: &toml::Value, key: &str| table[key].as_float().expect("a number");
+    let (zone, wall) = (&building["zone"][0], &building["wall"][0]);
+    let capacity = number(zone, "capacity_kj_per_k") + number(wall, "capacity_kj_per_k");
+    assert!((capacity / CAPACITY - 1.0).abs() < 0.1, "{capacity}");
+    assert!((number(wall, "resistance_k_per_kw") * CONDUCTANCE - 1.0).abs() < 0.05, "{wall}");
+    let believed = &building["believed"];
+    for key in ["capacity_factor", "outer_resistance_factor"] {
+        assert!((1.0..1.25).contains(&number(believed, key)) && number(believed, key) > 1.0, "{believed}");
+    }
+    assert_eq!(number(believed, "inner_resistance_factor"), 1.0, "there is one zone");
+
+    for controller in ["pid", "iterative-learning", "concurrent", "distributed", "centralised"] {
+        let kind = format!("controller={{ kind = \"{controller}\" }}");
+        let run = ["run", "found.toml", "--no-record", "--set", &kind, "--set", "iterations=2"];
+        let outcome = interplay(&folder, &run);
+        assert_eq!(outcome.code, Some(0), "{controller}: {outcome:?}");
+    }
+}
+
+#[test]
+fn no_file_is_overwritten_and_what_is_not_known_is_not_written() {
+    let folder = house("identify-no-scenario");
+    let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "house.toml"]);
+    assert_eq!(outcome.code, Some(2), "{outcome:?}");
+    assert!(outcome.stderr.contains("exists already"), "{}", outcome.stderr);
+    assert_eq!(fs::read_to_string(folder.join("house.toml")).expect("kept"), MAPPING);
+
+    fs::write(folder.join("house.toml"), MAPPING.replace("'kw'", "'unknown'")).expect("written");
+    let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "found.toml"]);
+    assert_eq!(outcome.code, Some(2), "{outcome:?}");
+    assert!(outcome.stderr.contains("no scale") && !folder.join("found.toml").exists(), "{}", outcome.stderr);
+}
