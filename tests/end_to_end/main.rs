@@ -3,6 +3,7 @@
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`authoring`], [`documents`], [`book`]
 //! - many runs from one plan: [`sweeps`]
+//! - what happens to nobody's files, terminal and server: [`unharmed`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`]
 //! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
@@ -43,4 +44,5 @@ mod similarity;
 mod suite;
 mod sweeps;
 mod traffic;
+mod unharmed;
 mod unsuited;

@@ -5,7 +5,7 @@ use interplay_scenarios::{Scenario, load};
 
 use crate::exit_status::ExitStatus;
 use crate::files;
-use crate::output::{print, print_error, print_load_error};
+use crate::output::{print_error, print_load_error, printed};
 
 /// Check scenario files without running them; every error is located.
 #[derive(Debug, Args)]
@@ -24,10 +24,10 @@ impl Check {
                 Ok(found) => {
                     for file in found.into_iter().map(|found| found.scenario) {
                         match load(&file, &[]) {
-                            Ok(scenario) => print(&approved(&file, &scenario)),
+                            Ok(scenario) => ending = ending.max(printed(&approved(&file, &scenario))),
                             Err(error) => {
                                 print_load_error(error);
-                                ending = ExitStatus::BadInput;
+                                ending = ending.max(ExitStatus::BadInput);
                             }
                         }
                     }

@@ -91,7 +91,7 @@ impl Compare {
     ) -> ExitStatus {
         let shown = if self.json { as_json() } else { Ok(text()) };
         let shown = shown.and_then(|text| {
-            print(&text);
+            print(&text)?;
             let Some(target) = target else { return Ok(()) };
             let title = match &self.second {
                 None => format!("Comparison of {}", self.first.display()),

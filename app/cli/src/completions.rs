@@ -4,7 +4,7 @@ use clap::Args;
 use clap_complete::Shell;
 
 use crate::exit_status::ExitStatus;
-use crate::output::print;
+use crate::output::printed;
 
 /// Print completions for a shell.
 #[derive(Debug, Args)]
@@ -19,7 +19,6 @@ impl Completions {
     pub(crate) fn execute(self, mut interplay: clap::Command) -> ExitStatus {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut interplay, "interplay", &mut script);
-        print(&String::from_utf8_lossy(&script));
-        ExitStatus::Well
+        printed(&String::from_utf8_lossy(&script))
     }
 }

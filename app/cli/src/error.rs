@@ -24,8 +24,8 @@ pub(crate) enum CommandError {
     Json { what: &'static str, reason: serde_json::Error },
     #[error("the results cannot be written as XML: {0}")]
     Xml(Box<dyn std::error::Error + Send + Sync>),
-    #[error("cannot write `{}`: {reason}", path.display())]
-    Unwritable { path: PathBuf, reason: io::Error },
+    #[error("cannot write to the standard output: {0}")]
+    Output(io::Error),
     #[error("cannot start {jobs} threads: {reason}")]
     Threads { jobs: usize, reason: rayon::ThreadPoolBuildError },
 }

@@ -61,6 +61,13 @@ fn below(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
+/// The file of a scenario, or one that it extends, that writing to `output` would destroy.
+pub(crate) fn destroyed<'a>(output: &Path, mut scenarios: impl Iterator<Item = &'a str>) -> Option<PathBuf> {
+    let output = output.canonicalize().ok()?;
+    let is_output = |path: &PathBuf| path.canonicalize().is_ok_and(|path| path == output);
+    scenarios.find_map(|scenario| interplay_scenarios::files(scenario).into_iter().find(is_output))
+}
+
 /// What a run is called: an authored scenario by its name, a file by its own name, without folders and extension.
 pub(crate) fn short_name(scenario: &str) -> String {
     if embedded().iter().any(|file| file.name == scenario) {

@@ -7,7 +7,7 @@ use clap::Args;
 use interplay_building::identify::{Identification, IdentifyError, Mapping, Telemetry, TelemetryError, identify};
 use interplay_presentation::record::write_file;
 use interplay_presentation::{plot, report, shell};
-use interplay_scenarios::Fault;
+use interplay_scenarios::{Fault, read_regular};
 use thiserror::Error;
 
 use crate::error::CommandError;
@@ -124,8 +124,7 @@ impl Identify {
         } else {
             report::identification(&self.table.display().to_string(), found)
         };
-        print(&text);
-        Ok(())
+        print(&text)
     }
 }
 
@@ -146,11 +145,18 @@ enum InputError {
     Identify { name: String, reason: IdentifyError },
 }
 
+/// The largest table that is read \[bytes\].
+const MAX_FILE_BYTES: u64 = 1 << 30;
+
 /// A file as text; the error ends with `help`.
 fn read(path: &Path, help: &'static str) -> Result<String, InputError> {
     let path = path.to_owned();
-    let bytes = match fs::read(&path) {
-        Ok(bytes) => bytes,
+    let bytes = match read_regular(&path, MAX_FILE_BYTES) {
+        Ok(Some(bytes)) => bytes,
+        Ok(None) => {
+            let reason = io::Error::other("it is larger than 1 GiB");
+            return Err(InputError::Unreadable { path, reason, help });
+        }
         Err(reason) => return Err(InputError::Unreadable { path, reason, help }),
     };
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").map(<[u8]>::to_vec).unwrap_or(bytes);

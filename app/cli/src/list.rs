@@ -5,7 +5,7 @@ use interplay_scenarios::{embedded, load};
 use serde_json::json;
 
 use crate::exit_status::ExitStatus;
-use crate::output::{print, print_load_error};
+use crate::output::{print_load_error, printed};
 
 /// List the embedded scenarios: name, what it shows, figure reproduced.
 #[derive(Debug, Args)]
@@ -32,14 +32,13 @@ impl List {
             let rows = rows.iter().map(|(name, scenario)| {
                 json!({ "name": name, "title": scenario.title, "shows": scenario.shows, "figure": scenario.figure })
             });
-            print(&format!("{:#}\n", serde_json::Value::Array(rows.collect())));
-            return ExitStatus::Well;
+            return printed(&format!("{:#}\n", serde_json::Value::Array(rows.collect())));
         }
         let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-        for (name, scenario) in &rows {
+        let line = |(name, scenario): &(&str, Scenario)| {
             let figure = scenario.figure.as_ref().map(|figure| format!(" (Fig. {figure})")).unwrap_or_default();
-            print(&format!("{name:width$}  {}{figure}\n", scenario.shows));
-        }
-        ExitStatus::Well
+            format!("{name:width$}  {}{figure}\n", scenario.shows)
+        };
+        printed(&rows.iter().map(line).collect::<String>())
     }
 }

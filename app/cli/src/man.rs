@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::exit_status::ExitStatus;
-use crate::output::{print, print_error};
+use crate::output::{print_error, printed};
 
 /// Print a manual page: of the whole, or of one command.
 #[derive(Debug, Args)]
@@ -27,10 +27,7 @@ impl Man {
         };
         let mut text = Vec::new();
         match clap_mangen::Man::new(page).render(&mut text) {
-            Ok(()) => {
-                print(&String::from_utf8_lossy(&text));
-                ExitStatus::Well
-            }
+            Ok(()) => printed(&String::from_utf8_lossy(&text)),
             Err(error) => {
                 print_error(&format!("the manual page cannot be written: {error}"));
                 ExitStatus::Unfinished

@@ -10,7 +10,7 @@ use interplay_scenarios::{LoadError, commented};
 use thiserror::Error;
 
 use crate::exit_status::ExitStatus;
-use crate::output::{print, print_error, print_load_error};
+use crate::output::{print_error, print_load_error, printed};
 use crate::schema;
 
 /// What editors complete from, beside the scenario.
@@ -48,8 +48,7 @@ impl New {
         match self.write() {
             Ok(()) => {
                 let run = shell::line(["interplay", "run", &self.file.to_string_lossy()]);
-                print(&format!("wrote {}; to run it: {run}\n", self.file.display()));
-                ExitStatus::Well
+                printed(&format!("wrote {}; to run it: {run}\n", self.file.display()))
             }
             Err(NewError::Origin(error)) => {
                 print_load_error(error);
@@ -88,5 +87,9 @@ fn create(path: &Path, text: &str) -> Result<(), NewError> {
         fs::create_dir_all(folder).map_err(unwritable)?;
     }
     let mut file = OpenOptions::new().write(true).create_new(true).open(path).map_err(unwritable)?;
-    file.write_all(text.as_bytes()).map_err(unwritable)
+    file.write_all(text.as_bytes()).and_then(|()| file.sync_all()).map_err(|error| {
+        // What is there is ours, and incomplete.
+        let _ = fs::remove_file(path);
+        unwritable(error)
+    })
 }

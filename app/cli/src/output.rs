@@ -1,20 +1,69 @@
 //! What commands say: results on stdout, everything else on stderr.
 
-use std::io::Write;
+use std::borrow::Cow;
+use std::io::{ErrorKind, Write};
 
 use serde::Serialize;
 
 use crate::error::CommandError;
+use crate::exit_status::ExitStatus;
 
 /// Prints a result. A reader that has gone away (a closed pipe) is no error of ours.
-pub(crate) fn print(text: &str) {
+///
+/// # Errors
+/// [`CommandError::Output`] if the result is not where it should be, such as on a full disk.
+pub(crate) fn print(text: &str) -> Result<(), CommandError> {
     let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
+        Err(reason) if reason.kind() != ErrorKind::BrokenPipe => Err(CommandError::Output(reason)),
+        _ => Ok(()),
+    }
+}
+
+/// Prints a result, or says why it could not.
+pub(crate) fn printed(text: &str) -> ExitStatus {
+    match print(text) {
+        Ok(()) => ExitStatus::Well,
+        Err(error) => {
+            print_error(&error.to_string());
+            ExitStatus::Unfinished
+        }
+    }
 }
 
 /// Says what went wrong.
 pub(crate) fn print_error(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    let _ = writeln!(std::io::stderr().lock(), "{}", harmless(text));
+}
+
+/// A text without what makes a terminal do anything but show it in colours: a title or a cell of a table may hold anything.
+///
+/// Line ends, tabs and sequences that choose a colour stay; any other control character becomes its escape, such as `\u{7}`.
+fn harmless(text: &str) -> Cow<'_, str> {
+    let is_shown = |letter: char| !letter.is_control() || letter == '\n' || letter == '\t';
+    if text.chars().all(is_shown) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(letter) = rest.chars().next() {
+        let length = colour_length(rest).unwrap_or(letter.len_utf8());
+        let (part, after) = rest.split_at(length);
+        if length > letter.len_utf8() || is_shown(letter) {
+            shown.push_str(part);
+        } else {
+            shown.extend(letter.escape_unicode());
+        }
+        rest = after;
+    }
+    Cow::Owned(shown)
+}
+
+/// Length of the sequence at the begin of a text that chooses a colour, if there is one: `ESC [ digits ; … m`.
+fn colour_length(text: &str) -> Option<usize> {
+    let parameters = text.strip_prefix("\u{1b}[")?;
+    let end = parameters.find(|letter: char| !letter.is_ascii_digit() && letter != ';')?;
+    parameters[end..].starts_with('m').then_some("\u{1b}[".len() + end + 1)
 }
 
 /// Says what is wrong with a file, with the place underlined.
@@ -33,6 +82,15 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
+
+    #[test]
+    fn a_terminal_shows_a_text_and_obeys_only_its_colours() {
+        assert_eq!(harmless("a\tb\nc"), "a\tb\nc");
+        assert_eq!(harmless("\u{1b}[1;31mred\u{1b}[0m"), "\u{1b}[1;31mred\u{1b}[0m");
+        assert_eq!(harmless("\u{1b}]0;title\u{7}"), "\\u{1b}]0;title\\u{7}");
+        assert_eq!(harmless("\u{1b}[2Jgone\r"), "\\u{1b}[2Jgone\\u{d}");
+        assert_eq!(harmless("\u{9b}31m\u{1b}[31"), "\\u{9b}31m\\u{1b}[31");
+    }
 
     #[test]
     fn what_cannot_be_written_as_json_is_an_error() {

@@ -8,7 +8,7 @@ use interplay_presentation::figures::{self, Entry, EntryOutcome, Kind, find, mak
 use interplay_presentation::page::Page;
 
 use crate::exit_status::ExitStatus;
-use crate::output::{print, print_error};
+use crate::output::{print_error, printed};
 use crate::progress::Progress;
 
 /// Make the figures and tables of the dissertation again, as SVG and PNG, with a page that shows and explains them.
@@ -34,8 +34,9 @@ pub(crate) struct Reproduce {
 impl Reproduce {
     pub(crate) fn execute(self) -> ExitStatus {
         if self.list {
-            registry().for_each(|entry| print(&format!("{:10}  {}\n", entry.id(), entry.title)));
-            return ExitStatus::Well;
+            return printed(
+                &registry().map(|entry| format!("{:10}  {}\n", entry.id(), entry.title)).collect::<String>(),
+            );
         }
         let entries = match find(&self.figures) {
             Ok(entries) => entries,
@@ -51,17 +52,20 @@ impl Reproduce {
             ));
             return ExitStatus::BadInput;
         }
+        let page = self.out.join("index.html");
+        if Page::is_taken(&page) {
+            print_error(&format!("`{}` is no page of Interplay's; choose another folder for --out", page.display()));
+            return ExitStatus::BadInput;
+        }
         let began = Instant::now();
         let progress = Progress::of(figures::steps(&entries));
         let made = make(&entries, &self.out, &|| progress.advance());
         progress.clear();
-        let page = self.out.join("index.html");
         if let Err(error) = std::fs::write(&page, page_of(&made).html()) {
             print_error(&format!("Error: cannot write {}: {error}", page.display()));
             return ExitStatus::Unfinished;
         }
-        print_outcomes(&made, &page, began.elapsed().as_secs_f64());
-        ending(&made)
+        ending(&made).max(print_outcomes(&made, &page, began.elapsed().as_secs_f64()))
     }
 }
 
@@ -87,7 +91,7 @@ fn page_of(made: &[EntryOutcome]) -> Page {
     }
 }
 
-fn print_outcomes(made: &[EntryOutcome], page: &Path, wall_s: f64) {
+fn print_outcomes(made: &[EntryOutcome], page: &Path, wall_s: f64) -> ExitStatus {
     for made in made {
         let entry: &Entry = made.entry;
         match &made.outcome {
@@ -97,7 +101,7 @@ fn print_outcomes(made: &[EntryOutcome], page: &Path, wall_s: f64) {
         }
     }
     let done = made.iter().filter(|made| made.outcome.is_ok()).count();
-    print(&format!("{done} of {} made in {wall_s:.1} s: {}\n", made.len(), page.display()));
+    printed(&format!("{done} of {} made in {wall_s:.1} s: {}\n", made.len(), page.display()))
 }
 
 /// A figure that could not be made weighs more than an expectation that failed.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use interplay_presentation::figures::{FrameLog, RecordedRun, run_page};
+use interplay_presentation::page::Page;
 use interplay_presentation::record::{OpenRecording, RecordError, Recorder, Sink, Viewer};
 use interplay_presentation::report::summary;
 use interplay_presentation::shell;
@@ -15,7 +16,7 @@ use thiserror::Error;
 
 use crate::error::CommandError;
 use crate::exit_status::ExitStatus;
-use crate::files::short_name;
+use crate::files::{destroyed, short_name};
 use crate::output::{json, print, print_error, print_load_error};
 use crate::watch::WatchedFiles;
 
@@ -109,6 +110,19 @@ impl Run {
             print_error(&format!("note: {remark}"));
         }
         let name = short_name(self.scenario());
+        if let Some(path) = self.recording(&name).and_then(|path| destroyed(&path, [self.scenario()].into_iter())) {
+            print_error(&format!(
+                "the recording would overwrite `{}`, of which the scenario is made; choose another name for it",
+                path.display()
+            ));
+            return ExitStatus::BadInput;
+        }
+        if let Some(page) =
+            self.report.as_ref().map(|folder| folder.join("index.html")).filter(|page| Page::is_taken(page))
+        {
+            print_error(&format!("`{}` is no page of Interplay's; choose another folder for --report", page.display()));
+            return ExitStatus::BadInput;
+        }
         let recording = match self.begin_recording(&scenario, &name) {
             Ok(recording) => recording,
             Err(error) => {
@@ -184,8 +198,7 @@ impl Run {
     /// Prints the report as it was asked for.
     fn print_report(&self, title: &str, report: &Report) -> Result<(), CommandError> {
         let text = if self.json { json("the report", report)? } else { summary(title, report) };
-        print(&text);
-        Ok(())
+        print(&text)
     }
 
     /// The words that run the same again. What is done with the results is no part of them.

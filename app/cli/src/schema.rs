@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::exit_status::ExitStatus;
-use crate::output::print;
+use crate::output::printed;
 
 /// Print the JSON Schema of the scenario format, from which editors complete and explain keys.
 ///
@@ -15,8 +15,7 @@ pub(crate) struct Schema {}
 
 impl Schema {
     pub(crate) fn execute(self) -> ExitStatus {
-        print(&text());
-        ExitStatus::Well
+        printed(&text())
     }
 }
 

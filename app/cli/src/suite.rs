@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
+use interplay_presentation::record::write_file;
 use interplay_presentation::report::{Case, junit, table};
 use interplay_scenarios::{Scenario, embedded, load};
 use interplay_simulation::report::Report;
@@ -13,7 +14,7 @@ use rayon::prelude::*;
 
 use crate::error::CommandError;
 use crate::exit_status::ExitStatus;
-use crate::files::{self, ScenarioArgument};
+use crate::files::{self, ScenarioArgument, destroyed};
 use crate::output::{json, print, print_error, print_load_error};
 use crate::progress::Progress;
 use crate::threads::pool;
@@ -45,6 +46,13 @@ pub(crate) struct Suite {
 impl Suite {
     pub(crate) fn execute(self) -> ExitStatus {
         let Some(scenarios) = self.load() else { return ExitStatus::BadInput };
+        if let Some(path) = self.junit.as_deref().and_then(|junit| self.destroyed_by(junit)) {
+            print_error(&format!(
+                "the results would overwrite the scenario `{}`; choose another name for --junit",
+                path.display()
+            ));
+            return ExitStatus::BadInput;
+        }
         let began = Instant::now();
         let cases = match self.run(&scenarios) {
             Ok(cases) => cases,
@@ -81,6 +89,12 @@ impl Suite {
         sound.then_some(scenarios)
     }
 
+    /// The scenario that writing to a file would destroy.
+    fn destroyed_by(&self, output: &Path) -> Option<PathBuf> {
+        let found = self.find(&mut true);
+        destroyed(output, found.iter().map(|found| found.scenario.as_str()))
+    }
+
     fn find(&self, sound: &mut bool) -> Vec<ScenarioArgument> {
         if self.paths.is_empty() {
             let name = |name: &str| ScenarioArgument { name: name.to_owned(), scenario: name.to_owned() };
@@ -101,7 +115,7 @@ impl Suite {
 
     /// Runs every scenario in a world of its own; the cases come in the order of the scenarios.
     fn run(&self, scenarios: &[(String, Scenario)]) -> Result<Vec<Case>, CommandError> {
-        let pool = pool(self.jobs)?;
+        let pool = pool(self.jobs, scenarios.len())?;
         let progress = Progress::of(scenarios.len());
         let case = |(name, scenario): &(String, Scenario)| {
             let outcome = run_with_counterfactuals(name, scenario, Vec::new());
@@ -116,15 +130,11 @@ impl Suite {
     /// Prints and writes the results as it was asked for.
     fn print_results(&self, cases: &[Case], wall_s: f64) -> Result<(), CommandError> {
         let reports: Vec<&Report> = cases.iter().filter_map(|case| case.outcome.as_ref().ok()).collect();
-        print(&if self.json { json("the reports", &reports)? } else { table(cases, wall_s) });
+        print(&if self.json { json("the reports", &reports)? } else { table(cases, wall_s) })?;
         let Some(path) = &self.junit else { return Ok(()) };
         let xml = junit(cases, wall_s).map_err(|error| CommandError::Xml(Box::new(error)))?;
-        write(path, &xml)
+        Ok(write_file(path, xml.as_bytes())?)
     }
-}
-
-fn write(path: &Path, text: &str) -> Result<(), CommandError> {
-    std::fs::write(path, text).map_err(|reason| CommandError::Unwritable { path: path.to_owned(), reason })
 }
 
 /// A run that could not be finished weighs more than an expectation that failed.

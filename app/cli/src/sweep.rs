@@ -12,7 +12,7 @@ use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome,
 
 use crate::compare::after_sweep;
 use crate::exit_status::ExitStatus;
-use crate::output::{print, print_error, print_load_error};
+use crate::output::{print_error, print_load_error, printed};
 use crate::plan_flags::PlanFlags;
 use crate::progress::Progress;
 use crate::refusal::gave_up;
@@ -119,8 +119,7 @@ impl Sweep {
             }
         };
         if self.dry_run {
-            print(&counted(&plan));
-            return ExitStatus::Well;
+            return printed(&counted(&plan));
         }
         let folder = self.folder();
         match self.run(&plan, shard, &folder) {
@@ -154,7 +153,8 @@ impl Sweep {
     }
 
     fn run(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<SweepOutcome, SweepError> {
-        let pool = pool(self.jobs).map_err(|error| SweepError::Input(error.to_string()))?;
+        let pool = pool(self.jobs, usize::try_from(plan.run_count()).unwrap_or(usize::MAX))
+            .map_err(|error| SweepError::Input(error.to_string()))?;
         let progress: OnceLock<Progress> = OnceLock::new();
         let keep = |row: &SweepRow, scenario: &Scenario| record(folder, row, scenario);
         let options = SweepOptions {
@@ -214,28 +214,25 @@ fn record(folder: &Path, row: &SweepRow, scenario: &Scenario) -> Result<(), Stri
 /// Says where the rows are; of a whole plan, also what they tell.
 fn said(outcome: &SweepOutcome, shard: Shard, folder: &Path) -> ExitStatus {
     let SweepOutcome { table, rows, made, unfinished } = outcome;
-    print(&format!("{} in {}, {made} of them new\n", runs(*rows as u64), table.display()));
+    let told = printed(&format!("{} in {}, {made} of them new\n", runs(*rows as u64), table.display()));
     if *unfinished > 0 {
         print_error(&format!("{} could not be finished: see the column `error`", runs(*unfinished as u64)));
     }
     let compared = if shard == Shard::WHOLE {
         let compared = after_sweep(folder);
-        print(&format!("next: interplay compare {} --by scenario\n", folder.display()));
-        compared
+        compared.max(printed(&format!("next: interplay compare {} --by scenario\n", folder.display())))
     } else {
-        print(&format!("when all shards are there: interplay sweep merge {}\n", folder.display()));
-        ExitStatus::Well
+        printed(&format!("when all shards are there: interplay sweep merge {}\n", folder.display()))
     };
-    if *unfinished > 0 { ExitStatus::Unfinished } else { compared }
+    if *unfinished > 0 { ExitStatus::Unfinished } else { told.max(compared) }
 }
 
 fn merged(folder: &Path, to: Option<&Path>, timings: bool) -> ExitStatus {
     match merge(folder, to, timings) {
         Ok(merged) => {
             let table = merged.table.display();
-            print(&format!("{} of {} in {table}\n", runs(merged.rows as u64), shards(merged.shards)));
-            print(&format!("next: interplay compare {}\n", folder.display()));
-            ExitStatus::Well
+            let rows = format!("{} of {} in {table}\n", runs(merged.rows as u64), shards(merged.shards));
+            printed(&format!("{rows}next: interplay compare {}\n", folder.display()))
         }
         Err(error) => gave_up(error),
     }

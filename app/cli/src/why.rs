@@ -61,8 +61,7 @@ impl Why {
                 json("the results", &report)?
             } else {
                 report::why(&scenario.title, &self.words(), &report)
-            });
-            Ok(())
+            })
         });
         match printed {
             Ok(()) => ExitStatus::Well,
@@ -87,7 +86,7 @@ impl Why {
     }
 
     fn run(&self, scenario: &Scenario, changes: &[StandardChange]) -> Result<WhyReport, CommandError> {
-        let pool = pool(self.jobs)?;
+        let pool = pool(self.jobs, 1 + changes.len())?;
         let progress = Progress::of(1 + changes.len());
         let name = short_name(&self.scenario);
         let report = pool.install(|| why(&name, scenario, changes, &|| progress.advance()));

@@ -23,6 +23,9 @@ dl { margin: .4rem 0; } dt { font-weight: 600; margin-top: .5rem; } dd { margin:
 @media print { section { break-inside: avoid; } nav { display: none; } }
 ";
 
+/// What a page says that made it.
+pub(super) const GENERATOR: &str = "Interplay";
+
 /// The whole page.
 pub(super) fn page(page: &Page) -> String {
     let markup = html! {
@@ -31,6 +34,7 @@ pub(super) fn page(page: &Page) -> String {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="generator" content=(GENERATOR);
                 // Without this, browsers ask for a picture of their own.
                 link rel="icon" href="data:,";
                 title { (page.title) }

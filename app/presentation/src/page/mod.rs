@@ -5,11 +5,20 @@
 mod contents;
 mod html;
 
+use std::path::Path;
+
 pub use contents::{Page, Section, SectionStatus};
 
 impl Page {
     /// The whole as HTML.
     pub fn html(&self) -> String {
         html::page(self)
+    }
+
+    /// Whether there is a file at a path that no page of ours may take the place of.
+    pub fn is_taken(path: &Path) -> bool {
+        let Ok(text) = std::fs::read(path) else { return path.exists() };
+        let mark = format!("<meta name=\"generator\" content=\"{}\">", html::GENERATOR);
+        !text.windows(mark.len()).any(|part| part == mark.as_bytes())
     }
 }

@@ -1,0 +1,107 @@
+//! What the command does not do to its user's files, terminal and build server. Each test is a fault that was found once.
+
+use std::fs;
+use std::process::Stdio;
+
+use crate::command::{command, interplay, scratch};
+
+/// A small scenario, with a title.
+fn scenario(title: &str) -> String {
+    format!("extends = 'lane-change/front-nice'\ntitle = \"{title}\"\nduration_s = 0.5\n")
+}
+
+/// A build server with a full disk must not see success.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_cannot_be_written_is_exit_code_3() {
+    let folder = scratch("full-disk");
+    for words in [&["list"][..], &["schema"], &["check", "lane-change/front-nice"], &["run", "--no-record", "--json"]] {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("the device");
+        let output = command(&folder, words).stdout(Stdio::from(full)).output().expect("runs");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(3), "{words:?}: {said}");
+        assert!(said.contains("cannot write to the standard output"), "{words:?}: {said}");
+    }
+}
+
+#[test]
+fn no_output_takes_the_place_of_the_scenario() {
+    let folder = scratch("overwritten");
+    let text = scenario("Mine");
+    fs::write(folder.join("mine.toml"), &text).expect("writes");
+    let cases: [&[&str]; 3] = [
+        &["run", "mine.toml", "--record", "mine.toml"],
+        &["run", "mine.toml", "--record", "./nothing/../mine.toml"],
+        &["suite", "mine.toml", "--junit", "mine.toml"],
+    ];
+    fs::create_dir(folder.join("nothing")).expect("makes");
+    for words in cases {
+        let outcome = interplay(&folder, words);
+        assert_eq!(outcome.code, 2, "{words:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains("would overwrite"), "{words:?}: {}", outcome.stderr);
+        assert_eq!(fs::read_to_string(folder.join("mine.toml")).expect("there"), text, "{words:?}");
+    }
+}
+
+#[test]
+fn no_page_takes_the_place_of_somebody_else_s() {
+    let folder = scratch("foreign-page");
+    fs::write(folder.join("index.html"), "<h1>My home page</h1>").expect("writes");
+    for words in [&["run", "--set", "duration_s=0.5", "--report", "."][..], &["reproduce", "6.1", "--out", "."]] {
+        let outcome = interplay(&folder, words);
+        assert_eq!(outcome.code, 2, "{words:?}: {}", outcome.stderr);
+        assert_eq!(fs::read_to_string(folder.join("index.html")).expect("there"), "<h1>My home page</h1>");
+    }
+    // One of ours is renewed.
+    let words = ["run", "--set", "duration_s=0.5", "--no-record", "--report", "mine"];
+    for _ in 0..2 {
+        let outcome = interplay(&folder, &words);
+        assert!(outcome.code <= 1, "{}", outcome.stderr);
+    }
+}
+
+/// Reading these would wait for ever, or never end.
+#[cfg(target_os = "linux")]
+#[test]
+fn pipes_and_devices_are_refused_at_once() {
+    let folder = scratch("devices");
+    let made = std::process::Command::new("mkfifo").arg(folder.join("pipe.toml")).status().expect("mkfifo");
+    assert!(made.success());
+    fs::write(folder.join("child.toml"), "extends = 'pipe.toml'\n").expect("writes");
+    for path in ["pipe.toml", "child.toml", "/dev/zero", "/dev/stdin"] {
+        let outcome = interplay(&folder, &["check", path]);
+        assert_eq!(outcome.code, 2, "{path}: {}", outcome.stderr);
+    }
+    for words in [["identify", "pipe.toml"], ["view", "/dev/zero"]] {
+        let outcome = interplay(&folder, &words);
+        assert_ne!(outcome.code, 0, "{words:?}: {}", outcome.stderr);
+    }
+}
+
+/// A title may hold what clears a terminal or names its window.
+#[test]
+fn a_terminal_is_shown_texts_and_obeys_none() {
+    let folder = scratch("escapes");
+    fs::write(folder.join("bold.toml"), scenario("\\u001b[2J\\u001b]0;owned\\u0007")).expect("writes");
+    let outcome = interplay(&folder, &["run", "bold.toml", "--no-record"]);
+    let said = outcome.stdout + &outcome.stderr;
+    assert!(said.contains("owned"), "{said}");
+    assert!(!said.contains('\u{1b}') && !said.contains('\u{7}'), "{said:?}");
+}
+
+/// The recorder drew a dash for every metre of road.
+#[test]
+fn a_start_beyond_every_road_is_refused() {
+    let outcome = interplay(&scratch("far"), &["run", "lane-change/front-tough", "--set", "vehicle.ego.start.x_m=1e9"]);
+    assert_eq!(outcome.code, 2);
+    assert!(outcome.stderr.contains("must be at most 100000"), "{}", outcome.stderr);
+}
+
+/// Thousands of threads were made for three runs.
+#[test]
+fn any_number_of_jobs_is_enough() {
+    let folder = scratch("jobs");
+    fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
+    let outcome = interplay(&folder, &["suite", "mine.toml", "--jobs", "100000"]);
+    assert!(outcome.code <= 1, "{}", outcome.stderr);
+}
