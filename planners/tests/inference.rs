@@ -3,11 +3,11 @@
 mod common;
 
 use common::world::{self, Run, Vehicle};
-use interplay_planners::belief::{self, Prior};
+use interplay_planners::belief::{self, DriverBeliefs, Prior};
 use interplay_planners::driver_estimate::DriverModel;
 use interplay_planners::human::Style;
 use interplay_planners::predict::Prediction;
-use interplay_planners::sensing::{self, Sensor};
+use interplay_planners::sensing::{self, SensedScene, Sensor};
 use interplay_planners::{Driver, bayesian, conservative, game, negotiation, scripted};
 
 const TICKS: usize = 70;
@@ -184,4 +184,35 @@ fn every_planner_can_infer() {
             assert!((estimate.probabilities.iter().sum::<f64>() - 1.0).abs() < 1e-9);
         }
     }
+}
+
+/// What is believed of the crossing driver when it comes back after it was out of sight for three ticks, and just before.
+fn before_and_after_absence(memory: bool) -> [f64; 2] {
+    let vehicles = world::intersection(negotiation(Prediction::Inferred), Style::Tough, 1.75);
+    let (mut traffic, mut planners) = world::begin(&vehicles);
+    let mut beliefs = DriverBeliefs::new(belief::Settings { memory, ..belief::Settings::default() });
+    let mut tough = Vec::new();
+    for tick in 0..13 {
+        traffic.drive(|index, scene| {
+            if index == 0 {
+                let mut seen = SensedScene::perfect(scene);
+                if (9..12).contains(&tick) {
+                    (seen.scene.others, seen.sightings) = (Vec::new(), Vec::new());
+                }
+                let inferred = beliefs.infer(&seen);
+                tough.extend(inferred.estimates.first().map(|estimate| estimate.probability(DriverModel::Tough)));
+            }
+            planners[index].plan(scene)
+        });
+    }
+    [tough[8], tough[9]]
+}
+
+/// Only with a memory is a driver who was out of sight the one that it was.
+#[test]
+fn a_driver_is_remembered_by_its_name() {
+    let [before, after] = before_and_after_absence(true);
+    assert!(before > 0.2 && (after - before).abs() < 0.1, "{before}, then {after}");
+    let [before, after] = before_and_after_absence(false);
+    assert!(before > 0.2 && (after - 0.09).abs() < 1e-9, "{before}, then the prior 0.9 · 0.1: {after}");
 }

@@ -27,7 +27,6 @@ const REPLACEMENTS: &[Replacement] = &[
     ("lane-change/game-nash", "conservative", "order"),
     ("lane-change/conservative-front-nice", "negotiation", "order"),
     ("lane-keeping/nice", "conservative", "order"),
-    ("lane-keeping/inferred", "conservative", "order"),
     ("intersection/inferred-sensed", "conservative", "order"),
     ("intersection/game-inferred", "conservative", "order"),
     ("intersection/inferred-tough", "idm", "no_collision"),
