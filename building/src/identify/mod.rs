@@ -40,12 +40,11 @@ pub use error::IdentifyError;
 pub use free_run::ResidualForecast;
 pub use identified_network::{IdentifiedNetwork, NetworkUncertainty};
 pub use report::{
-    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, Quantity, ResidualReport, WallReport,
-    ZoneReport, ZoneSeries,
+    CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualReport,
+    WallReport, ZoneReport, ZoneSeries,
 };
 pub use settings::{Estimator, IdentifySettings};
 pub use smoothing::local_linear;
-pub use state_space::ModelRow;
 pub use telemetry::{
     AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Hold, IrradianceUnit,
     Mapping, MeasuredWall, MeasuredZone, Neighbour, PowerUnit, SolarColumn, SupplyAir, TableForm, Telemetry,

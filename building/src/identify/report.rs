@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::diagnostics::{ParameterVerdict, Whiteness};
 use super::free_run::ResidualForecast;
 use super::identified_network::IdentifiedNetwork;
-use super::state_space::ModelRow;
 use super::{Arma, Estimator};
 
 /// An identification: what to say, and what to draw.
@@ -44,6 +43,23 @@ pub struct IdentificationReport {
     pub models: Vec<ModelRow>,
     /// Everything that a reader must know before using a number.
     pub warnings: Vec<String>,
+}
+
+/// A model that was tried.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ModelRow {
+    /// Its hidden nodes in words; `air alone` without any.
+    pub model: String,
+    /// States of a zone, at most.
+    pub states: usize,
+    /// Number of parameters.
+    pub parameters: usize,
+    /// Log-likelihood at the estimate.
+    pub log_likelihood: f64,
+    /// Twice the gain over the model that it extends, and how probable so large a gain is if that one is right.
+    pub gain: Option<(f64, f64)>,
+    /// Whether it is the one that was chosen.
+    pub chosen: bool,
 }
 
 /// What was found of a zone.

@@ -30,7 +30,10 @@ fn write_scenario(
         }
     }
     network.remarks.iter().try_for_each(|remark| writeln!(text, "# {}.", remark.replace(char::is_control, " ")))?;
-    writeln!(text, "# Weather, set-points and controller are examples: replace them.\n")?;
+    writeln!(
+        text,
+        "# Weather and set-points are examples: replace them, and choose a controller by `[controller]`.\n"
+    )?;
     writeln!(text, "title = {}", quoted(&format!("As identified from {file}")))?;
     writeln!(text, "shows = \"What a controller does in the building whose measurements these are\"")?;
     writeln!(text, "iterations = 5\n")?;
@@ -61,8 +64,7 @@ fn write_scenario(
     if let Some(outdoor_c) = network.mean_c.1 {
         writeln!(text, "climate = {{ mean_c = {:?} }}", rounded(outdoor_c))?;
     }
-    writeln!(text, "\n[setpoints]\noccupied_c = [{:?}]\n", rounded(network.mean_c.0))?;
-    writeln!(text, "[controller]\nkind = \"pid\"")
+    writeln!(text, "\n[setpoints]\noccupied_c = [{:?}]", rounded(network.mean_c.0))
 }
 
 fn write_believed(text: &mut String, network: &IdentifiedNetwork) -> fmt::Result {

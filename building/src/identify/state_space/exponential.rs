@@ -37,7 +37,7 @@ pub(super) fn product(a: &DMatrix<Number>, b: &DMatrix<Number>) -> DMatrix<Numbe
 pub(super) fn matrix_exponential(matrix: &DMatrix<Number>) -> Option<DMatrix<Number>> {
     let row_sum = |row: usize| (0..matrix.ncols()).map(|column| matrix[(row, column)].re.abs()).sum::<f64>();
     let norm = (0..matrix.nrows()).map(row_sum).fold(0.0, f64::max);
-    if !(norm < LARGEST_NORM) || matrix.iter().any(|entry| !entry.re.is_finite()) {
+    if norm >= LARGEST_NORM || matrix.iter().any(|entry| !entry.re.is_finite()) {
         return None;
     }
     let (mut scale, mut squarings) = (1.0, 0);

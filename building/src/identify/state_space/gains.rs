@@ -135,7 +135,7 @@ fn step(
         RowGain { gains: vec![real(0.0); n * model.outputs.len()], variances: vec![real(1.0); model.outputs.len()] };
     for (index, &state) in model.outputs.iter().enumerate().filter(|(index, _)| measured >> index & 1 == 1) {
         let variance = covariance[(state, state)] + model.sensor_variance[index];
-        if !(variance.re > 0.0) || !variance.re.is_finite() {
+        if !variance.re.is_finite() || variance.re <= 0.0 {
             return None;
         }
         let inverse = real(1.0) / variance;

@@ -58,7 +58,7 @@ pub(super) fn conductance(
         known_kw += structure.total_conductance(&theta, zone, other)?.re * difference(other);
     }
     let difference = difference(neighbour);
-    if !(difference.abs() >= LEAST_DIFFERENCE_K) {
+    if difference.is_nan() || difference.abs() < LEAST_DIFFERENCE_K {
         return None;
     }
     let duration_s = rows.len() as f64 * observations.step_s;

@@ -24,8 +24,6 @@ mod starts;
 mod structure;
 mod trust;
 
-pub use selection::ModelRow;
-
 use std::ops::Range;
 
 use findings::StateSpaceFindings;

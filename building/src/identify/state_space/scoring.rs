@@ -22,10 +22,13 @@ pub(super) const LEAST_GAIN: f64 = 1e-5;
 /// Smallest share of the largest diagonal entry of I that a parameter counts for in the damping.
 const LEAST_DIAGONAL: f64 = 1e-12;
 
+/// A function of the parameters with its gradient.
+pub(super) type ParameterFunction<'a> = dyn Fn(&[f64]) -> (f64, Vec<f64>) + 'a;
+
 /// Where a function of the parameters is held: (f(θ) − target)²/2ε² is subtracted from the log-likelihood.
 pub(super) struct Constraint<'a> {
     /// f and its gradient.
-    pub function: &'a dyn Fn(&[f64]) -> (f64, Vec<f64>),
+    pub function: &'a ParameterFunction<'a>,
     pub target: f64,
     /// ε.
     pub tolerance: f64,
@@ -69,7 +72,7 @@ impl Ascent<'_> {
                 let candidate = clipped(&theta.iter().zip(&step).map(|(value, step)| value + step).collect::<Vec<_>>());
                 let promised: f64 =
                     current.gradient.iter().zip(&candidate).zip(&theta).map(|((g, c), t)| g * (c - t)).sum();
-                if !(promised > self.least_gain) {
+                if promised.is_nan() || promised <= self.least_gain {
                     break (None, promised);
                 }
                 let gain = self.value(&candidate).map(|value| value - current.log_likelihood);
@@ -149,7 +152,8 @@ impl Ascent<'_> {
 pub(super) fn free_parameters(theta: &[f64], bounds: &[(f64, f64)], gradient: &[f64]) -> Vec<usize> {
     let is_free = |&j: &usize| {
         let (low, high) = bounds[j];
-        !(theta[j] <= low && gradient[j] <= 0.0) && !(theta[j] >= high && gradient[j] >= 0.0) && low < high
+        let is_held = (theta[j] <= low && gradient[j] <= 0.0) || (theta[j] >= high && gradient[j] >= 0.0);
+        low < high && !is_held
     };
     (0..theta.len()).filter(is_free).collect()
 }

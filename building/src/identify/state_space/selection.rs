@@ -6,14 +6,13 @@
 //! tried. At a boundary of the parameters, where the smaller model lies, the test keeps at least its level.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Serialize;
 
 use super::likelihood::Observations;
 use super::scoring::{Ascent, LEAST_GAIN, Maximum};
 use super::starts::Guess;
 use super::structure::{HiddenNode, Structure, candidates};
 use crate::identify::diagnostics::survival;
+use crate::identify::report::ModelRow;
 use crate::identify::telemetry::Telemetry;
 
 /// Level of the likelihood-ratio test.
@@ -25,7 +24,7 @@ const SCREENING_ROWS: usize = 1500;
 const SCREENING_GAIN: f64 = 5e-3;
 /// How many of the best starts go on to the end, over the number of zones.
 const FINISHED_STARTS: usize = 3;
-const MOST_STEPS: usize = 80;
+const MOST_STEPS: usize = 50;
 
 /// A model with its estimate.
 #[derive(Debug, Clone)]
@@ -33,23 +32,6 @@ pub(super) struct Fit {
     pub structure: Structure,
     pub bounds: Vec<(f64, f64)>,
     pub maximum: Maximum,
-}
-
-/// A model that was tried.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ModelRow {
-    /// Its hidden nodes in words; `air alone` without any.
-    pub model: String,
-    /// States of a zone, at most.
-    pub states: usize,
-    /// Number of parameters.
-    pub parameters: usize,
-    /// Log-likelihood at the estimate.
-    pub log_likelihood: f64,
-    /// Twice the gain over the model that it extends, and how probable so large a gain is if that one is right.
-    pub gain: Option<(f64, f64)>,
-    /// Whether it is the one that was chosen.
-    pub chosen: bool,
 }
 
 /// The choice.

@@ -280,11 +280,11 @@ impl Structure {
     /// Conductance from a zone to a neighbour, through the wall's mass if it has one \[kW/K\].
     pub fn total_conductance(&self, theta: &[Number], zone: usize, neighbour: Neighbour) -> Option<Number> {
         let direct = |kind| self.index(kind).map(|index| exponential(theta[index]));
-        if let Neighbour::Boundary(boundary) = neighbour {
-            if let Some(outer) = direct(ParameterKind::Outer(zone, boundary)) {
-                let inner = self.value(theta, ParameterKind::Inner(zone, HiddenNode::Wall(boundary)));
-                return Some(inner * outer / (inner + outer));
-            }
+        if let Neighbour::Boundary(boundary) = neighbour
+            && let Some(outer) = direct(ParameterKind::Outer(zone, boundary))
+        {
+            let inner = self.value(theta, ParameterKind::Inner(zone, HiddenNode::Wall(boundary)));
+            return Some(inner * outer / (inner + outer));
         }
         let other_way = match neighbour {
             Neighbour::Zone(other) => direct(ParameterKind::Direct(other, Neighbour::Zone(zone))),
