@@ -1,7 +1,6 @@
 //! Why a command gave up after it had begun.
 
 use std::io;
-use std::path::PathBuf;
 
 use interplay_presentation::figures::FigureError;
 use interplay_presentation::plot::PlotError;

@@ -1,7 +1,7 @@
 //! `interplay identify`
 
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use clap::Args;
 use interplay_building::identify::{Identification, IdentifyError, Mapping, Telemetry, TelemetryError, identify};

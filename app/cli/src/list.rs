@@ -1,7 +1,7 @@
 //! `interplay list`
 
 use clap::Args;
-use interplay_scenarios::{embedded, load};
+use interplay_scenarios::{Scenario, embedded, load};
 use serde_json::json;
 
 use crate::exit_status::ExitStatus;
