@@ -94,7 +94,7 @@ mod tests {
     proptest! {
         /// However long a hypothesis was wrong, a few observations bring it back.
         #[test]
-        fn no_hypothesis_is_ever_excluded(wrong in 1_usize..500, surprise in 1.0..50.0) {
+        fn no_hypothesis_is_ever_excluded(wrong in 1_usize..500, surprise in 1.0_f64..50.0) {
             let mut evidence = Evidence::new(&[0.5, 0.5]);
             (0..wrong).for_each(|_| evidence.observe(&[Some(-surprise), Some(0.0)], 0.98, 1e-3));
             let low = evidence.probabilities()[0];
