@@ -7,7 +7,7 @@ use crate::command::{command, interplay, scratch};
 
 /// A small scenario, with a title.
 fn scenario(title: &str) -> String {
-    format!("extends = 'lane-change/front-nice'\ntitle = \"{title}\"\nduration_s = 0.5\n")
+    format!("extends = 'lane-change/front-nice'\ntitle = \"{title}\"\nduration_s = 4.0\n")
 }
 
 /// A build server with a full disk must not see success.
@@ -47,13 +47,13 @@ fn no_output_takes_the_place_of_the_scenario() {
 fn no_page_takes_the_place_of_somebody_else_s() {
     let folder = scratch("foreign-page");
     fs::write(folder.join("index.html"), "<h1>My home page</h1>").expect("writes");
-    for words in [&["run", "--set", "duration_s=0.5", "--report", "."][..], &["reproduce", "6.1", "--out", "."]] {
+    for words in [&["run", "--set", "duration_s=4", "--report", "."][..], &["reproduce", "6.1", "--out", "."]] {
         let outcome = interplay(&folder, words);
         assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
         assert_eq!(fs::read_to_string(folder.join("index.html")).expect("there"), "<h1>My home page</h1>");
     }
     // One of ours is renewed.
-    let words = ["run", "--set", "duration_s=0.5", "--no-record", "--report", "mine"];
+    let words = ["run", "--set", "duration_s=4", "--no-record", "--report", "mine"];
     for _ in 0..2 {
         let outcome = interplay(&folder, &words);
         assert!(outcome.code.is_some_and(|code| code <= 1), "{}", outcome.stderr);
