@@ -6,7 +6,7 @@ use crate::trajectory::{Iterate, Optimiser, Problem, StageSolver, Term};
 /// Per player, inputs that keep all apart where they can.
 ///
 /// First everybody plans as if alone. Of two whose plans lead into one another, the one that is ahead of the other there has priority;
-/// the player with priority over most plans first. A player whose problem has no solution keeps to its plan alone.
+/// the player with priority over most plans first. Where no two do, the plans alone are the guess. A player whose problem has no solution keeps to its plan alone.
 pub(super) fn prioritised<S: StageSolver>(optimiser: &mut Optimiser<S>, joint: &Problem) -> Vec<Vec<Input>> {
     let players = joint.participants.len();
     let mut inputs: Vec<Vec<Input>> = vec![Vec::new(); players];
@@ -16,6 +16,9 @@ pub(super) fn prioritised<S: StageSolver>(optimiser: &mut Optimiser<S>, joint: &
     let alone = joint.start(&inputs);
     let mut order: Vec<usize> = (0..players).collect();
     let wins = wins(joint, &alone);
+    if wins.iter().all(|count| *count == 0) {
+        return inputs;
+    }
     order.sort_by_key(|player| std::cmp::Reverse(wins[*player]));
     for (place, player) in order.iter().enumerate() {
         let guess = inputs[*player].clone();
