@@ -4,7 +4,7 @@
 /// their plans nearly coincide with one of these.
 pub(crate) const SAFETY_WEIGHTS: [f64; 3] = [0.0, 8.0, 50.0];
 
-/// A kind of driver; the humans come in the order of [`SAFETY_WEIGHTS`].
+/// A kind of driver; the humans come in the order of their safety weights, from tough to nice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriverModel {
     /// Our human driver with safety weight 0.
