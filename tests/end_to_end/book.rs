@@ -17,6 +17,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("cargo ", "this test is run by it"),
     (".ci/run", "the same"),
     ("tests/peers/", "needs Python with CasADi"),
+    ("python tests/peers/", "the same"),
     ("tests/build_times.py", "needs the timings of a cold build"),
     ("pip ", "needs the network"),
     ("rerun", "another program"),
