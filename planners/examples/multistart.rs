@@ -26,6 +26,7 @@ use std::io::Write;
 use std::time::Instant;
 
 use common::Random;
+use common::wilson::wilson_interval;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::diagnostic::COST;
 use interplay_planners::trajectory::{Optimiser, Problem, Robust};
@@ -80,15 +81,6 @@ impl Findings {
         let [low, high] = wilson_interval(count, of).map(|share| 100.0 * share);
         format!("{of} | {count} | {:.2} % | {low:.2} % to {high:.2} %", 100.0 * count as f64 / of as f64)
     }
-}
-
-/// Wilson's score interval of a share, at a confidence of 95 %.
-fn wilson_interval(count: usize, of: usize) -> [f64; 2] {
-    const QUANTILE: f64 = 1.959_964;
-    let (count, of, z2) = (count as f64, of as f64, QUANTILE * QUANTILE);
-    let (middle, scale) = (count + 0.5 * z2, of + z2);
-    let half_width = QUANTILE * (count * (of - count) / of + 0.25 * z2).sqrt();
-    [(middle - half_width).max(0.0) / scale, (middle + half_width).min(scale) / scale]
 }
 
 /// Prints how often random starts find something cheaper in the recorded problems.

@@ -24,6 +24,7 @@ use std::time::Instant;
 
 use common::Random;
 use common::games::joint_problem;
+use common::wilson::wilson_interval;
 use interplay_planners::nash::{Equilibrium, equilibrium};
 use interplay_planners::trajectory::{DescentError, Optimiser, Problem, Robust, Tolerances, Violation, WarmStart};
 use recorded::Recorded;
@@ -117,7 +118,7 @@ fn row(solutions: &[Solution]) -> String {
     times_ms.sort_by(f64::total_cmp);
     let quantile = |share: f64| times_ms[((times_ms.len() - 1) as f64 * share).round() as usize];
     let solved = solutions.iter().filter(|solution| solution.solved).count();
-    let [low, high] = wilson(solved, solutions.len());
+    let [low, high] = wilson_interval(solved, solutions.len());
     let departures: usize = solutions.iter().map(|solution| solution.departures).sum();
     let reasons = ["failed", "not converged", "ellipse entered", "a player gains"].map(|reason| {
         let count = solutions.iter().filter(|solution| solution.because == reason).count();
@@ -133,13 +134,4 @@ fn row(solutions: &[Solution]) -> String {
         quantile(1.0),
         reasons.join(", ")
     )
-}
-
-/// Wilson's score interval of 95 % for a share.
-fn wilson(count: usize, of: usize) -> [f64; 2] {
-    let (n, z2) = (of as f64, 1.96 * 1.96);
-    let share = count as f64 / n;
-    let centre = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
-    let half = (z2 * (share * (1.0 - share) / n + z2 / (4.0 * n * n))).sqrt() / (1.0 + z2 / n);
-    [centre - half, centre + half]
 }

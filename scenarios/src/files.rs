@@ -1,6 +1,7 @@
-//! The files that a scenario is made of.
+//! The files that a scenario is made of, and those in a folder.
 
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use crate::source::Source;
 use crate::tree;
@@ -25,4 +26,25 @@ fn parent(source: &Source) -> Option<Source> {
     let (document, text) = source.read(1).ok()?;
     let node = tree::parse(&document, &text).ok()?;
     source.parent(node.table()?.get("extends")?.node.text()?).ok()
+}
+
+/// All .toml files below a folder, sorted by name.
+///
+/// # Errors
+/// That of the system, if a folder cannot be read.
+pub fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let (mut folders, mut found) = (vec![folder.to_owned()], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder)? {
+            let entry = entry?;
+            if entry.file_type()?.is_dir() {
+                folders.push(entry.path());
+            } else if entry.path().extension().is_some_and(|extension| extension == "toml") {
+                found.push(entry.path());
+            }
+        }
+    }
+    // By name: `distributed` before `distributed-hundred`.
+    found.sort_by_key(|path| path.with_extension(""));
+    Ok(found)
 }

@@ -68,7 +68,7 @@ pub use expect::{
     BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedSpeed,
     ExpectedYield,
 };
-pub use files::files;
+pub use files::{files, files_below};
 pub use lane_reference::LaneReference;
 pub use load::{from_text, load};
 pub use overrides::Override;

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use interplay_scenarios::embedded;
+use interplay_scenarios::{embedded, files_below};
 use thiserror::Error;
 
 /// A scenario to be loaded.
@@ -32,8 +32,8 @@ pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError>
     if !Path::new(argument).is_dir() {
         return Ok(vec![ScenarioArgument { name: short_name(argument), scenario: argument.to_owned() }]);
     }
-    let found =
-        below(Path::new(argument)).map_err(|reason| FolderError::Unreadable { folder: argument.to_owned(), reason })?;
+    let found = files_below(Path::new(argument))
+        .map_err(|reason| FolderError::Unreadable { folder: argument.to_owned(), reason })?;
     if found.is_empty() {
         return Err(FolderError::Empty { folder: argument.to_owned() });
     }
@@ -42,23 +42,6 @@ pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError>
         ScenarioArgument { name: name.to_string_lossy().into_owned(), scenario: path.to_string_lossy().into_owned() }
     };
     Ok(found.into_iter().map(named).collect())
-}
-
-fn below(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let (mut folders, mut found) = (vec![folder.to_owned()], Vec::new());
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder)? {
-            let entry = entry?;
-            if entry.file_type()?.is_dir() {
-                folders.push(entry.path());
-            } else if entry.path().extension().is_some_and(|extension| extension == "toml") {
-                found.push(entry.path());
-            }
-        }
-    }
-    // By name: `distributed` before `distributed-hundred`.
-    found.sort_by_key(|path| path.with_extension(""));
-    Ok(found)
 }
 
 /// The file of a scenario, or one that it extends, that writing to `output` would destroy.

@@ -55,10 +55,6 @@ impl Nash {
         let scene = &self.settings.prediction.applied_to(scene);
         self.seen.look(scene);
         let players = players(scene, &self.seen, &self.settings);
-        let names = players.iter().map(|player| player.agent.name.as_str());
-        if !names.eq(self.last.iter().map(|(name, _)| name.as_str())) {
-            self.last.retain(|(name, _)| players.iter().any(|player| player.agent.name == *name));
-        }
         let problem = problem(scene, &players);
         let guess = self.guess(&players);
         match equilibrium(&mut self.joint, &mut self.replies, &problem, &guess) {

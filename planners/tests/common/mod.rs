@@ -4,6 +4,7 @@
 pub mod derivatives;
 pub mod games;
 pub mod junction;
+pub mod wilson;
 pub mod world;
 
 use interplay_planners::trajectory::terms::{Comfort, KeepOut, Persuasion, RoadEdge, Separation, Tracking};

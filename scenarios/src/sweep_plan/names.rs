@@ -1,11 +1,12 @@
 //! The scenarios that an entry of a plan stands for.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use interplay_building::nearest::suggestion;
 
 use crate::embedded::embedded;
 use crate::error::{Fault, Place, quoted};
+use crate::files::files_below;
 
 /// A scenario of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,7 +38,7 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
         let unreadable = |reason: std::io::Error| {
             Fault::at(place, "unreadable", format!("cannot read folder {}: {reason}", quoted(entry)))
         };
-        let files = below(&path).map_err(unreadable)?;
+        let files = files_below(&path).map_err(unreadable)?;
         if files.is_empty() {
             return Err(Fault::at(place, "empty", format!("there is no .toml file in folder {}", quoted(entry))));
         }
@@ -84,22 +85,6 @@ fn fits(pattern: &str, name: &str) -> bool {
             (0..=reach).any(|end| name.is_char_boundary(end) && fits(rest, &name[end..]))
         }),
     }
-}
-
-fn below(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let (mut folders, mut found) = (vec![folder.to_owned()], Vec::new());
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder)? {
-            let entry = entry?;
-            if entry.file_type()?.is_dir() {
-                folders.push(entry.path());
-            } else if entry.path().extension().is_some_and(|extension| extension == "toml") {
-                found.push(entry.path());
-            }
-        }
-    }
-    found.sort_by_key(|path| path.with_extension(""));
-    Ok(found)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ pub(super) struct Bend {
     /// Where it ends \[m\].
     to_m: f64,
     /// Largest curvature in it, without sign \[1/m\].
-    curvature_1pm: f64,
+    pub curvature_1pm: f64,
 }
 
 /// How many places are checked between two knots of a centre line.
@@ -19,7 +19,7 @@ pub(super) const CHECKS_PER_KNOT: usize = 8;
 /// A curvature below this is that of a straight road \[1/m\].
 const STRAIGHT_CURVATURE_1PM: f64 = 1e-6;
 
-/// The parts of a centre line that are not straight, in order.
+/// The parts of a centre line between its knots, in order.
 pub(super) fn bends(centre: &CentreLine) -> Vec<Bend> {
     let knots_m = centre.knots_m();
     let parts = knots_m.windows(2).map(|pair| {
@@ -27,16 +27,17 @@ pub(super) fn bends(centre: &CentreLine) -> Vec<Bend> {
         let curvatures = places.map(|share| centre.at(pair[0] + share * (pair[1] - pair[0])).curvature_1pm.abs());
         Bend { from_m: pair[0], to_m: pair[1], curvature_1pm: curvatures.fold(0.0, f64::max) }
     });
-    parts.filter(|bend| bend.curvature_1pm > STRAIGHT_CURVATURE_1PM).collect()
+    parts.collect()
 }
 
 /// The speed at an arc length from which every curve ahead is taken with at most a lateral acceleration, braking at `braking_mps2`:
 /// the least of `√(a/κ + 2 b d)` over the curves, `d` ahead; none without curves ahead \[m/s\].
 pub(super) fn highest_speed_mps(bends: &[Bend], along_m: f64, lateral_mps2: f64, braking_mps2: f64) -> Option<f64> {
-    let speeds = bends.iter().filter(|bend| bend.to_m > along_m).map(|bend| {
-        let room_m = (bend.from_m - along_m).max(0.0);
-        (lateral_mps2 / bend.curvature_1pm + 2.0 * braking_mps2 * room_m).sqrt()
-    });
+    let speeds =
+        bends.iter().filter(|bend| bend.to_m > along_m && bend.curvature_1pm > STRAIGHT_CURVATURE_1PM).map(|bend| {
+            let room_m = (bend.from_m - along_m).max(0.0);
+            (lateral_mps2 / bend.curvature_1pm + 2.0 * braking_mps2 * room_m).sqrt()
+        });
     speeds.min_by(f64::total_cmp)
 }
 

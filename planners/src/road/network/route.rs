@@ -37,7 +37,7 @@ pub struct Route {
     pub(super) straight: Option<Corridor>,
     /// Largest curvature of the centre line \[1/m\].
     pub(super) max_curvature_1pm: f64,
-    /// Its curves, in order.
+    /// Its parts with their curvatures, in order.
     pub(super) bends: Vec<Bend>,
 }
 
@@ -99,8 +99,8 @@ impl From<Corridor> for Arc<Route> {
 impl Route {
     /// A curved road: the strip between two edges beside a line, given as lateral coordinates over its arc length \[m\].
     pub fn curved(centre: CentreLine, right: Profile, left: Profile, half_width: Profile) -> Route {
-        let max_curvature_1pm = max_curvature(&centre).1.abs();
         let bends = bends(&centre);
+        let max_curvature_1pm = bends.iter().map(|bend| bend.curvature_1pm).fold(0.0, f64::max);
         let (legs, conflicts) = (Vec::new(), Vec::new());
         Route {
             centre,
