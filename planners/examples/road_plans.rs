@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Without a road it times the roads in turn, so that other load meets all of them, and prints the shortest time of each as a ratio
-//! to that of the straight road.
+//! to that of the straight road, for all plans and for an interior-point iteration: in a bend other plans are made, which may take
+//! more or fewer of them.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -33,7 +34,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let driver = common::world::egos().into_iter().find(|ego| ego.kind() == planner).ok_or("no such planner")?;
     let text = match road {
-        Some(road) => format!("{} plans", plan_all(&driver, &scenes::scenes(&driver, road).ok_or("no such road")?)),
+        Some(road) => {
+            let iterations = plan_all(&driver, &scenes::scenes(&driver, road).ok_or("no such road")?);
+            format!("{iterations} interior-point iterations")
+        }
         None => ratios(&driver).ok_or("no such road")?,
     };
     writeln!(std::io::stdout(), "{text}")?;
@@ -45,21 +49,26 @@ fn ratios(driver: &Driver) -> Option<String> {
     let roads: Vec<Vec<Scene>> =
         scenes::ROADS.iter().map(|road| scenes::scenes(driver, road)).collect::<Option<_>>()?;
     let mut shortest_ms = [f64::INFINITY; scenes::ROADS.len()];
+    let mut iterations = [0; scenes::ROADS.len()];
     for _ in 0..ROUNDS {
-        for (shortest_ms, scenes) in shortest_ms.iter_mut().zip(&roads) {
+        for ((shortest_ms, iterations), scenes) in shortest_ms.iter_mut().zip(&mut iterations).zip(&roads) {
             let began = Instant::now();
-            plan_all(driver, scenes);
+            *iterations = plan_all(driver, scenes);
             *shortest_ms = shortest_ms.min(1e3 * began.elapsed().as_secs_f64());
         }
     }
-    let named = scenes::ROADS.iter().zip(shortest_ms);
-    let cells = named.map(|(road, time_ms)| format!("{road} {time_ms:.2} ms, {:.3}", time_ms / shortest_ms[0]));
+    let share = |index: usize| {
+        let (all, one) = (shortest_ms[index] / shortest_ms[0], iterations[0] as f64 / iterations[index] as f64);
+        format!("{:.2} ms, {all:.3}, {:.3} an iteration", shortest_ms[index], all * one)
+    };
+    let cells = scenes::ROADS.iter().enumerate().map(|(index, road)| format!("{road} {}", share(index)));
     Some(format!("{}: {}", driver.kind(), cells.collect::<Vec<_>>().join("; ")))
 }
 
-/// How many plans are found. A function of its own, so that a profiler can count what happens inside it.
+/// The interior-point iterations of all plans. A function of its own, so that a profiler can count what happens inside it.
 #[inline(never)]
 fn plan_all(driver: &Driver, scenes: &[Scene]) -> usize {
     let mut planner = driver.planner();
-    scenes.iter().filter(|scene| black_box(planner.plan(scene)).is_ok()).count()
+    let plans = scenes.iter().filter_map(|scene| black_box(planner.plan(scene)).ok());
+    plans.map(|plan| plan.statistics.inner_iterations).sum()
 }

@@ -124,7 +124,7 @@ fn start_cost(problem: &Problem, guess: &[Vec<Input>]) -> f64 {
     let own = |i: usize| guess.get(i).map(Vec::as_slice).unwrap_or_default();
     let vehicles = problem.participants.iter().enumerate();
     let inputs = vehicles.map(|(i, participant)| participant.admissible(own(i), problem.horizon)).collect();
-    let mut iterate = Iterate { inputs, states: Vec::new() };
+    let mut iterate = Iterate::of_inputs(inputs);
     problem.roll_out(&mut iterate);
     problem.cost(&iterate).total
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::road::centre_line::RoadPoint;
 use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, StopLine, Tracking};
-use crate::trajectory::{Participant, Penalty, Term};
+use crate::trajectory::{Participant, Penalty, RouteStart, Term};
 use crate::vehicle::Bicycle;
 use crate::vehicle::{OrientedEllipse, slip_on_curve_rad};
 use crate::{Axes, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
@@ -73,14 +73,9 @@ pub struct Scene {
 
 impl Agent {
     /// Corners that stay on the road, of this agent as number `vehicle` of a trajectory problem.
-    pub fn road_edge(&self, vehicle: usize, horizon: usize, step_s: f64) -> RoadEdge {
-        RoadEdge {
-            vehicle,
-            body: self.body,
-            route: Arc::clone(&self.route),
-            near_m: self.expected_along_m(horizon, step_s),
-            penalty: Penalty::road_edge(self.body.scale),
-        }
+    pub fn road_edge(&self, vehicle: usize) -> RoadEdge {
+        let (route, penalty) = (Arc::clone(&self.route), Penalty::road_edge(self.body.scale));
+        RoadEdge { vehicle, body: self.body, route, penalty }
     }
 
     /// Arc lengths that it would reach at `t = 1…N` at its present speed \[m\]; empty on a straight road, where nobody needs them.
@@ -94,8 +89,8 @@ impl Agent {
 }
 
 impl Agent {
-    /// The highest permitted speeds at arc lengths of its route, braking comfortably for lower limits and curves ahead; empty
-    /// without limits \[m/s\].
+    /// The highest permitted speeds at arc lengths of its route, braking comfortably for lower limits and curves ahead; infinite
+    /// where nothing limits it, and empty if nothing does anywhere \[m/s\].
     fn permitted_speeds_mps(&self, along_m: &[f64]) -> Vec<f64> {
         let permitted = along_m.iter().filter_map(|along_m| self.permitted_speed_mps(*along_m)).collect::<Vec<_>>();
         if permitted.len() == along_m.len() { permitted } else { Vec::new() }
@@ -147,13 +142,12 @@ impl Agent {
     }
 
     /// A line that its front stays before, as number `vehicle` of a trajectory problem.
-    pub(crate) fn stop_line(&self, vehicle: usize, line_m: f64, horizon: usize, step_s: f64) -> StopLine {
+    pub(crate) fn stop_line(&self, vehicle: usize, line_m: f64) -> StopLine {
         StopLine {
             vehicle,
             front_m: self.body.front_m,
             route: Arc::clone(&self.route),
             line_m,
-            near_m: self.expected_along_m(horizon, step_s),
             penalty: Penalty::ROAD_EDGE,
         }
     }
@@ -189,6 +183,7 @@ impl Scene {
             start: self.ego.state,
             previous_input: self.ego.previous_input,
             known_inputs: Vec::new(),
+            route_start: RouteStart::new(&self.ego.route, &self.ego.state),
         }
     }
 
@@ -196,11 +191,7 @@ impl Scene {
     /// (eq. 6.6) and road edges (eq. 6.7).
     pub fn own_terms(&self, vehicle: usize, goal: &Goal) -> Vec<Term> {
         let comfort = Term::Comfort(Comfort { vehicle, weights: goal.comfort });
-        vec![
-            comfort,
-            self.tracking(vehicle, goal),
-            Term::RoadEdge(self.ego.road_edge(vehicle, self.horizon, self.step_s)),
-        ]
+        vec![comfort, self.tracking(vehicle, goal), Term::RoadEdge(self.ego.road_edge(vehicle))]
     }
 
     /// What the planning vehicle pays for deviations from a goal: in road coordinates where its road is curved.
@@ -216,11 +207,9 @@ impl Scene {
         Term::RoadTracking(RoadTracking {
             vehicle,
             weights: goal.tracking,
-            route: Arc::clone(route),
             target: RoadTarget { along_m: wanted.along_m, across_m: wanted.across_m, speed_mps: goal.target.speed_mps },
             permitted_mps,
             slips_rad: self.ego.slips_rad(&near_m),
-            near_m,
         })
     }
 

@@ -10,7 +10,7 @@ use common::{HORIZON, Random, iterate, lane_change as change_of_lanes};
 use interplay_planners::human::Style::{Nice, Tough};
 use interplay_planners::road::centre_line::{Piece, smooth};
 use interplay_planners::trajectory::terms::{Comfort, RoadEdge, RoadTarget, RoadTracking, StopLine};
-use interplay_planners::trajectory::{Participant, Penalty, Problem, Term};
+use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, Term};
 use interplay_planners::{Body, CentreLine, Driver, Profile, Route, State, idm};
 
 /// A road of two lanes of 0.37 m along a line.
@@ -39,25 +39,21 @@ fn off_the_road(random: &mut Random) -> Problem {
     // The right edge lies to the left of the body and the left edge to its right, and both move.
     let moving = |from_m: f64, to_m: f64| Profile::steps(&[[2.0, from_m], [11.0, to_m]]).expect("a profile");
     let route = Arc::new(Route::curved(line, moving(3.0, 3.6), moving(-3.0, -3.4), Profile::constant(0.37)));
-    let near_m: Vec<f64> = (1..=HORIZON).map(|t| along_m + 0.09 * t as f64).collect();
     let free = change_of_lanes(random);
-    let participant = Participant { start, ..free.participant };
+    let participant = Participant { start, route_start: RouteStart::new(&route, &start), ..free.participant };
     let terms = vec![
         Term::Comfort(Comfort { vehicle: 0, weights: [0.1, 0.1] }),
         Term::RoadTracking(RoadTracking {
             vehicle: 0,
             weights: [0.4, 1.0, 0.7, 2.0],
-            route: Arc::clone(&route),
             target: RoadTarget { along_m: 6.0, across_m: 0.2, speed_mps: 1.0 },
             permitted_mps: vec![0.8; HORIZON],
             slips_rad: vec![0.03; HORIZON],
-            near_m: near_m.clone(),
         }),
         Term::RoadEdge(RoadEdge {
             vehicle: 0,
             body: Body::default(),
             route: Arc::clone(&route),
-            near_m: near_m.clone(),
             penalty: Penalty { linear: 1.0, quadratic: 1.0 },
         }),
         Term::StopLine(StopLine {
@@ -65,7 +61,6 @@ fn off_the_road(random: &mut Random) -> Problem {
             front_m: 0.2,
             route,
             line_m: along_m - 0.1,
-            near_m,
             penalty: Penalty { linear: 1.0, quadratic: 1.0 },
         }),
     ];
@@ -94,8 +89,9 @@ fn cheap_edge_values_never_hide_a_violation() {
         let [x_m, y_m] = route.position(along_m, random.between(-0.4, 0.4));
         let heading_rad = route.centre.at(along_m).heading_rad + random.between(-1.0, 1.0);
         let state = State { x_m, y_m, heading_rad, speed_mps: 1.0 };
-        let exact = route.clearances(&body, &state, along_m);
-        for (exact, cheap) in exact.iter().zip(route.clearance_bounds(&body, &state, along_m)) {
+        let at = route.locate(state.position(), Some(along_m));
+        let exact = route.clearances(&body, &state, &at);
+        for (exact, cheap) in exact.iter().zip(route.clearance_bounds(&body, &state, &at)) {
             let is_same = (exact.value - cheap).abs() < 1e-9;
             assert!(is_same || (cheap > 0.0 && cheap < exact.value), "{} and {cheap} at {state:?}", exact.value);
             beyond += usize::from(exact.value < 0.0);
@@ -115,10 +111,11 @@ fn place(run: &Run, route: &Route) -> usize {
 /// The largest distance by which a corner of a vehicle crosses an edge \[m\].
 fn beyond_edges(run: &Run, route: &Route) -> f64 {
     let body = Body::default();
-    let corners = run.states.iter().flatten().flat_map(|state| {
-        let near_m = route.along(state.position());
-        route.clearances(&body, state, near_m)
-    });
+    let corners = run
+        .states
+        .iter()
+        .flatten()
+        .flat_map(|state| route.clearances(&body, state, &route.locate(state.position(), None)));
     corners.map(|corner| -corner.value).fold(0.0, f64::max)
 }
 

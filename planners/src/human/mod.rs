@@ -158,7 +158,7 @@ fn wait_at(problem: &mut Problem, scene: &Scene, line_m: f64) {
             tracking.permitted_mps = permitted_mps.map(|(limit_mps, speed_mps)| speed_mps.min(limit_mps)).collect();
         }
     }
-    problem.terms.push(Term::StopLine(ego.stop_line(0, line_m, scene.horizon, scene.step_s)));
+    problem.terms.push(Term::StopLine(ego.stop_line(0, line_m)));
 }
 
 /// The guess of keeping on: the last plan one step later, or at first a little braking.

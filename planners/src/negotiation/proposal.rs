@@ -15,7 +15,7 @@
 use super::Settings;
 use crate::scene::ellipses;
 use crate::trajectory::terms::{Comfort, Persuasion, Separation, Tracking};
-use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, Term};
+use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, RouteStart, Term};
 use crate::{Agent, Axes, Bicycle, Goal, Scene};
 
 /// Diagonal of `D` on (x, y, θ, v) for 1/10 scale cars.
@@ -69,6 +69,7 @@ fn asked(scene: &Scene, partner: &Agent, settings: &Settings) -> Participant {
         start: partner.state,
         previous_input: partner.previous_input,
         known_inputs: (0..settled).map(|t| inputs.get(t).copied().unwrap_or_default()).collect(),
+        route_start: RouteStart::new(&partner.route, &partner.state),
     }
 }
 
@@ -82,6 +83,6 @@ fn partner_terms(scene: &Scene, partner: &Agent, share: f64) -> [Term; 3] {
     [
         Term::Comfort(Comfort { vehicle: 1, weights: [OTHER_COMFORT_WEIGHT; 2] }),
         Term::Tracking(Tracking { vehicle: 1, weights, axes: Axes::WORLD, targets }),
-        Term::RoadEdge(partner.road_edge(1, scene.horizon, scene.step_s)),
+        Term::RoadEdge(partner.road_edge(1)),
     ]
 }

@@ -11,6 +11,7 @@ mod iterate;
 mod participant;
 mod penalty;
 mod problem;
+mod route_start;
 mod sqp;
 mod stage;
 pub mod terms;
@@ -20,6 +21,7 @@ pub use iterate::Iterate;
 pub use participant::Participant;
 pub use penalty::Penalty;
 pub use problem::Problem;
+pub use route_start::RouteStart;
 pub use sqp::{DescentError, Optimiser, Optimum, Statistics, StepProblem, Tolerances, WarmStart};
 pub use stage::{
     Costates, Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,

@@ -1,5 +1,7 @@
 //! A vehicle whose inputs are decided, with its hard bounds.
 
+use super::route_start::RouteStart;
+use crate::road::centre_line::RoadExpansion;
 use crate::{Bicycle, Input, Limits, State};
 
 /// One vehicle whose inputs are decided. What it wants and avoids is said by the problem's terms.
@@ -19,6 +21,8 @@ pub struct Participant {
     /// Inputs at `t = 0 … first−1` that are not decided but known (eq. 6.15: the human follows the prediction until
     /// `T_n`); empty for a vehicle that decides from the start.
     pub known_inputs: Vec<Input>,
+    /// Its route, if that is curved, and where it starts beside it.
+    pub route_start: Option<RouteStart>,
 }
 
 impl Participant {
@@ -48,6 +52,14 @@ impl Participant {
                 input
             })
             .collect()
+    }
+
+    /// Road coordinates of the states of a motion at `t = 1…N`; none on a straight route.
+    pub(super) fn locate(&self, states: &[State], places: &mut Vec<RoadExpansion>) {
+        match &self.route_start {
+            Some(start) => start.locate_all(states, places),
+            None => places.clear(),
+        }
     }
 
     /// The largest steering angle in step `t` \[rad\].

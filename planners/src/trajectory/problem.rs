@@ -26,11 +26,13 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Rolls the inputs of an iterate out into its states.
+    /// Rolls the inputs of an iterate out into its states, and finds their places beside curved routes.
     pub fn roll_out(&self, iterate: &mut Iterate) {
         iterate.states.resize_with(self.participants.len(), Vec::new);
+        iterate.places.resize_with(self.participants.len(), Vec::new);
         for (i, participant) in self.participants.iter().enumerate() {
             participant.model.roll_out(&participant.start, &iterate.inputs[i], &mut iterate.states[i]);
+            participant.locate(&iterate.states[i], &mut iterate.places[i]);
         }
     }
 
@@ -39,7 +41,7 @@ impl Problem {
         let inputs = self.participants.iter().enumerate().map(|(i, participant)| {
             participant.admissible(guess.get(i).map(Vec::as_slice).unwrap_or_default(), self.horizon)
         });
-        let mut iterate = Iterate { inputs: inputs.collect(), states: Vec::new() };
+        let mut iterate = Iterate::of_inputs(inputs.collect());
         self.roll_out(&mut iterate);
         iterate
     }
@@ -106,7 +108,7 @@ impl Problem {
                         comfort.add_value(self.input_change(vehicle, stage, iterate), &mut cost.total);
                     }
                     Shape::StateCost(term) if term.vehicle() == vehicle => {
-                        term.add_value(stage, &iterate.states[vehicle][stage + 1], &mut cost.total);
+                        term.add_value(stage, iterate, &mut cost.total);
                     }
                     Shape::Rows(rows) if stage >= first && rows.subject() == own => {
                         add_rows(rows, stage, iterate, rows_at_stage, cost);

@@ -97,7 +97,7 @@ fn moved(problem: &Problem, iterate: &Iterate, direction: &[Vec<[f64; 2]>], shar
     };
     let vehicles = iterate.inputs.iter().zip(direction);
     let inputs = vehicles.map(|(inputs, direction)| inputs.iter().zip(direction).map(step).collect()).collect();
-    let mut moved = Iterate { inputs, states: Vec::new() };
+    let mut moved = Iterate::of_inputs(inputs);
     problem.roll_out(&mut moved);
     moved
 }

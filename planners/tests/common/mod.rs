@@ -84,6 +84,7 @@ pub fn lane_change(random: &mut Random) -> Vehicle {
         },
         previous_input: Input { acceleration_mps2: random.between(-0.3, 0.3), steering_rad: random.between(-0.1, 0.1) },
         known_inputs: Vec::new(),
+        route_start: None,
     };
     let ellipse = SafetyEllipse::default().oriented(0.0);
     Vehicle {
@@ -155,7 +156,7 @@ pub fn iterate(problem: &Problem, random: &mut Random) -> Iterate {
             .collect();
         participant.admissible(&guess, problem.horizon)
     });
-    let mut iterate = Iterate { inputs: inputs.collect(), states: Vec::new() };
+    let mut iterate = Iterate::of_inputs(inputs.collect());
     problem.roll_out(&mut iterate);
     iterate
 }

@@ -12,7 +12,7 @@ mod warm_start_record;
 use std::path::{Path, PathBuf};
 
 use interplay_planners::trajectory::terms::{Comfort, RoadEdge, Tracking};
-use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, Term, WarmStart};
+use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, RouteStart, Term, WarmStart};
 use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, State, negotiation};
 use serde::{Deserialize, Serialize};
 
@@ -150,9 +150,13 @@ impl Recorded {
 
 /// A problem with what [`Recorded::problem`] keeps of its roads.
 pub fn without_lanes(mut problem: Problem) -> Problem {
+    for participant in &mut problem.participants {
+        if let Some(start) = &mut participant.route_start {
+            start.route = curve_alone(&start.route);
+        }
+    }
     for term in &mut problem.terms {
         match term {
-            Term::RoadTracking(of) => of.route = curve_alone(&of.route),
             Term::RoadEdge(of) => of.route = curve_alone(&of.route),
             Term::StopLine(of) => of.route = curve_alone(&of.route),
             _ => {}
@@ -236,6 +240,7 @@ impl Vehicle {
     fn participant(&self, step_s: f64) -> Participant {
         let [acceleration_min_mps2, acceleration_max_mps2, steering_max_rad, speed_min_mps, speed_max_mps] =
             self.limits;
+        let start = State::from_array(self.start);
         Participant {
             model: Bicycle::new(&self.body(), step_s),
             limits: Limits {
@@ -247,9 +252,10 @@ impl Vehicle {
                 lateral_acceleration_max_mps2: None,
             },
             steering_bounds_rad: Vec::new(),
-            start: State::from_array(self.start),
+            start,
             previous_input: Input::from_array(self.previous_input),
             known_inputs: self.known_inputs.iter().copied().map(Input::from_array).collect(),
+            route_start: self.curve.as_ref().and_then(|curve| RouteStart::new(&curve.route(), &start)),
         }
     }
 
@@ -261,7 +267,7 @@ impl Vehicle {
             None => terms.extend([self.tracking(vehicle, horizon), self.straight_edge(vehicle)]),
             Some(curve) => {
                 let (body, route) = (self.body(), curve.route());
-                let in_road = |goal: &RoadGoal| Term::RoadTracking(goal.tracking(vehicle, self.weights, curve, &route));
+                let in_road = |goal: &RoadGoal| Term::RoadTracking(goal.tracking(vehicle, self.weights));
                 terms.push(self.road_goal.as_ref().map_or_else(|| self.tracking(vehicle, horizon), in_road));
                 terms.push(Term::RoadEdge(curve.edge(vehicle, body, &route)));
                 let stop_line = |line: &Line| Term::StopLine(curve.stop_line(vehicle, &body, &route, line));

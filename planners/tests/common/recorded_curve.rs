@@ -23,8 +23,6 @@ pub struct Curve {
     pub right: Edge,
     /// Lateral coordinate of the left edge.
     pub left: Edge,
-    /// Arc lengths near which the vehicle is expected at `t = 1…N`.
-    pub near: Vec<f64>,
 }
 
 /// What a vehicle wants on a curved road; the weights are those of its states.
@@ -66,7 +64,6 @@ impl Curve {
             line: of.route.centre.polynomials().into_iter().map(row).collect(),
             right: Edge::new(&of.route.right),
             left: Edge::new(&of.route.left),
-            near: of.near_m.clone(),
         }
     }
 
@@ -85,7 +82,7 @@ impl Curve {
     /// The edges of the road.
     pub fn edge(&self, vehicle: usize, body: Body, route: &Arc<Route>) -> RoadEdge {
         let route = Arc::clone(route);
-        RoadEdge { vehicle, body, route, near_m: self.near.clone(), penalty: Penalty::ROAD_EDGE }
+        RoadEdge { vehicle, body, route, penalty: Penalty::ROAD_EDGE }
     }
 
     /// A line before which a front stays.
@@ -95,7 +92,6 @@ impl Curve {
             front_m: body.front_m,
             route: Arc::clone(route),
             line_m: line.line_m,
-            near_m: self.near.clone(),
             penalty: line.penalty.into(),
         }
     }
@@ -113,16 +109,14 @@ impl RoadGoal {
     }
 
     /// The tracking cost.
-    pub fn tracking(&self, vehicle: usize, weights: [f64; 4], curve: &Curve, route: &Arc<Route>) -> RoadTracking {
+    pub fn tracking(&self, vehicle: usize, weights: [f64; 4]) -> RoadTracking {
         let [along_m, across_m, speed_mps] = self.target;
         RoadTracking {
             vehicle,
             weights,
-            route: Arc::clone(route),
             target: RoadTarget { along_m, across_m, speed_mps },
             permitted_mps: self.permitted.clone(),
             slips_rad: self.slips.clone(),
-            near_m: curve.near.clone(),
         }
     }
 }

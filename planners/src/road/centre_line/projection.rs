@@ -65,12 +65,10 @@ pub struct RoadExpansion {
 /// Most steps of a search. Halley's method needs 1 to 4; the rest is for bisection.
 const MAX_STEPS: usize = 64;
 
-/// A search ends with a step that is shorter \[m\]: Halley's method leaves about `κ²/6` times its cube, which is rounding.
+/// A search ends with a step that is shorter \[m\]: Halley's method leaves about `κ²/6` times its cube, which is rounding. The last
+/// step is taken in the series of the curve, whose position and direction are exact to rounding then, and whose curvature is to
+/// the square of the step.
 const LAST_STEP_M: f64 = 1e-4;
-
-/// A last step that is shorter needs no evaluation: the series of the curve, to its third derivative, is exact to rounding
-/// \[m\].
-const TAYLOR_STEP_M: f64 = 1e-8;
 
 /// A step of Halley's method needs a second derivative of at least this share of `v²`; otherwise the curvature is ignored.
 const MIN_CONVEXITY: f64 = 0.1;
@@ -87,6 +85,18 @@ const MAX_SAG_RATIO: f64 = 0.11;
 impl RoadExpansion {
     /// Least value of `1 − κ n` in derivatives.
     pub const MIN_STRETCH: f64 = 0.05;
+
+    /// Only the road coordinates.
+    pub fn point(&self) -> RoadPoint {
+        let RoadExpansion { along_m, across_m, heading_rad, curvature_1pm, .. } = *self;
+        RoadPoint { along_m, across_m, heading_rad, curvature_1pm }
+    }
+
+    /// The arc length after a move `d`, to second order: `s + ∇s·d + ½ dᵀ ∇²s d` \[m\].
+    pub(crate) fn along_after_m(&self, [x, y]: [f64; 2]) -> f64 {
+        let ([sx, sy], [xx, xy, yy]) = (self.along_gradient, self.along_hessian);
+        self.along_m + sx * x + sy * y + 0.5 * (xx * x * x + 2.0 * xy * x * y + yy * y * y)
+    }
 }
 
 impl Curve {
@@ -126,22 +136,15 @@ impl Curve {
                 let least_m = LEAST_STEP_RATIO * dot(apart, apart).sqrt();
                 step_m = step_m.abs().max(least_m).copysign(-slope);
             }
-            if step_m.abs() < TAYLOR_STEP_M {
+            if step_m.abs() < LAST_STEP_M {
                 return (along_m + step_m, point.moved(step_m));
             }
             let mut next_m = along_m + step_m;
             if next_m <= low_m || next_m >= high_m {
-                if step_m.abs() < LAST_STEP_M {
-                    break;
-                }
                 next_m = 0.5 * (low_m + high_m);
-                step_m = next_m - along_m;
             }
             along_m = next_m;
             point = self.point_near(along_m, &point);
-            if step_m.abs() < LAST_STEP_M {
-                break;
-            }
         }
         (along_m, point)
     }

@@ -19,6 +19,50 @@ struct Corner {
     least_m: f64,
 }
 
+/// What the corners of a body beside a road share.
+struct Frame {
+    /// Sine and cosine of the body's heading.
+    turn: (f64, f64),
+    /// The same of its heading less that of the road.
+    turn_in_road: (f64, f64),
+    /// Where the mass centre is across the road \[m\].
+    across_m: f64,
+    /// The innermost lateral coordinates of both edges there \[m\].
+    edges_m: [f64; 2],
+    max_curvature_1pm: f64,
+    is_gentle: bool,
+}
+
+impl Frame {
+    /// A corner at a place `(ahead, left)` of the body.
+    ///
+    /// On a line of curvature at most `K`, a point at `(a, b)` in the frame of the centre's foot point has a lateral coordinate
+    /// within `K a²` of `b`, as long as `K |b| ≤ ½` and `K |a| ≤ ½`: the line lies between two circles of radius `1/K`.
+    #[inline]
+    fn corner(&self, [ahead, left]: [f64; 2], state: &State) -> Corner {
+        let turned = |(sin, cos): (f64, f64)| [ahead * cos - left * sin, ahead * sin + left * cos];
+        let (arm, arm_in_road) = (turned(self.turn), turned(self.turn_in_road));
+        let is_right = left < 0.0;
+        let lateral_m = self.across_m + arm_in_road[1];
+        let sag_m = self.max_curvature_1pm * arm_in_road[0] * arm_in_road[0];
+        let inside_m = if is_right { lateral_m - self.edges_m[0] } else { self.edges_m[1] - lateral_m };
+        let least_m = if self.is_gentle { inside_m - sag_m } else { f64::NEG_INFINITY };
+        Corner { position: [state.x_m + arm[0], state.y_m + arm[1]], arm, arm_in_road, is_right, least_m }
+    }
+
+    /// The row of a corner as if the road were straight, along the tangent beside the mass centre.
+    fn straight_row(&self, corner: &Corner) -> PoseExpansion {
+        let ((sin, cos), (turn_sin, turn_cos)) = (self.turn, self.turn_in_road);
+        let direction = [sin * turn_cos - cos * turn_sin, cos * turn_cos + sin * turn_sin];
+        let ([ahead, left], sign) = (corner.arm_in_road, if corner.is_right { 1.0 } else { -1.0 });
+        PoseExpansion {
+            value: corner.least_m,
+            gradient: [-sign * direction[0], sign * direction[1], sign * ahead],
+            hessian: [0.0, 0.0, 0.0, 0.0, 0.0, -sign * left],
+        }
+    }
+}
+
 impl Route {
     /// Road coordinates of a position, searched from an arc length on where one is known.
     pub fn locate(&self, position: [f64; 2], near_m: Option<f64>) -> RoadPoint {
@@ -74,8 +118,8 @@ impl Route {
     }
 
     /// How far each of the four corners is inside its edge: the two right corners from the right edge, the two left ones from
-    /// the left edge, in the order of [`Body::local_corners`]; negative outside \[m\]. Corners are searched from the
-    /// arc length `near_m` of the vehicle on.
+    /// the left edge, in the order of [`Body::local_corners`]; negative outside \[m\]. `at` is where the mass centre is
+    /// beside the road.
     ///
     /// On a straight road these are [`Corridor::clearances`](crate::Corridor::clearances). On a curved one, with a corner at
     /// `c(x, y, θ)`, the row is `±(n(c) − edge(s(c)))`, with exact first and second derivatives: with `h(c) = n − edge(s)`,
@@ -84,8 +128,8 @@ impl Route {
     /// ∇h = ∇n − e′ ∇s,    ∇²h = ∇²n − e′ ∇²s − e″ ∇s ∇sᵀ
     /// ∂/∂θ = ∇h·c_θ,      ∂²/∂p∂θ = ∇²h c_θ,    ∂²/∂θ² = c_θᵀ ∇²h c_θ + ∇h·c_θθ
     /// ```
-    pub fn clearances(&self, body: &Body, state: &State, near_m: f64) -> [PoseExpansion; 4] {
-        self.clearances_exact_below(f64::INFINITY, body, state, near_m)
+    pub fn clearances(&self, body: &Body, state: &State, at: &RoadPoint) -> [PoseExpansion; 4] {
+        self.clearances_exact_below(f64::INFINITY, body, state, at)
     }
 
     /// The same, where on a curved road a corner that is certainly farther than `exact_m` inside its edge has the row of a
@@ -96,24 +140,22 @@ impl Route {
         exact_m: f64,
         body: &Body,
         state: &State,
-        near_m: f64,
+        at: &RoadPoint,
     ) -> [PoseExpansion; 4] {
         if let Some(corridor) = self.straight() {
             return corridor.clearances(body, state);
         }
-        let middle = self.centre.project(state.position(), Some(near_m));
-        let ([sin, cos], corners) = self.corners(body, state, &middle);
-        corners.map(|corner| {
-            if corner.least_m > exact_m {
-                let ([ahead, left], sign) = (corner.arm_in_road, if corner.is_right { 1.0 } else { -1.0 });
-                return PoseExpansion {
-                    value: corner.least_m,
-                    gradient: [-sign * sin, sign * cos, sign * ahead],
-                    hessian: [0.0, 0.0, 0.0, 0.0, 0.0, -sign * left],
-                };
-            }
-            self.clearance(&corner, middle.along_beside_m(corner.arm_in_road))
-        })
+        let frame = self.frame(body, state, at);
+        let mut rows = [PoseExpansion::default(); 4];
+        for (row, local) in rows.iter_mut().zip(body.local_corners()) {
+            let corner = frame.corner(local, state);
+            *row = if corner.least_m > exact_m {
+                frame.straight_row(&corner)
+            } else {
+                self.clearance(&corner, at.along_beside_m(corner.arm_in_road))
+            };
+        }
+        rows
     }
 
     /// How far a corner is inside its edge.
@@ -140,12 +182,16 @@ impl Route {
 
     /// The values of [`Route::clearances`]; where one is positive, a positive lower bound may stand in its place. So most corners
     /// need no projection of their own.
-    pub fn clearance_bounds(&self, body: &Body, state: &State, near_m: f64) -> [f64; 4] {
+    pub fn clearance_bounds(&self, body: &Body, state: &State, at: &RoadPoint) -> [f64; 4] {
         if self.straight().is_some() {
-            return self.clearances(body, state, near_m).map(|corner| corner.value);
+            return self.clearances(body, state, at).map(|corner| corner.value);
         }
-        let at = self.centre.project(state.position(), Some(near_m));
-        self.corners(body, state, &at).1.map(|corner| {
+        if let Some([right_m, left_m]) = self.inside_both_m(body, state, at) {
+            return body.local_corners().map(|[_, left]| if left < 0.0 { right_m } else { left_m });
+        }
+        let frame = self.frame(body, state, at);
+        body.local_corners().map(|local| {
+            let corner = frame.corner(local, state);
             if corner.least_m > 0.0 {
                 return corner.least_m;
             }
@@ -158,36 +204,49 @@ impl Route {
         })
     }
 
-    /// Sine and cosine of the direction of the road beside the mass centre of a body, at `middle`, and its corners in the order of
-    /// [`Body::local_corners`].
-    ///
-    /// On a line of curvature at most `K`, a point at `(a, b)` in the frame of the centre's foot point has a lateral coordinate
-    /// within `K a²` of `b`, as long as `K |b| ≤ ½` and `K |a| ≤ ½`: the line lies between two circles of radius `1/K`.
-    fn corners(&self, body: &Body, state: &State, middle: &RoadPoint) -> ([f64; 2], [Corner; 4]) {
-        let (sin, cos) = libm::sincos(state.heading_rad);
-        let (turn_sin, turn_cos) = libm::sincos(state.heading_rad - middle.heading_rad);
-        let direction = [sin * turn_cos - cos * turn_sin, cos * turn_cos + sin * turn_sin];
-        let (ahead_m, beside_m) = (body.front_m.max(body.rear_m), 0.5 * body.width_m);
-        let reach_m = (ahead_m * ahead_m + beside_m * beside_m).sqrt();
-        let span = [middle.along_m - 2.0 * reach_m, middle.along_m + 2.0 * reach_m];
-        let ([_, right_m], [left_m, _]) = (self.right.extremes(span[0], span[1]), self.left.extremes(span[0], span[1]));
-        let is_gentle = self.max_curvature_1pm * (middle.across_m.abs() + reach_m) <= 0.5;
-        let corners = body.local_corners().map(|[ahead, left]| {
-            let arm = [ahead * cos - left * sin, ahead * sin + left * cos];
-            let arm_in_road = [ahead * turn_cos - left * turn_sin, ahead * turn_sin + left * turn_cos];
-            let is_right = left < 0.0;
-            let lateral_m = middle.across_m + arm_in_road[1];
-            let sag_m = self.max_curvature_1pm * arm_in_road[0] * arm_in_road[0];
-            let inside_m = if is_right { lateral_m - right_m } else { left_m - lateral_m };
-            let least_m = if is_gentle { inside_m - sag_m } else { f64::NEG_INFINITY };
-            Corner { position: [state.x_m + arm[0], state.y_m + arm[1]], arm, arm_in_road, is_right, least_m }
-        });
-        (direction, corners)
+    /// How far both right corners are at least inside the right edge, and both left ones inside the left edge, if these bounds are
+    /// positive \[m\]. A corner is at most `beside + ahead |θ − ψ|` beside the mass centre, and by [`Frame::corner`] the line leaves
+    /// its tangent by no more than `K reach²`.
+    fn inside_both_m(&self, body: &Body, state: &State, at: &RoadPoint) -> Option<[f64; 2]> {
+        let (ahead_m, beside_m, reach_m) = extents_m(body);
+        if self.max_curvature_1pm * (at.across_m.abs() + reach_m) > 0.5 {
+            return None;
+        }
+        let swept_m = beside_m + ahead_m * (state.heading_rad - at.heading_rad).abs();
+        let margin_m = swept_m + self.max_curvature_1pm * reach_m * reach_m;
+        let [right_m, left_m] = self.nearest_edges_m(at.along_m, reach_m);
+        let inside_m = [at.across_m - right_m - margin_m, left_m - at.across_m - margin_m];
+        (inside_m[0] > 0.0 && inside_m[1] > 0.0).then_some(inside_m)
+    }
+
+    /// The innermost lateral coordinates of the edges beside a body that reaches `reach_m` from its mass centre \[m\].
+    fn nearest_edges_m(&self, along_m: f64, reach_m: f64) -> [f64; 2] {
+        let [from_m, to_m] = [along_m - 2.0 * reach_m, along_m + 2.0 * reach_m];
+        [self.right.extremes(from_m, to_m)[1], self.left.extremes(from_m, to_m)[0]]
+    }
+
+    /// What the corners of a body share.
+    fn frame(&self, body: &Body, state: &State, at: &RoadPoint) -> Frame {
+        let (_, _, reach_m) = extents_m(body);
+        Frame {
+            turn: libm::sincos(state.heading_rad),
+            turn_in_road: libm::sincos(state.heading_rad - at.heading_rad),
+            across_m: at.across_m,
+            edges_m: self.nearest_edges_m(at.along_m, reach_m),
+            max_curvature_1pm: self.max_curvature_1pm,
+            is_gentle: self.max_curvature_1pm * (at.across_m.abs() + reach_m) <= 0.5,
+        }
     }
 
     /// Whether the whole footprint is on the road, to within `tolerance_m`.
     pub fn contains(&self, body: &Body, state: &State, tolerance_m: f64) -> bool {
-        let near_m = self.along(state.position());
-        self.clearance_bounds(body, state, near_m).iter().all(|corner_m| *corner_m >= -tolerance_m)
+        let at = self.locate(state.position(), None);
+        self.clearance_bounds(body, state, &at).iter().all(|corner_m| *corner_m >= -tolerance_m)
     }
+}
+
+/// How far a body reaches from its mass centre: along it, to its side, and to its farthest corner \[m\].
+fn extents_m(body: &Body) -> (f64, f64, f64) {
+    let (ahead_m, beside_m) = (body.front_m.max(body.rear_m), 0.5 * body.width_m);
+    (ahead_m, beside_m, (ahead_m * ahead_m + beside_m * beside_m).sqrt())
 }

@@ -225,9 +225,8 @@ fn add_state_costs(
                 }
             }
             Shape::StateCost(cost) if cost.vehicle() == vehicle => {
-                let at = stages.state_costs.iter_mut().zip(concave.iter_mut()).zip(&iterate.states[vehicle][1..]);
-                for (stage, ((sum, concave), state)) in at.enumerate() {
-                    cost.add_expansion(stage, state, sum, concave);
+                for (stage, (sum, concave)) in stages.state_costs.iter_mut().zip(concave.iter_mut()).enumerate() {
+                    cost.add_expansion(stage, iterate, sum, concave);
                 }
             }
             _ => {}

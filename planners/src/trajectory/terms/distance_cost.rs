@@ -11,7 +11,7 @@
 //! is positive, and a concave one: the first is in every step problem, the second in exact ones only.
 
 use super::shape::StateCostTerm;
-use crate::State;
+use crate::trajectory::iterate::Iterate;
 use crate::trajectory::stage::StateCost;
 
 /// Smooths the tip of the cone at `d = 0`, `ε`.
@@ -104,11 +104,13 @@ impl StateCostTerm for DistanceCost {
         self.vehicle
     }
 
-    fn add_value(&self, stage: usize, state: &State, total: &mut f64) {
+    fn add_value(&self, stage: usize, iterate: &Iterate, total: &mut f64) {
+        let state = &iterate.states[self.vehicle][stage + 1];
         *total += self.price.at(self.distance(stage, state.position()).0).value;
     }
 
-    fn add_expansion(&self, stage: usize, state: &State, cost: &mut StateCost, concave: &mut [f64; 3]) {
+    fn add_expansion(&self, stage: usize, iterate: &Iterate, cost: &mut StateCost, concave: &mut [f64; 3]) {
+        let state = &iterate.states[self.vehicle][stage + 1];
         let (omega, n) = self.distance(stage, state.position());
         let Jet { slope, bend, .. } = self.price.at(omega);
         cost.gradient[0] += slope * n[0];
@@ -129,6 +131,7 @@ impl StateCostTerm for DistanceCost {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::State;
 
     const EXACT: DistancePrice = DistancePrice::Exact { base: 1.05, loyalty: 0.7, aversion: 0.3 };
 
@@ -154,9 +157,9 @@ mod tests {
         let price = DistancePrice::Linear { weight: 2.0 };
         let cost = DistanceCost { vehicle: 0, centres, metrics: vec![[1.5, 0.2, 4.0]], price };
         let value = |share: f64| {
-            let (mut total, state) =
-                (0.0, State { x_m: 1.0 + 0.5 * share, y_m: 2.0 - 0.3 * share, ..State::default() });
-            cost.add_value(0, &state, &mut total);
+            let state = State { x_m: 1.0 + 0.5 * share, y_m: 2.0 - 0.3 * share, ..State::default() };
+            let (mut total, iterate) = (0.0, Iterate { states: vec![vec![state; 2]], ..Iterate::default() });
+            cost.add_value(0, &iterate, &mut total);
             total
         };
         assert!((value(1.0) + value(3.0) - 2.0 * value(2.0)).abs() < 1e-7);

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use super::shape::{RowTerm, Subject};
+use crate::road::centre_line::RoadPoint;
 use crate::trajectory::cost::Violation;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::penalty::Penalty;
@@ -22,10 +23,8 @@ pub struct RoadEdge {
     pub vehicle: usize,
     /// Its body.
     pub body: Body,
-    /// The road.
+    /// The road; if it is curved, that of the participant's [`RouteStart`](crate::trajectory::RouteStart).
     pub route: Arc<Route>,
-    /// Arc lengths near which the vehicle is expected at `t = 1…N`; `N` long, or empty on a straight road \[m\].
-    pub near_m: Vec<f64>,
     /// What leaving it costs.
     pub penalty: Penalty,
 }
@@ -33,7 +32,14 @@ pub struct RoadEdge {
 impl RoadEdge {
     /// The edges of a straight road.
     pub fn straight(vehicle: usize, body: Body, corridor: Corridor, penalty: Penalty) -> RoadEdge {
-        RoadEdge { vehicle, body, route: corridor.into(), near_m: Vec::new(), penalty }
+        RoadEdge { vehicle, body, route: corridor.into(), penalty }
+    }
+}
+
+impl RoadEdge {
+    /// Where the vehicle is beside a curved road. On a straight one the rows do not ask.
+    fn place(&self, stage: usize, iterate: &Iterate) -> RoadPoint {
+        if self.route.straight().is_some() { RoadPoint::default() } else { iterate.places[self.vehicle][stage].point() }
     }
 }
 
@@ -55,15 +61,18 @@ impl RowTerm for RoadEdge {
     }
 
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
-        let near_m = self.near_m.get(stage).copied().unwrap_or_default();
         let state = &iterate.states[self.vehicle][stage + 1];
         let exact_m = EXACT_WIDTHS * self.body.width_m;
-        rows.copy_from_slice(&self.route.clearances_exact_below(exact_m, &self.body, state, near_m));
+        rows.copy_from_slice(&self.route.clearances_exact_below(
+            exact_m,
+            &self.body,
+            state,
+            &self.place(stage, iterate),
+        ));
     }
 
     fn evaluate(&self, stage: usize, iterate: &Iterate, _room: &mut [PoseExpansion], values: &mut [f64]) {
-        let near_m = self.near_m.get(stage).copied().unwrap_or_default();
         let state = &iterate.states[self.vehicle][stage + 1];
-        values.copy_from_slice(&self.route.clearance_bounds(&self.body, state, near_m));
+        values.copy_from_slice(&self.route.clearance_bounds(&self.body, state, &self.place(stage, iterate)));
     }
 }

@@ -6,21 +6,18 @@
 //!
 //! On a straight road this is [`Tracking`](super::Tracking).
 
-use std::sync::Arc;
-
 use super::shape::StateCostTerm;
+use crate::road::centre_line::RoadExpansion;
+use crate::trajectory::iterate::Iterate;
 use crate::trajectory::stage::StateCost;
-use crate::{Route, State};
 
-/// The tracking cost of one vehicle on a curved road.
+/// The tracking cost of one vehicle on a curved road: that of its participant's [`RouteStart`](crate::trajectory::RouteStart).
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadTracking {
     /// Whose states.
     pub vehicle: usize,
     /// Diagonal of `Q` on (position along the road, across it, θ, v).
     pub weights: [f64; 4],
-    /// The road.
-    pub route: Arc<Route>,
     /// Desired arc length \[m\], lateral coordinate \[m\] and speed \[m/s\].
     pub target: RoadTarget,
     /// Highest permitted speeds at `t = 1…N`, which lower the desired one; `N` long, or empty without limits \[m/s\].
@@ -28,9 +25,6 @@ pub struct RoadTracking {
     /// Slip angles of a vehicle that follows the road at `t = 1…N`, by which it heads outward of the road; `N` long, or empty for
     /// none \[rad\].
     pub slips_rad: Vec<f64>,
-    /// Arc lengths near which the vehicle is expected at `t = 1…N`; `N` long \[m\]. They decide where the search for the nearest
-    /// point begins.
-    pub near_m: Vec<f64>,
 }
 
 /// What a vehicle on a curved road wants.
@@ -51,6 +45,11 @@ impl RoadTracking {
         self.target.speed_mps.min(permitted_mps)
     }
 
+    /// Where the vehicle is beside its route.
+    fn place<'a>(&self, stage: usize, iterate: &'a Iterate) -> &'a RoadExpansion {
+        &iterate.places[self.vehicle][stage]
+    }
+
     /// The slip angle at a stage \[rad\].
     fn slip_rad(&self, stage: usize) -> f64 {
         self.slips_rad.get(stage).copied().unwrap_or_default()
@@ -62,8 +61,9 @@ impl StateCostTerm for RoadTracking {
         self.vehicle
     }
 
-    fn add_value(&self, stage: usize, state: &State, total: &mut f64) {
-        let at = self.route.locate(state.position(), Some(self.near_m[stage]));
+    fn add_value(&self, stage: usize, iterate: &Iterate, total: &mut f64) {
+        let state = &iterate.states[self.vehicle][stage + 1];
+        let at = self.place(stage, iterate);
         let deviation = [
             at.along_m - self.target.along_m,
             at.across_m - self.target.across_m,
@@ -75,8 +75,9 @@ impl StateCostTerm for RoadTracking {
         }
     }
 
-    fn add_expansion(&self, stage: usize, state: &State, cost: &mut StateCost, concave: &mut [f64; 3]) {
-        let at = self.route.centre.expand(state.position(), Some(self.near_m[stage]));
+    fn add_expansion(&self, stage: usize, iterate: &Iterate, cost: &mut StateCost, concave: &mut [f64; 3]) {
+        let state = &iterate.states[self.vehicle][stage + 1];
+        let at = self.place(stage, iterate);
         let [along, across, turn, speed] = self.weights.map(|weight| 2.0 * weight);
         let pull_along = along * (at.along_m - self.target.along_m);
         let pull_across = across * (at.across_m - self.target.across_m);

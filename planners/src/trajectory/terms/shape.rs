@@ -34,11 +34,11 @@ pub(in crate::trajectory) trait StateCostTerm {
     fn vehicle(&self) -> usize;
 
     /// Adds the value at a stage.
-    fn add_value(&self, stage: usize, state: &State, total: &mut f64);
+    fn add_value(&self, stage: usize, iterate: &Iterate, total: &mut f64);
 
     /// Adds gradient and Hessian at a stage: the positive semi-definite part of the Hessian to `cost`, the rest, over the
     /// position `(xx, xy, yy)`, to `concave`.
-    fn add_expansion(&self, stage: usize, state: &State, cost: &mut StateCost, concave: &mut [f64; 3]);
+    fn add_expansion(&self, stage: usize, iterate: &Iterate, cost: &mut StateCost, concave: &mut [f64; 3]);
 }
 
 /// Soft rows `c_t + s ≥ 0` on the pose of a vehicle, or on the difference of two positions, the same at every stage.

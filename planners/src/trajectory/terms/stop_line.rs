@@ -22,8 +22,6 @@ pub struct StopLine {
     pub route: Arc<Route>,
     /// Where the line is, along the road \[m\].
     pub line_m: f64,
-    /// Arc lengths near which the vehicle is expected at `t = 1…N`; `N` long, or empty on a straight road \[m\].
-    pub near_m: Vec<f64>,
     /// What crossing it costs.
     pub penalty: Penalty,
 }
@@ -43,7 +41,8 @@ impl RowTerm for StopLine {
 
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
         let position = iterate.states[self.vehicle][stage + 1].position();
-        let at = self.route.centre.expand(position, self.near_m.get(stage).copied());
+        let at =
+            iterate.place(self.vehicle, stage).copied().unwrap_or_else(|| self.route.centre.expand(position, None));
         let [sx, sy] = at.along_gradient;
         let [xx, xy, yy] = at.along_hessian;
         rows[0] = PoseExpansion {
@@ -55,7 +54,7 @@ impl RowTerm for StopLine {
 
     fn evaluate(&self, stage: usize, iterate: &Iterate, _room: &mut [PoseExpansion], values: &mut [f64]) {
         let position = iterate.states[self.vehicle][stage + 1].position();
-        let at = self.route.locate(position, self.near_m.get(stage).copied());
-        values[0] = self.line_m - self.front_m - at.along_m;
+        let along_m = iterate.place(self.vehicle, stage).map_or_else(|| self.route.along(position), |at| at.along_m);
+        values[0] = self.line_m - self.front_m - along_m;
     }
 }

@@ -5,6 +5,7 @@
 //! Deviation from eq. 6.6: as printed the sum runs over `t = 0…N−1`, which leaves the last input idle.
 
 use super::shape::StateCostTerm;
+use crate::trajectory::iterate::Iterate;
 use crate::trajectory::stage::StateCost;
 use crate::{Axes, State};
 
@@ -36,14 +37,16 @@ impl StateCostTerm for Tracking {
         self.vehicle
     }
 
-    fn add_value(&self, stage: usize, state: &State, total: &mut f64) {
+    fn add_value(&self, stage: usize, iterate: &Iterate, total: &mut f64) {
+        let state = &iterate.states[self.vehicle][stage + 1];
         let deviation = self.deviation(stage, state);
         for i in 0..4 {
             *total += self.weights[i] * deviation[i].powi(2);
         }
     }
 
-    fn add_expansion(&self, stage: usize, state: &State, cost: &mut StateCost, _concave: &mut [f64; 3]) {
+    fn add_expansion(&self, stage: usize, iterate: &Iterate, cost: &mut StateCost, _concave: &mut [f64; 3]) {
+        let state = &iterate.states[self.vehicle][stage + 1];
         let (deviation, weights) = (self.deviation(stage, state), self.weights);
         let [along, across, heading, speed] = std::array::from_fn(|i| 2.0 * weights[i] * deviation[i]);
         let [x, y] = self.axes.vector([along, across]);

@@ -1,9 +1,10 @@
 //! The road along which a simple motion leads.
 
-use crate::road::centre_line::RoadPoint;
+use crate::road::centre_line::{RoadExpansion, RoadPoint};
 use crate::trajectory::problem::Problem;
+use crate::trajectory::route_start::RouteStart;
 use crate::trajectory::terms::{Term, Tracking};
-use crate::{Axes, Route, State};
+use crate::{Axes, State};
 
 /// The road of a deciding vehicle.
 pub(super) enum FollowedRoad<'a> {
@@ -11,9 +12,9 @@ pub(super) enum FollowedRoad<'a> {
     Straight(&'a Tracking),
     /// A curved one.
     Curved {
-        route: &'a Route,
-        /// Arc lengths near which the vehicle is expected \[m\].
-        near_m: &'a [f64],
+        start: &'a RouteStart,
+        /// How far the vehicle moves in a step at its present speed \[m\].
+        step_m: f64,
         /// The lateral position that it wants, if it wants one \[m\].
         wanted_m: Option<f64>,
     },
@@ -22,11 +23,8 @@ pub(super) enum FollowedRoad<'a> {
 impl<'a> FollowedRoad<'a> {
     /// The road of a vehicle; none for a vehicle without a goal.
     pub fn of(problem: &'a Problem, vehicle: usize) -> Option<FollowedRoad<'a>> {
-        let curved = problem.terms.iter().find_map(|term| match term {
-            Term::RoadEdge(edge) if edge.vehicle == vehicle && edge.route.straight().is_none() => Some(edge),
-            _ => None,
-        });
-        let Some(edge) = curved else {
+        let participant = &problem.participants[vehicle];
+        let Some(start) = &participant.route_start else {
             return problem.terms.iter().find_map(|term| match term {
                 Term::Tracking(tracking) if tracking.vehicle == vehicle => Some(FollowedRoad::Straight(tracking)),
                 _ => None,
@@ -38,20 +36,19 @@ impl<'a> FollowedRoad<'a> {
             }
             _ => None,
         });
-        Some(FollowedRoad::Curved { route: &edge.route, near_m: &edge.near_m, wanted_m })
+        let step_m = participant.start.speed_mps * participant.model.step_s();
+        Some(FollowedRoad::Curved { start, step_m, wanted_m })
     }
 
-    /// Where a state at time `t` is beside the road.
-    pub fn at(&self, state: &State, t: usize) -> RoadPoint {
+    /// Where a state is beside the road; `place` is its place beside a curved one.
+    pub fn at(&self, state: &State, place: Option<&RoadExpansion>) -> RoadPoint {
         match self {
             FollowedRoad::Straight(tracking) => {
                 let [along_m, across_m] = tracking.axes.components(state.position());
                 let heading_rad = tracking.targets.last().map_or(0.0, |target| target.heading_rad);
                 RoadPoint { along_m, across_m, heading_rad, curvature_1pm: 0.0 }
             }
-            FollowedRoad::Curved { route, near_m, .. } => {
-                route.locate(state.position(), near_m.get(t.saturating_sub(1)).copied())
-            }
+            FollowedRoad::Curved { start, .. } => place.unwrap_or(&start.at).point(),
         }
     }
 
@@ -59,8 +56,8 @@ impl<'a> FollowedRoad<'a> {
     pub fn beside(&self, position: [f64; 2], stage: usize) -> (f64, Axes) {
         match self {
             FollowedRoad::Straight(tracking) => (tracking.axes.components(position)[1], tracking.axes),
-            FollowedRoad::Curved { route, near_m, .. } => {
-                let at = route.locate(position, near_m.get(stage).copied());
+            FollowedRoad::Curved { start, step_m, .. } => {
+                let at = start.route.locate(position, Some(start.at.along_m + step_m * (stage + 1) as f64));
                 (at.across_m, Axes::along(at.heading_rad))
             }
         }
@@ -68,7 +65,7 @@ impl<'a> FollowedRoad<'a> {
 
     /// Where a vehicle starts along the road \[m\].
     pub fn start_m(&self, problem: &Problem, vehicle: usize) -> f64 {
-        self.at(&problem.participants[vehicle].start, 0).along_m
+        self.at(&problem.participants[vehicle].start, None).along_m
     }
 
     /// The lateral position that the vehicle wants, if it wants one \[m\].

@@ -5,11 +5,12 @@
 //! deciding vehicles one after the other does each of these while the others go on as planned, brake, or accelerate.
 
 use super::followed_road::FollowedRoad;
+use crate::road::centre_line::RoadExpansion;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::terms::Term;
 use crate::vehicle::SteeringGeometry;
-use crate::{Axes, Input, Trajectory};
+use crate::{Axes, Input, State};
 
 /// Accelerations as shares of the strongest braking and acceleration.
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
@@ -23,17 +24,35 @@ const SIDE_CLEARANCE_RATIO: f64 = 1.05;
 /// An ellipse lies along the vehicle's road if the sine of the angle between them is below this.
 const MAX_PARALLEL_SIN: f64 = 0.1;
 
+/// A motion of one vehicle: what an iterate says of it.
+#[derive(Clone, Default)]
+struct Motion {
+    inputs: Vec<Input>,
+    states: Vec<State>,
+    places: Vec<RoadExpansion>,
+}
+
+impl Motion {
+    /// The motion of a vehicle in an iterate.
+    fn of(iterate: &Iterate, vehicle: usize) -> Motion {
+        let Iterate { inputs, states, places } = iterate;
+        Motion { inputs: inputs[vehicle].clone(), states: states[vehicle].clone(), places: places[vehicle].clone() }
+    }
+}
+
 /// Calls `visit` with every combination of simple motions. `planned` is the motion that everybody plans so far.
 pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut visit: impl FnMut(&Iterate)) {
     let count = problem.participants.len();
-    let planned: Vec<Trajectory> = (0..count).map(|vehicle| planned_motion(problem, planned, vehicle)).collect();
+    let planned: Vec<Motion> = (0..count).map(|vehicle| planned_motion(problem, planned, vehicle)).collect();
     let mut joint = Iterate {
         inputs: planned.iter().map(|motion| motion.inputs.clone()).collect(),
         states: planned.iter().map(|motion| motion.states.clone()).collect(),
+        places: planned.iter().map(|motion| motion.places.clone()).collect(),
     };
-    let set = |joint: &mut Iterate, vehicle: usize, motion: &Trajectory| {
+    let set = |joint: &mut Iterate, vehicle: usize, motion: &Motion| {
         joint.inputs[vehicle].clone_from(&motion.inputs);
         joint.states[vehicle].clone_from(&motion.states);
+        joint.places[vehicle].clone_from(&motion.places);
     };
     // Of two, the motions of the first beside those of the second are all that there are.
     let focused = if count > 2 { count } else { 1 };
@@ -59,15 +78,15 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
 }
 
 /// The motion that a vehicle plans so far; without a plan it keeps its speed.
-fn planned_motion(problem: &Problem, planned: Option<&Iterate>, vehicle: usize) -> Trajectory {
+fn planned_motion(problem: &Problem, planned: Option<&Iterate>, vehicle: usize) -> Motion {
     match planned {
-        Some(planned) => planned.trajectory(vehicle),
-        None => simple_motion(problem, vehicle, 0.0, false).unwrap_or_else(|| problem.start(&[]).trajectory(vehicle)),
+        Some(planned) => Motion::of(planned, vehicle),
+        None => simple_motion(problem, vehicle, 0.0, false).unwrap_or_else(|| Motion::of(&problem.start(&[]), vehicle)),
     }
 }
 
 /// The simple motions of one vehicle.
-fn motions(problem: &Problem, vehicle: usize) -> Vec<Trajectory> {
+fn motions(problem: &Problem, vehicle: usize) -> Vec<Motion> {
     let ways = ACCELERATION_SHARES.into_iter().flat_map(|share| [(share, true), (share, false)]);
     let straight = ways.filter_map(|(share, to_goal)| simple_motion(problem, vehicle, share, to_goal));
     let beside = laterals_beside(problem, vehicle);
@@ -109,17 +128,17 @@ fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
 
 /// A share of the strongest acceleration (of the strongest braking where it is negative) and the lateral position of the goal
 /// or of now; nothing for a vehicle without a goal, or where the two positions are the same.
-fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -> Option<Trajectory> {
+fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -> Option<Motion> {
     let participant = &problem.participants[vehicle];
     let road = FollowedRoad::of(problem, vehicle)?;
-    let here = road.at(&participant.start, 0).across_m;
+    let here = road.at(&participant.start, None).across_m;
     let is_far = |wanted: f64| (wanted - here).abs() > MIN_LATERAL_MOVE_RATIO * participant.model.wheelbase_m();
     let wanted = if to_goal { road.wanted_m().filter(|wanted| is_far(*wanted))? } else { here };
     motion_to(problem, vehicle, share, wanted)
 }
 
 /// A share of the strongest acceleration, and a lateral position.
-fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> Option<Trajectory> {
+fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> Option<Motion> {
     let participant = &problem.participants[vehicle];
     let road = FollowedRoad::of(problem, vehicle)?;
     let geometry = SteeringGeometry {
@@ -130,17 +149,21 @@ fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> O
     };
     let limits = &participant.limits;
     let bound = if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 };
-    let (mut inputs, mut states) = (Vec::with_capacity(problem.horizon), Vec::with_capacity(problem.horizon + 1));
+    let mut motion = Motion::default();
     let mut state = participant.start;
-    states.push(state);
+    motion.states.push(state);
     for t in 0..problem.horizon {
         let input = participant.known_inputs.get(t).copied().unwrap_or_else(|| Input {
             acceleration_mps2: participant.reachable_acceleration(t, state.speed_mps, share * bound),
-            steering_rad: road.at(&state, t).steer(&geometry, &state, lateral_m),
+            steering_rad: road.at(&state, motion.places.last()).steer(&geometry, &state, lateral_m),
         });
-        state = participant.model.step(&state, &input);
-        inputs.push(input);
-        states.push(state);
+        let next = participant.model.step(&state, &input);
+        if let Some(start) = &participant.route_start {
+            motion.places.push(start.after(motion.places.last().unwrap_or(&start.at), &state, &next));
+        }
+        state = next;
+        motion.inputs.push(input);
+        motion.states.push(state);
     }
-    Some(Trajectory { inputs, states })
+    Some(motion)
 }
