@@ -92,8 +92,9 @@ impl Agent {
     /// The highest permitted speeds at arc lengths of its route, braking comfortably for lower limits and curves ahead; infinite
     /// where nothing limits it, and empty if nothing does anywhere \[m/s\].
     fn permitted_speeds_mps(&self, along_m: &[f64]) -> Vec<f64> {
-        let permitted = along_m.iter().filter_map(|along_m| self.permitted_speed_mps(*along_m)).collect::<Vec<_>>();
-        if permitted.len() == along_m.len() { permitted } else { Vec::new() }
+        let permitted = |along_m: &f64| self.permitted_speed_mps(*along_m).unwrap_or(f64::INFINITY);
+        let permitted: Vec<f64> = along_m.iter().map(permitted).collect();
+        if permitted.iter().any(|speed_mps| speed_mps.is_finite()) { permitted } else { Vec::new() }
     }
 
     /// The highest permitted speed at an arc length of its route, braking comfortably for lower limits and curves ahead; none
@@ -242,5 +243,33 @@ impl Scene {
         let last = prediction.states.last().copied().unwrap_or_default();
         let centre = |t: usize| prediction.states.get(t).unwrap_or(&last).position();
         (1..=self.horizon).map(centre).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::road::centre_line::Piece;
+    use crate::{CentreLine, Profile, fixture};
+
+    /// A plan that reaches beyond the last curve of a road without speed limits keeps the speeds of the curve.
+    #[test]
+    fn a_curve_limits_the_speed_although_nothing_does_behind_it() {
+        let pieces = [
+            Piece::Straight { length_m: 10.0 },
+            Piece::Arc { length_m: 5.0, curvature_1pm: 0.25 },
+            Piece::Straight { length_m: 30.0 },
+        ];
+        let pieces = crate::road::centre_line::smooth(&pieces, 1.0).expect("room for transitions");
+        let line = CentreLine::from_pieces([0.0, 0.0], 0.0, &pieces).expect("a line");
+        let edge = Profile::constant;
+        let mut agent = fixture::agent(0.0, 0.0, 0.0, 5.0);
+        agent.route = Arc::new(Route::curved(line, edge(-1.0), edge(1.0), edge(1.0)));
+        agent.limits.lateral_acceleration_max_mps2 = Some(2.0);
+        let speeds = agent.permitted_speeds_mps(&[12.0, 14.0, 40.0]);
+        // Half of 2 m/s² at a radius of 4 m.
+        assert!(speeds[..2].iter().all(|speed| (speed - 2.0).abs() < 0.2), "{speeds:?}");
+        assert_eq!(speeds[2], f64::INFINITY);
+        assert!(agent.permitted_speeds_mps(&[40.0, 41.0]).is_empty());
     }
 }
