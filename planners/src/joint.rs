@@ -43,7 +43,7 @@ pub fn problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
             }
         }
     }
-    Problem { horizon: scene.horizon, participants, terms }
+    Problem { horizon: scene.horizon, participants, shared_steps: 0, terms }
 }
 
 /// Whether the safety ellipses of two vehicles are equal.

@@ -64,7 +64,7 @@ fn off_the_road(random: &mut Random) -> Problem {
             penalty: Penalty { linear: 1.0, quadratic: 1.0 },
         }),
     ];
-    Problem { horizon: HORIZON, participants: vec![participant], terms }
+    Problem { horizon: HORIZON, participants: vec![participant], shared_steps: 0, terms }
 }
 
 #[test]

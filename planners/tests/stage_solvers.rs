@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Random, alone, iterate, pair};
+use common::{Random, alone, futures, iterate, pair};
 use interplay_planners::trajectory::kkt::Residual;
 use interplay_planners::trajectory::{Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt};
 
@@ -61,6 +61,15 @@ fn one_vehicle() {
 fn two_vehicles_with_persuasion() {
     for seed in 0..100 {
         compare(&pair(seed, 1.0 + 0.01 * seed as f64), seed);
+    }
+}
+
+/// One vehicle in several futures, whose first inputs are the same in all.
+#[test]
+fn futures_that_share_their_first_inputs() {
+    for seed in 0..60 {
+        let (count, shared_steps) = (2 + seed as usize % 3, 1 + seed as usize % 20);
+        compare(&futures(seed, count, shared_steps), seed);
     }
 }
 

@@ -28,7 +28,7 @@ pub struct Conservative {
 pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     terms.extend(scene.exact_keep_outs(others.iter().copied()));
-    Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
+    Problem { horizon: scene.horizon, participants: vec![scene.participant()], shared_steps: 0, terms }
 }
 
 impl Conservative {

@@ -140,7 +140,7 @@ pub fn problem(scene: &Scene, settings: &Settings) -> Problem {
 fn pose(scene: &Scene, expected: &[Agent], settings: &Settings) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     terms.extend(followed(scene, settings).into_iter().chain(yielded_to(scene, expected, settings)).map(Term::KeepOut));
-    Problem { horizon: scene.horizon, participants: vec![scene.participant()], terms }
+    Problem { horizon: scene.horizon, participants: vec![scene.participant()], shared_steps: 0, terms }
 }
 
 /// Makes the driver come to a line at a usual pace, and wait there.

@@ -55,7 +55,7 @@ pub fn problem(
     terms.push(Term::Separation(Separation { vehicle: 0, from: 1, ellipses, penalty: Penalty::EXACT }));
     terms.extend(persuasion.map(Term::Persuasion));
     let participants = vec![scene.participant(), asked(scene, partner, settings)];
-    Problem { horizon: scene.horizon, participants, terms }
+    Problem { horizon: scene.horizon, participants, shared_steps: 0, terms }
 }
 
 /// The partner as a participant that follows its prediction until `T_n`.

@@ -16,6 +16,7 @@ impl Problem {
         });
         Problem {
             horizon: self.horizon,
+            shared_steps: 0,
             terms: terms.collect(),
             participants: vec![self.participants[vehicle].clone()],
         }

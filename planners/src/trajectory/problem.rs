@@ -21,6 +21,9 @@ pub struct Problem {
     pub horizon: usize,
     /// The deciding vehicles, at least one.
     pub participants: Vec<Participant>,
+    /// In how many first steps all participants have the same inputs. 0 for different vehicles; otherwise they are one vehicle, in
+    /// as many futures, with the same start, model and bounds.
+    pub shared_steps: usize,
     /// What they want and avoid. Terms name vehicles by their index.
     pub terms: Vec<Term>,
 }
@@ -38,8 +41,11 @@ impl Problem {
 
     /// The admissible iterate nearest to a guess (per participant, inputs).
     pub fn start(&self, guess: &[Vec<Input>]) -> Iterate {
+        let of = |i: usize| guess.get(i).map(Vec::as_slice).unwrap_or_default();
         let inputs = self.participants.iter().enumerate().map(|(i, participant)| {
-            participant.admissible(guess.get(i).map(Vec::as_slice).unwrap_or_default(), self.horizon)
+            let shared = of(0).iter().take(self.shared_steps);
+            let wanted: Vec<Input> = shared.chain(of(i).iter().skip(self.shared_steps)).copied().collect();
+            participant.admissible(&wanted, self.horizon)
         });
         let mut iterate = Iterate::of_inputs(inputs.collect());
         self.roll_out(&mut iterate);

@@ -62,6 +62,7 @@ pub fn problem(vehicles: &[Vehicle], besides: impl IntoIterator<Item = Term>) ->
     let own = vehicles.iter().enumerate().flat_map(|(index, vehicle)| vehicle.terms(index));
     Problem {
         horizon: HORIZON,
+        shared_steps: 0,
         participants: vehicles.iter().map(|vehicle| vehicle.participant.clone()).collect(),
         terms: own.chain(besides).collect(),
     }
@@ -145,20 +146,35 @@ pub fn pair(seed: u64, alpha: f64) -> Problem {
     problem(&[ego, follower(random, 6)], [Term::Separation(separation), Term::Persuasion(persuasion)])
 }
 
+/// A lane-changing vehicle in several futures, in each of which the others drive at other speeds, with its first steps shared.
+pub fn futures(seed: u64, count: usize, shared_steps: usize) -> Problem {
+    let random = &mut Random(seed);
+    let ego = lane_change(random);
+    let share = 1.0 / count as f64;
+    let in_future = |_| {
+        let faster_mps = random.between(-0.4, 0.4);
+        let mut future = ego.clone();
+        future.tracking = ego.tracking.map(|weight| share * weight);
+        future.comfort = ego.comfort.map(|weight| share * weight);
+        for (t, centre) in future.keep_outs.iter_mut().flat_map(|of| of.centres.iter_mut().enumerate()) {
+            centre[0] += faster_mps * 0.1 * t as f64;
+        }
+        future
+    };
+    let vehicles: Vec<Vehicle> = (0..count).map(in_future).collect();
+    Problem { shared_steps, ..problem(&vehicles, []) }
+}
+
 /// An iterate of `problem` with small random inputs.
 pub fn iterate(problem: &Problem, random: &mut Random) -> Iterate {
-    let inputs = problem.participants.iter().map(|participant| {
-        let guess: Vec<Input> = (0..problem.horizon)
-            .map(|t| Input {
-                acceleration_mps2: random.between(-0.2, 0.2),
-                steering_rad: if t < 8 { random.between(0.0, 0.1) } else { random.between(-0.05, 0.05) },
-            })
-            .collect();
-        participant.admissible(&guess, problem.horizon)
+    let guess = problem.participants.iter().map(|_| {
+        let input = |t| Input {
+            acceleration_mps2: random.between(-0.2, 0.2),
+            steering_rad: if t < 8 { random.between(0.0, 0.1) } else { random.between(-0.05, 0.05) },
+        };
+        (0..problem.horizon).map(input).collect()
     });
-    let mut iterate = Iterate::of_inputs(inputs.collect());
-    problem.roll_out(&mut iterate);
-    iterate
+    problem.start(&guess.collect::<Vec<_>>())
 }
 
 /// The Gauss-Newton step problem at an iterate.

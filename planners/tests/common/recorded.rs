@@ -132,6 +132,7 @@ impl Recorded {
         let persuasion = self.persuasion.iter().map(|row| Term::Persuasion(row.persuasion()));
         Problem {
             horizon: self.horizon,
+            shared_steps: 0,
             participants: self.vehicles.iter().map(|vehicle| vehicle.participant(self.step_s)).collect(),
             terms: own.chain(pairs).chain(persuasion).collect(),
         }

@@ -36,6 +36,7 @@ impl StepProblem {
     pub fn linearize(&mut self, problem: &Problem, iterate: &Iterate) {
         let qp = &mut self.qp;
         qp.horizon = problem.horizon;
+        qp.shared_steps = problem.shared_steps;
         qp.damping = 0.0;
         qp.tolerance = TOLERANCE;
         qp.reach = None;

@@ -63,8 +63,20 @@ pub fn residual(qp: &StageQp, solution: &StageSolution) -> Residual {
 pub fn residual_in(qp: &StageQp, solution: &StageSolution, costates: &mut Costates) -> Residual {
     let mut residual = Residual::default();
     fill_costates(qp, solution, costates);
-    for (vehicle, costates) in costates.iter().enumerate() {
-        vehicle_residual(qp, solution, vehicle, costates, &mut residual);
+    for vehicle in 0..qp.vehicles.len() {
+        vehicle_residual(qp, solution, vehicle, &mut residual);
+        for k in 0..qp.horizon {
+            let gradient = |vehicle: usize| input_gradient(qp, solution, vehicle, k, &costates[vehicle][k]);
+            let free = match (k < qp.shared_steps, vehicle) {
+                (false, _) => gradient(vehicle),
+                (true, 0) => {
+                    (0..qp.vehicles.len()).map(gradient).fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]])
+                }
+                (true, _) => shared_difference(solution, vehicle, k),
+            };
+            let largest = free[0].abs().max(free[1].abs());
+            residual.stationarity = residual.stationarity.max(largest);
+        }
     }
     for (block, multipliers) in qp.blocks.iter().zip(&solution.row_multipliers) {
         for (k, (row, multiplier)) in block.rows.iter().zip(multipliers).enumerate() {
@@ -87,13 +99,13 @@ pub(crate) fn row_value(block: &RowBlock, row: &Row, solution: &StageSolution, k
     row.value + row.gradient[0] * (own[0] - other[0]) + row.gradient[1] * (own[1] - other[1]) + row.gradient[2] * own[2]
 }
 
-fn vehicle_residual(
-    qp: &StageQp,
-    solution: &StageSolution,
-    vehicle: usize,
-    costates: &[[f64; 4]],
-    residual: &mut Residual,
-) {
+/// By how much the inputs of a vehicle differ from those of the first, where they are shared.
+fn shared_difference(solution: &StageSolution, vehicle: usize, k: usize) -> [f64; 2] {
+    std::array::from_fn(|axis| solution.inputs[vehicle][k][axis] - solution.inputs[0][k][axis])
+}
+
+/// Dynamics and boxes of one vehicle.
+fn vehicle_residual(qp: &StageQp, solution: &StageSolution, vehicle: usize, residual: &mut Residual) {
     let stages = &qp.vehicles[vehicle];
     let (inputs, states) = (&solution.inputs[vehicle], &solution.states[vehicle]);
     for k in 0..qp.horizon {
@@ -102,30 +114,41 @@ fn vehicle_residual(
         for axis in 0..4 {
             residual.primal = residual.primal.max((moved[axis] - states[k][axis]).abs());
         }
-        let [acceleration, steering, speed] = solution.bound_multipliers[vehicle][k];
-        if k >= stages.first {
-            let bounds = stages.speed_boxes[k];
-            residual.inequality(states[k][3] - bounds.lower, speed[0]);
-            residual.inequality(bounds.upper - states[k][3], speed[1]);
-        }
         if k < stages.first {
             continue;
         }
-        let (_, from_dynamics) = stages.jacobians[k].apply_transposed(&costates[k]);
-        let (_, from_curvature) = curvature_gradient(&stages.curvatures[k], &before, &inputs[k]);
+        let [acceleration, steering, speed] = solution.bound_multipliers[vehicle][k];
+        let bounds = stages.speed_boxes[k];
+        residual.inequality(states[k][3] - bounds.lower, speed[0]);
+        residual.inequality(bounds.upper - states[k][3], speed[1]);
         for (axis, [lower, upper]) in [acceleration, steering].into_iter().enumerate() {
             let bounds = stages.input_boxes[k][axis];
             residual.inequality(inputs[k][axis] - bounds.lower, lower);
             residual.inequality(bounds.upper - inputs[k][axis], upper);
-            let mut gradient = from_dynamics[axis] + upper - lower + stages.damping(qp.damping, axis) * inputs[k][axis];
-            gradient += 2.0 * stages.change_weights[axis] * stages.change(inputs, k, axis);
-            if k + 1 < qp.horizon {
-                gradient -= 2.0 * stages.change_weights[axis] * stages.change(inputs, k + 1, axis);
-            }
-            if axis == 1 {
-                gradient += from_curvature;
-            }
-            residual.stationarity = residual.stationarity.max(gradient.abs());
         }
     }
+}
+
+/// The derivative of the Lagrangian over the inputs of one vehicle at stage `k`; zero where they are known.
+fn input_gradient(qp: &StageQp, solution: &StageSolution, vehicle: usize, k: usize, costate: &[f64; 4]) -> [f64; 2] {
+    let stages = &qp.vehicles[vehicle];
+    if k < stages.first {
+        return [0.0; 2];
+    }
+    let inputs = &solution.inputs[vehicle];
+    let before = solution.state_before(vehicle, k);
+    let (_, from_dynamics) = stages.jacobians[k].apply_transposed(costate);
+    let (_, from_curvature) = curvature_gradient(&stages.curvatures[k], &before, &inputs[k]);
+    std::array::from_fn(|axis| {
+        let [lower, upper] = solution.bound_multipliers[vehicle][k][axis];
+        let mut gradient = from_dynamics[axis] + upper - lower + stages.damping(qp.damping, axis) * inputs[k][axis];
+        gradient += 2.0 * stages.change_weights[axis] * stages.change(inputs, k, axis);
+        if k + 1 < qp.horizon {
+            gradient -= 2.0 * stages.change_weights[axis] * stages.change(inputs, k + 1, axis);
+        }
+        if axis == 1 {
+            gradient += from_curvature;
+        }
+        gradient
+    })
 }

@@ -15,7 +15,8 @@
 //!            c₀ + Σ_k b_k·(p, v)_{k+1} + Σ_k β_k ‖p_{k+1}‖² ≤ s    rows over a whole trajectory, a few at most
 //! ```
 //!
-//! A vehicle whose inputs are known until `first` has `w_k = 0` before.
+//! A vehicle whose inputs are known until `first` has `w_k = 0` before. Where the vehicles are the futures of one, they have the
+//! same `w_k` for `k` below `shared_steps`.
 
 use crate::trajectory::penalty::Penalty;
 use crate::vehicle::{DynamicsCurvature, Jacobian};
@@ -123,6 +124,8 @@ pub enum Hessian {
 pub struct StageQp {
     /// Number of stages `N`.
     pub horizon: usize,
+    /// In how many first stages all vehicles have the same inputs.
+    pub shared_steps: usize,
     /// The vehicles.
     pub vehicles: Vec<VehicleStages>,
     /// The soft rows.

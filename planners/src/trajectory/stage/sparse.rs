@@ -43,6 +43,7 @@ struct Kept {
 #[derive(Clone, Debug, PartialEq)]
 struct Shape {
     horizon: usize,
+    shared_steps: usize,
     firsts: Vec<usize>,
     blocks: Vec<(usize, Option<usize>, bool)>,
     /// For each row over a whole trajectory, whose, and whether it is curved.
@@ -67,6 +68,7 @@ impl Shape {
     fn of(qp: &StageQp) -> Shape {
         Shape {
             horizon: qp.horizon,
+            shared_steps: qp.shared_steps,
             firsts: qp.vehicles.iter().map(|stages| stages.first).collect(),
             blocks: qp.blocks.iter().map(|block| (block.vehicle, block.other, block.penalty.is_some())).collect(),
             trajectories: qp.trajectory_rows.iter().map(|row| (row.vehicle, is_curved(row))).collect(),
@@ -222,6 +224,12 @@ impl Layout {
         if k < stages.first {
             for axis in 0..2 {
                 program.row(self.dynamics, [(self.input(vehicle, k, axis), 1.0)], 0.0);
+            }
+        }
+        if vehicle > 0 && k < qp.shared_steps {
+            for axis in 0..2 {
+                let same = [(self.input(vehicle, k, axis), 1.0), (self.input(0, k, axis), -1.0)];
+                program.row(self.dynamics, same, 0.0);
             }
         }
     }

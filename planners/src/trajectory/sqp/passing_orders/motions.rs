@@ -70,7 +70,11 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
             let with_planned = (others.is_some() && vehicle == 0).then_some(&planned[0]);
             for motion in own.iter().chain(with_planned) {
                 set(&mut joint, vehicle, motion);
-                visit(&joint);
+                if problem.shared_steps > 0 {
+                    visit(&problem.start(&joint.inputs));
+                } else {
+                    visit(&joint);
+                }
             }
         }
         set(&mut joint, vehicle, &planned[vehicle]);

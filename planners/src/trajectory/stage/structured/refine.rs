@@ -36,7 +36,8 @@ impl<const W: usize> Memory<W> {
         self.gradient.inputs.as_flattened().iter().fold(0.0, |largest, slope| larger(slope.abs(), largest))
     }
 
-    /// Turns a gradient over states and inputs into one over inputs alone, the states following the dynamics.
+    /// Turns a gradient over states and inputs into one over inputs alone, the states following the dynamics. That over shared
+    /// inputs is with the first vehicle.
     fn carry_back(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
         for (i, stages) in qp.vehicles.iter().enumerate() {
@@ -53,6 +54,13 @@ impl<const W: usize> Memory<W> {
                 if k < stages.first {
                     self.gradient.inputs[at] = [0.0; 2];
                 }
+            }
+        }
+        for futures in self.gradient.inputs.chunks_mut(vehicles).take(qp.shared_steps) {
+            let (shared, others) = futures.split_at_mut(1);
+            for other in others {
+                let [acceleration, steering] = std::mem::take(other);
+                shared[0] = [shared[0][0] + acceleration, shared[0][1] + steering];
             }
         }
     }

@@ -14,6 +14,9 @@
 //! y = L⁻¹ f_w,            p ← f_z − Vᵀ y,                        w = −L⁻ᵀ (V z + y)
 //! ```
 //!
+//! Where the vehicles are the futures of one and share their inputs, the rows and columns of `F_ww`, `F_wz` and `f_w` are summed over
+//! them: with `w = E w̄`, `E` of unit matrices, `F_ww` becomes `Eᵀ F_ww E`.
+//!
 //! The gains `−L⁻ᵀ V` are never formed. Vehicles meet only where rows of a pair fill the off-diagonal blocks of `P`, of which
 //! the lower ones are kept.
 
@@ -168,6 +171,25 @@ struct Quadratic<const W: usize, const Z: usize> {
     zz: [[f64; Z]; Z],
 }
 
+impl<const W: usize, const Z: usize> Quadratic<W, Z> {
+    /// Gives all vehicles the inputs of the first: its rows and columns are the sums over all, and the others' inputs are zero.
+    fn share_inputs(&mut self) {
+        let (mut ww, mut wz) = ([[0.0; W]; W], [[0.0; Z]; W]);
+        for i in 0..W {
+            for j in 0..W {
+                ww[i % 2][j % 2] += self.ww[i][j];
+            }
+            for (sum, entry) in wz[i % 2].iter_mut().zip(&self.wz[i]) {
+                *sum += entry;
+            }
+            if i > 1 {
+                ww[i][i] = 1.0;
+            }
+        }
+        (self.ww, self.wz) = (ww, wz);
+    }
+}
+
 impl<const W: usize, const Z: usize> Riccati<W, Z> {
     const VEHICLES: usize = W / 2;
 
@@ -190,6 +212,9 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             let own = &hessians[k * Self::VEHICLES..(k + 1) * Self::VEHICLES];
             add_stage(&mut p, own, &pairs[k * width..(k + 1) * width]);
             let mut f = Self::quadratic(qp, k, &p, own);
+            if k < qp.shared_steps {
+                f.share_inputs();
+            }
             let factor = Cholesky::new(&f.ww).ok_or(StageError::NotConvex { stage: k })?;
             self.factors[k] = factor;
             factor.forward_all(&mut f.wz);
@@ -271,6 +296,11 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
                 }
                 carried[z..z + 4].copy_from_slice(&times_a(&row, &stages.jacobians[k]));
             }
+            if k < qp.shared_steps {
+                let mut shared = [0.0; W];
+                f_w.iter().enumerate().for_each(|(i, pull)| shared[i % 2] += pull);
+                f_w = shared;
+            }
             self.factors[k].forward(&mut f_w);
             self.feeds[k] = f_w;
             p = carried;
@@ -295,7 +325,8 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             for i in 0..vehicles {
                 let at = STATE_SIZE * i;
                 let before = [z[at], z[at + 1], z[at + 2], z[at + 3]];
-                let input = if k < qp.vehicles[i].first { [0.0; 2] } else { [w[2 * i], w[2 * i + 1]] };
+                let own = if k < qp.shared_steps { 0 } else { 2 * i };
+                let input = if k < qp.vehicles[i].first { [0.0; 2] } else { [w[own], w[own + 1]] };
                 let state = qp.vehicles[i].jacobians[k].apply(&before, &input);
                 z[at..at + 4].copy_from_slice(&state);
                 z[at + 4..at + 6].copy_from_slice(&input);
