@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::bayesian::{self, Bayesian};
 use crate::belief::{self, DriverBeliefs};
 use crate::conservative::{self, Conservative};
+use crate::contingency::{self, Contingency, Outlook};
 use crate::cooperative::{self, Cooperative};
 use crate::diagnostic::Explanation;
 use crate::game::{self, Game};
@@ -41,6 +42,8 @@ pub enum Driver {
     Cooperative(cooperative::Settings),
     /// A general-sum game of up to four vehicles: the ego's part of a generalised Nash equilibrium.
     Nash(nash::Settings),
+    /// Plans that branch: one continuation for each kind of driver that another may be.
+    Contingency(contingency::Settings),
 }
 
 /// A driver at work: its settings and all that it remembers.
@@ -64,6 +67,7 @@ enum Method {
     Game(Box<Game>),
     Cooperative(Box<Cooperative>),
     Nash(Box<Nash>),
+    Contingency(Box<Contingency>),
 }
 
 impl Driver {
@@ -84,6 +88,7 @@ impl Driver {
             Driver::Game(settings) => Method::Game(Box::new(Game::new(*settings))),
             Driver::Cooperative(settings) => Method::Cooperative(Box::new(Cooperative::new(*settings))),
             Driver::Nash(settings) => Method::Nash(Box::new(Nash::new(*settings))),
+            Driver::Contingency(settings) => Method::Contingency(Box::new(Contingency::new(*settings))),
         };
         let beliefs = (!self.knows_plans()).then(|| Box::new(DriverBeliefs::new(*inference)));
         Planner { method, beliefs, passing_orders: PassingOrderLog::default() }
@@ -101,6 +106,7 @@ impl Driver {
             Driver::Game(settings) => Some(settings.prediction),
             Driver::Cooperative(settings) => Some(settings.prediction),
             Driver::Nash(settings) => Some(settings.prediction),
+            Driver::Contingency(_) => Some(Prediction::Inferred),
         }
     }
 
@@ -121,6 +127,7 @@ impl Driver {
             Driver::Game(_) => "game",
             Driver::Cooperative(_) => "cooperative",
             Driver::Nash(_) => "nash",
+            Driver::Contingency(_) => "contingency",
         }
     }
 
@@ -135,7 +142,8 @@ impl Driver {
             | Driver::Bayesian(_)
             | Driver::Game(_)
             | Driver::Cooperative(_)
-            | Driver::Nash(_) => self.kind().to_owned(),
+            | Driver::Nash(_)
+            | Driver::Contingency(_) => self.kind().to_owned(),
         }
     }
 
@@ -151,6 +159,7 @@ impl Driver {
             Driver::Game(_) => &game::diagnostics::EXPLANATION,
             Driver::Cooperative(_) => &cooperative::diagnostics::EXPLANATION,
             Driver::Nash(_) => &nash::diagnostics::EXPLANATION,
+            Driver::Contingency(_) => &contingency::diagnostics::EXPLANATION,
         }
     }
 
@@ -165,7 +174,8 @@ impl Driver {
             | Driver::Negotiation(_)
             | Driver::Bayesian(_)
             | Driver::Game(_)
-            | Driver::Nash(_) => None,
+            | Driver::Nash(_)
+            | Driver::Contingency(_) => None,
         }
     }
 
@@ -180,7 +190,8 @@ impl Driver {
             | Driver::Bayesian(_)
             | Driver::Game(_)
             | Driver::Cooperative(_)
-            | Driver::Nash(_) => true,
+            | Driver::Nash(_)
+            | Driver::Contingency(_) => true,
         }
     }
 
@@ -198,7 +209,8 @@ impl Driver {
             | Driver::Conservative(_)
             | Driver::Game(_)
             | Driver::Cooperative(_)
-            | Driver::Nash(_) => Ok(()),
+            | Driver::Nash(_)
+            | Driver::Contingency(_) => Ok(()),
         }
     }
 
@@ -211,7 +223,8 @@ impl Driver {
             | Driver::Bayesian(_)
             | Driver::Game(_)
             | Driver::Cooperative(_)
-            | Driver::Nash(_) => false,
+            | Driver::Nash(_)
+            | Driver::Contingency(_) => false,
         }
     }
 }
@@ -224,7 +237,7 @@ impl Planner {
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         match self.beliefs {
             Some(_) => self.plan_sensed(&SensedScene::perfect(scene)),
-            None => self.plan_as_told(scene),
+            None => self.plan_as_told(scene, &Outlook::default()),
         }
     }
 
@@ -233,9 +246,17 @@ impl Planner {
     /// # Errors
     /// As [`Planner::plan`].
     pub fn plan_sensed(&mut self, sensed: &SensedScene) -> Result<Plan, PlanError> {
-        let Some(beliefs) = &mut self.beliefs else { return self.plan_as_told(&sensed.scene) };
+        let Some(beliefs) = &mut self.beliefs else {
+            return self.plan_as_told(&sensed.scene, &Outlook::default());
+        };
         let inferred = beliefs.infer(sensed);
-        let mut plan = self.plan_as_told(&inferred.scene)?;
+        let outlook = match self.method {
+            Method::Contingency(_) => {
+                Outlook { alternatives: beliefs.alternatives(sensed, &inferred.scene), delay: sensed.oldest_sighting() }
+            }
+            _ => Outlook::default(),
+        };
+        let mut plan = self.plan_as_told(&inferred.scene, &outlook)?;
         plan.diagnostics.extend(inferred.diagnostics);
         plan.events.splice(0..0, inferred.events);
         plan.beliefs = inferred.estimates;
@@ -243,7 +264,7 @@ impl Planner {
     }
 
     /// Plans the next move with the predictions of the scene, and says of a plan with a problem how it passes the others.
-    fn plan_as_told(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    fn plan_as_told(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
         let mut plan = match &mut self.method {
             Method::Human(planner) => planner.plan(scene),
             Method::Idm(planner) => planner.plan(scene),
@@ -254,6 +275,7 @@ impl Planner {
             Method::Game(planner) => planner.plan(scene),
             Method::Cooperative(planner) => planner.plan(scene),
             Method::Nash(planner) => planner.plan(scene),
+            Method::Contingency(planner) => planner.plan(scene, outlook),
         }?;
         if plan.problem.is_some() {
             self.passing_orders.note(scene, &mut plan);

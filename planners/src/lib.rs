@@ -23,6 +23,7 @@
 pub mod bayesian;
 pub mod belief;
 pub mod conservative;
+pub mod contingency;
 pub mod cooperative;
 pub mod diagnostic;
 mod driver;
@@ -58,7 +59,7 @@ pub use driver::{Driver, Planner};
 pub use driver_setting::DriverSettingError;
 pub use passing::passing_orders;
 pub use passing_order::{PassingOrder, PassingPosition};
-pub use plan::{Plan, PlanError, PlanEvent, PlanEventKind, Proposal};
+pub use plan::{Plan, PlanBranch, PlanError, PlanEvent, PlanEventKind, Proposal};
 pub use road::{Axes, CentreLine, Corridor, LaneEnd, Profile, Route};
 pub use scene::{Agent, Goal, Scene};
 pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

@@ -13,6 +13,8 @@ use crate::trajectory::{DescentError, Problem, StageError, Statistics};
 pub struct Plan {
     /// The planned motion; its first input is applied.
     pub trajectory: Trajectory,
+    /// What it will do instead if things go on otherwise; of plans that branch.
+    pub branches: Vec<PlanBranch>,
     /// What the planner asks of another vehicle.
     pub proposal: Option<Proposal>,
     /// How it passes the other vehicles that it comes near; of plans that keep out of ellipses.
@@ -27,6 +29,15 @@ pub struct Plan {
     pub problem: Option<Box<Problem>>,
     /// The work of all optimisations behind the plan.
     pub statistics: Statistics,
+}
+
+/// A continuation of a plan that branches, from now on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanBranch {
+    /// How likely the future is for which it is made.
+    pub probability: f64,
+    /// The motion.
+    pub trajectory: Trajectory,
 }
 
 /// Something that happened while a planner planned.

@@ -37,7 +37,7 @@ use std::collections::VecDeque;
 use crate::driver_estimate::DriverEstimate;
 use crate::predict::steadily_along;
 use crate::sensing::{SensedScene, Sighting};
-use crate::{Agent, Diagnostic, PlanEvent, Scene};
+use crate::{Agent, Diagnostic, PlanEvent, Scene, Trajectory};
 use observed_driver::{ObservedDriver, later};
 
 /// The beliefs of one driver about all others.
@@ -62,7 +62,30 @@ pub struct InferredScene {
     pub events: Vec<PlanEvent>,
 }
 
+/// What another vehicle may do if one hypothesis about its driver is true.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alternative {
+    /// The number of the hypothesis; it stays the same while the vehicle is in sight.
+    pub hypothesis: usize,
+    /// How likely the hypothesis is among those whose plan is known.
+    pub probability: f64,
+    /// The motion from now on.
+    pub prediction: Trajectory,
+}
+
 impl DriverBeliefs {
+    /// What each of the others may do, in the order of the scene that [`DriverBeliefs::infer`] returned for `sensed`. A plan is as
+    /// old as the last sighting, and is moved on by as many steps.
+    pub fn alternatives(&self, sensed: &SensedScene, inferred: &Scene) -> Vec<Vec<Alternative>> {
+        let others = inferred.others.iter().zip(&sensed.sightings).map(|(other, sighting)| {
+            let driver = self.observed.iter().find(|driver| driver.name == other.name);
+            let age = sensed.scene.tick.saturating_sub(sighting.tick);
+            let motion = |plan: &Trajectory| if age == 0 { plan.clone() } else { later(plan, age, &other.state) };
+            driver.map_or_else(Vec::new, |driver| driver.alternatives(motion))
+        });
+        others.collect()
+    }
+
     /// Nobody has been observed yet.
     pub fn new(settings: Settings) -> DriverBeliefs {
         DriverBeliefs { settings, observed: Vec::new(), own: VecDeque::new() }

@@ -1,5 +1,6 @@
 //! The belief about one observed driver.
 
+use super::Alternative;
 use super::evidence::Evidence;
 use super::hypotheses::{Continuing, WishfulHumans};
 use super::likelihood::{ObservedMotion, Spread};
@@ -190,6 +191,22 @@ impl ObservedDriver {
         self.idm_plan = self.idm.plan(scene).ok().map(|plan| plan.trajectory);
         self.unknown_plan = Some(steady(scene));
         self.last = Some(*sighting);
+    }
+
+    /// The plans that are known as of the last sighting, as `motion` makes them present, with their probabilities, which sum to 1.
+    pub(super) fn alternatives(&self, motion: impl Fn(&Trajectory) -> Trajectory) -> Vec<Alternative> {
+        let humans = self.humans.iter().flat_map(|humans| &humans.plans).map(Option::as_ref);
+        let plans = humans.chain([self.idm_plan.as_ref(), self.unknown_plan.as_ref()]);
+        let known = plans.zip(self.evidence.probabilities()).enumerate();
+        let known = known.filter_map(|(hypothesis, (plan, probability))| Some((hypothesis, plan?, probability)));
+        let known: Vec<(usize, &Trajectory, f64)> = known.collect();
+        let mass: f64 = known.iter().map(|(.., probability)| probability).sum();
+        let alternative = |(hypothesis, plan, probability): (usize, &Trajectory, f64)| Alternative {
+            hypothesis,
+            probability: probability / mass,
+            prediction: motion(plan),
+        };
+        known.into_iter().map(alternative).collect()
     }
 
     /// The plan of the chosen hypothesis as of the last sighting.

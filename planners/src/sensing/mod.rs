@@ -101,6 +101,12 @@ impl SensedScene {
         let sightings = scene.others.iter().map(|other| Sighting::perfect(scene.tick, &other.state)).collect();
         SensedScene { scene: scene.clone(), sightings }
     }
+
+    /// The age of the oldest sighting in ticks.
+    pub fn oldest_sighting(&self) -> usize {
+        let ages = self.sightings.iter().map(|sighting| self.scene.tick.saturating_sub(sighting.tick));
+        ages.max().unwrap_or_default()
+    }
 }
 
 impl Sensor {

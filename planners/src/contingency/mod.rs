@@ -1,0 +1,137 @@
+//! Plans that branch (contingency): one motion now, and a continuation for each future.
+//!
+//! The ego does not know which driver it meets. With futures `i` of probability `p_i`, in each of which the others move as one
+//! hypothesis about each of them says, it solves
+//!
+//! ```text
+//! minimise  Σ_i p_i J(u⁽ⁱ⁾)      such that   the ellipses around the others of future i are kept, for every i,
+//!                                           u⁽ⁱ⁾_k = u⁽ʲ⁾_k   for k < n
+//! ```
+//!
+//! where `n` is the step at which the futures can be told apart. A plan for the likeliest future alone may count on being let in
+//! where it cannot know yet; one that is safe in all futures at once waits for what it will soon know. (Contingency games: Peters
+//! et al. 2024. Here the others' motions do not depend on the branch: each hypothesis answers the ego's last plan.)
+//!
+//! With one future it is the conservative problem (eq. 6.13) with the inferred prediction.
+
+pub mod diagnostics;
+mod futures;
+mod settings;
+
+pub use futures::{Future, futures, shared_steps};
+pub use settings::Settings;
+
+use crate::belief::Alternative;
+use crate::conservative;
+use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::trajectory::activity::Activity;
+use crate::trajectory::terms::KeepOut;
+use crate::trajectory::{Optimiser, Optimum, Penalty, Problem, Robust, Term, Violation};
+use crate::{Diagnostic, Goal, Input, Plan, PlanBranch, PlanError, Scene, Trajectory};
+use diagnostics::{FUTURES, LIKELIEST, SHARED_STEPS};
+
+/// What another vehicle may do, and how old the last sighting of the others is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outlook {
+    /// What each of the others may do, in the order of the scene.
+    pub alternatives: Vec<Vec<Alternative>>,
+    /// The age of the oldest sighting, in steps.
+    pub delay: usize,
+}
+
+/// A contingency planner, with its last plan.
+#[derive(Clone, Debug)]
+pub struct Contingency {
+    settings: Settings,
+    optimiser: Optimiser<Robust>,
+    /// The last motion in each future, with its hypotheses.
+    last: Vec<(Vec<usize>, Trajectory)>,
+}
+
+/// The problem of the planning vehicle in several futures, one participant each.
+pub fn problem(scene: &Scene, futures: &[Future], shared_steps: usize) -> Problem {
+    let mut terms = Vec::new();
+    for (vehicle, future) in futures.iter().enumerate() {
+        let share = |weight: f64| future.probability * weight;
+        let Goal { tracking, comfort, .. } = scene.goal;
+        let goal = Goal { tracking: tracking.map(share), comfort: comfort.map(share), ..scene.goal };
+        terms.extend(scene.own_terms(vehicle, &goal));
+        terms.extend(scene.others.iter().zip(&future.predictions).map(|(other, prediction)| {
+            let keep_out = scene.keep_out(prediction, &other.route, Penalty::EXACT);
+            Term::KeepOut(KeepOut { vehicle, ..keep_out })
+        }));
+    }
+    Problem { horizon: scene.horizon, participants: vec![scene.participant(); futures.len()], shared_steps, terms }
+}
+
+impl Contingency {
+    /// A planner without a last plan.
+    pub fn new(settings: Settings) -> Self {
+        Contingency {
+            settings,
+            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            last: Vec::new(),
+        }
+    }
+
+    /// Plans for the futures that follow from what the others may do.
+    ///
+    /// # Errors
+    /// [`PlanError`] if neither this problem nor the conservative one can be solved.
+    pub fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+        let futures = futures(scene, &outlook.alternatives, &self.settings);
+        let shared_steps = shared_steps(&futures, self.settings.told_apart_m, outlook.delay, scene.horizon);
+        let problem = problem(scene, &futures, shared_steps);
+        let likeliest = likeliest(&futures);
+        match self.optimiser.optimise(&problem, &self.guess(&futures)) {
+            Ok(optimum) => {
+                let motions = futures.iter().enumerate();
+                self.last = motions.map(|(i, of)| (of.hypotheses.clone(), optimum.trajectory(i))).collect();
+                Ok(answer(problem, &futures, likeliest, &optimum))
+            }
+            Err(error) => {
+                let last = std::mem::take(&mut self.last);
+                let last = last.first().map(|(_, motion)| motion);
+                Ok(conservative::answer(conservative::retreat(&mut self.optimiser, scene, last, &error)?))
+            }
+        }
+    }
+
+    /// The last motion in each future, a step later; in a new one, that of the first.
+    fn guess(&self, futures: &[Future]) -> Vec<Vec<Input>> {
+        let guess = futures.iter().map(|future| {
+            let same = self.last.iter().find(|(hypotheses, _)| *hypotheses == future.hypotheses);
+            same.or(self.last.first()).map_or_else(Vec::new, |(_, motion)| motion.later_inputs())
+        });
+        guess.collect()
+    }
+}
+
+/// The number of the likeliest future.
+fn likeliest(futures: &[Future]) -> usize {
+    let by_probability = |a: &usize, b: &usize| futures[*a].probability.total_cmp(&futures[*b].probability);
+    (0..futures.len()).rev().max_by(by_probability).unwrap_or_default()
+}
+
+fn answer(problem: Problem, futures: &[Future], likeliest: usize, optimum: &Optimum) -> Plan {
+    let mut diagnostics: Vec<Diagnostic> = vec![
+        FUTURES.is(futures.len() as f64),
+        LIKELIEST.is(futures[likeliest].probability),
+        SHARED_STEPS.is(problem.shared_steps as f64),
+        COST.is(optimum.cost.total),
+        SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
+    ];
+    diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
+    diagnostics.extend(Activity::of(&problem, &optimum.iterate, likeliest).diagnostics());
+    let other = (0..futures.len()).filter(|future| *future != likeliest);
+    let branches = other
+        .map(|future| PlanBranch { probability: futures[future].probability, trajectory: optimum.trajectory(future) });
+    Plan {
+        trajectory: optimum.trajectory(likeliest),
+        branches: branches.collect(),
+        diagnostics,
+        problem: Some(Box::new(problem)),
+        statistics: optimum.statistics,
+        ..Plan::default()
+    }
+}
