@@ -19,6 +19,9 @@ const REPLACEMENTS: &[Replacement] = &[
     ("intersection/game-nash", "conservative", "order"),
     ("intersection/nash-nice", "conservative", "order"),
     ("lane-change/nash-front-nice", "conservative", "order"),
+    // A plan for the likeliest driver alone, or at the limit of what is possible, brakes harder.
+    ("lane-keeping/contingency", "idm", "comfort.ego.braking_at_most_mps2"),
+    ("ramp-merge/contingency", "negotiation", "comfort.ego.braking_at_most_mps2"),
     ("intersection/conservative-nice", "negotiation", "order"),
     ("intersection/negotiation-meets-game", "conservative", "order"),
     ("lane-change/front-nice", "conservative", "order"),

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::film::{Film, film};
 
 /// The ego's drivers and the families in which they are compared.
-const DRIVERS: [&str; 9] = [
+const DRIVERS: [&str; 10] = [
     "kind = 'human'",
     "kind = 'conservative'",
     "kind = 'negotiation'",
@@ -20,6 +20,7 @@ const DRIVERS: [&str; 9] = [
     "kind = 'game'",
     "kind = 'cooperative'",
     "kind = 'nash'",
+    "kind = 'contingency'",
     "kind = 'idm'",
 ];
 

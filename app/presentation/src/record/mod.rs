@@ -6,7 +6,7 @@
 //! ```text
 //! world/road[/cross]/{surface,edges,markings}         static
 //! world/vehicle/<name>/{body,label,trace}             where it is and was
-//! world/vehicle/<name>/{plan,prediction,proposal}     what it will do, is expected to do, asks another to do
+//! world/vehicle/<name>/{plan,branches,prediction,proposal}     what it will do or may do instead, is expected to do, asks of another
 //! world/vehicle/<name>/safety                         where the ego keeps out
 //! world/vehicle/<ego>/order                           ahead of or behind whom its plan leads, in words
 //! plots/{speed,acceleration,steering,planner-ms}/<name>

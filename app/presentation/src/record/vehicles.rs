@@ -33,6 +33,8 @@ struct DrawnVehicle {
     route: Arc<Route>,
     last: Option<State>,
     asks: bool,
+    /// Whether its last plan had branches.
+    branches: bool,
 }
 
 impl VehicleLayer {
@@ -51,7 +53,7 @@ impl VehicleLayer {
             let path = format!("world/vehicle/{}", vehicle.name);
             let route = Arc::clone(&vehicle.route);
             let (vehicle_colour, body) = (*vehicle_colour, vehicle.body);
-            let drawn = DrawnVehicle { path, vehicle_colour, body, route, last: None, asks: false };
+            let drawn = DrawnVehicle { path, vehicle_colour, body, route, last: None, asks: false, branches: false };
             drawn.log_style(stream)?;
             vehicles.push(drawn);
         }
@@ -104,6 +106,7 @@ impl DrawnVehicle {
         };
         stream.log_static(self.at("prediction"), &style(130, 1.0, 2.0))?;
         stream.log_static(self.at("trace"), &style(110, 1.5, 3.0))?;
+        stream.log_static(self.at("branches"), &style(150, 1.4, 3.5))?;
         let plan = LineStrips2D::update_fields().with_radii([Radius::new_ui_points(1.8)]).with_draw_order(4.0);
         stream.log_static(self.at("plan"), &plan)?;
         let order = Points2D::update_fields().with_colors([self.vehicle_colour.solid()]);
@@ -142,6 +145,12 @@ impl DrawnVehicle {
             self.asks = asks.is_some();
             let dots = Points2D::update_fields().with_positions(asks.unwrap_or_default());
             stream.log(self.at("proposal"), &dots)?;
+        }
+        let branches = &vehicle.plan.branches;
+        if !branches.is_empty() || self.branches {
+            self.branches = !branches.is_empty();
+            let lines = branches.iter().map(|branch| points(&branch.trajectory)).collect();
+            stream.log(self.at("branches"), &strips(lines))?;
         }
         Ok(())
     }
