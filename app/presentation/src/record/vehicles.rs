@@ -149,7 +149,7 @@ impl DrawnVehicle {
         let branches = &vehicle.plan.branches;
         if !branches.is_empty() || self.branches {
             self.branches = !branches.is_empty();
-            let lines = branches.iter().map(|branch| points(&branch.trajectory)).collect();
+            let lines: Vec<_> = branches.iter().map(|branch| points(&branch.trajectory)).collect();
             stream.log(self.at("branches"), &strips(lines))?;
         }
         Ok(())
