@@ -330,3 +330,28 @@ fn defaults_and_examples_are_within_their_bounds() {
     });
     assert!(bounded > 100, "{bounded}");
 }
+
+/// The source assumes that everybody's plan is known. A figure that rests on it says so.
+#[test]
+fn every_driving_figure_states_that_plans_are_known() {
+    let text = |name: &str| embedded().iter().find(|file| file.name == name).map(|file| file.text).unwrap_or_default();
+    let says = |name: &str| {
+        let mut chain = Some(name.to_owned());
+        std::iter::from_fn(|| {
+            let here = text(chain.as_deref()?);
+            let base = here.lines().find_map(|line| line.strip_prefix("extends = "));
+            chain = base.map(|base| base.trim_matches('"').to_owned());
+            Some(here)
+        })
+        .any(|here| here.contains("prediction = \"plan\""))
+    };
+    let mut figures = 0;
+    for file in embedded() {
+        let scenario = load(file.name, &[]).expect("an authored file");
+        if scenario.figure.is_some() && !scenario.vehicles.is_empty() {
+            figures += 1;
+            assert!(says(file.name), "{} has a figure, and does not state `prediction = \"plan\"`", file.name);
+        }
+    }
+    assert!(figures >= 16, "{figures} figures");
+}
