@@ -145,11 +145,13 @@ impl<'a> BuildingPictures<'a> {
             step.zones.iter().map(|zone| zone.temperature_c).sum::<f64>() / step.zones.len().max(1) as f64
         };
         let means: Vec<[f64; 2]> = steps.iter().map(|step| [hour_of(steps, step.step), mean(step)]).collect();
-        let wanted = |step: &BuildingFrame| step.zones.first().and_then(|zone| zone.reference_c);
-        for run in steps.chunk_by(|a, b| wanted(a).is_some() == wanted(b).is_some()) {
-            let line: Vec<[f64; 2]> =
-                run.iter().filter_map(|step| Some([hour_of(steps, step.step), wanted(step)?])).collect();
-            chart.dashed(canvas, &line, 1.6, DARK_WORDS);
+        let wanted = |step: &BuildingFrame| range(step.zones.iter().filter_map(|zone| zone.reference_c));
+        let is_wanted = |step: &BuildingFrame| step.zones.iter().any(|zone| zone.reference_c.is_some());
+        for run in steps.chunk_by(|a, b| is_wanted(a) == is_wanted(b)).filter(|run| is_wanted(run[0])) {
+            for end in 0..2 {
+                let line: Vec<[f64; 2]> = run.iter().map(|step| [hour_of(steps, step.step), wanted(step)[end]]).collect();
+                chart.dashed(canvas, &line, 1.6, DARK_WORDS);
+            }
         }
         chart.draw_past(canvas, &means, hour, ORANGE.rgb);
         chart.draw_cursor(canvas, hour);

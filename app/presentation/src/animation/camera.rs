@@ -10,6 +10,8 @@ use super::timing::{Moment, PICTURE_S};
 pub const WIDTH_PX: f64 = 720.0;
 /// Height of the view of roads that cross or turn \[px\].
 const HIGH_VIEW_PX: f64 = 420.0;
+/// Least height of such a view where everybody drives about along x \[px\].
+const LOW_VIEW_PX: f64 = 260.0;
 /// Least and greatest height of the view of a straight road \[px\].
 const STRAIGHT_VIEW_PX: [f64; 2] = [170.0, 300.0];
 /// Least and greatest length of a car \[px\].
@@ -18,6 +20,10 @@ const CAR_PX: [f64; 2] = [38.0, 96.0];
 const CAR_M: f64 = 0.4;
 /// Space between the vehicles and the edge of the view, in lengths of a car.
 const MARGIN_CARS: f64 = 1.3;
+/// How far ahead of each vehicle the view reaches, in its motion at 1/10 scale \[s\].
+const LOOK_AHEAD_S: f64 = 0.35;
+/// A vehicle that is further away than this many widths of the largest view does not draw the camera.
+const NEAR_WIDTHS: f64 = 2.5;
 /// How long the camera takes to follow a change of place, and of scale \[s\]: standard deviations.
 const SMOOTHING_S: [f64; 2] = [0.7, 1.1];
 /// A camera whose scale changes by less than this share stands still in scale.
@@ -64,10 +70,8 @@ pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<View> {
     let [least, greatest] = CAR_PX.map(|length| length / car_m);
     let road_m = straight_road_m(run.scenario);
     let height_px = road_m.map_or(HIGH_VIEW_PX, |_| STRAIGHT_VIEW_PX[1]);
-    let shown: Vec<[[f64; 2]; 2]> = moments
-        .iter()
-        .map(|moment| around(run, &run.seen(moment.time_s, 0.0).iter().map(|seen| seen.state).collect::<Vec<_>>(), [WIDTH_PX / least, height_px / least]))
-        .collect();
+    let largest_m = [WIDTH_PX / least, height_px / least];
+    let shown: Vec<[[f64; 2]; 2]> = moments.iter().map(|moment| around(run, moment.time_s, largest_m)).collect();
     let fit = |[low, high]: &[[f64; 2]; 2]| {
         let needed = |axis: usize, pixels: f64| pixels / (high[axis] - low[axis]).max(1e-6);
         let across = if road_m.is_some() { greatest } else { needed(1, height_px) };
@@ -98,6 +102,9 @@ pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<View> {
     let middles = [0, 1].map(|axis| {
         smooth(&shown.iter().map(|[low, high]| 0.5 * (low[axis] + high[axis])).collect::<Vec<_>>(), SMOOTHING_S[0])
     });
+    // No higher than what is ever shown.
+    let tallest = shown.iter().zip(&scales).map(|([low, high], scale)| scale * (high[1] - low[1])).fold(0.0, f64::max);
+    let height_px = 2.0 * (0.5 * tallest.clamp(LOW_VIEW_PX, height_px)).ceil();
     let view = |index: usize| View {
         centre_m: [middles[0][index], middles[1][index]],
         px_per_m: scales[index],
@@ -127,13 +134,22 @@ fn straight_road_m(scenario: &Scenario) -> Option<[f64; 2]> {
     (is_alone && is_straight).then_some([corridor.right_m, corridor.left_m])
 }
 
+/// Whom the ego asks for something.
+fn partner(run: &DrivingRun, time_s: f64) -> Option<usize> {
+    let proposal = run.frame(time_s).vehicles[run.scenario.ego_index()].plan.proposal.as_ref()?;
+    run.scenario.vehicles.iter().position(|vehicle| vehicle.name == proposal.to)
+}
+
 /// Least and greatest coordinates of the ego and of those near it, with a margin, within the largest extent \[m\].
-fn around(run: &DrivingRun, states: &[State], largest_m: [f64; 2]) -> [[f64; 2]; 2] {
+fn around(run: &DrivingRun, time_s: f64, largest_m: [f64; 2]) -> [[f64; 2]; 2] {
+    let states: Vec<State> = run.seen(time_s, 0.0).iter().map(|seen| seen.state).collect();
+    let states = states.as_slice();
+    let partner = partner(run, time_s);
     let ego = run.scenario.ego_index();
     let margin_m = MARGIN_CARS * car_m(run.scenario);
     let of = |index: usize| {
         let vehicle = &run.scenario.vehicles[index];
-        let ahead_m = 0.8 * vehicle.body.time_ratio() * states[index].speed_mps;
+        let ahead_m = LOOK_AHEAD_S * vehicle.body.time_ratio() * states[index].speed_mps;
         let (sin, cos) = libm::sincos(states[index].heading_rad);
         let [x, y] = states[index].position();
         let soon = [x + ahead_m * cos, y + ahead_m * sin];
@@ -153,8 +169,8 @@ fn around(run: &DrivingRun, states: &[State], largest_m: [f64; 2]) -> [[f64; 2];
         libm::hypot(dx, dy)
     };
     let mut others: Vec<usize> = (0..states.len()).filter(|index| *index != ego).collect();
-    others.sort_by(|a, b| away(a).total_cmp(&away(b)));
-    let mut kept = vec![ego];
+    others.sort_by(|a, b| (Some(*a) != partner).cmp(&(Some(*b) != partner)).then(away(a).total_cmp(&away(b))));
+    let (mut kept, next) = (vec![ego], others.first().copied());
     for other in others {
         kept.push(other);
         let [low, high] = extent(&kept);
@@ -162,7 +178,19 @@ fn around(run: &DrivingRun, states: &[State], largest_m: [f64; 2]) -> [[f64; 2];
             kept.pop();
         }
     }
-    extent(&kept)
+    let [mut low, mut high] = extent(&kept);
+    // Nobody fits: as much as there is space for of the way to the one who comes next.
+    if let Some(next) = next.filter(|next| kept.len() == 1 && away(next) < NEAR_WIDTHS * largest_m[0]) {
+        let other = states[next].position();
+        for axis in 0..2 {
+            if other[axis] < low[axis] {
+                low[axis] = other[axis].max(high[axis] - largest_m[axis]);
+            } else {
+                high[axis] = high[axis].max(other[axis].min(low[axis] + largest_m[axis]));
+            }
+        }
+    }
+    [low, high]
 }
 
 /// Means of neighbouring values, weighted by a normal distribution over the time of the pictures.

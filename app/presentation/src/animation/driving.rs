@@ -1,8 +1,8 @@
 //! Pictures of vehicles: the road with everybody on it, and a bar of words below.
 
-use super::camera::{View, WIDTH_PX, views};
+use super::camera::{View, WIDTH_PX, car_m, views};
 use super::canvas::{Align, Canvas, Ink, LineEnd};
-use super::caption::{Caption, caption};
+use super::caption::{Caption, caption, contacts};
 use super::letters::{cut, width_of};
 use super::road::{GRASS, RoadShapes};
 use super::scene::{DrivingRun, SeenVehicle};
@@ -10,11 +10,12 @@ use super::timing::{Moment, PICTURE_S, moments};
 use super::vehicle;
 use super::pictures::{Pictures, Rgb};
 use crate::figures::RecordedRun;
-use crate::palette::Colour;
+use crate::palette::{Colour, VERMILLION};
 
 const BAR: Colour = [0x23, 0x26, 0x2B];
 const WORDS: Colour = [0xF2, 0xF2, 0xEE];
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
+const FLASH: Colour = [0xFF, 0xE3, 0x6B];
 const ALARM: Colour = [0xFF, 0x6B, 0x5B];
 /// Heights of the bar above the view, and of a line of words below it \[px\].
 const TITLE_PX: f64 = 30.0;
@@ -24,6 +25,9 @@ const TEXT_PX: f64 = 16.0;
 const LABEL_PX: f64 = 14.0;
 /// Space beside words \[px\].
 const MARGIN_PX: f64 = 12.0;
+
+/// What the marks on the road are.
+const KEY: &str = "band: plan   dots: what it asks for";
 
 /// Pictures of a run with vehicles.
 pub struct DrivingPictures<'a> {
@@ -54,7 +58,7 @@ impl<'a> DrivingPictures<'a> {
         LINE_PX * (2.0 + self.legend.len() as f64) + 14.0
     }
 
-    fn draw_view(&self, canvas: &mut Canvas, view: &View, seen: &[SeenVehicle]) {
+    fn draw_view(&self, canvas: &mut Canvas, view: &View, seen: &[SeenVehicle], time_s: f64) {
         self.road.draw(canvas, view);
         let lane_px = self.run.scenario.road.lane_width_m() * view.px_per_m;
         for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen) {
@@ -74,7 +78,32 @@ impl<'a> DrivingPictures<'a> {
         for (index, (vehicle, seen)) in vehicles() {
             vehicle::draw(canvas, view, vehicle, seen, self.run.colours[index]);
         }
+        self.draw_contacts(canvas, view, seen, time_s);
         self.draw_names(canvas, view, seen);
+    }
+
+    /// A star where two vehicles touch, for a while after they began to.
+    fn draw_contacts(&self, canvas: &mut Canvas, view: &View, seen: &[SeenVehicle], time_s: f64) {
+        let car_px = car_m(self.run.scenario) * view.px_per_m;
+        for between in contacts(&self.run, time_s) {
+            let of = |index: usize, other: usize| {
+                let corners = self.run.scenario.vehicles[index].body.corners(&seen[index].state);
+                let away = |corner: &[f64; 2]| {
+                    let [x, y] = seen[other].state.position();
+                    libm::hypot(corner[0] - x, corner[1] - y)
+                };
+                corners.into_iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|corner| view.place(corner))
+            };
+            let (Some(one), Some(two)) = (of(between[0], between[1]), of(between[1], between[0])) else { continue };
+            let [x, y] = [0, 1].map(|axis| 0.5 * (one[axis] + two[axis]));
+            let star = |size: f64| -> Vec<[f64; 2]> {
+                let radius = |point: i32| if point % 2 == 0 { size } else { 0.5 * size };
+                let at = |point: i32| libm::sincos(std::f64::consts::PI * f64::from(point) / 8.0);
+                (0..16).map(|point| (at(point), radius(point))).map(|((sin, cos), r)| [x + r * cos, y + r * sin]).collect()
+            };
+            canvas.fill(&star(0.38 * car_px), VERMILLION.rgb);
+            canvas.fill(&star(0.24 * car_px), FLASH);
+        }
     }
 
     /// Names beside the vehicles, each where it covers neither a vehicle nor another name.
@@ -134,7 +163,9 @@ impl<'a> DrivingPictures<'a> {
         let longest = WIDTH_PX - 2.0 * MARGIN_PX;
         let ink = if words.alarms { ALARM } else { WORDS };
         canvas.text([MARGIN_PX, line(0.0)], Align::Left, TEXT_PX, &cut(&words.first, TEXT_PX, longest), ink);
+        let longest = longest - width_of(KEY, LABEL_PX) - 2.0 * MARGIN_PX;
         canvas.text([MARGIN_PX, line(1.0)], Align::Left, LABEL_PX, &cut(&words.second, LABEL_PX, longest), QUIET_WORDS);
+        canvas.text([WIDTH_PX - MARGIN_PX, line(1.0)], Align::Right, LABEL_PX, KEY, QUIET_WORDS);
         for (row, entries) in self.legend.iter().enumerate() {
             let y = line(2.0 + row as f64);
             for (index, words, left) in entries {
@@ -161,7 +192,7 @@ impl Pictures for DrivingPictures<'_> {
         let (moment, view) = (&self.moments[index], &self.views[index]);
         let seen = self.run.seen(moment.time_s, index as f64 * PICTURE_S);
         let mut ground = Canvas::new([WIDTH_PX as u32, view.height_px as u32], GRASS)?;
-        self.draw_view(&mut ground, view, &seen);
+        self.draw_view(&mut ground, view, &seen, moment.time_s);
         let mut canvas = Canvas::new(self.size(), BAR)?;
         canvas.put(&ground, TITLE_PX as u32);
         self.draw_title(&mut canvas, moment);

@@ -25,6 +25,10 @@ const STOP_LINE_LANES: f64 = 0.11;
 const DASH_LANES: f64 = 0.8;
 /// How many points the edge of a lane that ends has.
 const TAPER_POINTS: usize = 48;
+/// How far the road goes on beyond the ends of a network, in lane widths.
+const WAY_OUT_LANES: f64 = 80.0;
+/// Points of a line that are nearer than this to the line without them are left out, in lane widths.
+const FLATNESS_LANES: f64 = 0.002;
 /// Distance of an arrow from the end of its lane, in lane widths.
 const ARROW_LANES: f64 = 2.2;
 /// A lane shorter than this has no arrow, in lane widths.
@@ -76,6 +80,10 @@ impl RoadShapes {
                 }
             }
         }
+        let flatness_m = FLATNESS_LANES * shapes.lane_m;
+        for line in shapes.surfaces.iter_mut().chain(&mut shapes.edges).chain(&mut shapes.dashes) {
+            *line = flattened(line, flatness_m);
+        }
         shapes
     }
 
@@ -84,6 +92,9 @@ impl RoadShapes {
         let ring = |[right, left]: &[WorldLine; 2]| right.iter().chain(left.iter().rev()).copied().collect();
         self.surfaces.extend(lines.surfaces().iter().map(ring));
         self.edges = lines.edges();
+        for (lane, edges) in network.lanes().iter().zip(lines.surfaces()) {
+            self.add_ways_out(network, lane, edges);
+        }
         self.dashes = lines.dashes(DASH_LANES * self.lane_m);
         self.stop_lines = lines.stop_lines();
         for lane in network.lanes() {
@@ -95,6 +106,30 @@ impl RoadShapes {
                 let heading_rad = direction(lane, at_m);
                 self.arrows.push((lane.centre.position(at_m, 0.0), heading_rad, ways));
             }
+        }
+    }
+
+    /// Goes on beyond the ends of the network, where vehicles go on too.
+    fn add_ways_out(&mut self, network: &RoadNetwork, lane: &Lane, [right, left]: &[WorldLine; 2]) {
+        let has_before = network.lanes().iter().any(|other| other.successors.contains(&lane.name));
+        let end_m = lane.centre.length_m();
+        for (is_open, at_m) in [(lane.successors.is_empty(), end_m), (!has_before, 0.0)] {
+            let reached = lane.centre.position(at_m, 0.0);
+            let goes_beside = |other: &Lane| {
+                let place = other.centre.project(reached, None);
+                let inside = self.lane_m..other.centre.length_m() - self.lane_m;
+                other.name != lane.name && inside.contains(&place.along_m) && place.across_m.abs() < 1.5 * self.lane_m
+            };
+            if !is_open || network.lanes().iter().any(goes_beside) {
+                continue;
+            }
+            let sign = if at_m > 0.0 { 1.0 } else { -1.0 };
+            let direction = Axes::along(direction(lane, at_m)).vector([sign * WAY_OUT_LANES * self.lane_m, 0.0]);
+            let [near_right, near_left] = [right, left].map(|edge| if at_m > 0.0 { edge.last() } else { edge.first() });
+            let (Some(&near_right), Some(&near_left)) = (near_right, near_left) else { continue };
+            let far = |[x, y]: [f64; 2]| [x + direction[0], y + direction[1]];
+            self.surfaces.push(vec![near_right, far(near_right), far(near_left), near_left]);
+            self.edges.extend([near_right, near_left].map(|near| vec![near, far(near)]));
         }
     }
 
@@ -181,6 +216,30 @@ impl RoadShapes {
     }
 }
 
+/// A line without the points that change it by less than a distance: the method of Douglas and Peucker.
+fn flattened(line: &[[f64; 2]], distance: f64) -> WorldLine {
+    let (Some(first), Some(last)) = (line.first(), line.last()) else { return Vec::new() };
+    let mut kept = vec![*first];
+    let mut waiting = vec![(0, line.len() - 1)];
+    while let Some((from, to)) = waiting.pop() {
+        let [[x, y], end] = [line[from], line[to]];
+        let (dx, dy) = (end[0] - x, end[1] - y);
+        let length = libm::hypot(dx, dy);
+        let off = |point: &[f64; 2]| {
+            let [px, py] = [point[0] - x, point[1] - y];
+            if length > 0.0 { (px * dy - py * dx).abs() / length } else { libm::hypot(px, py) }
+        };
+        let inner = (from + 1..to).map(|index| (off(&line[index]), index));
+        match inner.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(off, _)| *off > distance) {
+            Some((_, middle)) => waiting.extend([(middle, to), (from, middle)]),
+            None if to < line.len() - 1 => kept.push(line[to]),
+            None => {}
+        }
+    }
+    kept.push(*last);
+    kept
+}
+
 /// Where the lanes after a lane lead.
 fn ways(network: &RoadNetwork, lane: &Lane) -> Ways {
     let end_rad = direction(lane, lane.centre.length_m());
@@ -263,6 +322,18 @@ mod tests {
         assert!(ramp.arrows.iter().all(|(.., ways)| ways.left && !ways.straight && !ways.right));
         assert_eq!(ramp.arrows.len(), 2);
         assert!(shapes("intersection/nice").arrows.is_empty());
+    }
+
+    #[test]
+    fn flat_lines_keep_their_form_with_few_points() {
+        let arc: Vec<[f64; 2]> = (0..=400).map(|i| libm::sincos(f64::from(i) / 400.0)).map(|(x, y)| [x, y]).collect();
+        let few = flattened(&arc, 1e-3);
+        assert!(few.len() > 5 && few.len() < 40, "{}", few.len());
+        assert_eq!((few.first(), few.last()), (arc.first(), arc.last()));
+        assert!(few.windows(2).all(|pair| pair[1][0] > pair[0][0]), "in order");
+        let middles = few.windows(2).map(|pair| libm::hypot(0.5 * (pair[0][0] + pair[1][0]), 0.5 * (pair[0][1] + pair[1][1])));
+        assert!(middles.into_iter().all(|radius| (1.0 - radius) < 1.1e-3));
+        assert_eq!(flattened(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], 0.1), [[0.0, 0.0], [2.0, 0.0]]);
     }
 
     #[test]

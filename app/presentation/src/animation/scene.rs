@@ -1,5 +1,6 @@
 //! What is seen of the vehicles at any moment of a run: between two ticks, states are interpolated.
 
+use interplay_planners::road::network::RouteLeg;
 use interplay_planners::{Route, State};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
@@ -10,9 +11,11 @@ use crate::palette::{Colour, VERMILLION, vehicle_colours};
 /// A vehicle brakes visibly if its acceleration is below this \[m/s²\].
 pub const BRAKING_MPS2: f64 = -0.1;
 /// A plan that leads further sideways than this is a change of lane, in lane widths.
-const LANE_CHANGE_LANES: f64 = 0.4;
-/// How much a plan turns in a network before it is a turn \[rad\].
+const LANE_CHANGE_LANES: f64 = 0.5;
+/// How much a way turns away from the lane before it, where there is a choice, to be indicated \[rad\].
 const TURN_RAD: f64 = 0.6;
+/// How far ahead a turn is indicated, in lane widths.
+const TURN_AHEAD_LANES: f64 = 8.0;
 /// How long an indicator is lit and dark \[s\], in the picture's time.
 const BLINK_S: f64 = 0.32;
 
@@ -167,8 +170,31 @@ fn turn(scenario: &Scenario, route: &Route, vehicle: &VehicleFrame) -> Option<Tu
     if sideways_m.abs() > LANE_CHANGE_LANES * scenario.road.lane_width_m() {
         return Some(side(sideways_m));
     }
-    let turned_rad = wrapped(last.heading_rad - first.heading_rad);
-    (scenario.network.is_some() && turned_rad.abs() > TURN_RAD).then(|| side(turned_rad))
+    let turned_rad = turned_rad(scenario, route, route.along(first.position()))?;
+    (turned_rad.abs() > TURN_RAD).then(|| side(turned_rad))
+}
+
+/// How much the way of a vehicle turns at the next lane from which several lead on, if that is near \[rad\].
+///
+/// A lane that is itself bent at its end, as on a ring, goes on straight where the next one is bent as much.
+fn turned_rad(scenario: &Scenario, route: &Route, along_m: f64) -> Option<f64> {
+    let network = scenario.network.as_ref()?;
+    let ahead_m = TURN_AHEAD_LANES * scenario.road.lane_width_m();
+    let pairs = route.legs.windows(2).filter(|legs| {
+        let is_choice = network.lane(&legs[0].lane).is_some_and(|lane| lane.successors.len() > 1);
+        is_choice && legs[0].to_m - ahead_m < along_m && along_m < legs[1].to_m
+    });
+    let direction = |at_m: f64| {
+        let [from, to] = [at_m - 0.01 * ahead_m, at_m].map(|at_m| route.centre.position(at_m, 0.0));
+        libm::atan2(to[1] - from[1], to[0] - from[0])
+    };
+    let turned = |legs: &[RouteLeg]| {
+        let (here_m, length_m) = (legs[0].to_m, legs[1].to_m - legs[1].from_m);
+        let own_m = length_m.min(legs[0].to_m - legs[0].from_m);
+        let own_rad = wrapped(direction(here_m) - direction(here_m - own_m));
+        wrapped(direction(legs[1].to_m) - direction(here_m) - own_rad)
+    };
+    pairs.map(turned).next()
 }
 
 #[cfg(test)]
@@ -198,7 +224,9 @@ mod tests {
             let steps: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
             assert!(steps.iter().all(|step| *step > 0.0), "{steps:?}");
         }
-        assert_eq!(run.seen(1e3, 0.0)[0].state, recorded.report.vehicles[0].last);
+        let (end, last) = (run.seen(1e3, 0.0)[0].state, recorded.report.vehicles[0].last);
+        let off = end.to_array().iter().zip(last.to_array()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-9, "{end:?} {last:?}");
     }
 
     #[test]

@@ -7,7 +7,7 @@ pub const PICTURE_S: f64 = 0.08;
 /// How long the last picture stays \[s\].
 pub const LAST_PICTURE_S: f64 = 1.6;
 /// How long a run is shown after the last vehicle has reached its goal \[s\], at 1/10 scale.
-const AFTER_GOALS_S: f64 = 1.5;
+const AFTER_GOALS_S: f64 = 0.8;
 /// How long it is shown after the last collision \[s\], at 1/10 scale.
 const AFTER_COLLISION_S: f64 = 2.5;
 /// The longest that a run is shown before it is sped up \[s\].

@@ -175,17 +175,18 @@ fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
     let length_m = placed.body.front_m + placed.body.rear_m;
     // Lights are as deep as those of a car, however long the vehicle is.
     let deep = 0.24 * placed.body.width_m / length_m;
-    for side in [-1.0, 1.0] {
+    for side in [-1.0_f64, 1.0] {
         let across = [side * 0.88, side * 0.5];
         let [right, left] = [across[0].min(across[1]), across[0].max(across[1])];
         let head = placed.rectangle([1.0 - 1.3 * deep, 1.0 - 0.3 * deep, right, left]);
         canvas.fill_rounded(&head, 0.08 * placed.px(placed.body.width_m), HEADLIGHT);
-        let tail = if seen.brakes { [-1.0, -1.0 + 1.5 * deep, right, left] } else { [-1.0, -1.0 + 0.9 * deep, right, left] };
-        canvas.fill_rounded(&placed.rectangle(tail), 0.06 * placed.px(placed.body.width_m), if seen.brakes { BRAKE_LIGHT } else { TAIL_LIGHT });
         if seen.brakes {
             let behind = placed.shared([-1.0 - 0.3 * deep, side * 0.68]);
             canvas.disc(behind, placed.px(0.3 * placed.body.width_m), Ink::veiled(BRAKE_LIGHT, 0.3));
         }
+        let (colour, depth) = if seen.brakes { (BRAKE_LIGHT, 1.5 * deep) } else { (TAIL_LIGHT, 0.9 * deep) };
+        let tail = placed.rectangle([-1.0, -1.0 + depth, right, left]);
+        canvas.fill_rounded(&tail, 0.06 * placed.px(placed.body.width_m), colour);
         let lit = seen.blinks && seen.turn == Some(if side > 0.0 { Turn::Left } else { Turn::Right });
         if lit {
             for end in [-1.0, 1.0] {
