@@ -163,7 +163,9 @@ impl Run {
             && is_same_file(recording, animation)
         {
             let path = animation.display();
-            return Some(format!("the recording and the animation cannot both be `{path}`; choose another name for one"));
+            return Some(format!(
+                "the recording and the animation cannot both be `{path}`; choose another name for one"
+            ));
         }
         let page = self.report.as_ref().map(|folder| folder.join("index.html")).filter(|page| Page::is_taken(page))?;
         Some(format!("`{}` is no page of Interplay's; choose another folder for --report", page.display()))

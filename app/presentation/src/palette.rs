@@ -96,11 +96,8 @@ mod tests {
             [0, 1, 2].map(|row| (0..3).map(|column| matrix[row][column] * of[column]).sum::<f64>())
         };
         let seen = times(vision, linear).map(|part| part.clamp(0.0, 1.0));
-        const XYZ: [[f64; 3]; 3] = [
-            [0.4124564, 0.3575761, 0.1804375],
-            [0.2126729, 0.7151522, 0.0721750],
-            [0.0193339, 0.1191920, 0.9503041],
-        ];
+        const XYZ: [[f64; 3]; 3] =
+            [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]];
         let [x, y, z] = times(&XYZ, seen);
         let root = |t: f64| {
             if t > 216.0 / 24389.0 { libm::cbrt(t) } else { (24389.0 / 27.0 * t + 16.0) / 116.0 }
@@ -122,7 +119,8 @@ mod tests {
         let turn = (h2 - h1 + 180.0).rem_euclid(360.0) - 180.0;
         let (l, c, h) = (0.5 * (l1 + l2), 0.5 * (c1 + c2), (h1 + 0.5 * turn).rem_euclid(360.0));
         let cos = |degrees: f64| libm::cos(degrees.to_radians());
-        let t = 1.0 - 0.17 * cos(h - 30.0) + 0.24 * cos(2.0 * h) + 0.32 * cos(3.0 * h + 6.0) - 0.2 * cos(4.0 * h - 63.0);
+        let t =
+            1.0 - 0.17 * cos(h - 30.0) + 0.24 * cos(2.0 * h) + 0.32 * cos(3.0 * h + 6.0) - 0.2 * cos(4.0 * h - 63.0);
         let off = (l - 50.0) * (l - 50.0);
         let lightness = (l2 - l1) / (1.0 + 0.015 * off / (20.0 + off).sqrt());
         let saturation = (c2 - c1) / (1.0 + 0.045 * c);

@@ -149,7 +149,8 @@ impl<'a> BuildingPictures<'a> {
         let is_wanted = |step: &BuildingFrame| step.zones.iter().any(|zone| zone.reference_c.is_some());
         for run in steps.chunk_by(|a, b| is_wanted(a) == is_wanted(b)).filter(|run| is_wanted(run[0])) {
             for end in 0..2 {
-                let line: Vec<[f64; 2]> = run.iter().map(|step| [hour_of(steps, step.step), wanted(step)[end]]).collect();
+                let line: Vec<[f64; 2]> =
+                    run.iter().map(|step| [hour_of(steps, step.step), wanted(step)[end]]).collect();
                 chart.dashed(canvas, &line, 1.6, DARK_WORDS);
             }
         }
@@ -174,7 +175,12 @@ impl Pictures for BuildingPictures<'_> {
         let step = steps.get(at as usize).or(steps.last())?;
         let mut canvas = Canvas::new(self.size(), PAPER)?;
         canvas.block([0.0, 0.0], [WIDTH_PX, TITLE_PX], BAR);
-        let clock = format!("day {number} of {}   {:02}:{:02}", self.day_count, hour as u32, (hour.fract() * 60.0).round() as u32);
+        let clock = format!(
+            "day {number} of {}   {:02}:{:02}",
+            self.day_count,
+            hour as u32,
+            (hour.fract() * 60.0).round() as u32
+        );
         let y = 0.5 * TITLE_PX;
         canvas.text([WIDTH_PX - MARGIN_PX, y], Align::Right, TEXT_PX, &clock, WORDS);
         canvas.text([MARGIN_PX, y], Align::Left, TEXT_PX, &cut(self.title, TEXT_PX, 490.0), WORDS);

@@ -24,6 +24,8 @@ const MARGIN_CARS: f64 = 1.3;
 const LOOK_AHEAD_S: f64 = 0.35;
 /// A vehicle that is further away than this many widths of the largest view does not draw the camera.
 const NEAR_WIDTHS: f64 = 2.5;
+/// Around an ego that is alone, this share of the largest view is shown.
+const ALONE_RATIO: f64 = 0.7;
 /// How long the camera takes to follow a change of place, and of scale \[s\]: standard deviations.
 const SMOOTHING_S: [f64; 2] = [0.7, 1.1];
 /// A camera whose scale changes by less than this share stands still in scale.
@@ -83,7 +85,8 @@ pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<View> {
         let px_per_m = closest.min(STRAIGHT_VIEW_PX[1] / (left_m - right_m + 0.8 * car_m));
         let wanted = px_per_m * (left_m - right_m + 2.4 * car_m);
         let height_px = (2.0 * (0.5 * wanted.clamp(STRAIGHT_VIEW_PX[0], STRAIGHT_VIEW_PX[1])).round()).round();
-        let middle = smooth(&shown.iter().map(|[low, high]| 0.5 * (low[0] + high[0])).collect::<Vec<_>>(), SMOOTHING_S[0]);
+        let middle =
+            smooth(&shown.iter().map(|[low, high]| 0.5 * (low[0] + high[0])).collect::<Vec<_>>(), SMOOTHING_S[0]);
         let view = |x: &f64| View { centre_m: [*x, 0.5 * (right_m + left_m)], px_per_m, height_px }.on_pixels();
         return middle.iter().map(view).collect();
     }
@@ -105,11 +108,8 @@ pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<View> {
     // No higher than what is ever shown.
     let tallest = shown.iter().zip(&scales).map(|([low, high], scale)| scale * (high[1] - low[1])).fold(0.0, f64::max);
     let height_px = 2.0 * (0.5 * tallest.clamp(LOW_VIEW_PX, height_px)).ceil();
-    let view = |index: usize| View {
-        centre_m: [middles[0][index], middles[1][index]],
-        px_per_m: scales[index],
-        height_px,
-    };
+    let view =
+        |index: usize| View { centre_m: [middles[0][index], middles[1][index]], px_per_m: scales[index], height_px };
     (0..moments.len()).map(|index| view(index).on_pixels()).collect()
 }
 
@@ -159,7 +159,8 @@ fn around(run: &DrivingRun, time_s: f64, largest_m: [f64; 2]) -> [[f64; 2]; 2] {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in indices.iter().flat_map(|index| of(*index)) {
             for axis in 0..2 {
-                (low[axis], high[axis]) = (low[axis].min(point[axis] - margin_m), high[axis].max(point[axis] + margin_m));
+                (low[axis], high[axis]) =
+                    (low[axis].min(point[axis] - margin_m), high[axis].max(point[axis] + margin_m));
             }
         }
         [low, high]
@@ -180,7 +181,8 @@ fn around(run: &DrivingRun, time_s: f64, largest_m: [f64; 2]) -> [[f64; 2]; 2] {
     }
     let [mut low, mut high] = extent(&kept);
     // Nobody fits: as much as there is space for of the way to the one who comes next.
-    if let Some(next) = next.filter(|next| kept.len() == 1 && away(next) < NEAR_WIDTHS * largest_m[0]) {
+    let is_near = |next: &usize| away(next) < NEAR_WIDTHS * largest_m[0] && are_closing([&states[ego], &states[*next]]);
+    if let Some(next) = next.filter(|next| kept.len() == 1 && is_near(next)) {
         let other = states[next].position();
         for axis in 0..2 {
             if other[axis] < low[axis] {
@@ -190,7 +192,24 @@ fn around(run: &DrivingRun, time_s: f64, largest_m: [f64; 2]) -> [[f64; 2]; 2] {
             }
         }
     }
+    if kept.len() == 1 {
+        for axis in 0..2 {
+            let missing = (ALONE_RATIO * largest_m[axis] - (high[axis] - low[axis])).max(0.0);
+            (low[axis], high[axis]) = (low[axis] - 0.5 * missing, high[axis] + 0.5 * missing);
+        }
+    }
     [low, high]
+}
+
+/// Whether two vehicles come closer to each other.
+fn are_closing([one, other]: [&State; 2]) -> bool {
+    let velocity = |state: &State| {
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        [state.speed_mps * cos, state.speed_mps * sin]
+    };
+    let (one_mps, other_mps) = (velocity(one), velocity(other));
+    let [x, y] = [other.x_m - one.x_m, other.y_m - one.y_m];
+    x * (other_mps[0] - one_mps[0]) + y * (other_mps[1] - one_mps[1]) < 0.0
 }
 
 /// Means of neighbouring values, weighted by a normal distribution over the time of the pictures.
@@ -207,7 +226,13 @@ fn smooth(values: &[f64], deviation_s: f64) -> Vec<f64> {
         2.0 * values[inside as usize] - values[mirrored as usize]
     };
     let at = |index: isize| {
-        let value = |offset: isize| if (0..=last).contains(&(index + offset)) { values[(index + offset) as usize] } else { value(index + offset) };
+        let value = |offset: isize| {
+            if (0..=last).contains(&(index + offset)) {
+                values[(index + offset) as usize]
+            } else {
+                value(index + offset)
+            }
+        };
         let sum: f64 = (-reach..=reach).zip(&weights).map(|(offset, weight)| weight * value(offset)).sum();
         sum / weights.iter().sum::<f64>()
     };
@@ -235,7 +260,9 @@ mod tests {
     /// The whole ego is seen at every moment, no car is too small, and the camera never jumps.
     #[test]
     fn the_camera_keeps_the_ego_in_view() {
-        for name in ["lane-change/front-nice", "roundabout/nice", "intersection/nice", "on-ramp/five", "curve/lane-drop"] {
+        for name in
+            ["lane-change/front-nice", "roundabout/nice", "intersection/nice", "on-ramp/five", "curve/lane-drop"]
+        {
             let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
             let run = DrivingRun::of(&recorded).expect("vehicles");
             let ego = recorded.scenario.ego_index();

@@ -208,7 +208,11 @@ fn rounded(ring: &[[f64; 2]], radius: f64) -> Option<Path> {
             [0, 1].map(|axis| (here[axis] + share * (to[axis] - here[axis])) as f32)
         };
         let ([x, y], [end_x, end_y]) = (toward(before), toward(after));
-        if index == 0 { builder.move_to(x, y) } else { builder.line_to(x, y) }
+        if index == 0 {
+            builder.move_to(x, y)
+        } else {
+            builder.line_to(x, y)
+        }
         builder.quad_to(here[0] as f32, here[1] as f32, end_x, end_y);
     }
     builder.close();

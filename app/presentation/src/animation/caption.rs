@@ -9,7 +9,7 @@ use super::scene::DrivingRun;
 const COLLISION_SHOWN_S: f64 = 3.0;
 const EVENT_SHOWN_S: f64 = 2.5;
 /// How long the place of a contact is marked \[s\] at 1/10 scale.
-const CONTACT_SHOWN_S: f64 = 0.5;
+const CONTACT_SHOWN_S: f64 = 0.35;
 /// From this share of acceptance on a vehicle accepts, below the other it declines.
 const ACCEPTS: f64 = 0.7;
 const DECLINES: f64 = 0.3;
@@ -117,7 +117,11 @@ mod tests {
     #[test]
     fn a_negotiator_asks_and_is_answered() {
         let captions = captions("intersection/nice");
-        assert!(captions.iter().any(|caption| caption.first.starts_with("ego asks crossing") && caption.first.contains("accepts")));
+        assert!(
+            captions
+                .iter()
+                .any(|caption| caption.first.starts_with("ego asks crossing") && caption.first.contains("accepts"))
+        );
         assert!(captions.iter().any(|caption| !caption.second.is_empty()));
         assert!(captions.iter().all(|caption| !caption.alarms));
     }

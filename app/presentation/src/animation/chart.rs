@@ -50,7 +50,8 @@ impl Chart {
 
     /// A curve until an hour, with a dot at its end.
     pub fn draw_past(&self, canvas: &mut Canvas, points: &[[f64; 2]], hour: f64, colour: Colour) {
-        let past: Vec<[f64; 2]> = points.iter().filter(|[at, _]| *at <= hour + 1e-9).map(|point| self.pixel(*point)).collect();
+        let past: Vec<[f64; 2]> =
+            points.iter().filter(|[at, _]| *at <= hour + 1e-9).map(|point| self.pixel(*point)).collect();
         canvas.line(&past, 2.4, LineEnd::Round, colour);
         if let Some(last) = past.last() {
             canvas.disc(*last, 4.0, colour);

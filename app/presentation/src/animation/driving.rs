@@ -4,11 +4,11 @@ use super::camera::{View, WIDTH_PX, car_m, views};
 use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::caption::{Caption, caption, contacts};
 use super::letters::{cut, width_of};
+use super::pictures::{Pictures, Rgb};
 use super::road::{GRASS, RoadShapes};
 use super::scene::{DrivingRun, SeenVehicle};
 use super::timing::{Moment, PICTURE_S, moments};
 use super::vehicle;
-use super::pictures::{Pictures, Rgb};
 use crate::figures::RecordedRun;
 use crate::palette::{Colour, VERMILLION};
 
@@ -99,17 +99,21 @@ impl<'a> DrivingPictures<'a> {
             let star = |size: f64| -> Vec<[f64; 2]> {
                 let radius = |point: i32| if point % 2 == 0 { size } else { 0.5 * size };
                 let at = |point: i32| libm::sincos(std::f64::consts::PI * f64::from(point) / 8.0);
-                (0..16).map(|point| (at(point), radius(point))).map(|((sin, cos), r)| [x + r * cos, y + r * sin]).collect()
+                (0..16)
+                    .map(|point| (at(point), radius(point)))
+                    .map(|((sin, cos), r)| [x + r * cos, y + r * sin])
+                    .collect()
             };
-            canvas.fill(&star(0.38 * car_px), VERMILLION.rgb);
-            canvas.fill(&star(0.24 * car_px), FLASH);
+            canvas.fill(&star(0.28 * car_px), VERMILLION.rgb);
+            canvas.fill(&star(0.18 * car_px), FLASH);
         }
     }
 
     /// Names beside the vehicles, each where it covers neither a vehicle nor another name.
     fn draw_names(&self, canvas: &mut Canvas, view: &View, seen: &[SeenVehicle]) {
         let boxes = |vehicle: usize| {
-            let corners = self.run.scenario.vehicles[vehicle].body.corners(&seen[vehicle].state).map(|corner| view.place(corner));
+            let corners =
+                self.run.scenario.vehicles[vehicle].body.corners(&seen[vehicle].state).map(|corner| view.place(corner));
             bounds(&corners)
         };
         let mut taken: Vec<[f64; 4]> = (0..seen.len()).map(boxes).collect();
@@ -257,6 +261,10 @@ impl DrivingPictures<'_> {
         };
         let places = self.run.scenario.vehicles.iter().zip(&seen).map(place);
         let inside = |[x, _]: &[f64; 2]| (0.0..WIDTH_PX).contains(x);
-        places.zip(self.run.colours.iter().copied()).filter(|(place, _)| inside(place)).map(|([x, y], colour)| ([x, y + TITLE_PX], colour)).collect()
+        places
+            .zip(self.run.colours.iter().copied())
+            .filter(|(place, _)| inside(place))
+            .map(|([x, y], colour)| ([x, y + TITLE_PX], colour))
+            .collect()
     }
 }

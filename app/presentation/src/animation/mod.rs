@@ -75,7 +75,9 @@ fn encode(pictures: &dyn Pictures, format: AnimationFormat) -> Result<Vec<u8>, A
     match format {
         AnimationFormat::Gif => encode::gif(&film()?).map_err(|error| AnimationError::Encoding(Box::new(error))),
         AnimationFormat::WebP => encode::webp(&film()?).map_err(|error| AnimationError::Encoding(Box::new(error))),
-        AnimationFormat::Filmstrip => encode::filmstrip(pictures).map_err(|error| AnimationError::Encoding(Box::new(error))),
+        AnimationFormat::Filmstrip => {
+            encode::filmstrip(pictures).map_err(|error| AnimationError::Encoding(Box::new(error)))
+        }
         AnimationFormat::Mp4 => encode::mp4(pictures).map_err(AnimationError::Film),
     }
 }

@@ -186,7 +186,9 @@ impl RoadShapes {
         // Closes the hairlines between lanes that touch.
         surfaces.iter().for_each(|ring| canvas.outline(ring, 0.8, ASPHALT));
         let width = (LINE_LANES * lane_px).max(1.3);
-        for (lines, width) in [(&self.edges, width), (&self.dashes, width), (&self.stop_lines, STOP_LINE_LANES * lane_px)] {
+        for (lines, width) in
+            [(&self.edges, width), (&self.dashes, width), (&self.stop_lines, STOP_LINE_LANES * lane_px)]
+        {
             lines.iter().for_each(|line| canvas.line(&place(line), width, LineEnd::Flat, PAINT));
         }
         for (at_m, heading_rad, ways) in &self.arrows {
@@ -331,7 +333,8 @@ mod tests {
         assert!(few.len() > 5 && few.len() < 40, "{}", few.len());
         assert_eq!((few.first(), few.last()), (arc.first(), arc.last()));
         assert!(few.windows(2).all(|pair| pair[1][0] > pair[0][0]), "in order");
-        let middles = few.windows(2).map(|pair| libm::hypot(0.5 * (pair[0][0] + pair[1][0]), 0.5 * (pair[0][1] + pair[1][1])));
+        let middles =
+            few.windows(2).map(|pair| libm::hypot(0.5 * (pair[0][0] + pair[1][0]), 0.5 * (pair[0][1] + pair[1][1])));
         assert!(middles.into_iter().all(|radius| (1.0 - radius) < 1.1e-3));
         assert_eq!(flattened(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], 0.1), [[0.0, 0.0], [2.0, 0.0]]);
     }

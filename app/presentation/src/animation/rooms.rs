@@ -33,7 +33,8 @@ impl Rooms {
         let blocks = |across: usize| [across, plan.floors.div_ceil(across)];
         let side = |across: usize| {
             let [columns, rows] = blocks(across).map(|count| count as f64);
-            let space = |length: f64, count: f64, rooms: usize| (length - (count - 1.0) * BETWEEN_PX) / (count * rooms as f64);
+            let space =
+                |length: f64, count: f64, rooms: usize| (length - (count - 1.0) * BETWEEN_PX) / (count * rooms as f64);
             space(wide, columns, plan.columns.max(1)).min(space(high, rows, plan.rows.max(1)))
         };
         let across = (1..=plan.floors.max(1)).max_by(|a, b| side(*a).total_cmp(&side(*b))).unwrap_or(1);

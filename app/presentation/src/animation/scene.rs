@@ -15,7 +15,7 @@ const LANE_CHANGE_LANES: f64 = 0.5;
 /// How much a way turns away from the lane before it, where there is a choice, to be indicated \[rad\].
 const TURN_RAD: f64 = 0.6;
 /// How far ahead a turn is indicated, in lane widths.
-const TURN_AHEAD_LANES: f64 = 8.0;
+const TURN_AHEAD_LANES: f64 = 5.0;
 /// How long an indicator is lit and dark \[s\], in the picture's time.
 const BLINK_S: f64 = 0.32;
 
@@ -92,23 +92,24 @@ impl<'a> DrivingRun<'a> {
         let next_s = self.frames.get(tick + 1).map_or(self.end.0, |frame| frame.time_s);
         let share = ((time_s - frame.time_s) / (next_s - frame.time_s).max(1e-9)).clamp(0.0, 1.0);
         let blinks = (shown_s / BLINK_S) as usize % 2 == 0;
-        let seen = |(index, vehicle): (usize, &VehicleFrame)| {
-            let state = self.state(index, tick, share);
-            let turn = turn(self.scenario, &self.scenario.vehicles[index].route, vehicle);
-            let failed = vehicle.origin != Origin::Planned;
-            SeenVehicle {
-                state,
-                steering_rad: vehicle.input.steering_rad,
-                brakes: is_braking(vehicle.input.acceleration_mps2) && state.speed_mps > 1e-3,
-                turn,
-                blinks,
-                plan: rest(&vehicle.plan.trajectory.states, &state),
-                plan_colour: if failed { VERMILLION.rgb } else { self.colours[index] },
-                proposal: vehicle.plan.proposal.as_ref().map_or_else(Vec::new, |proposal| {
-                    proposal.trajectory.states.iter().map(State::position).collect()
-                }),
-            }
-        };
+        let seen =
+            |(index, vehicle): (usize, &VehicleFrame)| {
+                let state = self.state(index, tick, share);
+                let turn = turn(self.scenario, &self.scenario.vehicles[index].route, vehicle);
+                let failed = vehicle.origin != Origin::Planned;
+                SeenVehicle {
+                    state,
+                    steering_rad: vehicle.input.steering_rad,
+                    brakes: is_braking(vehicle.input.acceleration_mps2) && state.speed_mps > 1e-3,
+                    turn,
+                    blinks,
+                    plan: rest(&vehicle.plan.trajectory.states, &state),
+                    plan_colour: if failed { VERMILLION.rgb } else { self.colours[index] },
+                    proposal: vehicle.plan.proposal.as_ref().map_or_else(Vec::new, |proposal| {
+                        proposal.trajectory.states.iter().map(State::position).collect()
+                    }),
+                }
+            };
         frame.vehicles.iter().enumerate().map(seen).collect()
     }
 
@@ -170,13 +171,12 @@ fn turn(scenario: &Scenario, route: &Route, vehicle: &VehicleFrame) -> Option<Tu
     if sideways_m.abs() > LANE_CHANGE_LANES * scenario.road.lane_width_m() {
         return Some(side(sideways_m));
     }
-    let turned_rad = turned_rad(scenario, route, route.along(first.position()))?;
-    (turned_rad.abs() > TURN_RAD).then(|| side(turned_rad))
+    turned_rad(scenario, route, route.along(first.position())).map(side)
 }
 
 /// How much the way of a vehicle turns at the next lane from which several lead on, if that is near \[rad\].
 ///
-/// A lane that is itself bent at its end, as on a ring, goes on straight where the next one is bent as much.
+/// From a lane that is itself bent at its end, as on a ring, a lane that is bent as much leads straight on.
 fn turned_rad(scenario: &Scenario, route: &Route, along_m: f64) -> Option<f64> {
     let network = scenario.network.as_ref()?;
     let ahead_m = TURN_AHEAD_LANES * scenario.road.lane_width_m();
@@ -190,11 +190,11 @@ fn turned_rad(scenario: &Scenario, route: &Route, along_m: f64) -> Option<f64> {
     };
     let turned = |legs: &[RouteLeg]| {
         let (here_m, length_m) = (legs[0].to_m, legs[1].to_m - legs[1].from_m);
-        let own_m = length_m.min(legs[0].to_m - legs[0].from_m);
+        let own_m = length_m.min(legs[0].to_m - legs[0].from_m).max(1e-3 * ahead_m);
         let own_rad = wrapped(direction(here_m) - direction(here_m - own_m));
-        wrapped(direction(legs[1].to_m) - direction(here_m) - own_rad)
+        wrapped(direction(legs[1].to_m) - direction(here_m) - own_rad * length_m / own_m)
     };
-    pairs.map(turned).next()
+    pairs.map(turned).find(|turned_rad| turned_rad.abs() > TURN_RAD)
 }
 
 #[cfg(test)]
@@ -220,7 +220,8 @@ mod tests {
         }
         let step_s = recorded.scenario.step_s;
         for index in 0..recorded.scenario.vehicles.len() {
-            let places: Vec<f64> = (0..=60).map(|part| run.seen(0.1 * step_s * f64::from(part), 0.0)[index].state.x_m).collect();
+            let places: Vec<f64> =
+                (0..=60).map(|part| run.seen(0.1 * step_s * f64::from(part), 0.0)[index].state.x_m).collect();
             let steps: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
             assert!(steps.iter().all(|step| *step > 0.0), "{steps:?}");
         }
@@ -244,6 +245,22 @@ mod tests {
         assert!(lit > 10 && dark > 10, "{lit} {dark}");
     }
 
+    /// On the ring nobody indicates before the exit, there to the right; a left turn at a crossing is indicated to the left.
+    #[test]
+    fn turns_are_indicated_where_there_is_a_choice() {
+        let turns = |name: &str| {
+            let recorded = recorded(name);
+            let run = DrivingRun::of(&recorded).expect("vehicles");
+            let ego = recorded.scenario.ego_index();
+            let mut turns: Vec<Turn> =
+                run.frames.iter().filter_map(|frame| run.seen(frame.time_s, 0.0)[ego].turn).collect();
+            turns.dedup();
+            turns
+        };
+        assert_eq!(turns("roundabout/nice"), [Turn::Right]);
+        assert_eq!(turns("left-turn/nice"), [Turn::Left]);
+    }
+
     /// The ego of this scenario changes to the lane on its left, and indicates before it is there.
     #[test]
     fn an_indicator_is_on_before_a_lane_change() {
@@ -254,7 +271,8 @@ mod tests {
         let last = recorded.report.vehicles[ego].last.y_m;
         let to = if last > first { Turn::Left } else { Turn::Right };
         let middle = 0.5 * (first + last);
-        let crossing = run.frames.iter().position(|frame| (frame.vehicles[ego].state.y_m - middle) * (last - middle) > 0.0);
+        let crossing =
+            run.frames.iter().position(|frame| (frame.vehicles[ego].state.y_m - middle) * (last - middle) > 0.0);
         let crossing_s = run.frames[crossing.expect("it changes lanes")].time_s;
         let before = run.frames.iter().filter(|frame| frame.time_s < crossing_s);
         let indicated = before.filter(|frame| run.seen(frame.time_s, 0.0)[ego].turn == Some(to)).count();

@@ -50,7 +50,7 @@ fn a_gif_shows_every_picture_in_its_colours() {
     let (size, shown) = decoded_gif(&bytes);
     assert_eq!(size, pictures.size().map(|part| part as usize));
     assert_eq!(shown.len(), pictures.count());
-    assert!(shown.len() >= 25, "{}", shown.len());
+    assert!(shown.len() >= 20, "{}", shown.len());
     for (index, shown) in shown.iter().enumerate() {
         let drawn = pictures.draw(index).expect("a picture");
         for colour in [ORANGE.rgb, BLUE.rgb] {
@@ -76,7 +76,9 @@ fn a_webp_shows_the_same_as_a_gif() {
     for (index, expected) in gif.iter().enumerate() {
         decoder.read_frame(&mut pixels).expect("a frame");
         let rgb: Vec<u8> = pixels.as_chunks::<4>().0.iter().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-        assert!(rgb == *expected, "picture {index}");
+        // The decoder blends opaque pixels, too, and is off by up to 3 in that.
+        let off = rgb.iter().zip(expected).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(off <= Some(3), "picture {index}: {off:?}");
     }
 }
 
@@ -98,6 +100,17 @@ fn the_same_run_gives_the_same_bytes() {
         let bytes = || encoded(&recorded(name), AnimationFormat::Gif).expect("a GIF");
         assert!(bytes() == bytes(), "{name}");
     }
+}
+
+/// The picture in which most changes: the camera follows around a ring.
+#[test]
+fn twelve_seconds_are_at_most_three_megabytes() {
+    let name = "roundabout/nice";
+    let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+    let pictures = DrivingPictures::of(&recorded).expect("vehicles");
+    let bytes = encoded(&recorded, AnimationFormat::Gif).expect("a GIF").len() as f64;
+    let shown_s = pictures.count() as f64 * super::timing::PICTURE_S;
+    assert!(shown_s > 10.0 && bytes / shown_s * 12.0 < 3e6, "{bytes} bytes for {shown_s} s");
 }
 
 /// The roof of a vehicle has its colour at its place, in every picture where it is not covered.

@@ -3,7 +3,7 @@
 use interplay_simulation::report::Report;
 
 /// Time from one picture to the next \[s\]; GIF counts in hundredths of a second.
-pub const PICTURE_S: f64 = 0.08;
+pub const PICTURE_S: f64 = 0.1;
 /// How long the last picture stays \[s\].
 pub const LAST_PICTURE_S: f64 = 1.6;
 /// How long a run is shown after the last vehicle has reached its goal \[s\], at 1/10 scale.
@@ -53,7 +53,8 @@ fn last_s(report: &Report, end_s: f64, time_ratio: f64) -> f64 {
     let tasks = report.vehicles.iter().filter(|vehicle| vehicle.has_task);
     let completed: Option<Vec<f64>> = tasks.map(|vehicle| vehicle.completed_s).collect();
     let collided = report.collisions.iter().map(|hit| hit.time_s + AFTER_COLLISION_S * time_ratio).reduce(f64::max);
-    let reached = completed.and_then(|times| times.into_iter().reduce(f64::max)).map(|at| at + AFTER_GOALS_S * time_ratio);
+    let reached =
+        completed.and_then(|times| times.into_iter().reduce(f64::max)).map(|at| at + AFTER_GOALS_S * time_ratio);
     let everything = match (reached, collided) {
         (Some(reached), Some(collided)) => Some(reached.max(collided)),
         (reached, collided) => reached.or(collided),

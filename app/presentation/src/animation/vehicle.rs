@@ -113,7 +113,12 @@ pub fn draw(canvas: &mut Canvas, view: &View, vehicle: &Vehicle, seen: &SeenVehi
         BodyStyle::Car => draw_cabin(canvas, &placed, colour, [-0.62, 0.42]),
         BodyStyle::Van => {
             draw_glass(canvas, &placed, [0.62, 0.82], [0.88, 0.78]);
-            canvas.line(&[placed.shared([0.55, -0.86]), placed.shared([0.55, 0.86])], edge, LineEnd::Flat, darker(colour));
+            canvas.line(
+                &[placed.shared([0.55, -0.86]), placed.shared([0.55, 0.86])],
+                edge,
+                LineEnd::Flat,
+                darker(colour),
+            );
         }
         BodyStyle::Lorry | BodyStyle::Bicycle => {
             draw_glass(canvas, &placed, [0.86, 0.95], [0.9, 0.86]);
@@ -213,7 +218,12 @@ fn draw_bicycle(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle, colour
     let rider = placed.rectangle([-0.28, 0.12, -0.8, 0.8]);
     canvas.fill_rounded(&rider, 0.25 * width, colour);
     for side in [-1.0, 1.0] {
-        canvas.line(&[placed.shared([0.0, 0.65 * side]), placed.shared([0.38, 0.75 * side])], thick, LineEnd::Round, SKIN);
+        canvas.line(
+            &[placed.shared([0.0, 0.65 * side]), placed.shared([0.38, 0.75 * side])],
+            thick,
+            LineEnd::Round,
+            SKIN,
+        );
     }
     canvas.disc(placed.shared([0.02, 0.0]), 0.24 * width, darker(colour));
     if seen.brakes {

@@ -60,7 +60,8 @@ impl Film {
             return Change { corner: [0, 0], size: self.size, pixels, shown_s };
         };
         let differs = |x: usize, y: usize| now[y * width + x] != before[y * width + x];
-        let rows: Vec<usize> = (0..height).filter(|y| now[y * width..][..width] != before[y * width..][..width]).collect();
+        let rows: Vec<usize> =
+            (0..height).filter(|y| now[y * width..][..width] != before[y * width..][..width]).collect();
         let [top, bottom] = [rows.first(), rows.last()].map(|row| row.copied().unwrap_or_default());
         let columns = || 0..width;
         let left = columns().find(|x| rows.iter().any(|y| differs(*x, *y))).unwrap_or_default();
@@ -68,7 +69,8 @@ impl Film {
         // WebP has even corners only.
         let (left, top) = (left & !1, top & !1);
         let pixel = |x: usize, y: usize| differs(x, y).then(|| now[y * width + x]);
-        let pixels = (top..=bottom).flat_map(|y| (left..=right).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect();
+        let pixels =
+            (top..=bottom).flat_map(|y| (left..=right).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect();
         let size = [(right - left + 1) as u32, (bottom - top + 1) as u32];
         Change { corner: [left as u32, top as u32], size, pixels, shown_s }
     }

@@ -135,11 +135,15 @@ mod tests {
 
     #[test]
     fn exact_colours_stay_and_the_others_stay_near() {
-        let pixels: Vec<u8> = (0..60_000_u32).flat_map(|i| [(i % 251) as u8, (i / 251 % 241) as u8, (i % 97) as u8]).collect();
+        let pixels: Vec<u8> =
+            (0..60_000_u32).flat_map(|i| [(i % 251) as u8, (i / 251 % 241) as u8, (i % 97) as u8]).collect();
         let table = ColourTable::of(&[pixels.clone()], &[[230, 159, 0], [1, 2, 3]]);
         assert!(table.colours.len() <= 255);
         let exact = table.indices(&[230, 159, 0, 1, 2, 3]);
-        assert_eq!(exact.iter().map(|index| table.colours[usize::from(*index)]).collect::<Vec<_>>(), [[230, 159, 0], [1, 2, 3]]);
+        assert_eq!(
+            exact.iter().map(|index| table.colours[usize::from(*index)]).collect::<Vec<_>>(),
+            [[230, 159, 0], [1, 2, 3]]
+        );
         let indices = table.indices(&pixels);
         assert_eq!(indices.len(), 60_000);
         let off = |pixel: usize| {
@@ -154,7 +158,8 @@ mod tests {
     fn few_colours_are_all_exact() {
         let pixels: Vec<u8> = [[9, 8, 7], [1, 1, 1], [200, 100, 0]].concat().repeat(50);
         let table = ColourTable::of(&[pixels.clone()], &[]);
-        let shown: Vec<u8> = table.indices(&pixels).iter().flat_map(|index| table.colours[usize::from(*index)]).collect();
+        let shown: Vec<u8> =
+            table.indices(&pixels).iter().flat_map(|index| table.colours[usize::from(*index)]).collect();
         assert_eq!(shown, pixels);
     }
 }
