@@ -267,7 +267,7 @@ mod tests {
             let run = DrivingRun::of(&recorded).expect("vehicles");
             let ego = recorded.scenario.ego_index();
             let body = recorded.scenario.vehicles[ego].body;
-            let moments = moments(&recorded.report, run.end_s(), body.time_ratio());
+            let moments = moments(&recorded.report, ego, run.end_s(), body.time_ratio());
             let views = views(&run, &moments);
             assert_eq!(views.len(), moments.len());
             for (view, moment) in views.iter().zip(&moments) {

@@ -44,7 +44,7 @@ impl<'a> DrivingPictures<'a> {
     pub fn of(recorded: &'a RecordedRun) -> Option<DrivingPictures<'a>> {
         let run = DrivingRun::of(recorded)?;
         let time_ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
-        let moments = moments(&recorded.report, run.end_s(), time_ratio);
+        let moments = moments(&recorded.report, run.scenario.ego_index(), run.end_s(), time_ratio);
         let views = views(&run, &moments);
         let bounds = views.iter().map(View::bounds_m).reduce(|[a, b], [c, d]| {
             [[0, 1].map(|axis| a[axis].min(c[axis])), [0, 1].map(|axis| b[axis].max(d[axis]))]

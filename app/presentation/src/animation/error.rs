@@ -19,7 +19,7 @@ pub enum AnimationError {
     #[error("cannot make the film: {0}")]
     Film(io::Error),
     /// The file cannot be written.
-    #[error("cannot write the animation {}: {reason}; name another file with --animate", path.display())]
+    #[error("cannot write the animation {}: {reason}; choose another place for it", path.display())]
     Unwritable {
         /// The file.
         path: std::path::PathBuf,

@@ -8,6 +8,8 @@ pub const PICTURE_S: f64 = 0.1;
 pub const LAST_PICTURE_S: f64 = 1.6;
 /// How long a run is shown after the last vehicle has reached its goal \[s\], at 1/10 scale.
 const AFTER_GOALS_S: f64 = 0.8;
+/// How long it is shown after the ego has reached its goal \[s\], at 1/10 scale: the camera follows it away from the others.
+const AFTER_EGO_S: f64 = 1.2;
 /// How long it is shown after the last collision \[s\], at 1/10 scale.
 const AFTER_COLLISION_S: f64 = 2.5;
 /// The longest that a run is shown before it is sped up \[s\].
@@ -26,9 +28,9 @@ pub struct Moment {
     pub rate: f64,
 }
 
-/// The moments of a run until `end_s`, whose times are those of 1/10 scale times `time_ratio`.
-pub fn moments(report: &Report, end_s: f64, time_ratio: f64) -> Vec<Moment> {
-    let end_s = last_s(report, end_s, time_ratio);
+/// The moments of a run until `end_s` with the ego at index `ego`, whose times are those of 1/10 scale times `time_ratio`.
+pub fn moments(report: &Report, ego: usize, end_s: f64, time_ratio: f64) -> Vec<Moment> {
+    let end_s = last_s(report, ego, end_s, time_ratio);
     let mut usual_rate = 1.0;
     while end_s / usual_rate > LONGEST_S {
         usual_rate *= 2.0;
@@ -49,12 +51,16 @@ pub fn moments(report: &Report, end_s: f64, time_ratio: f64) -> Vec<Moment> {
 }
 
 /// When a picture of a run ends: a while after everything has happened, or with the run.
-fn last_s(report: &Report, end_s: f64, time_ratio: f64) -> f64 {
-    let tasks = report.vehicles.iter().filter(|vehicle| vehicle.has_task);
-    let completed: Option<Vec<f64>> = tasks.map(|vehicle| vehicle.completed_s).collect();
+fn last_s(report: &Report, ego: usize, end_s: f64, time_ratio: f64) -> f64 {
     let collided = report.collisions.iter().map(|hit| hit.time_s + AFTER_COLLISION_S * time_ratio).reduce(f64::max);
-    let reached =
-        completed.and_then(|times| times.into_iter().reduce(f64::max)).map(|at| at + AFTER_GOALS_S * time_ratio);
+    let tasks = report.vehicles.iter().filter(|vehicle| vehicle.has_task);
+    let all: Option<Vec<f64>> = tasks.map(|vehicle| vehicle.completed_s).collect();
+    let all_s = all.and_then(|times| times.into_iter().reduce(f64::max)).map(|at| at + AFTER_GOALS_S * time_ratio);
+    let ego_s = report.vehicles.get(ego).and_then(|ego| ego.completed_s).map(|at| at + AFTER_EGO_S * time_ratio);
+    let reached = match (all_s, ego_s) {
+        (Some(all_s), Some(ego_s)) => Some(all_s.min(ego_s)),
+        (all_s, ego_s) => ego_s.or(all_s),
+    };
     let everything = match (reached, collided) {
         (Some(reached), Some(collided)) => Some(reached.max(collided)),
         (reached, collided) => reached.or(collided),
@@ -76,7 +82,7 @@ mod tests {
     #[test]
     fn time_passes_slowly_around_a_contact() {
         let report = report("crash/side-impact");
-        let moments = moments(&report, 8.0, 1.0);
+        let moments = moments(&report, 0, 8.0, 1.0);
         let hit_s = report.collisions[0].time_s;
         let steps: Vec<[f64; 2]> = moments.windows(2).map(|pair| [pair[0].time_s, pair[1].time_s]).collect();
         assert!(steps.iter().all(|[from, to]| to > from));
@@ -90,11 +96,12 @@ mod tests {
     fn a_run_ends_after_its_goals_and_long_ones_are_faster() {
         let report = report("intersection/nice");
         let last = |moments: Vec<Moment>| moments.last().expect("some").time_s;
-        let goals_s = report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s).fold(0.0, f64::max);
-        assert!((last(moments(&report, 7.0, 1.0)) - goals_s - AFTER_GOALS_S).abs() < 1e-9);
+        let goals_s: Vec<f64> = report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s).collect();
+        let expected_s = (goals_s[0] + AFTER_EGO_S).min(goals_s[1] + AFTER_GOALS_S);
+        assert!((last(moments(&report, 0, 7.0, 1.0)) - expected_s).abs() < 1e-9);
         let unfinished = Report { vehicles: Vec::new(), ..report };
-        assert_eq!(last(moments(&unfinished, 7.0, 1.0)), 7.0);
-        let long = moments(&unfinished, 40.0, 1.0);
+        assert_eq!(last(moments(&unfinished, 0, 7.0, 1.0)), 7.0);
+        let long = moments(&unfinished, 0, 40.0, 1.0);
         assert_eq!(long[0].rate, 4.0);
         assert!(long.len() as f64 * PICTURE_S < LONGEST_S);
     }
