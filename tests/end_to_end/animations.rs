@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::command::{Outcome, command, contents, interplay, scratch};
 
 /// A run that is over soon.
-const SHORT: [&str; 4] = ["run", "lane-change/front-nice", "--set", "duration_s=1.0"];
+const SHORT: [&str; 4] = ["run", "lane-change/front-nice", "--set", "duration_s=4.0"];
 
 fn run(folder: &Path, more: &[&str]) -> Outcome {
     interplay(folder, &[&SHORT[..], more].concat())
@@ -84,7 +84,7 @@ fn films_are_made_by_ffmpeg() {
 #[test]
 fn no_animation_takes_the_place_of_an_input_or_of_another_output() {
     let folder = scratch("animate-overwrites");
-    let text = "extends = 'lane-change/front-nice'\ntitle = 'Mine'\nduration_s = 1.0\n";
+    let text = "extends = 'lane-change/front-nice'\ntitle = 'Mine'\nduration_s = 4.0\n";
     fs::write(folder.join("mine.toml"), text).expect("writes");
     fs::write(folder.join("child.toml"), "extends = 'mine.toml'\n").expect("writes");
     // A link with an ending of a picture is the scenario all the same.

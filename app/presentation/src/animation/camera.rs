@@ -33,7 +33,7 @@ const STILL_SCALE_RATIO: f64 = 1.3;
 
 /// A part of the world that is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
+pub struct CameraView {
     /// What is in the middle \[m\].
     pub centre_m: [f64; 2],
     /// Scale.
@@ -42,7 +42,7 @@ pub struct View {
     pub height_px: f64,
 }
 
-impl View {
+impl CameraView {
     /// The place of a position \[px\].
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let right = (self.px_per_m * (x - self.centre_m[0])) + 0.5 * WIDTH_PX;
@@ -56,8 +56,8 @@ impl View {
     }
 
     /// The same view moved by less than a pixel, so that what stands still does not flicker.
-    fn on_pixels(self) -> View {
-        View { centre_m: self.centre_m.map(|part| (part * self.px_per_m).round() / self.px_per_m), ..self }
+    fn on_pixels(self) -> CameraView {
+        CameraView { centre_m: self.centre_m.map(|part| (part * self.px_per_m).round() / self.px_per_m), ..self }
     }
 }
 
@@ -67,7 +67,7 @@ pub fn car_m(scenario: &Scenario) -> f64 {
 }
 
 /// The view at every moment; all have one height.
-pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<View> {
+pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<CameraView> {
     let car_m = car_m(run.scenario);
     let [least, greatest] = CAR_PX.map(|length| length / car_m);
     let road_m = straight_road_m(run.scenario);
@@ -87,7 +87,7 @@ pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<View> {
         let height_px = (2.0 * (0.5 * wanted.clamp(STRAIGHT_VIEW_PX[0], STRAIGHT_VIEW_PX[1])).round()).round();
         let middle =
             smooth(&shown.iter().map(|[low, high]| 0.5 * (low[0] + high[0])).collect::<Vec<_>>(), SMOOTHING_S[0]);
-        let view = |x: &f64| View { centre_m: [*x, 0.5 * (right_m + left_m)], px_per_m, height_px }.on_pixels();
+        let view = |x: &f64| CameraView { centre_m: [*x, 0.5 * (right_m + left_m)], px_per_m, height_px }.on_pixels();
         return middle.iter().map(view).collect();
     }
     if let Some(still) = still(&shown, [0.8 * greatest, 0.5 * (least + greatest)], height_px) {
@@ -108,13 +108,16 @@ pub fn views(run: &DrivingRun, moments: &[Moment]) -> Vec<View> {
     // No higher than what is ever shown.
     let tallest = shown.iter().zip(&scales).map(|([low, high], scale)| scale * (high[1] - low[1])).fold(0.0, f64::max);
     let height_px = 2.0 * (0.5 * tallest.clamp(LOW_VIEW_PX, height_px)).ceil();
-    let view =
-        |index: usize| View { centre_m: [middles[0][index], middles[1][index]], px_per_m: scales[index], height_px };
+    let view = |index: usize| CameraView {
+        centre_m: [middles[0][index], middles[1][index]],
+        px_per_m: scales[index],
+        height_px,
+    };
     (0..moments.len()).map(|index| view(index).on_pixels()).collect()
 }
 
 /// A view that contains everything that is ever shown, if its cars are as long as cars of the smaller of two scales.
-fn still(shown: &[[[f64; 2]; 2]], [greatest, least]: [f64; 2], height_px: f64) -> Option<View> {
+fn still(shown: &[[[f64; 2]; 2]], [greatest, least]: [f64; 2], height_px: f64) -> Option<CameraView> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for [l, h] in shown {
         for axis in 0..2 {
@@ -123,7 +126,7 @@ fn still(shown: &[[[f64; 2]; 2]], [greatest, least]: [f64; 2], height_px: f64) -
     }
     let px_per_m = (WIDTH_PX / (high[0] - low[0])).min(height_px / (high[1] - low[1])).min(greatest);
     let centre_m = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
-    (px_per_m >= least).then(|| View { centre_m, px_per_m, height_px }.on_pixels())
+    (px_per_m >= least).then(|| CameraView { centre_m, px_per_m, height_px }.on_pixels())
 }
 
 /// Lateral coordinates of the edges of a straight road along x; none of any other.

@@ -51,6 +51,13 @@ impl Ink {
         Ink { colour, opacity }
     }
 
+    /// About the colour that is seen where it lies over another one.
+    pub fn over(self, below: Colour) -> Colour {
+        let mixed =
+            |part: usize| self.opacity * f64::from(self.colour[part]) + (1.0 - self.opacity) * f64::from(below[part]);
+        [0, 1, 2].map(|part| mixed(part).round() as u8)
+    }
+
     fn paint(self) -> Paint<'static> {
         let [red, green, blue] = self.colour;
         let mut paint = Paint { anti_alias: true, ..Paint::default() };

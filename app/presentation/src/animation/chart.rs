@@ -71,7 +71,7 @@ impl Chart {
                 canvas.line(&dash, width, LineEnd::Flat, colour);
                 run = -DASH_PX;
             }
-            if run >= DASH_PX || run < 0.0 {
+            if !(0.0..DASH_PX).contains(&run) {
                 dash = vec![point];
             }
         }

@@ -1,6 +1,6 @@
 //! Pictures of vehicles: the road with everybody on it, and a bar of words below.
 
-use super::camera::{View, WIDTH_PX, car_m, views};
+use super::camera::{CameraView, WIDTH_PX, car_m, views};
 use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::caption::{Caption, caption, contacts};
 use super::letters::{cut, width_of};
@@ -10,13 +10,15 @@ use super::scene::{DrivingRun, SeenVehicle};
 use super::timing::{Moment, PICTURE_S, moments};
 use super::vehicle;
 use crate::figures::RecordedRun;
-use crate::palette::{Colour, VERMILLION};
+use crate::palette::{ASPHALT, Colour, VERMILLION};
 
 const BAR: Colour = [0x23, 0x26, 0x2B];
 const WORDS: Colour = [0xF2, 0xF2, 0xEE];
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
 const FLASH: Colour = [0xFF, 0xE3, 0x6B];
 const ALARM: Colour = [0xFF, 0x6B, 0x5B];
+/// Opacity of the band of a plan.
+const PLAN_OPACITY: f64 = 0.42;
 /// Heights of the bar above the view, and of a line of words below it \[px\].
 const TITLE_PX: f64 = 30.0;
 const LINE_PX: f64 = 22.0;
@@ -33,7 +35,7 @@ const KEY: &str = "band: plan   dots: what it asks for";
 pub struct DrivingPictures<'a> {
     run: DrivingRun<'a>,
     moments: Vec<Moment>,
-    views: Vec<View>,
+    views: Vec<CameraView>,
     road: RoadShapes,
     /// Rows of the legend: index of a vehicle, its words, and where they begin.
     legend: Vec<Vec<(usize, String, f64)>>,
@@ -46,7 +48,7 @@ impl<'a> DrivingPictures<'a> {
         let time_ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
         let moments = moments(&recorded.report, run.scenario.ego_index(), run.end_s(), time_ratio);
         let views = views(&run, &moments);
-        let bounds = views.iter().map(View::bounds_m).reduce(|[a, b], [c, d]| {
+        let bounds = views.iter().map(CameraView::bounds_m).reduce(|[a, b], [c, d]| {
             [[0, 1].map(|axis| a[axis].min(c[axis])), [0, 1].map(|axis| b[axis].max(d[axis]))]
         })?;
         let road = RoadShapes::of(run.scenario, bounds);
@@ -58,13 +60,13 @@ impl<'a> DrivingPictures<'a> {
         LINE_PX * (2.0 + self.legend.len() as f64) + 14.0
     }
 
-    fn draw_view(&self, canvas: &mut Canvas, view: &View, seen: &[SeenVehicle], time_s: f64) {
+    fn draw_view(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], time_s: f64) {
         self.road.draw(canvas, view);
         let lane_px = self.run.scenario.road.lane_width_m() * view.px_per_m;
         for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen) {
             let plan: Vec<[f64; 2]> = seen.plan.iter().map(|point| view.place(*point)).collect();
             let width = (0.55 * vehicle.body.width_m * view.px_per_m).min(0.3 * lane_px);
-            canvas.line(&plan, width, LineEnd::Round, Ink::veiled(seen.plan_colour, 0.42));
+            canvas.line(&plan, width, LineEnd::Round, Ink::veiled(seen.plan_colour, PLAN_OPACITY));
         }
         for (colour, seen) in self.run.colours.iter().zip(seen) {
             let dots: Vec<[f64; 2]> = seen.proposal.iter().map(|point| view.place(*point)).collect();
@@ -83,7 +85,7 @@ impl<'a> DrivingPictures<'a> {
     }
 
     /// A star where two vehicles touch, for a while after they began to.
-    fn draw_contacts(&self, canvas: &mut Canvas, view: &View, seen: &[SeenVehicle], time_s: f64) {
+    fn draw_contacts(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], time_s: f64) {
         let car_px = car_m(self.run.scenario) * view.px_per_m;
         for between in contacts(&self.run, time_s) {
             let of = |index: usize, other: usize| {
@@ -110,7 +112,7 @@ impl<'a> DrivingPictures<'a> {
     }
 
     /// Names beside the vehicles, each where it covers neither a vehicle nor another name.
-    fn draw_names(&self, canvas: &mut Canvas, view: &View, seen: &[SeenVehicle]) {
+    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle]) {
         let boxes = |vehicle: usize| {
             let corners =
                 self.run.scenario.vehicles[vehicle].body.corners(&seen[vehicle].state).map(|corner| view.place(corner));
@@ -205,7 +207,10 @@ impl Pictures for DrivingPictures<'_> {
     }
 
     fn exact_colours(&self) -> Vec<Colour> {
-        self.run.colours.iter().copied().chain([vehicle::BRAKE_LIGHT, BAR, WORDS]).collect()
+        // What is small or seldom seen would otherwise be mixed with its neighbours.
+        let plan = |colour: &Colour| Ink::veiled(*colour, PLAN_OPACITY).over(ASPHALT);
+        let rare = [vehicle::BRAKE_LIGHT, vehicle::INDICATOR, vehicle::brake_glow().over(ASPHALT), BAR, WORDS, ALARM];
+        self.run.colours.iter().copied().chain(rare).chain(self.run.colours.iter().map(plan)).collect()
     }
 }
 

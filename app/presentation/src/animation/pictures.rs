@@ -16,6 +16,6 @@ pub trait Pictures: Sync {
     /// Draws one; none if its size is zero.
     fn draw(&self, index: usize) -> Option<Rgb>;
 
-    /// Colours that must stay as they are where there is space for 255 colours only.
+    /// Colours that must stay as they are where there is space for few colours only.
     fn exact_colours(&self) -> Vec<Colour>;
 }

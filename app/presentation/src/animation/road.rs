@@ -4,7 +4,7 @@ use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Axes, Corridor};
 use interplay_scenarios::{Branch, Road, Scenario};
 
-use super::camera::View;
+use super::camera::CameraView;
 use super::canvas::{Canvas, LineEnd};
 use crate::curved_road::{CurvedRoad, WorldLine, taper_m};
 use crate::network_lines::NetworkLines;
@@ -173,7 +173,7 @@ impl RoadShapes {
     }
 
     /// Draws the road.
-    pub fn draw(&self, canvas: &mut Canvas, view: &View) {
+    pub fn draw(&self, canvas: &mut Canvas, view: &CameraView) {
         let lane_px = self.lane_m * view.px_per_m;
         let place = |line: &WorldLine| line.iter().map(|point| view.place(*point)).collect::<Vec<_>>();
         let surfaces: Vec<Vec<[f64; 2]>> = self.surfaces.iter().map(place).collect();
@@ -196,7 +196,7 @@ impl RoadShapes {
         }
     }
 
-    fn draw_arrow(&self, canvas: &mut Canvas, view: &View, at_m: [f64; 2], heading_rad: f64, ways: Ways) {
+    fn draw_arrow(&self, canvas: &mut Canvas, view: &CameraView, at_m: [f64; 2], heading_rad: f64, ways: Ways) {
         let axes = Axes::along(heading_rad);
         let place = |[along, across]: [f64; 2]| {
             let [dx, dy] = axes.vector([along * self.lane_m, across * self.lane_m]);

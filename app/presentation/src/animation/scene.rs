@@ -91,7 +91,7 @@ impl<'a> DrivingRun<'a> {
         let frame = self.frames[tick];
         let next_s = self.frames.get(tick + 1).map_or(self.end.0, |frame| frame.time_s);
         let share = ((time_s - frame.time_s) / (next_s - frame.time_s).max(1e-9)).clamp(0.0, 1.0);
-        let blinks = (shown_s / BLINK_S) as usize % 2 == 0;
+        let blinks = ((shown_s / BLINK_S) as usize).is_multiple_of(2);
         let seen =
             |(index, vehicle): (usize, &VehicleFrame)| {
                 let state = self.state(index, tick, share);
@@ -119,7 +119,7 @@ impl<'a> DrivingRun<'a> {
             Some(frame) => frame.vehicles[index].state,
             None => self.end.1[index],
         };
-        let [before, from, to, after] = [tick.saturating_sub(1), tick, tick + 1, tick + 2].map(|tick| at(tick));
+        let [before, from, to, after] = [tick.saturating_sub(1), tick, tick + 1, tick + 2].map(at);
         let between = |values: [f64; 4]| spline(values, share);
         let turned = |state: State| from.heading_rad + wrapped(state.heading_rad - from.heading_rad);
         State {

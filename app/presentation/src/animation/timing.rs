@@ -13,7 +13,7 @@ const AFTER_EGO_S: f64 = 1.2;
 /// How long it is shown after the last collision \[s\], at 1/10 scale.
 const AFTER_COLLISION_S: f64 = 2.5;
 /// The longest that a run is shown before it is sped up \[s\].
-const LONGEST_S: f64 = 18.0;
+const LONGEST_S: f64 = 12.0;
 /// How fast time passes around a contact.
 const SLOW_RATE: f64 = 0.25;
 /// Before and after a contact, for how long time is slow \[s\], at 1/10 scale.

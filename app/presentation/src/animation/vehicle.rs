@@ -3,7 +3,7 @@
 use interplay_planners::{Body, State};
 use interplay_scenarios::{Vehicle, VehicleClass};
 
-use super::camera::View;
+use super::camera::CameraView;
 use super::canvas::{Canvas, Ink, LineEnd};
 use super::scene::{SeenVehicle, Turn};
 use crate::palette::Colour;
@@ -15,7 +15,8 @@ const HEADLIGHT: Colour = [0xFF, 0xF6, 0xD6];
 const TAIL_LIGHT: Colour = [0x7A, 0x1A, 0x1C];
 /// A lit brake light.
 pub const BRAKE_LIGHT: Colour = [0xFF, 0x2A, 0x2A];
-const INDICATOR: Colour = [0xFF, 0xC4, 0x1F];
+/// A lit indicator.
+pub const INDICATOR: Colour = [0xFF, 0xC4, 0x1F];
 const SKIN: Colour = [0xE8, 0xC3, 0xA0];
 /// Rectangles along and across a body: rear, front, right, left, from −1 at the rear and right to 1 at the front and left.
 type Share = [f64; 4];
@@ -61,7 +62,7 @@ impl BodyStyle {
 struct Placed<'a> {
     body: &'a Body,
     state: &'a State,
-    view: &'a View,
+    view: &'a CameraView,
 }
 
 impl Placed<'_> {
@@ -87,7 +88,7 @@ impl Placed<'_> {
 }
 
 /// Draws the shadow, which lies below all vehicles.
-pub fn draw_shadow(canvas: &mut Canvas, view: &View, vehicle: &Vehicle, seen: &SeenVehicle) {
+pub fn draw_shadow(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle) {
     let placed = Placed { body: &vehicle.body, state: &seen.state, view };
     let off = placed.px(0.16 * vehicle.body.width_m.min(0.2 * vehicle.body.scale));
     let thin = if BodyStyle::of(vehicle) == BodyStyle::Bicycle { 0.4 } else { 1.0 };
@@ -96,7 +97,7 @@ pub fn draw_shadow(canvas: &mut Canvas, view: &View, vehicle: &Vehicle, seen: &S
 }
 
 /// Draws a vehicle.
-pub fn draw(canvas: &mut Canvas, view: &View, vehicle: &Vehicle, seen: &SeenVehicle, colour: Colour) {
+pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle, colour: Colour) {
     let placed = Placed { body: &vehicle.body, state: &seen.state, view };
     let style = BodyStyle::of(vehicle);
     if style == BodyStyle::Bicycle {
@@ -187,7 +188,7 @@ fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
         canvas.fill_rounded(&head, 0.08 * placed.px(placed.body.width_m), HEADLIGHT);
         if seen.brakes {
             let behind = placed.shared([-1.0 - 0.3 * deep, side * 0.68]);
-            canvas.disc(behind, placed.px(0.3 * placed.body.width_m), Ink::veiled(BRAKE_LIGHT, 0.3));
+            canvas.disc(behind, placed.px(0.3 * placed.body.width_m), brake_glow());
         }
         let (colour, depth) = if seen.brakes { (BRAKE_LIGHT, 1.5 * deep) } else { (TAIL_LIGHT, 0.9 * deep) };
         let tail = placed.rectangle([-1.0, -1.0 + depth, right, left]);
@@ -231,6 +232,11 @@ fn draw_bicycle(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle, colour
     }
 }
 
+/// What a lit brake light throws on the road.
+pub fn brake_glow() -> Ink {
+    Ink::veiled(BRAKE_LIGHT, 0.3)
+}
+
 /// A darker shade.
 pub fn darker(colour: Colour) -> Colour {
     colour.map(|part| (f64::from(part) * 0.55) as u8)
@@ -245,7 +251,7 @@ mod tests {
     /// A picture of one vehicle at 60 px/m around it, and what has a colour in it.
     fn count(seen: &SeenVehicle, colour: Colour) -> usize {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
-        let view = View { centre_m: seen.state.position(), px_per_m: 200.0, height_px: 200.0 };
+        let view = CameraView { centre_m: seen.state.position(), px_per_m: 200.0, height_px: 200.0 };
         let mut canvas = Canvas::new([720, 200], [0x80; 3]).expect("a size");
         draw(&mut canvas, &view, &scenario.vehicles[0], seen, [10, 200, 30]);
         canvas.into_rgb().chunks_exact(3).filter(|pixel| *pixel == colour).count()

@@ -14,7 +14,7 @@ const PALETTE_STRIDE: usize = 9;
 pub struct Film {
     /// Width and height \[px\].
     pub size: [u32; 2],
-    /// At most 255 colours.
+    /// At most 127 colours.
     pub colours: Vec<Colour>,
     /// The index of every pixel of every picture.
     pictures: Vec<Vec<u8>>,

@@ -1,4 +1,4 @@
-//! At most 255 colours for all pictures together.
+//! At most 127 colours for all pictures together: seven bits a pixel, and enough for flat areas with smooth edges.
 //!
 //! The most frequent colours stay as they are: flat areas have few. The others, most of them on smooth edges, are merged by
 //! median cut: the box of colours with the greatest extent is divided at its median until there are enough.
@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use crate::palette::Colour;
 
 /// How many colours stay exact, those that are asked for included.
-const MAX_EXACT: usize = 112;
+const MAX_EXACT: usize = 56;
 /// How many colours there are in all; one more index is left for "as before".
-const MAX_COLOURS: usize = 255;
+const MAX_COLOURS: usize = 127;
 /// A colour that covers at least this share of the pixels stays exact.
 const MIN_EXACT_SHARE: f64 = 2e-4;
 /// Bits of a part of a colour that decide which colour of the palette takes its place.
@@ -18,7 +18,7 @@ const BITS: u32 = 5;
 
 /// A palette and, for each colour by its leading bits, the index that takes its place.
 pub struct ColourTable {
-    /// At most 255 colours.
+    /// At most 127 colours.
     pub colours: Vec<Colour>,
     exact: BTreeMap<Colour, u8>,
     nearest: Vec<u8>,

@@ -4,7 +4,7 @@
 //! Source: Google, "WebP Container Specification" (RFC 9649, section 2.7): `RIFF` with the chunks `VP8X`, `ANIM`, and an
 //! `ANMF` for each picture.
 
-use image_webp::{ColorType, EncodingError, WebPEncoder};
+use image_webp::{ColorType, EncoderParams, EncodingError, WebPEncoder};
 use rayon::prelude::*;
 
 use super::film::{Change, Film};
@@ -39,8 +39,17 @@ fn frame(film: &Film, change: &Change) -> Result<Vec<u8>, EncodingError> {
     };
     let pixels: Vec<u8> = change.pixels.iter().flat_map(rgba).collect();
     let ([left, top], [width, height]) = (change.corner, change.size);
-    let mut still = Vec::new();
-    WebPEncoder::new(&mut still).encode(&pixels, width, height, ColorType::Rgba8)?;
+    // Flat areas are often smaller without prediction from their neighbours.
+    let encoded = |use_predictor_transform: bool| {
+        let mut parameters = EncoderParams::default();
+        parameters.use_predictor_transform = use_predictor_transform;
+        let mut still = Vec::new();
+        let mut encoder = WebPEncoder::new(&mut still);
+        encoder.set_params(parameters);
+        encoder.encode(&pixels, width, height, ColorType::Rgba8).map(|()| still)
+    };
+    let (plain, predicted) = (encoded(false)?, encoded(true)?);
+    let still = if predicted.len() < plain.len() { predicted } else { plain };
     let milliseconds = (1000.0 * change.shown_s).round() as u32;
     let place = [left / 2, top / 2, width - 1, height - 1, milliseconds].map(three_bytes).concat();
     // Transparent pixels show the picture before, which stays.
