@@ -31,6 +31,10 @@ const OWNERS: &[(&str, &str)] = &[
     ("rerun", "app/presentation"),
     ("re_sdk", "app/presentation"),
     ("plotters", "app/presentation"),
+    ("tiny-skia", "app/presentation"),
+    ("ab_glyph", "app/presentation"),
+    ("gif", "app/presentation"),
+    ("image-webp", "app/presentation"),
     ("clap", "app/cli"),
 ];
 
@@ -43,6 +47,10 @@ const PARTS: &[(&str, &str)] = &[
     ("rerun", "app/presentation/src/record"),
     ("re_sdk_types", "app/presentation/src/record"),
     ("plotters", "app/presentation/src/plot"),
+    ("tiny_skia", "app/presentation/src/animation"),
+    ("ab_glyph", "app/presentation/src/animation"),
+    ("gif", "app/presentation/src/animation"),
+    ("image_webp", "app/presentation/src/animation"),
 ];
 
 /// The most lines of a file, and of a function.

@@ -1,7 +1,7 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
-//!   [`figures`], [`authoring`], [`documents`], [`book`]
+//!   [`figures`], [`animations`], [`authoring`], [`documents`], [`book`]
 //! - many runs from one plan: [`sweeps`]
 //! - what happens to nobody's files, terminal and server: [`unharmed`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`]
@@ -13,6 +13,7 @@
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`architecture`], [`modules`]
 
+mod animations;
 mod architecture;
 mod authored;
 mod authoring;

@@ -2,6 +2,7 @@
 
 use std::io;
 
+use interplay_presentation::animation::AnimationError;
 use interplay_presentation::figures::FigureError;
 use interplay_presentation::plot::PlotError;
 use interplay_presentation::record::RecordError;
@@ -19,6 +20,10 @@ pub(crate) enum CommandError {
     Figure(#[from] FigureError),
     #[error(transparent)]
     Plot(#[from] PlotError),
+    #[error(transparent)]
+    Animation(#[from] AnimationError),
+    #[error("{scenario}: {reason}")]
+    FailedAnimation { scenario: String, reason: AnimationError },
     #[error("{what} cannot be written as JSON: {reason}")]
     Json { what: &'static str, reason: serde_json::Error },
     #[error("the results cannot be written as XML: {0}")]

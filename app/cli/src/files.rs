@@ -51,6 +51,16 @@ pub(crate) fn destroyed<'a>(output: &Path, mut scenarios: impl Iterator<Item = &
     scenarios.find_map(|scenario| interplay_scenarios::files(scenario).into_iter().find(is_output))
 }
 
+/// Whether two paths, of files that need not exist, name the same file.
+pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        path.canonicalize().unwrap_or_else(|_| folder.join(path.file_name().unwrap_or_default()))
+    };
+    place(one) == place(other)
+}
+
 /// What a run is called: an authored scenario by its name, a file by its own name, without folders and extension.
 pub(crate) fn short_name(scenario: &str) -> String {
     if embedded().iter().any(|file| file.name == scenario) {

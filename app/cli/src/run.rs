@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use interplay_presentation::animation::AnimationFile;
 use interplay_presentation::figures::{FrameLog, RecordedRun, run_page};
 use interplay_presentation::page::Page;
 use interplay_presentation::record::{OpenRecording, RecordError, Recorder, Sink, Viewer};
@@ -16,7 +17,7 @@ use thiserror::Error;
 
 use crate::error::CommandError;
 use crate::exit_status::ExitStatus;
-use crate::files::{destroyed, short_name};
+use crate::files::{destroyed, is_same_file, short_name};
 use crate::output::{json, print, print_error, print_load_error};
 use crate::watch::WatchedFiles;
 
@@ -26,7 +27,8 @@ use crate::watch::WatchedFiles;
     interplay run lane-change/front-tough\n  \
     interplay run my.toml --planner conservative --set vehicle.ego.goal.speed_mps=1.2 --json\n  \
     interplay run my.toml --watch                        (again at every save, until Ctrl-C)\n  \
-    interplay run intersection/nice --report my-report     (pictures and a page)")]
+    interplay run intersection/nice --report my-report     (pictures and a page)\n  \
+    interplay run intersection/nice --animate nice.gif     (a moving picture)")]
 pub(crate) struct Run {
     /// Name of an embedded scenario (see `interplay list`) or path of a scenario file
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT_SCENARIO)]
@@ -64,6 +66,10 @@ pub(crate) struct Run {
     /// goes there too unless --record says otherwise
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
+
+    /// Draw a moving picture of the run, seen from above: .gif, .webp, .png (a filmstrip), or .mp4 (through ffmpeg)
+    #[arg(long, value_name = "FILE")]
+    animate: Option<AnimationFile>,
 
     /// Print the report as one JSON document
     #[arg(long)]
@@ -110,20 +116,12 @@ impl Run {
             print_error(&format!("note: {remark}"));
         }
         let name = short_name(self.scenario());
-        if let Some(path) = self.recording(&name).and_then(|path| destroyed(&path, [self.scenario()].into_iter())) {
-            print_error(&format!(
-                "the recording would overwrite `{}`, of which the scenario is made; choose another name for it",
-                path.display()
-            ));
+        if let Some(reason) = self.refused_output(&name) {
+            print_error(&reason);
             return ExitStatus::BadInput;
         }
-        if let Some(page) =
-            self.report.as_ref().map(|folder| folder.join("index.html")).filter(|page| Page::is_taken(page))
-        {
-            print_error(&format!("`{}` is no page of Interplay's; choose another folder for --report", page.display()));
-            return ExitStatus::BadInput;
-        }
-        let recording = match self.begin_recording(&scenario, &name) {
+        let checked = self.animate.as_ref().map_or(Ok(()), AnimationFile::check).map_err(CommandError::from);
+        let recording = match checked.and_then(|()| Ok(self.begin_recording(&scenario, &name)?)) {
             Ok(recording) => recording,
             Err(error) => {
                 print_error(&error.to_string());
@@ -132,6 +130,7 @@ impl Run {
         };
         let passed = self.simulate(&name, scenario, recording).and_then(|recorded| {
             self.page(&name, &recorded)?;
+            self.write_animation(&recorded)?;
             self.print_report(&recorded.scenario.title, &recorded.report).map(|()| recorded.report.passed)
         });
         match passed {
@@ -146,6 +145,30 @@ impl Run {
                 ExitStatus::Unfinished
             }
         }
+    }
+
+    /// Why an output must not be written: it would take the place of an input, of another output, or of somebody's page.
+    fn refused_output(&self, name: &str) -> Option<String> {
+        let (recording, animation) = (self.recording(name), self.animate.as_ref().map(AnimationFile::path));
+        let outputs = [("recording", recording.as_deref()), ("animation", animation)];
+        for (what, path) in outputs.into_iter().filter_map(|(what, path)| Some((what, path?))) {
+            if let Some(path) = destroyed(path, [self.scenario()].into_iter()) {
+                let path = path.display();
+                return Some(format!(
+                    "the {what} would overwrite `{path}`, of which the scenario is made; choose another name for it"
+                ));
+            }
+        }
+        if let (Some(recording), Some(animation)) = (&recording, animation)
+            && is_same_file(recording, animation)
+        {
+            let path = animation.display();
+            return Some(format!(
+                "the recording and the animation cannot both be `{path}`; choose another name for one"
+            ));
+        }
+        let page = self.report.as_ref().map(|folder| folder.join("index.html")).filter(|page| Page::is_taken(page))?;
+        Some(format!("`{}` is no page of Interplay's; choose another folder for --report", page.display()))
     }
 
     /// The scenario without its counterfactuals if a flag replaces the planner: they are claims about the file's own planner.
@@ -164,7 +187,7 @@ impl Run {
         self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO)
     }
 
-    /// Runs the scenario and its counterfactuals, and ends the recording; the frames are kept if a page is to be drawn of them.
+    /// Runs the scenario and its counterfactuals, and ends the recording; the frames are kept if something is to be drawn of them.
     fn simulate(
         &self,
         name: &str,
@@ -176,7 +199,7 @@ impl Run {
         if let Some(recording) = &recording {
             watchers.push(Box::new(recording.clone()));
         }
-        if self.report.is_some() {
+        if self.report.is_some() || self.animate.is_some() {
             watchers.push(Box::new(frame_log.clone()));
         }
         let report = run_with_counterfactuals(name, &scenario, watchers)?;
@@ -192,6 +215,14 @@ impl Run {
         let what = |file: &String| format!("the recording; `interplay view {file}` opens it");
         let page = run_page(recorded, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
         print_error(&format!("page in {}", page.display()));
+        Ok(())
+    }
+
+    /// Draws the moving picture, if that is asked for.
+    fn write_animation(&self, recorded: &RecordedRun) -> Result<(), CommandError> {
+        let Some(file) = &self.animate else { return Ok(()) };
+        file.write(recorded)?;
+        print_error(&format!("animation in {}", file.path().display()));
         Ok(())
     }
 

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
+use interplay_presentation::animation::AnimationFile;
+use interplay_presentation::figures::RecordedRun;
 use interplay_presentation::record::write_file;
 use interplay_presentation::report::{Case, junit, table};
 use interplay_scenarios::{Scenario, embedded, load};
@@ -23,7 +25,8 @@ use crate::threads::pool;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     interplay suite\n  \
-    interplay suite lane-change/front-nice my-scenarios/ --junit results.xml --jobs 4")]
+    interplay suite lane-change/front-nice my-scenarios/ --junit results.xml --jobs 4\n  \
+    interplay suite my-scenarios/ --animate-failures failures    (a moving picture of each that failed)")]
 pub(crate) struct Suite {
     /// Names of embedded scenarios, scenario files, or folders that are searched for .toml files [default: all embedded
     /// scenarios]
@@ -37,6 +40,10 @@ pub(crate) struct Suite {
     /// Also write the results as JUnit XML, which build servers show
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
+
+    /// Draw a moving picture of each scenario whose expectations failed into this folder, as NAME.gif
+    #[arg(long, value_name = "DIR")]
+    animate_failures: Option<PathBuf>,
 
     /// Print the reports as one JSON document: an array of what `interplay run --json` prints
     #[arg(long)]
@@ -53,6 +60,10 @@ impl Suite {
             ));
             return ExitStatus::BadInput;
         }
+        if let Some(reason) = self.refused_animation(&scenarios) {
+            print_error(&reason);
+            return ExitStatus::BadInput;
+        }
         let began = Instant::now();
         let cases = match self.run(&scenarios) {
             Ok(cases) => cases,
@@ -64,7 +75,8 @@ impl Suite {
         for (name, error) in cases.iter().filter_map(|case| Some((&case.name, case.outcome.as_ref().err()?))) {
             print_error(&format!("{name} could not be finished: {error}"));
         }
-        match self.print_results(&cases, began.elapsed().as_secs_f64()) {
+        let printed = self.print_results(&cases, began.elapsed().as_secs_f64());
+        match printed.and_then(|()| self.animate_failures(&scenarios, &cases)) {
             Ok(()) => ending(&cases),
             Err(error) => {
                 print_error(&error.to_string());
@@ -134,6 +146,41 @@ impl Suite {
         let Some(path) = &self.junit else { return Ok(()) };
         let xml = junit(cases, wall_s).map_err(|error| CommandError::Xml(Box::new(error)))?;
         Ok(write_file(path, xml.as_bytes())?)
+    }
+}
+
+impl Suite {
+    /// Where the animation of a scenario goes, if any is asked for.
+    fn animation(&self, name: &str) -> Option<AnimationFile> {
+        let folder = self.animate_failures.as_ref()?;
+        Some(AnimationFile::gif(folder.join(format!("{name}.gif"))))
+    }
+
+    /// Why an animation must not be written: it would take the place of a scenario, or its folder is none.
+    fn refused_animation(&self, scenarios: &[(String, Scenario)]) -> Option<String> {
+        let folder = self.animate_failures.as_ref()?;
+        if folder.exists() && !folder.is_dir() {
+            return Some(format!("`{}` is no folder; choose another name for --animate-failures", folder.display()));
+        }
+        let animations = scenarios.iter().filter_map(|(name, _)| self.animation(name));
+        let path = animations.into_iter().find_map(|animation| self.destroyed_by(animation.path()))?;
+        Some(format!(
+            "an animation would overwrite the scenario `{}`; choose another folder for --animate-failures",
+            path.display()
+        ))
+    }
+
+    /// Runs what failed again, with everything kept that is drawn, and draws it: a run gives the same every time.
+    fn animate_failures(&self, scenarios: &[(String, Scenario)], cases: &[Case]) -> Result<(), CommandError> {
+        let failed = |case: &Case| case.outcome.as_ref().is_ok_and(|report| !report.passed);
+        for ((name, scenario), case) in scenarios.iter().zip(cases) {
+            let Some(animation) = self.animation(name).filter(|_| failed(case)) else { continue };
+            let recorded = RecordedRun::of(name, scenario.clone(), Vec::new(), "")?;
+            let unwritten = |reason| CommandError::FailedAnimation { scenario: name.clone(), reason };
+            animation.write(&recorded).map_err(unwritten)?;
+            print_error(&format!("animation in {}", animation.path().display()));
+        }
+        Ok(())
     }
 }
 

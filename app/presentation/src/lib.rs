@@ -2,10 +2,13 @@
 //!
 //! Everything here is made from the plain values of [`interplay_simulation`]: its frames and its report.
 
+pub mod animation;
 mod curved_road;
 pub mod figures;
+mod font;
 mod network_lines;
 pub mod page;
+mod palette;
 pub mod plot;
 pub mod record;
 pub mod report;

@@ -11,11 +11,12 @@ use plotters::prelude::*;
 use plotters::style::register_font;
 use thiserror::Error;
 
+use crate::font::FONT_BYTES;
+
 /// Width and height of a figure: pixels of the PNG, and points of the SVG.
 const SIZE_PX: (u32, u32) = (1200, 520);
 /// The font of all labels.
 pub(super) const FONT: &str = "sans-serif";
-static FONT_BYTES: &[u8] = include_bytes!("../../../../assets/fonts/DejaVuSans.ttf");
 
 /// Why a figure was not made.
 #[derive(Debug, Error)]

@@ -1,8 +1,8 @@
-//! Colours and line styles: the palette of Okabe and Ito, which colour-blind readers can distinguish, and a dash pattern for
-//! each colour, so that prints in grey are legible.
+//! Colours and line styles of figures: the palette of everything that is drawn, and a dash pattern for each colour, so that
+//! prints in grey are legible.
 
-/// A colour, red, green and blue.
-pub type Colour = [u8; 3];
+use crate::palette;
+pub use crate::palette::Colour;
 
 /// Text and axes.
 pub const BLACK: Colour = [0x1A, 0x1A, 0x1A];
@@ -15,14 +15,11 @@ pub const SURFACE: Colour = [0xEE, 0xEE, 0xEE];
 /// Behind everything.
 pub const PAPER: Colour = [0xFF, 0xFF, 0xFF];
 /// Limits, and the path of the ego as the source draws it.
-pub const VERMILLION: Colour = [0xD5, 0x5E, 0x00];
+pub const VERMILLION: Colour = palette::VERMILLION.rgb;
 /// The ego.
-pub const ORANGE: Colour = [0xE6, 0x9F, 0x00];
+pub const ORANGE: Colour = palette::ORANGE.rgb;
 /// The first of the others.
-pub const BLUE: Colour = [0x00, 0x72, 0xB2];
-const GREEN: Colour = [0x00, 0x9E, 0x73];
-const PURPLE: Colour = [0xCC, 0x79, 0xA7];
-const SKY: Colour = [0x56, 0xB4, 0xE9];
+pub const BLUE: Colour = palette::BLUE.rgb;
 
 /// The dash pattern of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,10 +85,10 @@ pub fn line_styles() -> impl Iterator<Item = LineStyle> {
     let line_styles = [
         LineStyle::new(ORANGE, Dash::Solid),
         LineStyle::new(BLUE, Dash::Long),
-        LineStyle::new(GREEN, Dash::Mixed),
-        LineStyle::new(PURPLE, Dash::Short),
-        LineStyle::new(SKY, Dash::Solid),
-        LineStyle::new(BLACK, Dash::Long),
+        LineStyle::new(palette::GREEN.rgb, Dash::Mixed),
+        LineStyle::new(palette::PURPLE.rgb, Dash::Short),
+        LineStyle::new(palette::SKY.rgb, Dash::Solid),
+        LineStyle::new(palette::OLIVE.rgb, Dash::Long),
     ];
     line_styles.into_iter().cycle()
 }

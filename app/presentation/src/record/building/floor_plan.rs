@@ -8,6 +8,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 use super::super::palette::NEUTRAL;
 use super::super::re_sdk_types::archetypes::{Image, Points2D};
 use super::super::re_sdk_types::components::Radius;
+use crate::palette::{COLOUR_RANGE_K, temperature_colour};
 
 /// Width of a room, from wall to wall.
 const ROOM_PX: usize = 24;
@@ -17,8 +18,6 @@ const WALL_PX: usize = 1;
 const OUTDOORS_PX: usize = 8;
 /// Space between two floors.
 const BETWEEN_FLOORS_PX: usize = 6;
-/// Distance from the reference temperature at which the colour scale ends \[K\].
-const COLOUR_RANGE_K: f64 = 5.0;
 /// In more rooms than this a label has no space for a name.
 const MAX_NAMED_ROOMS: usize = 16;
 /// In more rooms than this there is no space for labels.
@@ -117,14 +116,9 @@ impl FloorPlanLayer {
         pixels
     }
 
-    /// From blue (cold) over grey to red (warm), dark enough for white letters.
+    /// The colour of a temperature, by its distance from the wanted one.
     fn colour(&self, temperature_c: f64) -> [u8; 3] {
-        const COLD: [f64; 3] = [30.0, 90.0, 190.0];
-        const MIDDLE: [f64; 3] = [95.0, 100.0, 95.0];
-        const WARM: [f64; 3] = [200.0, 60.0, 20.0];
-        let share = ((temperature_c - self.middle_c) / COLOUR_RANGE_K).clamp(-1.0, 1.0);
-        let end = if share < 0.0 { COLD } else { WARM };
-        std::array::from_fn(|part| (MIDDLE[part] + share.abs() * (end[part] - MIDDLE[part])) as u8)
+        temperature_colour((temperature_c - self.middle_c) / COLOUR_RANGE_K)
     }
 }
 

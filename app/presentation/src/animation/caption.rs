@@ -1,0 +1,137 @@
+//! The words under a picture: who asks whom, what the other answers, and what happened last.
+
+use interplay_planners::{PassingOrder, PlanEvent, PlanEventKind};
+use interplay_simulation::frame::{Event, Frame, Level};
+
+use super::scene::DrivingRun;
+
+/// How long a collision stays in the caption, and any other event \[s\] at 1/10 scale.
+const COLLISION_SHOWN_S: f64 = 3.0;
+const EVENT_SHOWN_S: f64 = 2.5;
+/// How long the place of a contact is marked \[s\] at 1/10 scale.
+const CONTACT_SHOWN_S: f64 = 0.35;
+/// From this share of acceptance on a vehicle accepts, below the other it declines.
+const ACCEPTS: f64 = 0.7;
+const DECLINES: f64 = 0.3;
+
+/// What is said at a moment.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Caption {
+    /// Who asks whom, and the answer; or who collided.
+    pub first: String,
+    /// What happened last.
+    pub second: String,
+    /// Whether the first line is about a collision.
+    pub alarms: bool,
+}
+
+/// The caption at a time.
+pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
+    let ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
+    let frame = run.frame(time_s);
+    let past = |shown_s: f64| {
+        let shown = move |frame: &&Frame| frame.time_s <= time_s + 1e-9 && frame.time_s > time_s - shown_s * ratio;
+        run.frames.iter().copied().filter(shown).collect::<Vec<&Frame>>()
+    };
+    let hit = past(COLLISION_SHOWN_S).into_iter().flat_map(|frame| &frame.collisions).find(|hit| hit.time_s <= time_s);
+    let second = past(EVENT_SHOWN_S).into_iter().rev().find_map(|frame| news(run, frame)).unwrap_or_default();
+    if let Some(hit) = hit {
+        let [one, other] = &hit.between;
+        return Caption { first: format!("{one} and {other} collide"), second, alarms: true };
+    }
+    let first = asks(run, frame).or_else(|| intends(run, frame)).unwrap_or_default();
+    let second = if second == first { String::new() } else { second };
+    Caption { first, second, alarms: false }
+}
+
+/// Who began to touch a short while ago, by their numbers.
+pub fn contacts(run: &DrivingRun, time_s: f64) -> Vec<[usize; 2]> {
+    let ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
+    let hits = run.frames.iter().flat_map(|frame| &frame.collisions);
+    let recent = hits.filter(|hit| hit.time_s <= time_s && time_s < hit.time_s + CONTACT_SHOWN_S * ratio);
+    let number = |name: &String| run.scenario.vehicles.iter().position(|vehicle| vehicle.name == *name);
+    recent.filter_map(|hit| Some([number(&hit.between[0])?, number(&hit.between[1])?])).collect()
+}
+
+/// Who asks whom for the dotted motion, and how far the other follows it; of the ego if it asks.
+fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
+    let ego = run.scenario.ego_index();
+    let mut vehicles: Vec<usize> = (0..frame.vehicles.len()).collect();
+    vehicles.sort_by_key(|index| *index != ego);
+    let (vehicle, proposal) = vehicles.into_iter().find_map(|index| {
+        let vehicle = &frame.vehicles[index];
+        vehicle.plan.proposal.as_ref().map(|proposal| (vehicle, proposal))
+    })?;
+    let (name, to) = (&vehicle.name, &proposal.to);
+    let Some(share) = proposal.acceptance else {
+        return Some(format!("{name} expects {to} to take the dotted way"));
+    };
+    let asks = format!("{name} asks {to} to take the dotted way");
+    // Nobody has answered before the first proposal.
+    let is_new = |event: &PlanEvent| matches!(&event.kind, PlanEventKind::Partner(Some(partner)) if partner == to);
+    if vehicle.plan.events.iter().any(is_new) {
+        return Some(asks);
+    }
+    let answer = match share {
+        share if share >= ACCEPTS => "accepts",
+        share if share < DECLINES => "declines",
+        _ => "hesitates",
+    };
+    Some(format!("{asks} – {to} {answer} ({:.0} %)", 100.0 * share))
+}
+
+/// How the ego passes the others by its plan.
+fn intends(run: &DrivingRun, frame: &Frame) -> Option<String> {
+    let ego = &frame.vehicles[run.scenario.ego_index()];
+    let orders: Vec<String> = ego.plan.passing_orders.iter().map(PassingOrder::sentence).collect();
+    (!orders.is_empty()).then(|| format!("{} {}", ego.name, orders.join(", ")))
+}
+
+/// What happened in a tick: alarms before warnings before notes, the ego's first.
+fn news(run: &DrivingRun, frame: &Frame) -> Option<String> {
+    let ego = run.scenario.ego().map(|ego| ego.name.as_str());
+    let of_level = |level: Level| {
+        // "nobody left to ask" is no news about anybody.
+        let is_news = |event: &&Event| event.level == level && !event.text.starts_with("nobody");
+        let mut events: Vec<&Event> = frame.events.iter().filter(is_news).collect();
+        events.sort_by_key(|event| Some(event.vehicle.as_str()) != ego);
+        events.first().map(|event| format!("{} {}", event.vehicle, event.text))
+    };
+    // Collisions have the first line.
+    of_level(Level::Warning).or_else(|| of_level(Level::Note))
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::*;
+    use crate::figures::RecordedRun;
+
+    fn captions(name: &str) -> Vec<Caption> {
+        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let run = DrivingRun::of(&recorded).expect("vehicles");
+        run.frames.iter().map(|frame| caption(&run, frame.time_s)).collect()
+    }
+
+    #[test]
+    fn a_negotiator_asks_and_is_answered() {
+        let captions = captions("intersection/nice");
+        assert!(
+            captions
+                .iter()
+                .any(|caption| caption.first.starts_with("ego asks crossing") && caption.first.contains("accepts"))
+        );
+        assert!(captions.iter().any(|caption| !caption.second.is_empty()));
+        assert!(captions.iter().all(|caption| !caption.alarms));
+    }
+
+    #[test]
+    fn a_collision_is_said() {
+        let captions = captions("crash/side-impact");
+        let alarms = captions.iter().filter(|caption| caption.alarms).count();
+        assert!(alarms > 5 && alarms < captions.len());
+        let said = captions.iter().find(|caption| caption.alarms).expect("a collision");
+        assert!(said.first.contains("ego") && said.first.contains("crossing"), "{}", said.first);
+    }
+}

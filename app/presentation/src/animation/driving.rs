@@ -1,0 +1,275 @@
+//! Pictures of vehicles: the road with everybody on it, and a bar of words below.
+
+use super::camera::{CameraView, WIDTH_PX, car_m, views};
+use super::canvas::{Align, Canvas, Ink, LineEnd};
+use super::caption::{Caption, caption, contacts};
+use super::letters::{cut, width_of};
+use super::pictures::{Pictures, Rgb};
+use super::road::{GRASS, RoadShapes};
+use super::scene::{DrivingRun, SeenVehicle};
+use super::timing::{Moment, PICTURE_S, moments};
+use super::vehicle;
+use crate::figures::RecordedRun;
+use crate::palette::{ASPHALT, Colour, VERMILLION};
+
+const BAR: Colour = [0x23, 0x26, 0x2B];
+const WORDS: Colour = [0xF2, 0xF2, 0xEE];
+const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
+const FLASH: Colour = [0xFF, 0xE3, 0x6B];
+const ALARM: Colour = [0xFF, 0x6B, 0x5B];
+/// Opacity of the band of a plan.
+const PLAN_OPACITY: f64 = 0.42;
+/// Heights of the bar above the view, and of a line of words below it \[px\].
+const TITLE_PX: f64 = 30.0;
+const LINE_PX: f64 = 22.0;
+/// Size of words \[px\].
+const TEXT_PX: f64 = 16.0;
+const LABEL_PX: f64 = 14.0;
+/// Space beside words \[px\].
+const MARGIN_PX: f64 = 12.0;
+
+/// What the marks on the road are.
+const KEY: &str = "band: plan   dots: what it asks for";
+
+/// Pictures of a run with vehicles.
+pub struct DrivingPictures<'a> {
+    run: DrivingRun<'a>,
+    moments: Vec<Moment>,
+    views: Vec<CameraView>,
+    road: RoadShapes,
+    /// Rows of the legend: index of a vehicle, its words, and where they begin.
+    legend: Vec<Vec<(usize, String, f64)>>,
+}
+
+impl<'a> DrivingPictures<'a> {
+    /// The pictures of a run; none of a run without vehicles.
+    pub fn of(recorded: &'a RecordedRun) -> Option<DrivingPictures<'a>> {
+        let run = DrivingRun::of(recorded)?;
+        let time_ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
+        let moments = moments(&recorded.report, run.scenario.ego_index(), run.end_s(), time_ratio);
+        let views = views(&run, &moments);
+        let bounds = views.iter().map(CameraView::bounds_m).reduce(|[a, b], [c, d]| {
+            [[0, 1].map(|axis| a[axis].min(c[axis])), [0, 1].map(|axis| b[axis].max(d[axis]))]
+        })?;
+        let road = RoadShapes::of(run.scenario, bounds);
+        let legend = legend(&run);
+        Some(DrivingPictures { run, moments, views, road, legend })
+    }
+
+    fn bar_px(&self) -> f64 {
+        LINE_PX * (2.0 + self.legend.len() as f64) + 14.0
+    }
+
+    fn draw_view(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], time_s: f64) {
+        self.road.draw(canvas, view);
+        let lane_px = self.run.scenario.road.lane_width_m() * view.px_per_m;
+        for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen) {
+            let plan: Vec<[f64; 2]> = seen.plan.iter().map(|point| view.place(*point)).collect();
+            let width = (0.55 * vehicle.body.width_m * view.px_per_m).min(0.3 * lane_px);
+            canvas.line(&plan, width, LineEnd::Round, Ink::veiled(seen.plan_colour, PLAN_OPACITY));
+        }
+        for (colour, seen) in self.run.colours.iter().zip(seen) {
+            let dots: Vec<[f64; 2]> = seen.proposal.iter().map(|point| view.place(*point)).collect();
+            for dot in spaced(&dots, 11.0) {
+                canvas.disc(dot, 3.6, [0xFF, 0xFF, 0xFF]);
+                canvas.disc(dot, 2.6, *colour);
+            }
+        }
+        let vehicles = || self.run.scenario.vehicles.iter().zip(seen).enumerate();
+        vehicles().for_each(|(_, (vehicle, seen))| vehicle::draw_shadow(canvas, view, vehicle, seen));
+        for (index, (vehicle, seen)) in vehicles() {
+            vehicle::draw(canvas, view, vehicle, seen, self.run.colours[index]);
+        }
+        self.draw_contacts(canvas, view, seen, time_s);
+        self.draw_names(canvas, view, seen);
+    }
+
+    /// A star where two vehicles touch, for a while after they began to.
+    fn draw_contacts(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], time_s: f64) {
+        let car_px = car_m(self.run.scenario) * view.px_per_m;
+        for between in contacts(&self.run, time_s) {
+            let of = |index: usize, other: usize| {
+                let corners = self.run.scenario.vehicles[index].body.corners(&seen[index].state);
+                let away = |corner: &[f64; 2]| {
+                    let [x, y] = seen[other].state.position();
+                    libm::hypot(corner[0] - x, corner[1] - y)
+                };
+                corners.into_iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|corner| view.place(corner))
+            };
+            let (Some(one), Some(two)) = (of(between[0], between[1]), of(between[1], between[0])) else { continue };
+            let [x, y] = [0, 1].map(|axis| 0.5 * (one[axis] + two[axis]));
+            let star = |size: f64| -> Vec<[f64; 2]> {
+                let radius = |point: i32| if point % 2 == 0 { size } else { 0.5 * size };
+                let at = |point: i32| libm::sincos(std::f64::consts::PI * f64::from(point) / 8.0);
+                (0..16)
+                    .map(|point| (at(point), radius(point)))
+                    .map(|((sin, cos), r)| [x + r * cos, y + r * sin])
+                    .collect()
+            };
+            canvas.fill(&star(0.28 * car_px), VERMILLION.rgb);
+            canvas.fill(&star(0.18 * car_px), FLASH);
+        }
+    }
+
+    /// Names beside the vehicles, each where it covers neither a vehicle nor another name.
+    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle]) {
+        let boxes = |vehicle: usize| {
+            let corners =
+                self.run.scenario.vehicles[vehicle].body.corners(&seen[vehicle].state).map(|corner| view.place(corner));
+            bounds(&corners)
+        };
+        let mut taken: Vec<[f64; 4]> = (0..seen.len()).map(boxes).collect();
+        for (index, vehicle) in self.run.scenario.vehicles.iter().enumerate() {
+            let [left, top, right, bottom] = taken[index];
+            let (wide, high) = (width_of(&vehicle.name, LABEL_PX) + 10.0, LABEL_PX + 4.0);
+            let (x, y) = (0.5 * (left + right), 0.5 * (top + bottom));
+            let middles = [
+                [x, top - 0.5 * high - 4.0],
+                [x, bottom + 0.5 * high + 5.0],
+                [right + 0.5 * wide + 4.0, y],
+                [left - 0.5 * wide - 4.0, y],
+            ];
+            let label = |[x, y]: [f64; 2]| [x - 0.5 * wide, y - 0.5 * high, x + 0.5 * wide, y + 0.5 * high];
+            let is_seen = right > 0.0 && left < WIDTH_PX && bottom > 0.0 && top < view.height_px;
+            let is_free = |middle: &&[f64; 2]| {
+                let [l, t, r, b] = label(**middle);
+                let inside = l >= 2.0 && t >= 2.0 && r <= WIDTH_PX - 2.0 && b <= view.height_px - 2.0;
+                inside && !taken.iter().any(|other| l < other[2] && other[0] < r && t < other[3] && other[1] < b)
+            };
+            let Some(middle) = middles.iter().find(is_free).filter(|_| is_seen) else { continue };
+            let place = label(*middle);
+            taken.push(place);
+            let [l, t, r, b] = place;
+            canvas.fill_rounded(&[[l, t], [r, t], [r, b], [l, b]], 5.0, Ink::veiled(BAR, 0.82));
+            canvas.text(*middle, Align::Middle, LABEL_PX, &vehicle.name, WORDS);
+        }
+    }
+
+    fn draw_title(&self, canvas: &mut Canvas, moment: &Moment) {
+        canvas.block([0.0, 0.0], [WIDTH_PX, TITLE_PX], BAR);
+        let clock = format!("{:.1} s", moment.time_s);
+        let speed = match moment.rate {
+            1.0 => String::new(),
+            rate if rate < 1.0 => format!("slow motion 1/{:.0}", 1.0 / rate),
+            rate => format!("{rate:.0}× speed"),
+        };
+        let y = 0.5 * TITLE_PX;
+        canvas.text([WIDTH_PX - MARGIN_PX, y], Align::Right, TEXT_PX, &clock, WORDS);
+        let clock_left = WIDTH_PX - MARGIN_PX - 66.0;
+        let ink = if moment.rate < 1.0 { ALARM } else { QUIET_WORDS };
+        canvas.text([clock_left, y], Align::Right, LABEL_PX, &speed, ink);
+        let longest = clock_left - 2.0 * MARGIN_PX - width_of("slow motion 1/4", LABEL_PX);
+        canvas.text([MARGIN_PX, y], Align::Left, TEXT_PX, &cut(&self.run.scenario.title, TEXT_PX, longest), WORDS);
+    }
+
+    fn draw_words(&self, canvas: &mut Canvas, top: f64, words: &Caption, seen: &[SeenVehicle]) {
+        let [width, height] = canvas.size();
+        canvas.block([0.0, top], [width, height], BAR);
+        let line = |row: f64| top + 7.0 + (row + 0.5) * LINE_PX;
+        let longest = WIDTH_PX - 2.0 * MARGIN_PX;
+        let ink = if words.alarms { ALARM } else { WORDS };
+        canvas.text([MARGIN_PX, line(0.0)], Align::Left, TEXT_PX, &cut(&words.first, TEXT_PX, longest), ink);
+        let longest = longest - width_of(KEY, LABEL_PX) - 2.0 * MARGIN_PX;
+        canvas.text([MARGIN_PX, line(1.0)], Align::Left, LABEL_PX, &cut(&words.second, LABEL_PX, longest), QUIET_WORDS);
+        canvas.text([WIDTH_PX - MARGIN_PX, line(1.0)], Align::Right, LABEL_PX, KEY, QUIET_WORDS);
+        for (row, entries) in self.legend.iter().enumerate() {
+            let y = line(2.0 + row as f64);
+            for (index, words, left) in entries {
+                let ring = [[*left, y - 5.5], [left + 17.0, y - 5.5], [left + 17.0, y + 5.5], [*left, y + 5.5]];
+                canvas.fill_rounded(&ring, 4.0, self.run.colours[*index]);
+                let speed = format!("{words} {:.1} m/s", seen[*index].state.speed_mps.abs());
+                canvas.text([left + 23.0, y], Align::Left, LABEL_PX, &speed, WORDS);
+            }
+        }
+    }
+}
+
+impl Pictures for DrivingPictures<'_> {
+    fn count(&self) -> usize {
+        self.moments.len()
+    }
+
+    fn size(&self) -> [u32; 2] {
+        let height = TITLE_PX + self.views[0].height_px + self.bar_px();
+        [WIDTH_PX as u32, (2.0 * (0.5 * height).ceil()) as u32]
+    }
+
+    fn draw(&self, index: usize) -> Option<Rgb> {
+        let (moment, view) = (&self.moments[index], &self.views[index]);
+        let seen = self.run.seen(moment.time_s, index as f64 * PICTURE_S);
+        let mut ground = Canvas::new([WIDTH_PX as u32, view.height_px as u32], GRASS)?;
+        self.draw_view(&mut ground, view, &seen, moment.time_s);
+        let mut canvas = Canvas::new(self.size(), BAR)?;
+        canvas.put(&ground, TITLE_PX as u32);
+        self.draw_title(&mut canvas, moment);
+        self.draw_words(&mut canvas, TITLE_PX + view.height_px, &caption(&self.run, moment.time_s), &seen);
+        Some(canvas.into_rgb())
+    }
+
+    fn exact_colours(&self) -> Vec<Colour> {
+        // What is small or seldom seen would otherwise be mixed with its neighbours.
+        let plan = |colour: &Colour| Ink::veiled(*colour, PLAN_OPACITY).over(ASPHALT);
+        let rare = [vehicle::BRAKE_LIGHT, vehicle::INDICATOR, vehicle::brake_glow().over(ASPHALT), BAR, WORDS, ALARM];
+        self.run.colours.iter().copied().chain(rare).chain(self.run.colours.iter().map(plan)).collect()
+    }
+}
+
+/// Rows of names and drivers that fit side by side.
+fn legend(run: &DrivingRun) -> Vec<Vec<(usize, String, f64)>> {
+    let mut rows: Vec<Vec<(usize, String, f64)>> = vec![Vec::new()];
+    let mut left = MARGIN_PX;
+    for (index, vehicle) in run.scenario.vehicles.iter().enumerate() {
+        let words = format!("{}: {}", vehicle.name, vehicle.driver.description());
+        let wide = 23.0 + width_of(&format!("{words} 00.0 m/s"), LABEL_PX) + 20.0;
+        if left + wide > WIDTH_PX && left > MARGIN_PX {
+            rows.push(Vec::new());
+            left = MARGIN_PX;
+        }
+        if let Some(row) = rows.last_mut() {
+            row.push((index, words, left));
+        }
+        left += wide;
+    }
+    rows
+}
+
+/// Left, top, right and bottom of some points.
+fn bounds(points: &[[f64; 2]]) -> [f64; 4] {
+    points.iter().fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |[l, t, r, b], [x, y]| {
+        [l.min(*x), t.min(*y), r.max(*x), b.max(*y)]
+    })
+}
+
+/// Points of a line at equal distances.
+fn spaced(points: &[[f64; 2]], distance: f64) -> Vec<[f64; 2]> {
+    let (mut found, mut left) = (Vec::new(), 0.0);
+    for pair in points.windows(2) {
+        let [dx, dy] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+        let length = libm::hypot(dx, dy);
+        while left < length {
+            found.push([pair[0][0] + dx * left / length, pair[0][1] + dy * left / length]);
+            left += distance;
+        }
+        left -= length;
+    }
+    found
+}
+
+#[cfg(test)]
+impl DrivingPictures<'_> {
+    /// Where the middles of the vehicles are in a picture \[px\], with their colours.
+    pub fn roofs(&self, index: usize) -> Vec<([f64; 2], Colour)> {
+        let seen = self.run.seen(self.moments[index].time_s, 0.0);
+        let place = |(vehicle, seen): (&interplay_scenarios::Vehicle, &SeenVehicle)| {
+            let corners = vehicle.body.corners(&seen.state).map(|corner| self.views[index].place(corner));
+            [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0)
+        };
+        let places = self.run.scenario.vehicles.iter().zip(&seen).map(place);
+        let inside = |[x, _]: &[f64; 2]| (0.0..WIDTH_PX).contains(x);
+        places
+            .zip(self.run.colours.iter().copied())
+            .filter(|(place, _)| inside(place))
+            .map(|([x, y], colour)| ([x, y + TITLE_PX], colour))
+            .collect()
+    }
+}

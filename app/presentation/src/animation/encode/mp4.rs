@@ -1,0 +1,58 @@
+//! MP4, by the program `ffmpeg`.
+
+use std::env;
+use std::io::{self, Read, Write};
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use crate::animation::pictures::Pictures;
+use crate::animation::timing::{LAST_PICTURE_S, PICTURE_S};
+
+/// Whether there is an `ffmpeg` on the path.
+pub fn has_ffmpeg() -> bool {
+    let folders = env::var_os("PATH").unwrap_or_default();
+    env::split_paths(&folders).any(|folder| is_program(folder.join("ffmpeg")))
+}
+
+fn is_program(path: PathBuf) -> bool {
+    path.is_file() || path.with_extension("exe").is_file()
+}
+
+/// Pictures as MP4.
+///
+/// # Errors
+/// If `ffmpeg` cannot be started or refuses, with what it says last.
+pub fn mp4(pictures: &dyn Pictures) -> io::Result<Vec<u8>> {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("animation.mp4");
+    let [width, height] = pictures.size();
+    let (size, rate) = (format!("{width}x{height}"), format!("{:.3}", 1.0 / PICTURE_S));
+    let mut child = Command::new("ffmpeg")
+        .args(["-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", &size, "-r", &rate, "-i", "-"])
+        .args(["-pix_fmt", "yuv420p", "-movflags", "+faststart"])
+        .arg(&file)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()?;
+    let written = child.stdin.take().map_or(Ok(()), |mut input| write_all(pictures, &mut input));
+    let mut said = String::new();
+    if let Some(mut errors) = child.stderr.take() {
+        errors.read_to_string(&mut said)?;
+    }
+    if !child.wait()?.success() {
+        let last = said.lines().last().unwrap_or("it gives no reason").to_owned();
+        return Err(io::Error::other(format!("ffmpeg refuses: {last}")));
+    }
+    written?;
+    std::fs::read(file)
+}
+
+fn write_all(pictures: &dyn Pictures, input: &mut impl Write) -> io::Result<()> {
+    let stays = (LAST_PICTURE_S / PICTURE_S) as usize;
+    let last = pictures.count() - 1;
+    for index in (0..last).chain(std::iter::repeat_n(last, stays)) {
+        input.write_all(&pictures.draw(index).unwrap_or_default())?;
+    }
+    Ok(())
+}

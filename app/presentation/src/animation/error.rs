@@ -1,0 +1,38 @@
+//! Why there is no animation.
+
+use std::io;
+
+use thiserror::Error;
+
+use crate::record::RecordError;
+
+/// Why an animation was not written. What stood at its place is as it was.
+#[derive(Debug, Error)]
+pub enum AnimationError {
+    /// There is nothing to be seen.
+    #[error("there is nothing to animate: the run has neither vehicles nor rooms")]
+    Nothing,
+    /// An encoder refused.
+    #[error("cannot encode the animation: {0}")]
+    Encoding(Box<dyn std::error::Error + Send + Sync>),
+    /// The program that makes films failed.
+    #[error("cannot make the film: {0}")]
+    Film(io::Error),
+    /// The file cannot be written.
+    #[error("cannot write the animation {}: {reason}; choose another place for it", path.display())]
+    Unwritable {
+        /// The file.
+        path: std::path::PathBuf,
+        /// What is in the way.
+        reason: io::Error,
+    },
+}
+
+impl From<RecordError> for AnimationError {
+    fn from(error: RecordError) -> Self {
+        match error {
+            RecordError::Unwritable { path, reason } => AnimationError::Unwritable { path, reason },
+            other => AnimationError::Encoding(Box::new(other)),
+        }
+    }
+}

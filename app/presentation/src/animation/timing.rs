@@ -1,0 +1,108 @@
+//! Which moments of a run are shown, and how fast time passes.
+
+use interplay_simulation::report::Report;
+
+/// Time from one picture to the next \[s\]; GIF counts in hundredths of a second.
+pub const PICTURE_S: f64 = 0.1;
+/// How long the last picture stays \[s\].
+pub const LAST_PICTURE_S: f64 = 1.6;
+/// How long a run is shown after the last vehicle has reached its goal \[s\], at 1/10 scale.
+const AFTER_GOALS_S: f64 = 0.8;
+/// How long it is shown after the ego has reached its goal \[s\], at 1/10 scale: the camera follows it away from the others.
+const AFTER_EGO_S: f64 = 1.2;
+/// How long it is shown after the last collision \[s\], at 1/10 scale.
+const AFTER_COLLISION_S: f64 = 2.5;
+/// The longest that a run is shown before it is sped up \[s\].
+const LONGEST_S: f64 = 12.0;
+/// How fast time passes around a contact.
+const SLOW_RATE: f64 = 0.25;
+/// Before and after a contact, for how long time is slow \[s\], at 1/10 scale.
+const SLOW_S: [f64; 2] = [0.35, 0.45];
+
+/// A moment that is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Simulated time \[s\].
+    pub time_s: f64,
+    /// How fast time passes: 1 is as fast as in the run.
+    pub rate: f64,
+}
+
+/// The moments of a run until `end_s` with the ego at index `ego`, whose times are those of 1/10 scale times `time_ratio`.
+pub fn moments(report: &Report, ego: usize, end_s: f64, time_ratio: f64) -> Vec<Moment> {
+    let end_s = last_s(report, ego, end_s, time_ratio);
+    let mut usual_rate = 1.0;
+    while end_s / usual_rate > LONGEST_S {
+        usual_rate *= 2.0;
+    }
+    let is_slow = |time_s: f64| {
+        let [before_s, after_s] = SLOW_S.map(|part| part * time_ratio);
+        report.collisions.iter().any(|hit| (hit.time_s - before_s..hit.time_s + after_s).contains(&time_s))
+    };
+    let mut moments = Vec::new();
+    let mut time_s = 0.0;
+    while time_s < end_s {
+        let rate = if is_slow(time_s) { SLOW_RATE } else { usual_rate };
+        moments.push(Moment { time_s, rate });
+        time_s += rate * PICTURE_S;
+    }
+    moments.push(Moment { time_s: end_s, rate: usual_rate });
+    moments
+}
+
+/// When a picture of a run ends: a while after everything has happened, or with the run.
+fn last_s(report: &Report, ego: usize, end_s: f64, time_ratio: f64) -> f64 {
+    let collided = report.collisions.iter().map(|hit| hit.time_s + AFTER_COLLISION_S * time_ratio).reduce(f64::max);
+    let tasks = report.vehicles.iter().filter(|vehicle| vehicle.has_task);
+    let all: Option<Vec<f64>> = tasks.map(|vehicle| vehicle.completed_s).collect();
+    let all_s = all.and_then(|times| times.into_iter().reduce(f64::max)).map(|at| at + AFTER_GOALS_S * time_ratio);
+    let ego_s = report.vehicles.get(ego).and_then(|ego| ego.completed_s).map(|at| at + AFTER_EGO_S * time_ratio);
+    let reached = match (all_s, ego_s) {
+        (Some(all_s), Some(ego_s)) => Some(all_s.min(ego_s)),
+        (all_s, ego_s) => ego_s.or(all_s),
+    };
+    let everything = match (reached, collided) {
+        (Some(reached), Some(collided)) => Some(reached.max(collided)),
+        (reached, collided) => reached.or(collided),
+    };
+    everything.map_or(end_s, |at| at.min(end_s))
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+    use interplay_simulation::run::run;
+
+    use super::*;
+
+    fn report(name: &str) -> Report {
+        run(name, &load(name, &[]).expect("embedded"), Vec::new()).expect("a run")
+    }
+
+    #[test]
+    fn time_passes_slowly_around_a_contact() {
+        let report = report("crash/side-impact");
+        let moments = moments(&report, 0, 8.0, 1.0);
+        let hit_s = report.collisions[0].time_s;
+        let steps: Vec<[f64; 2]> = moments.windows(2).map(|pair| [pair[0].time_s, pair[1].time_s]).collect();
+        assert!(steps.iter().all(|[from, to]| to > from));
+        let around = steps.iter().find(|[from, to]| *from <= hit_s && hit_s < *to).expect("it is shown");
+        assert!((around[1] - around[0] - SLOW_RATE * PICTURE_S).abs() < 1e-9);
+        assert!((steps[0][1] - steps[0][0] - PICTURE_S).abs() < 1e-9);
+        assert!(moments.last().expect("some").time_s < 5.0, "the rest shows nothing new");
+    }
+
+    #[test]
+    fn a_run_ends_after_its_goals_and_long_ones_are_faster() {
+        let report = report("intersection/nice");
+        let last = |moments: Vec<Moment>| moments.last().expect("some").time_s;
+        let goals_s: Vec<f64> = report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s).collect();
+        let expected_s = (goals_s[0] + AFTER_EGO_S).min(goals_s[1] + AFTER_GOALS_S);
+        assert!((last(moments(&report, 0, 7.0, 1.0)) - expected_s).abs() < 1e-9);
+        let unfinished = Report { vehicles: Vec::new(), ..report };
+        assert_eq!(last(moments(&unfinished, 0, 7.0, 1.0)), 7.0);
+        let long = moments(&unfinished, 0, 40.0, 1.0);
+        assert_eq!(long[0].rate, 4.0);
+        assert!(long.len() as f64 * PICTURE_S < LONGEST_S);
+    }
+}

@@ -1,0 +1,297 @@
+//! A vehicle from above: shadow, wheels that steer, body, windows, lights. Lorries, vans and bicycles look like themselves.
+
+use interplay_planners::{Body, State};
+use interplay_scenarios::{Vehicle, VehicleClass};
+
+use super::camera::CameraView;
+use super::canvas::{Canvas, Ink, LineEnd};
+use super::scene::{SeenVehicle, Turn};
+use crate::palette::Colour;
+
+const SHADOW: Colour = [0x1B, 0x1D, 0x20];
+const TYRE: Colour = [0x17, 0x18, 0x1A];
+const GLASS: Colour = [0x22, 0x2C, 0x38];
+const HEADLIGHT: Colour = [0xFF, 0xF6, 0xD6];
+const TAIL_LIGHT: Colour = [0x7A, 0x1A, 0x1C];
+/// A lit brake light.
+pub const BRAKE_LIGHT: Colour = [0xFF, 0x2A, 0x2A];
+/// A lit indicator.
+pub const INDICATOR: Colour = [0xFF, 0xC4, 0x1F];
+const SKIN: Colour = [0xE8, 0xC3, 0xA0];
+/// Rectangles along and across a body: rear, front, right, left, from −1 at the rear and right to 1 at the front and left.
+type Share = [f64; 4];
+
+/// What a vehicle looks like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyStyle {
+    /// A car with bonnet and boot.
+    Car,
+    /// A van: the windscreen is far ahead and there is no rear window.
+    Van,
+    /// A lorry: a cab and a box.
+    Lorry,
+    /// A bicycle with its rider.
+    Bicycle,
+}
+
+impl BodyStyle {
+    /// The style of a vehicle: by its class, or without one by its size.
+    pub fn of(vehicle: &Vehicle) -> BodyStyle {
+        match vehicle.class {
+            Some(VehicleClass::ScaleCar | VehicleClass::Car) => BodyStyle::Car,
+            Some(VehicleClass::Van) => BodyStyle::Van,
+            Some(VehicleClass::Truck) => BodyStyle::Lorry,
+            Some(VehicleClass::Bicycle) => BodyStyle::Bicycle,
+            None => BodyStyle::of_size(&vehicle.body),
+        }
+    }
+
+    fn of_size(body: &Body) -> BodyStyle {
+        let length = (body.front_m + body.rear_m) / body.scale;
+        let width = body.width_m / body.scale;
+        match (length, width) {
+            (length, _) if length > 0.8 => BodyStyle::Lorry,
+            (length, _) if length > 0.52 => BodyStyle::Van,
+            (_, width) if width < 0.1 => BodyStyle::Bicycle,
+            _ => BodyStyle::Car,
+        }
+    }
+}
+
+/// A vehicle on its way to the canvas: from its own frame to pixels.
+struct Placed<'a> {
+    body: &'a Body,
+    state: &'a State,
+    view: &'a CameraView,
+}
+
+impl Placed<'_> {
+    /// A point ahead and to the left of the mass centre \[m\].
+    fn place(&self, [ahead, left]: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = libm::sincos(self.state.heading_rad);
+        self.view.place([self.state.x_m + cos * ahead - sin * left, self.state.y_m + sin * ahead + cos * left])
+    }
+
+    /// A place by shares of the body: −1 at the rear and right, 1 at the front and left.
+    fn shared(&self, [along, across]: [f64; 2]) -> [f64; 2] {
+        let (front, rear) = (self.body.front_m, self.body.rear_m);
+        self.place([0.5 * (front - rear) + 0.5 * along * (front + rear), 0.5 * across * self.body.width_m])
+    }
+
+    fn rectangle(&self, [rear, front, right, left]: Share) -> [[f64; 2]; 4] {
+        [[rear, right], [front, right], [front, left], [rear, left]].map(|corner| self.shared(corner))
+    }
+
+    fn px(&self, metres: f64) -> f64 {
+        metres * self.view.px_per_m
+    }
+}
+
+/// Draws the shadow, which lies below all vehicles.
+pub fn draw_shadow(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle) {
+    let placed = Placed { body: &vehicle.body, state: &seen.state, view };
+    let off = placed.px(0.16 * vehicle.body.width_m.min(0.2 * vehicle.body.scale));
+    let thin = if BodyStyle::of(vehicle) == BodyStyle::Bicycle { 0.4 } else { 1.0 };
+    let ring = placed.rectangle([-1.0, 1.0, -thin, thin]).map(|[x, y]| [x + off, y + off]);
+    canvas.fill_rounded(&ring, placed.px(0.3 * vehicle.body.width_m), Ink::veiled(SHADOW, 0.35));
+}
+
+/// Draws a vehicle.
+pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle, colour: Colour) {
+    let placed = Placed { body: &vehicle.body, state: &seen.state, view };
+    let style = BodyStyle::of(vehicle);
+    if style == BodyStyle::Bicycle {
+        draw_bicycle(canvas, &placed, seen, colour);
+        return;
+    }
+    draw_wheels(canvas, &placed, style, seen.steering_rad);
+    let width = vehicle.body.width_m;
+    let ring = placed.rectangle([-1.0, 1.0, -1.0, 1.0]);
+    let radius = placed.px(if style == BodyStyle::Car { 0.3 } else { 0.12 } * width);
+    canvas.fill_rounded(&ring, radius, colour);
+    let edge = (0.035 * placed.px(width)).max(1.0);
+    match style {
+        BodyStyle::Car => draw_cabin(canvas, &placed, colour, [-0.62, 0.42]),
+        BodyStyle::Van => {
+            draw_glass(canvas, &placed, [0.62, 0.82], [0.88, 0.78]);
+            canvas.line(
+                &[placed.shared([0.55, -0.86]), placed.shared([0.55, 0.86])],
+                edge,
+                LineEnd::Flat,
+                darker(colour),
+            );
+        }
+        BodyStyle::Lorry | BodyStyle::Bicycle => {
+            draw_glass(canvas, &placed, [0.86, 0.95], [0.9, 0.86]);
+            let gap = placed.rectangle([0.66, 0.69, -1.0, 1.0]);
+            canvas.fill(&gap, TYRE);
+            let lid = placed.rectangle([-0.97, 0.63, -0.86, 0.86]);
+            canvas.outline_rounded(&lid, 1.0, edge, darker(colour));
+        }
+    }
+    canvas.outline_rounded(&ring, radius, edge, darker(colour));
+    draw_lights(canvas, &placed, seen);
+}
+
+/// Wheels below the body, which they leave a little; the front ones turn.
+fn draw_wheels(canvas: &mut Canvas, placed: &Placed, style: BodyStyle, steering_rad: f64) {
+    let Body { width_m, front_m, rear_m, front_axle_m, rear_axle_m, .. } = *placed.body;
+    let length_m = if style == BodyStyle::Lorry { 0.42 } else { 0.38 } * width_m;
+    let thick_m = 0.15 * width_m;
+    // The axles of scale cars are at their bumpers: the wheels are drawn where cars have them.
+    let front = front_axle_m.min(front_m - 0.85 * length_m);
+    let rear = -rear_axle_m.min(rear_m - 0.75 * length_m);
+    for (ahead, angle_rad) in [(front, steering_rad), (rear, 0.0)] {
+        for side in [-1.0, 1.0] {
+            let middle = [ahead, side * (0.5 * width_m - 0.25 * thick_m)];
+            let (sin, cos) = libm::sincos(angle_rad);
+            let corner = |[along, across]: [f64; 2]| {
+                let (along, across) = (0.5 * along * length_m, 0.5 * across * thick_m);
+                placed.place([middle[0] + cos * along - sin * across, middle[1] + sin * along + cos * across])
+            };
+            let ring = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner);
+            canvas.fill_rounded(&ring, placed.px(0.3 * thick_m), TYRE);
+        }
+    }
+}
+
+/// Windows all around a roof of the vehicle's colour, between two places along the body.
+fn draw_cabin(canvas: &mut Canvas, placed: &Placed, colour: Colour, [rear, front]: [f64; 2]) {
+    let ring = [[rear, -0.6], [rear, 0.6], [front - 0.06, 0.84], [front, 0.7], [front, -0.7], [front - 0.06, -0.84]];
+    let ring = ring.map(|corner| placed.shared(corner));
+    let width = placed.px(placed.body.width_m);
+    canvas.fill_rounded(&ring, 0.14 * width, GLASS);
+    let roof = [[rear + 0.17, -0.62], [rear + 0.17, 0.62], [front - 0.26, 0.68], [front - 0.26, -0.68]];
+    canvas.fill_rounded(&roof.map(|corner| placed.shared(corner)), 0.1 * width, colour);
+    // The pillars between the side windows.
+    let pillar = 0.5 * (rear + front) - 0.05;
+    for side in [-1.0, 1.0] {
+        let line = [placed.shared([pillar, side * 0.62]), placed.shared([pillar, side * 0.86])];
+        canvas.line(&line, 0.06 * width, LineEnd::Flat, colour);
+    }
+}
+
+/// A windscreen between two places along the body, `across` at its rear and at its front edge.
+fn draw_glass(canvas: &mut Canvas, placed: &Placed, [rear, front]: [f64; 2], across: [f64; 2]) {
+    let ring = [[rear, -across[0]], [rear, across[0]], [front, across[1]], [front, -across[1]]];
+    canvas.fill_rounded(&ring.map(|corner| placed.shared(corner)), 0.06 * placed.px(placed.body.width_m), GLASS);
+}
+
+fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
+    let length_m = placed.body.front_m + placed.body.rear_m;
+    // Lights are as deep as those of a car, however long the vehicle is.
+    let deep = 0.24 * placed.body.width_m / length_m;
+    for side in [-1.0_f64, 1.0] {
+        let across = [side * 0.88, side * 0.5];
+        let [right, left] = [across[0].min(across[1]), across[0].max(across[1])];
+        let head = placed.rectangle([1.0 - 1.3 * deep, 1.0 - 0.3 * deep, right, left]);
+        canvas.fill_rounded(&head, 0.08 * placed.px(placed.body.width_m), HEADLIGHT);
+        if seen.brakes {
+            let behind = placed.shared([-1.0 - 0.3 * deep, side * 0.68]);
+            canvas.disc(behind, placed.px(0.3 * placed.body.width_m), brake_glow());
+        }
+        let (colour, depth) = if seen.brakes { (BRAKE_LIGHT, 1.5 * deep) } else { (TAIL_LIGHT, 0.9 * deep) };
+        let tail = placed.rectangle([-1.0, -1.0 + depth, right, left]);
+        canvas.fill_rounded(&tail, 0.06 * placed.px(placed.body.width_m), colour);
+        let lit = seen.blinks && seen.turn == Some(if side > 0.0 { Turn::Left } else { Turn::Right });
+        if lit {
+            for end in [-1.0, 1.0] {
+                let at = placed.shared([end * (1.0 - 0.8 * deep), side * 0.92]);
+                canvas.disc(at, placed.px(0.3 * placed.body.width_m), Ink::veiled(INDICATOR, 0.45));
+                canvas.disc(at, placed.px(0.15 * placed.body.width_m), INDICATOR);
+            }
+        }
+    }
+}
+
+fn draw_bicycle(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle, colour: Colour) {
+    let width = placed.px(placed.body.width_m);
+    let thick = (0.12 * width).max(1.6);
+    let (sin, cos) = libm::sincos(seen.steering_rad);
+    let front_axle = placed.body.front_axle_m;
+    let wheel_m = 0.5 * placed.body.width_m;
+    let turned = |along: f64| placed.place([front_axle + cos * along, sin * along]);
+    canvas.line(&[placed.shared([-1.0, 0.0]), placed.shared([-0.3, 0.0])], thick, LineEnd::Round, TYRE);
+    canvas.line(&[turned(-wheel_m), turned(0.7 * wheel_m)], thick, LineEnd::Round, TYRE);
+    canvas.line(&[placed.shared([-0.5, 0.0]), placed.shared([0.45, 0.0])], thick, LineEnd::Round, darker(colour));
+    let bar = [placed.shared([0.38, -0.9]), placed.shared([0.45, 0.0]), placed.shared([0.38, 0.9])];
+    canvas.line(&bar, thick, LineEnd::Round, TYRE);
+    let rider = placed.rectangle([-0.28, 0.12, -0.8, 0.8]);
+    canvas.fill_rounded(&rider, 0.25 * width, colour);
+    for side in [-1.0, 1.0] {
+        canvas.line(
+            &[placed.shared([0.0, 0.65 * side]), placed.shared([0.38, 0.75 * side])],
+            thick,
+            LineEnd::Round,
+            SKIN,
+        );
+    }
+    canvas.disc(placed.shared([0.02, 0.0]), 0.24 * width, darker(colour));
+    if seen.brakes {
+        canvas.disc(placed.shared([-1.0, 0.0]), 0.16 * width, BRAKE_LIGHT);
+    }
+}
+
+/// What a lit brake light throws on the road.
+pub fn brake_glow() -> Ink {
+    Ink::veiled(BRAKE_LIGHT, 0.3)
+}
+
+/// A darker shade.
+pub fn darker(colour: Colour) -> Colour {
+    colour.map(|part| (f64::from(part) * 0.55) as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::*;
+
+    /// A picture of one vehicle at 60 px/m around it, and what has a colour in it.
+    fn count(seen: &SeenVehicle, colour: Colour) -> usize {
+        let scenario = load("lane-change/front-nice", &[]).expect("embedded");
+        let view = CameraView { centre_m: seen.state.position(), px_per_m: 200.0, height_px: 200.0 };
+        let mut canvas = Canvas::new([720, 200], [0x80; 3]).expect("a size");
+        draw(&mut canvas, &view, &scenario.vehicles[0], seen, [10, 200, 30]);
+        canvas.into_rgb().chunks_exact(3).filter(|pixel| *pixel == colour).count()
+    }
+
+    fn standing() -> SeenVehicle {
+        SeenVehicle {
+            state: State { x_m: 3.0, y_m: 1.0, heading_rad: 0.4, speed_mps: 1.0 },
+            steering_rad: 0.0,
+            brakes: false,
+            turn: None,
+            blinks: true,
+            plan: Vec::new(),
+            plan_colour: [0; 3],
+            proposal: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn lights_shine_when_they_are_lit() {
+        let dark = standing();
+        assert_eq!(count(&dark, BRAKE_LIGHT), 0);
+        assert_eq!(count(&dark, INDICATOR), 0);
+        assert!(count(&SeenVehicle { brakes: true, ..standing() }, BRAKE_LIGHT) > 10);
+        let left = SeenVehicle { turn: Some(Turn::Left), ..standing() };
+        assert!(count(&left, INDICATOR) > 10);
+        assert_eq!(count(&SeenVehicle { blinks: false, ..left }, INDICATOR), 0);
+        assert!(count(&dark, [10, 200, 30]) > 1000 && count(&dark, GLASS) > 100);
+    }
+
+    #[test]
+    fn vehicles_look_like_their_class_or_size() {
+        let scenario = load("on-ramp/five", &[]).expect("embedded");
+        let style = |name: &str| BodyStyle::of(scenario.vehicle(name).expect("there"));
+        assert_eq!((style("lorry"), style("front")), (BodyStyle::Lorry, BodyStyle::Car));
+        let size = |front_m: f64, rear_m: f64, width_m: f64| {
+            BodyStyle::of_size(&Body { front_m, rear_m, width_m, scale: 10.0, ..Body::default() })
+        };
+        assert_eq!(size(2.8, 3.2, 2.0), BodyStyle::Van);
+        assert_eq!(size(0.9, 0.9, 0.65), BodyStyle::Bicycle);
+        assert_eq!(size(2.2, 2.3, 1.8), BodyStyle::Car);
+    }
+}
