@@ -148,7 +148,7 @@ fn both_certificates_give_the_decay_rate_that_was_asked_for() {
     let targets = chapter_3(1.0);
     for stability in [Stability::Lmi, Stability::Linear] {
         for decay in [0.5, 0.7, 0.9] {
-            let settings = IterativeSettings { stability, decay, ..IterativeSettings::default() };
+            let settings = IterativeSettings { stability, decay: Some(decay), ..IterativeSettings::default() };
             let found = StaticFeedback::design(&settings, &lifted, &targets, covariance(1.0), &[]).expect("designed");
             assert!(found.spectral_radius <= decay, "{stability:?} {decay}: {}", found.spectral_radius);
             assert!(found.causal_cost <= found.cost && found.cost < 18.0, "{stability:?} {decay}: {}", found.cost);
@@ -170,7 +170,7 @@ fn walls_that_store_heat_are_states_without_a_sensor() {
     let targets = setpoints.targets(2, STEP_S, STEPS).expect("valid");
     let uncertainty = Uncertainty::new(UncertaintySettings::default()).expect("valid");
     for stability in [Stability::Lmi, Stability::Linear] {
-        let settings = IterativeSettings { stability, decay: 0.99, ..IterativeSettings::default() };
+        let settings = IterativeSettings { stability, decay: Some(0.99), ..IterativeSettings::default() };
         let found = StaticFeedback::design(&settings, &lifted, &targets, uncertainty.covariance(&targets), &[])
             .expect("designed");
         let closed = closed_loop(&model.state_matrix(), &model.gain_matrix(), &found.gain_kw_per_k);
@@ -256,7 +256,7 @@ fn a_failed_design_repeats_the_day_before_and_says_why() {
     assert!(matches!(fallback, Some(ControlError::Solve(_))), "{fallback:?}");
 
     // No gain decays that fast.
-    let fast = IterativeSettings { stability: Stability::Linear, decay: 1e-3, ..IterativeSettings::default() };
+    let fast = IterativeSettings { stability: Stability::Linear, decay: Some(1e-3), ..IterativeSettings::default() };
     let mut iterative = Iterative::new(fast, lifted()).expect("valid");
     let records = run(&testbed(), 29.0, &mut iterative, &targets, &[day(0), day(1)]);
     assert!(records[1].design.fallbacks <= 1);

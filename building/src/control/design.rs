@@ -9,6 +9,8 @@ pub struct Design {
     pub fallback: Option<ControlError>,
     /// For how many days so far no plan was found.
     pub fallbacks: usize,
+    /// Why the feedback is certified less well than was asked for.
+    pub weaker_feedback: Option<ControlError>,
     /// Planned inputs \[kW\], stacked; empty on a day without a plan.
     pub planned_kw: Vec<f64>,
     /// Temperatures expected under them \[°C\], stacked.

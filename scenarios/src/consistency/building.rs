@@ -2,7 +2,6 @@
 //!
 //! The building crate itself is asked whether it could work with them.
 
-use interplay_building::control::ControlError;
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::{Network, NetworkError, Part};
 
@@ -151,11 +150,7 @@ impl Checker<'_> {
             Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
         };
         if let Err(error) = self.scenario.controller().regulator(&model, steps) {
-            let key = match &error {
-                ControlError::Setting(error) => error.key.as_str(),
-                _ => "kind",
-            };
-            self.refuse(&format!("controller.{key}"), "here", format!("`controller`: {error}"), "");
+            self.refuse(&format!("controller.{}", error.key()), "here", format!("`controller`: {error}"), "");
         }
     }
 }

@@ -45,6 +45,8 @@ pub struct BuildingMeasures {
     pub days: Vec<DayFigures>,
     /// The days without a plan of their own.
     pub fallbacks: Vec<Fallback>,
+    /// Days whose feedback is certified less well than was asked for.
+    pub weaker_feedbacks: Vec<Fallback>,
     /// How many zones there are.
     pub zones: usize,
     /// What is allowed and may not have been meant, in words.
@@ -67,6 +69,7 @@ impl BuildingMeasures {
         BuildingMeasures {
             days: Vec::new(),
             fallbacks: Vec::new(),
+            weaker_feedbacks: Vec::new(),
             zones: building.targets.zones,
             remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
             lifted,
@@ -144,6 +147,10 @@ pub fn measure_building(
         if let Some(why) = &building.today.record.design.fallback {
             let day = measures.days.len();
             measures.fallbacks.push(Fallback { day, reason: why.to_string() });
+        }
+        if let Some(why) = &building.today.record.design.weaker_feedback {
+            let day = measures.days.len();
+            measures.weaker_feedbacks.push(Fallback { day, reason: why.to_string() });
         }
         frame.figures = Some(day);
     }

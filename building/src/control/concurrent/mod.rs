@@ -59,9 +59,11 @@ impl Concurrent {
     /// The design before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
-    /// [`ControlError::Setting`] if a setting is out of range.
+    /// [`ControlError::Setting`] if a setting is out of range; [`ControlError::TooManyUnknowns`] if the building is too large
+    /// for its matrices; [`ControlError::BelowFloor`] if no feedback satisfies a stated γ₂.
     pub fn new(settings: ConcurrentSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
+        filter::check(&settings, &lifted)?;
         Ok(Self {
             settings,
             uncertainty: Uncertainty::new(settings.uncertainty)?,
