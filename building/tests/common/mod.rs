@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "every test binary uses a part")]
 
+pub mod exchange;
 pub mod house;
 pub mod reference;
 

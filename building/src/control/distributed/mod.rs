@@ -12,6 +12,7 @@ mod agreement;
 pub mod cooperative;
 mod messages;
 mod settings;
+mod step_space;
 mod zone;
 
 pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
@@ -167,24 +168,24 @@ impl PlanningDesign for Distributed {
         }
         let targets = day_ahead.targets;
         let lifted = self.estimator.lifted().clone();
+        let penalty = penalty(self.settings.discomfort_quadratic);
         if self.zone_models.as_ref().is_none_or(|(known, _)| known != targets) {
-            self.zone_models = Some((targets.clone(), ZoneModels::new(&lifted, targets, &self.messages)));
+            self.zone_models = Some((targets.clone(), ZoneModels::new(&lifted, targets, penalty, &self.messages)));
         }
         let Some((_, zone_models)) = &self.zone_models else { return Ok((None, Design::default())) };
         let driving_kw = driving_kw(&lifted, day_ahead, &free_c);
         let day = JointDay {
             lifted: &lifted,
             targets,
-            penalty: penalty(self.settings.discomfort_quadratic),
+            penalty,
             zone_models,
             initial_c: day_ahead.initial_c,
             driving_kw: &driving_kw,
             free_c: &free_c,
             silent: self.settings.silent_zone,
         };
-        let reliable = self.settings.loss == 0.0 && self.settings.delay_rounds == 0;
         let rules = Rules {
-            scheme: if reliable { self.settings.scheme } else { Scheme::Jacobi },
+            scheme: if self.settings.delay_rounds == 0 { self.settings.scheme } else { Scheme::Jacobi },
             tolerance_kw: self.settings.tolerance_kw,
             rounds: self.settings.rounds,
             delay: self.settings.delay_rounds,

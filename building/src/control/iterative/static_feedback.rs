@@ -117,24 +117,31 @@ impl Loops {
         let mut reason = None;
         for share in RELAXATIONS {
             let decay = self.decay + share * (1.0 - self.decay);
-            let by_inequality = || (stability != Stability::Linear).then(|| projection.lmi(decay));
-            let by_rows = || Some(projection.linear(decay));
-            let certificates: [&dyn Fn() -> Option<Result<DMatrix<f64>, ControlError>>; 2] = [&by_inequality, &by_rows];
-            for found in certificates.iter().filter_map(|certificate| certificate()) {
-                match found {
-                    Ok(gain) if is_below_one(self.radius(&gain)) => {
-                        return Ok((gain, reason.map(|reason| self.weaker(decay, reason))));
-                    }
-                    Ok(gain) => {
-                        _ = reason.get_or_insert(ControlError::Unstable { spectral_radius: self.radius(&gain) })
-                    }
-                    Err(error) => _ = reason.get_or_insert(error),
+            let by_inequality = (stability != Stability::Linear).then(|| self.stable(projection.lmi(decay)));
+            let found = match by_inequality {
+                Some(Ok(gain)) => Ok(gain),
+                // The first reason counts: that of the certificate which was asked for.
+                Some(Err(error)) => {
+                    reason.get_or_insert(error);
+                    self.stable(projection.linear(decay))
                 }
+                None => self.stable(projection.linear(decay)),
+            };
+            match found {
+                Ok(gain) => return Ok((gain, reason.map(|reason| self.weaker(decay, reason)))),
+                Err(error) => _ = reason.get_or_insert(error),
             }
         }
         let gain = self.initial_gain();
         let certified = positive_decay(&closed_loop(&self.a, &self.b, &gain));
         Ok((gain, reason.map(|reason| self.weaker(certified, reason))))
+    }
+
+    /// A gain whose closed loop is stable.
+    fn stable(&self, gain: Result<DMatrix<f64>, ControlError>) -> Result<DMatrix<f64>, ControlError> {
+        let gain = gain?;
+        let spectral_radius = self.radius(&gain);
+        if is_below_one(spectral_radius) { Ok(gain) } else { Err(ControlError::Unstable { spectral_radius }) }
     }
 
     fn weaker(&self, certified: f64, reason: ControlError) -> ControlError {
