@@ -186,6 +186,9 @@ fn keys_of_controllers_and_setpoints() {
         let text = grid(rooms, kind);
         errors.error(&format!("too_many_rooms_for_{kind}"), from_text("bad.toml", &text, &[]), fragments);
     }
+    let regret = format!("{}[expect.building]\nregret_at_most = 3.0\n", grid(11, "pid"));
+    let refused = &["bad.toml:11:18", "at most 500 inputs", "has 528", "clairvoyant"];
+    errors.error("regret_of_many_rooms", from_text("bad.toml", &regret, &[]), refused);
     let all = &mut errors;
     refusal(all, "zone_called_ambient", ("\"store\"", "\"ambient\""), &["bad.toml:13:8", "zone 2", "`ambient`"]);
     insta::assert_snapshot!("keys_of_controllers_and_setpoints", errors.0);

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use interplay_building::comfort::Targets;
 use interplay_building::control::{Controller, DayRecord, optimum};
-use interplay_building::day::KeyFigures;
+use interplay_building::day::{KeyFigures, MAX_REGRET_INPUTS};
 use interplay_building::lifted::Lifted;
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
@@ -13,10 +13,6 @@ use crate::climate::Building;
 use crate::components::CurrentFrame;
 use crate::day::{DayFigures, ExchangeFigures};
 use crate::frame::{BuildingFrame, Frame};
-
-/// The optimum of a day and the convergence of learning are computed for at most this many inputs a day (zones times
-/// steps): they take time in the cube of it.
-const MAX_ANALYSED_INPUTS: usize = 500;
 
 /// Why a day had no plan of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -63,7 +59,8 @@ pub struct BuildingMeasures {
 impl BuildingMeasures {
     /// Nothing measured yet.
     pub fn new(building: &Building, controller: &Controller) -> Self {
-        let small = building.targets.reference_c.len() <= MAX_ANALYSED_INPUTS;
+        // The convergence of learning takes time in the cube of the inputs, too.
+        let small = building.targets.reference_c.len() <= MAX_REGRET_INPUTS;
         let lifted = small.then(|| Lifted::new(&building.model, building.steps_per_day()));
         let spectral_radius = lifted.as_ref().and_then(|lifted| controller.spectral_radius(lifted));
         BuildingMeasures {

@@ -116,15 +116,11 @@ fn central(
 
 /// Each zone follows its plan with feedback on its own error; on the first day it follows the targets.
 fn follow(history: &PlanHistory, gain_kw_per_k: f64, limits_kw: &[f64], observation: &Observation<'_>) -> Vec<f64> {
-    let Observation { step, temperatures_c, targets } = *observation;
+    let Observation { step, temperatures_c, .. } = *observation;
     let n = temperatures_c.len();
     let (planned_kw, deviation_k) = match history.plan() {
         Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
-        None => {
-            let wanted_c = targets.reference_at(step);
-            let error_k = wanted_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect();
-            (vec![0.0; n], (step > 0).then_some(error_k))
-        }
+        None => (vec![0.0; n], Some(observation.weighted_errors_k())),
     };
     (0..n)
         .map(|i| {

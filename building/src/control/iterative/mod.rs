@@ -233,16 +233,12 @@ impl PlanningDesign for Iterative {
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
-        let Observation { step, temperatures_c, targets } = *observation;
+        let Observation { step, temperatures_c, .. } = *observation;
         let n = temperatures_c.len();
         let (mut heat_kw, error_k) = match self.history.plan() {
             Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
             // The first day: only the initial feedback, on the error itself.
-            None => {
-                let wanted_c = targets.reference_at(step);
-                let error_k = wanted_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect();
-                (vec![0.0; n], (step > 0).then_some(error_k))
-            }
+            None => (vec![0.0; n], Some(observation.weighted_errors_k())),
         };
         for (j, error_k) in error_k.iter().flatten().enumerate() {
             for (heat_kw, gain) in heat_kw.iter_mut().zip(&self.gain.column(j)) {
