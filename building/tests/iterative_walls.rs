@@ -5,7 +5,9 @@ mod common;
 use common::reference::*;
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::iterative::projection::Projection;
-use interplay_building::control::iterative::{Iterative, IterativeSettings, Stability, decay, feedback};
+use interplay_building::control::iterative::{
+    Iterative, IterativeSettings, Stability, StaticFeedback, decay, feedback,
+};
 use interplay_building::control::uncertainty::{Uncertainty, UncertaintySettings, factor};
 use interplay_building::control::{Control, ControlError};
 use interplay_building::discretise::Model;
@@ -124,4 +126,26 @@ fn buildings_too_large_for_a_certificate_are_refused_with_the_limit() {
     let many = Lifted::new(&row_of_rooms(26, 1000.0, 1), STEPS);
     let error = Iterative::new(linear, many).expect_err("26 rooms");
     assert!(matches!(error, ControlError::TooManyUnknowns { found: 1248, most: 1200, .. }), "{error}");
+}
+
+#[test]
+fn a_closed_loop_on_the_unit_circle_is_not_stable() {
+    // Heat cannot leave the room, and nothing acts on it.
+    let network = Network::new(&[Zone::named("a")], &[]).expect("valid");
+    let lifted = Lifted::new(&Model::exact(&network, STEP_S).expect("valid"), STEPS);
+    let settings = |initial_gain_kw_per_k: f64| IterativeSettings {
+        stability: Stability::Fixed,
+        initial_gain_kw_per_k,
+        ..IterativeSettings::default()
+    };
+    let targets = Setpoints::default().targets(1, STEP_S, STEPS).expect("valid");
+    let uncertainty = Uncertainty::new(UncertaintySettings::default()).expect("valid");
+    let design =
+        |gain: f64| StaticFeedback::design(&settings(gain), &lifted, &targets, uncertainty.covariance(&targets), &[]);
+    let error = design(0.0).expect_err("a radius of 1");
+    assert!(
+        matches!(error, ControlError::Unstable { spectral_radius } if (spectral_radius - 1.0).abs() < 1e-12),
+        "{error}"
+    );
+    assert!(design(0.1).expect("stable").spectral_radius < 0.9);
 }

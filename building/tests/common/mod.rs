@@ -4,6 +4,7 @@
 
 pub mod exchange;
 pub mod house;
+pub mod ordinary;
 pub mod reference;
 
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
