@@ -29,3 +29,8 @@ fn the_iterative_design_works_in_ordinary_buildings() {
 fn the_concurrent_design_works_in_ordinary_buildings() {
     check(Controller::Concurrent(Default::default()), 0..9);
 }
+
+#[test]
+fn the_distributed_design_works_in_ordinary_buildings() {
+    check(Controller::Distributed(Default::default()), 0..9);
+}

@@ -36,7 +36,8 @@ pub struct DistributedSettings {
     /// Cost of a squared kelvin beyond the comfort band, per step.
     #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub discomfort_quadratic: f64,
-    /// Feedback of each zone on its own error \[kW/K\].
+    /// Feedback of each zone on its own error \[kW/K\]. A light zone has less: at most its capacity over the step, less its
+    /// conductances, so that its error does not change its sign within a step.
     #[schemars(range(min = 0.0))]
     pub gain_kw_per_k: f64,
     /// λ of the learned bias.
