@@ -145,17 +145,38 @@ fn it_tracks_better_than_pid_without_a_forecast_on_every_seed() {
 }
 
 #[test]
-fn a_bound_below_its_floor_repeats_the_day_before() {
-    let settings = ConcurrentSettings { gamma_2: Some(3.0), ..ConcurrentSettings::default() };
-    let mut concurrent = Concurrent::new(settings, lifted()).expect("valid");
+fn a_bound_below_its_floor_is_refused_at_the_start() {
+    // Below what one step does, and below what taps within γ_q reach.
+    for (gamma_q, gamma_2, floor) in [(2.5, 3.0, "3.6000"), (0.1, 4.0, "")] {
+        let settings = ConcurrentSettings { gamma_q, gamma_2: Some(gamma_2), ..ConcurrentSettings::default() };
+        let error = Concurrent::new(settings, lifted()).expect_err("no feedback");
+        assert!(matches!(error, ControlError::BelowFloor { bound: "gamma_2", .. }), "{error}");
+        assert!(error.to_string().contains(floor) && error.key().as_str() == "gamma_2", "{error}");
+    }
+}
+
+#[test]
+fn rooms_that_taps_within_their_bound_hardly_move_have_a_feedback_by_default() {
+    // The taps that are allowed are too small for rooms of twenty times the capacity.
+    let lifted = Lifted::new(&testbed_scaled(20.0, 1.0, 1.0), STEPS);
+    let mut concurrent = Concurrent::new(ConcurrentSettings::default(), lifted.clone()).expect("valid");
     let days: Vec<_> = (0..3).map(day).collect();
+    let records = run(lifted.model(), 24.0, &mut concurrent, &chapter_4(), &days);
+    assert!(records.iter().all(|record| record.design.fallback.is_none()), "{:?}", records[1].design.fallback);
+    let taps = &records[2].design.taps_kw_per_k;
+    assert!(taps.iter().flatten().flatten().any(|tap| tap.abs() > 0.1), "{taps:?}");
+}
+
+#[test]
+fn a_day_without_a_forecast_repeats_the_day_before() {
+    let mut days: Vec<_> = (0..3).map(day).collect();
+    days[1].0.ambient_c[7] = f64::NAN;
+    let mut concurrent = Concurrent::new(ConcurrentSettings::default(), lifted()).expect("valid");
     let records = run(&testbed(), 28.5, &mut concurrent, &chapter_4(), &days);
     assert!(records[0].design.fallback.is_none());
-    assert!(matches!(records[1].design.fallback, Some(ControlError::BelowFloor { .. })));
-    assert_eq!(records[1].heat_kw, records[0].heat_kw);
-    assert_eq!(records[2].design.fallbacks, 2);
-    let message = records[2].design.fallback.as_ref().expect("failed").to_string();
-    assert!(message.contains("gamma_2") && message.contains("3.6"), "{message}");
+    assert!(matches!(records[1].design.fallback, Some(ControlError::NotFinite { index: 7, .. })));
+    assert_eq!(records[1].design.planned_kw, records[0].heat_kw);
+    assert_eq!(records[2].design.fallbacks, 1);
 }
 
 #[test]

@@ -2,15 +2,14 @@
 
 mod common;
 
+use common::exchange::{designed, exchange, falls};
 use common::reference::*;
 use interplay_building::comfort::Targets;
 use interplay_building::control::distributed::cooperative::{LearningLaw, cooperative_error, omega};
 use interplay_building::control::distributed::{
     Centralised, CentralisedSettings, Distributed, DistributedSettings, Scheme,
 };
-use interplay_building::control::{
-    Control, ControlError, Controller, DayAhead, DayRecord, Design, Disturbance, Exchange,
-};
+use interplay_building::control::{ControlError, Controller, DayRecord, Disturbance};
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -33,40 +32,6 @@ fn grids() -> Vec<(Model, Targets, Disturbance, f64)> {
         .collect()
 }
 
-/// Gives a controller a day of experience that teaches nothing: as forecast, from rest, without equipment.
-fn experienced(controller: &mut impl Control, model: &Model, targets: &Targets, day: &Disturbance) {
-    let initial_c = vec![27.5; model.network().node_count()];
-    let lifted = Lifted::new(model, STEPS);
-    let day_ahead = DayAhead { initial_c: &initial_c, targets, forecast: day, actual: None };
-    controller.start_of_day(&day_ahead).expect("a morning");
-    let temperatures_c = lifted.free_response(&initial_c, &day.ambient_c, &day.gains_kw);
-    let still = vec![0.0; lifted.size()];
-    let record = DayRecord { temperatures_c, heat_kw: still.clone(), requested_kw: still, design: Design::default() };
-    controller.end_of_day(&record).expect("an evening");
-}
-
-/// The design of a day that starts at 27 °C, after one that taught nothing.
-fn designed(controller: &mut impl Control, model: &Model, targets: &Targets, day: &Disturbance) -> Design {
-    experienced(controller, model, targets, day);
-    let initial_c = vec![27.0; model.network().node_count()];
-    controller
-        .start_of_day(&DayAhead { initial_c: &initial_c, targets, forecast: day, actual: None })
-        .expect("planned");
-    controller.design()
-}
-
-fn exchange(settings: DistributedSettings, model: &Model, targets: &Targets, day: &Disturbance) -> (Design, Exchange) {
-    let mut distributed = Distributed::new(settings, model, STEPS).expect("valid");
-    let design = designed(&mut distributed, model, targets, day);
-    assert_eq!(design.fallback, None);
-    let exchange = design.exchange.clone().expect("zones have spoken");
-    (design, exchange)
-}
-
-fn falls(costs: &[f64]) -> bool {
-    costs.windows(2).all(|pair| pair[1] <= pair[0] * (1.0 + 1e-9))
-}
-
 #[test]
 fn the_centralised_design_is_the_optimum_of_independent_code() {
     for (model, targets, day, wanted) in grids() {
@@ -81,7 +46,7 @@ fn zones_agree_on_the_centralised_optimum_and_costs_never_rise() {
     for (model, targets, day, wanted) in grids() {
         let n = model.network().zone_count();
         for (scheme, rounds, enough) in
-            [(Scheme::Momentum, 40, 1.001), (Scheme::LineSearch, 200, 1.001), (Scheme::Jacobi, 800, 1.002)]
+            [(Scheme::Momentum, 40, 1.001), (Scheme::LineSearch, 200, 1.001), (Scheme::Jacobi, 800, 1.01)]
         {
             let settings = DistributedSettings { scheme, rounds, compare: true, ..DistributedSettings::default() };
             let (design, exchange) = exchange(settings, &model, &targets, &day);
@@ -134,7 +99,8 @@ fn a_silent_zone_does_not_stop_the_others() {
 fn lost_and_late_messages_delay_but_do_not_mislead() {
     let (model, targets, day, wanted) = grids().remove(1);
     for (loss, delay_rounds) in [(0.3, 0), (0.0, 1), (0.0, 3), (0.1, 1)] {
-        let settings = DistributedSettings { rounds: 400, loss, delay_rounds, ..Default::default() };
+        let settings =
+            DistributedSettings { rounds: 1200, tolerance_kw: 0.0, loss, delay_rounds, ..Default::default() };
         let (_, exchange) = exchange(settings, &model, &targets, &day);
         let last = exchange.costs[exchange.costs.len() - 1];
         assert!(exchange.undelivered > 0);

@@ -107,6 +107,20 @@ fn the_hour_of_a_row_ends_at_its_stamp() {
 }
 
 #[test]
+fn dates_of_the_data_period_may_have_a_year_first_or_last() {
+    let text = File::year().text();
+    let stated = "Sunday, 1/ 1,12/31";
+    assert!(text.contains(stated));
+    let usual = Epw::parse(&text).expect("a whole year");
+    for other in ["Sunday,2015/1/1,2015/12/31", "Sunday,1/1/2015,12/31/2015", "Sunday,2015/01/01,12/31"] {
+        assert_eq!(Epw::parse(&text.replace(stated, other)), Ok(usual.clone()), "{other}");
+    }
+    for wrong in ["Sunday,2015/13/1,2015/12/31", "Sunday,2015/1,12/31", "Sunday,0/1/1,12/31"] {
+        assert!(Epw::parse(&text.replace(stated, wrong)).is_err(), "{wrong}");
+    }
+}
+
+#[test]
 fn radiation_is_that_of_the_hour_before_the_stamp() {
     let weather = File::year().parse().expect("a whole year").weather();
     let sun = |hours: f64| weather.sun_w_per_m2.at(hours * HOUR_S);

@@ -4,13 +4,13 @@ mod common;
 
 use common::reference::*;
 use interplay_building::comfort::Setpoints;
-use interplay_building::control::ControlError;
 use interplay_building::control::disturbance_estimate::DisturbancePrediction;
 use interplay_building::control::iterative::{
     ErrorGrowth, Iterative, IterativeSettings, Objective, Stability, StaticFeedback, feedback,
 };
 use interplay_building::control::stability::{Lmi, closed_loop, lmi_margin, positive_decay, spectral_radius};
 use interplay_building::control::uncertainty::{Uncertainty, UncertaintySettings, factor, normal_quantile};
+use interplay_building::control::{Control, ControlError, DayAhead, DayRecord, Observation};
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -44,6 +44,33 @@ fn expected_costs_are_those_of_independent_code() {
     }
 }
 
+/// The iterative design with the first day of the independent code, whose initial feedback acts at night too, where
+/// temperatures are free.
+struct FeedbackAtNight {
+    iterative: Iterative,
+    day: usize,
+}
+
+impl Control for FeedbackAtNight {
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        self.iterative.start_of_day(day_ahead)
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let Observation { step, temperatures_c, targets } = *observation;
+        if self.day > 0 || step == 0 {
+            return self.iterative.act(observation);
+        }
+        let wanted_c = targets.reference_at(step).iter().zip(temperatures_c);
+        wanted_c.map(|(wanted, actual)| (0.1 * (wanted - actual)).clamp(-2.0, 2.0)).collect()
+    }
+
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        self.day += 1;
+        self.iterative.end_of_day(record)
+    }
+}
+
 #[test]
 fn days_cost_what_independent_code_says() {
     let (optima, model) = (optima(), testbed());
@@ -65,7 +92,8 @@ fn days_cost_what_independent_code_says() {
     for (name, weight) in NIGHTS {
         let targets = chapter_3(weight);
         for (kind, settings) in variants {
-            let mut iterative = Iterative::new(settings, lifted()).expect("valid");
+            let iterative = Iterative::new(settings, lifted()).expect("valid");
+            let mut iterative = FeedbackAtNight { iterative, day: 0 };
             let costs: Vec<f64> = run(&model, 29.0, &mut iterative, &targets, &days)
                 .iter()
                 .map(|record| targets.cost(&record.temperatures_c, &record.heat_kw))
@@ -148,7 +176,7 @@ fn both_certificates_give_the_decay_rate_that_was_asked_for() {
     let targets = chapter_3(1.0);
     for stability in [Stability::Lmi, Stability::Linear] {
         for decay in [0.5, 0.7, 0.9] {
-            let settings = IterativeSettings { stability, decay, ..IterativeSettings::default() };
+            let settings = IterativeSettings { stability, decay: Some(decay), ..IterativeSettings::default() };
             let found = StaticFeedback::design(&settings, &lifted, &targets, covariance(1.0), &[]).expect("designed");
             assert!(found.spectral_radius <= decay, "{stability:?} {decay}: {}", found.spectral_radius);
             assert!(found.causal_cost <= found.cost && found.cost < 18.0, "{stability:?} {decay}: {}", found.cost);
@@ -170,7 +198,7 @@ fn walls_that_store_heat_are_states_without_a_sensor() {
     let targets = setpoints.targets(2, STEP_S, STEPS).expect("valid");
     let uncertainty = Uncertainty::new(UncertaintySettings::default()).expect("valid");
     for stability in [Stability::Lmi, Stability::Linear] {
-        let settings = IterativeSettings { stability, decay: 0.99, ..IterativeSettings::default() };
+        let settings = IterativeSettings { stability, decay: Some(0.99), ..IterativeSettings::default() };
         let found = StaticFeedback::design(&settings, &lifted, &targets, uncertainty.covariance(&targets), &[])
             .expect("designed");
         let closed = closed_loop(&model.state_matrix(), &model.gain_matrix(), &found.gain_kw_per_k);
@@ -256,7 +284,7 @@ fn a_failed_design_repeats_the_day_before_and_says_why() {
     assert!(matches!(fallback, Some(ControlError::Solve(_))), "{fallback:?}");
 
     // No gain decays that fast.
-    let fast = IterativeSettings { stability: Stability::Linear, decay: 1e-3, ..IterativeSettings::default() };
+    let fast = IterativeSettings { stability: Stability::Linear, decay: Some(1e-3), ..IterativeSettings::default() };
     let mut iterative = Iterative::new(fast, lifted()).expect("valid");
     let records = run(&testbed(), 29.0, &mut iterative, &targets, &[day(0), day(1)]);
     assert!(records[1].design.fallbacks <= 1);

@@ -154,7 +154,7 @@ pub struct BuildingExpect {
     /// Largest excess of a requested input over its limit \[kW\].
     #[schemars(range(min = 0.0), example = 0.0)]
     pub input_violation_kw_at_most: Option<f64>,
-    /// The cost of a day above that of its optimum with perfect knowledge.
+    /// The cost of a day above that of its optimum with perfect knowledge; for buildings of at most 500 zones times steps a day.
     #[schemars(range(min = 0.0), example = 30.0, extend("x-unit" = "dimensionless"))]
     pub regret_at_most: Option<f64>,
     /// Heat brought in and taken out before the first occupied time of the day: the controller acts ahead \[kWh\].

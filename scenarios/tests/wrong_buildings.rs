@@ -168,6 +168,28 @@ fn keys_of_controllers_and_setpoints() {
         ("[setpoints]", "[setpoints]\nfrom_h = 9.0\nto_h = 8.5"),
         &["bad.toml:25:8", "`to_h` is 8.5; it must be at least 9"],
     );
+    let heavy = "resistance_k_per_kw = 31.25\ncapacity_kj_per_k = 5000.0";
+    let spoilt = GOOD.replacen("resistance_k_per_kw = 31.25", heavy, 1);
+    let spoilt = spoilt.replacen("kind = \"pid\"", &controller("\"iterative\"\ndecay = 0.7"), 1);
+    let slow = &["bad.toml:29:9", "`decay` is 0.7", "walls settle by a factor of 0.9775", "leave it out for 0.982"];
+    errors.error("decay_beyond_the_walls", from_text("bad.toml", &spoilt, &[]), slow);
+    let grid = |rooms: usize, kind: &str| {
+        let building = format!("grid = {{ rows = 1, columns = {rooms} }}");
+        let head = "title = 'a'\nshows = 'b'\niterations = 2\n[setpoints]\noccupied_c = [24.0]\n";
+        format!("{head}[building]\n{building}\n[controller]\nkind = \"{kind}\"\n")
+    };
+    let large: &[(&str, usize, &[&str])] = &[
+        ("iterative", 26, &["bad.toml:9:8", "1248 unknowns", "at most 1200", "distributed"]),
+        ("concurrent", 17, &["bad.toml:9:8", "1156 unknowns", "at most 1024", "distributed"]),
+    ];
+    for &(kind, rooms, fragments) in large {
+        let text = grid(rooms, kind);
+        errors.error(&format!("too_many_rooms_for_{kind}"), from_text("bad.toml", &text, &[]), fragments);
+    }
+    let regret = format!("{}[expect.building]\nregret_at_most = 3.0\n", grid(11, "pid"));
+    let refused = &["bad.toml:11:18", "at most 500 inputs", "has 528", "clairvoyant"];
+    errors.error("regret_of_many_rooms", from_text("bad.toml", &regret, &[]), refused);
+    let all = &mut errors;
     refusal(all, "zone_called_ambient", ("\"store\"", "\"ambient\""), &["bad.toml:13:8", "zone 2", "`ambient`"]);
     insta::assert_snapshot!("keys_of_controllers_and_setpoints", errors.0);
 }

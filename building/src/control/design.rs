@@ -9,6 +9,8 @@ pub struct Design {
     pub fallback: Option<ControlError>,
     /// For how many days so far no plan was found.
     pub fallbacks: usize,
+    /// Why the feedback is certified less well than was asked for.
+    pub weaker_feedback: Option<ControlError>,
     /// Planned inputs \[kW\], stacked; empty on a day without a plan.
     pub planned_kw: Vec<f64>,
     /// Temperatures expected under them \[°C\], stacked.
@@ -36,9 +38,10 @@ pub struct Exchange {
     pub costs: Vec<f64>,
     /// J of the centralised optimum, when it was asked for.
     pub centralised: Option<f64>,
-    /// Messages that each zone sent to neighbours; a message is one number for each step of the day.
+    /// Messages that each zone sent to neighbours; a message is one number for each step of the day, and one that
+    /// is sent again counts again.
     pub messages: Vec<usize>,
-    /// Messages that did not arrive in their round.
+    /// Messages that were lost, each time that they were sent, and those that did not arrive in their round.
     pub undelivered: usize,
     /// How many sums over all zones were needed for step lengths.
     pub sums: usize,

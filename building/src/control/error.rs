@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use interplay_convex::{ProblemError, SolveError};
 
 use crate::discretise::ModelError;
-use crate::setting::SettingError;
+use crate::setting::{SettingError, SettingKey};
 
 /// Largest magnitude of a temperature \[°C\] or of a heat flow \[kW\]. Chosen far beyond any building; larger numbers are
 /// errors of the input.
@@ -65,6 +65,48 @@ pub enum ControlError {
         /// The largest number that is solved in reasonable time.
         most: usize,
     },
+    /// The certificate of a design needs matrices that are too large for this building.
+    #[error(
+        "{certificate} is for at most {most} temperatures, and {zones} zones with their walls that store heat have {nodes}: \
+         {remedy}"
+    )]
+    TooManyTemperatures {
+        /// The certificate.
+        certificate: &'static str,
+        /// What works instead.
+        remedy: &'static str,
+        /// How many zones there are.
+        zones: usize,
+        /// How many temperatures there are, of zones and walls.
+        nodes: usize,
+        /// The largest number for which it is solved in reasonable time.
+        most: usize,
+    },
+    /// No feedback has the decay rate that was asked for.
+    #[error(
+        "`decay` is {decay}, but walls settle by a factor of {floor:.4} in a step whatever a feedback of the zones does, so \
+         that it must be above that: leave it out for {works:.4}"
+    )]
+    DecayBelowFloor {
+        /// The stated rate per step.
+        decay: f64,
+        /// The rate that no feedback goes below.
+        floor: f64,
+        /// A rate that works, the default.
+        works: f64,
+    },
+    /// A feedback is certified less well than was asked for.
+    #[error(
+        "the certificate of the decay rate {wanted:.4} was not found ({reason}); the feedback has another one, of {certified:.4}"
+    )]
+    WeakerFeedback {
+        /// The rate per step that was asked for.
+        wanted: f64,
+        /// The rate that is certified.
+        certified: f64,
+        /// Why it was not found.
+        reason: Box<ControlError>,
+    },
     /// The feedback that was found is not stable.
     #[error("the feedback is not stable: its closed loop has the spectral radius {spectral_radius:.4}")]
     Unstable {
@@ -103,11 +145,22 @@ pub enum ControlError {
     #[error("the day's optimum cannot be posed: {0}")]
     Problem(#[from] ProblemError),
     /// The optimisation problem was not solved.
-    #[error("the day's optimum was not found: {0}")]
+    #[error("the optimisation has no result: {0}")]
     Solve(#[from] SolveError),
 }
 
 impl ControlError {
+    /// The key of the setting at fault, in the table of the controller; `kind` if the kind of controller is.
+    pub fn key(&self) -> SettingKey {
+        match self {
+            Self::Setting(error) => error.key.clone(),
+            Self::BelowFloor { bound, .. } => (*bound).into(),
+            Self::DecayBelowFloor { .. } => "decay".into(),
+            Self::TooManyTemperatures { .. } => "stability".into(),
+            _ => "kind".into(),
+        }
+    }
+
     /// Refuses a series of the wrong length.
     pub(crate) fn check_length(what: &'static str, found: usize, wanted: usize) -> Result<(), Self> {
         if found == wanted { Ok(()) } else { Err(Self::Shape { what, found, wanted }) }

@@ -50,6 +50,21 @@ pub struct DayRecord {
     pub design: Design,
 }
 
+impl Observation<'_> {
+    /// r(t) − T(t) \[K\] of each zone, zero where its temperature is free, and at midnight: the feedback of a design that has no
+    /// plan yet acts on it.
+    pub(super) fn weighted_errors_k(&self) -> Vec<f64> {
+        if self.step == 0 {
+            return vec![0.0; self.temperatures_c.len()];
+        }
+        let wanted = self.targets.reference_at(self.step).iter().zip(self.targets.weight_at(self.step));
+        let error_k = |((wanted_c, weight), actual_c): ((&f64, &f64), &f64)| {
+            if *weight > 0.0 { wanted_c - actual_c } else { 0.0 }
+        };
+        wanted.zip(self.temperatures_c).map(error_k).collect()
+    }
+}
+
 impl Disturbance {
     /// Refuses a disturbance whose lengths do not fit the targets.
     pub(crate) fn check(&self, targets: &Targets) -> Result<(), ControlError> {

@@ -26,6 +26,10 @@ use crate::comfort::Targets;
 use crate::control::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::discretise::Model;
 
+/// The largest number of inputs of a day (zones times steps) for which its regret is computed: its optimum takes time in the
+/// cube of it where the model is dense.
+pub const MAX_REGRET_INPUTS: usize = 500;
+
 /// A day in progress.
 #[derive(Clone, Debug)]
 pub struct Day {

@@ -2,7 +2,9 @@
 
 #![allow(dead_code, reason = "every test binary uses a part")]
 
+pub mod exchange;
 pub mod house;
+pub mod ordinary;
 pub mod reference;
 
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};

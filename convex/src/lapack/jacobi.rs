@@ -151,7 +151,7 @@ fn complement(m: usize, basis: &[f64]) -> Vec<f64> {
     best.iter().map(|value| value / best_length).collect()
 }
 
-fn identity(n: usize) -> Vec<f64> {
+pub(super) fn identity(n: usize) -> Vec<f64> {
     (0..n * n).map(|k| if k % (n + 1) == 0 { 1.0 } else { 0.0 }).collect()
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The building crate itself is asked whether it could work with them.
 
-use interplay_building::control::ControlError;
+use interplay_building::day::MAX_REGRET_INPUTS;
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::{Network, NetworkError, Part};
 
@@ -126,6 +126,7 @@ impl Checker<'_> {
         if let Err(error) = setpoints.targets(network.zone_count(), building.step_s, steps) {
             self.refuse(&format!("setpoints.{}", error.key()), "here", format!("`setpoints`: {error}"), "");
         }
+        self.regret(network.zone_count() * steps);
         match Model::new(network, building.method, building.step_s) {
             Err(error @ ModelError::BadStep { .. }) => {
                 self.refuse("building.step_s", "here", error.to_string(), "");
@@ -134,6 +135,19 @@ impl Checker<'_> {
                 self.refuse("building.method", "unstable", error.to_string(), "");
             }
             Ok(_) => self.believed(building, steps),
+        }
+    }
+
+    /// Whether a bound on the regret can be judged.
+    fn regret(&mut self, inputs: usize) {
+        let stated = self.scenario.expect.building.is_some_and(|expect| expect.regret_at_most.is_some());
+        if stated && inputs > MAX_REGRET_INPUTS {
+            let message = format!(
+                "regret is computed for at most {MAX_REGRET_INPUTS} inputs a day (zones times steps), and this building has \
+                 {inputs}"
+            );
+            let help = "leave it out, or compare with a run of `controller.kind = \"clairvoyant\"`";
+            self.refuse("expect.building.regret_at_most", "not computed", message, help);
         }
     }
 
@@ -151,11 +165,7 @@ impl Checker<'_> {
             Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
         };
         if let Err(error) = self.scenario.controller().regulator(&model, steps) {
-            let key = match &error {
-                ControlError::Setting(error) => error.key.as_str(),
-                _ => "kind",
-            };
-            self.refuse(&format!("controller.{key}"), "here", format!("`controller`: {error}"), "");
+            self.refuse(&format!("controller.{}", error.key()), "here", format!("`controller`: {error}"), "");
         }
     }
 }

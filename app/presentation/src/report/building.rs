@@ -24,6 +24,9 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
     for Fallback { day, reason } in building.fallbacks.iter().take(MAX_LISTED_DAYS) {
         writeln!(text, "  day {day} repeated the one before: {reason}")?;
     }
+    for Fallback { day, reason } in building.weaker_feedbacks.iter().take(MAX_LISTED_DAYS) {
+        writeln!(text, "  day {day}: {reason}")?;
+    }
     Ok(())
 }
 

@@ -34,9 +34,16 @@ pub fn control(
         }
         Err(error) => building.failure = Some(error),
     }
-    if let (0, Some(why)) = (step, &building.today.record.design.fallback) {
-        let text = format!("no plan for this day, which repeats the one before: {why}");
-        current_frame.0.events.push(Event { vehicle: CONTROLLER_SOURCE.to_owned(), level: Level::Warning, text });
+    if step == 0 {
+        let design = &building.today.record.design;
+        let no_plan = design.fallback.as_ref();
+        let no_plan = no_plan.map(|why| format!("no plan for this day, which repeats the one before: {why}"));
+        let weaker = design.weaker_feedback.as_ref().map(ToString::to_string);
+        current_frame.0.events.extend(no_plan.into_iter().chain(weaker).map(|text| Event {
+            vehicle: CONTROLLER_SOURCE.to_owned(),
+            level: Level::Warning,
+            text,
+        }));
     }
 }
 

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use interplay_building::comfort::Targets;
 use interplay_building::control::{Controller, DayRecord, optimum};
-use interplay_building::day::KeyFigures;
+use interplay_building::day::{KeyFigures, MAX_REGRET_INPUTS};
 use interplay_building::lifted::Lifted;
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
@@ -13,10 +13,6 @@ use crate::climate::Building;
 use crate::components::CurrentFrame;
 use crate::day::{DayFigures, ExchangeFigures};
 use crate::frame::{BuildingFrame, Frame};
-
-/// The optimum of a day and the convergence of learning are computed for at most this many inputs a day (zones times
-/// steps): they take time in the cube of it.
-const MAX_ANALYSED_INPUTS: usize = 500;
 
 /// Why a day had no plan of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -45,6 +41,8 @@ pub struct BuildingMeasures {
     pub days: Vec<DayFigures>,
     /// The days without a plan of their own.
     pub fallbacks: Vec<Fallback>,
+    /// Days whose feedback is certified less well than was asked for.
+    pub weaker_feedbacks: Vec<Fallback>,
     /// How many zones there are.
     pub zones: usize,
     /// What is allowed and may not have been meant, in words.
@@ -61,12 +59,14 @@ pub struct BuildingMeasures {
 impl BuildingMeasures {
     /// Nothing measured yet.
     pub fn new(building: &Building, controller: &Controller) -> Self {
-        let small = building.targets.reference_c.len() <= MAX_ANALYSED_INPUTS;
+        // The convergence of learning takes time in the cube of the inputs, too.
+        let small = building.targets.reference_c.len() <= MAX_REGRET_INPUTS;
         let lifted = small.then(|| Lifted::new(&building.model, building.steps_per_day()));
         let spectral_radius = lifted.as_ref().and_then(|lifted| controller.spectral_radius(lifted));
         BuildingMeasures {
             days: Vec::new(),
             fallbacks: Vec::new(),
+            weaker_feedbacks: Vec::new(),
             zones: building.targets.zones,
             remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
             lifted,
@@ -144,6 +144,10 @@ pub fn measure_building(
         if let Some(why) = &building.today.record.design.fallback {
             let day = measures.days.len();
             measures.fallbacks.push(Fallback { day, reason: why.to_string() });
+        }
+        if let Some(why) = &building.today.record.design.weaker_feedback {
+            let day = measures.days.len();
+            measures.weaker_feedbacks.push(Fallback { day, reason: why.to_string() });
         }
         frame.figures = Some(day);
     }

@@ -19,6 +19,8 @@ pub struct BuildingReport {
     pub remarks: Vec<String>,
     /// The days on which the controller had no plan of its own, and why.
     pub fallbacks: Vec<Fallback>,
+    /// The days whose feedback is certified less well than was asked for, and why.
+    pub weaker_feedbacks: Vec<Fallback>,
     /// Every day.
     pub iterations: Vec<DayFigures>,
 }
@@ -32,6 +34,7 @@ impl BuildingReport {
             digests: measures.digests(),
             remarks: measures.remarks.clone(),
             fallbacks: measures.fallbacks.clone(),
+            weaker_feedbacks: measures.weaker_feedbacks.clone(),
             iterations: measures.days.clone(),
         }
     }

@@ -30,8 +30,12 @@ pub const MOST_UNKNOWNS: usize = 1024;
 /// Cost of the sum of the squares of all taps, which keeps the normal equations definite where a tap has no effect. It is taken
 /// off the reported cost again.
 const TAP_COST: f64 = 1e-9;
-/// The default of γ₂, as a multiple of its floor.
+/// The largest number of inputs of a day: the covariance has the square of that many entries.
+pub const MOST_INPUTS: usize = 2400;
+/// The default of γ₂, as a multiple of ‖h₁‖.
 const DEFAULT_GAMMA_2_RATIO: f64 = 4.6 / 3.6;
+/// The default of γ₂ where no taps within γ_q satisfy that, as a multiple of the least that they do.
+const GAMMA_2_ABOVE_FLOOR_RATIO: f64 = 1.02;
 
 /// A designed Q.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,6 +115,25 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Refuses what no disturbance and no day can make work.
+///
+/// # Errors
+/// [`ControlError::TooManyUnknowns`]; [`ControlError::BelowFloor`] if γ₂ is stated, and no Q within γ_q satisfies it.
+pub(super) fn check(settings: &ConcurrentSettings, lifted: &Lifted) -> Result<(), ControlError> {
+    let n = lifted.zones();
+    for (found, most) in [(settings.taps * n * n, MOST_UNKNOWNS), (lifted.size(), MOST_INPUTS)] {
+        if found > most {
+            return Err(ControlError::TooManyUnknowns { design: "concurrent", found, most });
+        }
+    }
+    let Some(value) = settings.gamma_2 else { return Ok(()) };
+    let mut floor = lifted.product_norm_of_a_step();
+    if value >= floor {
+        floor = Robust::new(lifted, settings.taps).floor(n, settings.gamma_q)?;
+    }
+    if value < floor { Err(ControlError::BelowFloor { bound: "gamma_2", value, floor }) } else { Ok(()) }
+}
+
 /// Designs Q for the weights while occupied.
 ///
 /// # Errors
@@ -140,7 +163,14 @@ pub fn design(
     let mut filter = unstacked(free.as_slice(), n);
     let mut theta = free;
     if filter.row_norm() > settings.gamma_q || filter.impulse_norm(lifted) > gamma_2 {
-        theta = DVector::from_vec(bounded(settings, gamma_2, lifted, &gram, &linear)?);
+        let within = |gamma_2: f64| bounded(settings, gamma_2, lifted, &gram, &linear);
+        let bounded = match within(gamma_2) {
+            Err(ControlError::BelowFloor { floor, .. }) if settings.gamma_2.is_none() => {
+                within(GAMMA_2_ABOVE_FLOOR_RATIO * floor)
+            }
+            found => found,
+        };
+        theta = DVector::from_vec(bounded?);
         filter = unstacked(theta.as_slice(), n);
     }
     let mut curved = DVector::zeros(found);

@@ -59,9 +59,11 @@ impl Concurrent {
     /// The design before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
-    /// [`ControlError::Setting`] if a setting is out of range.
+    /// [`ControlError::Setting`] if a setting is out of range; [`ControlError::TooManyUnknowns`] if the building is too large
+    /// for its matrices; [`ControlError::BelowFloor`] if no feedback satisfies a stated γ₂.
     pub fn new(settings: ConcurrentSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
+        filter::check(&settings, &lifted)?;
         Ok(Self {
             settings,
             uncertainty: Uncertainty::new(settings.uncertainty)?,
@@ -151,7 +153,7 @@ impl PlanningDesign for Concurrent {
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
-        let Observation { step, temperatures_c, targets } = *observation;
+        let Observation { step, temperatures_c, .. } = *observation;
         let n = temperatures_c.len();
         let limits_kw = self.estimator.lifted().model().network().limits_kw();
         let limited = |heat_kw: Vec<f64>| -> Vec<f64> {
@@ -159,9 +161,8 @@ impl PlanningDesign for Concurrent {
         };
         let Some(plan) = self.history.plan() else {
             // The first day: only the initial feedback.
-            let wanted_c = targets.reference_at(step).iter().zip(temperatures_c);
-            let gain = if step > 0 { self.settings.initial_gain_kw_per_k } else { 0.0 };
-            return limited(wanted_c.map(|(wanted, actual)| gain * (wanted - actual)).collect());
+            let gain_kw_per_k = self.settings.initial_gain_kw_per_k;
+            return limited(observation.weighted_errors_k().iter().map(|error_k| gain_kw_per_k * error_k).collect());
         };
         let planned_kw = plan.heat_at(step, n);
         let Some(state) = &mut self.state else { return limited(planned_kw.to_vec()) };

@@ -20,7 +20,7 @@ pub struct ConcurrentSettings {
     pub gamma_q: f64,
     /// γ₂: the largest Frobenius norm of the response to an impulse of heat in each zone \[K/kW\] (eq. 4.12).
     /// Its floor, what an impulse does before anybody can answer, grows with the root of the number of zones; without a
-    /// number, the bound is 1.28 times that, 4.6 for the testbed.
+    /// number, the bound is 1.28 times that, 4.6 for the testbed, or more where no taps within γ_q reach it.
     #[schemars(range(min = 0.0), example = 4.6, extend("x-unit" = "K/kW"))]
     pub gamma_2: Option<f64>,
     /// η: how likely inputs and temperatures stay within their bounds, each on its own.

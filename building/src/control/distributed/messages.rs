@@ -10,13 +10,17 @@
 //! ```
 //!
 //! So the exact gradient of the common cost comes from messages between neighbours alone. A message is a zone's series
-//! over the day, one number for each step. A zone whose message is lost is represented by its last
-//! message.
+//! over the day, one number for each step. A message that is lost is sent again; a zone from which nothing comes in a round
+//! is represented by its last message.
 
 use std::collections::VecDeque;
 
 use crate::lifted::Lifted;
 use crate::random::Random;
+
+/// How often a message that was lost is sent again in its round. Of messages of which 20 % are lost, one in two million is then
+/// missing.
+const MAX_REPEATS: usize = 8;
 
 /// The content of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +45,8 @@ struct Edge {
     late: [VecDeque<Vec<f64>>; 2],
     /// Whether this round's message arrives.
     live: bool,
+    /// How many rounds old the messages heard are, unless all of them are late.
+    age: [usize; 2],
 }
 
 /// The zones' network of messages over days.
@@ -95,6 +101,7 @@ impl Messages {
                         heard: [Vec::new(), Vec::new()],
                         late: Default::default(),
                         live: true,
+                        age: [0; 2],
                     });
                 }
             }
@@ -124,6 +131,7 @@ impl Messages {
                 edge.heard[1] = vec![0.0; self.steps];
             }
             edge.late = Default::default();
+            edge.age = [0; 2];
         }
         self.sent.fill(0);
         self.undelivered = 0;
@@ -134,20 +142,36 @@ impl Messages {
         self.edges.iter().filter(move |edge| self.owner[edge.to] == zone).map(|edge| self.owner[edge.from])
     }
 
+    /// How many rounds ago the oldest message that each zone uses was sent, not counting silent zones and late messages.
+    pub fn staleness(&self) -> Vec<usize> {
+        let mut oldest = vec![0; self.sent.len()];
+        for edge in &self.edges {
+            let zone = &mut oldest[self.owner[edge.to]];
+            *zone = (*zone).max(edge.age[0]).max(edge.age[1]);
+        }
+        oldest
+    }
+
     /// Draws which messages of a series arrive.
     fn draw(&mut self, subject: Subject) {
         for edge in &mut self.edges {
             let (from, to) = (self.owner[edge.from], self.owner[edge.to]);
             let silent = self.silent == Some(from) || self.silent == Some(to);
-            let lost = self.loss > 0.0 && self.random.chance_of_32_bits(self.loss);
+            // A zone asks again for a message that does not come, unless its neighbour is silent.
+            let tries = if silent { 1 } else { 1 + MAX_REPEATS };
+            let lost_tries =
+                (0..tries).take_while(|_| self.loss > 0.0 && self.random.chance_of_32_bits(self.loss)).count();
+            let lost = lost_tries == tries;
             let late = self.delay > 0;
             edge.live = !silent && !lost && !late;
+            if subject != Subject::Direction {
+                let age = &mut edge.age[subject as usize];
+                *age = if lost && !silent { *age + 1 } else { 0 };
+            }
             if self.silent != Some(from) {
-                self.sent[from] += 1;
+                self.sent[from] += (lost_tries + 1).min(tries);
             }
-            if !edge.live {
-                self.undelivered += 1;
-            }
+            self.undelivered += if edge.live { lost_tries } else { lost_tries.max(1) };
             if late && !silent && !lost && subject != Subject::Direction {
                 edge.late[subject as usize].push_back(Vec::new());
             }

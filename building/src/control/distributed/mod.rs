@@ -12,6 +12,7 @@ mod agreement;
 pub mod cooperative;
 mod messages;
 mod settings;
+mod step_space;
 mod zone;
 
 pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
@@ -39,6 +40,8 @@ pub struct Distributed {
     estimator: DisturbanceEstimator,
     history: PlanHistory,
     messages: Messages,
+    /// Feedback of each zone on its own error.
+    gains_kw_per_k: Vec<f64>,
     /// The zones' models, for these targets.
     zone_models: Option<(Targets, ZoneModels)>,
 }
@@ -61,14 +64,18 @@ impl Distributed {
         settings.check(model.network().zone_count())?;
         let lifted = Lifted::new(&Model::euler(model.network(), model.step_s())?, steps);
         let messages = Messages::new(&lifted, settings.loss, settings.delay_rounds, settings.silent_zone);
+        let gains_kw_per_k =
+            gain_limits_kw_per_k(&lifted).into_iter().map(|most| settings.gain_kw_per_k.min(most)).collect();
         let estimator = DisturbanceEstimator::new(lifted, settings.prediction, settings.learning_rate);
-        Ok(Self { settings, estimator, history: PlanHistory::default(), messages, zone_models: None })
+        let history = PlanHistory::default();
+        Ok(Self { settings, estimator, history, messages, gains_kw_per_k, zone_models: None })
     }
 
-    /// The convergence conditions of the learning law that leads from yesterday to the plan.
+    /// The convergence conditions of the learning law that leads from yesterday to the plan, where all zones have the same gain.
     fn conditions(&self, lifted: &Lifted, targets: &Targets, plan: &DayPlan) -> Option<Conditions> {
-        let yesterday = self.history.yesterday().filter(|_| lifted.size() <= MOST_FOR_CONDITIONS)?;
         let (n, gain) = (lifted.zones(), self.settings.gain_kw_per_k);
+        let uniform = self.gains_kw_per_k.iter().all(|own| *own == gain);
+        let yesterday = self.history.yesterday().filter(|_| uniform && lifted.size() <= MOST_FOR_CONDITIONS)?;
         let errors_k = |temperatures_c: &[f64]| -> Vec<f64> {
             targets.reference_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect()
         };
@@ -82,6 +89,22 @@ impl Distributed {
         let cooperative_k = cooperative_error(lifted, &errors_k(&yesterday.temperatures_c));
         Some(LearningLaw::recovered(n, &change_kw, &cooperative_k).conditions(lifted, gain))
     }
+}
+
+/// The largest gain of each zone whose own error does not change its sign within a step of forward Euler: c/h less the
+/// conductance to outdoors and to all neighbours, at least 0 \[kW/K\].
+///
+/// A zone that settles within little more than a step has a model with an oscillation which the building does not have. With a
+/// larger gain the oscillation grows, and what is learned from it makes each day dearer than the one before.
+fn gain_limits_kw_per_k(lifted: &Lifted) -> Vec<f64> {
+    let (network, step_s) = (lifted.model().network(), lifted.model().step_s());
+    let mut leaving_kw_per_k = network.ambient_kw_per_k().to_vec();
+    for link in network.links() {
+        leaving_kw_per_k[link.from] += link.conductance_kw_per_k;
+        leaving_kw_per_k[link.to] += link.conductance_kw_per_k;
+    }
+    let limit = |zone: usize| (network.capacities_kj_per_k()[zone] / step_s - leaving_kw_per_k[zone]).max(0.0);
+    (0..lifted.zones()).map(limit).collect()
 }
 
 /// All heat into the nodes but that of the equipment \[kW\], nodes of a step together: what leads to `free_c`. The learned
@@ -114,20 +137,21 @@ fn central(
 }
 
 /// Each zone follows its plan with feedback on its own error; on the first day it follows the targets.
-fn follow(history: &PlanHistory, gain_kw_per_k: f64, limits_kw: &[f64], observation: &Observation<'_>) -> Vec<f64> {
-    let Observation { step, temperatures_c, targets } = *observation;
+fn follow(
+    history: &PlanHistory,
+    gain_kw_per_k: impl Fn(usize) -> f64,
+    limits_kw: &[f64],
+    observation: &Observation<'_>,
+) -> Vec<f64> {
+    let Observation { step, temperatures_c, .. } = *observation;
     let n = temperatures_c.len();
     let (planned_kw, deviation_k) = match history.plan() {
         Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
-        None => {
-            let wanted_c = targets.reference_at(step);
-            let error_k = wanted_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect();
-            (vec![0.0; n], (step > 0).then_some(error_k))
-        }
+        None => (vec![0.0; n], Some(observation.weighted_errors_k())),
     };
     (0..n)
         .map(|i| {
-            let correction_kw = deviation_k.as_ref().map_or(0.0, |deviation_k| gain_kw_per_k * deviation_k[i]);
+            let correction_kw = deviation_k.as_ref().map_or(0.0, |deviation_k| gain_kw_per_k(i) * deviation_k[i]);
             (planned_kw[i] + correction_kw).clamp(-limits_kw[i], limits_kw[i])
         })
         .collect()
@@ -167,24 +191,24 @@ impl PlanningDesign for Distributed {
         }
         let targets = day_ahead.targets;
         let lifted = self.estimator.lifted().clone();
+        let penalty = penalty(self.settings.discomfort_quadratic);
         if self.zone_models.as_ref().is_none_or(|(known, _)| known != targets) {
-            self.zone_models = Some((targets.clone(), ZoneModels::new(&lifted, targets, &self.messages)));
+            self.zone_models = Some((targets.clone(), ZoneModels::new(&lifted, targets, penalty, &self.messages)));
         }
         let Some((_, zone_models)) = &self.zone_models else { return Ok((None, Design::default())) };
         let driving_kw = driving_kw(&lifted, day_ahead, &free_c);
         let day = JointDay {
             lifted: &lifted,
             targets,
-            penalty: penalty(self.settings.discomfort_quadratic),
+            penalty,
             zone_models,
             initial_c: day_ahead.initial_c,
             driving_kw: &driving_kw,
             free_c: &free_c,
             silent: self.settings.silent_zone,
         };
-        let reliable = self.settings.loss == 0.0 && self.settings.delay_rounds == 0;
         let rules = Rules {
-            scheme: if reliable { self.settings.scheme } else { Scheme::Jacobi },
+            scheme: if self.settings.delay_rounds == 0 { self.settings.scheme } else { Scheme::Jacobi },
             tolerance_kw: self.settings.tolerance_kw,
             rounds: self.settings.rounds,
             delay: self.settings.delay_rounds,
@@ -218,7 +242,7 @@ impl PlanningDesign for Distributed {
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let limits_kw = self.estimator.lifted().model().network().limits_kw();
-        follow(&self.history, self.settings.gain_kw_per_k, limits_kw, observation)
+        follow(&self.history, |zone| self.gains_kw_per_k[zone], limits_kw, observation)
     }
 }
 
@@ -275,6 +299,6 @@ impl PlanningDesign for Centralised {
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let limits_kw = self.estimator.lifted().model().network().limits_kw();
-        follow(&self.history, self.settings.gain_kw_per_k, limits_kw, observation)
+        follow(&self.history, |_| self.settings.gain_kw_per_k, limits_kw, observation)
     }
 }

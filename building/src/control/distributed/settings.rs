@@ -25,9 +25,10 @@ pub enum Scheme {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DistributedSettings {
-    /// How proposals become a step. Where messages are lost or late, it is always Jacobi's.
+    /// How proposals become a step. Where messages are late, it is always Jacobi's.
     pub scheme: Scheme,
-    /// ε: the zones agree when no input of a day moves by more than this, in the Euclidean norm \[kW\].
+    /// ε: the zones agree when no zone moves its inputs of a day by more than this, in the Euclidean norm \[kW\]; unless the
+    /// scheme is Jacobi's, in ten rounds in a row.
     #[schemars(range(min = 0.0))]
     pub tolerance_kw: f64,
     /// k^c_max: rounds after which they stop.
@@ -35,7 +36,8 @@ pub struct DistributedSettings {
     /// Cost of a squared kelvin beyond the comfort band, per step.
     #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub discomfort_quadratic: f64,
-    /// Feedback of each zone on its own error \[kW/K\].
+    /// Feedback of each zone on its own error \[kW/K\]. A light zone has less: at most its capacity over the step, less its
+    /// conductances, so that its error does not change its sign within a step.
     #[schemars(range(min = 0.0))]
     pub gain_kw_per_k: f64,
     /// λ of the learned bias.
@@ -43,7 +45,8 @@ pub struct DistributedSettings {
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
     pub prediction: DisturbancePrediction,
-    /// Share of the messages that are lost, drawn from a generator with a seed of its own.
+    /// Share of the messages that are lost, drawn from a generator with a seed of its own. A lost one is sent again in its
+    /// round, at most eight times.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub loss: f64,
     /// Rounds by which messages are late.
@@ -61,7 +64,7 @@ impl Default for DistributedSettings {
         Self {
             scheme: Scheme::default(),
             tolerance_kw: 1e-3,
-            rounds: 40,
+            rounds: 200,
             discomfort_quadratic: 50.0,
             gain_kw_per_k: 0.2,
             learning_rate: 0.5,

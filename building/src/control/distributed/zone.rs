@@ -4,8 +4,9 @@
 //! min over d, lo ≤ d ≤ hi:   gᵀd + ½ dᵀP d + c Σ_r [ φ(v_r + a_rᵀd) − φ(v_r) − φ'(v_r) a_rᵀd ],     φ(v) = max(v, 0)²
 //! ```
 //!
-//! g is the gradient of the whole J, which came with the neighbours' messages and includes everybody's comfort; P is the
-//! curvature of J in this zone's inputs, known beforehand; rows r are the comfort bounds of the zone and its neighbours.
+//! g is the gradient of the whole J, which came with the neighbours' messages and includes everybody's comfort. P is the
+//! curvature of J in this zone's inputs, known beforehand, with that of the comfort bounds of distant zones as if they were all
+//! violated. Rows r are the comfort bounds of the zone and its neighbours, whose temperatures it knows.
 //! Rows that are not violated now take part, since they may be after the step: leaving them out breaks the descent.
 //!
 //! The minimum is found by projected Newton steps: it is piecewise quadratic, so they end exactly, after a few.

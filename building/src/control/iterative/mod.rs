@@ -16,30 +16,36 @@
 //!
 //! The feedback is designed again when Σ or the targets have changed; with a constant Σ it is a constant gain.
 
+pub mod decay;
 pub mod feedback;
 pub mod joint;
 pub mod projection;
 mod settings;
+mod static_feedback;
 
 use nalgebra::DMatrix;
 
 pub use settings::{Chance, Coordination, ErrorGrowth, IterativeSettings, Objective, Stability};
+pub use static_feedback::StaticFeedback;
 
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
 use super::optimum::{ConstraintTightening, ErrorBound, margins_kw, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
 use super::regulator::{ControllerKind, Regulator};
-use super::stability::{closed_loop, spectral_radius};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
 use super::{ControlError, DayAhead, Design, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 use joint::Joint;
-use projection::Projection;
 
 /// The largest number of inputs of a day for which the feedback is designed; its matrices have the square of that many entries.
 pub const MOST_UNKNOWNS: usize = 1200;
+/// The largest number of temperatures, of zones and walls, for which the matrix inequality is solved. Its time grows with the
+/// sixth power of that number: a design of 24 takes some ten seconds.
+pub const MOST_LMI_TEMPERATURES: usize = 24;
+/// The same for the linear certificate.
+pub const MOST_LINEAR_TEMPERATURES: usize = 256;
 /// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft. Chosen large beside the weights of
 /// temperatures and heat, so that errors grow only where they must.
 const ERROR_GROWTH_COST_PER_K: f64 = 1e3;
@@ -58,72 +64,19 @@ pub struct Iterative {
     targets: Option<Targets>,
 }
 
-/// A designed feedback.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StaticFeedback {
-    /// K, zones by zones \[kW/K\].
-    pub gain_kw_per_k: DMatrix<f64>,
-    /// Spectral radius of A − BK.
-    pub spectral_radius: f64,
-    /// The expected cost beyond the nominal one, under the best causal feedback.
-    pub causal_cost: f64,
-    /// The same under K.
-    pub cost: f64,
-    /// Standard deviations of the inputs under K \[kW\], stacked.
-    pub input_deviation_kw: Vec<f64>,
-}
-
-impl StaticFeedback {
-    /// Steps 1 and 2 for a covariance of the disturbance; `price` as in [`feedback::optimal_causal`].
-    ///
-    /// # Errors
-    /// [`ControlError`] if the covariance is not positive definite, no gain has the decay rate, or the solver fails.
-    pub fn design(
-        settings: &IterativeSettings,
-        lifted: &Lifted,
-        targets: &Targets,
-        covariance: DMatrix<f64>,
-        price: &[f64],
-    ) -> Result<Self, ControlError> {
-        check_size(lifted)?;
-        let factor = factor(covariance)?;
-        let causal = feedback::optimal_causal(lifted, targets, &factor, price)?;
-        let n = lifted.zones();
-        let (a, b) = (lifted.model().state_matrix(), lifted.model().gain_matrix());
-        let radius = |gain: &DMatrix<f64>| spectral_radius(&closed_loop(&a, &b, gain));
-        let projection = Projection::new(lifted, &causal, &targets.busy());
-        let gain = match settings.stability {
-            Stability::Lmi => projection.lmi(settings.decay)?,
-            Stability::Linear => projection.linear(settings.decay)?,
-            Stability::LeastSquares => {
-                let gain = projection.least_squares()?;
-                if radius(&gain) < 1.0 { gain } else { projection.lmi(settings.decay)? }
-            }
-            Stability::Fixed => DMatrix::from_diagonal_element(n, n, settings.initial_gain_kw_per_k),
-        };
-        let spectral_radius = radius(&gain);
-        // Not `>= 1`: a NaN is not stable either.
-        if !matches!(spectral_radius.partial_cmp(&1.0), Some(std::cmp::Ordering::Less)) {
-            return Err(ControlError::Unstable { spectral_radius });
-        }
-        let response = feedback::static_feedback(lifted, &gain, &factor);
-        Ok(Self {
-            gain_kw_per_k: gain,
-            spectral_radius,
-            causal_cost: causal.cost(targets),
-            cost: response.cost(targets),
-            input_deviation_kw: response.input_deviation_kw(),
-        })
-    }
-}
-
 impl Iterative {
     /// The design before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
-    /// [`ControlError::Setting`] if a setting is out of range.
+    /// [`ControlError::Setting`] if a setting is out of range; [`ControlError::TooManyUnknowns`] or
+    /// [`ControlError::TooManyTemperatures`] if the building is too large for its matrices;
+    /// [`ControlError::DecayBelowFloor`] if no feedback has the stated decay rate.
     pub fn new(settings: IterativeSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
+        if settings.objective == Objective::Expected {
+            check_size(&settings, &lifted)?;
+            decay::chosen(&settings, lifted.model())?;
+        }
         let n = lifted.zones();
         Ok(Self {
             settings,
@@ -159,7 +112,6 @@ impl Iterative {
     /// Feedback and plan together, as if the optimal causal feedback were used.
     fn joint(&self, targets: &Targets, free_c: &[f64]) -> Result<Joint, ControlError> {
         let lifted = self.estimator.lifted();
-        check_size(lifted)?;
         let factor = factor(self.uncertainty.covariance(targets))?;
         joint::design(lifted, targets, free_c, &factor, self.quantile())
     }
@@ -199,15 +151,30 @@ impl Iterative {
             bias_kw: self.estimator.bias_kw().to_vec(),
             gain_kw_per_k: rows(&self.gain),
             spectral_radius: feedback.map(|feedback| feedback.spectral_radius),
+            weaker_feedback: feedback.and_then(|feedback| feedback.weaker.clone()),
             ..Design::default()
         }
     }
 }
 
 /// Refuses a building that is too large for dense matrices.
-fn check_size(lifted: &Lifted) -> Result<(), ControlError> {
+fn check_size(settings: &IterativeSettings, lifted: &Lifted) -> Result<(), ControlError> {
     let (found, most) = (lifted.size(), MOST_UNKNOWNS);
-    if found <= most { Ok(()) } else { Err(ControlError::TooManyUnknowns { design: "iterative", found, most }) }
+    if found > most {
+        return Err(ControlError::TooManyUnknowns { design: "iterative", found, most });
+    }
+    let (nodes, zones) = (lifted.model().network().node_count(), lifted.zones());
+    let (certificate, most, remedy) = match settings.stability {
+        Stability::Lmi | Stability::LeastSquares => {
+            ("the matrix inequality", MOST_LMI_TEMPERATURES, "set `stability = \"linear\"`")
+        }
+        Stability::Linear => ("the linear certificate", MOST_LINEAR_TEMPERATURES, "use the distributed design"),
+        Stability::Fixed => return Ok(()),
+    };
+    if nodes > most {
+        return Err(ControlError::TooManyTemperatures { certificate, remedy, zones, nodes, most });
+    }
+    Ok(())
 }
 
 /// A matrix by rows.
@@ -266,16 +233,12 @@ impl PlanningDesign for Iterative {
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
-        let Observation { step, temperatures_c, targets } = *observation;
+        let Observation { step, temperatures_c, .. } = *observation;
         let n = temperatures_c.len();
         let (mut heat_kw, error_k) = match self.history.plan() {
             Some(plan) => (plan.heat_at(step, n).to_vec(), plan.deviation_k(step, temperatures_c)),
             // The first day: only the initial feedback, on the error itself.
-            None => {
-                let wanted_c = targets.reference_at(step);
-                let error_k = wanted_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect();
-                (vec![0.0; n], (step > 0).then_some(error_k))
-            }
+            None => (vec![0.0; n], Some(observation.weighted_errors_k())),
         };
         for (j, error_k) in error_k.iter().flatten().enumerate() {
             for (heat_kw, gain) in heat_kw.iter_mut().zip(&self.gain.column(j)) {

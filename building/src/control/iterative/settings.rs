@@ -79,9 +79,11 @@ pub struct IterativeSettings {
     pub coordination: Coordination,
     /// How the feedback is made stabilising.
     pub stability: Stability,
-    /// Decay rate r of the closed loop that is certified.
-    #[schemars(range(min = 0.001, max = 1.0), extend("x-unit" = "dimensionless"))]
-    pub decay: f64,
+    /// Decay rate r of the closed loop per step that is certified. It must be above the rate at which walls settle between
+    /// zones whose temperatures are held, which no feedback changes. By default 0.7, or a fifth of the way from that rate to 1
+    /// if that is more.
+    #[schemars(range(min = 0.001, max = 1.0), example = 0.7, extend("x-unit" = "dimensionless"))]
+    pub decay: Option<f64>,
     /// K of the first day, and of all days with `stability = "fixed"`, as a multiple of the identity \[kW/K\].
     #[schemars(range(min = 0.0))]
     pub initial_gain_kw_per_k: f64,
@@ -107,7 +109,7 @@ impl Default for IterativeSettings {
             objective: Objective::default(),
             coordination: Coordination::default(),
             stability: Stability::default(),
-            decay: 0.7,
+            decay: None,
             initial_gain_kw_per_k: 0.1,
             confidence: 0.95,
             chance: Chance::default(),

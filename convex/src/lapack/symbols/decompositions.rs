@@ -3,12 +3,13 @@
 use std::ffi::{c_char, c_int};
 use std::slice::from_raw_parts_mut;
 
-use super::super::jacobi::{SingularValues, eigen, tall_svd};
+use super::super::jacobi::{NotConverged, SingularValues, eigen, identity, tall_svd};
 use super::super::{Operand, factor};
 use super::{is, matrix, matrix_mut, size, triangle};
 
-/// `info` when an iteration does not converge.
-const NO_CONVERGENCE: c_int = 1;
+// Clarabel panics where LAPACK reports that an iteration did not converge. That happens with matrices that are not finite,
+// which occur on the way to a problem without a solution. The decompositions then return values that make Clarabel's next
+// step zero, so that it ends with a status.
 
 /// # Safety
 /// As LAPACK documents `dpotrf`.
@@ -136,10 +137,13 @@ pub unsafe extern "C" fn dgesvd_(
         let (rows, columns) = if wide { (n, m) } else { (m, n) };
         let operand = Operand { entries: a, ld: size(*lda), transposed: wide };
         let tall = (0..columns).flat_map(|j| (0..rows).map(move |i| operand.at(i, j))).collect();
-        let Ok(SingularValues { u: left, sigma, v: right }) = tall_svd(rows, columns, tall) else {
-            *info = NO_CONVERGENCE;
-            return;
+        let failed = || SingularValues {
+            u: identity(rows)[..rows * columns].to_vec(),
+            sigma: vec![0.0; columns],
+            v: identity(columns),
         };
+        let SingularValues { u: left, sigma, v: right } =
+            tall_svd(rows, columns, tall).unwrap_or_else(|NotConverged| failed());
         let (left, right) = if wide { (right, left) } else { (left, right) };
         matrix_mut(s, k, 1, k).copy_from_slice(&sigma);
         let (u, vt) = (matrix_mut(u, m, k, size(*ldu)), matrix_mut(vt, k, n, size(*ldvt)));
@@ -194,10 +198,7 @@ pub unsafe extern "C" fn dsyevr_(
         let (n, ld) = (size(*n), size(*lda));
         let (triangle, a) = (triangle(*uplo), matrix(a, n, n, ld));
         let full = (0..n).flat_map(|j| (0..n).map(move |i| triangle.entry(a, ld, i, j))).collect();
-        let Ok((values, vectors)) = eigen(n, full) else {
-            *info = NO_CONVERGENCE;
-            return;
-        };
+        let (values, vectors) = eigen(n, full).unwrap_or_else(|NotConverged| (vec![-f64::MAX; n], identity(n)));
         *m = n as c_int;
         matrix_mut(w, n, 1, n).copy_from_slice(&values);
         if is(*jobz, b'V') {
