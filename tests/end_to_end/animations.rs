@@ -71,7 +71,7 @@ fn films_are_made_by_ffmpeg() {
     let outcome = film();
     assert!(outcome.code.is_some_and(|code| code <= 1), "{}", outcome.stderr);
     let bytes = fs::metadata(folder.join("run.mp4")).expect("written").len();
-    assert!(bytes > 10 * 720 * 200 * 3 && bytes % (720 * 3) == 0, "{bytes} bytes of pictures");
+    assert!(bytes > 10 * 720 * 200 * 3 && bytes.is_multiple_of(720 * 3), "{bytes} bytes of pictures");
 
     fs::write(&program, "#!/bin/sh\n/bin/cat > /dev/null\necho no such codec >&2\nexit 1\n").expect("writes");
     let before = fs::read(folder.join("run.mp4")).expect("there");

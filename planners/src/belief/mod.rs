@@ -22,6 +22,7 @@
 //! the likeliest other one are always planned for, the rest in turn. Where nobody is in the way all styles share one plan, and
 //! where tough and nice nearly coincide the normal driver has no plan of its own.
 
+mod alternative;
 pub mod diagnostics;
 mod evidence;
 mod hypotheses;
@@ -30,6 +31,7 @@ mod observed_driver;
 mod settings;
 mod wishes;
 
+pub use alternative::Alternative;
 pub use settings::{Prior, Settings, StyleOdds};
 
 use std::collections::VecDeque;
@@ -60,17 +62,6 @@ pub struct InferredScene {
     pub diagnostics: Vec<Diagnostic>,
     /// Drivers who are taken for another kind than before.
     pub events: Vec<PlanEvent>,
-}
-
-/// What another vehicle may do if one hypothesis about its driver is true.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Alternative {
-    /// The number of the hypothesis; it stays the same while the vehicle is in sight.
-    pub hypothesis: usize,
-    /// How likely the hypothesis is among those whose plan is known.
-    pub probability: f64,
-    /// The motion from now on.
-    pub prediction: Trajectory,
 }
 
 impl DriverBeliefs {

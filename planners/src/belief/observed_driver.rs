@@ -1,6 +1,6 @@
 //! The belief about one observed driver.
 
-use super::Alternative;
+use super::alternative::Alternative;
 use super::evidence::Evidence;
 use super::hypotheses::{Continuing, WishfulHumans};
 use super::likelihood::{ObservedMotion, Spread};

@@ -26,9 +26,10 @@ use crate::weather::WeatherConfig;
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 3] = [
+const EMBEDDED: [(&str, &str); 4] = [
     ("quick", include_str!("../../plans/quick.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
+    ("contingency", include_str!("../../plans/contingency.toml")),
     ("benchmark", include_str!("../../plans/benchmark.toml")),
 ];
 

@@ -35,107 +35,22 @@
 
 use std::collections::VecDeque;
 
-use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use super::joint_day::JointDay;
 use super::messages::Messages;
 use super::settings::Scheme;
 use super::step_space::{Direction, StepSpace};
 use super::zone::{Bound, ZoneProblem};
-use crate::comfort::Targets;
-use crate::control::{BandPenalty, ControlError};
-use crate::lifted::Lifted;
+use super::zone_models::Zone;
+use crate::control::ControlError;
 
-/// Smallest response of a zone that counts in another zone's curvature, as a share of that zone's own response.
-const MIN_RESPONSE_RATIO: f64 = 1e-6;
 /// How many earlier steps are combined with the proposals. Chosen: with one, a third of the random networks of the tests with
 /// binding bounds end more than 0.1 % above the optimum after 200 rounds; more than six save few rounds.
 const MEMORY: usize = 6;
 /// In how many rounds in a row steps must be small for the zones to agree, with schemes that choose the length of a step: one
 /// short step does not mean that they are near the optimum.
 const SMALL_STEPS: usize = 10;
-
-/// What each zone knows beforehand: how a kilowatt of its own acts, and the largest curvature of the common cost in its inputs
-/// but for the bounds near it.
-#[derive(Clone, Debug)]
-pub(super) struct ZoneModels {
-    zones: Vec<Zone>,
-}
-
-#[derive(Clone, Debug)]
-struct Zone {
-    /// Itself and its neighbours, with their responses to its heat.
-    near: Vec<(usize, Vec<f64>)>,
-    curvature: DMatrix<f64>,
-}
-
-impl ZoneModels {
-    /// For the weights of `targets` and `penalty`.
-    pub fn new(lifted: &Lifted, targets: &Targets, penalty: BandPenalty, messages: &Messages) -> Self {
-        let (n, steps) = (lifted.zones(), lifted.steps());
-        let zone = |i: usize| {
-            let mut impulse = vec![0.0; lifted.size()];
-            impulse[i] = 1.0;
-            let responses = lifted.product(&impulse);
-            let kernel = |j: usize| -> Vec<f64> { (0..steps).map(|t| responses[t * n + j]).collect() };
-            let size = |kernel: &[f64]| kernel.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
-            let own = kernel(i);
-            let least = MIN_RESPONSE_RATIO * size(&own);
-            let mut near: Vec<usize> = messages.neighbours(i).chain([i]).collect();
-            near.sort_unstable();
-            near.dedup();
-            let mut curvature = DMatrix::from_diagonal_element(steps, steps, 2.0 * targets.input_weight);
-            for j in 0..n {
-                let kernel = kernel(j);
-                if size(&kernel) > least {
-                    // Bounds of zones that send no messages to this one: as if they were all violated.
-                    let bent = if near.binary_search(&j).is_ok() { 0.0 } else { penalty.quadratic };
-                    let bend = |t: usize| if targets.occupied[t] { bent } else { 0.0 };
-                    add_curvature(&mut curvature, &kernel, |t| targets.error_weight[t * n + j] + bend(t));
-                }
-            }
-            for s in 0..steps {
-                for t in 0..s {
-                    curvature[(s, t)] = curvature[(t, s)];
-                }
-            }
-            Zone { near: near.into_iter().map(|j| (j, kernel(j))).collect(), curvature }
-        };
-        Self { zones: (0..n).into_par_iter().map(zone).collect() }
-    }
-}
-
-/// Adds 2 Σ_τ W(τ) k(τ − s) k(τ − t) to the upper triangle.
-fn add_curvature(curvature: &mut DMatrix<f64>, kernel: &[f64], weight: impl Fn(usize) -> f64) {
-    let steps = kernel.len();
-    let weights: Vec<f64> = (0..steps).map(|t| 2.0 * weight(t)).collect();
-    for t in 0..steps {
-        for s in 0..=t {
-            let sum: f64 = weights[t..]
-                .iter()
-                .zip(kernel)
-                .zip(&kernel[t - s..])
-                .map(|((weight, now), then)| weight * now * then)
-                .sum();
-            curvature[(s, t)] += sum;
-        }
-    }
-}
-
-/// A day to be planned together.
-pub(super) struct JointDay<'a> {
-    pub lifted: &'a Lifted,
-    pub targets: &'a Targets,
-    pub penalty: BandPenalty,
-    pub zone_models: &'a ZoneModels,
-    /// Nodes' temperatures at midnight.
-    pub initial_c: &'a [f64],
-    /// All heat but that of the equipment, nodes of a step together \[kW\].
-    pub driving_kw: &'a [f64],
-    /// Temperatures of the zones without equipment, stacked.
-    pub free_c: &'a [f64],
-    pub silent: Option<usize>,
-}
 
 /// Rules of the exchange.
 #[derive(Clone, Copy, Debug)]
@@ -157,29 +72,6 @@ pub(super) struct Agreement {
 }
 
 impl JointDay<'_> {
-    /// J of the inputs, with penalties, by simulation.
-    pub fn cost(&self, heat_kw: &[f64]) -> f64 {
-        let temperatures_c: Vec<f64> =
-            self.free_c.iter().zip(self.lifted.product(heat_kw)).map(|(free, risen)| free + risen).collect();
-        self.cost_of(&temperatures_c, heat_kw)
-    }
-
-    pub(super) fn cost_of(&self, temperatures_c: &[f64], heat_kw: &[f64]) -> f64 {
-        self.targets.cost(temperatures_c, heat_kw) + self.penalty.of(self.targets, temperatures_c)
-    }
-
-    /// ∂J/∂T and, without the parts of bounds that are kept now, ∂²J/∂T² of an entry.
-    pub(super) fn slope(&self, i: usize, temperature_c: f64) -> (f64, f64) {
-        let targets = self.targets;
-        let error_k = targets.reference_c[i] - temperature_c;
-        let weight = targets.error_weight[i];
-        let beyond_k =
-            if targets.occupied[i / targets.zones] { (error_k.abs() - targets.band_k).max(0.0) } else { 0.0 };
-        let c = self.penalty.quadratic;
-        let bent = if beyond_k > 0.0 { 2.0 * c } else { 0.0 };
-        (-2.0 * weight * error_k - 2.0 * c * beyond_k * error_k.signum(), 2.0 * weight + bent)
-    }
-
     /// Plans from a first guess, within the limits.
     ///
     /// # Errors

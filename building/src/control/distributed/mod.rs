@@ -10,10 +10,12 @@
 
 mod agreement;
 pub mod cooperative;
+mod joint_day;
 mod messages;
 mod settings;
 mod step_space;
 mod zone;
+mod zone_models;
 
 pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
 
@@ -25,10 +27,12 @@ use super::{ControlError, DayAhead, Design, Exchange, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
-use agreement::{JointDay, Rules, ZoneModels};
+use agreement::Rules;
 use cooperative::{Conditions, LearningLaw, cooperative_error};
+use joint_day::JointDay;
 use messages::Messages;
 use settings::penalty;
+use zone_models::ZoneModels;
 
 /// The largest number of inputs of a day for which the convergence conditions are computed each day.
 const MOST_FOR_CONDITIONS: usize = 200;

@@ -21,11 +21,13 @@ pub mod feedback;
 pub mod joint;
 pub mod projection;
 mod settings;
+mod size;
 mod static_feedback;
 
 use nalgebra::DMatrix;
 
 pub use settings::{Chance, Coordination, ErrorGrowth, IterativeSettings, Objective, Stability};
+pub use size::{MOST_LINEAR_TEMPERATURES, MOST_LMI_TEMPERATURES, MOST_UNKNOWNS};
 pub use static_feedback::StaticFeedback;
 
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
@@ -39,13 +41,6 @@ use crate::discretise::Model;
 use crate::lifted::Lifted;
 use joint::Joint;
 
-/// The largest number of inputs of a day for which the feedback is designed; its matrices have the square of that many entries.
-pub const MOST_UNKNOWNS: usize = 1200;
-/// The largest number of temperatures, of zones and walls, for which the matrix inequality is solved. Its time grows with the
-/// sixth power of that number: a design of 24 takes some ten seconds.
-pub const MOST_LMI_TEMPERATURES: usize = 24;
-/// The same for the linear certificate.
-pub const MOST_LINEAR_TEMPERATURES: usize = 256;
 /// Cost of a kelvin by which errors grow from day to day (eq. 3.8), where growth is soft. Chosen large beside the weights of
 /// temperatures and heat, so that errors grow only where they must.
 const ERROR_GROWTH_COST_PER_K: f64 = 1e3;
@@ -74,7 +69,7 @@ impl Iterative {
     pub fn new(settings: IterativeSettings, lifted: Lifted) -> Result<Self, ControlError> {
         settings.check()?;
         if settings.objective == Objective::Expected {
-            check_size(&settings, &lifted)?;
+            size::check(&settings, &lifted)?;
             decay::chosen(&settings, lifted.model())?;
         }
         let n = lifted.zones();
@@ -155,26 +150,6 @@ impl Iterative {
             ..Design::default()
         }
     }
-}
-
-/// Refuses a building that is too large for dense matrices.
-fn check_size(settings: &IterativeSettings, lifted: &Lifted) -> Result<(), ControlError> {
-    let (found, most) = (lifted.size(), MOST_UNKNOWNS);
-    if found > most {
-        return Err(ControlError::TooManyUnknowns { design: "iterative", found, most });
-    }
-    let (nodes, zones) = (lifted.model().network().node_count(), lifted.zones());
-    let (certificate, most, remedy) = match settings.stability {
-        Stability::Lmi | Stability::LeastSquares => {
-            ("the matrix inequality", MOST_LMI_TEMPERATURES, "set `stability = \"linear\"`")
-        }
-        Stability::Linear => ("the linear certificate", MOST_LINEAR_TEMPERATURES, "use the distributed design"),
-        Stability::Fixed => return Ok(()),
-    };
-    if nodes > most {
-        return Err(ControlError::TooManyTemperatures { certificate, remedy, zones, nodes, most });
-    }
-    Ok(())
 }
 
 /// A matrix by rows.

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::projection::Projection;
-use super::{IterativeSettings, Stability, check_size, decay, feedback};
+use super::{IterativeSettings, Stability, decay, feedback, size};
 use crate::comfort::Targets;
 use crate::control::ControlError;
 use crate::control::stability::{closed_loop, positive_decay, spectral_radius};
@@ -46,7 +46,7 @@ impl StaticFeedback {
         covariance: DMatrix<f64>,
         price: &[f64],
     ) -> Result<Self, ControlError> {
-        check_size(settings, lifted)?;
+        size::check(settings, lifted)?;
         let factor = factor(covariance)?;
         let causal = feedback::optimal_causal(lifted, targets, &factor, price)?;
         let loops = Loops::new(settings, lifted)?;

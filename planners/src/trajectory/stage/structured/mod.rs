@@ -47,6 +47,7 @@
 //! `2M·18M(M + 1)` more. `tests/instructions/count.sh` counts what becomes of that.
 
 mod assemble;
+mod cholesky;
 mod columns;
 mod interior;
 mod memory;
