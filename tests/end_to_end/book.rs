@@ -21,6 +21,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("tests/build_times.py", "needs the timings of a cold build"),
     ("pip ", "needs the network"),
     ("rerun", "another program"),
+    ("interplay sweep real-roads", "takes six minutes; the mechanism is in `sweeps`"),
     ("interplay sweep contingency", "takes a quarter of an hour; the mechanism is in `sweeps`"),
     ("mdbook ", "another program"),
     ("tests/cluster/", "needs a scheduler"),

@@ -26,10 +26,11 @@ use crate::weather::WeatherConfig;
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 4] = [
+const EMBEDDED: [(&str, &str); 5] = [
     ("quick", include_str!("../../plans/quick.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
     ("contingency", include_str!("../../plans/contingency.toml")),
+    ("real-roads", include_str!("../../plans/real-roads.toml")),
     ("benchmark", include_str!("../../plans/benchmark.toml")),
 ];
 
