@@ -1,7 +1,7 @@
 //! Plans of one vehicle: the starting guess is the last plan.
 
 use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust};
-use crate::{PlanEvent, Trajectory};
+use crate::{Input, PlanEvent, Trajectory};
 
 /// An optimum with the problem that it solves.
 #[derive(Clone, Debug)]
@@ -21,7 +21,24 @@ pub(crate) fn solve(
     problem: Problem,
     last: Option<&Trajectory>,
 ) -> Result<Solved, DescentError> {
-    let keep = last.map_or_else(Vec::new, Trajectory::later_inputs);
-    let optimum = optimiser.optimise(&problem, &[keep])?;
+    let optimum = optimiser.optimise(&problem, &[guess(last)])?;
     Ok(Solved { problem, optimum, event: None })
+}
+
+/// The same for whoever has no other problem to fall back on ([`Optimiser::optimise_or_improve`]).
+///
+/// # Errors
+/// [`DescentError`] if the last plan cannot be made better.
+pub(crate) fn solve_or_improve(
+    optimiser: &mut Optimiser<Robust>,
+    problem: Problem,
+    last: Option<&Trajectory>,
+) -> Result<Solved, DescentError> {
+    let optimum = optimiser.optimise_or_improve(&problem, &[guess(last)])?;
+    Ok(Solved { problem, optimum, event: None })
+}
+
+/// The last plan, one step later.
+fn guess(last: Option<&Trajectory>) -> Vec<Input> {
+    last.map_or_else(Vec::new, Trajectory::later_inputs)
 }

@@ -54,7 +54,7 @@ impl Conservative {
         let scene = &self.settings.prediction.applied_to(scene);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let problem = problem(scene, &others);
-        let solved = solo::solve(&mut self.optimiser, problem, self.last.as_ref())?;
+        let solved = solo::solve_or_improve(&mut self.optimiser, problem, self.last.as_ref())?;
         self.last = Some(solved.optimum.trajectory(0));
         Ok(solved)
     }

@@ -29,7 +29,7 @@ pub(crate) fn retreat(
     because: &DescentError,
 ) -> Result<Solved, DescentError> {
     let others: Vec<&Agent> = scene.others.iter().collect();
-    let solved = solo::solve(optimiser, problem(scene, &others), last)?;
+    let solved = solo::solve_or_improve(optimiser, problem(scene, &others), last)?;
     let event = PlanEvent { kind: PlanEventKind::Retreat, text: format!("conservative plan: {because}") };
     Ok(Solved { event: Some(event), ..solved })
 }

@@ -118,7 +118,7 @@ impl Human {
         if let Some(line_m) = self.arrivals.stop_line_m(scene) {
             wait_at(&mut problem, scene, line_m);
         }
-        let optimum = self.optimiser.optimise(&problem, &[guess(scene, self.last.as_ref())])?;
+        let optimum = self.optimiser.optimise_or_improve(&problem, &[guess(scene, self.last.as_ref())])?;
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
         Ok(Plan {
