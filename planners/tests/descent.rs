@@ -4,7 +4,7 @@ mod common;
 
 use common::{Random, alone, iterate, pair};
 use interplay_planners::Input;
-use interplay_planners::trajectory::{Optimiser, Problem, Sparse, Structured};
+use interplay_planners::trajectory::{DescentError, Optimiser, Problem, Sparse, Structured};
 
 const SEEDS: u64 = 60;
 
@@ -51,6 +51,35 @@ fn an_optimum_costs_no_more_than_its_guess() {
         }
     }
     assert_nearly_all(solved, problems().count());
+}
+
+/// Without time to end, a descent hands out a motion that costs less than its guess and is no less safe, or fails and keeps the guess.
+#[test]
+fn what_has_not_ended_improves_on_its_guess_or_is_refused() {
+    let (mut handed_out, mut refused) = (0, 0);
+    for (seed, problem) in problems() {
+        let guess = iterate(&problem, &mut Random(seed + 7));
+        let before = problem.cost(&guess);
+        let mut optimiser = Optimiser::new(Structured::default()).comparing(false);
+        optimiser.tolerances.work_limit = 8;
+        let strict = optimiser.clone().optimise(&problem, &guess.inputs);
+        match (strict, optimiser.optimise_or_improve(&problem, &guess.inputs)) {
+            (Ok(strict), improved) => assert_eq!(Ok(strict), improved, "seed {seed}"),
+            (Err(_), Ok(improved)) => {
+                assert!(improved.cost.total < before.total, "seed {seed}: {}", improved.cost.total);
+                assert!(improved.cost.unsafety() <= before.unsafety(), "seed {seed}");
+                assert_eq!(improved.statistics.unfinished, 1, "seed {seed}");
+                handed_out += 1;
+            }
+            (Err(_), Err(DescentError::NotConverged(reached))) => {
+                let is_worse = reached.cost.total >= before.total || reached.cost.unsafety() > before.unsafety();
+                assert!(is_worse, "seed {seed}");
+                refused += 1;
+            }
+            (Err(_), Err(error)) => panic!("seed {seed}: {error}"),
+        }
+    }
+    assert!(handed_out >= 20 && refused >= 1, "{handed_out} handed out, {refused} refused");
 }
 
 /// Gauss-Newton steps of the general solver, started where the structured one ended, find nothing notably cheaper (they

@@ -69,21 +69,22 @@ impl<S: StageSolver> Optimiser<S> {
         }
     }
 
-    /// As [`Optimiser::optimise`]; without any optimum, the motion that the descent from the guess has come to, if it is no less safe
-    /// than the guess. It costs less than the guess, which is what a vehicle without a plan would follow.
+    /// As [`Optimiser::optimise`]; without any optimum, the motion that the descent from the guess has come to, if it is cheaper
+    /// than the guess and no less safe. The guess is what a vehicle without a plan would follow.
     ///
     /// # Errors
-    /// That of the descent from the guess, if the guess is safer.
+    /// That of the descent from the guess, if the guess is cheaper or safer.
     pub fn optimise_or_improve(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
-        match self.optimise(problem, guess) {
-            Err(DescentError::NotConverged(mut reached))
-                if reached.cost.unsafety() <= problem.cost(&problem.start(guess)).unsafety() =>
-            {
-                reached.statistics.unfinished = 1;
-                Ok(*reached)
-            }
-            outcome => outcome,
+        let mut reached = match self.optimise(problem, guess) {
+            Err(DescentError::NotConverged(reached)) => reached,
+            outcome => return outcome,
+        };
+        let before = problem.cost(&problem.start(guess));
+        if reached.cost.total < before.total && reached.cost.unsafety() <= before.unsafety() {
+            reached.statistics.unfinished = 1;
+            return Ok(*reached);
         }
+        Err(DescentError::NotConverged(reached))
     }
 
     /// Descends from a motion of another class in search of a cheaper optimum.
