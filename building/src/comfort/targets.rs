@@ -162,6 +162,21 @@ impl Targets {
         &self.error_weight[self.row(t)]
     }
 
+    /// The targets of the `steps` steps from step `t` of the day on. After midnight the same day begins again.
+    #[must_use]
+    pub fn ahead(&self, t: usize, steps: usize) -> Self {
+        let hours = (t..t + steps).map(|later| later % self.steps());
+        let stacked = |series: &[f64]| -> Vec<f64> {
+            hours.clone().flat_map(|t| &series[t * self.zones..(t + 1) * self.zones]).copied().collect()
+        };
+        Self {
+            reference_c: stacked(&self.reference_c),
+            error_weight: stacked(&self.error_weight),
+            occupied: hours.clone().map(|t| self.occupied[t]).collect(),
+            ..*self
+        }
+    }
+
     fn row(&self, t: usize) -> std::ops::Range<usize> {
         assert!(t < self.steps(), "step {t} of a day of {}", self.steps());
         let row = if t == 0 { self.steps() - 1 } else { t - 1 };

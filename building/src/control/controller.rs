@@ -10,6 +10,7 @@ use super::error::ControlError;
 use super::iterative::IterativeSettings;
 use super::learning::LearningSettings;
 use super::pid::PidSettings;
+use super::predictive::PredictiveSettings;
 use super::regulator::{ControllerKind, Regulator};
 use super::thermostat::ThermostatSettings;
 use crate::discretise::Model;
@@ -25,6 +26,8 @@ pub enum Controller {
     Pid(PidSettings),
     /// Plain iterative learning of P- or PD-type on top of a PID controller, with or without a forecast.
     IterativeLearning(LearningSettings),
+    /// The cheapest inputs over a horizon, anew at every step.
+    ModelPredictive(PredictiveSettings),
     /// The day's optimum, computed from the actual disturbances: for comparison.
     Clairvoyant,
     /// Feedforward and feedback designed in turn, with an expected cost (chapter 3).
@@ -43,6 +46,7 @@ impl Controller {
             Self::Thermostat(settings) => settings,
             Self::Pid(settings) => settings,
             Self::IterativeLearning(settings) => settings,
+            Self::ModelPredictive(settings) => settings,
             Self::Clairvoyant => &ClairvoyantSettings,
             Self::Iterative(settings) => settings,
             Self::Concurrent(settings) => settings,

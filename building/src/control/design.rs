@@ -5,7 +5,8 @@ use super::ControlError;
 /// How a day was planned. Controllers that do not plan leave it empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Design {
-    /// Why no plan was found for the day, which then repeats the inputs of the day before (Remark 1 of chapter 3).
+    /// Why no plan was found for the day, which then repeats the inputs of the day before (Remark 1 of chapter 3), or for a step,
+    /// which then follows the plan before it.
     pub fallback: Option<ControlError>,
     /// For how many days so far no plan was found.
     pub fallbacks: usize,

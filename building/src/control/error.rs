@@ -127,6 +127,14 @@ pub enum ControlError {
         /// The round of the exchange, from 1.
         round: usize,
     },
+    /// A step of a controller that plans at every step.
+    #[error("step {step} has no plan of its own: {why}")]
+    StepWithoutPlan {
+        /// The step, counted from midnight.
+        step: usize,
+        /// Why not.
+        why: Box<ControlError>,
+    },
     /// The clairvoyant controller did not get the actual disturbance.
     #[error("the clairvoyant controller needs to be told the day's actual weather and occupancy")]
     NotClairvoyant,
@@ -150,6 +158,14 @@ pub enum ControlError {
 }
 
 impl ControlError {
+    /// What a controller did instead, after the words "day 2" or "this day".
+    pub fn consequence(&self) -> &'static str {
+        match self {
+            Self::StepWithoutPlan { .. } => "followed an older plan for some steps",
+            _ => "repeated the one before",
+        }
+    }
+
     /// The key of the setting at fault, in the table of the controller; `kind` if the kind of controller is.
     pub fn key(&self) -> SettingKey {
         match self {
@@ -157,6 +173,7 @@ impl ControlError {
             Self::BelowFloor { bound, .. } => (*bound).into(),
             Self::DecayBelowFloor { .. } => "decay".into(),
             Self::TooManyTemperatures { .. } => "stability".into(),
+            Self::TooManyUnknowns { design: "model-predictive", .. } => "horizon_h".into(),
             _ => "kind".into(),
         }
     }

@@ -97,6 +97,11 @@ pub trait Control {
     /// [`ControlError::Shape`] if the record is of another day or building.
     fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError>;
 
+    /// Why the last step that was asked for follows an earlier plan than its own; `None` if it does not.
+    fn trouble(&self) -> Option<&ControlError> {
+        None
+    }
+
     /// Describes the plan of the day.
     fn design(&self) -> Design {
         Design::default()

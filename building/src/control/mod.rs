@@ -4,8 +4,8 @@
 //! temperatures ([`Observation`]) and returns the heat of each zone. At the end of the day it gets what happened
 //! ([`DayRecord`]). [`crate::day`] runs days with it. A day is an iteration of the source.
 //!
-//! The baselines are [`thermostat`], [`pid`], plain iterative [`learning`], and the [`optimum()`] of a day that is known
-//! beforehand. The designs of the source are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]
+//! The baselines are [`thermostat`], [`pid`], plain iterative [`learning`], model [`predictive`] control, and the [`optimum()`] of
+//! a day that is known beforehand. The designs of the source are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]
 //! (chapter 5, with its centralised counterpart). They plan each day with what earlier days taught, and follow the plan
 //! with feedback; what they say of it is a [`Design`]. When a design fails, its controller repeats the day before, says
 //! why, and goes on. A new controller is one folder and one variant of [`Controller`].
@@ -30,6 +30,7 @@ pub mod learning;
 mod optimum;
 pub mod pid;
 mod planning;
+pub mod predictive;
 mod regulator;
 pub mod stability;
 pub mod thermostat;

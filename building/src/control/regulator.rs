@@ -76,6 +76,10 @@ impl Control for Regulator {
         self.0.end_of_day(record)
     }
 
+    fn trouble(&self) -> Option<&ControlError> {
+        self.0.trouble()
+    }
+
     fn design(&self) -> Design {
         self.0.design()
     }

@@ -73,8 +73,10 @@ impl Day {
     }
 
     /// Asks the controller for the heat of each zone in step `step`, counted from midnight, and limits it to what the
-    /// equipment can give. `zones_c` are the temperatures of the zones at the start of the step.
+    /// equipment can give. `zones_c` are the temperatures of the zones at the start of the step. The first step of a day that has no
+    /// plan of its own is noted in the record.
     pub fn control(
+        &mut self,
         plant: &Model,
         controller: &mut impl Control,
         targets: &Targets,
@@ -82,6 +84,12 @@ impl Day {
         zones_c: &[f64],
     ) -> Heat {
         let requested_kw = controller.act(&Observation { step, temperatures_c: zones_c, targets });
+        if let Some(why) = controller.trouble()
+            && self.record.design.fallback.is_none()
+        {
+            self.record.design.fallback = Some(why.clone());
+            self.record.design.fallbacks += 1;
+        }
         let limits_kw = plant.network().limits_kw();
         let applied_kw = requested_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect();
         Heat { requested_kw, applied_kw }
@@ -136,7 +144,7 @@ pub fn run_day(
     let mut day = Day::new(temperatures_c.to_vec(), forecast.clone(), actual.clone());
     day.plan(controller, targets)?;
     for step in 0..targets.steps() {
-        let heat = Day::control(plant, controller, targets, step, &temperatures_c[..network.zone_count()]);
+        let heat = day.control(plant, controller, targets, step, &temperatures_c[..network.zone_count()]);
         day.balance(plant, step, temperatures_c, &heat);
     }
     day.learn(controller)?;

@@ -22,7 +22,7 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
     write_days(text, &building.iterations)?;
     write_exchange(text, building)?;
     for Fallback { day, reason } in building.fallbacks.iter().take(MAX_LISTED_DAYS) {
-        writeln!(text, "  day {day} repeated the one before: {reason}")?;
+        writeln!(text, "  day {day} {reason}")?;
     }
     for Fallback { day, reason } in building.weaker_feedbacks.iter().take(MAX_LISTED_DAYS) {
         writeln!(text, "  day {day}: {reason}")?;

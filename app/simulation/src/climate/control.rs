@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 use interplay_building::control::ControlError;
-use interplay_building::day::{Day, Heat};
+use interplay_building::day::Heat;
 
 use super::{Building, Equipment, Node, Temperature};
 use crate::components::CurrentFrame;
@@ -25,6 +25,7 @@ pub fn control(
     for (node, temperature, _) in &zones {
         temperatures_c[node.index] = temperature.0;
     }
+    let had_trouble = step > 0 && building.today.record.design.fallback.is_some();
     match heat(&mut building, step, &temperatures_c) {
         Ok(heat) => {
             for (node, _, mut equipment) in &mut zones {
@@ -34,17 +35,15 @@ pub fn control(
         }
         Err(error) => building.failure = Some(error),
     }
-    if step == 0 {
-        let design = &building.today.record.design;
-        let no_plan = design.fallback.as_ref();
-        let no_plan = no_plan.map(|why| format!("no plan for this day, which repeats the one before: {why}"));
-        let weaker = design.weaker_feedback.as_ref().map(ToString::to_string);
-        current_frame.0.events.extend(no_plan.into_iter().chain(weaker).map(|text| Event {
-            vehicle: CONTROLLER_SOURCE.to_owned(),
-            level: Level::Warning,
-            text,
-        }));
-    }
+    let design = &building.today.record.design;
+    let no_plan = design.fallback.as_ref().filter(|_| !had_trouble);
+    let no_plan = no_plan.map(|why| format!("no plan: this day {}: {why}", why.consequence()));
+    let weaker = design.weaker_feedback.as_ref().filter(|_| step == 0).map(ToString::to_string);
+    current_frame.0.events.extend(no_plan.into_iter().chain(weaker).map(|text| Event {
+        vehicle: CONTROLLER_SOURCE.to_owned(),
+        level: Level::Warning,
+        text,
+    }));
 }
 
 /// Plans at midnight, and asks for the heat of the step.
@@ -55,5 +54,5 @@ fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<
         today.plan(regulator, targets)?;
         *design_s += began.elapsed().as_secs_f64();
     }
-    Ok(Day::control(model, regulator, targets, step, temperatures_c))
+    Ok(today.control(model, regulator, targets, step, temperatures_c))
 }

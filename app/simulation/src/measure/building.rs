@@ -19,7 +19,7 @@ use crate::frame::{BuildingFrame, Frame};
 pub struct Fallback {
     /// The day, from 1.
     pub day: usize,
-    /// What its controller said.
+    /// What its controller did, and why.
     pub reason: String,
 }
 
@@ -143,7 +143,8 @@ pub fn measure_building(
         measures.days.push(day);
         if let Some(why) = &building.today.record.design.fallback {
             let day = measures.days.len();
-            measures.fallbacks.push(Fallback { day, reason: why.to_string() });
+            let reason = format!("{}: {why}", why.consequence());
+            measures.fallbacks.push(Fallback { day, reason });
         }
         if let Some(why) = &building.today.record.design.weaker_feedback {
             let day = measures.days.len();

@@ -1,0 +1,167 @@
+//! Model predictive control: at every step the cheapest inputs over a horizon, of which the first is applied.
+//!
+//! ```text
+//! minimise    Σ W_e (r − T)² + W_u u² + c₁ s + c₂ s²          over the next N_h steps, as in [`super::optimum()`]
+//! from        T(t) as estimated, under the forecast and the heat d that it missed so far
+//! ```
+//!
+//! It is the field's usual controller and the baseline of the designs that plan once a day: it needs the same model and forecast,
+//! solves a programme at every step, and what it corrects it corrects within a step, but from a day it learns `d` only.
+//!
+//! A step without a plan (a number that is not finite, or a solver without a result) follows the last plan, and says so.
+
+mod estimate;
+mod settings;
+
+pub use settings::PredictiveSettings;
+
+use super::optimum::{ConstraintTightening, plan};
+use super::regulator::{ControllerKind, Regulator};
+use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
+use crate::comfort::Targets;
+use crate::discretise::Model;
+use crate::lifted::Lifted;
+use estimate::Estimate;
+
+/// Most inputs of a plan (zones times steps of the horizon): a programme of that size takes some tenths of a second, and a day
+/// has one for each step.
+pub const MOST_INPUTS: usize = 1024;
+
+/// A model predictive controller with its estimate.
+#[derive(Clone, Debug)]
+pub struct Predictive {
+    settings: PredictiveSettings,
+    /// The model over the horizon.
+    lifted: Lifted,
+    estimate: Estimate,
+    forecast: Disturbance,
+    /// The last plan \[kW\], stacked, and how many of its steps are over.
+    planned_kw: Vec<f64>,
+    planned_steps_ago: usize,
+    /// Why the last step has no plan of its own.
+    trouble: Option<ControlError>,
+    /// Days with such steps, and whether today is one.
+    days_in_trouble: usize,
+    is_in_trouble: bool,
+}
+
+impl Predictive {
+    /// A controller before its first day.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`], and [`ControlError::TooManyUnknowns`] if a plan has more than [`MOST_INPUTS`] inputs.
+    pub fn new(settings: PredictiveSettings, model: &Model) -> Result<Self, ControlError> {
+        settings.check()?;
+        let lifted = Lifted::new(model, settings.horizon(model.step_s()));
+        if lifted.size() > MOST_INPUTS {
+            let (design, found, most) = ("model-predictive", lifted.size(), MOST_INPUTS);
+            return Err(ControlError::TooManyUnknowns { design, found, most });
+        }
+        Ok(Self {
+            settings,
+            estimate: Estimate::new(model, settings.learning_rate),
+            lifted,
+            forecast: Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() },
+            planned_kw: Vec::new(),
+            planned_steps_ago: 0,
+            trouble: None,
+            days_in_trouble: 0,
+            is_in_trouble: false,
+        })
+    }
+
+    /// The cheapest inputs from step `step` of the day on \[kW\], stacked.
+    fn plan(&self, step: usize, targets: &Targets) -> Result<Vec<f64>, ControlError> {
+        let expected = self.expected(step, targets.steps());
+        ControlError::check_finite("the temperatures", &self.estimate.nodes_c)?;
+        expected.check_finite()?;
+        let free_c = self.lifted.free_response(&self.estimate.nodes_c, &expected.ambient_c, &expected.gains_kw);
+        let ahead = targets.ahead(step, self.lifted.steps());
+        let penalty = Some(self.settings.penalty());
+        Ok(plan(&self.lifted, &free_c, &ahead, penalty, &ConstraintTightening::default())?.heat_kw)
+    }
+
+    /// What is expected over the horizon: the forecast and the heat that it missed so far; beyond midnight, today's once more.
+    fn expected(&self, step: usize, steps: usize) -> Disturbance {
+        let hours = (step..step + self.lifted.steps()).map(|t| t % steps);
+        let ambient_c = hours.clone().map(|t| self.forecast.ambient_c[t]).collect();
+        let gains_kw = hours.flat_map(|t| self.gains_kw(t).iter().zip(&self.estimate.missed_kw).map(|(w, d)| w + d));
+        Disturbance { ambient_c, gains_kw: gains_kw.collect() }
+    }
+
+    /// Forecast gains of the zones in step `t` of the day \[kW\].
+    fn gains_kw(&self, t: usize) -> &[f64] {
+        let zones = self.lifted.zones();
+        &self.forecast.gains_kw[t * zones..(t + 1) * zones]
+    }
+
+    /// The inputs of the last plan for now; none beyond its end.
+    fn planned_now(&self) -> Vec<f64> {
+        let zones = self.lifted.zones();
+        let from = self.planned_steps_ago * zones;
+        self.planned_kw.get(from..from + zones).map_or_else(|| vec![0.0; zones], <[f64]>::to_vec)
+    }
+}
+
+impl ControllerKind for PredictiveSettings {
+    fn kind(&self) -> &'static str {
+        "model-predictive"
+    }
+
+    fn look_for(&self) -> &'static str {
+        "it cools before people come, and what the forecast missed is corrected within hours"
+    }
+
+    fn regulator(&self, model: &Model, _steps: usize) -> Result<Regulator, ControlError> {
+        Ok(Regulator::new(Predictive::new(*self, model)?))
+    }
+}
+
+impl Control for Predictive {
+    fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
+        let model = self.lifted.model();
+        ControlError::check_length("a row of targets", day_ahead.targets.zones, self.lifted.zones())?;
+        let nodes = model.network().node_count();
+        ControlError::check_length("the temperatures at midnight", day_ahead.initial_c.len(), nodes)?;
+        day_ahead.forecast.check(day_ahead.targets)?;
+        self.estimate.begin_day(day_ahead.initial_c);
+        self.forecast = day_ahead.forecast.clone();
+        self.is_in_trouble = false;
+        Ok(())
+    }
+
+    fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
+        let step = observation.step;
+        if step > 0 {
+            self.estimate.measure(observation.temperatures_c);
+        }
+        self.planned_steps_ago += 1;
+        self.trouble = match self.plan(step, observation.targets) {
+            Ok(planned_kw) => {
+                (self.planned_kw, self.planned_steps_ago) = (planned_kw, 0);
+                None
+            }
+            Err(why) => {
+                self.days_in_trouble += usize::from(!self.is_in_trouble);
+                self.is_in_trouble = true;
+                Some(ControlError::StepWithoutPlan { step, why: Box::new(why) })
+            }
+        };
+        let heat_kw = self.planned_now();
+        let (ambient_c, gains_kw) = (self.forecast.ambient_c[step], self.gains_kw(step).to_vec());
+        self.estimate.predict(&heat_kw, ambient_c, &gains_kw);
+        heat_kw
+    }
+
+    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
+        Ok(())
+    }
+
+    fn design(&self) -> Design {
+        Design { fallbacks: self.days_in_trouble, ..Design::default() }
+    }
+
+    fn trouble(&self) -> Option<&ControlError> {
+        self.trouble.as_ref()
+    }
+}
