@@ -79,7 +79,7 @@ fn results_go_to_stdout_and_the_rest_to_stderr() {
     let folder = scratch("streams");
     let outcome = interplay(&folder, &["run", "--set", "duration_s=2", "--record", "my.rrd"]);
     assert!(outcome.stdout.contains("FAIL completes.ego: want "), "{}", outcome.stdout);
-    assert_eq!(outcome.stderr, "recorded to my.rrd\n");
+    assert_eq!(outcome.stderr, "recorded to my.rrd; to open it: interplay view my.rrd\n");
 }
 
 #[test]
