@@ -109,6 +109,9 @@ fn tables(property: SchemaNode) -> impl Iterator<Item = SchemaNode> {
 /// The row of a key; `link` is the title of the section that describes its table.
 fn row(key: &str, property: SchemaNode, required: bool, link: Option<&str>) -> String {
     let shown = |value: &Json| {
+        if value.as_object().is_some_and(serde_json::Map::is_empty) {
+            return None;
+        }
         let text = if value.is_object() { inline(property, value) } else { toml(value) };
         Some(code(&text)).filter(|text| text.chars().count() <= MAX_SHOWN)
     };
@@ -171,10 +174,13 @@ fn slug(title: &str) -> String {
     kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
 }
 
+/// The first sentence, without the one that names the kind; "eq. 6.12" ends none.
 fn first_sentence(text: &str) -> &str {
     let text =
         text.split_once("`. ").filter(|(first, _)| first.starts_with("With `kind")).map_or(text, |(_, rest)| rest);
-    text.split_once(". ").map_or(text, |(first, _)| first).trim_end_matches('.')
+    let ends = |at: usize| text[at + 2..].starts_with(|next: char| next.is_uppercase());
+    let end = text.match_indices(". ").map(|(at, _)| at).find(|at| ends(*at));
+    end.map_or(text, |at| &text[..at]).trim_end_matches('.')
 }
 
 fn code(text: &str) -> String {
