@@ -99,7 +99,7 @@ mod tests {
         let mut footprints = drive(100.0);
         for who in 2..7 {
             footprints.vehicles.push((format!("car {who}"), BLUE));
-            let offset = f64::from(who);
+            let offset = 0.4 * f64::from(who);
             for snapshot in &mut footprints.snapshots {
                 let body = snapshot.bodies[1].map(|[x, y]| [x - offset, y]);
                 snapshot.bodies.push(body);
