@@ -70,7 +70,7 @@ fn inline_code(text: &str) -> Vec<String> {
     prose.split('`').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
-/// A folder in which `interplay` is the command under test.
+/// A folder in which `interplay` is the command under test, and the samples lie where a clone has them.
 struct Shell {
     folder: PathBuf,
 }
@@ -82,6 +82,10 @@ impl Shell {
         fs::create_dir(folder.join("bin")).expect("a scratch folder");
         std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_interplay-under-test"), folder.join("bin/interplay"))
             .expect("a link");
+        // What a clone has beside the documents.
+        fs::create_dir(folder.join("assets")).expect("a scratch folder");
+        let telemetry = fs::canonicalize(root().join("assets/telemetry")).expect("it is there");
+        std::os::unix::fs::symlink(telemetry, folder.join("assets/telemetry")).expect("a link");
         Shell { folder }
     }
 
