@@ -6,7 +6,10 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     if word.len() > 100 {
         return None;
     }
-    let scored = candidates.into_iter().map(|candidate| (strsim::osa_distance(word, candidate), candidate));
+    // A word in other letters, `IDM` for `idm`, is the same word.
+    let lower = word.to_lowercase();
+    let scored =
+        candidates.into_iter().map(|candidate| (strsim::osa_distance(&lower, &candidate.to_lowercase()), candidate));
     let (edits, best) = scored.min_by_key(|(edits, _)| *edits)?;
     let tolerated = 1 + word.len().max(best.len()) / 3;
     (edits <= tolerated && edits < best.len()).then_some(best)
@@ -34,6 +37,7 @@ mod tests {
     fn slips_are_found_and_strangers_are_not() {
         assert_eq!(nearest("sped_mps", ["speed_mps", "x_m"]), Some("speed_mps"));
         assert_eq!(nearest("fornt", ["front", "rear"]), Some("front"));
+        assert_eq!(nearest("IDM", ["human", "idm", "game"]), Some("idm"), "capitals are no edits");
         assert_eq!(nearest("elephant", ["x_m", "y_m"]), None);
         assert_eq!(nearest("a", ["x"]), None);
         assert_eq!(nearest("anything", []), None);

@@ -184,7 +184,7 @@ fn is_empty(value: &Json) -> bool {
 }
 
 /// A value as TOML, on one line, a table in the order of its schema.
-fn inline(property: SchemaNode, value: &Json) -> String {
+pub(crate) fn inline(property: SchemaNode, value: &Json) -> String {
     let Some(table) = value.as_object().filter(|_| !property.holds_paths()) else { return toml(value) };
     let pairs = keys(property, table).filter_map(|(key, below)| Some((key, below, table.get(key)?)));
     let pairs: Vec<String> = pairs.map(|(key, below, value)| format!("{key} = {}", inline(below, value))).collect();
@@ -192,7 +192,7 @@ fn inline(property: SchemaNode, value: &Json) -> String {
 }
 
 /// A value as TOML, on one line.
-fn toml(value: &Json) -> String {
+pub(crate) fn toml(value: &Json) -> String {
     match value {
         Json::Null => String::new(),
         Json::Bool(truth) => truth.to_string(),

@@ -10,8 +10,9 @@ mod road;
 
 use interplay_planners::State;
 
-use crate::error::{Fault, quoted};
+use crate::error::{Fault, Place, quoted};
 use crate::lane_reference::LaneReference;
+use crate::readable::readable;
 use crate::road::{Branch, Road};
 use crate::scenario::{Scenario, Vehicle};
 use crate::tree::TomlNode;
@@ -47,11 +48,12 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
 impl Checker<'_> {
     fn times(&mut self) {
         let Scenario { duration_s, step_s, .. } = *self.scenario;
+        let [shown_s, shown_step_s] = [duration_s, step_s].map(readable);
         if duration_s < step_s {
-            let message = format!("`duration_s` ({duration_s}) is shorter than one step (`step_s` = {step_s})");
+            let message = format!("`duration_s` ({shown_s}) is shorter than one step (`step_s` = {shown_step_s})");
             self.refuse("duration_s", "too short", message, "simulate at least one step");
         } else if duration_s / step_s > MAX_TICKS {
-            let message = format!("{duration_s} s in steps of {step_s} s are more than {MAX_TICKS} ticks");
+            let message = format!("{shown_s} s in steps of {shown_step_s} s are more than {MAX_TICKS} ticks");
             self.refuse("duration_s", "too long", message, "shorten `duration_s` or lengthen `step_s`");
         }
     }
@@ -71,7 +73,9 @@ impl Checker<'_> {
     fn limits(&mut self, index: usize, vehicle: &Vehicle) {
         let (name, limits, path) = (&vehicle.name, vehicle.limits, format!("vehicle.{index}"));
         let (slowest, fastest) = (limits.speed_min_mps, limits.speed_max_mps);
-        if slowest >= fastest {
+        let inside = slowest..=fastest;
+        let [slowest, fastest] = [slowest, fastest].map(readable);
+        if inside.is_empty() || inside.start() == inside.end() {
             let message =
                 format!("`vehicle.{name}.limits`: the smallest speed ({slowest}) is not below the largest ({fastest})");
             self.refuse(&format!("{path}.limits.speed_min_mps"), "not below the largest", message, "");
@@ -79,7 +83,7 @@ impl Checker<'_> {
         }
         let speeds = [("start", Some(vehicle.start.speed_mps)), ("goal", vehicle.goal.speed_mps)];
         for (table, speed) in speeds {
-            if let Some(speed) = speed.filter(|speed| !(slowest..=fastest).contains(speed)) {
+            if let Some(speed) = speed.filter(|speed| !inside.contains(speed)).map(readable) {
                 let message = format!("`vehicle.{name}.{table}.speed_mps` ({speed}) is outside the vehicle's limits");
                 let help = format!(
                     "its speed may be from {slowest} to {fastest}: `speed_min_mps` and `speed_max_mps` in its `limits`"
@@ -92,6 +96,7 @@ impl Checker<'_> {
     fn width(&mut self, index: usize, vehicle: &Vehicle) {
         let (width_m, lane_m) = (vehicle.body.width_m, self.scenario.road.lane_width_m());
         if width_m > lane_m {
+            let [width_m, lane_m] = [width_m, lane_m].map(readable);
             let message = format!("vehicle {} is {width_m} m wide, but a lane only {lane_m} m", quoted(&vehicle.name));
             let help = "widen `road.lane_width_m`, or state the `class` and `scale` that both are of";
             self.refuse(&format!("vehicle.{index}.body.width_m"), "wider than its lane", message, help);
@@ -122,7 +127,7 @@ impl Checker<'_> {
             return;
         }
         if let Some(y_m) = goal.y_m.filter(|y_m| !(0.0..=road.width_m()).contains(y_m)) {
-            let message = format!("`vehicle.{name}.goal.y_m` ({y_m}) is beside the road");
+            let message = format!("`vehicle.{name}.goal.y_m` ({}) is beside the road", readable(y_m));
             self.refuse(&format!("{path}.y_m"), "beside the road", message, &extent(road, vehicle.road));
         }
         if vehicle.weights.x > 0.0 {
@@ -159,8 +164,11 @@ impl Checker<'_> {
                         quoted(&other.name),
                         quoted(&vehicle.name)
                     );
-                    let fault = Fault::at(self.place(&path), "overlaps", message);
-                    let fault = fault.also(self.place(&format!("vehicle.{other_index}.start")), "with this one");
+                    let [own, others] = [index, other_index].map(|index| self.place_of_footprint(index));
+                    // What a flag or the file says moved one onto the other, and not what it is laid over.
+                    let (blamed, other) =
+                        if others.document.rank < own.document.rank { (others, own) } else { (own, others) };
+                    let fault = Fault::at(blamed, "overlaps", message).also(other, "with this one");
                     self.faults.push(
                         fault.help(
                             "`x_m` and `y_m` are the mass centre; `body` says how far the vehicle reaches from it",
@@ -172,26 +180,44 @@ impl Checker<'_> {
     }
 }
 
+/// What decides, beside a vehicle's own keys, where its footprint lies at the start.
+const SHARED_CAUSES: [&str; 4] = ["scale", "defaults.class", "defaults.body", "road"];
+/// What does so where starts are moved at random.
+const CAUSES_OF_JITTER: [&str; 2] = ["start_jitter", "seed"];
+
+impl Checker<'_> {
+    /// Where it is written what puts the footprint of a vehicle where it is at the start: of all that do, what was laid over
+    /// the others last; its start if all stand in one file.
+    fn place_of_footprint(&self, index: usize) -> &Place {
+        let own = ["start", "body", "class"].map(|key| format!("vehicle.{index}.{key}"));
+        let is_moved = self.scenario.start_jitter.position_m > 0.0;
+        let random = CAUSES_OF_JITTER.iter().filter(|_| is_moved);
+        let causes = own.into_iter().chain(SHARED_CAUSES.iter().chain(random).map(|path| (*path).to_owned()));
+        let stated = causes.filter(|path| self.tree.at(path).is_some()).map(|path| self.tree.place_of(&path));
+        stated.min_by_key(|place| place.document.rank).unwrap_or(&self.tree.place)
+    }
+}
+
 fn extent(road: &Road, branch: Branch) -> String {
-    let width = road.width_m();
+    let (width, half) = (readable(road.width_m()), readable(0.5 * road.width_m()));
     if road.parallel_lanes().is_none() {
         return "a vehicle may use its own lane and those beside it into which it may change".to_owned();
     }
     match (road, branch) {
         (Road::Curve(curve), _) => {
-            let end = curve.lane_end.map(|end| format!(", and its lane 0 narrows until it ends after {} m", end.end_m));
-            let half = 0.5 * width;
+            let end = curve.lane_end.map(|end| readable(end.end_m));
+            let end = end.map(|end_m| format!(", and its lane 0 narrows until it ends after {end_m} m"));
             format!("the road reaches {half} m to either side of its middle{}", end.unwrap_or_default())
         }
         (Road::RampMerge(ramp), _) => {
-            let end = ramp.ramp_end_m;
+            let end = readable(ramp.ramp_end_m);
             format!("the road reaches from y = 0 to y = {width}, and its lane 0 narrows until it ends at x = {end}")
         }
         (_, Branch::Main) => format!("the road reaches from y = 0 to y = {width}"),
         (_, Branch::Cross) => format!(
             "the crossing road reaches {0} to either side of its middle, which runs through x = 0, y = {0} at {1} degrees",
-            0.5 * width,
-            road.heading_rad(branch).to_degrees()
+            half,
+            readable(road.heading_rad(branch).to_degrees())
         ),
     }
 }

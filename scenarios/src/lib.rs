@@ -39,6 +39,8 @@ mod overrides;
 mod placement;
 mod plan_file;
 mod plant;
+mod readable;
+mod reference;
 mod regular_file;
 mod remark;
 mod remarks;
@@ -73,6 +75,8 @@ pub use lane_reference::LaneReference;
 pub use load::{from_text, load};
 pub use overrides::Override;
 pub use plant::{Dynamic, Kinematic, Plant};
+pub use readable::readable;
+pub use reference::key_reference;
 pub use regular_file::{open_regular, read_regular};
 pub use remark::{ScenarioRemark, ScenarioRemarks};
 pub use road::{

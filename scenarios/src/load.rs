@@ -35,9 +35,9 @@ pub(crate) fn tree(name_or_path: &str) -> Result<TomlNode, LoadError> {
 ///
 /// As [`load`].
 pub fn from_text(name: &str, text: &str, overrides: &[Override]) -> Result<Scenario, LoadError> {
-    let document = Document::new(name, text, 1);
+    let (source, document) = (Source::File(name.into()), Document::new(name, text, 1));
     let tree = tree::parse(&document, text)
-        .and_then(|node| extended(&Source::File(name.into()), node, &mut Vec::new()))
+        .and_then(|node| extended(&source, node, &mut vec![source.clone()]))
         .map_err(|faults| LoadError::new(name, faults))?;
     finish(name, tree, overrides)
 }

@@ -5,7 +5,7 @@
 
 use interplay_building::bounds::Bound;
 use interplay_building::json_schema::type_in_words;
-use interplay_building::nearest::{listed, suggestion};
+use interplay_building::nearest::{listed, nearest, suggestion};
 use serde_json::Value as Json;
 
 use crate::error::{Fault, Place, quoted};
@@ -20,14 +20,14 @@ pub(crate) fn check(tree: &TomlNode) -> Vec<Fault> {
 
 /// Everything that is wrong with the shape of a file of which `schema` describes the whole.
 pub(crate) fn check_file(tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
-    let mut checker = Checker { faults: Vec::new() };
+    let mut checker = Checker::default();
     checker.node(tree, schema, &Path::default());
     checker.faults
 }
 
 /// Everything that is wrong with the shape of one table of the file, which `key` leads to.
 pub(crate) fn check_table(node: &TomlNode, key: &str) -> Vec<Fault> {
-    let mut checker = Checker { faults: Vec::new() };
+    let mut checker = Checker::default();
     if let Some(schema) = schema::complete().property(key) {
         checker.node(node, schema, &Path(key.to_owned()));
     }
@@ -53,8 +53,12 @@ impl Path {
     }
 }
 
+#[derive(Default)]
 struct Checker {
     faults: Vec<Fault>,
+    /// Names of the complete entries of the list that is checked, if its entries are merged by name: what an incomplete one
+    /// may have been meant to change.
+    complete_entries: Vec<String>,
 }
 
 impl Checker {
@@ -127,6 +131,7 @@ impl Checker {
     }
 
     fn table(&mut self, node: &TomlNode, table: &Table, schema: SchemaNode, path: &Path) {
+        let complete_entries = std::mem::take(&mut self.complete_entries);
         for (key, entry) in table {
             match schema.property(key) {
                 Some(property) => self.node(&entry.node, property, &path.join(key)),
@@ -136,7 +141,14 @@ impl Checker {
         for key in schema.required().filter(|key| !table.contains_key(*key)) {
             let message = format!("{} is missing", quoted(&path.join(key).0));
             let help = schema.property(key).map(SchemaNode::description).unwrap_or_default();
-            self.refuse(&node.place, &format!("has no `{key}`"), message, help);
+            let meant = node.label().and_then(|name| nearest(name, complete_entries.iter().map(String::as_str)));
+            match (meant, table.get("name")) {
+                (Some(meant), Some(name)) => {
+                    let help = format!("did you mean `{meant}`? An entry with a new name needs `{key}`: {help}");
+                    self.refuse(&name.node.place, "a new name", message, help);
+                }
+                _ => self.refuse(&node.place, &format!("has no `{key}`"), message, help),
+            }
         }
         let stated = |key: &str| table.get(key).filter(|entry| !entry.node.is_empty_list());
         let mut blamed: Vec<&str> = Vec::new();
@@ -174,8 +186,13 @@ impl Checker {
             let message = format!("{} must have at most {most} {}, not {count}", quoted(&path.0), entries(most));
             self.refuse(&node.place, "too long", message, schema.description());
         }
+        let is_merged = schema.merge_key().is_some();
         let Some(schema) = schema.entries() else { return };
+        let is_complete =
+            |item: &&TomlNode| item.table().is_some_and(|table| schema.required().all(|key| table.contains_key(key)));
         for (index, item) in items.iter().enumerate() {
+            let complete = items.iter().filter(is_complete).filter_map(TomlNode::label).filter(|_| is_merged);
+            self.complete_entries = complete.map(str::to_owned).collect();
             let step = item.label().map_or_else(|| index.to_string(), str::to_owned);
             self.node(item, schema, &path.join(&step));
         }

@@ -70,7 +70,7 @@ fn inline_code(text: &str) -> Vec<String> {
     prose.split('`').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
-/// A folder in which `interplay` is the command under test.
+/// A folder in which `interplay` is the command under test, and the samples lie where a clone has them.
 struct Shell {
     folder: PathBuf,
 }
@@ -82,6 +82,10 @@ impl Shell {
         fs::create_dir(folder.join("bin")).expect("a scratch folder");
         std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_interplay-under-test"), folder.join("bin/interplay"))
             .expect("a link");
+        // What a clone has beside the documents.
+        fs::create_dir(folder.join("assets")).expect("a scratch folder");
+        let telemetry = fs::canonicalize(root().join("assets/telemetry")).expect("it is there");
+        std::os::unix::fs::symlink(telemetry, folder.join("assets/telemetry")).expect("a link");
         Shell { folder }
     }
 
@@ -216,6 +220,32 @@ fn the_list_of_scenarios_is_complete() {
     }
     let written = fs::read_to_string(&path).unwrap_or_default();
     assert!(written == page, "docs/scenarios.md is out of date: renew it with INTERPLAY_BLESS=1");
+}
+
+/// The page of all keys is what the schema says, and its links lead to headings. `INTERPLAY_BLESS=1` writes it anew.
+#[test]
+fn the_reference_of_keys_is_the_schema_s() {
+    let page = interplay_scenarios::key_reference();
+    let path = root().join("docs/reference.md");
+    if std::env::var_os("INTERPLAY_BLESS").is_some() {
+        fs::write(&path, &page).expect("the page can be written");
+    }
+    let written = fs::read_to_string(&path).unwrap_or_default();
+    assert!(written == page, "docs/reference.md is out of date: renew it with INTERPLAY_BLESS=1");
+    let headings: BTreeSet<String> = page.lines().filter_map(|line| line.strip_prefix("## ")).map(place_of).collect();
+    let links: Vec<&str> = page.split("](#").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert!(links.len() > 100 && headings.len() > 50, "{} links, {} sections", links.len(), headings.len());
+    let broken: Vec<&&str> = links.iter().filter(|link| !headings.contains(**link)).collect();
+    assert!(broken.is_empty(), "{broken:?} lead nowhere");
+    for row in ["| `speed_mps` | number | m/s |", "| `safety_weight` | number | 1 | at least 0 |  | `8.0` |"] {
+        assert!(page.contains(row), "{row}");
+    }
+}
+
+/// Where GitHub and mdBook put a heading.
+fn place_of(heading: &str) -> String {
+    let kept = heading.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect::<String>().to_lowercase()
 }
 
 /// Tests that the errata name are there.

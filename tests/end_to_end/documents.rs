@@ -37,8 +37,9 @@ fn the_readme_opens_with_how_to_run_and_how_to_test() {
     let blocks = blocks(&readme);
     let sh = |command: &str| ("sh".to_owned(), command.to_owned());
     assert_eq!(blocks[..2], [sh("cargo run --release"), sh("cargo test --release --workspace")]);
-    let first = readme.find("```").expect("there are blocks");
-    assert!(readme[..first].lines().count() <= 4, "the commands come first");
+    let before = &readme[..readme.find("```").expect("there are blocks")];
+    assert!(before.lines().count() <= 8 && !before.contains("\n## "), "only what it is, and a picture, come before");
+    assert!(before.contains("](docs/gallery/"), "the first screen has a moving picture");
 }
 
 #[test]

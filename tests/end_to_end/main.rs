@@ -9,7 +9,8 @@
 //! - what others may add: [`own`]
 //! - what tyres, friction and lag make of it: [`plants`]
 //! - what scenarios demand of drivers: [`unsuited`]
-//! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]
+//! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`],
+//!   [`sample_telemetry`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`architecture`], [`modules`]
 
@@ -41,6 +42,7 @@ mod recordings;
 mod rectangles;
 mod replacements;
 mod replay;
+mod sample_telemetry;
 mod similarity;
 mod suite;
 mod sweeps;

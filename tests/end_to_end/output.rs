@@ -79,7 +79,7 @@ fn results_go_to_stdout_and_the_rest_to_stderr() {
     let folder = scratch("streams");
     let outcome = interplay(&folder, &["run", "--set", "duration_s=2", "--record", "my.rrd"]);
     assert!(outcome.stdout.contains("FAIL completes.ego: want "), "{}", outcome.stdout);
-    assert_eq!(outcome.stderr, "recorded to my.rrd\n");
+    assert_eq!(outcome.stderr, "recorded to my.rrd; to open it: interplay view my.rrd\n");
 }
 
 #[test]
@@ -151,4 +151,24 @@ fn a_reader_that_has_gone_away_is_no_error() {
     drop(child.stdout.take());
     let outcome: Outcome = child.wait_with_output().expect("the command ends").into();
     assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
+}
+
+/// An expectation of a figure says on which day it was worst, and in which room.
+#[test]
+fn a_failed_expectation_of_a_building_names_day_and_room() {
+    let folder = scratch("building-worst");
+    let flags = ["--no-record", "--set", "iterations=3", "--set", "expect.building.tracking_rmse_c_at_most=0.001"];
+    let run = |more: &[&str]| interplay(&folder, &[&["run", "building/four-room-pid"], &flags[..], more].concat());
+    let printed = run(&[]).stdout;
+    let line = printed.lines().find(|line| line.contains("building.tracking_rmse_c_at_most")).expect("it is judged");
+    assert!(line.contains("FAIL") && line.contains("(day "), "{line}");
+    let report = run(&["--json"]).json();
+    let days = report["building"]["iterations"].as_array().expect("days").iter();
+    let each: Vec<f64> = days.filter_map(|day| day["tracking_rmse_c"].as_f64()).collect();
+    let at = report["expectations"].as_array().expect("expectations").iter().find_map(|one| one["at"].as_str());
+    let (day, room) = at.and_then(|at| at.strip_prefix("day ")?.split_once(", most in ")).expect("a day and a room");
+    let worst = each.iter().copied().fold(0.0, f64::max);
+    let day: usize = day.parse().expect("a number");
+    assert!((each[day - 1] - worst).abs() < 1e-12, "{each:?}, {day}");
+    assert!(!room.is_empty() && line.contains(room), "{line}");
 }

@@ -19,7 +19,7 @@ use crate::output::{json, print, print_error};
 /// A small TOML file beside the table, the mapping, says which column is what, in which unit, and sampled how.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    interplay identify office.csv                        (its mapping is office.toml)\n  \
+    interplay identify assets/telemetry/cabin.csv        (a sample; its mapping is cabin.toml beside it)\n  \
     interplay identify office.csv --mapping columns.toml --out plots/ --json\n  \
     interplay identify office.csv --scenario office-scenario.toml\n\n\
     A mapping:\n  \

@@ -136,7 +136,8 @@ impl Run {
         match passed {
             Ok(passed) => {
                 if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
-                    print_error(&format!("recorded to {}", path.display()));
+                    let view = shell::line(["interplay", "view", &path.to_string_lossy()]);
+                    print_error(&format!("recorded to {}; to open it: {view}", path.display()));
                 }
                 if passed { ExitStatus::Well } else { ExitStatus::Failed }
             }

@@ -4,12 +4,17 @@ use interplay_building::control::Exchange;
 use interplay_building::day::KeyFigures;
 use serde::Serialize;
 
+use crate::worst_zones::WorstZones;
+
 /// The key figures of a day; their serialisation is part of the output contract.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DayFigures {
     /// The key figures, as defined by BOPTEST.
     #[serde(flatten)]
     pub figures: KeyFigures,
+    /// The zones that did worst.
+    #[serde(skip)]
+    pub worst_zones: WorstZones,
     /// How much dearer the day was than the cheapest one that knows everything beforehand; not for large buildings.
     pub regret: Option<f64>,
     /// Heat brought in and taken out before the first occupied time of the day \[kWh\].

@@ -24,3 +24,4 @@ pub mod spawn;
 pub mod time_points;
 pub mod watch;
 pub mod why;
+pub mod worst_zones;

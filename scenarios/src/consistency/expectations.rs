@@ -5,6 +5,7 @@ use interplay_building::nearest::suggestion;
 use super::checker::Checker;
 use crate::error::quoted;
 use crate::expect::ExpectedYield;
+use crate::readable::readable;
 use crate::scenario::Vehicle;
 
 impl Checker<'_> {
@@ -128,13 +129,14 @@ impl Checker<'_> {
 
     fn window(&mut self, path: &str, after_s: Option<f64>, before_s: Option<f64>) {
         let duration_s = self.scenario.duration_s;
+        let shown_s = readable(duration_s);
         match (after_s, before_s) {
             (Some(after), Some(before)) if after >= before => {
                 let message = format!("nothing is both after {after} s and before {before} s");
                 self.refuse(&format!("{path}.after_s"), "not before `before_s`", message, "");
             }
             (Some(after), _) if after >= duration_s => {
-                let message = format!("`after_s` ({after}) is not before the end of the run at {duration_s} s");
+                let message = format!("`after_s` ({after}) is not before the end of the run at {shown_s} s");
                 self.refuse(&format!("{path}.after_s"), "after the end", message, "");
             }
             _ => {}

@@ -114,11 +114,14 @@ pub fn costs(title: &str, recorded_runs: &[&RecordedRun]) -> Panels {
         Curve::new(recorded.label.as_str(), style, points).marked()
     };
     let mut curves: Vec<Curve> = recorded_runs.iter().zip(style::line_styles()).map(curve).collect();
-    if let [recorded] = recorded_runs {
+    if let ([recorded], [own]) = (recorded_runs, &mut curves[..]) {
         let days = recorded.report.building.iter().flat_map(|building| &building.iterations).enumerate();
         let least = days.filter_map(|(day, figures)| Some([day as f64 + 1.0, figures.figures.cost - figures.regret?]));
         let least: Vec<[f64; 2]> = least.collect();
         if !least.is_empty() {
+            if own.name.is_empty() {
+                own.name = format!("with the {} controller", recorded.scenario.controller().kind());
+            }
             curves.push(Curve::new("cheapest possible, known only afterwards", WANTED, least));
         }
     }

@@ -14,8 +14,6 @@ use crate::plot::{Curve, CurvedStrip, FootprintPlot, FootprintSnapshot, Panel, P
 const SNAPSHOT_COUNTS: [usize; 2] = [8, 12];
 /// How long a picture of footprints goes on after the last vehicle has reached its goal \[s\].
 const TIME_AFTER_GOALS_S: f64 = 1.5;
-/// Where the edge of the road that a ramp leads to ends, beyond everything that is drawn \[m\].
-const RAMP_EDGE_END_M: f64 = 1e4;
 /// How far a road that turns is drawn beyond the first and the last vehicle, in widths of the road.
 const ROAD_BEYOND_WIDTHS: f64 = 1.0;
 
@@ -100,19 +98,18 @@ fn roads(scenario: &Scenario) -> Vec<Strip> {
 fn strip(road: &Road, vehicle: &Vehicle) -> Option<Strip> {
     let corridor = road.corridor(vehicle.road)?;
     let divider = |lane: usize| corridor.right_m + lane as f64 * road.lane_width_m();
-    let shoulder_m = corridor.end.map(|end| {
+    let tapered_edge_m = corridor.end.map(|end| {
         let start = end.end_m - 8.0 * end.taper_m;
         let samples = (0..=80).map(|i| start + f64::from(i) * 0.1 * end.taper_m);
         let edge = samples.map(|along| [along, corridor.right_edge_m(along)]);
-        edge.chain([[end.end_m, corridor.right_m + end.height_m], [RAMP_EDGE_END_M, corridor.right_m + end.height_m]])
-            .chain([[RAMP_EDGE_END_M, corridor.right_m], [start, corridor.right_m]])
-            .collect()
+        // From its end on, the edge is that of the next lane, exactly.
+        edge.chain([[end.end_m + 0.1 * end.taper_m, corridor.right_m + end.height_m]]).collect()
     });
     Some(Strip {
         heading_rad: corridor.heading_rad,
         edges_m: [corridor.right_m, corridor.left_m],
         dividers_m: (1..road.parallel_lanes()?.count).map(divider).collect(),
-        shoulder_m: shoulder_m.unwrap_or_default(),
+        tapered_edge_m: tapered_edge_m.unwrap_or_default(),
     })
 }
 

@@ -170,21 +170,26 @@ pub fn dimensions(title: &str) -> FigureContent {
     FigureContent { pictures: vec![table.drawing()], ..FigureContent::default() }
 }
 
+/// An angle as a fraction of π, where it is one that people write so.
+fn angle(angle_rad: f64) -> String {
+    let shares = std::f64::consts::PI / angle_rad;
+    if (shares - shares.round()).abs() < 1e-9 { format!("π/{}", shares.round()) } else { format!("{angle_rad:.3}") }
+}
+
 /// How plans are optimised (Table 6.2).
 pub fn configuration(title: &str) -> Result<FigureContent, FigureError> {
     let scenario = load("lane-change/front-nice", &[])?;
     let (limits, ellipse) = (Limits::default(), SafetyEllipse::default());
     let row = |symbol: &str, name: &str, value: String| [symbol.to_owned(), name.to_owned(), value];
-    let third = std::f64::consts::PI / 3.0;
-    let steering =
-        if limits.steering_max_rad == third { "π/3".to_owned() } else { limits.steering_max_rad.to_string() };
+    let steering = angle(limits.steering_max_rad);
     let rows = vec![
         row("T_s", "step", format!("{} s", scenario.step_s)),
         row("N", "steps of the horizon", scenario.horizon_steps.to_string()),
         row(
             "u_a",
             "acceleration",
-            format!("{:+.1} to {:+.1} m/s²", limits.acceleration_min_mps2, limits.acceleration_max_mps2),
+            format!("{:+.1} to {:+.1} m/s²", limits.acceleration_min_mps2, limits.acceleration_max_mps2)
+                .replace('-', "−"),
         ),
         row("u_δ", "steering angle", format!("−{steering} to +{steering} rad")),
         row("y", "lateral position of the corners", format!("0 to {:.2} m", scenario.road.width_m())),

@@ -88,18 +88,28 @@ impl Drawing {
         self.marks.push(Mark::Text { at, words: words.into(), size, colour, side });
     }
 
+    /// Removes the last mark if its words lie on words before it.
+    pub(super) fn take_back_words_on_others(&mut self) {
+        let Some((last, before)) = self.marks.split_last() else { return };
+        let Some((_, covered)) = text_box(last) else { return };
+        if before.iter().filter_map(text_box).any(|(_, others)| overlap(covered, others)) {
+            self.marks.pop();
+        }
+    }
+
     /// Words that cannot be read: they lie on other words, or beyond the edge. Text is a little lower than its line.
     #[cfg(test)]
     pub(crate) fn illegible(&self) -> Vec<String> {
         let boxes: Vec<(&str, [f64; 4])> = self.marks.iter().filter_map(text_box).collect();
         let mut found = Vec::new();
-        for (index, (words, [left, top, right, bottom])) in boxes.iter().enumerate() {
+        for (index, (words, covered)) in boxes.iter().enumerate() {
+            let [left, top, right, bottom] = covered;
             let [width, height] = [self.size.0, self.size.1].map(f64::from);
             if *left < 0.0 || *top < 0.0 || *right > width || *bottom > height {
                 found.push(format!("`{words}` lies beyond the edge"));
             }
-            for (other, [l, t, r, b]) in &boxes[..index] {
-                if left < r && l < right && top < b && t < bottom {
+            for (other, others) in &boxes[..index] {
+                if overlap(*covered, *others) {
                     found.push(format!("`{words}` lies on `{other}`"));
                 }
             }
@@ -139,8 +149,12 @@ impl Drawing {
     }
 }
 
+/// Whether two boxes have a point in common.
+fn overlap([left, top, right, bottom]: [f64; 4], [l, t, r, b]: [f64; 4]) -> bool {
+    left < r && l < right && top < b && t < bottom
+}
+
 /// The words of a mark and what they cover: left, top, right, bottom.
-#[cfg(test)]
 fn text_box(mark: &Mark) -> Option<(&str, [f64; 4])> {
     let Mark::Text { at: [x, y], words, size, side, .. } = mark else { return None };
     let (wide, high) = (width_of(words, *size), 0.6 * size);

@@ -25,7 +25,7 @@ mod tests {
     use super::data::distance;
     use super::*;
     use crate::plot::drawing::Mark;
-    use crate::plot::style::{BLUE, ORANGE};
+    use crate::plot::style::{BLUE, Dash, GREY, ORANGE};
 
     /// Two cars of 4.5 m on a straight road, seen at equal steps while they go `length_m`.
     fn drive(length_m: f64) -> FootprintPlot {
@@ -88,11 +88,50 @@ mod tests {
                 _ => None,
             })
             .collect();
+        assert_eq!(drawing.illegible(), Vec::<String>::new());
         assert_eq!(sizes.len(), 16);
         assert!(sizes.iter().all(|[length, width]| (length / width - 2.25).abs() < 1e-9), "{sizes:?}");
     }
 
-    /// A road that turns is drawn as a whole, in one plan, and every word can be read.
+    /// Numbers that would lie on others are left out, but not the first and the last.
+    #[test]
+    fn numbers_do_not_pile_up_where_many_vehicles_pass() {
+        let mut footprints = drive(100.0);
+        for who in 2..7 {
+            footprints.vehicles.push((format!("car {who}"), BLUE));
+            let offset = 0.4 * f64::from(who);
+            for snapshot in &mut footprints.snapshots {
+                let body = snapshot.bodies[1].map(|[x, y]| [x - offset, y]);
+                snapshot.bodies.push(body);
+            }
+        }
+        footprints.roads.push(Strip { heading_rad: 1.0, ..Strip::default() });
+        let drawing = footprints.drawing();
+        assert_eq!(drawing.illegible(), Vec::<String>::new());
+        let numbers = |number: &str| drawing.words().iter().filter(|words| **words == number).count();
+        let [first, middle, last] = ["1", "4", "8"].map(numbers);
+        assert!(first.min(last) >= middle.max(1) && middle < 7, "{:?}", drawing.words());
+    }
+
+    /// Where a ramp ends, the line at the edge goes with the asphalt, and no line stays where the road was.
+    #[test]
+    fn the_edge_line_follows_a_ramp_that_ends() {
+        let mut footprints = drive(20.0);
+        footprints.roads[0].tapered_edge_m = vec![[8.0, 0.0], [12.0, 2.0], [16.0, 3.5]];
+        assert_eq!(footprints.roads[0].right_edge([0.0, 10.0]), [[0.0, 0.0], [8.0, 0.0], [10.0, 1.0]]);
+        assert_eq!(footprints.roads[0].right_edge([14.0, 30.0]), [[14.0, 2.75], [16.0, 3.5], [30.0, 3.5]]);
+        let drawing = footprints.drawing();
+        let lines = |points: usize| {
+            let is_edge = move |mark: &&Mark| matches!(mark, Mark::Line { points: line, style } if line.len() == points && style.dash == Dash::Solid && style.colour == GREY);
+            drawing.marks.iter().filter(is_edge).count()
+        };
+        assert_eq!(lines(5), 8, "a tapered edge a strip");
+        // The ticks of the axis have two points, too.
+        let ticks = drawing.words().iter().filter(|words| words.parse::<f64>().is_ok()).count();
+        assert!(lines(2) >= 8 && lines(2) < 16 + ticks, "{} straight lines", lines(2));
+    }
+
+    /// A road that turns is drawn around the vehicles, in one plan, and every word can be read.
     #[test]
     fn a_road_that_turns_is_in_the_plan() {
         let arc = |radius: f64| {
@@ -107,9 +146,9 @@ mod tests {
         let footprints = FootprintPlot { roads: Vec::new(), curves: vec![curve], ..drive(10.0) };
         let drawing = footprints.drawing();
         assert_eq!(drawing.illegible(), Vec::<String>::new());
-        let is_surface = |mark: &&Mark| matches!(mark, Mark::Fill { ring, .. } if ring.len() >= 60);
+        let is_surface = |mark: &&Mark| matches!(mark, Mark::Fill { ring, .. } if ring.len() >= 10);
         assert_eq!(drawing.marks.iter().filter(is_surface).count(), 1);
-        let [[_, low], [high, _]] = footprints.bounds();
-        assert!(low < 2.0 && high > 37.0, "{low}, {high}");
+        let [low, high] = footprints.bounds();
+        assert_eq!((low, high), ([-2.2, 0.75], [24.3, 6.25]), "the part without vehicles is cut away");
     }
 }

@@ -73,8 +73,8 @@ fn write_expectations(text: &mut String, report: &Report) -> std::fmt::Result {
     }
     let failed = report.expectations.iter().filter(|expectation| !expectation.passed).count();
     match failed {
-        0 => writeln!(text, "  PASSED: all {} expectations held", report.expectations.len()),
-        _ => writeln!(text, "  FAILED: {failed} of {} expectations", report.expectations.len()),
+        0 => writeln!(text, "  PASSED: {} held", all_of(report.expectations.len(), "expectation")),
+        _ => writeln!(text, "  FAILED: {failed} of {}", counted(report.expectations.len(), "expectation")),
     }
 }
 
@@ -90,13 +90,17 @@ fn write_counterfactuals(text: &mut String, counterfactuals: &[CounterfactualRep
         one.failed().try_for_each(|failed| writeln!(text, "         {failed}"))?;
     }
     match counterfactuals.iter().filter(|one| !one.passed).count() {
-        0 => writeln!(text, "  PASSED: {} did as claimed", all_of(counterfactuals.len())),
-        failed => writeln!(text, "  FAILED: {failed} of {} counterfactuals", counterfactuals.len()),
+        0 => writeln!(text, "  PASSED: {} did as claimed", all_of(counterfactuals.len(), "counterfactual")),
+        failed => writeln!(text, "  FAILED: {failed} of {}", counted(counterfactuals.len(), "counterfactual")),
     }
 }
 
-fn all_of(count: usize) -> String {
-    if count == 1 { "the counterfactual".to_owned() } else { format!("all {count} counterfactuals") }
+fn all_of(count: usize, what: &str) -> String {
+    if count == 1 { format!("the {what}") } else { format!("all {count} {what}s") }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Result {

@@ -13,6 +13,7 @@ use crate::climate::Building;
 use crate::components::CurrentFrame;
 use crate::day::{DayFigures, ExchangeFigures};
 use crate::frame::{BuildingFrame, Frame};
+use crate::worst_zones::WorstZones;
 
 /// Why a day had no plan of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -45,6 +46,8 @@ pub struct BuildingMeasures {
     pub weaker_feedbacks: Vec<Fallback>,
     /// How many zones there are.
     pub zones: usize,
+    /// Their names.
+    pub zone_names: Vec<String>,
     /// What is allowed and may not have been meant, in words.
     pub remarks: Vec<String>,
     /// The model of a day, if it is small enough for what takes long.
@@ -68,6 +71,7 @@ impl BuildingMeasures {
             fallbacks: Vec::new(),
             weaker_feedbacks: Vec::new(),
             zones: building.targets.zones,
+            zone_names: building.model.network().names().to_vec(),
             remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
             lifted,
             spectral_radius,
@@ -111,6 +115,7 @@ impl BuildingMeasures {
         let design = &today.record.design;
         DayFigures {
             figures,
+            worst_zones: WorstZones::of(&today.record, targets, model.network().limits_kw()),
             regret,
             early_kwh: early_kwh(&today.record, targets, model.step_s()),
             spectral_radius: design.spectral_radius.or(self.spectral_radius),

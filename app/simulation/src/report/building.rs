@@ -13,6 +13,9 @@ pub struct BuildingReport {
     pub controller: String,
     /// How many zones there are.
     pub zones: usize,
+    /// The names of the zones.
+    #[serde(skip)]
+    pub zone_names: Vec<String>,
     /// Digests of what each part of the climate produced.
     pub digests: BuildingDigests,
     /// What is allowed and may not have been meant, such as zones that exchange heat with nobody.
@@ -31,6 +34,7 @@ impl BuildingReport {
         BuildingReport {
             controller: scenario.controller().kind().to_owned(),
             zones: measures.zones,
+            zone_names: measures.zone_names.clone(),
             digests: measures.digests(),
             remarks: measures.remarks.clone(),
             fallbacks: measures.fallbacks.clone(),

@@ -21,7 +21,7 @@ pub(super) fn judge_counterfactual(
     if let Some(want) = expect.order_differs {
         let got = run.order != main.order;
         let what = "order_differs".to_owned();
-        expectations.push(Expectation { what, want: json!(want), got: json!(got), passed: want == got });
+        expectations.push(Expectation::new(what, json!(want), json!(got), want == got));
     }
     expectations.extend(expect.later.iter().map(|shift| later(shift, main, &run)));
     expectations.extend(expect.earlier.iter().map(|shift| earlier(shift, main, &run)));
@@ -61,6 +61,7 @@ fn compared(key: &str, shift: &CompletionShift, [in_main, here]: [Option<f64>; 2
         want: json!({ "by_s": shift.by_s }),
         got: json!({ "main_s": in_main, "counterfactual_s": here }),
         passed,
+        at: None,
     }
 }
 
@@ -71,5 +72,5 @@ fn breaks(names: &[String], scenario: &Scenario, run: &Report) -> Expectation {
     let judged = judge(&scenario.expect, run);
     let broken: Vec<&String> = judged.iter().filter(|one| !one.passed).map(|one| &one.what).collect();
     let passed = wanted.iter().all(|name| broken.contains(name)) && broken.iter().all(|name| wanted.contains(name));
-    Expectation { what: "breaks".to_owned(), want: json!(wanted), got: json!(broken), passed }
+    Expectation::new("breaks", json!(wanted), json!(broken), passed)
 }

@@ -11,7 +11,7 @@ use crate::measure::Passage;
 pub(super) fn of_all(expect: &Expect, report: &Report) -> Vec<Expectation> {
     let mut judged = Vec::new();
     let mut add = |what: &str, want: f64, got: Value, passed: bool| {
-        judged.push(Expectation { what: what.to_owned(), want: json!(want), got, passed });
+        judged.push(Expectation::new(what, json!(want), got, passed));
     };
     if let Some(least) = expect.gap_at_least_m {
         let gap = &report.smallest_gap;
@@ -62,6 +62,7 @@ pub(super) fn comfort(bounds: &ExpectedComfort, report: &Report) -> Vec<Expectat
             want: json!(most),
             got: json!({ "peak": peak, "time_s": time_s }),
             passed: peak <= most,
+            at: None,
         })
         .collect()
 }
@@ -85,5 +86,6 @@ pub(super) fn yields(expected: &ExpectedYield, report: &Report) -> Expectation {
         want: json!({ "first": to, "second": vehicle }),
         got,
         passed: !passages.is_empty() && passages.iter().all(let_go),
+        at: None,
     }
 }

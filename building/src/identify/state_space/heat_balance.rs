@@ -7,6 +7,8 @@
 //! Solved for one conductance G_k at a time. Heat stored in a wall counts by the share H_in/(H_in + H_out) of it that comes from
 //! the room.
 
+use std::ops::Range;
+
 use super::exponential::Number;
 use super::likelihood::{Filtered, Observations, numbers};
 use super::selection::Fit;
@@ -15,6 +17,20 @@ use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// With a smaller mean temperature difference \[K\], the balance says nothing of a conductance.
 const LEAST_DIFFERENCE_K: f64 = 1.0;
+
+/// What the filter needs until it knows hidden temperatures: at first it has them from a guess, and the stored heat would be
+/// wrong by as much as the guess \[s\].
+const SETTLING_S: f64 = 86_400.0;
+
+/// The rows of each segment over which heat is balanced: without those in which the filter settles, if at least as many remain.
+fn balanced(observations: &Observations) -> Vec<Range<usize>> {
+    let settling = (SETTLING_S / observations.step_s).round() as usize;
+    let settled = |segment: &Range<usize>| {
+        let is_long = segment.len() >= 2 * settling;
+        segment.start + if is_long { settling } else { 0 }..segment.end
+    };
+    observations.segments.iter().map(settled).collect()
+}
 
 /// A conductance by the heat balance \[kW/K\], and its standard error from the random heat of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,8 +50,8 @@ pub(super) fn conductance(
 ) -> Option<BalancedConductance> {
     let theta = numbers(&fit.maximum.theta);
     let structure = &fit.structure;
-    let rows: Vec<usize> =
-        observations.segments.iter().flat_map(|segment| segment.start..segment.end.saturating_sub(1)).collect();
+    let segments = balanced(observations);
+    let rows: Vec<usize> = segments.iter().flat_map(|segment| segment.start..segment.end.saturating_sub(1)).collect();
     // The filter's temperatures, since measured ones may be missing.
     let count = structure.nodes.len();
     let zone_c = |zone: usize, row: usize| filtered.states[row * count + zone];
@@ -62,7 +78,7 @@ pub(super) fn conductance(
         return None;
     }
     let duration_s = rows.len() as f64 * observations.step_s;
-    let (stored_kj, random_kj2) = stored(fit, observations, filtered, &theta, zone, duration_s);
+    let (stored_kj, random_kj2) = stored(fit, &segments, filtered, &theta, zone, duration_s);
     Some(BalancedConductance {
         value: (stored_kj / duration_s - known_kw) / difference,
         standard_error: libm::sqrt(random_kj2) / duration_s / difference.abs(),
@@ -72,7 +88,7 @@ pub(super) fn conductance(
 /// Heat that the zone's nodes stored over all segments \[kJ\], and the variance of their random heat \[kJ²\].
 fn stored(
     fit: &Fit,
-    observations: &Observations,
+    segments: &[Range<usize>],
     filtered: &Filtered,
     theta: &[Number],
     zone: usize,
@@ -92,7 +108,7 @@ fn stored(
         let capacity = share * structure.value(theta, ParameterKind::Capacity(zone, node.place)).re;
         let random = capacity * structure.value(theta, ParameterKind::RandomHeat(zone, node.place)).re;
         random_kj2 += random * random * duration_s / HOUR_S;
-        for segment in &observations.segments {
+        for segment in segments {
             let state = |row: usize| filtered.states[row * count + index];
             stored_kj += capacity * (state(segment.end - 1) - state(segment.start));
         }

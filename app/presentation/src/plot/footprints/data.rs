@@ -40,8 +40,36 @@ pub struct Strip {
     pub edges_m: [f64; 2],
     /// Lateral coordinates of the lines between its lanes.
     pub dividers_m: Vec<f64>,
-    /// The area between the edges that is not road, beside a ramp that ends: a polygon in the frame of the picture.
-    pub shoulder_m: Vec<[f64; 2]>,
+    /// Where its right edge leaves the straight line, beside a ramp that ends: points along the road and across it, in the
+    /// order of the road. After the last one it keeps its lateral coordinate.
+    pub tapered_edge_m: Vec<[f64; 2]>,
+}
+
+impl Strip {
+    /// The right edge from one place along the road to another.
+    pub(super) fn right_edge(&self, [from_m, to_m]: [f64; 2]) -> Vec<[f64; 2]> {
+        let inside = self.tapered_edge_m.iter().copied().filter(|[along_m, _]| (from_m..to_m).contains(along_m));
+        let ends = [from_m, to_m].map(|along_m| [along_m, self.right_edge_at(along_m)]);
+        std::iter::once(ends[0]).chain(inside).chain([ends[1]]).collect()
+    }
+
+    fn right_edge_at(&self, along_m: f64) -> f64 {
+        let points = &self.tapered_edge_m;
+        match points.partition_point(|point| point[0] <= along_m) {
+            0 => self.edges_m[0],
+            next if next == points.len() => points[next - 1][1],
+            next => {
+                let [[before_m, before], [after_m, after]] = [points[next - 1], points[next]];
+                before + (along_m - before_m) / (after_m - before_m) * (after - before)
+            }
+        }
+    }
+
+    /// The area between the outermost edges that is not road, between two places along the road.
+    pub(super) fn shoulder(&self, span_m: [f64; 2]) -> Vec<[f64; 2]> {
+        let straight = [span_m[1], span_m[0]].map(|along_m| [along_m, self.edges_m[0]]);
+        self.right_edge(span_m).into_iter().chain(straight).collect()
+    }
 }
 
 /// A road that turns or a network of lanes, in the frame of the picture \[m\].
@@ -75,11 +103,10 @@ impl FootprintPlot {
         legend
     }
 
-    /// Smallest and largest x and y of all bodies and of the roads that turn.
+    /// Smallest and largest x and y of all bodies.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
         let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        let bodies = self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().flatten());
-        for point in bodies.chain(self.curves.iter().flat_map(|road| road.edges_m.iter().flatten())) {
+        for point in self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().flatten()) {
             for axis in 0..2 {
                 bounds[0][axis] = bounds[0][axis].min(point[axis]);
                 bounds[1][axis] = bounds[1][axis].max(point[axis]);

@@ -17,8 +17,29 @@ const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
 /// Footprints that follow each other closer than this share of their length get one number together.
 const SHARED_NUMBER_DISTANCE_RATIO: f64 = 0.45;
 
+/// How far the plan reaches beyond all footprints, as a multiple of the longest one.
+const ROAD_AROUND_BODIES_RATIO: f64 = 1.5;
+
 /// The background for which the colour of numbers is chosen: earlier footprints are pale.
 const NUMBER_BACKGROUND: Colour = PAPER;
+
+/// Footprints of a vehicle that share a number.
+struct NumberGroup {
+    who: usize,
+    /// The first and the last snapshot.
+    snapshots: [usize; 2],
+    /// Whether it has the first footprint of the vehicle or the last.
+    is_end: bool,
+}
+
+/// Whether a point lies in a body.
+fn contains([front_right, front_left, rear_right, rear_left]: &[[f64; 2]; 4], point: [f64; 2]) -> bool {
+    let ring = [front_right, front_left, rear_left, rear_right];
+    (0..4).all(|i| {
+        let ([x, y], [next_x, next_y]) = (*ring[i], *ring[(i + 1) % 4]);
+        (next_x - x) * (point[1] - y) - (next_y - y) * (point[0] - x) >= 0.0
+    })
+}
 
 /// From metres to pixels.
 struct Map {
@@ -46,7 +67,7 @@ impl Map {
 impl FootprintPlot {
     /// The roads from above, with every footprint of every snapshot.
     pub fn plan(&self) -> Drawing {
-        let margin = 0.5 * self.longest_m();
+        let margin = ROAD_AROUND_BODIES_RATIO * self.longest_m();
         let [low, high] = self.bounds();
         let (low_m, high_m) = (low.map(|value| value - margin), high.map(|value| value + margin));
         let legend = self.legend();
@@ -78,25 +99,46 @@ impl FootprintPlot {
                 body::draw(drawing, body.map(|corner| map.place(corner)), *colour, 0.45 + 0.5 * index as f64 / last);
             }
         }
-        for who in 0..self.vehicles.len() {
-            let bodies: Vec<_> = self.snapshots.iter().filter_map(|snapshot| snapshot.bodies.get(who)).collect();
-            let mates = self.mates(who);
-            let mut first = 0;
-            while first < bodies.len() {
-                let near = |pair: &[&[[f64; 2]; 4]]| {
-                    distance(pair[0][0], pair[1][0]) < SHARED_NUMBER_DISTANCE_RATIO * self.longest_m()
-                };
-                let count = 1 + bodies[first..].windows(2).take_while(|pair| near(pair)).count();
-                let last = first + count - 1;
-                let words = if count == 1 { format!("{}", first + 1) } else { format!("{}–{}", first + 1, last + 1) };
-                let corners = bodies[last].map(|corner| map.place(corner));
-                match mates.iter().position(|&mate| mate == who) {
-                    Some(place) if mates.len() > 1 => body::number_beside(drawing, corners, place % 2 == 0, &words),
-                    _ => body::number(drawing, corners, NUMBER_BACKGROUND, &words),
-                }
-                first += count;
+        let mut groups: Vec<NumberGroup> = (0..self.vehicles.len()).flat_map(|who| self.number_groups(who)).collect();
+        // Where there is no room for all numbers, the first and the last of each vehicle have it.
+        groups.sort_by_key(|group| !group.is_end);
+        for NumberGroup { who, snapshots, .. } in groups {
+            let words = match snapshots {
+                [first, last] if first == last => format!("{}", first + 1),
+                [first, last] => format!("{}–{}", first + 1, last + 1),
+            };
+            let body = self.snapshots[snapshots[1]].bodies[who];
+            let (corners, mates) = (body.map(|corner| map.place(corner)), self.mates(who));
+            match mates.iter().position(|&mate| mate == who) {
+                Some(place) if mates.len() > 1 => body::number_beside(drawing, corners, place % 2 == 0, &words),
+                _ if self.is_crossed(who, &body) => body::number_beside(drawing, corners, true, &words),
+                _ => body::number(drawing, corners, NUMBER_BACKGROUND, &words),
             }
+            drawing.take_back_words_on_others();
         }
+    }
+
+    /// The footprints of a vehicle that get a number: those close to one another share one.
+    fn number_groups(&self, who: usize) -> Vec<NumberGroup> {
+        let bodies: Vec<_> = self.snapshots.iter().filter_map(|snapshot| snapshot.bodies.get(who)).collect();
+        let near = |pair: &[&[[f64; 2]; 4]]| {
+            distance(pair[0][0], pair[1][0]) < SHARED_NUMBER_DISTANCE_RATIO * self.longest_m()
+        };
+        let mut groups = Vec::new();
+        let mut first = 0;
+        while first < bodies.len() {
+            let last = first + bodies[first..].windows(2).take_while(|pair| near(pair)).count();
+            groups.push(NumberGroup { who, snapshots: [first, last], is_end: first == 0 || last + 1 == bodies.len() });
+            first = last + 1;
+        }
+        groups
+    }
+
+    /// Whether the middle of a footprint lies on one of another vehicle, at whatever time.
+    fn is_crossed(&self, who: usize, body: &[[f64; 2]; 4]) -> bool {
+        let middle = [0, 1].map(|axis| 0.25 * body.iter().map(|corner| corner[axis]).sum::<f64>());
+        let others = self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().enumerate());
+        others.filter(|(other, _)| *other != who).any(|(_, other)| contains(other, middle))
     }
 }
 
@@ -133,19 +175,25 @@ impl Map {
     fn draw_road(&self, drawing: &mut Drawing, road: &Strip) {
         let surface = self.band(road, road.edges_m);
         drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
-        if !road.shoulder_m.is_empty() {
-            let ring = clipped(&road.shoulder_m, self.low_m, self.high_m);
+        if !road.tapered_edge_m.is_empty() {
+            let ring = clipped(&road.shoulder([self.low_m[0], self.high_m[0]]), self.low_m, self.high_m);
             drawing.fill(ring.into_iter().map(|point| self.place(point)).collect(), PAPER, 1.0);
         }
     }
 
     fn draw_lines(&self, drawing: &mut Drawing, road: &Strip) {
-        let edges = road.edges_m.iter().map(|&edge| (edge, Dash::Solid));
+        let style = |dash| LineStyle { width: 1, ..LineStyle::new(GREY, dash) };
+        let is_tapered = !road.tapered_edge_m.is_empty();
+        if is_tapered {
+            let edge = road.right_edge([self.low_m[0], self.high_m[0]]);
+            drawing.line(edge.into_iter().map(|point| self.place(point)).collect(), style(Dash::Solid));
+        }
+        let edges = road.edges_m.iter().skip(usize::from(is_tapered)).map(|&edge| (edge, Dash::Solid));
         let dividers = road.dividers_m.iter().map(|&divider| (divider, Dash::Long));
         for (lateral_m, dash) in edges.chain(dividers) {
             let line = self.band(road, [lateral_m, lateral_m]);
             let ends: Vec<[f64; 2]> = line.into_iter().map(|point| self.place(point)).collect();
-            drawing.line(ends, LineStyle { width: 1, ..LineStyle::new(GREY, dash) });
+            drawing.line(ends, style(dash));
         }
     }
 

@@ -104,10 +104,12 @@ impl FootprintPlot {
             let [x, y] = point(at);
             [x.clamp(LEFT_MARGIN_PX, WIDTH_PX - MARGIN_PX), y]
         };
+        let start_m = window.start_m + shift_m;
+        let span_m = [start_m, start_m + window.length_m];
         drawing.block([LEFT_MARGIN_PX, top], [WIDTH_PX - MARGIN_PX, bottom], SURFACE);
         for road in &self.roads {
-            if !road.shoulder_m.is_empty() {
-                drawing.fill(road.shoulder_m.iter().map(|&point| place(point)).collect(), PAPER, 1.0);
+            if !road.tapered_edge_m.is_empty() {
+                drawing.fill(road.shoulder(span_m).into_iter().map(place).collect(), PAPER, 1.0);
             }
             for &lateral_m in &road.dividers_m {
                 let y = place([0.0, lateral_m])[1];
@@ -117,9 +119,10 @@ impl FootprintPlot {
                 );
             }
         }
-        for y in [top, bottom] {
-            drawing
-                .line(vec![[LEFT_MARGIN_PX, y], [WIDTH_PX - MARGIN_PX, y]], LineStyle::new(GREY, Dash::Solid).thin());
+        let edge = LineStyle::new(GREY, Dash::Solid).thin();
+        drawing.line(vec![[LEFT_MARGIN_PX, top], [WIDTH_PX - MARGIN_PX, top]], edge);
+        for road in &self.roads {
+            drawing.line(road.right_edge(span_m).into_iter().map(place).collect(), edge);
         }
         let path = self.path_pixels(snapshot.time_s, point).into_iter();
         drawing.line(path.filter(|[x, _]| (LEFT_MARGIN_PX..=WIDTH_PX - MARGIN_PX).contains(x)).collect(), PATH);

@@ -1,0 +1,34 @@
+//! Numbers in messages: as many digits as matter to a reader.
+
+/// Numbers that are written with at most this many characters are shown as they are.
+const MAX_CHARACTERS: usize = 7;
+
+/// The number with four significant digits, unless it is short as it is: what follows from a scale, or was measured, has
+/// fifteen digits of which a message needs few.
+pub fn readable(value: f64) -> f64 {
+    if !value.is_finite() || value.abs().to_string().len() <= MAX_CHARACTERS {
+        return value;
+    }
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::readable;
+
+    #[test]
+    fn numbers_keep_the_digits_that_matter() {
+        let cases = [
+            (2.881_197_929_382_324, 2.881),
+            (0.316_227_766_016_837_94, 0.3162),
+            (-12_345.678_901_2, -12_350.0),
+            (24.983_1, 24.983_1),
+            (1000.0, 1000.0),
+            (0.1, 0.1),
+        ];
+        for (value, shown) in cases {
+            assert_eq!(readable(value), shown);
+        }
+        assert!(readable(f64::NAN).is_nan());
+    }
+}
