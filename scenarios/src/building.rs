@@ -137,6 +137,15 @@ impl BuildingConfig {
         }
     }
 
+    /// How many zones there are.
+    pub fn zone_count(&self) -> usize {
+        match (self.zones.len(), self.grid) {
+            (0, Some(grid)) if self.preset.is_none() => grid.rooms(),
+            (0, _) => Network::testbed().zone_count(),
+            (zones, _) => zones,
+        }
+    }
+
     /// How many steps a day has.
     pub fn steps_per_day(&self) -> usize {
         (DAY_S / self.step_s).round() as usize

@@ -10,6 +10,7 @@ mod road;
 
 use interplay_planners::State;
 
+use crate::budget;
 use crate::error::{Fault, Place, quoted};
 use crate::lane_reference::LaneReference;
 use crate::readable::readable;
@@ -42,6 +43,9 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     checker.starts();
     checker.expectations();
     checker.faults.extend(building::check(scenario, tree));
+    if checker.faults.is_empty() {
+        checker.faults = budget::check(scenario, tree);
+    }
     checker.faults
 }
 

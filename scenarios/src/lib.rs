@@ -18,6 +18,7 @@
 //! # Ok::<(), interplay_scenarios::LoadError>(())
 //! ```
 
+mod budget;
 mod building;
 mod changed;
 mod classes;
@@ -59,6 +60,7 @@ mod weather;
 mod weather_file;
 mod weights;
 
+pub use budget::{BudgetLimits, RunCost};
 pub use building::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
 pub use commented::commented;

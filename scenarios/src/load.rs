@@ -9,7 +9,7 @@ use crate::scenario::Scenario;
 use crate::source::Source;
 use crate::tree::{self, Table, TomlNode, TomlValue};
 use crate::weather::WeatherConfig;
-use crate::{changed, consistency, degrees, remarks, schema, schema_check, weather_file};
+use crate::{budget, changed, consistency, degrees, remarks, schema, schema_check, weather_file};
 
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;
@@ -53,7 +53,10 @@ fn finish(name: &str, mut tree: TomlNode, overrides: &[Override]) -> Result<Scen
     }
     let mut scenario = assemble(&tree).map_err(refused)?;
     let as_written = Some(&as_written).filter(|_| !overrides.is_empty());
-    let faults = assemble_counterfactuals(&mut scenario, &tree, as_written);
+    let mut faults = assemble_counterfactuals(&mut scenario, &tree, as_written);
+    if faults.is_empty() {
+        faults = budget::check_all(&scenario, &tree);
+    }
     if faults.is_empty() { Ok(scenario) } else { Err(refused(faults)) }
 }
 

@@ -14,6 +14,16 @@ pub enum Plant {
     Dynamic(Dynamic),
 }
 
+/// The longest sub-step of the dynamic plant \[s\].
+const MAX_SUB_STEP_S: f64 = 1e-3;
+
+impl Plant {
+    /// Into how many sub-steps the dynamic plant cuts a tick of `step_s`.
+    pub fn sub_steps(step_s: f64) -> usize {
+        (step_s / MAX_SUB_STEP_S).ceil().max(1.0) as usize
+    }
+}
+
 impl Default for Plant {
     fn default() -> Self {
         Plant::Kinematic(Kinematic {})

@@ -17,6 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use crate::budget::BudgetLimits;
 use crate::building::BuildingConfig;
 use crate::classes::{ScenarioScale, VehicleClass};
 use crate::counterfactual::Counterfactual;
@@ -115,6 +116,9 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(range(min = 1, max = 10000), extend("x-concerns" = "building"), example = 10)]
     pub iterations: Option<usize>,
+    /// How much work the run may be, its counterfactuals included.
+    #[serde(default)]
+    pub budget: BudgetLimits,
     /// The conditions under which the run passes; none by default.
     #[serde(default)]
     pub expect: Expect,

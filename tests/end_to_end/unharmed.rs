@@ -105,3 +105,76 @@ fn any_number_of_jobs_is_enough() {
     let outcome = interplay(&folder, &["suite", "mine.toml", "--jobs", "100000"]);
     assert!(outcome.code.is_some_and(|code| code <= 1), "{}", outcome.stderr);
 }
+
+/// `check` accepted what no run could finish.
+#[test]
+fn what_cannot_be_finished_is_refused_before_it_begins() {
+    let folder = scratch("budget");
+    fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
+    let dynamic = ["run", "mine.toml", "--set", "plant={ kind = \"dynamic\" }", "--set", "step_s=1e6"];
+    let outcome = interplay(&folder, &[&dynamic[..], &["--set", "duration_s=1e6"]].concat());
+    assert_eq!(outcome.code, Some(2), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("more than 20000000"), "{}", outcome.stderr);
+    assert!(!folder.join("recordings").exists(), "nothing was begun");
+    let outcome = interplay(&folder, &["check", "mine.toml"]);
+    assert_eq!(outcome.stdout, "ok  mine.toml\n    makes 120 plans, 240 steps, 40 records in about 0.6 MB\n");
+}
+
+/// Planners failed on lanes of 50 m, and two vehicles touched on lanes of 1000 m.
+#[test]
+fn a_lane_wider_than_any_road_is_refused() {
+    for width_m in ["50", "1000"] {
+        let outcome = interplay(&scratch("wide"), &["run", "--set", &format!("road.lane_width_m={width_m}")]);
+        assert_eq!(outcome.code, Some(2), "{}", outcome.stderr);
+        assert!(outcome.stderr.contains("must be at most 40"), "{}", outcome.stderr);
+    }
+}
+
+/// The name of the file stands in a comment, which was two lines.
+#[cfg(unix)]
+#[test]
+fn a_new_file_is_sound_whatever_it_is_called() {
+    let folder = scratch("newline");
+    let outcome = interplay(&folder, &["new", "two\nlines.toml"]);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    let outcome = interplay(&folder, &["check", "two\nlines.toml"]);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+}
+
+/// "There is no scenario" was said of a file that is there.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_whose_name_is_not_utf_8_is_named_as_the_reason() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = scratch("not-utf-8");
+    fs::write(folder.join(std::ffi::OsStr::from_bytes(b"m\xffne.toml")), scenario("Mine")).expect("writes");
+    fs::write(folder.join("plan.toml"), "scenario = [\".\"]\n").expect("writes");
+    for words in [&["check", "."][..], &["suite", "."], &["sweep", "plan.toml", "--out", "out"]] {
+        let outcome = interplay(&folder, words);
+        assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains("is not UTF-8 text"), "{words:?}: {}", outcome.stderr);
+    }
+}
+
+/// A folder in the place of the output, and a file in the place of its folder.
+#[test]
+fn an_output_that_cannot_be_written_is_exit_code_3_of_every_command() {
+    let folder = scratch("unwritable");
+    fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
+    fs::write(folder.join("file"), "mine").expect("writes");
+    fs::write(folder.join("plan.toml"), "scenario = [\"mine.toml\"]\n").expect("writes");
+    fs::create_dir(folder.join("taken")).expect("makes");
+    let cases: [&[&str]; 6] = [
+        &["run", "mine.toml", "--record", "taken"],
+        &["run", "mine.toml", "--no-record", "--report", "file/report"],
+        &["suite", "mine.toml", "--junit", "taken"],
+        &["new", "file/new.toml"],
+        &["sweep", "plan.toml", "--out", "file/out"],
+        &["reproduce", "table-6.1", "--out", "file/out"],
+    ];
+    for words in cases {
+        let outcome = interplay(&folder, words);
+        assert_eq!(outcome.code, Some(3), "{words:?}: {}", outcome.stderr);
+        assert_eq!(fs::read_to_string(folder.join("file")).expect("there"), "mine", "{words:?}");
+    }
+}

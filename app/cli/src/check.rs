@@ -42,11 +42,13 @@ impl Check {
     }
 }
 
-/// That a file is fine, and what is remarkable about it although it is allowed.
+/// That a file is fine, what a run of it makes, and what is remarkable about it although it is allowed.
 fn approved(file: &str, scenario: &Scenario) -> String {
     let network = scenario.building.as_ref().and_then(|building| building.network().ok());
     let remarks: Vec<_> = network.iter().flat_map(|network| network.remarks()).collect();
     let remarks = remarks.iter().map(ToString::to_string);
     let all = scenario.remarks.iter().map(ToString::to_string).chain(remarks);
-    all.fold(format!("ok  {file}\n"), |text, remark| text + &format!("    note: {remark}\n"))
+    all.fold(format!("ok  {file}\n    makes {}\n", scenario.cost()), |text, remark| {
+        text + &format!("    note: {remark}\n")
+    })
 }

@@ -1,5 +1,6 @@
 //! A controller that knows the disturbances of the day in advance. The cost of the other controllers is compared with its.
 
+use super::optimum::check_size;
 use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
 use crate::discretise::Model;
@@ -34,6 +35,7 @@ impl ControllerKind for ClairvoyantSettings {
     }
 
     fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        check_size(model)?;
         Ok(Regulator::new(Clairvoyant::new(Lifted::new(model, steps))))
     }
 }

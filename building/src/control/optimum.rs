@@ -96,6 +96,18 @@ pub(super) struct ErrorBound {
     pub slack_cost: Option<f64>,
 }
 
+/// Whether the day's optimum can be computed with this model.
+///
+/// # Errors
+/// [`ControlError::TooLarge`] for an exact model without matrices.
+pub(super) fn check_size(model: &Model) -> Result<(), ControlError> {
+    let nodes = model.network().node_count();
+    if model.method() == Discretisation::Exact && nodes > DENSE_NODES {
+        return Err(ControlError::TooLarge { nodes, most: DENSE_NODES });
+    }
+    Ok(())
+}
+
 /// The cheapest inputs on top of known temperatures without equipment `free_c`.
 pub(super) fn plan(
     lifted: &Lifted,
@@ -105,10 +117,7 @@ pub(super) fn plan(
     tightening: &ConstraintTightening,
 ) -> Result<DayOptimum, ControlError> {
     let model = lifted.model();
-    let nodes = model.network().node_count();
-    if model.method() == Discretisation::Exact && nodes > DENSE_NODES {
-        return Err(ControlError::TooLarge { nodes, most: DENSE_NODES });
-    }
+    check_size(model)?;
     let posed = Posed::new(model, targets, free_c, penalty, tightening);
     let settings = SolverSettings { tolerance: SOLVER_TOLERANCE, ..SolverSettings::default() };
     let solution = Solver::new(&posed.program, &settings)?.solve()?;

@@ -23,7 +23,7 @@ pub struct RoadCurve {
     pub lane_count: usize,
     /// Width of each lane \[m\].
     #[serde(default = "defaults::lane_width_m")]
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
     /// The pieces of the road's middle, one after the other, each straight or a turn.
     #[schemars(

@@ -11,7 +11,7 @@ pub struct Lanes {
     #[schemars(range(min = 1, max = 16))]
     pub lane_count: usize,
     /// Width of each lane \[m\].
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
 }
 

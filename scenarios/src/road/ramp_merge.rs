@@ -11,7 +11,7 @@ pub struct RampMerge {
     #[schemars(range(min = 2, max = 16))]
     pub lane_count: usize,
     /// Width of each lane \[m\].
-    #[schemars(range(min = 0.001))]
+    #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
     /// Where lane 0 has ended, along x \[m\].
     pub ramp_end_m: f64,

@@ -42,6 +42,10 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
         if files.is_empty() {
             return Err(Fault::at(place, "empty", format!("there is no .toml file in folder {}", quoted(entry))));
         }
+        if let Some(file) = files.iter().find(|file| file.to_str().is_none()) {
+            let message = format!("the name of {} is not UTF-8 text", quoted(&file.display().to_string()));
+            return Err(Fault::at(place, "a file in this folder", message).help("rename the file"));
+        }
         return Ok(files.iter().map(|file| in_folder(file, &path)).collect());
     }
     if path.is_file() {

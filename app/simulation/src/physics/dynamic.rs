@@ -5,7 +5,7 @@
 //! the bodies are: position and heading of the body, and the speed of its mass centre, negative if it goes backwards.
 
 use interplay_planners::State;
-use interplay_scenarios::Dynamic;
+use interplay_scenarios::{Dynamic, Plant};
 use rapier2d::prelude::{MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector};
 
 use super::actuators::Actuators;
@@ -14,9 +14,6 @@ use super::footprint::pose;
 use super::gap::FootprintGaps;
 use super::moving::{Contact, Moving};
 use super::tyres::{Chassis, Planar};
-
-/// The longest sub-step \[s\].
-const SUB_STEP_S: f64 = 1e-3;
 
 /// What the dynamic plant remembers beside Rapier's bodies.
 pub(super) struct DynamicPlant {
@@ -65,7 +62,7 @@ impl DynamicPlant {
         step_s: f64,
         gaps: &mut FootprintGaps,
     ) -> (Vec<State>, Vec<Contact>) {
-        let steps = (step_s / SUB_STEP_S).ceil().max(1.0) as usize;
+        let steps = Plant::sub_steps(step_s);
         let sub_step_s = step_s / steps as f64;
         world.integration_parameters.dt = sub_step_s as f32;
         let mut states: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();

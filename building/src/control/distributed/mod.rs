@@ -20,7 +20,7 @@ mod zone_models;
 pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
 
 use super::disturbance_estimate::DisturbanceEstimator;
-use super::optimum::{ConstraintTightening, plan};
+use super::optimum::{ConstraintTightening, check_size, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
 use super::regulator::{ControllerKind, Regulator};
 use super::{ControlError, DayAhead, Design, Exchange, Observation};
@@ -175,6 +175,9 @@ impl ControllerKind for DistributedSettings {
     }
 
     fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        if self.compare {
+            check_size(model)?;
+        }
         Ok(Regulator::new(Distributed::new(*self, model, steps)?))
     }
 }
@@ -276,6 +279,7 @@ impl ControllerKind for CentralisedSettings {
     }
 
     fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+        check_size(model)?;
         Ok(Regulator::new(Centralised::new(*self, Lifted::new(model, steps))?))
     }
 }

@@ -17,7 +17,7 @@ pub struct Crossing {
     #[schemars(range(min = 0.001, max = 5000.0))]
     pub arm_length_m: f64,
     /// Width of each lane \[m\].
-    #[schemars(range(min = 0.001, max = 100.0))]
+    #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
     /// Highest permitted speed on the arms; in turns it is at most the speed with a sideways acceleration of 2 m/s² \[m/s\].
     #[schemars(range(min = 0.001))]

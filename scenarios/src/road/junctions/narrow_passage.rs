@@ -20,7 +20,7 @@ pub struct NarrowPassage {
     #[schemars(range(min = 0.001, max = 5000.0))]
     pub passage_m: f64,
     /// Width of the passage \[m\].
-    #[schemars(range(min = 0.001, max = 100.0))]
+    #[schemars(range(min = 0.001, max = 40.0))]
     pub passage_width_m: f64,
     /// Length of the road on either side of the passage \[m\].
     #[schemars(range(min = 0.001, max = 5000.0))]
@@ -29,7 +29,7 @@ pub struct NarrowPassage {
     #[schemars(range(min = 0.001, max = 5000.0))]
     pub taper_m: f64,
     /// Width of each lane outside of the passage \[m\].
-    #[schemars(range(min = 0.001, max = 100.0))]
+    #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
     /// Highest permitted speed \[m/s\].
     #[schemars(range(min = 0.001))]

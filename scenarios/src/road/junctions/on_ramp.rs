@@ -19,7 +19,7 @@ pub struct OnRamp {
     #[schemars(range(min = 1, max = 8))]
     pub lane_count: usize,
     /// Width of each lane \[m\].
-    #[schemars(range(min = 0.001, max = 100.0))]
+    #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
     /// Length of the main road before the acceleration lane \[m\].
     #[schemars(range(min = 0.001, max = 5000.0))]

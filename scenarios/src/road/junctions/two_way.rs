@@ -17,7 +17,7 @@ pub struct TwoWayRoad {
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub length_m: f64,
     /// Width of each lane \[m\].
-    #[schemars(range(min = 0.001, max = 100.0))]
+    #[schemars(range(min = 0.001, max = 40.0))]
     pub lane_width_m: f64,
     /// Highest permitted speed \[m/s\].
     #[schemars(range(min = 0.001))]

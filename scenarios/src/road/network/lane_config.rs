@@ -91,7 +91,7 @@ pub struct LanePlaceConfig {
 #[serde(untagged)]
 pub enum LaneWidth {
     /// The same everywhere \[m\].
-    Constant(#[schemars(range(min = 0.001, max = 1000.0))] f64),
+    Constant(#[schemars(range(min = 0.001, max = 40.0))] f64),
     /// Pairs of a distance along the lane and the width there \[m\].
     Knots(#[schemars(length(min = 1, max = 5000))] Vec<[f64; 2]>),
 }

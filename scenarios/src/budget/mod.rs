@@ -1,0 +1,14 @@
+//! How much work a scenario is, computed while it is loaded, and how much it may be.
+//!
+//! A run that would take hours or fill a disk is refused before it begins, and the error names the key that makes it large.
+//! All numbers follow from the scenario alone, so the answer is the same on every machine.
+
+mod check;
+mod cost;
+mod design;
+mod limits;
+
+pub use cost::RunCost;
+pub use limits::BudgetLimits;
+
+pub(crate) use check::{check, check_all};
