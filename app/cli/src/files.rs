@@ -20,6 +20,8 @@ pub(crate) struct ScenarioArgument {
 pub(crate) enum FolderError {
     #[error("cannot read folder `{folder}`: {reason}")]
     Unreadable { folder: String, reason: io::Error },
+    #[error("the name of `{file}` is not UTF-8 text; rename the file")]
+    NotUtf8 { file: String },
     #[error("there is no .toml file in folder `{folder}`")]
     Empty { folder: String },
 }
@@ -39,9 +41,12 @@ pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError>
     }
     let named = |path: PathBuf| {
         let name = path.strip_prefix(argument).unwrap_or(&path).with_extension("");
-        ScenarioArgument { name: name.to_string_lossy().into_owned(), scenario: path.to_string_lossy().into_owned() }
+        let Some(scenario) = path.to_str() else {
+            return Err(FolderError::NotUtf8 { file: path.display().to_string() });
+        };
+        Ok(ScenarioArgument { name: name.to_string_lossy().into_owned(), scenario: scenario.to_owned() })
     };
-    Ok(found.into_iter().map(named).collect())
+    found.into_iter().map(named).collect()
 }
 
 /// The file of a scenario, or one that it extends, that writing to `output` would destroy.

@@ -110,7 +110,15 @@ impl Identify {
         let mapping = Mapping::parse(&mapping_file.display().to_string(), &described)?;
         let name = self.table.display().to_string();
         let telemetry = Telemetry::read(&name, &table, &mapping)?;
-        identify(&telemetry, &mapping.identify).map_err(|reason| InputError::Identify { name, reason })
+        identify(&telemetry, &mapping.identify).map_err(|reason| match reason {
+            // These are said by the mapping; the table is not to blame.
+            IdentifyError::Setting(_)
+            | IdentifyError::NothingToIdentify { .. }
+            | IdentifyError::TooManyZones { .. } => {
+                InputError::Identify { name: mapping_file.display().to_string(), reason }
+            }
+            _ => InputError::Identify { name, reason },
+        })
     }
 
     /// Prints what was found, and draws it if that is asked for.

@@ -68,7 +68,8 @@ impl New {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let scenario = commented(&self.from, folder)?;
         let words = ["interplay", "new", &self.file.to_string_lossy(), "--from", &self.from].map(str::to_owned);
-        let command = shell::line(words.iter().map(String::as_str));
+        // A comment is one line, whatever the file is called.
+        let command = shell::line(words.iter().map(String::as_str)).replace(char::is_control, "·");
         let head = format!(
             "#:schema {SCHEMA_FILE}\n# Written by `{command}`.\n\
              # Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\

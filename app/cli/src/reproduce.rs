@@ -6,6 +6,7 @@ use std::time::Instant;
 use clap::Args;
 use interplay_presentation::figures::{self, Entry, EntryOutcome, Kind, find, make, registry, section};
 use interplay_presentation::page::Page;
+use interplay_presentation::record::write_whole;
 
 use crate::exit_status::ExitStatus;
 use crate::output::{print_error, printed};
@@ -50,7 +51,7 @@ impl Reproduce {
                 "Error: cannot make the folder {}: {error}; name another with --out",
                 self.out.display()
             ));
-            return ExitStatus::BadInput;
+            return ExitStatus::Unfinished;
         }
         let page = self.out.join("index.html");
         if Page::is_taken(&page) {
@@ -61,7 +62,7 @@ impl Reproduce {
         let progress = Progress::of(figures::steps(&entries));
         let made = make(&entries, &self.out, &|| progress.advance());
         progress.clear();
-        if let Err(error) = std::fs::write(&page, page_of(&made).html()) {
+        if let Err(error) = write_whole(&page, page_of(&made).html().as_bytes()) {
             print_error(&format!("Error: cannot write {}: {error}", page.display()));
             return ExitStatus::Unfinished;
         }

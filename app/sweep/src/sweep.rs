@@ -176,6 +176,7 @@ fn make_folder(folder: &Path, plan: &SweepPlan) -> Result<(), SweepError> {
     file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut file = file.tempfile_in(folder).map_err(&failed)?;
     std::io::Write::write_all(&mut file, plan.text().as_bytes()).map_err(&failed)?;
+    file.as_file().sync_all().map_err(&failed)?;
     file.persist(&path).map(drop).map_err(|error| failed(error.error))
 }
 

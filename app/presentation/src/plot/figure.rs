@@ -1,7 +1,7 @@
 //! A figure: what Plotters can draw, as SVG and as PNG, and the font of its labels.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -12,6 +12,7 @@ use plotters::style::register_font;
 use thiserror::Error;
 
 use crate::font::FONT_BYTES;
+use crate::record::write_whole;
 
 /// Width and height of a figure: pixels of the PNG, and points of the SVG.
 const SIZE_PX: (u32, u32) = (1200, 520);
@@ -82,9 +83,9 @@ pub(super) fn svg(name: &str, figure: &impl Figure) -> Result<String, PlotError>
 pub(super) fn save(folder: &Path, name: &str, figure: &impl Figure) -> Result<[PathBuf; 2], PlotError> {
     let [vector, raster] = ["svg", "png"].map(|ending| folder.join(format!("{name}.{ending}")));
     let unwritable = |reason| PlotError::Unwritable { folder: folder.to_owned(), reason };
-    fs::write(&vector, svg(name, figure)?).map_err(unwritable)?;
-    let pixels = pixels(name, figure)?;
-    write_png(&raster, figure.size(), &pixels).map_err(|error| unwritable(io::Error::other(error)))?;
+    write_whole(&vector, svg(name, figure)?.as_bytes()).map_err(unwritable)?;
+    let png = png_of(figure.size(), &pixels(name, figure)?).map_err(|error| unwritable(io::Error::other(error)))?;
+    write_whole(&raster, &png).map_err(unwritable)?;
     Ok([vector, raster])
 }
 
@@ -100,12 +101,14 @@ fn pixels(name: &str, figure: &impl Figure) -> Result<Vec<u8>, PlotError> {
     Ok(pixels)
 }
 
-/// Writes pixels as PNG. Plotters' own encoder would add a second version of the `image` crate, beside Rerun's.
-fn write_png(path: &Path, (width, height): (u32, u32), pixels: &[u8]) -> Result<(), png::EncodingError> {
-    let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), width, height);
+/// Pixels as a PNG file. Plotters' own encoder would add a second version of the `image` crate, beside Rerun's.
+fn png_of((width, height): (u32, u32), pixels: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
-    writer.finish()
+    writer.finish()?;
+    Ok(file)
 }

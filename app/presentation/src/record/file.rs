@@ -13,16 +13,23 @@ use super::error::RecordError;
 /// # Errors
 /// [`RecordError::Unwritable`] with the reason.
 pub fn check(target: &Path) -> Result<(), RecordError> {
-    let refuse = |reason: io::Error| RecordError::Unwritable { path: target.to_owned(), reason };
+    check_place(target).map_err(|reason| RecordError::Unwritable { path: target.to_owned(), reason })
+}
+
+fn check_place(target: &Path) -> io::Result<()> {
     if target.file_name().is_none() {
-        return Err(refuse(io::Error::other("it names no file")));
+        return Err(io::Error::other("it names no file"));
     }
     if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
         let what = if target.is_dir() { "it is a folder" } else { "it is not an ordinary file" };
-        return Err(refuse(io::Error::other(what)));
+        return Err(io::Error::other(what));
     }
     let nearest = folders_above(target).find(|folder| folder.exists()).unwrap_or_else(|| PathBuf::from("."));
-    temporary_in(&nearest).map(drop).map_err(refuse)
+    #[cfg(target_os = "linux")]
+    if let Some(file) = unnamed_in(&nearest) {
+        return file.map(drop);
+    }
+    temporary_in(&nearest).map(drop)
 }
 
 /// Writes a file, making folders as needed.
@@ -30,11 +37,18 @@ pub fn check(target: &Path) -> Result<(), RecordError> {
 /// # Errors
 /// [`RecordError::Unwritable`] if the disk refuses. Then nothing was made, and what stood at `target` is as it was.
 pub fn write(target: &Path, content: &[u8]) -> Result<(), RecordError> {
-    check(target)?;
+    write_whole(target, content).map_err(|reason| RecordError::Unwritable { path: target.to_owned(), reason })
+}
+
+/// Writes a file of any sort, as [`write`] does.
+///
+/// # Errors
+/// What the disk says. Then nothing was made, and what stood at `target` is as it was.
+pub fn write_whole(target: &Path, content: &[u8]) -> io::Result<()> {
+    check_place(target)?;
     let missing = folders_above(target).take_while(|folder| !folder.exists()).collect();
     let folders = NewFolders(missing);
-    let written = folders.make().and_then(|()| place(target, content));
-    written.map_err(|reason| RecordError::Unwritable { path: target.to_owned(), reason })?;
+    folders.make().and_then(|()| place(target, content))?;
     folders.keep();
     Ok(())
 }
@@ -42,10 +56,68 @@ pub fn write(target: &Path, content: &[u8]) -> Result<(), RecordError> {
 /// Writes beside the target and renames. What is left of a failure is removed.
 fn place(target: &Path, content: &[u8]) -> io::Result<()> {
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    #[cfg(target_os = "linux")]
+    if let Some(file) = unnamed_in(folder) {
+        return place_unnamed(file?, folder, target, content);
+    }
     let mut file = temporary_in(folder)?;
     file.write_all(content)?;
     file.as_file().sync_all()?;
-    file.persist(target).map(drop).map_err(|error| error.error)
+    file.persist(target).map_err(|error| error.error)?;
+    sync_folder(folder)
+}
+
+/// A file without a name, which vanishes with the process however that ends; none where the file system knows no such files.
+#[cfg(target_os = "linux")]
+fn unnamed_in(folder: &Path) -> Option<io::Result<fs::File>> {
+    use rustix::fs::{Mode, OFlags};
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    match rustix::fs::open(folder, flags, Mode::from_raw_mode(0o666)) {
+        Ok(file) => Some(Ok(fs::File::from(file))),
+        Err(rustix::io::Errno::OPNOTSUPP | rustix::io::Errno::ISDIR | rustix::io::Errno::INVAL) => None,
+        Err(error) => Some(Err(error.into())),
+    }
+}
+
+/// Fills the file and gives it its name. Where that name is taken, the file has another for the time of one rename: a
+/// process that is killed leaves nothing behind before that.
+#[cfg(target_os = "linux")]
+fn place_unnamed(mut file: fs::File, folder: &Path, target: &Path, content: &[u8]) -> io::Result<()> {
+    use std::os::fd::AsRawFd;
+
+    use rustix::fs::{AtFlags, CWD, linkat};
+    file.write_all(content)?;
+    file.sync_all()?;
+    let link = |name: &Path| {
+        let itself = format!("/proc/self/fd/{}", file.as_raw_fd());
+        linkat(CWD, itself, CWD, name, AtFlags::SYMLINK_FOLLOW)
+    };
+    match link(target) {
+        Ok(()) => sync_folder(folder),
+        Err(rustix::io::Errno::EXIST) => {
+            let name = folder.join(format!(".{}-{}.part", std::process::id(), file.as_raw_fd()));
+            link(&name)?;
+            fs::rename(&name, target).inspect_err(|_| {
+                // What is there is ours, and has no place.
+                let _ = fs::remove_file(&name);
+            })?;
+            sync_folder(folder)
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Makes the new name of a file last through a loss of power, where the file system can.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(not(unix)) {
+        return Ok(());
+    }
+    match fs::File::open(folder).and_then(|folder| folder.sync_all()) {
+        Err(error) if error.kind() == io::ErrorKind::InvalidInput || error.kind() == io::ErrorKind::Unsupported => {
+            Ok(())
+        }
+        synced => synced,
+    }
 }
 
 /// A file that vanishes unless it is given a place; readable for whom any new file would be.

@@ -49,7 +49,7 @@ use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
 pub use error::{RecordError, ViewerAddressError};
-pub use file::{check as check_file, write as write_file};
+pub use file::{check as check_file, write as write_file, write_whole};
 pub use live::Viewer;
 pub use open::OpenRecording;
 use plots::Plots;

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Prints a software bill of materials of the command: CycloneDX 1.5 as JSON.
+
+It has no time and no random number in it, so the same tree gives the same bytes.
+"""
+
+import json
+import re
+import sys
+import tomllib
+
+from shipped import ROOT, is_own, shipped
+
+
+def checksums() -> dict[tuple[str, str], str]:
+    """The SHA-256 of each crate's archive, by name and version, as Cargo.lock has them."""
+    lock = tomllib.loads((ROOT / "Cargo.lock").read_text("utf-8"))
+    return {(it["name"], it["version"]): it["checksum"] for it in lock["package"] if "checksum" in it}
+
+
+def component(package: dict, known: dict[tuple[str, str], str]) -> dict:
+    """One crate."""
+    name, version = package["name"], package["version"]
+    found = {
+        "type": "library",
+        "bom-ref": f"{name}@{version}",
+        "name": name,
+        "version": version,
+        "purl": f"pkg:cargo/{name}@{version}",
+    }
+    if package["license"]:
+        # The old way to write "or", which is no SPDX expression.
+        found["licenses"] = [{"expression": re.sub(r"\s*/\s*", " OR ", package["license"])}]
+    if checksum := known.get((name, version)):
+        found["hashes"] = [{"alg": "SHA-256", "content": checksum}]
+    if is_own(package):
+        found["purl"] += "?vcs_url=."
+    return found
+
+
+def main() -> int:
+    known, packages = checksums(), shipped()
+    command = next(package for package in packages if package["name"] == "interplay")
+    libraries = [component(package, known) for package in packages if package is not command]
+    document = {
+        "bomFormat": "CycloneDX",
+        "specVersion": "1.5",
+        "version": 1,
+        "metadata": {"component": component(command, known) | {"type": "application"}},
+        "components": libraries,
+    }
+    json.dump(document, sys.stdout, indent=1)
+    print()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
