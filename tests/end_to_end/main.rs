@@ -3,7 +3,7 @@
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`book`]
 //! - many runs from one plan: [`sweeps`]
-//! - what happens to nobody's files, terminal and server: [`unharmed`]
+//! - what happens to nobody's files, terminal and server: [`unharmed`], [`faults`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`]
 //! - what would have happened: [`counterfactuals`], [`mutation`]
 //! - what others may add: [`own`]
@@ -27,6 +27,7 @@ mod counterfactuals;
 mod determinism;
 mod documents;
 mod failures;
+mod faults;
 mod figures;
 mod film;
 mod identified_houses;

@@ -1,0 +1,28 @@
+//! Fault and kill loops, in short: at a sample of the changes that a command makes to files the disk fails, or the command is
+//! killed. `tests/faults/loops.py` has the whole, and `docs/reliability.md` its counts.
+
+use std::path::Path;
+use std::process::Command;
+
+fn loops(commands: &[&str]) {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("faults/loops.py");
+    let mut command = Command::new("python3");
+    command.arg(script).args(["--short", "--binary"]).arg(env!("CARGO_BIN_EXE_interplay-under-test")).args(commands);
+    let Ok(output) = command.output() else {
+        println!("skipped: no python3 here");
+        return;
+    };
+    let [stdout, stderr] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    println!("{stdout}");
+    assert!(output.status.success(), "{stdout}\n{stderr}");
+}
+
+#[test]
+fn a_full_disk_leaves_old_or_whole_files_and_exit_code_3() {
+    loops(&["run", "suite --junit", "new"]);
+}
+
+#[test]
+fn an_interrupted_sweep_goes_on() {
+    loops(&["sweep"]);
+}
