@@ -15,9 +15,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("building", &["convex"]),
     ("scenarios", &["planners", "building"]),
     ("app/simulation", &["planners", "building", "scenarios"]),
-    ("app/sweep", &["building", "scenarios", "app/simulation"]),
-    ("app/presentation", &["planners", "building", "scenarios", "app/simulation", "app/sweep"]),
-    ("app/cli", &["building", "scenarios", "app/simulation", "app/sweep", "app/presentation"]),
+    ("app/files", &[]),
+    ("app/sweep", &["building", "scenarios", "app/files", "app/simulation"]),
+    ("app/presentation", &["planners", "building", "scenarios", "app/files", "app/simulation", "app/sweep"]),
+    ("app/cli", &["building", "scenarios", "app/files", "app/simulation", "app/sweep", "app/presentation"]),
     ("tests", &["planners", "building", "scenarios", "app/simulation", "app/cli"]),
 ];
 

@@ -97,8 +97,9 @@ int main(int count, char **words) {
                 if (error && ++seen == wanted) {
                     if (kills) {
                         kill(child, SIGKILL);
-                        while (waitpid(child, &status, __WALL) != child || !WIFSIGNALED(status)) {
-                            if (errno == ECHILD) break;
+                        /* The process is gone when all of its threads have been waited for. */
+                        while ((thread = waitpid(-1, &status, __WALL)) > 0) {
+                            if (thread == child && WIFSIGNALED(status)) break;
                         }
                         return 99;
                     }

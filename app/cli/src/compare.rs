@@ -7,7 +7,7 @@ use interplay_presentation::page::Page;
 use interplay_presentation::report;
 use interplay_sweep::compare::{GroupBy, compare, compare_versions};
 
-use crate::error::CommandError;
+use crate::error::{CommandError, write_file};
 use crate::exit_status::ExitStatus;
 use crate::output::{json, print, print_error};
 use crate::refusal::gave_up;
@@ -111,7 +111,7 @@ impl Compare {
 
 /// Writes a page whole or not at all.
 fn write(target: &Path, page: &Page) -> Result<(), CommandError> {
-    interplay_presentation::record::write_file(target, page.html().as_bytes())?;
+    write_file(target, page.html().as_bytes())?;
     print_error(&format!("page in {}", target.display()));
     Ok(())
 }

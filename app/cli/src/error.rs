@@ -1,6 +1,7 @@
 //! Why a command gave up after it had begun.
 
 use std::io;
+use std::path::{Path, PathBuf};
 
 use interplay_presentation::animation::AnimationError;
 use interplay_presentation::figures::FigureError;
@@ -24,6 +25,8 @@ pub(crate) enum CommandError {
     Animation(#[from] AnimationError),
     #[error("{scenario}: {reason}")]
     FailedAnimation { scenario: String, reason: AnimationError },
+    #[error("cannot write `{}`: {reason}; choose another place for it", path.display())]
+    Unwritable { path: PathBuf, reason: io::Error },
     #[error("{what} cannot be written as JSON: {reason}")]
     Json { what: &'static str, reason: serde_json::Error },
     #[error("the results cannot be written as XML: {0}")]
@@ -32,4 +35,9 @@ pub(crate) enum CommandError {
     Output(io::Error),
     #[error("cannot start {jobs} threads: {reason}")]
     Threads { jobs: usize, reason: rayon::ThreadPoolBuildError },
+}
+
+/// Writes a file whole or not at all.
+pub(crate) fn write_file(path: &Path, content: &[u8]) -> Result<(), CommandError> {
+    interplay_files::write(path, content).map_err(|reason| CommandError::Unwritable { path: path.to_owned(), reason })
 }

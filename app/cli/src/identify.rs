@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use interplay_building::identify::{Identification, IdentifyError, Mapping, Telemetry, TelemetryError, identify};
-use interplay_presentation::record::write_file;
 use interplay_presentation::{plot, report, shell};
 use interplay_scenarios::{Fault, read_regular};
 use thiserror::Error;
 
-use crate::error::CommandError;
+use crate::error::{CommandError, write_file};
 use crate::exit_status::ExitStatus;
 use crate::output::{json, print, print_error};
 

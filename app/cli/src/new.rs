@@ -1,10 +1,10 @@
 //! `interplay new`
 
-use std::fs::{self, OpenOptions};
-use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use clap::Args;
+use interplay_files::{NewFolders, write_new};
 use interplay_presentation::shell;
 use interplay_scenarios::{LoadError, commented};
 use thiserror::Error;
@@ -40,7 +40,7 @@ enum NewError {
     #[error("`{}` exists already, and `interplay new` overwrites nothing; choose another name", .0.display())]
     Exists(PathBuf),
     #[error("cannot write `{}`: {reason}", path.display())]
-    Unwritable { path: PathBuf, reason: String },
+    Unwritable { path: PathBuf, reason: io::Error },
 }
 
 impl New {
@@ -75,22 +75,31 @@ impl New {
              # Lines such as `#key = value` show defaults, or examples where there is none: take away the `#` to change them,\n\
              # and that of the `#[table]` above them.\n\n"
         );
-        create(&self.file, &(head + &scenario))?;
+        let folders = NewFolders::make_above(&self.file).map_err(unwritable(&self.file))?;
+        // The schema first: whoever finds the scenario finds all of it.
         let schema = folder.join(SCHEMA_FILE);
-        if schema.exists() { Ok(()) } else { create(&schema, &schema::text()) }
+        let is_missing = !schema.exists();
+        if is_missing {
+            create(&schema, &schema::text())?;
+        }
+        create(&self.file, &(head + &scenario)).inspect_err(|_| {
+            if is_missing {
+                let _ = fs::remove_file(&schema);
+            }
+        })?;
+        folders.keep();
+        Ok(())
     }
 }
 
-/// Writes a file that must not exist, making folders as needed.
+/// Writes a file that must not exist.
 fn create(path: &Path, text: &str) -> Result<(), NewError> {
-    let unwritable = |error: std::io::Error| NewError::Unwritable { path: path.to_owned(), reason: error.to_string() };
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        fs::create_dir_all(folder).map_err(unwritable)?;
-    }
-    let mut file = OpenOptions::new().write(true).create_new(true).open(path).map_err(unwritable)?;
-    file.write_all(text.as_bytes()).and_then(|()| file.sync_all()).map_err(|error| {
-        // What is there is ours, and incomplete.
-        let _ = fs::remove_file(path);
-        unwritable(error)
+    write_new(path, text.as_bytes()).map_err(|reason| match reason.kind() {
+        io::ErrorKind::AlreadyExists => NewError::Exists(path.to_owned()),
+        _ => unwritable(path)(reason),
     })
+}
+
+fn unwritable(path: &Path) -> impl Fn(io::Error) -> NewError {
+    move |reason| NewError::Unwritable { path: path.to_owned(), reason }
 }

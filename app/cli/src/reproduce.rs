@@ -6,7 +6,6 @@ use std::time::Instant;
 use clap::Args;
 use interplay_presentation::figures::{self, Entry, EntryOutcome, Kind, find, make, registry, section};
 use interplay_presentation::page::Page;
-use interplay_presentation::record::write_whole;
 
 use crate::exit_status::ExitStatus;
 use crate::output::{print_error, printed};
@@ -62,7 +61,7 @@ impl Reproduce {
         let progress = Progress::of(figures::steps(&entries));
         let made = make(&entries, &self.out, &|| progress.advance());
         progress.clear();
-        if let Err(error) = write_whole(&page, page_of(&made).html().as_bytes()) {
+        if let Err(error) = interplay_files::write(&page, page_of(&made).html().as_bytes()) {
             print_error(&format!("Error: cannot write {}: {error}", page.display()));
             return ExitStatus::Unfinished;
         }

@@ -169,15 +169,7 @@ fn make_folder(folder: &Path, plan: &SweepPlan) -> Result<(), SweepError> {
         }
         Ok(_) | Err(_) => {}
     }
-    let failed = SweepError::file("write", &path);
-    let mut file = tempfile::Builder::new();
-    file.prefix(".").suffix(".part");
-    #[cfg(unix)]
-    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = file.tempfile_in(folder).map_err(&failed)?;
-    std::io::Write::write_all(&mut file, plan.text().as_bytes()).map_err(&failed)?;
-    file.as_file().sync_all().map_err(&failed)?;
-    file.persist(&path).map(drop).map_err(|error| failed(error.error))
+    interplay_files::write(&path, plan.text().as_bytes()).map_err(SweepError::file("write", &path))
 }
 
 /// Writes the rows of some keys, sorted, from the journals. Returns how many there are, and how many have no result.

@@ -4,8 +4,6 @@ use std::io;
 
 use thiserror::Error;
 
-use crate::record::RecordError;
-
 /// Why an animation was not written. What stood at its place is as it was.
 #[derive(Debug, Error)]
 pub enum AnimationError {
@@ -26,13 +24,4 @@ pub enum AnimationError {
         /// What is in the way.
         reason: io::Error,
     },
-}
-
-impl From<RecordError> for AnimationError {
-    fn from(error: RecordError) -> Self {
-        match error {
-            RecordError::Unwritable { path, reason } => AnimationError::Unwritable { path, reason },
-            other => AnimationError::Encoding(Box::new(other)),
-        }
-    }
 }

@@ -30,13 +30,14 @@ mod vehicle;
 pub use error::AnimationError;
 pub use format::{AnimationFile, AnimationFormat, AnimationFormatError};
 
+use std::io;
+
 use building::BuildingPictures;
 use driving::DrivingPictures;
 use encode::Film;
 use pictures::Pictures;
 
 use crate::figures::RecordedRun;
-use crate::record::{check_file, write_file};
 
 impl AnimationFile {
     /// Checks that the file can be written, and leaves no trace of that.
@@ -44,7 +45,7 @@ impl AnimationFile {
     /// # Errors
     /// [`AnimationError::Unwritable`].
     pub fn check(&self) -> Result<(), AnimationError> {
-        Ok(check_file(self.path())?)
+        interplay_files::check(self.path()).map_err(|reason| self.unwritable(reason))
     }
 
     /// Draws a run and writes the file, whole or not at all; folders are made as needed.
@@ -54,7 +55,12 @@ impl AnimationFile {
     /// # Errors
     /// [`AnimationError`].
     pub fn write(&self, recorded: &RecordedRun) -> Result<(), AnimationError> {
-        Ok(write_file(self.path(), &encoded(recorded, self.format())?)?)
+        let content = encoded(recorded, self.format())?;
+        interplay_files::write(self.path(), &content).map_err(|reason| self.unwritable(reason))
+    }
+
+    fn unwritable(&self, reason: io::Error) -> AnimationError {
+        AnimationError::Unwritable { path: self.path().to_owned(), reason }
     }
 }
 

@@ -8,7 +8,6 @@ use super::recorded_run::{RecordedRun, RunOutcome};
 use super::save::save;
 use super::show::show;
 use crate::page::{Page, Section, SectionStatus};
-use crate::record::write_whole;
 use crate::report::summary;
 use crate::shell;
 
@@ -49,7 +48,7 @@ pub fn run_page(recorded: &RecordedRun, folder: &Path, files: Vec<(String, Strin
         sections: vec![run_section(recorded, &content, files)],
     };
     let path = folder.join("index.html");
-    match write_whole(&path, page.html().as_bytes()) {
+    match interplay_files::write(&path, page.html().as_bytes()) {
         Ok(()) => Ok(path),
         Err(reason) => Err(FigureError::Page { path, reason }),
     }

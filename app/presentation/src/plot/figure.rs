@@ -12,7 +12,6 @@ use plotters::style::register_font;
 use thiserror::Error;
 
 use crate::font::FONT_BYTES;
-use crate::record::write_whole;
 
 /// Width and height of a figure: pixels of the PNG, and points of the SVG.
 const SIZE_PX: (u32, u32) = (1200, 520);
@@ -83,9 +82,9 @@ pub(super) fn svg(name: &str, figure: &impl Figure) -> Result<String, PlotError>
 pub(super) fn save(folder: &Path, name: &str, figure: &impl Figure) -> Result<[PathBuf; 2], PlotError> {
     let [vector, raster] = ["svg", "png"].map(|ending| folder.join(format!("{name}.{ending}")));
     let unwritable = |reason| PlotError::Unwritable { folder: folder.to_owned(), reason };
-    write_whole(&vector, svg(name, figure)?.as_bytes()).map_err(unwritable)?;
+    interplay_files::write(&vector, svg(name, figure)?.as_bytes()).map_err(unwritable)?;
     let png = png_of(figure.size(), &pixels(name, figure)?).map_err(|error| unwritable(io::Error::other(error)))?;
-    write_whole(&raster, &png).map_err(unwritable)?;
+    interplay_files::write(&raster, &png).map_err(unwritable)?;
     Ok([vector, raster])
 }
 

@@ -1,7 +1,7 @@
 //! Why a recording failed.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use rerun::RecordingStreamError;
 use thiserror::Error;
@@ -33,6 +33,12 @@ pub enum RecordError {
     /// Rerun refused data or lost the viewer.
     #[error("the recording broke off: {0}")]
     Broken(Box<dyn std::error::Error + Send + Sync>),
+}
+
+impl RecordError {
+    pub(super) fn unwritable(path: &Path) -> impl Fn(io::Error) -> RecordError {
+        move |reason| RecordError::Unwritable { path: path.to_owned(), reason }
+    }
 }
 
 impl From<RecordingStreamError> for RecordError {

@@ -20,7 +20,6 @@ mod about;
 mod blueprint;
 mod building;
 mod error;
-mod file;
 mod layout;
 mod live;
 mod markdown;
@@ -49,7 +48,6 @@ use rerun::sink::MemorySinkStorage;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
 pub use error::{RecordError, ViewerAddressError};
-pub use file::{check as check_file, write as write_file, write_whole};
 pub use live::Viewer;
 pub use open::OpenRecording;
 use plots::Plots;
@@ -119,7 +117,7 @@ impl Recorder {
         let builder = RecordingStreamBuilder::new(APPLICATION_ID).enabled(true);
         let (stream, output) = match sink {
             Sink::File(path) => {
-                file::check(path)?;
+                interplay_files::check(path).map_err(RecordError::unwritable(path))?;
                 let pieces = ChunkBatcherConfig { flush_tick: FLUSH_INTERVAL, ..ChunkBatcherConfig::DEFAULT };
                 let (stream, content) =
                     builder.recording_id(identity(scenario, name)).batcher_config(pieces).memory()?;
@@ -199,7 +197,8 @@ impl Recorder {
         self.arrange(road_m.unwrap_or_else(|| expected_road(&self.scenario)))?;
         match &self.output {
             Output::File { path, content } => {
-                file::write(path, &content.drain_as_bytes().map_err(|error| RecordError::Broken(Box::new(error)))?)
+                let content = content.drain_as_bytes().map_err(|error| RecordError::Broken(Box::new(error)))?;
+                interplay_files::write(path, &content).map_err(RecordError::unwritable(path))
             }
             Output::Live { .. } => {
                 self.stream.flush_with_timeout(FLUSH_TIMEOUT).map_err(|error| RecordError::Broken(Box::new(error)))

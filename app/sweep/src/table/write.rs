@@ -1,9 +1,9 @@
 //! Writes a table, a row group at a time.
 
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use interplay_files::WholeFile;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
@@ -11,7 +11,6 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
-use tempfile::NamedTempFile;
 
 use super::{ROWS_PER_GROUP, TableColumn, TableSchema, column_type};
 use crate::column::{Cell, HEAD, TAIL, TIMINGS, input};
@@ -24,7 +23,7 @@ const ZSTD_LEVEL: i32 = 3;
 /// A table that is being written. It appears at its place when it is whole.
 pub(crate) struct TableWriter<'a> {
     target: &'a Path,
-    writer: SerializedFileWriter<NamedTempFile>,
+    writer: SerializedFileWriter<WholeFile>,
     schema: TableSchema,
     group: Vec<TableColumn>,
     rows: usize,
@@ -33,12 +32,7 @@ pub(crate) struct TableWriter<'a> {
 impl<'a> TableWriter<'a> {
     /// Begins a table with these columns and with these words about the whole.
     pub fn new(target: &'a Path, schema: TableSchema, about: &[(&str, String)]) -> Result<TableWriter<'a>, SweepError> {
-        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".").suffix(".part");
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder).map_err(SweepError::file("write", target))?;
+        let file = WholeFile::begin(target).map_err(SweepError::file("write", target))?;
         let failed = SweepError::table::<ParquetError>("write", target);
         let types = schema.iter().map(|(name, kind)| column_type(name, *kind)).collect::<Result<Vec<TypePtr>, _>>();
         let root = types.and_then(|types| Type::group_type_builder("run").with_fields(types).build());
@@ -68,7 +62,7 @@ impl<'a> TableWriter<'a> {
         if self.rows == 0 {
             return Ok(());
         }
-        let write = |writer: &mut SerializedFileWriter<NamedTempFile>, columns: &[TableColumn]| {
+        let write = |writer: &mut SerializedFileWriter<WholeFile>, columns: &[TableColumn]| {
             let mut group = writer.next_row_group()?;
             let mut columns = columns.iter();
             while let Some(mut writer) = group.next_column()? {
@@ -89,14 +83,7 @@ impl<'a> TableWriter<'a> {
     pub fn finish(mut self) -> Result<(), SweepError> {
         self.end_group()?;
         let file = self.writer.into_inner().map_err(SweepError::table("write", self.target))?;
-        let failed = SweepError::file("write", self.target);
-        file.as_file().sync_all().map_err(&failed)?;
-        file.persist(self.target).map_err(|error| failed(error.error))?;
-        // The new name is on the disk, too, when this returns; where folders cannot be opened, that is the system's business.
-        if let Some(folder) = self.target.parent().and_then(|folder| fs::File::open(folder).ok()) {
-            let _ = folder.sync_all();
-        }
-        Ok(())
+        file.replace().map_err(SweepError::file("write", self.target))
     }
 }
 

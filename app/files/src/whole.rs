@@ -1,0 +1,148 @@
+//! A file that has no place until it is complete.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+/// A file that is being written. Dropped before it has its place, it vanishes.
+#[derive(Debug)]
+pub struct WholeFile {
+    target: PathBuf,
+    file: Unplaced,
+}
+
+#[derive(Debug)]
+enum Unplaced {
+    /// Vanishes with the process, however that ends.
+    #[cfg(target_os = "linux")]
+    Unnamed(File),
+    /// Vanishes when it is dropped.
+    Named(NamedTempFile),
+}
+
+impl WholeFile {
+    /// Begins a file in the folder of `target`, which must exist.
+    ///
+    /// # Errors
+    /// What the disk says.
+    pub fn begin(target: &Path) -> io::Result<WholeFile> {
+        let folder = folder_of(target);
+        #[cfg(target_os = "linux")]
+        if let Some(file) = unnamed_in(folder) {
+            return Ok(WholeFile { target: target.to_owned(), file: Unplaced::Unnamed(file?) });
+        }
+        let mut builder = parts();
+        // Readable for whom any new file would be.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        Ok(WholeFile { target: target.to_owned(), file: Unplaced::Named(builder.tempfile_in(folder)?) })
+    }
+
+    /// Gives the file its place, where another may stand.
+    ///
+    /// # Errors
+    /// What the disk says. The other stands as it was, unless only its folder could not be forced onto the disk.
+    pub fn replace(self) -> io::Result<()> {
+        self.place(true)
+    }
+
+    /// Gives the file its place unless it is taken.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`], and what the disk says. Then nothing was made.
+    pub fn keep_out(self) -> io::Result<()> {
+        self.place(false)
+    }
+
+    fn place(self, replaces: bool) -> io::Result<()> {
+        let folder = folder_of(&self.target);
+        self.as_file().sync_all()?;
+        match self.file {
+            #[cfg(target_os = "linux")]
+            Unplaced::Unnamed(file) => match link(&file, &self.target) {
+                Err(error) if replaces && error.kind() == io::ErrorKind::AlreadyExists => {
+                    // No call takes a file without a name to a name that is taken: it has another for the time of one call.
+                    let named = parts().make_in(folder, |name| link(&file, name))?;
+                    named.into_temp_path().persist(&self.target).map_err(|error| error.error)?;
+                }
+                linked => linked?,
+            },
+            Unplaced::Named(file) if replaces => file.persist(&self.target).map(drop).map_err(|error| error.error)?,
+            Unplaced::Named(file) => file.persist_noclobber(&self.target).map(drop).map_err(|error| error.error)?,
+        }
+        sync_folder(folder).inspect_err(|_| {
+            if !replaces {
+                let _ = fs::remove_file(&self.target);
+            }
+        })
+    }
+
+    fn as_file(&self) -> &File {
+        match &self.file {
+            #[cfg(target_os = "linux")]
+            Unplaced::Unnamed(file) => file,
+            Unplaced::Named(file) => file.as_file(),
+        }
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.as_file().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.as_file().flush()
+    }
+}
+
+fn folder_of(target: &Path) -> &Path {
+    target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// How files are called that have no place yet.
+fn parts() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".").suffix(".part");
+    builder
+}
+
+/// A file without a name; none where the file system knows no such files.
+#[cfg(target_os = "linux")]
+fn unnamed_in(folder: &Path) -> Option<io::Result<File>> {
+    use rustix::fs::{Mode, OFlags};
+    use rustix::io::Errno;
+    // Where files without a name are found again to be named.
+    if !Path::new("/proc/self/fd").exists() {
+        return None;
+    }
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    match rustix::fs::open(folder, flags, Mode::from_raw_mode(0o666)) {
+        Ok(file) => Some(Ok(File::from(file))),
+        Err(Errno::OPNOTSUPP | Errno::ISDIR | Errno::INVAL) => None,
+        Err(error) => Some(Err(error.into())),
+    }
+}
+
+/// Names a file that has no name.
+#[cfg(target_os = "linux")]
+fn link(file: &File, name: &Path) -> io::Result<()> {
+    use std::os::fd::AsRawFd;
+
+    use rustix::fs::{AtFlags, CWD, linkat};
+    let itself = format!("/proc/self/fd/{}", file.as_raw_fd());
+    Ok(linkat(CWD, itself, CWD, name, AtFlags::SYMLINK_FOLLOW)?)
+}
+
+/// Makes the new name of a file last through a loss of power, where the file system can.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(not(unix)) {
+        return Ok(());
+    }
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        Err(error) if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        synced => synced,
+    }
+}
