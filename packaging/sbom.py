@@ -18,12 +18,17 @@ def checksums() -> dict[tuple[str, str], str]:
     return {(it["name"], it["version"]): it["checksum"] for it in lock["package"] if "checksum" in it}
 
 
+def reference(package: dict) -> str:
+    """What names a crate within the document."""
+    return f"{package['name']}@{package['version']}"
+
+
 def component(package: dict, known: dict[tuple[str, str], str]) -> dict:
     """One crate."""
     name, version = package["name"], package["version"]
     found = {
         "type": "library",
-        "bom-ref": f"{name}@{version}",
+        "bom-ref": reference(package),
         "name": name,
         "version": version,
         "purl": f"pkg:cargo/{name}@{version}",
@@ -34,7 +39,8 @@ def component(package: dict, known: dict[tuple[str, str], str]) -> dict:
     if checksum := known.get((name, version)):
         found["hashes"] = [{"alg": "SHA-256", "content": checksum}]
     if is_own(package):
-        found["purl"] += "?vcs_url=."
+        # It is in no registry.
+        del found["purl"]
     return found
 
 
@@ -48,6 +54,9 @@ def main() -> int:
         "version": 1,
         "metadata": {"component": component(command, known) | {"type": "application"}},
         "components": libraries,
+        "dependencies": [
+            {"ref": reference(it), "dependsOn": [reference(packages[at]) for at in it["links"]]} for it in packages
+        ],
     }
     json.dump(document, sys.stdout, indent=1)
     print()

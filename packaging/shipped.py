@@ -5,31 +5,35 @@ import pathlib
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TARGET = "x86_64-unknown-linux-gnu"
 
 
-def shipped(target: str = TARGET) -> list[dict]:
-    """Packages of the tree of `interplay`, sorted by name and version.
+def said(*command: str) -> str:
+    """What a command prints."""
+    return subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+
+
+def shipped() -> list[dict]:
+    """Packages of the tree of `interplay`, sorted by name and version; `links` of each are the indices of what it depends on.
 
     Only dependencies that are linked count: none of build scripts and tests, and no procedural macros, whose code runs
-    in the compiler.
+    in the compiler. The platform is that of this machine.
     """
-    command = ["cargo", "metadata", "--format-version=1", "--locked", "--filter-platform", target]
-    said = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    metadata = json.loads(said)
+    target = next(line.removeprefix("host: ") for line in said("rustc", "-vV").splitlines() if line.startswith("host: "))
+    metadata = json.loads(said("cargo", "metadata", "--format-version=1", "--locked", "--filter-platform", target))
     packages = {package["id"]: package for package in metadata["packages"]}
     nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
     root = next(package["id"] for package in metadata["packages"] if package["name"] == "interplay")
-    found, waiting = set(), [root]
+    found, waiting = {}, [root]
     while waiting:
         package = waiting.pop()
         if package in found or is_macro(packages[package]):
             continue
-        found.add(package)
-        for dependency in nodes[package]["deps"]:
-            if any(kind["kind"] is None for kind in dependency["dep_kinds"]):
-                waiting.append(dependency["pkg"])
-    return sorted((packages[package] for package in found), key=lambda it: (it["name"], it["version"]))
+        linked = [it["pkg"] for it in nodes[package]["deps"] if any(kind["kind"] is None for kind in it["dep_kinds"])]
+        found[package] = linked
+        waiting.extend(linked)
+    order = sorted(found, key=lambda package: (packages[package]["name"], packages[package]["version"]))
+    index = {package: at for at, package in enumerate(order)}
+    return [packages[it] | {"links": sorted(index[other] for other in found[it] if other in index)} for it in order]
 
 
 def is_macro(package: dict) -> bool:

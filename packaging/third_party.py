@@ -5,13 +5,14 @@ Exits with 1 if a crate states no licence.
 """
 
 import pathlib
+import re
 import sys
 
 from shipped import ROOT, is_own, shipped
 
 NAMES = ("licen", "copying", "notice", "copyright", "unlicense")
-# A crate whose archive has no text of its own licence has the general one of the licence that it states.
-FALLBACK = "the archive of this crate has no licence text; its manifest states the licence above"
+# Archives of some crates have no licence text. Of what their manifests state, the first of these applies.
+GENERAL = {"MIT": "LICENSE-MIT", "Apache-2.0": "LICENSE-APACHE"}
 
 
 def texts(folder: pathlib.Path) -> list[str]:
@@ -20,20 +21,30 @@ def texts(folder: pathlib.Path) -> list[str]:
     return ["\n".join(line.rstrip() for line in file.read_text("utf-8", "replace").strip().splitlines()) for file in files]
 
 
+def general(package: dict) -> str:
+    """The text of the licence that a crate states, for a crate whose archive has none."""
+    known = [file for licence, file in GENERAL.items() if licence in (package["license"] or "")]
+    if not known:
+        sys.exit(f"{package['name']} has no licence text, and there is none here of `{package['license']}`")
+    text = (ROOT / known[0]).read_text("utf-8").strip()
+    authors = ", ".join(package["authors"]) or f"the authors of {package['repository'] or package['name']}"
+    return re.sub(r"^Copyright \(c\).*$", lambda _: f"Copyright (c) {authors}", text, flags=re.MULTILINE)
+
+
 def main() -> int:
     crates = [package for package in shipped() if not is_own(package)]
     unstated = [package["name"] for package in crates if not (package["license"] or package["license_file"])]
     if unstated:
         print(f"no licence is stated by {', '.join(unstated)}", file=sys.stderr)
         return 1
-    print(f"# What is in the command\n\n{len(crates)} crates, and the font DejaVu Sans.\n")
+    print(f"# What is in the command\n\n{len(crates)} crates, the standard library of Rust (MIT OR Apache-2.0), and the font DejaVu Sans.\n")
     print("| crate | version | licence | source |\n|---|---|---|---|")
     by_text: dict[str, list[str]] = {}
     for package in crates:
         title = f"{package['name']} {package['version']}"
         licence = package["license"] or package["license_file"]
         print(f"| {package['name']} | {package['version']} | {licence} | {package['repository'] or ''} |")
-        for text in texts(pathlib.Path(package["manifest_path"]).parent) or [f"{FALLBACK}: {licence}"]:
+        for text in texts(pathlib.Path(package["manifest_path"]).parent) or [general(package)]:
             by_text.setdefault(text, []).append(title)
     font = (ROOT / "assets/fonts/LICENSE-DejaVu").read_text("utf-8").strip()
     by_text.setdefault(font, []).append("DejaVu Sans")

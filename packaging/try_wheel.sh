@@ -4,14 +4,17 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+trap 'rm -rf "$folder" THIRD-PARTY.md' EXIT
 maturin=${MATURIN:-$(command -v maturin || true)}
 if [[ -z $maturin ]]; then
     echo "skipped: no maturin here; \`pip install maturin\` brings it, MATURIN=PATH names one"
     exit 0
 fi
+# Taken into the wheel where it is there: see pyproject.toml.
+python3 packaging/third_party.py > THIRD-PARTY.md
 "$maturin" build --release --out "$folder/wheels" ${MATURIN_FLAGS:-}
 [[ -z ${WHEELS:-} ]] || { mkdir -p "$WHEELS"; cp "$folder"/wheels/*.whl "$WHEELS/"; }
+python3 -m zipfile -l "$folder"/wheels/*.whl | grep licenses/THIRD-PARTY.md > /dev/null
 
 began=$(date +%s.%N)
 python3 -m venv "$folder/empty"

@@ -12,7 +12,7 @@
 //! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`],
 //!   [`sample_telemetry`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
-//! - how the workspace is built: [`architecture`], [`modules`]
+//! - how the workspace is built: [`architecture`], [`modules`]; what its packages say: [`packages`]
 
 mod animations;
 mod architecture;
@@ -38,6 +38,7 @@ mod modules;
 mod mutation;
 mod output;
 mod own;
+mod packages;
 mod plants;
 mod recordings;
 mod rectangles;

@@ -2,8 +2,9 @@
 """Fault and kill loops: the n-th change of a file fails, or the command is killed there, for n = 1, 2, … until none is left.
 
 After a fault the exit code is 3, every file is the old one or whole, and nothing else is there. After a kill every file is
-the old one or whole, and the same command works. `--short` takes every seventh n from the tenth on. Prints a table as Markdown;
-exits with 1 if anything did not hold. Needs Linux on x86-64 and a C compiler; says so where it skips.
+the old one or whole, and the same command works. The standard output is a file, too, whose faults count. `--short` takes every
+seventh n from the tenth on. Prints a table as Markdown; exits with 1 if anything did not hold. Needs Linux on x86-64 and a C
+compiler; says so where it skips.
 
     tests/faults/loops.py [--short] [--binary target/release/interplay] [COMMAND ...]
 """
@@ -26,15 +27,20 @@ vehicle = [{ name = "ego", start = { x_m = 0.0, y_m = 0.2, speed_mps = 1.0 } }]
 """
 PLAN = 'scenario = ["mine.toml"]\nsamples = 2\n'
 INPUTS = {"mine.toml": SCENARIO, "plan.toml": PLAN}
-# What stands there before the command, where it may be replaced.
+# A file of this content stands there before the command, where it may be replaced.
 OLD = "old"
+# All that the command makes stands there already, from a run before.
+AGAIN = "again"
+TIMEOUT_S = 120
+RUN = ["run", "mine.toml", "--record", "first.rrd", "--report", "page", "--json"]
 
 COMMANDS = {
-    "run": (["run", "mine.toml", "--record", "first.rrd", "--json"], ["first.rrd"]),
-    "run --report": (["run", "mine.toml", "--report", "page"], []),
+    "run": (["run", "mine.toml", "--record", "first.rrd"], ["first.rrd"]),
+    "run --record --report --json": (RUN, []),
+    "the same again": (RUN, AGAIN),
     "suite --junit": (["suite", "mine.toml", "--junit", "results.xml"], ["results.xml"]),
     "sweep": (["sweep", "plan.toml", "--out", "swept", "--jobs", "1"], []),
-    "new": (["new", "fresh.toml"], []),
+    "new": (["new", "made/fresh.toml"], []),
     "reproduce": (["reproduce", "table-6.1", "--out", "figures"], []),
 }
 
@@ -68,8 +74,13 @@ def files(folder: pathlib.Path) -> dict[str, pathlib.Path]:
     return {str(path.relative_to(folder)): path for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
-def prepare(folder: pathlib.Path, old: list[str]) -> None:
+def prepare(folder: pathlib.Path, old: list[str] | str, reference: pathlib.Path | None = None) -> None:
     shutil.rmtree(folder, ignore_errors=True)
+    if old == AGAIN:
+        if reference:
+            shutil.copytree(reference, folder)
+            return
+        old = []
     folder.mkdir(parents=True)
     for name, text in INPUTS.items():
         (folder / name).write_text(text)
@@ -85,12 +96,19 @@ class Loop:
         self.broken: list[str] = []
 
     def execute(self, words: list[str], folder: pathlib.Path, before: list[str]) -> subprocess.CompletedProcess:
+        """Runs the command with its standard output in a file; one that hangs has exit code -9."""
         command = [*before, str(self.binary), *words]
-        return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
+        with open(self.base / "stdout", "w") as stdout:
+            told = {"cwd": folder, "stdout": stdout, "stderr": subprocess.PIPE, "text": True, "timeout": TIMEOUT_S}
+            try:
+                return subprocess.run(command, **told)
+            except subprocess.TimeoutExpired:
+                return subprocess.CompletedProcess(command, -9, stderr=f"hangs: no end in {TIMEOUT_S} s")
 
-    def check(self, at: str, folder: pathlib.Path, reference: pathlib.Path, old: list[str], killed: bool) -> int:
+    def check(self, at: str, folder: pathlib.Path, reference: pathlib.Path, old: list[str] | str, killed: bool) -> int:
         """Counts files that were left behind; everything else that is wrong is noted."""
         wanted, left = files(reference), 0
+        old = list(wanted) if old == AGAIN else old
         for name, path in files(folder).items():
             if name in old and path.read_text("utf-8", "replace") == OLD:
                 continue
@@ -113,14 +131,16 @@ class Loop:
         sound = self.execute(words, reference, [])
         if sound.returncode != 0:
             sys.exit(f"{title} does not work even without faults: {sound.stderr}")
+        # A file that `new` made is not overwritten the second time.
+        again_codes = (0, 2) if title == "new" else (0,)
         n, made, left = 0, 0, 0
         while True:
             n += 7 if self.short and n >= 10 else 1
-            prepare(folder, old)
+            prepare(folder, old, reference)
             outcome = self.execute(words, folder, [str(self.inject), mode, str(n)])
             at = f"{title}, {mode} {n}"
             code = outcome.returncode
-            if code in (97, 98, 101):
+            if code in (-9, 97, 98, 101):
                 self.broken.append(f"{at}: exit code {code}: {outcome.stderr[-300:]}")
                 return made, left
             if code >= 100:
@@ -129,9 +149,9 @@ class Loop:
             if mode == "fail" and code != 3:
                 self.broken.append(f"{at}: exit code {code}: {outcome.stderr[-300:]}")
             left += self.check(at, folder, reference, old, mode == "kill")
-            if mode == "kill" and title != "new":
+            if mode == "kill":
                 again = self.execute(words, folder, [])
-                if again.returncode != 0:
+                if again.returncode not in again_codes:
                     self.broken.append(f"{at}: afterwards exit code {again.returncode}: {again.stderr[-300:]}")
 
 
