@@ -19,6 +19,7 @@
 //! ```
 
 mod budget;
+mod budget_limits;
 mod building;
 mod changed;
 mod classes;
@@ -60,7 +61,8 @@ mod weather;
 mod weather_file;
 mod weights;
 
-pub use budget::{BudgetLimits, RunCost};
+pub use budget::RunCost;
+pub use budget_limits::BudgetLimits;
 pub use building::{BuildingConfig, FloorPlan, Grid, Preset};
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
 pub use commented::commented;

@@ -17,7 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::budget::BudgetLimits;
+use crate::budget_limits::BudgetLimits;
 use crate::building::BuildingConfig;
 use crate::classes::{ScenarioScale, VehicleClass};
 use crate::counterfactual::Counterfactual;

@@ -102,7 +102,8 @@ impl Excess {
                 let remedy = "lower `step_s` and `duration_s`: the dynamic plant cuts each second into 1000 sub-steps";
                 ("step_s", remedy.to_owned())
             }
-            Quantity::Steps => shorter("drive with the kinematic plant"),
+            Quantity::Steps if is_dynamic(scenario) => shorter("drive with the kinematic plant"),
+            Quantity::Steps => shorter("lengthen `step_s`"),
             Quantity::Design => {
                 let short =
                     scenario.building.as_ref().is_some_and(|building| building.steps_per_day() > USUAL_STEPS_PER_DAY);

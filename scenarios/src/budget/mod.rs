@@ -6,9 +6,7 @@
 mod check;
 mod cost;
 mod design;
-mod limits;
 
 pub use cost::RunCost;
-pub use limits::BudgetLimits;
 
 pub(crate) use check::{check, check_all};
