@@ -59,9 +59,9 @@ fn what_a_run_could_not_finish_is_refused_with_the_key() {
     refused("negotiators", &format!("duration_s = 10000\n{cars}"), &fragments);
     let plans = format!("duration_s = 10000\nhorizon_steps = 200\nbudget = {{ plans = 7000000 }}\n{car}");
     refused("recording", &plans, &["a recording of about 601 MB, more than 500 MB", "lower `horizon_steps`"]);
-    let other = "[[counterfactual]]\nname = 'long'\nset = { duration_s = 9000 }\nexpect = { no_collision = true }\n";
+    let other = "[[counterfactual]]\nname = 'long'\nset = { duration_s = 8900 }\nexpect = { no_collision = true }\n";
     let together = format!("duration_s = 9000\nbudget = {{ plans = 100000 }}\n{car}{other}");
-    let fragments = ["with its 1 counterfactuals the scenario makes 180000 plans", "state fewer counterfactuals"];
+    let fragments = ["with its 1 counterfactuals the scenario makes 179000 plans", "state fewer counterfactuals"];
     refused("together", &together, &fragments);
 }
 
