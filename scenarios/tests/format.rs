@@ -247,7 +247,7 @@ fn a_commented_file_means_the_same_as_its_origin() {
     }
     let text = commented("lane-change/front-nice", Path::new("")).expect("authored");
     for piece in
-        ["# Width of each lane [m]. At least 0.001.\nlane_width_m = 0.37", "\n#patience_steps = 5", "#[vehicle.limits]"]
+        ["# Width of each lane [m]. At least 0.001, at most 40.\nlane_width_m = 0.37", "\n#patience_steps = 5", "#[vehicle.limits]"]
     {
         assert!(text.contains(piece), "no {piece:?} in\n{text}");
     }

@@ -117,7 +117,7 @@ fn one_figure_is_made_alone_and_mistakes_are_answered() {
     assert!(outcome.stderr.contains("did you mean `fig-8.1`?"), "{outcome:?}");
     fs::write(folder.join("file"), "").expect("a file can be written");
     let outcome = interplay(&folder, &["reproduce", "8.1", "--out", "file"]);
-    assert_eq!(outcome.code, Some(2), "{outcome:?}");
+    assert_eq!(outcome.code, Some(3), "{outcome:?}");
     assert!(outcome.stderr.contains("--out"), "{outcome:?}");
 }
 
