@@ -246,9 +246,11 @@ fn a_commented_file_means_the_same_as_its_origin() {
         assert!(comments.map(|line| line.chars().count()).max().is_some_and(|longest| longest <= 110), "{text}");
     }
     let text = commented("lane-change/front-nice", Path::new("")).expect("authored");
-    for piece in
-        ["# Width of each lane [m]. At least 0.001, at most 40.\nlane_width_m = 0.37", "\n#patience_steps = 5", "#[vehicle.limits]"]
-    {
+    for piece in [
+        "# Width of each lane [m]. At least 0.001, at most 40.\nlane_width_m = 0.37",
+        "\n#patience_steps = 5",
+        "#[vehicle.limits]",
+    ] {
         assert!(text.contains(piece), "no {piece:?} in\n{text}");
     }
     assert_eq!(text.matches("# Position of the mass centre along the world's x axis [m].").count(), 1, "{text}");

@@ -9,11 +9,11 @@ fn loops(commands: &[&str]) {
     let mut command = Command::new("python3");
     command.arg(script).args(["--short", "--binary"]).arg(env!("CARGO_BIN_EXE_interplay-under-test")).args(commands);
     let Ok(output) = command.output() else {
-        println!("skipped: no python3 here");
+        eprintln!("skipped: no python3 here");
         return;
     };
     let [stdout, stderr] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
-    println!("{stdout}");
+    eprintln!("{stdout}");
     assert!(output.status.success(), "{stdout}\n{stderr}");
 }
 

@@ -10,7 +10,7 @@ fn printed(script: &str) -> Option<String> {
     let mut command = Command::new("python3");
     command.arg(root().join("packaging").join(script)).env("CARGO_NET_OFFLINE", "true");
     let Ok(output) = command.output() else {
-        println!("skipped: no python3 here");
+        eprintln!("skipped: no python3 here");
         return None;
     };
     assert!(output.status.success(), "{script}: {}", String::from_utf8_lossy(&output.stderr));
