@@ -38,6 +38,14 @@ fn comparing_with_the_central_optimum_costs_more() {
 }
 
 #[test]
+fn a_plan_at_every_step_costs_by_its_horizon() {
+    let building = |horizon_h: u32| {
+        cost(&format!("[building]\n[controller]\nkind = 'model-predictive'\nhorizon_h = {horizon_h}\n")).design_gop
+    };
+    assert!((building(24) / building(12) - 8.0).abs() < 1e-9 && building(12) > 0.0);
+}
+
+#[test]
 fn what_a_run_could_not_finish_is_refused_with_the_key() {
     let mut errors = Catalogue::default();
     let mut refused = |name: &str, text: &str, fragments: &[&str]| {

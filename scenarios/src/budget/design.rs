@@ -10,6 +10,11 @@ pub(super) fn operations_per_day(controller: &Controller, zones: usize, steps: u
     let (zones, steps) = (zones as f64, steps as f64);
     match controller {
         Controller::Thermostat(_) | Controller::Pid(_) | Controller::IterativeLearning(_) => zones * steps,
+        // A plan of 1024 inputs takes some tenths of a second, and there is one at each step.
+        Controller::ModelPredictive(settings) => {
+            let horizon = (settings.horizon_h / 24.0 * steps).round().max(1.0);
+            steps * 0.15 * (zones * horizon).powi(3)
+        }
         Controller::Clairvoyant | Controller::Centralised(_) => central(zones, steps),
         Controller::Iterative(_) => 10.0 * (zones * steps).powi(3),
         Controller::Concurrent(settings) => {
