@@ -28,8 +28,12 @@ const LABEL_PX: f64 = 14.0;
 /// Space beside words \[px\].
 const MARGIN_PX: f64 = 12.0;
 
-/// What the marks on the road are.
+/// Width of the line of what a vehicle may do instead \[px\].
+const BRANCH_PX: f64 = 2.5;
+
+/// What the marks on the road are, and where somebody's plans branch.
 const KEY: &str = "band: plan   dots: what it asks for";
+const KEY_WITH_BRANCHES: &str = "band: plan   lines: what it may do instead   dots: what it asks for";
 
 /// Pictures of a run with vehicles.
 pub struct DrivingPictures<'a> {
@@ -39,6 +43,8 @@ pub struct DrivingPictures<'a> {
     road: RoadShapes,
     /// Rows of the legend: index of a vehicle, its words, and where they begin.
     legend: Vec<Vec<(usize, String, f64)>>,
+    /// What the marks on the road are.
+    key: &'static str,
 }
 
 impl<'a> DrivingPictures<'a> {
@@ -53,7 +59,9 @@ impl<'a> DrivingPictures<'a> {
         })?;
         let road = RoadShapes::of(run.scenario, bounds);
         let legend = legend(&run);
-        Some(DrivingPictures { run, moments, views, road, legend })
+        let branches = run.frames.iter().any(|frame| frame.vehicles.iter().any(|one| !one.plan.branches.is_empty()));
+        let key = if branches { KEY_WITH_BRANCHES } else { KEY };
+        Some(DrivingPictures { run, moments, views, road, legend, key })
     }
 
     fn bar_px(&self) -> f64 {
@@ -69,6 +77,10 @@ impl<'a> DrivingPictures<'a> {
             canvas.line(&plan, width, LineEnd::Round, Ink::veiled(seen.plan_colour, PLAN_OPACITY));
         }
         for (colour, seen) in self.run.colours.iter().zip(seen) {
+            for branch in &seen.branches {
+                let line: Vec<[f64; 2]> = branch.iter().map(|point| view.place(*point)).collect();
+                canvas.line(&line, BRANCH_PX, LineEnd::Round, Ink::veiled(*colour, 1.0));
+            }
             let dots: Vec<[f64; 2]> = seen.proposal.iter().map(|point| view.place(*point)).collect();
             for dot in spaced(&dots, 11.0) {
                 canvas.disc(dot, 3.6, [0xFF, 0xFF, 0xFF]);
@@ -169,9 +181,9 @@ impl<'a> DrivingPictures<'a> {
         let longest = WIDTH_PX - 2.0 * MARGIN_PX;
         let ink = if words.alarms { ALARM } else { WORDS };
         canvas.text([MARGIN_PX, line(0.0)], Align::Left, TEXT_PX, &cut(&words.first, TEXT_PX, longest), ink);
-        let longest = longest - width_of(KEY, LABEL_PX) - 2.0 * MARGIN_PX;
+        let longest = longest - width_of(self.key, LABEL_PX) - 2.0 * MARGIN_PX;
         canvas.text([MARGIN_PX, line(1.0)], Align::Left, LABEL_PX, &cut(&words.second, LABEL_PX, longest), QUIET_WORDS);
-        canvas.text([WIDTH_PX - MARGIN_PX, line(1.0)], Align::Right, LABEL_PX, KEY, QUIET_WORDS);
+        canvas.text([WIDTH_PX - MARGIN_PX, line(1.0)], Align::Right, LABEL_PX, self.key, QUIET_WORDS);
         for (row, entries) in self.legend.iter().enumerate() {
             let y = line(2.0 + row as f64);
             for (index, words, left) in entries {

@@ -45,6 +45,8 @@ pub struct SeenVehicle {
     pub plan: Vec<[f64; 2]>,
     /// The colour of the plan: its own, or that of a failure if the plan is a fallback.
     pub plan_colour: Colour,
+    /// What it may do instead, of plans that branch \[m\].
+    pub branches: Vec<Vec<[f64; 2]>>,
     /// The motion that it asks another vehicle for \[m\].
     pub proposal: Vec<[f64; 2]>,
 }
@@ -105,6 +107,10 @@ impl<'a> DrivingRun<'a> {
                     blinks,
                     plan: rest(&vehicle.plan.trajectory.states, &state),
                     plan_colour: if failed { VERMILLION.rgb } else { self.colours[index] },
+                    branches: {
+                        let branches = vehicle.plan.branches.iter();
+                        branches.map(|branch| rest(&branch.trajectory.states, &state)).collect()
+                    },
                     proposal: vehicle.plan.proposal.as_ref().map_or_else(Vec::new, |proposal| {
                         proposal.trajectory.states.iter().map(State::position).collect()
                     }),

@@ -266,6 +266,7 @@ mod tests {
             blinks: true,
             plan: Vec::new(),
             plan_colour: [0; 3],
+            branches: Vec::new(),
             proposal: Vec::new(),
         }
     }
