@@ -3,6 +3,8 @@
 //! It understands the part of JSON Schema that [`schema::complete`] uses (a test holds it to that), and says in the words
 //! of the format what is wrong and what would work.
 
+use std::rc::Rc;
+
 use interplay_building::bounds::Bound;
 use interplay_building::json_schema::type_in_words;
 use interplay_building::nearest::{listed, nearest, suggestion};
@@ -36,6 +38,8 @@ pub(crate) fn check_table(node: &TomlNode, key: &str) -> Vec<Fault> {
 
 /// The largest whole number of a setting, unless its type is `u64`.
 const MAX_INTEGER: i128 = 1_000_000_000;
+/// A name is compared with at most this many others, so that a long list is refused at once.
+const MAX_SUGGESTED_FROM: usize = 200;
 
 /// Whether a number is within the bounds of its own key. Where it is not, they are what a reader needs, and not the limit of
 /// all settings.
@@ -58,7 +62,7 @@ struct Checker {
     faults: Vec<Fault>,
     /// Names of the complete entries of the list that is checked, if its entries are merged by name: what an incomplete one
     /// may have been meant to change.
-    complete_entries: Vec<String>,
+    complete_entries: Rc<[String]>,
 }
 
 impl Checker {
@@ -190,9 +194,10 @@ impl Checker {
         let Some(schema) = schema.entries() else { return };
         let is_complete =
             |item: &&TomlNode| item.table().is_some_and(|table| schema.required().all(|key| table.contains_key(key)));
+        let complete = items.iter().filter(is_complete).filter_map(TomlNode::label).filter(|_| is_merged);
+        let complete: Rc<[String]> = complete.take(MAX_SUGGESTED_FROM).map(str::to_owned).collect();
         for (index, item) in items.iter().enumerate() {
-            let complete = items.iter().filter(is_complete).filter_map(TomlNode::label).filter(|_| is_merged);
-            self.complete_entries = complete.map(str::to_owned).collect();
+            self.complete_entries = Rc::clone(&complete);
             let step = item.label().map_or_else(|| index.to_string(), str::to_owned);
             self.node(item, schema, &path.join(&step));
         }

@@ -69,24 +69,6 @@ impl<S: StageSolver> Optimiser<S> {
         }
     }
 
-    /// As [`Optimiser::optimise`]; without any optimum, the motion that the descent from the guess has come to, if it is cheaper
-    /// than the guess and no less safe. The guess is what a vehicle without a plan would follow.
-    ///
-    /// # Errors
-    /// That of the descent from the guess, if the guess is cheaper or safer.
-    pub fn optimise_or_improve(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
-        let mut reached = match self.optimise(problem, guess) {
-            Err(DescentError::NotConverged(reached)) => reached,
-            outcome => return outcome,
-        };
-        let before = problem.cost(&problem.start(guess));
-        if reached.cost.total < before.total && reached.cost.unsafety() <= before.unsafety() {
-            reached.statistics.unfinished = 1;
-            return Ok(*reached);
-        }
-        Err(DescentError::NotConverged(reached))
-    }
-
     /// Descends from a motion of another class in search of a cheaper optimum.
     ///
     /// # Errors
