@@ -236,7 +236,7 @@ const WRONG: &[(&str, usize, usize, &str)] = &[
     (
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.x_m = { uniform = [-1.65, -0.3] }\n",
         3,
-        27,
+        21,
         "overlap at the start",
     ),
 ];
