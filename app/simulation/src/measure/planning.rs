@@ -8,7 +8,8 @@ pub struct Planning {
     times_ms: Vec<f64>,
     /// Plans that failed and were replaced by a fallback.
     pub failed: usize,
-    /// Plans that violate nothing but are not optimal, because their descent reached the limit of its work.
+    /// Plans that are not optimal, because their descent reached the limit of its work: they violate nothing, or are cheaper and no
+    /// less safe than going on with the plan before.
     pub unfinished: usize,
 }
 

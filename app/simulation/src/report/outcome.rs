@@ -162,7 +162,8 @@ pub struct PlansReport {
     pub count: usize,
     /// Plans that failed and were replaced by a fallback.
     pub failed: usize,
-    /// Plans that violate nothing but are not optimal, because their optimiser reached the limit of its work.
+    /// Plans that are not optimal, because their optimiser reached the limit of its work: they violate nothing, or are cheaper and no
+    /// less safe than going on with the plan before.
     pub unfinished: usize,
     /// Median time \[ms\].
     pub median_ms: f64,

@@ -58,7 +58,8 @@ pub struct Statistics {
     pub residual: f64,
     /// How many steps fell back from the exact Hessian to Gauss-Newton.
     pub fallbacks: usize,
-    /// 1 if the motion violates nothing but is not optimal: its descent reached the limit of its work.
+    /// 1 if the motion is not optimal, for its descent reached the limit of its work: it violates nothing, or is cheaper and no
+    /// less safe than the guess ([`Optimiser::optimise_or_improve`](super::Optimiser::optimise_or_improve)).
     pub unfinished: usize,
 }
 
