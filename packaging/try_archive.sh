@@ -15,14 +15,14 @@ grep -q '^| clarabel |' THIRD-PARTY.md
 if command -v man > /dev/null; then man -l man/interplay-run.1 > /dev/null; else echo "skipped: no man here to read the pages"; fi
 # In a root with nothing but the command and the libraries that it asks for.
 if unshare --map-root-user true 2> /dev/null; then
-    mkdir -p root/tmp
+    mkdir root
     for library in $(ldd interplay | grep -o '/[^ ]*'); do
         mkdir -p "root$(dirname "$library")"
         cp -L "$library" "root$library"
     done
     cp interplay root/
-    unshare --map-root-user chroot root /interplay run --record /tmp/first.rrd > said.txt
-    test -s root/tmp/first.rrd
+    unshare --map-root-user chroot root /interplay run --record /first.rrd > said.txt
+    test -s root/first.rrd
 else
     echo "skipped: no other root can be made here"
 fi

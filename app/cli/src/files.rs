@@ -59,7 +59,7 @@ pub(crate) fn destroyed<'a>(output: &Path, mut scenarios: impl Iterator<Item = &
 /// Whether two paths, of files that need not exist, name the same file.
 pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = interplay_files::folder_of(path);
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         path.canonicalize().unwrap_or_else(|_| folder.join(path.file_name().unwrap_or_default()))
     };

@@ -11,7 +11,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 pub use folders::NewFolders;
-pub use whole::WholeFile;
+pub use whole::{WholeFile, folder_of};
 
 /// Checks that a file can be written to `target`, and leaves no trace of that.
 ///

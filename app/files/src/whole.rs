@@ -98,7 +98,8 @@ impl Write for WholeFile {
     }
 }
 
-fn folder_of(target: &Path) -> &Path {
+/// The folder in which a file is or will be.
+pub fn folder_of(target: &Path) -> &Path {
     target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 

@@ -12,7 +12,7 @@ pub(super) fn operations_per_day(controller: &Controller, zones: usize, steps: u
         Controller::Thermostat(_) | Controller::Pid(_) | Controller::IterativeLearning(_) => zones * steps,
         // A plan of 1024 inputs takes some tenths of a second, and there is one at each step.
         Controller::ModelPredictive(settings) => {
-            let horizon = (settings.horizon_h / 24.0 * steps).round().max(1.0);
+            let horizon = settings.horizon(86_400.0 / steps) as f64;
             steps * 0.15 * (zones * horizon).powi(3)
         }
         Controller::Clairvoyant | Controller::Centralised(_) => central(zones, steps),

@@ -5,22 +5,17 @@ use interplay_simulation::frame::{BuildingFrame, Frame};
 use super::camera::WIDTH_PX;
 use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::chart::Chart;
-use super::letters::cut;
 use super::pictures::{Pictures, Rgb};
 use super::rooms::Rooms;
+use super::title::{BAR, TITLE_PX, WORDS, draw_title};
 use crate::figures::RecordedRun;
 use crate::palette::{BLUE, COLOUR_RANGE_K, Colour, ORANGE, temperature_colour};
 
 const PAPER: Colour = [0xF7, 0xF7, 0xF4];
-const BAR: Colour = [0x23, 0x26, 0x2B];
-const WORDS: Colour = [0xF2, 0xF2, 0xEE];
 const DARK_WORDS: Colour = [0x2A, 0x2C, 0x30];
 const GREY: Colour = [0x8A, 0x8D, 0x92];
 const HEIGHT_PX: f64 = 440.0;
-const TITLE_PX: f64 = 30.0;
-const TEXT_PX: f64 = 16.0;
 const SMALL_PX: f64 = 13.0;
-const MARGIN_PX: f64 = 12.0;
 /// Left, top, right and bottom of the floor plan, of the chart outdoors and of that of the rooms \[px\].
 const PLAN_PX: [f64; 4] = [14.0, 44.0, 384.0, 394.0];
 const OUTDOORS_PX: [f64; 4] = [440.0, 66.0, 704.0, 216.0];
@@ -174,16 +169,13 @@ impl Pictures for BuildingPictures<'_> {
         let at = hour / HOURS * steps.len() as f64;
         let step = steps.get(at as usize).or(steps.last())?;
         let mut canvas = Canvas::new(self.size(), PAPER)?;
-        canvas.block([0.0, 0.0], [WIDTH_PX, TITLE_PX], BAR);
         let clock = format!(
             "day {number} of {}   {:02}:{:02}",
             self.day_count,
             hour as u32,
             (hour.fract() * 60.0).round() as u32
         );
-        let y = 0.5 * TITLE_PX;
-        canvas.text([WIDTH_PX - MARGIN_PX, y], Align::Right, TEXT_PX, &clock, WORDS);
-        canvas.text([MARGIN_PX, y], Align::Left, TEXT_PX, &cut(self.title, TEXT_PX, 490.0), WORDS);
+        draw_title(&mut canvas, self.title, 490.0, &clock);
         self.draw_plan(&mut canvas, step, at.fract());
         self.draw_outdoors(&mut canvas, steps, hour);
         self.draw_indoors(&mut canvas, steps, hour);

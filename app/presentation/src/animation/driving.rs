@@ -8,26 +8,20 @@ use super::pictures::{Pictures, Rgb};
 use super::road::{GRASS, RoadShapes};
 use super::scene::{DrivingRun, SeenVehicle};
 use super::timing::{Moment, PICTURE_S, moments};
+use super::title::{BAR, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, draw_title};
 use super::vehicle;
 use crate::figures::RecordedRun;
 use crate::palette::{ASPHALT, Colour, VERMILLION};
 
-const BAR: Colour = [0x23, 0x26, 0x2B];
-const WORDS: Colour = [0xF2, 0xF2, 0xEE];
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
 const FLASH: Colour = [0xFF, 0xE3, 0x6B];
 const ALARM: Colour = [0xFF, 0x6B, 0x5B];
 /// Opacity of the band of a plan.
 const PLAN_OPACITY: f64 = 0.42;
-/// Heights of the bar above the view, and of a line of words below it \[px\].
-const TITLE_PX: f64 = 30.0;
+/// Height of a line of words below the view \[px\].
 const LINE_PX: f64 = 22.0;
-/// Size of words \[px\].
-const TEXT_PX: f64 = 16.0;
+/// Size of small words \[px\].
 const LABEL_PX: f64 = 14.0;
-/// Space beside words \[px\].
-const MARGIN_PX: f64 = 12.0;
-
 /// Width of the line of what a vehicle may do instead \[px\].
 const BRANCH_PX: f64 = 2.5;
 
@@ -158,20 +152,17 @@ impl<'a> DrivingPictures<'a> {
     }
 
     fn draw_title(&self, canvas: &mut Canvas, moment: &Moment) {
-        canvas.block([0.0, 0.0], [WIDTH_PX, TITLE_PX], BAR);
         let clock = format!("{:.1} s", moment.time_s);
         let speed = match moment.rate {
             1.0 => String::new(),
             rate if rate < 1.0 => format!("slow motion 1/{:.0}", 1.0 / rate),
             rate => format!("{rate:.0}× speed"),
         };
-        let y = 0.5 * TITLE_PX;
-        canvas.text([WIDTH_PX - MARGIN_PX, y], Align::Right, TEXT_PX, &clock, WORDS);
         let clock_left = WIDTH_PX - MARGIN_PX - 66.0;
-        let ink = if moment.rate < 1.0 { ALARM } else { QUIET_WORDS };
-        canvas.text([clock_left, y], Align::Right, LABEL_PX, &speed, ink);
         let longest = clock_left - 2.0 * MARGIN_PX - width_of("slow motion 1/4", LABEL_PX);
-        canvas.text([MARGIN_PX, y], Align::Left, TEXT_PX, &cut(&self.run.scenario.title, TEXT_PX, longest), WORDS);
+        draw_title(canvas, &self.run.scenario.title, longest, &clock);
+        let ink = if moment.rate < 1.0 { ALARM } else { QUIET_WORDS };
+        canvas.text([clock_left, 0.5 * TITLE_PX], Align::Right, LABEL_PX, &speed, ink);
     }
 
     fn draw_words(&self, canvas: &mut Canvas, top: f64, words: &Caption, seen: &[SeenVehicle]) {

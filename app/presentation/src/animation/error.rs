@@ -25,3 +25,10 @@ pub enum AnimationError {
         reason: io::Error,
     },
 }
+
+impl AnimationError {
+    /// An encoder's refusal.
+    pub(super) fn encoding(error: impl std::error::Error + Send + Sync + 'static) -> AnimationError {
+        AnimationError::Encoding(Box::new(error))
+    }
+}

@@ -25,6 +25,7 @@ mod scene;
 #[cfg(test)]
 mod tests;
 mod timing;
+mod title;
 mod vehicle;
 
 pub use error::AnimationError;
@@ -79,11 +80,9 @@ pub fn encoded(recorded: &RecordedRun, format: AnimationFormat) -> Result<Vec<u8
 fn encode(pictures: &dyn Pictures, format: AnimationFormat) -> Result<Vec<u8>, AnimationError> {
     let film = || Film::of(pictures).ok_or(AnimationError::Nothing);
     match format {
-        AnimationFormat::Gif => encode::gif(&film()?).map_err(|error| AnimationError::Encoding(Box::new(error))),
-        AnimationFormat::WebP => encode::webp(&film()?).map_err(|error| AnimationError::Encoding(Box::new(error))),
-        AnimationFormat::Filmstrip => {
-            encode::filmstrip(pictures).map_err(|error| AnimationError::Encoding(Box::new(error)))
-        }
+        AnimationFormat::Gif => encode::gif(&film()?).map_err(AnimationError::encoding),
+        AnimationFormat::WebP => encode::webp(&film()?).map_err(AnimationError::encoding),
+        AnimationFormat::Filmstrip => encode::filmstrip(pictures).map_err(AnimationError::encoding),
         AnimationFormat::Mp4 => encode::mp4(pictures).map_err(AnimationError::Film),
     }
 }

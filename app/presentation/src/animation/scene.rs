@@ -82,14 +82,17 @@ impl<'a> DrivingRun<'a> {
 
     /// The last tick that began at a time or before it.
     pub fn frame(&self, time_s: f64) -> &'a Frame {
-        let after = self.frames.partition_point(|frame| frame.time_s <= time_s + 1e-9);
-        self.frames[after.saturating_sub(1)]
+        self.frames[self.tick(time_s)]
+    }
+
+    /// The index of that tick.
+    fn tick(&self, time_s: f64) -> usize {
+        self.frames.partition_point(|frame| frame.time_s <= time_s + 1e-9).saturating_sub(1)
     }
 
     /// Every vehicle at a time, in the scenario's order; `shown_s` is the time in the picture, by which indicators blink.
     pub fn seen(&self, time_s: f64, shown_s: f64) -> Vec<SeenVehicle> {
-        let after = self.frames.partition_point(|frame| frame.time_s <= time_s + 1e-9);
-        let tick = after.saturating_sub(1);
+        let tick = self.tick(time_s);
         let frame = self.frames[tick];
         let next_s = self.frames.get(tick + 1).map_or(self.end.0, |frame| frame.time_s);
         let share = ((time_s - frame.time_s) / (next_s - frame.time_s).max(1e-9)).clamp(0.0, 1.0);

@@ -40,9 +40,8 @@ pub struct Predictive {
     planned_steps_ago: usize,
     /// Why the last step has no plan of its own.
     trouble: Option<ControlError>,
-    /// Days with such steps, and whether today is one.
+    /// Days over with such steps.
     days_in_trouble: usize,
-    is_in_trouble: bool,
 }
 
 impl Predictive {
@@ -66,7 +65,6 @@ impl Predictive {
             planned_steps_ago: 0,
             trouble: None,
             days_in_trouble: 0,
-            is_in_trouble: false,
         })
     }
 
@@ -126,7 +124,6 @@ impl Control for Predictive {
         day_ahead.forecast.check(day_ahead.targets)?;
         self.estimate.begin_day(day_ahead.initial_c);
         self.forecast = day_ahead.forecast.clone();
-        self.is_in_trouble = false;
         Ok(())
     }
 
@@ -141,11 +138,7 @@ impl Control for Predictive {
                 (self.planned_kw, self.planned_steps_ago) = (planned_kw, 0);
                 None
             }
-            Err(why) => {
-                self.days_in_trouble += usize::from(!self.is_in_trouble);
-                self.is_in_trouble = true;
-                Some(ControlError::StepWithoutPlan { step, why: Box::new(why) })
-            }
+            Err(why) => Some(ControlError::StepWithoutPlan { step, why: Box::new(why) }),
         };
         let heat_kw = self.planned_now();
         let (ambient_c, gains_kw) = (self.forecast.ambient_c[step], self.gains_kw(step).to_vec());
@@ -153,7 +146,8 @@ impl Control for Predictive {
         heat_kw
     }
 
-    fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
+    fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
+        self.days_in_trouble = record.design.fallbacks;
         Ok(())
     }
 

@@ -38,7 +38,7 @@ impl PredictiveSettings {
     }
 
     /// How many steps of `step_s` a plan has, at least one.
-    pub(super) fn horizon(&self, step_s: f64) -> usize {
+    pub fn horizon(&self, step_s: f64) -> usize {
         ((self.horizon_h * 3600.0 / step_s).round() as usize).max(1)
     }
 
