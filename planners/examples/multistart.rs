@@ -11,9 +11,9 @@
 //! took.
 //!
 //! The second does the same with the recorded problems (`tests/data`): the plan is a descent from the recorded warm start and a
-//! comparison of the classes of motion, finished at once. A row for each planner counts the problems with a cheaper random
-//! start, and gives their share with its 95 % interval (Wilson's score interval). Then each such problem follows with both
-//! costs. `DRAW` seeds the random starts.
+//! comparison of the classes of motion, finished at once, or a global search. A row for each planner counts the problems with a
+//! cheaper random start, and gives their share with its 95 % interval (Wilson's score interval). Then each such problem follows
+//! with both costs. `DRAW` seeds the random starts.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -29,7 +29,7 @@ use common::Random;
 use common::wilson::wilson_interval;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::diagnostic::COST;
-use interplay_planners::trajectory::{Optimiser, Problem, Robust};
+use interplay_planners::trajectory::{Optimiser, PassingOrderSearch, Problem, Robust};
 use interplay_planners::{Driver, Input, Plan};
 use recorded::Recorded;
 
@@ -83,34 +83,46 @@ impl Findings {
     }
 }
 
+/// How far planners look for a cheaper plan, in the order of the columns.
+const SEARCHES: [PassingOrderSearch; 2] = [PassingOrderSearch::Classes, PassingOrderSearch::Global];
+
 /// Prints how often random starts find something cheaper in the recorded problems.
 fn search_recorded(draw: u64) -> Result<(), Box<dyn Error>> {
     let mut out = std::io::stdout();
-    let (mut all, mut elsewhere) = (Findings::default(), Findings::default());
+    let mut sums: [(&str, [Findings; 2]); 2] =
+        ["ramps and intersections", "all"].map(|name| (name, Default::default()));
     let mut beaten = Vec::new();
-    writeln!(out, "| planner | problems | cheaper random start | share | 95 % interval |\n|---|---|---|---|---|")?;
+    let columns = "problems | cheaper random start | share | 95 % interval";
+    writeln!(out, "| planner | classes: {columns} | global: {columns} |\n|---|{}", "---|".repeat(8))?;
     for kind in recorded::KINDS {
-        let mut own = Findings::default();
+        let mut own: [Findings; 2] = Default::default();
         for (index, recorded) in recorded::load(kind)?.iter().enumerate() {
-            let planned = planned_cost(kind, recorded);
             let found = cheapest(&recorded.problem(), (draw << 32) + index as u64);
-            own.note(&recorded.id, planned, found);
-            all.note(&recorded.id, planned, found);
-            if ["ramp", "crossing"].iter().any(|place| recorded.id.starts_with(place)) {
-                elsewhere.note(&recorded.id, planned, found);
+            let is_elsewhere = ["ramp", "crossing"].iter().any(|place| recorded.id.starts_with(place));
+            for (column, search) in SEARCHES.into_iter().enumerate() {
+                let planned = planned_cost(kind, search, recorded);
+                own[column].note(&recorded.id, planned, found);
+                for (_, sum) in sums.iter_mut().skip(usize::from(!is_elsewhere)) {
+                    sum[column].note(&recorded.id, planned, found);
+                }
             }
         }
-        writeln!(out, "| {kind} | {} |", own.row())?;
-        beaten.extend(own.beaten.into_iter().map(|text| format!("{kind} {text}")));
+        writeln!(out, "| {kind} | {} | {} |", own[0].row(), own[1].row())?;
+        out.flush()?;
+        let lines = SEARCHES.iter().zip(own);
+        beaten.extend(lines.flat_map(|(search, findings)| {
+            findings.beaten.into_iter().map(move |text| format!("{search:?}: {kind} {text}"))
+        }));
     }
-    writeln!(out, "| all | {} |\n| ramps and intersections | {} |\n", all.row(), elsewhere.row())?;
+    sums.iter()
+        .try_for_each(|(name, [classes, global])| writeln!(out, "| {name} | {} | {} |", classes.row(), global.row()))?;
     beaten.iter().try_for_each(|text| writeln!(out, "{text}"))?;
     Ok(())
 }
 
-/// What a planner's descent and comparison of classes come to; infinite if they fail.
-fn planned_cost(kind: &str, recorded: &Recorded) -> f64 {
-    let mut optimiser = recorded::optimiser(kind);
+/// What a planner's descent and search come to; infinite if they fail.
+fn planned_cost(kind: &str, search: PassingOrderSearch, recorded: &Recorded) -> f64 {
+    let mut optimiser = recorded::optimiser(kind).searching(search);
     optimiser.warm_start = recorded.memory();
     let plan = optimiser.optimise(&recorded.problem(), &recorded.guess());
     plan.map_or(f64::INFINITY, |plan| plan.cost.total)

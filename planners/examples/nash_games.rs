@@ -26,6 +26,7 @@ use common::Random;
 use common::games::joint_problem;
 use common::wilson::wilson_interval;
 use interplay_planners::nash::{Equilibrium, equilibrium};
+use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::trajectory::{DescentError, Optimiser, Problem, Robust, Tolerances, Violation, WarmStart};
 use recorded::Recorded;
 
@@ -89,7 +90,8 @@ fn own_problems(games: usize, seed: u64) -> Result<Vec<Recorded>, Box<dyn Error>
 }
 
 fn find(problem: &Problem, all_classes: bool) -> Result<Equilibrium, DescentError> {
-    let mut joint = Optimiser::resuming(Robust::default()).comparing(all_classes);
+    let search = if all_classes { PassingOrderSearch::Classes } else { PassingOrderSearch::Off };
+    let mut joint = Optimiser::resuming(Robust::default()).searching(search);
     let mut replies = joint.clone();
     replies.resumes = false;
     equilibrium(&mut joint, &mut replies, problem, &[])

@@ -24,6 +24,7 @@ use std::io::Write;
 use std::time::Instant;
 
 use interplay_planners::Input;
+use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::trajectory::{
     DescentError, Iterate, Optimiser, Optimum, Problem, Robust, Sparse, StageSolver, Structured, Violation,
 };
@@ -68,10 +69,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     let problems = recorded::load(kind)?;
     let outcomes = match solver.as_str() {
         "planner" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind)),
-        "resumed" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind).comparing(false)),
-        "robust" => solve_all(&problems, &starts, repeats, Optimiser::new(Robust::default()).comparing(false)),
-        "structured" => solve_all(&problems, &starts, repeats, Optimiser::new(Structured::default()).comparing(false)),
-        "sparse" => solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default()).comparing(false)),
+        "resumed" => {
+            solve_all(&problems, &starts, repeats, recorded::optimiser(kind).searching(PassingOrderSearch::Off))
+        }
+        "robust" => {
+            solve_all(&problems, &starts, repeats, Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off))
+        }
+        "structured" => solve_all(
+            &problems,
+            &starts,
+            repeats,
+            Optimiser::new(Structured::default()).searching(PassingOrderSearch::Off),
+        ),
+        "sparse" => {
+            solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default()).searching(PassingOrderSearch::Off))
+        }
         other => {
             return Err(
                 format!("no solver is called {other}: planner, resumed, robust, structured and sparse are").into()

@@ -6,6 +6,7 @@ use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, begin, intersection, r
 use interplay_planners::human::{Human, Settings, Style};
 use interplay_planners::predict::{Prediction, constant_velocity};
 use interplay_planners::scripted::{self, Order};
+use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::{Agent, Body, Corridor, Driver, Input, Limits, Plan, PlanError, Scene, State, conservative};
 use proptest::prelude::*;
 
@@ -145,7 +146,8 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     let weight = || prop_oneof![Just(0.0), 0.0..100.0, Just(1e4)];
     let prediction = prop_oneof![Just(Prediction::Plan), Just(Prediction::ConstantVelocity)];
     let style = prop::option::of(prop::sample::select(Style::ALL.to_vec()));
-    let plain = (style, prop::option::of(weight()), weight(), 0.0..2.0, any::<bool>());
+    let orders = prop_oneof![Just(PassingOrderSearch::Off), Just(PassingOrderSearch::Classes)];
+    let plain = (style, prop::option::of(weight()), weight(), 0.0..2.0, orders);
     (plain, prediction, duration_s(), duration_s()).prop_map(|(plain, prediction, reaction_s, hesitation_s)| {
         let (style, safety_weight, following_weight, closing_mps, passing_orders) = plain;
         Settings {

@@ -8,13 +8,14 @@ use common::world::{lane_change, run};
 use interplay_planners::human::Style;
 use interplay_planners::nash::diagnostics::{DEVIATION_GAIN, PLAYERS};
 use interplay_planners::nash::{self, Equilibrium, TOLERATED_GAIN, equilibrium};
+use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::trajectory::{Iterate, Optimiser, Problem, Robust};
 use interplay_planners::{Driver, Input};
 
 const GAMES: usize = 20;
 
 fn solve(problem: &Problem) -> Equilibrium {
-    let mut joint = Optimiser::new(Robust::default()).comparing(false);
+    let mut joint = Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off);
     let mut replies = joint.clone();
     equilibrium(&mut joint, &mut replies, problem, &[]).expect("a joint optimum")
 }
@@ -91,7 +92,7 @@ fn an_unfinished_descent_is_not_certified() {
     let mut gains = 0;
     for _ in 0..GAMES {
         let problem = joint_problem(&mut random, 2);
-        let mut joint = Optimiser::new(Robust::default()).comparing(false);
+        let mut joint = Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off);
         let mut replies = joint.clone();
         joint.tolerances.iteration_limit = 1;
         let guess = vec![Vec::new(), Vec::new()];

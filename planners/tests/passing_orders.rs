@@ -3,6 +3,7 @@
 mod common;
 
 use common::{HORIZON, Random, Vehicle, alone, iterate, lane_change, pair, problem};
+use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::trajectory::terms::KeepOut;
 use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust};
 use interplay_planners::{Corridor, Input, SafetyEllipse, State};
@@ -36,9 +37,9 @@ fn swerve(side: f64) -> Vec<Vec<Input>> {
 
 /// The optimum from a guess and what it costs, alone and looking across.
 fn optima(problem: &Problem, guess: &[Vec<Input>]) -> Option<[f64; 2]> {
-    let mut optimiser = Optimiser::new(Robust::default()).comparing(false);
+    let mut optimiser = Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off);
     let alone = optimiser.optimise(problem, guess).ok()?;
-    optimiser.compares_passing_orders = true;
+    optimiser.passing_orders = PassingOrderSearch::Classes;
     let across = optimiser.optimise(problem, guess).ok()?;
     Some([alone.cost.total, across.cost.total])
 }

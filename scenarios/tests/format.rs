@@ -7,6 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use interplay_building::bounds::Bound;
+use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::{Driver, human::Style};
 use interplay_scenarios::{
     Override, ParallelLanes, Road, Scenario, Source, commented, embedded, from_text, load, schema,
@@ -114,13 +115,13 @@ fn a_table_set_on_a_vehicle_changes_only_the_keys_that_it_states() {
 
 #[test]
 fn another_planner_keeps_the_settings_that_it_knows() {
-    let one_class = Override::Set("vehicle.ego.driver.passing_orders=false".to_owned());
+    let one_class = Override::Set("vehicle.ego.driver.passing_orders=\"off\"".to_owned());
     let conservative = Override::Planner("conservative".to_owned());
     let scenario = load("lane-change/front-nice", &[one_class, conservative]).expect("a planner");
     let Some(Driver::Conservative(settings)) = scenario.ego().map(|ego| &ego.driver) else {
         panic!("not conservative")
     };
-    assert!(!settings.passing_orders);
+    assert_eq!(settings.passing_orders, PassingOrderSearch::Off);
     let same = load("lane-change/front-nice", &[Override::Planner("negotiation".to_owned())]).expect("a planner");
     assert_eq!(same, load("lane-change/front-nice", &[]).expect("authored"));
     let first = least("", &[Override::Planner("conservative".to_owned())]);

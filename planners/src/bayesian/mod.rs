@@ -49,7 +49,7 @@ impl Bayesian {
     pub fn new(settings: Settings) -> Self {
         Bayesian {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
             partner: PartnerSequence::default(),
             belief: PersuasionBelief::initial(&settings),
             partner_plan: None,

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::DriverSettingError;
 use crate::predict::Prediction;
+use crate::trajectory::PassingOrderSearch;
 
 /// Which value of the other's best reply enters the ego's cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -52,10 +53,10 @@ pub struct Settings {
     pub clear_lead_m: f64,
     /// What the others are expected to do.
     pub prediction: Prediction,
-    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
-    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
-    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
-    pub passing_orders: bool,
+    /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
+    /// cheapest one is driven.
+    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
+    pub passing_orders: PassingOrderSearch,
 }
 
 impl Default for Settings {
@@ -71,7 +72,7 @@ impl Default for Settings {
             value: ReplyValue::Linear,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
-            passing_orders: true,
+            passing_orders: PassingOrderSearch::Classes,
         }
     }
 }

@@ -36,7 +36,7 @@ impl Conservative {
     pub fn new(settings: Settings) -> Self {
         Conservative {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
             last: None,
         }
     }

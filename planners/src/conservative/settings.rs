@@ -4,21 +4,22 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::predict::Prediction;
+use crate::trajectory::PassingOrderSearch;
 
 /// The conservative baseline (eq. 6.13).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
-    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
-    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
-    pub passing_orders: bool,
+    /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
+    /// cheapest one is driven.
+    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
+    pub passing_orders: PassingOrderSearch,
     /// What the others are expected to do.
     pub prediction: Prediction,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { passing_orders: true, prediction: Prediction::Plan }
+        Settings { passing_orders: PassingOrderSearch::Classes, prediction: Prediction::Plan }
     }
 }

@@ -69,7 +69,7 @@ impl Contingency {
     pub fn new(settings: Settings) -> Self {
         Contingency {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
             last: Vec::new(),
         }
     }

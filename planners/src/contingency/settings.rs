@@ -1,5 +1,6 @@
 //! The settings of the contingency planner in a scenario file.
 
+use crate::trajectory::PassingOrderSearch;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,14 +23,19 @@ pub struct Settings {
     /// one \[m\].
     #[schemars(range(min = 0.001))]
     pub told_apart_m: f64,
-    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
-    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
-    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
-    pub passing_orders: bool,
+    /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
+    /// cheapest one is driven.
+    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
+    pub passing_orders: PassingOrderSearch,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { probability_at_least: 0.05, futures_at_most: 3, told_apart_m: 0.05, passing_orders: true }
+        Settings {
+            probability_at_least: 0.05,
+            futures_at_most: 3,
+            told_apart_m: 0.05,
+            passing_orders: PassingOrderSearch::Classes,
+        }
     }
 }

@@ -62,7 +62,7 @@ impl Cooperative {
     pub fn new(settings: Settings) -> Self {
         Cooperative {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
             last: Vec::new(),
         }
     }

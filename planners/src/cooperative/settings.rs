@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::predict::Prediction;
+use crate::trajectory::PassingOrderSearch;
 
 /// The joint problem of all vehicles that have this driver (eq. 6.12).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,14 +15,14 @@ pub struct Settings {
     pub normaliser: f64,
     /// What vehicles that do not cooperate are expected to do.
     pub prediction: Prediction,
-    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
-    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
-    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
-    pub passing_orders: bool,
+    /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
+    /// cheapest one is driven.
+    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
+    pub passing_orders: PassingOrderSearch,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { normaliser: 1.0, prediction: Prediction::Plan, passing_orders: true }
+        Settings { normaliser: 1.0, prediction: Prediction::Plan, passing_orders: PassingOrderSearch::Classes }
     }
 }

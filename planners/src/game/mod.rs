@@ -90,7 +90,7 @@ impl Game {
         Game {
             settings,
             theory: TabulatedTheory::new(settings.prospect),
-            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
             partner: PartnerSequence::default(),
             intentions: Intentions::at_first(&settings),
             fastest_mps: [0.0; 2],

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::prospect::ProspectTheory;
 use crate::predict::Prediction;
+use crate::trajectory::PassingOrderSearch;
 
 /// How the game is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -104,10 +105,10 @@ pub struct Settings {
     pub clear_lead_m: f64,
     /// What the others are expected to do.
     pub prediction: Prediction,
-    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
-    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
-    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
-    pub passing_orders: bool,
+    /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
+    /// cheapest one is driven.
+    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
+    pub passing_orders: PassingOrderSearch,
 }
 
 impl Default for Settings {
@@ -134,7 +135,7 @@ impl Default for Settings {
             later_expression_s: 2.5,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
-            passing_orders: true,
+            passing_orders: PassingOrderSearch::Classes,
         }
     }
 }

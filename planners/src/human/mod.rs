@@ -90,7 +90,7 @@ impl Human {
             perception: Perception::default(),
             decision: Decision::default(),
             arrivals: ArrivalMemory::default(),
-            optimiser: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
             last: None,
         }
     }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::predict::Prediction;
+use crate::trajectory::PassingOrderSearch;
 
 /// Named points on the continuum of safety weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -67,10 +68,10 @@ pub struct Settings {
     /// \[m/s\].
     #[schemars(range(min = 0.0))]
     pub closing_mps: f64,
-    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
-    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
-    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
-    pub passing_orders: bool,
+    /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
+    /// cheapest one is driven.
+    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
+    pub passing_orders: PassingOrderSearch,
     /// What others are expected to do that might cut in or cross: by default what their present heading and speed say, so
     /// that a nudge is seen, and not what they plan. With `plan` the driver reads plans: it yields to what others plan before
     /// it shows in their motion. The car ahead is always expected to follow its plan.
@@ -92,7 +93,7 @@ impl Default for Settings {
             safety_weight: None,
             following_weight: 20.0,
             closing_mps: 0.0,
-            passing_orders: true,
+            passing_orders: PassingOrderSearch::Classes,
             prediction: Prediction::ConstantVelocity,
             reaction_s: 0.0,
             hesitation_s: 0.0,

@@ -17,6 +17,7 @@ pub use settings::Settings;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::joint::{JointVehicle, problem};
+use crate::trajectory::PassingOrderSearch;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Problem, Robust, Violation};
 use crate::{Diagnostic, Input, Plan, PlanError, PlanEvent, Proposal, Scene, Trajectory};
@@ -39,9 +40,9 @@ impl Nash {
     pub fn new(settings: Settings) -> Self {
         Nash {
             settings,
-            joint: Optimiser::resuming(Robust::default()).comparing(settings.passing_orders),
+            joint: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
             // The comparison of the joint problem looks into the other classes of motion.
-            replies: Optimiser::new(Robust::default()).comparing(false),
+            replies: Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off),
             seen: SeenSpeeds::default(),
             last: Vec::new(),
         }

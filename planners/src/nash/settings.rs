@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::predict::Prediction;
+use crate::trajectory::PassingOrderSearch;
 
 /// A general-sum game of 2 to 4 vehicles: everybody minimises its own cost, and nobody may collide.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,10 +23,10 @@ pub struct Settings {
     pub clear_lead_m: f64,
     /// How the others are predicted: where their motions lead is what they are supposed to want.
     pub prediction: Prediction,
-    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
-    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
-    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
-    pub passing_orders: bool,
+    /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
+    /// cheapest one is driven.
+    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
+    pub passing_orders: PassingOrderSearch,
 }
 
 impl Default for Settings {
@@ -35,7 +36,7 @@ impl Default for Settings {
             players_at_most: 4,
             clear_lead_m: 0.2,
             prediction: Prediction::ConstantVelocity,
-            passing_orders: true,
+            passing_orders: PassingOrderSearch::Classes,
         }
     }
 }

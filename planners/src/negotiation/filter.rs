@@ -5,6 +5,7 @@
 //! intervention is recorded.
 
 use crate::conservative::problem;
+use crate::trajectory::PassingOrderSearch;
 use crate::trajectory::{Optimiser, Optimum, Robust, Violation};
 use crate::{Agent, Scene};
 
@@ -22,7 +23,7 @@ pub(super) struct Filter {
 
 impl Default for Filter {
     fn default() -> Self {
-        Filter { optimiser: Optimiser::resuming(Robust::default()).comparing(false) }
+        Filter { optimiser: Optimiser::resuming(Robust::default()).searching(PassingOrderSearch::Off) }
     }
 }
 

@@ -7,6 +7,7 @@ use super::acceptance::Acceptance;
 use super::references::References;
 use crate::DriverSettingError;
 use crate::predict::Prediction;
+use crate::trajectory::PassingOrderSearch;
 
 /// Negotiation with concession and persuasion (chapter 6).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,10 +57,10 @@ pub struct Settings {
     /// Whether the negotiated input is applied only if a conservative plan still exists after it.
     #[schemars(extend("x-mechanism" = { "safety filter": false }))]
     pub safety_filter: bool,
-    /// Whether the classes of motion (before or behind another vehicle, to its left or to its right) are compared and the
-    /// cheapest one is chosen. Without it a plan stays in the class of the plan before.
-    #[schemars(extend("x-mechanism" = { "passing orders": false }))]
-    pub passing_orders: bool,
+    /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
+    /// cheapest one is driven.
+    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
+    pub passing_orders: PassingOrderSearch,
     /// What the others are expected to do. At constant velocity nobody ever seems to accept a proposal.
     pub prediction: Prediction,
 }
@@ -81,7 +82,7 @@ impl Default for Settings {
             persuasion: true,
             references: References::LastRound,
             safety_filter: true,
-            passing_orders: true,
+            passing_orders: PassingOrderSearch::Classes,
             prediction: Prediction::Plan,
         }
     }

@@ -53,6 +53,16 @@ pub(super) enum Exploration {
     Unfinished(Optimum),
 }
 
+/// Replaces the plan at hand by a cheaper one. Returns the work that this one took.
+pub(super) fn replace(held: &mut Result<Optimum, DescentError>, found: Optimum) -> usize {
+    let work = found.statistics.work();
+    match held {
+        Ok(held) => held.give_way(found),
+        Err(_) => *held = Ok(found),
+    }
+    work
+}
+
 impl Optimum {
     /// Gives way to a cheaper optimum of another class and becomes its runner-up.
     pub(super) fn give_way(&mut self, found: Optimum) {

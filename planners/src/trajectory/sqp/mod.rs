@@ -32,11 +32,13 @@ mod optimiser;
 mod optimum;
 mod passing_class;
 mod passing_orders;
+mod search;
 mod step_problem;
 mod step_solver;
 mod warm_start;
 
 pub use optimiser::Optimiser;
 pub use optimum::{DescentError, Optimum, Statistics, Tolerances};
+pub use search::PassingOrderSearch;
 pub use step_problem::StepProblem;
 pub use warm_start::WarmStart;

@@ -4,6 +4,7 @@ use super::comparison::Comparison;
 use super::descent::Descent;
 use super::exploration::{Exploration, GivesUp};
 use super::optimum::{DescentError, Optimum, Tolerances};
+use super::search::PassingOrderSearch;
 use super::warm_start::WarmStart;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
@@ -17,8 +18,8 @@ pub struct Optimiser<S> {
     pub tolerances: Tolerances,
     /// Whether a descent begins with what the one before has left, if the problem has the same shape.
     pub resumes: bool,
-    /// Whether [`Optimiser::optimise`] compares the classes of motion.
-    pub compares_passing_orders: bool,
+    /// How far [`Optimiser::optimise`] looks for a cheaper class of motion.
+    pub passing_orders: PassingOrderSearch,
     /// What the descent whose optimum was kept last has left.
     pub warm_start: WarmStart,
     /// How far the comparison of classes has got.
@@ -29,7 +30,7 @@ pub struct Optimiser<S> {
 impl<S: StageSolver + Default> Optimiser<S> {
     /// An optimiser with the default tolerances.
     pub fn new(solver: S) -> Self {
-        let mut optimiser = Optimiser { compares_passing_orders: true, ..Optimiser::default() };
+        let mut optimiser = Optimiser::default();
         optimiser.descent.steps.solver = solver;
         optimiser
     }
@@ -41,9 +42,9 @@ impl<S: StageSolver + Default> Optimiser<S> {
         Optimiser { tolerances, resumes: true, ..Optimiser::new(solver) }
     }
 
-    /// This optimiser, with or without the comparison of passing orders.
-    pub fn comparing(self, compares_passing_orders: bool) -> Self {
-        Optimiser { compares_passing_orders, ..self }
+    /// This optimiser, looking so far for a cheaper passing order.
+    pub fn searching(self, passing_orders: PassingOrderSearch) -> Self {
+        Optimiser { passing_orders, ..self }
     }
 }
 
@@ -69,7 +70,7 @@ impl<S: StageSolver> Optimiser<S> {
         }
     }
 
-    /// Descends from a motion of another class in search of a cheaper optimum.
+    /// Descends from another motion in search of an optimum that costs less than `bar`.
     ///
     /// # Errors
     /// As [`Optimiser::descend`], and the reasons for which an exploration is given up.
@@ -77,15 +78,16 @@ impl<S: StageSolver> Optimiser<S> {
         &mut self,
         problem: &Problem,
         from: Iterate,
-        gives_up: GivesUp,
+        bar: f64,
+        gives_up: Option<&GivesUp>,
         tolerances: &Tolerances,
     ) -> Result<Exploration, DescentError> {
         let now = self.descent.begin(problem, from)?;
-        let found = match self.descent.run(problem, now, false, Some(&gives_up), tolerances) {
+        let found = match self.descent.run(problem, now, false, gives_up, tolerances) {
             Err(DescentError::NotConverged(reached)) => return Ok(Exploration::Unfinished(*reached)),
             outcome => outcome?,
         };
-        if found.cost.total < gives_up.above {
+        if found.cost.total < bar {
             self.descent.leave(&mut self.warm_start);
             return Ok(Exploration::Cheaper(found));
         }

@@ -19,13 +19,15 @@
 //! dearer.
 
 mod followed_road;
+mod global;
 mod motions;
 
 use super::comparison::{Round, Unfinished};
-use super::exploration::{Exploration, GivesUp};
+use super::exploration::{Exploration, GivesUp, replace};
 use super::optimiser::Optimiser;
 use super::optimum::{DescentError, Optimum, Statistics, Tolerances};
 use super::passing_class::PassingClass;
+use super::search::PassingOrderSearch;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
@@ -54,7 +56,7 @@ struct Representative {
 
 impl<S: StageSolver> Optimiser<S> {
     /// The cheapest plan: descends from a guess (per participant, inputs), which decides a first class of motion, then compares it
-    /// with the other classes unless [`Optimiser::compares_passing_orders`] is off.
+    /// with others as far as [`Optimiser::passing_orders`] says.
     ///
     /// # Errors
     /// That of the descent from the guess, if no class has an optimum.
@@ -63,8 +65,11 @@ impl<S: StageSolver> Optimiser<S> {
         let trusted = self.tolerances.trust(&found);
         // What a descent has come to without an end has no multipliers to tell.
         let is_unfinished = found.as_ref().is_ok_and(|optimum| optimum.statistics.unfinished > 0);
-        if trusted && !(self.compares_passing_orders && (is_unfinished || self.has_rivals(problem))) {
-            return found;
+        match self.passing_orders {
+            PassingOrderSearch::Off if trusted => return found,
+            _ if trusted && !(is_unfinished || self.has_rivals(problem)) => return found,
+            PassingOrderSearch::Global => return self.search_globally(problem, found),
+            _ => {}
         }
         let cost = found.as_ref().map_or(f64::INFINITY, |optimum| optimum.cost.total);
         let has_jumped = cost > MAX_COST_GROWTH * self.comparison.last_cost;
@@ -177,12 +182,15 @@ impl<S: StageSolver> Optimiser<S> {
     ) -> usize {
         let tolerances = Tolerances { work_limit, ..self.tolerances };
         let gives_up = GivesUp { above: self.bar(best), settled: &round.settled };
-        let explored = self.explore_class(problem, iterate, gives_up, &tolerances);
+        let explored = self.explore_class(problem, iterate, gives_up.above, Some(&gives_up), &tolerances);
         if let Ok(Exploration::Cheaper(found) | Exploration::Dearer(found)) = &explored {
             round.settled.push(PassingClass::of(problem, &found.iterate));
         }
         let statistics = match explored {
-            Ok(Exploration::Cheaper(found)) => return give_way(found, round, best),
+            Ok(Exploration::Cheaper(found)) => {
+                round.has_changed = true;
+                return replace(best, found);
+            }
             Ok(Exploration::Dearer(found)) => {
                 round.nearest_cost = round.nearest_cost.min(found.cost.total);
                 best.iter_mut().for_each(|held| held.note_rival(&found));
@@ -190,7 +198,8 @@ impl<S: StageSolver> Optimiser<S> {
             }
             Ok(Exploration::Unfinished(mut reached)) if self.is_better(&reached, best) => {
                 reached.statistics.unfinished = 1;
-                return give_way(reached, round, best);
+                round.has_changed = true;
+                return replace(best, reached);
             }
             Ok(Exploration::Unfinished(reached)) => {
                 let work = reached.statistics.work();
@@ -225,17 +234,6 @@ impl<S: StageSolver> Optimiser<S> {
             Err(_) => f64::INFINITY,
         }
     }
-}
-
-/// Replaces the plan at hand by a cheaper one. Returns the work that this one took.
-fn give_way(found: Optimum, round: &mut Round, best: &mut Result<Optimum, DescentError>) -> usize {
-    round.has_changed = true;
-    let work = found.statistics.work();
-    match best {
-        Ok(held) => held.give_way(found),
-        Err(_) => *best = Ok(found),
-    }
-    work
 }
 
 /// The cheapest simple motion of each class but one, the cheapest first; `planned` is what everybody plans so far.

@@ -1,0 +1,18 @@
+//! How far an optimiser looks beyond the class of motion in which it begins.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Which passing orders (before or behind another vehicle, to its left or to its right) are looked at for a cheaper plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PassingOrderSearch {
+    /// None: a plan stays in the class of the plan before.
+    Off,
+    /// Those that simple motions reach, as long as they promise to be cheaper.
+    #[default]
+    Classes,
+    /// All that can be found: every plan is searched from every simple motion and from motions spread over all inputs. It
+    /// takes a hundred times as long, and tells whether an outcome is owed to an optimum that was missed.
+    Global,
+}
