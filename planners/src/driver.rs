@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bayesian::{self, Bayesian};
 use crate::belief::{self, DriverBeliefs};
+use crate::certificate::{refused, violations};
 use crate::conservative::{self, Conservative};
 use crate::contingency::{self, Contingency, Outlook};
 use crate::cooperative::{self, Cooperative};
@@ -53,6 +54,10 @@ pub struct Planner {
     /// What it believes of the others, if it is not told their plans.
     beliefs: Option<Box<DriverBeliefs>>,
     passing_orders: PassingOrderLog,
+    /// What its certificates take for where the others will be.
+    prediction: Prediction,
+    /// Whether a plan may be refused. Those who go first are what the others have to live with, and drive as they do.
+    may_be_refused: bool,
 }
 
 /// How a planner finds its plans.
@@ -91,7 +96,13 @@ impl Driver {
             Driver::Contingency(settings) => Method::Contingency(Box::new(Contingency::new(*settings))),
         };
         let beliefs = (!self.knows_plans()).then(|| Box::new(DriverBeliefs::new(*inference)));
-        Planner { method, beliefs, passing_orders: PassingOrderLog::default() }
+        Planner {
+            method,
+            beliefs,
+            passing_orders: PassingOrderLog::default(),
+            prediction: self.prediction().unwrap_or_default(),
+            may_be_refused: !self.goes_first(),
+        }
     }
 
     /// How the driver predicts the others; none for one who does not look.
@@ -277,6 +288,12 @@ impl Planner {
             Method::Nash(planner) => planner.plan(scene),
             Method::Contingency(planner) => planner.plan(scene, outlook),
         }?;
+        let expected = self.prediction.applied_to(scene);
+        plan.violations = violations(&expected, &plan.trajectory);
+        let refused = self.may_be_refused.then(|| refused(&expected, &plan.trajectory, &plan.violations)).flatten();
+        if let Some(violation) = refused {
+            return Err(PlanError::Refused(violation.clone()));
+        }
         if plan.problem.is_some() {
             self.passing_orders.note(scene, &mut plan);
         }

@@ -22,6 +22,7 @@
 
 pub mod bayesian;
 pub mod belief;
+pub mod certificate;
 pub mod conservative;
 pub mod contingency;
 pub mod cooperative;

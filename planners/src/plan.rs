@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::Trajectory;
+use crate::certificate::PlanViolation;
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
 use crate::driver_estimate::DriverEstimate;
 use crate::passing_order::PassingOrder;
@@ -23,6 +24,8 @@ pub struct Plan {
     pub diagnostics: Vec<Diagnostic>,
     /// What is believed of the others, where their plans are inferred.
     pub beliefs: Vec<DriverEstimate>,
+    /// What it violates, by its certificate.
+    pub violations: Vec<PlanViolation>,
     /// What happened in this step.
     pub events: Vec<PlanEvent>,
     /// The trajectory problem that the plan solves, for whoever checks it; none of a planner that poses none.
@@ -105,6 +108,9 @@ pub enum PlanError {
     /// The scene holds a number that is not finite.
     #[error("bad input: {0}")]
     BadInput(String),
+    /// There is a plan, but its certificate says that it must not be driven.
+    #[error("the plan was refused: {0}")]
+    Refused(PlanViolation),
 }
 
 impl From<DescentError> for PlanError {

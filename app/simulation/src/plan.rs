@@ -48,7 +48,11 @@ fn note(decision: &Decision, frame: &mut Frame) {
     let event = |level, text| Event { vehicle: vehicle.clone(), level, text };
     frame.events.extend(decision.plan.events.iter().map(|happened| event(Level::Note, happened.text.clone())));
     if let Some(failure) = &decision.failure {
-        let instead = if decision.origin == Origin::Continued { "continues its previous plan" } else { "brakes" };
+        let instead = match decision.origin {
+            Origin::Continued => "continues its previous plan",
+            Origin::Evading => "evades, which is less harmful than braking",
+            _ => "brakes",
+        };
         frame.events.push(event(Level::Warning, format!("no plan ({failure}); {instead}")));
     }
 }

@@ -1,7 +1,10 @@
 //! What a vehicle has committed itself to: what the others expect of it, and what it does when its planner fails.
 
+use std::iter::repeat;
+
+use crate::certificate::{last_resorts, least_harmful, rolled_out};
 use crate::predict::{steadily_along, steady_inputs};
-use crate::{Agent, Input, Scene, Trajectory};
+use crate::{Agent, Scene, Trajectory};
 
 /// The plan that a vehicle follows since its last decision.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,8 +23,10 @@ pub enum Origin {
     Planned,
     /// The planner failed: the previous plan goes on.
     Continued,
-    /// The planner failed and there was nothing to continue: full braking.
+    /// The planner failed and there was nothing to continue that is less harmful: full braking.
     Braking,
+    /// The planner failed, and another acceleration is less harmful than both.
+    Evading,
     /// It has crashed: full braking, and nobody is asked.
     Crashed,
 }
@@ -54,29 +59,26 @@ impl CommittedPlan {
         self.remaining_inputs = match origin {
             Origin::Planned => trajectory.horizon().saturating_sub(1),
             Origin::Continued => self.remaining_inputs.saturating_sub(1),
-            Origin::Braking | Origin::Crashed => 0,
+            Origin::Braking | Origin::Evading | Origin::Crashed => 0,
         };
         self.trajectory = Some(trajectory.clone());
         (trajectory, origin)
     }
 
-    /// The previous plan one step further while inputs of it are left, then full braking.
+    /// The least harmful of the previous plan one step further, while inputs of it are left, and of the last resorts, of which
+    /// full braking is the first.
     fn fallback(&self, scene: &Scene) -> (Trajectory, Origin) {
-        match self.trajectory.as_ref().filter(|_| self.remaining_inputs > 0) {
-            Some(plan) => (rolled_out(scene, plan.shifted().inputs), Origin::Continued),
-            None => (braking(scene), Origin::Braking),
-        }
+        let previous = self.trajectory.as_ref().filter(|_| self.remaining_inputs > 0);
+        let continued = previous.map(|plan| rolled_out(scene, plan.shifted().inputs));
+        let origins =
+            continued.iter().map(|_| Origin::Continued).chain([Origin::Braking]).chain(repeat(Origin::Evading));
+        let motions = continued.iter().cloned().chain(last_resorts(scene));
+        let (number, motion) = least_harmful(scene, motions).unwrap_or_else(|| (0, braking(scene)));
+        (motion, origins.into_iter().nth(number).unwrap_or(Origin::Braking))
     }
 }
 
 /// Full braking until the vehicle stands.
 fn braking(scene: &Scene) -> Trajectory {
     rolled_out(scene, steady_inputs(scene, scene.ego.limits.acceleration_min_mps2))
-}
-
-/// Where inputs lead the planning vehicle of a scene.
-pub(super) fn rolled_out(scene: &Scene, inputs: Vec<Input>) -> Trajectory {
-    let mut states = Vec::new();
-    scene.model().roll_out(&scene.ego.state, &inputs, &mut states);
-    Trajectory { states, inputs }
 }

@@ -1,10 +1,10 @@
 //! Laws of the loop that hold whatever the planners do.
 
-use super::committed::rolled_out;
 use super::*;
 use crate::Agent;
 use crate::State;
 use crate::Trajectory;
+use crate::certificate::rolled_out;
 use crate::fixture::{agent, scene};
 use crate::predict::{constant_velocity, steady};
 use proptest::prelude::*;

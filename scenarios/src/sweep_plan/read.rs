@@ -26,11 +26,12 @@ use crate::weather::WeatherConfig;
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 5] = [
+const EMBEDDED: [(&str, &str); 6] = [
     ("quick", include_str!("../../plans/quick.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
     ("contingency", include_str!("../../plans/contingency.toml")),
     ("real-roads", include_str!("../../plans/real-roads.toml")),
+    ("any-weight", include_str!("../../plans/any-weight.toml")),
     ("benchmark", include_str!("../../plans/benchmark.toml")),
 ];
 

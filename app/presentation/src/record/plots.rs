@@ -142,6 +142,7 @@ impl Plots {
                 Origin::Planned | Origin::Crashed => continue,
                 Origin::Continued => "no plan: the previous one goes on",
                 Origin::Braking => "no plan: full braking",
+                Origin::Evading => "no plan: evading",
             };
             if !is_logged {
                 self.log_text(stream, Level::Warning, &format!("{}: {fallback}", vehicle.name))?;

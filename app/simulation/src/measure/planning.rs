@@ -11,6 +11,8 @@ pub struct Planning {
     /// Plans that are not optimal, because their descent reached the limit of its work: they violate nothing, or are cheaper and no
     /// less safe than going on with the plan before.
     pub unfinished: usize,
+    /// Plans that were driven though they violate something, by their certificates.
+    pub violating: usize,
 }
 
 impl Planning {
@@ -22,6 +24,7 @@ impl Planning {
         self.times_ms.push(vehicle.plan_ms);
         self.failed += usize::from(vehicle.origin != Origin::Planned);
         self.unfinished += vehicle.plan.statistics.unfinished;
+        self.violating += usize::from(!vehicle.plan.violations.is_empty());
     }
 
     /// How many plans were made.

@@ -165,6 +165,10 @@ pub struct PlansReport {
     /// Plans that are not optimal, because their optimiser reached the limit of its work: they violate nothing, or are cheaper and no
     /// less safe than going on with the plan before.
     pub unfinished: usize,
+    /// Plans that were driven though they violate something: by a certificate of each plan, they touch somebody later on where the
+    /// planner counts on what it asks for or on its next plans. A plan that gives away the last way out is refused, and counts as
+    /// failed.
+    pub violating: usize,
     /// Median time \[ms\].
     pub median_ms: f64,
     /// 99th percentile \[ms\].
@@ -217,6 +221,7 @@ impl VehicleReport {
                 count: measured.planning.count(),
                 failed: measured.planning.failed,
                 unfinished: measured.planning.unfinished,
+                violating: measured.planning.violating,
                 median_ms: measured.planning.quantile_ms(0.5),
                 p99_ms: measured.planning.quantile_ms(0.99),
             },

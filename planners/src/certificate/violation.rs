@@ -1,0 +1,133 @@
+//! What a plan violates.
+
+use std::fmt;
+
+use super::rectangles::overlap_m;
+use crate::{Agent, Scene, State, Trajectory};
+
+/// States may differ from those that follow from the inputs by this share of the vehicle's length.
+const STATE_TOLERANCE: f64 = 1e-6;
+/// Inputs and speeds may exceed their limits by this.
+const LIMIT_TOLERANCE: f64 = 1e-6;
+/// Bodies may overlap, and corners be beyond the edge, by this share of the vehicle's length: planners see both as soft.
+const PLACE_TOLERANCE: f64 = 5e-3;
+
+/// Something that a plan violates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanViolation {
+    /// What.
+    pub condition: PlanCondition,
+    /// When first \[steps from now\].
+    pub stage: usize,
+}
+
+/// What a plan must keep.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PlanCondition {
+    /// Its states are numbers and follow from its inputs.
+    Dynamics,
+    /// Its inputs are within the vehicle's limits.
+    InputLimits,
+    /// Its speeds are within the vehicle's limits.
+    SpeedLimits,
+    /// The body stays on the road.
+    Road,
+    /// The body stays clear of where this vehicle is expected to be.
+    Clear(String),
+}
+
+impl fmt::Display for PlanViolation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let stage = self.stage;
+        match &self.condition {
+            PlanCondition::Dynamics => write!(f, "its states do not follow from its inputs from step {stage} on"),
+            PlanCondition::InputLimits => write!(f, "its input at step {stage} is beyond the vehicle's limits"),
+            PlanCondition::SpeedLimits => write!(f, "its speed at step {stage} is beyond the vehicle's limits"),
+            PlanCondition::Road => write!(f, "it leaves the road at step {stage}"),
+            PlanCondition::Clear(other) => write!(f, "it touches {other} at step {stage}"),
+        }
+    }
+}
+
+impl PlanViolation {
+    /// Whether the plan is wrong in itself, whatever the others do.
+    pub fn is_fault(&self) -> bool {
+        matches!(self.condition, PlanCondition::Dynamics | PlanCondition::InputLimits | PlanCondition::SpeedLimits)
+    }
+}
+
+/// What a plan of the planning vehicle violates: each condition once, with its first stage.
+pub fn violations(scene: &Scene, plan: &Trajectory) -> Vec<PlanViolation> {
+    let clear =
+        scene.others.iter().map(|other| (PlanCondition::Clear(other.name.clone()), first_contact(scene, plan, other)));
+    let stages = [
+        (PlanCondition::Dynamics, first_wrong_state(scene, plan)),
+        (PlanCondition::InputLimits, first_input_beyond(scene, plan)),
+        (PlanCondition::SpeedLimits, first_speed_beyond(scene, plan)),
+        (PlanCondition::Road, first_off_road(scene, plan, PLACE_TOLERANCE)),
+    ];
+    let found = stages.into_iter().chain(clear);
+    found.filter_map(|(condition, stage)| stage.map(|stage| PlanViolation { condition, stage })).collect()
+}
+
+fn length_m(agent: &Agent) -> f64 {
+    agent.body.front_m + agent.body.rear_m
+}
+
+fn first_wrong_state(scene: &Scene, plan: &Trajectory) -> Option<usize> {
+    if plan.states.len() != plan.inputs.len() + 1 {
+        return Some(0);
+    }
+    let model = scene.model();
+    let tolerance = STATE_TOLERANCE * length_m(&scene.ego);
+    let expected = |stage: usize| match stage {
+        0 => scene.ego.state,
+        _ => model.step(&plan.states[stage - 1], &plan.inputs[stage - 1]),
+    };
+    let is_wrong = |stage: &usize| {
+        let off = plan.states[*stage].to_array().into_iter().zip(expected(*stage).to_array());
+        off.into_iter()
+            .any(|(found, expected)| (found - expected).abs().partial_cmp(&tolerance).is_none_or(|order| order.is_gt()))
+    };
+    (0..plan.states.len()).find(is_wrong)
+}
+
+fn first_input_beyond(scene: &Scene, plan: &Trajectory) -> Option<usize> {
+    let limits = &scene.ego.limits;
+    let accelerations = limits.acceleration_min_mps2 - LIMIT_TOLERANCE..=limits.acceleration_max_mps2 + LIMIT_TOLERANCE;
+    let steering = -limits.steering_max_rad - LIMIT_TOLERANCE..=limits.steering_max_rad + LIMIT_TOLERANCE;
+    plan.inputs
+        .iter()
+        .position(|input| !accelerations.contains(&input.acceleration_mps2) || !steering.contains(&input.steering_rad))
+}
+
+/// The first speed beyond the limits that is further beyond them than the present one.
+fn first_speed_beyond(scene: &Scene, plan: &Trajectory) -> Option<usize> {
+    let (limits, now_mps) = (&scene.ego.limits, scene.ego.state.speed_mps);
+    let low = limits.speed_min_mps.min(now_mps) - LIMIT_TOLERANCE;
+    let high = limits.speed_max_mps.max(now_mps) + LIMIT_TOLERANCE;
+    plan.states.iter().position(|state| !(low..=high).contains(&state.speed_mps))
+}
+
+/// The first stage at which the body is beyond the edge of its road by more than a share of its length.
+pub(super) fn first_off_road(scene: &Scene, plan: &Trajectory, share: f64) -> Option<usize> {
+    let ego = &scene.ego;
+    let is_off = |state: &State| !ego.route.contains(&ego.body, state, share * length_m(ego));
+    if is_off(&ego.state) { None } else { plan.states.iter().position(is_off) }
+}
+
+/// Where a vehicle is expected to be.
+pub(super) fn expected(other: &Agent, stage: usize) -> Option<&State> {
+    let states = &other.prediction.states;
+    states.get(stage).or(states.last())
+}
+
+/// The first stage at which the body touches that of another where it is expected to be.
+pub(super) fn first_contact(scene: &Scene, plan: &Trajectory, other: &Agent) -> Option<usize> {
+    let tolerance_m = PLACE_TOLERANCE * length_m(&scene.ego);
+    let touches = |stage: usize| {
+        let body = scene.ego.body.corners(&plan.states[stage]);
+        expected(other, stage).is_some_and(|there| overlap_m(&body, &other.body.corners(there)) > tolerance_m)
+    };
+    if touches(0) { None } else { (1..plan.states.len()).find(|stage| touches(*stage)) }
+}
