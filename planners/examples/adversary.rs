@@ -1,0 +1,169 @@
+//! A search for encounters in which a planner touches somebody.
+//!
+//! ```sh
+//! cargo run --release -p interplay-planners --example adversary -- [STEPS [WORD ...]]
+//! ```
+//!
+//! For each planner and family of scenarios it varies where everybody starts, how fast, and how much each human minds others
+//! (safety weights from 0.01 to 100), so that the ego comes as near to somebody as possible: half of the steps (200 unless stated) are
+//! drawn at random, the others change the nearest encounter so far by ever smaller amounts. Of every contact it says until which
+//! tick one of the [last resorts](interplay_planners::certificate::last_resorts) would have avoided it if the others had moved as they
+//! did. Words select families and planners.
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use std::io::Write;
+
+use common::Random;
+use common::world::{Vehicle, begin, egos, families};
+use interplay_planners::certificate::{last_resorts, overlap_m};
+use interplay_planners::{Driver, Scene, State, Trajectory, human};
+
+/// Ticks of a run.
+const TICKS: usize = 60;
+/// How far starts and speeds vary to either side \[m\], \[m/s\].
+const ALONG_M: f64 = 0.5;
+const SPEED_MPS: f64 = 0.3;
+/// Everybody starts at least so far apart \[m\].
+const FIRST_GAP_M: f64 = 0.1;
+/// Numbers that vary, a vehicle: place, speed, and the weight of a human.
+const NUMBERS: usize = 3;
+
+/// One run.
+struct Encounter {
+    /// The smallest gap between the ego and anybody \[m\]; not positive at a contact.
+    gap_m: f64,
+    /// The tick at which it was smallest.
+    tick: usize,
+    /// Per tick, the ego's scene.
+    scenes: Vec<Scene>,
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut words: Vec<String> = std::env::args().skip(1).collect();
+    let steps = if words.is_empty() { 200 } else { words.remove(0).parse()? };
+    let mut out = std::io::stdout();
+    writeln!(out, "| family | planner | runs | contacts | avoidable | smallest gap m |\n|---|---|---|---|---|---|")?;
+    // The styles of humans are varied here: one of the families that differ in them only.
+    let names = ["lane-change/nice-nice", "ramp-merge/nice-nice", "lane-keeping/nice", "intersection/nice"];
+    for (family, pose) in families().into_iter().filter(|(name, _)| names.contains(&name.as_str())) {
+        for ego in egos() {
+            let name = format!("{family}/{}", ego.kind());
+            if !words.iter().all(|word| name.contains(word)) {
+                continue;
+            }
+            let vehicles = || {
+                let mut vehicles = pose(ego.clone());
+                if let (Driver::Cooperative(_), true) = (&ego, family.starts_with("lane-keeping")) {
+                    vehicles[1].drive(ego.clone());
+                }
+                vehicles
+            };
+            let (runs, nearest_m, contacts) = search(&vehicles, steps);
+            let avoidable = contacts.iter().filter(|contact| contact.contains("avoidable until")).count();
+            writeln!(
+                out,
+                "| {family} | {} | {runs} | {} | {avoidable} | {nearest_m:.3} |",
+                ego.kind(),
+                contacts.len()
+            )?;
+            contacts.iter().take(3).try_for_each(|contact| writeln!(out, "{contact}"))?;
+            out.flush()?;
+        }
+    }
+    Ok(())
+}
+
+/// The number of runs, the smallest gap in them, and the contacts in words.
+fn search(vehicles: &dyn Fn() -> Vec<Vehicle>, steps: usize) -> (usize, f64, Vec<String>) {
+    let mut random = Random(7);
+    let count = NUMBERS * vehicles().len();
+    let (mut best, mut best_m, mut runs) = (vec![0.5; count], f64::INFINITY, 0);
+    let mut contacts = Vec::new();
+    for step in 0..steps {
+        let width = 0.3 * (1.0 - (step as f64 - 0.5 * steps as f64) / (0.51 * steps as f64));
+        let numbers: Vec<f64> = match step < steps / 2 {
+            true => best.iter().map(|_| random.unit()).collect(),
+            false => best.iter().map(|number| (number + random.between(-width, width)).clamp(0.0, 1.0)).collect(),
+        };
+        let Some(encounter) = drive(vehicles(), &numbers) else { continue };
+        runs += 1;
+        if encounter.gap_m < best_m {
+            (best, best_m) = (numbers.clone(), encounter.gap_m);
+        }
+        if encounter.gap_m <= 0.0 {
+            let verdict = avoidable_until(&encounter)
+                .map_or("not shown to be avoidable".to_owned(), |tick| format!("avoidable until tick {tick}"));
+            contacts.push(format!("contact at tick {}, {verdict}: {numbers:.3?}", encounter.tick));
+        }
+    }
+    (runs, best_m, contacts)
+}
+
+/// A run from a start that numbers from 0 to 1 choose; none if somebody starts too near to another.
+fn drive(mut vehicles: Vec<Vehicle>, numbers: &[f64]) -> Option<Encounter> {
+    let within = |share: f64, bound: f64| bound * (2.0 * share - 1.0);
+    for (vehicle, numbers) in vehicles.iter_mut().zip(numbers.chunks(NUMBERS)) {
+        let (sin, cos) = vehicle.agent.state.heading_rad.sin_cos();
+        let along_m = within(numbers[0], ALONG_M);
+        vehicle.agent.state.x_m += along_m * cos;
+        vehicle.agent.state.y_m += along_m * sin;
+        vehicle.agent.state.speed_mps = (vehicle.agent.state.speed_mps + within(numbers[1], SPEED_MPS)).max(0.0);
+        if let Driver::Human(settings) = &vehicle.driver {
+            let safety_weight = Some(10.0_f64.powf(within(numbers[2], 2.0)));
+            vehicle.drive(Driver::Human(human::Settings { style: None, safety_weight, ..*settings }));
+        }
+    }
+    let bodies: Vec<_> = vehicles.iter().map(|vehicle| vehicle.agent.body.corners(&vehicle.agent.state)).collect();
+    let is_near = |a: usize, b: usize| overlap_m(&bodies[a], &bodies[b]) > -FIRST_GAP_M;
+    if (0..bodies.len()).any(|a| (0..a).any(|b| is_near(a, b))) {
+        return None;
+    }
+    let (mut traffic, mut planners) = begin(&vehicles);
+    let mut encounter = Encounter { gap_m: f64::INFINITY, tick: 0, scenes: Vec::new() };
+    for tick in 0..TICKS {
+        encounter.scenes.push(traffic.scene(0));
+        traffic.drive(|index, scene| planners[index].plan(scene));
+        let gap_m = gap_m(&traffic.scene(0));
+        if gap_m < encounter.gap_m {
+            (encounter.gap_m, encounter.tick) = (gap_m, tick + 1);
+        }
+        if gap_m <= 0.0 {
+            break;
+        }
+    }
+    encounter.scenes.push(traffic.scene(0));
+    Some(encounter)
+}
+
+/// The smallest gap between the planning vehicle of a scene and the others \[m\].
+fn gap_m(scene: &Scene) -> f64 {
+    let ego = scene.ego.body.corners(&scene.ego.state);
+    let gaps = scene.others.iter().map(|other| -overlap_m(&ego, &other.body.corners(&other.state)));
+    gaps.fold(f64::INFINITY, f64::min)
+}
+
+/// The last tick from which a last resort touches nobody until the contact, if the others move as they did.
+fn avoidable_until(encounter: &Encounter) -> Option<usize> {
+    let end = encounter.scenes.len() - 1;
+    (0..end).rev().find(|from| {
+        let moved = |other: usize| -> Vec<State> {
+            encounter.scenes[*from..].iter().map(|scene| scene.others[other].state).collect()
+        };
+        let is_clear = |motion: &Trajectory| {
+            (1..=end - from).all(|stage| {
+                let Some(state) = motion.states.get(stage) else { return true };
+                let scene = &encounter.scenes[*from];
+                let ego = scene.ego.body.corners(state);
+                let on_road = scene.ego.route.contains(&scene.ego.body, state, 0.05);
+                let others = scene.others.iter().enumerate();
+                on_road
+                    && others
+                        .into_iter()
+                        .all(|(index, other)| overlap_m(&ego, &other.body.corners(&moved(index)[stage])) <= 0.0)
+            })
+        };
+        last_resorts(&encounter.scenes[*from]).any(|motion| is_clear(&motion))
+    })
+}
