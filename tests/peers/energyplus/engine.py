@@ -19,10 +19,14 @@ STEP_S = 3600.0 / TIMESTEPS_PER_HOUR
 # Heat per kelvin with which the days before the first are kept warm, and the most of it [W/K, W].
 WARMUP_GAIN_W_PER_K, WARMUP_LIMIT_W = 2000.0, 6000.0
 
+WINDOWS = {
+    "south": "South wall, , autocalculate, , 1, 4,\n  3, 0, 2.2,  3, 0, 0.9,  5, 0, 0.9,  5, 0, 2.2;",
+    "north": "North wall, , autocalculate, , 1, 4,\n  5, 6, 2.2,  5, 6, 0.9,  3, 6, 0.9,  3, 6, 2.2;",
+}
 VARIABLES = {
     "zone_c": (b"Zone Mean Air Temperature", b"HOUSE"),
     "ambient_c": (b"Site Outdoor Air Drybulb Temperature", b"Environment"),
-    "sun_w_per_m2": (b"Surface Outside Face Incident Solar Radiation Rate per Area", b"SOUTH WINDOW"),
+    "sun_w_per_m2": (b"Surface Outside Face Incident Solar Radiation Rate per Area", b"WINDOW"),
 }
 
 
@@ -52,7 +56,7 @@ class House:
 
     CALLBACK = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 
-    def __init__(self, weather, start, days, initial_c):
+    def __init__(self, weather, start, days, initial_c, window):
         self._library = _library()
         self._state = self._library.stateNew()
         self._library.setConsoleOutputState(self._state, 0)
@@ -65,10 +69,15 @@ class House:
         self._folder = tempfile.TemporaryDirectory()
         end = start + datetime.timedelta(days=days)
         idf = pathlib.Path(self._folder.name) / "house.idf"
-        idf.write_text(
-            HOUSE.read_text()
-            .format(timesteps_per_hour=TIMESTEPS_PER_HOUR, month=start.month, day=start.day, end_month=end.month, end_day=end.day)
+        text = HOUSE.read_text().format(
+            timesteps_per_hour=TIMESTEPS_PER_HOUR,
+            month=start.month,
+            day=start.day,
+            end_month=end.month,
+            end_day=end.day,
+            window=f"FenestrationSurface:Detailed, Window, Window, Window, {WINDOWS[window]}",
         )
+        idf.write_text(text)
         self._begin = self.CALLBACK(self._at_begin)
         self._library.callbackBeginZoneTimeStepBeforeInitHeatBalance(ctypes.c_void_p(self._state), self._begin)
         self._thread = threading.Thread(target=self._run, args=(weather, idf), daemon=True)

@@ -10,7 +10,7 @@ STEP_S = 900.0
 HEAT_KW = 4.0
 PEOPLE_KW = 0.2
 # Beyond these temperatures chance does not decide [°C].
-COLDEST_C, WARMEST_C = 16.0, 26.0
+COLDEST_C, WARMEST_C = 18.0, 24.0
 
 MAPPING = """# What the columns of `house.csv` are: a house in EnergyPlus, heated by chance.
 walls = [["house", "outdoor"]]
@@ -29,22 +29,21 @@ hold = "zero-order"
 name = "house"
 temperature = "house_c"
 heat = [
-    {{ kind = "power", column = "heating_kw", unit = "kw" }},
-    {{ kind = "power", column = "people_kw", unit = "kw" }},
+    { kind = "power", column = "heating_kw", unit = "kw" },
+    { kind = "power", column = "people_kw", unit = "kw" },
 ]
-solar = {{ column = "sun_w_per_m2", unit = "w-per-m2", hold = "zero-order" }}
+solar = { column = "sun_w_per_m2", unit = "w-per-m2", hold = "zero-order" }
 
 [identify]
-train_days = {train_days}
 # Two temperatures: a third one hardly predicts better, and a network cannot hold that of a heater.
 most_states = 2
 """
 
 
-def write(folder, weather, start, days, train_days, seed=1):
+def write(folder, weather, start, days, window, seed=1):
     """Writes `house.csv` and its mapping `house.toml` into the folder; returns the path of the table."""
     chance = random.Random(seed)
-    house = House(weather, start, days, 20.0)
+    house = House(weather, start, days, 20.0, window)
     table = folder / "house.csv"
     moment = datetime.datetime.combine(start, datetime.time())
     heat_kw, steps_left = 0.0, 0
@@ -65,5 +64,5 @@ def write(folder, weather, start, days, train_days, seed=1):
             rows.writerow([moment.strftime("%Y-%m-%d %H:%M:%S"), f"{zone_c:.4f}", *weather_now, heat_kw, PEOPLE_KW])
             moment += datetime.timedelta(seconds=STEP_S)
     house.close()
-    (folder / "house.toml").write_text(MAPPING.format(train_days=float(train_days)), encoding="utf-8")
+    (folder / "house.toml").write_text(MAPPING, encoding="utf-8")
     return table
