@@ -49,14 +49,8 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     let (network, steps) = (described.network()?, described.steps_per_day());
     let model = Model::new(&network, described.method, described.step_s)?;
     let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
-    let weather = scenario.weather.clone().unwrap_or_default();
     let zones = network.zone_count();
-    let surroundings = Surroundings {
-        weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
-        forecast: weather.forecast(),
-        forecast_seed: scenario.seed ^ FORECAST_SEED_BIT,
-        people: people(scenario, zones),
-    };
+    let surroundings = surroundings(scenario, zones)?;
     let regulator = scenario.controller().regulator(&believed, steps)?;
     let targets = scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?;
     let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
@@ -82,6 +76,20 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     };
     world.insert_resource(building);
     Ok(())
+}
+
+/// Weather and people of a scenario with `zones` zones.
+///
+/// # Errors
+/// [`BuildingError::NoWeather`], for a scenario that was not loaded.
+pub fn surroundings(scenario: &Scenario, zones: usize) -> Result<Surroundings, BuildingError> {
+    let weather = scenario.weather.clone().unwrap_or_default();
+    Ok(Surroundings {
+        weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
+        forecast: weather.forecast(),
+        forecast_seed: scenario.seed ^ FORECAST_SEED_BIT,
+        people: people(scenario, zones),
+    })
 }
 
 /// What the heat of the equipment acts on. `models` are the network and what the controller takes it for.
