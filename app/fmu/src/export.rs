@@ -2,7 +2,7 @@
 
 use interplay_building::discretise::Model;
 use interplay_scenarios::{BuildingPlant, Scenario};
-use interplay_simulation::climate::surroundings;
+use interplay_simulation::climate::surroundings_of;
 use xxhash_rust::xxh3::xxh3_128;
 
 use crate::archive::archive;
@@ -44,7 +44,7 @@ pub fn export(scenario: &Scenario) -> Result<Vec<u8>, FmuError> {
         return Err(FmuError::TooMuchWeather { numbers, limit: MAX_WEATHER_NUMBERS });
     }
     let model = Model::new(&network, described.method, described.step_s)?;
-    let outside = OutsideSeries::of(&surroundings(scenario, zones)?, &model, steps, days);
+    let outside = OutsideSeries::of(&surroundings_of(scenario, zones)?, &model, steps, days);
     let numbers = plant(&model, described.initial_c, &outside);
     let guid = guid(&scenario.title, &numbers);
     let resources = format!("interplay-plant 1\nguid {guid}\n{numbers}");

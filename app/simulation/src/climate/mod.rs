@@ -28,7 +28,7 @@ pub use disturbance::disturb;
 pub use failure::BuildingFailure;
 pub use learn::learn;
 use plant::ThermalPlant;
-pub use spawn::{BuildingError, people, spawn, surroundings};
+pub use spawn::{BuildingError, people, spawn, surroundings_of};
 
 /// A temperature of the building: a zone, or a wall that stores heat. Zones come first.
 #[derive(Component, Clone, Copy, Debug)]

@@ -50,7 +50,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     let model = Model::new(&network, described.method, described.step_s)?;
     let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
     let zones = network.zone_count();
-    let surroundings = surroundings(scenario, zones)?;
+    let surroundings = surroundings_of(scenario, zones)?;
     let regulator = scenario.controller().regulator(&believed, steps)?;
     let targets = scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?;
     let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
@@ -82,7 +82,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
 ///
 /// # Errors
 /// [`BuildingError::NoWeather`], for a scenario that was not loaded.
-pub fn surroundings(scenario: &Scenario, zones: usize) -> Result<Surroundings, BuildingError> {
+pub fn surroundings_of(scenario: &Scenario, zones: usize) -> Result<Surroundings, BuildingError> {
     let weather = scenario.weather.clone().unwrap_or_default();
     Ok(Surroundings {
         weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
