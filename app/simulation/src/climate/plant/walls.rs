@@ -27,3 +27,26 @@ pub fn at_rest_c(model: &Model, zones_c: &[f64], ambient_c: f64) -> Vec<f64> {
     }
     nodes_c
 }
+
+#[cfg(test)]
+mod tests {
+    use interplay_building::network::{Network, Wall, Zone};
+
+    use super::*;
+
+    /// A wall at rest has the temperature that its place between both sides gives it, whatever its heat capacity.
+    #[test]
+    fn walls_at_rest_lie_between_both_sides() {
+        let zones = [Zone::named("office"), Zone::named("store")];
+        let outer =
+            Wall { mass_position: Some(0.25), ..Wall::new("office", "ambient", 6.0).with_capacity_kj_per_k(15_000.0) };
+        let inner = Wall::new("office", "store", 40.0).with_capacity_kj_per_k(900.0);
+        let network = Network::new(&zones, &[outer, inner]).expect("a network");
+        for step_s in [900.0, 3600.0] {
+            let model = Model::exact(&network, step_s).expect("a model");
+            let nodes_c = at_rest_c(&model, &[20.0, 12.0], -4.0);
+            let expected_c = [20.0, 12.0, 20.0 + 0.25 * (-4.0 - 20.0), 16.0];
+            assert!(nodes_c.iter().zip(expected_c).all(|(a, b)| (a - b).abs() < 1e-6), "{nodes_c:?}");
+        }
+    }
+}
