@@ -144,7 +144,7 @@ impl ThermalPlant for SocketPlant {
         let (step_s, steps) = (self.believed.step_s(), self.told.steps_per_day);
         let ambient_c = self.surroundings.weather.ambient_steps_c(0.0, step_s, steps);
         let mean_c = ambient_c.iter().sum::<f64>() / ambient_c.len().max(1) as f64;
-        Ok(walls::at_rest_c(&self.believed, &zones_c, mean_c))
+        Ok(walls::at_rest_c(self.believed.network(), &zones_c, mean_c))
     }
 
     fn step(&mut self, inputs: &StepInputs<'_>, nodes_c: &mut [f64]) -> Result<(), PlantError> {
