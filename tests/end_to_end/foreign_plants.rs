@@ -210,6 +210,20 @@ fn a_plant_that_answers_wrongly_ends_the_run_with_an_error() {
 
 #[test]
 fn a_plant_that_is_silent_absent_or_of_another_version_is_an_error() {
+    // An answer that never ends, a byte now and then: a byte does not begin the time anew.
+    let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
+    let address = listener.local_addr().expect("an address").to_string();
+    let dripping = thread::spawn(move || {
+        let (mut stream, _) = listener.accept().expect("a connection");
+        while stream.write_all(b" ").is_ok() {
+            thread::sleep(Duration::from_millis(50));
+        }
+    });
+    let began = Instant::now();
+    unfinished(&run_against("plant-drips", &address, 0.5), &["the start of the run", "within 0.5 s"]);
+    assert!(began.elapsed() < Duration::from_secs(10), "{:?}", began.elapsed());
+    dripping.join().expect("the server ends");
+
     let (address, served) = server(|message| {
         if message["step"].is_u64() {
             thread::sleep(Duration::from_secs(2));

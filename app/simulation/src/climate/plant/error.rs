@@ -70,6 +70,14 @@ pub enum PlantError {
         /// What is wrong, and what would be right.
         reason: String,
     },
+    /// A number that cannot be sent.
+    #[error("heat or gains of zone `{zone}` at {question} are no finite number, which cannot be sent to the plant")]
+    NotFinite {
+        /// What was to be asked.
+        question: String,
+        /// The first zone with such a number.
+        zone: String,
+    },
     /// The other program says that it cannot go on.
     #[error("the plant reports an error at {question}: {reason}")]
     Reported {

@@ -152,6 +152,11 @@ impl ThermalPlant for SocketPlant {
         let (zones, steps) = (self.zones(), self.told.steps_per_day);
         let time_s = step as f64 * self.believed.step_s();
         let step_of_day = step % steps;
+        let words = format!("step {step} (step {step_of_day} of day {})", step / steps + 1);
+        let sums_kw = heat_kw.iter().zip(gains_kw).map(|(heat, gains)| heat + gains);
+        if let Some((zone, _)) = self.believed.network().names().iter().zip(sums_kw).find(|(_, sum)| !sum.is_finite()) {
+            return Err(PlantError::NotFinite { question: words, zone: zone.clone() });
+        }
         let outside = self.outside(step / steps);
         let request = text(&Request::Step {
             step,
@@ -162,7 +167,6 @@ impl ThermalPlant for SocketPlant {
             ambient_c,
             sun_w_per_m2: outside.sun_w_per_m2[step_of_day],
         });
-        let words = format!("step {step} (step {step_of_day} of day {})", step / steps + 1);
         let zones_c = self.ask(words, Some(step), &request)?;
         self.believed.step(nodes_c, heat_kw, ambient_c, gains_kw);
         nodes_c[..zones].copy_from_slice(&zones_c);
