@@ -8,6 +8,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use crate::building_plant::BuildingPlant;
+
 /// A day \[s\].
 pub(crate) const DAY_S: f64 = 86_400.0;
 
@@ -39,6 +41,8 @@ pub struct BuildingConfig {
     pub initial_c: f64,
     /// Factors between the model that the controller uses and the building.
     pub believed: ModelMismatch,
+    /// What the heat of the equipment acts on: the network above, or another program.
+    pub plant: BuildingPlant,
 }
 
 impl Default for BuildingConfig {
@@ -52,6 +56,7 @@ impl Default for BuildingConfig {
             method: Discretisation::Exact,
             initial_c: 28.0,
             believed: ModelMismatch::default(),
+            plant: BuildingPlant::default(),
         }
     }
 }

@@ -21,6 +21,7 @@
 mod budget;
 mod budget_limits;
 mod building;
+mod building_plant;
 mod changed;
 mod classes;
 mod commented;
@@ -64,6 +65,7 @@ mod weights;
 pub use budget::RunCost;
 pub use budget_limits::BudgetLimits;
 pub use building::{BuildingConfig, FloorPlan, Grid, Preset};
+pub use building_plant::{BuildingPlant, NetworkPlantConfig, SocketPlantConfig};
 pub use classes::{NamedScale, ScenarioScale, VehicleClass};
 pub use commented::commented;
 pub use conflict_zones::ConflictZone;

@@ -16,9 +16,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("scenarios", &["planners", "building"]),
     ("app/simulation", &["planners", "building", "scenarios"]),
     ("app/files", &[]),
+    ("app/fmu", &["building", "scenarios", "app/simulation"]),
     ("app/sweep", &["building", "scenarios", "app/files", "app/simulation"]),
     ("app/presentation", &["planners", "building", "scenarios", "app/files", "app/simulation", "app/sweep"]),
-    ("app/cli", &["building", "scenarios", "app/files", "app/simulation", "app/sweep", "app/presentation"]),
+    ("app/cli", &["building", "scenarios", "app/files", "app/simulation", "app/fmu", "app/sweep", "app/presentation"]),
     ("tests", &["planners", "building", "scenarios", "app/simulation", "app/cli"]),
 ];
 

@@ -10,7 +10,8 @@
 //! - what tyres, friction and lag make of it: [`plants`]
 //! - what scenarios demand of drivers: [`unsuited`]
 //! - buildings, in all of these respects: [`building`]; controllers that learn: [`learning`]; telemetry: [`identified_houses`],
-//!   [`sample_telemetry`]
+//!   [`sample_telemetry`]; buildings that are other programs: [`foreign_plants`],
+//!   and for other programs: [`fmu`]
 //! - the same again: [`determinism`] (golden digests in `golden/`; `INTERPLAY_BLESS=1` renews them)
 //! - how the workspace is built: [`architecture`], [`modules`]; what its packages say: [`packages`]
 
@@ -30,6 +31,8 @@ mod failures;
 mod faults;
 mod figures;
 mod film;
+mod fmu;
+mod foreign_plants;
 mod identified_houses;
 mod laws;
 mod learning;

@@ -8,6 +8,7 @@ mod compare;
 mod completions;
 mod error;
 mod exit_status;
+mod export_fmu;
 mod files;
 mod identify;
 mod list;
@@ -55,6 +56,7 @@ enum Command {
     View(view::View),
     Reproduce(reproduce::Reproduce),
     Identify(identify::Identify),
+    ExportFmu(export_fmu::ExportFmu),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -76,6 +78,7 @@ pub fn main() -> ExitCode {
         Some(Command::View(command)) => command.execute(),
         Some(Command::Reproduce(command)) => command.execute(),
         Some(Command::Identify(command)) => command.execute(),
+        Some(Command::ExportFmu(command)) => command.execute(),
         Some(Command::Completions(command)) => command.execute(Interplay::command()),
         Some(Command::Man(command)) => command.execute(Interplay::command()),
     };

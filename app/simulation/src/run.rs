@@ -3,12 +3,11 @@
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use interplay_building::control::ControlError;
 use interplay_scenarios::{Counterfactual, Scenario};
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::climate::{Building, BuildingError};
+use crate::climate::{Building, BuildingError, BuildingFailure};
 use crate::components::CurrentFrame;
 use crate::frame::Frame;
 use crate::measure::{BuildingMeasures, Measures};
@@ -26,13 +25,13 @@ pub enum RunError {
     /// The building cannot be built.
     #[error("the building cannot be simulated: {0}")]
     Building(#[from] BuildingError),
-    /// The building's controller gave up.
-    #[error("the controller of the building gave up on day {day}: {reason}")]
-    Control {
+    /// The building's controller gave up, or the program that is the building did not answer as agreed.
+    #[error("the run ended on day {day}: {reason}")]
+    Climate {
         /// The day, from 1.
         day: usize,
         /// Why.
-        reason: ControlError,
+        reason: BuildingFailure,
     },
     /// A run beside the scenario's own could not be finished.
     #[error("the counterfactual \"{name}\" could not be finished: {reason}")]
@@ -49,7 +48,8 @@ pub enum RunError {
 
 /// Runs `scenario`, called `name` in the report, in front of `watchers`.
 ///
-/// The result depends on the scenario alone (its seed included): only wall times differ from run to run.
+/// The result depends on the scenario alone (its seed included), and on the program that is the building if there is one: only
+/// wall times differ from run to run.
 ///
 /// # Errors
 /// [`RunError`] if the schedule cannot be built or a watcher fails.
@@ -66,7 +66,7 @@ pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> 
         if let Some(mut building) = world.get_resource_mut::<Building>()
             && let Some(reason) = building.failure.take()
         {
-            return Err(RunError::Control { day: (building.step - 1) / building.steps_per_day() + 1, reason });
+            return Err(RunError::Climate { day: (building.step - 1) / building.steps_per_day() + 1, reason });
         }
     }
     let wall_s = began.elapsed().as_secs_f64();

@@ -108,8 +108,12 @@ impl Day {
     pub fn balance(&mut self, plant: &Model, step: usize, temperatures_c: &mut [f64], heat: &Heat) {
         let gains_kw = self.gains_kw(plant, step);
         plant.step(temperatures_c, &heat.applied_kw, self.actual.ambient_c[step], gains_kw);
-        let zones = plant.network().zone_count();
-        self.record.temperatures_c.extend_from_slice(&temperatures_c[..zones]);
+        self.record_step(&temperatures_c[..plant.network().zone_count()], heat);
+    }
+
+    /// Records a step that ended with these temperatures of the zones \[°C\], whoever computed them.
+    pub fn record_step(&mut self, zones_c: &[f64], heat: &Heat) {
+        self.record.temperatures_c.extend_from_slice(zones_c);
         self.record.heat_kw.extend_from_slice(&heat.applied_kw);
         self.record.requested_kw.extend_from_slice(&heat.requested_kw);
     }

@@ -7,6 +7,7 @@ use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::{Network, NetworkError, Part};
 
 use crate::building::{BuildingConfig, DAY_S};
+use crate::building_plant::BuildingPlant;
 use crate::error::{Fault, quoted};
 use crate::scenario::Scenario;
 use crate::schema::{self, Concern, SchemaNode};
@@ -40,6 +41,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     };
     let mut checker = Checker { scenario, tree, faults };
     checker.times(building);
+    checker.plant(building);
     if checker.sources(building) {
         match building.network() {
             Ok(network) => checker.controlled(building, &network),
@@ -87,6 +89,21 @@ impl Checker<'_> {
         } else if self.scenario.days() * steps > MAX_STEPS {
             let message = format!("{} days of {steps} steps are more than {MAX_STEPS} steps", self.scenario.days());
             self.refuse("iterations", "too many", message, "lower `iterations` or lengthen `building.step_s`");
+        }
+    }
+
+    /// Whether another program can be asked, and whether what is expected can be known of it.
+    fn plant(&mut self, building: &BuildingConfig) {
+        let BuildingPlant::Socket(socket) = &building.plant else { return };
+        if let Some(fault) = socket.address_fault() {
+            let message = format!("`building.plant.address` is {}: {fault}", quoted(&socket.address));
+            let help = "state host and port, such as \"127.0.0.1:7878\"";
+            self.refuse("building.plant.address", "no address", message, help);
+        }
+        if self.scenario.expect.building.is_some_and(|expect| expect.regret_at_most.is_some()) {
+            let message = "the regret is not known where another program is the building: its optimum is not computed";
+            let help = "leave it out, or compare with a run of `controller.kind = \"clairvoyant\"`";
+            self.refuse("expect.building.regret_at_most", "not known", message.to_owned(), help);
         }
     }
 

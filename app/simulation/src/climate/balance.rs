@@ -3,11 +3,13 @@
 use bevy_ecs::prelude::*;
 use interplay_building::day::Heat;
 
+use super::plant::StepInputs;
 use super::{Building, Equipment, Gains, Node, Temperature};
 use crate::components::CurrentFrame;
 use crate::frame::{BuildingFrame, ZoneFrame};
 
-/// Moves every temperature by a step, and writes down what led there. Nothing moves when the controller has failed.
+/// Moves every temperature by a step, and writes down what led there. Nothing moves when the controller or the plant has
+/// failed.
 pub fn balance(
     mut nodes: Query<(&Node, &mut Temperature)>,
     zones: Query<(&Node, &Equipment, &Gains)>,
@@ -32,8 +34,12 @@ pub fn balance(
     let ambient_c = building.today.actual.ambient_c[step];
     let before_c = temperatures_c[..count].to_vec();
     let heat = Heat { requested_kw, applied_kw };
-    let Building { model, today, .. } = &mut *building;
-    today.balance(model, step, &mut temperatures_c, &heat);
+    let inputs = StepInputs { step: building.step, heat_kw: &heat.applied_kw, gains_kw: &gains_kw, ambient_c };
+    if let Err(error) = building.plant.step(&inputs, &mut temperatures_c) {
+        building.failure = Some(error.into());
+        return;
+    }
+    building.today.record_step(&temperatures_c[..count], &heat);
     for (node, mut temperature) in &mut nodes {
         temperature.0 = temperatures_c[node.index];
     }

@@ -33,7 +33,7 @@ pub fn control(
                 equipment.heat_kw = heat.applied_kw[node.index];
             }
         }
-        Err(error) => building.failure = Some(error),
+        Err(error) => building.failure = Some(error.into()),
     }
     let design = &building.today.record.design;
     let no_plan = design.fallback.as_ref().filter(|_| !had_trouble);

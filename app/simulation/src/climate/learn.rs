@@ -9,12 +9,10 @@ use super::Building;
 /// Lets the controller learn when the day is over, and turns the clock on.
 pub fn learn(mut building: ResMut<Building>) {
     let (_, step) = building.date();
-    if step + 1 == building.steps_per_day() {
+    if step + 1 == building.steps_per_day() && building.failure.is_none() {
         let began = Instant::now();
         let Building { regulator, today, design_s, failure, .. } = &mut *building;
-        if let Err(error) = today.learn(regulator) {
-            failure.get_or_insert(error);
-        }
+        *failure = today.learn(regulator).err().map(Into::into);
         *design_s += began.elapsed().as_secs_f64();
     }
     building.step += 1;

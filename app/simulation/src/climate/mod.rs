@@ -5,25 +5,30 @@
 //! ```
 //!
 //! The systems copy temperatures and heat between the entities and [`interplay_building::day`], which defines the order of
-//! a day. When the day is over, it is handed on to be measured.
+//! a day. When the day is over, it is handed on to be measured. What the heat acts on is a [`plant`]: the network itself, or
+//! another program.
 
 mod balance;
 mod control;
 mod disturbance;
+mod failure;
 mod learn;
+pub mod plant;
 mod spawn;
 
 use bevy_ecs::prelude::*;
 use interplay_building::comfort::Targets;
-use interplay_building::control::{ControlError, Regulator};
+use interplay_building::control::Regulator;
 use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::Model;
 
 pub use balance::balance;
 pub use control::control;
 pub use disturbance::disturb;
+pub use failure::BuildingFailure;
 pub use learn::learn;
-pub use spawn::{BuildingError, people, spawn};
+use plant::ThermalPlant;
+pub use spawn::{BuildingError, people, spawn, surroundings_of};
 
 /// A temperature of the building: a zone, or a wall that stores heat. Zones come first.
 #[derive(Component, Clone, Copy, Debug)]
@@ -56,6 +61,10 @@ pub struct Gains(pub f64);
 pub struct Building {
     /// The network with its step.
     pub model: Model,
+    /// What the controller takes the network for.
+    pub believed: Model,
+    /// What the heat acts on.
+    pub plant: Box<dyn ThermalPlant>,
     /// What is wanted.
     pub targets: Targets,
     /// The weather and the people.
@@ -68,8 +77,8 @@ pub struct Building {
     pub today: Day,
     /// Wall time of planning and learning today \[s\]; never part of a digest.
     pub design_s: f64,
-    /// Why the controller gave up, if it did.
-    pub failure: Option<ControlError>,
+    /// Why the run cannot go on, if it cannot.
+    pub failure: Option<BuildingFailure>,
 }
 
 impl Building {

@@ -7,9 +7,10 @@ use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::NetworkError;
 use interplay_building::occupancy::People;
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{BuildingConfig, BuildingPlant, Scenario};
 use thiserror::Error;
 
+use super::plant::{NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
 use super::{Building, Equipment, Gains, Node, Temperature};
 
 /// Bits that are flipped in the seed, so that weather, occupancy and forecasts of one seed are independent.
@@ -31,6 +32,9 @@ pub enum BuildingError {
     /// The controller cannot be started.
     #[error(transparent)]
     Control(#[from] ControlError),
+    /// The program that is the building cannot be reached.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
     /// The weather file was not read.
     #[error("the weather file of the scenario was not read: load the scenario from a file")]
     NoWeather,
@@ -39,16 +43,19 @@ pub enum BuildingError {
 /// Adds the building of a scenario, if it has one.
 ///
 /// # Errors
-/// [`BuildingError`], for a scenario that was not loaded.
+/// [`BuildingError`], for a scenario that was not loaded, or if a plant behind a socket does not answer.
 pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError> {
     let Some(described) = &scenario.building else { return Ok(()) };
     let (network, steps) = (described.network()?, described.steps_per_day());
     let model = Model::new(&network, described.method, described.step_s)?;
     let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
-    let weather = scenario.weather.clone().unwrap_or_default();
     let zones = network.zone_count();
-    for index in 0..network.node_count() {
-        let mut node = world.spawn((Node { index }, Temperature(described.initial_c)));
+    let surroundings = surroundings_of(scenario, zones)?;
+    let regulator = scenario.controller().regulator(&believed, steps)?;
+    let targets = scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?;
+    let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
+    for (index, initial_c) in plant.start()?.into_iter().enumerate() {
+        let mut node = world.spawn((Node { index }, Temperature(initial_c)));
         if index < zones {
             let limit_kw = network.limits_kw()[index];
             node.insert((Equipment { limit_kw, requested_kw: 0.0, heat_kw: 0.0 }, Gains(0.0)));
@@ -56,22 +63,51 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     }
     let nothing = || Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
     let building = Building {
-        targets: scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?,
-        surroundings: Surroundings {
-            weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
-            forecast: weather.forecast(),
-            forecast_seed: scenario.seed ^ FORECAST_SEED_BIT,
-            people: people(scenario, zones),
-        },
-        regulator: scenario.controller().regulator(&believed, steps)?,
+        targets,
+        surroundings,
+        regulator,
         step: 0,
         today: Day::new(Vec::new(), nothing(), nothing()),
         design_s: 0.0,
         failure: None,
+        plant,
         model,
+        believed,
     };
     world.insert_resource(building);
     Ok(())
+}
+
+/// Weather and people of a scenario with `zones` zones.
+///
+/// # Errors
+/// [`BuildingError::NoWeather`], for a scenario that was not loaded.
+pub fn surroundings_of(scenario: &Scenario, zones: usize) -> Result<Surroundings, BuildingError> {
+    let weather = scenario.weather.clone().unwrap_or_default();
+    Ok(Surroundings {
+        weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
+        forecast: weather.forecast(),
+        forecast_seed: scenario.seed ^ FORECAST_SEED_BIT,
+        people: people(scenario, zones),
+    })
+}
+
+/// What the heat of the equipment acts on. `models` are the network and what the controller takes it for.
+fn plant(
+    scenario: &Scenario,
+    described: &BuildingConfig,
+    [model, believed]: [&Model; 2],
+    surroundings: &Surroundings,
+) -> Result<Box<dyn ThermalPlant>, PlantError> {
+    let initial_c = described.initial_c;
+    match &described.plant {
+        BuildingPlant::Network(_) => Ok(Box::new(NetworkPlant { model: model.clone(), initial_c })),
+        BuildingPlant::Socket(config) => {
+            let (steps_per_day, days) = (described.steps_per_day(), scenario.days());
+            let told = SocketPlantStart { scenario: scenario.title.clone(), steps_per_day, days, initial_c };
+            Ok(Box::new(SocketPlant::connect(config, believed.clone(), surroundings.clone(), told)?))
+        }
+    }
 }
 
 /// Returns the people of a scenario with `zones` zones.

@@ -11,7 +11,7 @@ use xxhash_rust::xxh3::Xxh3;
 use super::milestones::Today;
 use crate::climate::Building;
 use crate::components::CurrentFrame;
-use crate::day::{DayFigures, ExchangeFigures};
+use crate::day::{DayAheadErrors, DayFigures, ExchangeFigures};
 use crate::frame::{BuildingFrame, Frame};
 use crate::worst_zones::WorstZones;
 
@@ -110,9 +110,12 @@ impl BuildingMeasures {
         let Building { model, targets, today, design_s, .. } = building;
         let figures = KeyFigures::of(&today.record, targets, model.network().limits_kw(), model.step_s());
         // An optimum that is not found is no reason to give up the run: the regret is then unknown.
+        // That of the network is no optimum of another program.
+        let lifted = self.lifted.as_ref().filter(|_| !building.plant.is_foreign());
         let cheapest = |lifted| optimum(lifted, &today.initial_c, targets, &today.actual, None).ok();
-        let regret = self.lifted.as_ref().and_then(cheapest).map(|cheapest| figures.cost - cheapest.cost);
+        let regret = lifted.and_then(cheapest).map(|cheapest| figures.cost - cheapest.cost);
         let design = &today.record.design;
+        let foreign = building.plant.is_foreign();
         DayFigures {
             figures,
             worst_zones: WorstZones::of(&today.record, targets, model.network().limits_kw()),
@@ -120,6 +123,7 @@ impl BuildingMeasures {
             early_kwh: early_kwh(&today.record, targets, model.step_s()),
             spectral_radius: design.spectral_radius.or(self.spectral_radius),
             fallback: design.fallback.is_some(),
+            day_ahead: foreign.then(|| DayAheadErrors::of(today, &building.believed)),
             exchange: design.exchange.as_ref().and_then(ExchangeFigures::of),
             design_s: *design_s,
         }

@@ -1,0 +1,137 @@
+//! An instance of the FMU: the plant, its variables, and the time that its importer sees.
+
+use std::ffi::CString;
+use std::fs;
+use std::path::Path;
+
+use super::callbacks::CallbackFunctions;
+use super::plant::DiscretePlant;
+
+/// How far the importer's time may be from that of a step, as a share of the step.
+const MAX_TIME_ERROR_SHARE: f64 = 1e-6;
+
+/// An instance.
+#[derive(Debug)]
+pub struct Instance {
+    /// Its name, for the log.
+    pub name: CString,
+    /// Where errors are told.
+    pub callbacks: CallbackFunctions,
+    /// What it simulates.
+    pub plant: DiscretePlant,
+}
+
+/// The variables, by their value references, with `n` zones.
+///
+/// ```text
+/// 0 … n−1     heat of the equipment [kW], input
+/// n … 2n−1    temperature of the zone [°C], output
+/// 2n … 3n−1   heat of people, machines and sun [kW], output
+/// 3n          outdoor temperature [°C], output
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Variable {
+    Heat(usize),
+    Temperature(usize),
+    Gains(usize),
+    Outdoor,
+}
+
+impl Variable {
+    fn of(reference: u32, zones: usize) -> Result<Self, String> {
+        let reference = reference as usize;
+        let zone = reference % zones;
+        match reference / zones {
+            0 => Ok(Self::Heat(zone)),
+            1 => Ok(Self::Temperature(zone)),
+            2 => Ok(Self::Gains(zone)),
+            3 if zone == 0 => Ok(Self::Outdoor),
+            _ => Err(format!("there is no variable with the value reference {reference}")),
+        }
+    }
+}
+
+/// Reads the plant of an FMU with that identity from its folder of resources.
+///
+/// # Errors
+/// If the file cannot be read, or belongs to another FMU.
+pub fn read_plant(folder: &Path, guid: &str) -> Result<DiscretePlant, String> {
+    let path = folder.join("plant.txt");
+    let text = fs::read_to_string(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let plant = DiscretePlant::parse(&text).map_err(|error| format!("{}: {error}", path.display()))?;
+    if plant.guid == guid {
+        Ok(plant)
+    } else {
+        Err(format!("the GUID is {guid}, and that of the resources is {}: they are of another FMU", plant.guid))
+    }
+}
+
+impl Instance {
+    /// Begins at a time \[s\] that is a whole number of steps after the first midnight.
+    ///
+    /// # Errors
+    /// If it is none, or if there is no weather then.
+    pub fn begin_at(&mut self, time_s: f64) -> Result<(), String> {
+        let steps = self.whole_steps(time_s).ok_or_else(|| {
+            format!("{time_s} s is no whole number of steps of {} s since the first midnight", self.plant.step_s)
+        })?;
+        if steps >= self.plant.steps() {
+            return Err(format!("the weather in the FMU ends before {time_s} s"));
+        }
+        self.plant.step = steps;
+        Ok(())
+    }
+
+    /// Moves on from a time by a duration \[s\] of whole steps.
+    ///
+    /// # Errors
+    /// If the time is not that of the instance, the duration is no whole number of steps, or a step fails.
+    pub fn advance(&mut self, time_s: f64, duration_s: f64) -> Result<(), String> {
+        let step_s = self.plant.step_s;
+        if self.whole_steps(time_s) != Some(self.plant.step) {
+            let now_s = self.plant.step as f64 * step_s;
+            return Err(format!("a step was asked for at {time_s} s, but the time of the FMU is {now_s} s"));
+        }
+        let steps = self.whole_steps(duration_s).filter(|steps| *steps > 0);
+        let steps = steps.ok_or_else(|| {
+            format!("a step of {duration_s} s was asked for; it must be a whole number of steps of {step_s} s")
+        })?;
+        (0..steps).try_for_each(|_| self.plant.advance())
+    }
+
+    /// How many steps a time is, if it is a whole number of them.
+    fn whole_steps(&self, time_s: f64) -> Option<usize> {
+        let steps = time_s / self.plant.step_s;
+        let is_whole = steps >= -MAX_TIME_ERROR_SHARE && (steps - steps.round()).abs() <= MAX_TIME_ERROR_SHARE;
+        (is_whole && steps < 1e12).then(|| steps.round().max(0.0) as usize)
+    }
+
+    /// The value of a variable.
+    ///
+    /// # Errors
+    /// If there is none with this value reference.
+    pub fn value(&self, reference: u32) -> Result<f64, String> {
+        let plant = &self.plant;
+        Ok(match Variable::of(reference, plant.zones)? {
+            Variable::Heat(zone) => plant.heat_kw[zone],
+            Variable::Temperature(zone) => plant.nodes_c[zone],
+            Variable::Gains(zone) => plant.gains_kw()[zone],
+            Variable::Outdoor => plant.ambient_c(),
+        })
+    }
+
+    /// Sets an input.
+    ///
+    /// # Errors
+    /// If the value reference is none of an input, or if the value is no finite number.
+    pub fn set_value(&mut self, reference: u32, value: f64) -> Result<(), String> {
+        match Variable::of(reference, self.plant.zones)? {
+            Variable::Heat(_) if !value.is_finite() => Err(format!("heat of {value} kW is no finite number")),
+            Variable::Heat(zone) => {
+                self.plant.heat_kw[zone] = value;
+                Ok(())
+            }
+            _ => Err(format!("the variable with the value reference {reference} is an output and cannot be set")),
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! The network in its discrete form, with its weather: what the file `plant.txt` holds, and a step of it.
+//!
+//! ```text
+//! T(t+1) = A T(t) + B (u(t) + w(t)) + b T₀(t)                                      (eq. 2.16)
+//! ```
+//!
+//! `T` are the temperatures of the nodes (zones, then walls that store heat), `u` the heat of the equipment, `w` that of people,
+//! sun and machines, and `T₀` the outdoor temperature.
+
+/// The first line of the file.
+pub const HEADER: &str = "interplay-plant 1";
+
+/// A network with its weather, and where it stands.
+#[derive(Clone, Debug)]
+pub struct DiscretePlant {
+    /// The identity of the FMU, which its description repeats.
+    pub guid: String,
+    /// Time from one step to the next \[s\].
+    pub step_s: f64,
+    /// How many zones there are.
+    pub zones: usize,
+    nodes: usize,
+    initial_c: Vec<f64>,
+    /// A, row by row.
+    state: Vec<f64>,
+    /// B, nodes by zones, row by row \[K/kW\].
+    gain: Vec<f64>,
+    /// b, one number per node.
+    outdoor: Vec<f64>,
+    /// T₀ of each step \[°C\].
+    ambient_c: Vec<f64>,
+    /// w, stacked: entry t·n + i is zone i in step t \[kW\].
+    gains_kw: Vec<f64>,
+    /// Temperatures of the nodes \[°C\].
+    pub nodes_c: Vec<f64>,
+    /// u: heat of the equipment, held until it is set anew \[kW\].
+    pub heat_kw: Vec<f64>,
+    /// Steps done since the first midnight.
+    pub step: usize,
+}
+
+/// Words of the file, one after the other.
+struct Words<'a>(std::str::SplitWhitespace<'a>);
+
+impl<'a> Words<'a> {
+    fn next(&mut self, what: &str) -> Result<&'a str, String> {
+        self.0.next().ok_or_else(|| format!("the file ends before {what}"))
+    }
+
+    fn expect(&mut self, word: &str) -> Result<(), String> {
+        let found = self.next(word)?;
+        if found == word { Ok(()) } else { Err(format!("`{found}` stands where `{word}` should")) }
+    }
+
+    fn count(&mut self, word: &str) -> Result<usize, String> {
+        self.expect(word)?;
+        let text = self.next(word)?;
+        text.parse().map_err(|_| format!("`{text}` is no number of {word}"))
+    }
+
+    fn number(&mut self, what: &str) -> Result<f64, String> {
+        let text = self.next(what)?;
+        let number: f64 = text.parse().map_err(|_| format!("`{text}` in {what} is no number"))?;
+        if number.is_finite() { Ok(number) } else { Err(format!("`{text}` in {what} is not finite")) }
+    }
+
+    fn numbers(&mut self, word: &str, count: usize) -> Result<Vec<f64>, String> {
+        self.expect(word)?;
+        (0..count).map(|_| self.number(word)).collect()
+    }
+}
+
+impl DiscretePlant {
+    /// Reads the file `plant.txt`.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let body = text.strip_prefix(HEADER).ok_or_else(|| format!("the file does not begin with `{HEADER}`"))?;
+        let mut words = Words(body.split_whitespace());
+        words.expect("guid")?;
+        let guid = words.next("guid")?.to_owned();
+        words.expect("step_s")?;
+        let step_s = words.number("step_s")?;
+        let (nodes, zones, steps) = (words.count("nodes")?, words.count("zones")?, words.count("steps")?);
+        let sizes = [nodes.checked_mul(nodes), nodes.checked_mul(zones), steps.checked_mul(zones)];
+        let [Some(state_size), Some(gain_size), Some(gains_size)] = sizes else {
+            return Err("the sizes are too large".to_owned());
+        };
+        if step_s <= 0.0 || zones == 0 || zones > nodes || steps == 0 {
+            return Err("there is no step, or no zone".to_owned());
+        }
+        let initial_c = words.numbers("initial_c", nodes)?;
+        Ok(Self {
+            guid,
+            step_s,
+            zones,
+            nodes,
+            nodes_c: initial_c.clone(),
+            initial_c,
+            state: words.numbers("state", state_size)?,
+            gain: words.numbers("gain", gain_size)?,
+            outdoor: words.numbers("outdoor", nodes)?,
+            ambient_c: words.numbers("ambient_c", steps)?,
+            gains_kw: words.numbers("gains_kw", gains_size)?,
+            heat_kw: vec![0.0; zones],
+            step: 0,
+        })
+    }
+
+    /// Returns to the first midnight, without heat.
+    pub fn reset(&mut self) {
+        self.nodes_c.clone_from(&self.initial_c);
+        self.heat_kw.fill(0.0);
+        self.step = 0;
+    }
+
+    /// Steps for which there is weather.
+    pub fn steps(&self) -> usize {
+        self.ambient_c.len()
+    }
+
+    /// T₀ of the step that comes, or of the last one \[°C\].
+    pub fn ambient_c(&self) -> f64 {
+        self.ambient_c[self.step.min(self.steps() - 1)]
+    }
+
+    /// w of the step that comes, or of the last one, one number per zone \[kW\].
+    pub fn gains_kw(&self) -> &[f64] {
+        let step = self.step.min(self.steps() - 1);
+        &self.gains_kw[step * self.zones..(step + 1) * self.zones]
+    }
+
+    /// Moves on by a step.
+    ///
+    /// # Errors
+    /// If there is no weather any more, or if a temperature is no finite number then: the state is unchanged.
+    pub fn advance(&mut self) -> Result<(), String> {
+        if self.step >= self.steps() {
+            let end_s = self.step_s * self.steps() as f64;
+            return Err(format!("the weather in the FMU ends at {end_s} s"));
+        }
+        let net_kw: Vec<f64> = self.heat_kw.iter().zip(self.gains_kw()).map(|(heat, gains)| heat + gains).collect();
+        let ambient_c = self.ambient_c();
+        let row = |matrix: &[f64], node: usize, vector: &[f64]| -> f64 {
+            let width = vector.len();
+            matrix[node * width..(node + 1) * width].iter().zip(vector).map(|(a, x)| a * x).sum()
+        };
+        let next_c: Vec<f64> = (0..self.nodes)
+            .map(|i| row(&self.state, i, &self.nodes_c) + row(&self.gain, i, &net_kw) + self.outdoor[i] * ambient_c)
+            .collect();
+        if !next_c.iter().all(|temperature_c| temperature_c.is_finite()) {
+            return Err("a temperature is no finite number; is the heat one?".to_owned());
+        }
+        self.nodes_c = next_c;
+        self.step += 1;
+        Ok(())
+    }
+}

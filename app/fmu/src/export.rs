@@ -1,0 +1,84 @@
+//! From a scenario to the bytes of an FMU.
+
+use interplay_building::discretise::Model;
+use interplay_scenarios::{BuildingPlant, Scenario};
+use interplay_simulation::climate::surroundings_of;
+use xxhash_rust::xxh3::xxh3_128;
+
+use crate::archive::archive;
+use crate::description::Description;
+use crate::error::FmuError;
+use crate::resources::{OutsideSeries, plant};
+
+/// The shared library for the system that this crate was compiled for; empty if there is none.
+const LIBRARY: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/library.bin"));
+/// The name of the library, and of the model within the FMU.
+const IDENTIFIER: &str = "interplay_building";
+/// The most nodes: the matrices have the square of them.
+const MAX_NODES: usize = 500;
+/// The most numbers of people and sun.
+const MAX_WEATHER_NUMBERS: usize = 5_000_000;
+
+/// The building of a scenario that was loaded, as an FMU: a co-simulation unit of FMI 2.0 for the system at hand.
+///
+/// The same scenario gives the same bytes.
+///
+/// # Errors
+/// [`FmuError`] if the scenario has no building, if it is too large, or if this build has no library.
+pub fn export(scenario: &Scenario) -> Result<Vec<u8>, FmuError> {
+    let described = scenario.building.as_ref().ok_or(FmuError::NoBuilding)?;
+    if matches!(described.plant, BuildingPlant::Socket(_)) {
+        return Err(FmuError::Foreign);
+    }
+    let (folder, extension) = platform().filter(|_| !LIBRARY.is_empty()).ok_or_else(|| FmuError::NoLibrary {
+        platform: format!("{} on {}", std::env::consts::OS, std::env::consts::ARCH),
+    })?;
+    let network = described.network()?;
+    let (nodes, zones) = (network.node_count(), network.zone_count());
+    if nodes > MAX_NODES {
+        return Err(FmuError::TooManyNodes { nodes, limit: MAX_NODES });
+    }
+    let (steps, days) = (described.steps_per_day(), scenario.days());
+    let numbers = steps * days * zones;
+    if numbers > MAX_WEATHER_NUMBERS {
+        return Err(FmuError::TooMuchWeather { numbers, limit: MAX_WEATHER_NUMBERS });
+    }
+    let model = Model::new(&network, described.method, described.step_s)?;
+    let outside = OutsideSeries::of(&surroundings_of(scenario, zones)?, &model, steps, days);
+    let numbers = plant(&model, described.initial_c, &outside);
+    let guid = guid(&scenario.title, &numbers);
+    let resources = format!("interplay-plant 1\nguid {guid}\n{numbers}");
+    let description = Description {
+        title: &scenario.title,
+        identifier: IDENTIFIER,
+        guid: &guid,
+        zones: &network.names()[..zones],
+        limits_kw: &network.limits_kw()[..zones],
+        step_s: described.step_s,
+        stop_s: described.step_s * (steps * days) as f64,
+    };
+    Ok(archive(&[
+        ("modelDescription.xml".to_owned(), description.xml().as_bytes()),
+        (format!("binaries/{folder}/{IDENTIFIER}.{extension}"), LIBRARY),
+        ("resources/plant.txt".to_owned(), resources.as_bytes()),
+    ]))
+}
+
+/// The folder of binaries and their extension, for the systems that FMI has names for.
+fn platform() -> Option<(&'static str, &'static str)> {
+    match (std::env::consts::OS, std::env::consts::ARCH) {
+        ("linux", "x86_64") => Some(("linux64", "so")),
+        ("linux", "aarch64") => Some(("aarch64-linux", "so")),
+        ("windows", "x86_64") => Some(("win64", "dll")),
+        ("macos", "x86_64") => Some(("darwin64", "dylib")),
+        ("macos", "aarch64") => Some(("aarch64-darwin", "dylib")),
+        _ => None,
+    }
+}
+
+/// An identity that follows from the content.
+fn guid(title: &str, numbers: &str) -> String {
+    let digest = format!("{:032x}", xxh3_128(format!("{title}\n{numbers}").as_bytes()));
+    let parts = [&digest[..8], &digest[8..12], &digest[12..16], &digest[16..20], &digest[20..]];
+    format!("{{{}}}", parts.join("-"))
+}

@@ -1,0 +1,19 @@
+//! A building as a functional mock-up unit: its network and its weather for any program that imports FMI 2.0.
+//!
+//! ```text
+//! scenario -> discrete network, weather -> plant.txt ┐
+//!          -> variables -> modelDescription.xml      ├ archive
+//!             library (compiled by build.rs)         ┘
+//! ```
+//!
+//! The heat of each zone is an input; people, sun and the air outside are those of the scenario and its seed. The shared library
+//! is the code in `library/`, which this crate contains as bytes.
+
+mod archive;
+mod description;
+mod error;
+mod export;
+mod resources;
+
+pub use error::FmuError;
+pub use export::export;

@@ -1,0 +1,36 @@
+//! The interface of a plant.
+
+use std::fmt::Debug;
+
+use super::error::PlantError;
+
+/// What acts on a building in one step. Everything is held for the step; lists have one number per zone.
+#[derive(Clone, Copy, Debug)]
+pub struct StepInputs<'a> {
+    /// The step, counted from the first midnight.
+    pub step: usize,
+    /// Heat that the equipment gives, negative when it cools \[kW\].
+    pub heat_kw: &'a [f64],
+    /// Heat of people, machines and sun, as the network has it \[kW\].
+    pub gains_kw: &'a [f64],
+    /// Outdoor temperature \[°C\].
+    pub ambient_c: f64,
+}
+
+/// What the heat of the equipment acts on.
+pub trait ThermalPlant: Debug + Send + Sync {
+    /// The temperatures of the nodes at the first midnight \[°C\], zones first. Called once, before any step.
+    ///
+    /// # Errors
+    /// [`PlantError`] if another program does not answer as agreed.
+    fn start(&mut self) -> Result<Vec<f64>, PlantError>;
+
+    /// Moves the temperatures of the nodes \[°C\] by one step.
+    ///
+    /// # Errors
+    /// As [`ThermalPlant::start`]; the temperatures are then unchanged.
+    fn step(&mut self, inputs: &StepInputs<'_>, nodes_c: &mut [f64]) -> Result<(), PlantError>;
+
+    /// Whether another program is the plant: the network is then a model of it, and its walls are estimated.
+    fn is_foreign(&self) -> bool;
+}

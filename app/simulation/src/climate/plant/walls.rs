@@ -1,0 +1,44 @@
+//! The temperatures of walls that nobody measures, estimated by a model from those of the zones.
+//!
+//! Walls follow the model, with the zones as measured at every step. Their errors decay at the rates of the walls between
+//! zones of known temperature, so the estimate converges for every network.
+
+use interplay_building::network::Network;
+
+/// Temperatures of all nodes \[°C\] with the zones at `zones_c` and every wall at rest: the mean of its neighbours (zones and the
+/// outdoor air) by their conductances. Walls have no walls as neighbours, so each is a formula.
+pub fn at_rest_c(network: &Network, zones_c: &[f64], ambient_c: f64) -> Vec<f64> {
+    let zones = zones_c.len();
+    let mut conductance_kw_per_k = network.ambient_kw_per_k().to_vec();
+    let mut heat_kw: Vec<f64> = conductance_kw_per_k.iter().map(|conductance| conductance * ambient_c).collect();
+    for link in network.links() {
+        for (node, other) in [(link.from, link.to), (link.to, link.from)] {
+            if let (true, Some(other_c)) = (node >= zones, zones_c.get(other)) {
+                conductance_kw_per_k[node] += link.conductance_kw_per_k;
+                heat_kw[node] += link.conductance_kw_per_k * other_c;
+            }
+        }
+    }
+    let walls_c = heat_kw.iter().zip(&conductance_kw_per_k).skip(zones).map(|(heat, conductance)| heat / conductance);
+    zones_c.iter().copied().chain(walls_c).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_building::network::{Network, Wall, Zone};
+
+    use super::*;
+
+    /// A wall at rest has the temperature that its place between both sides gives it, whatever its heat capacity.
+    #[test]
+    fn walls_at_rest_lie_between_both_sides() {
+        let zones = [Zone::named("office"), Zone::named("store")];
+        let outer =
+            Wall { mass_position: Some(0.25), ..Wall::new("office", "ambient", 6.0).with_capacity_kj_per_k(15_000.0) };
+        let inner = Wall::new("office", "store", 40.0).with_capacity_kj_per_k(900.0);
+        let network = Network::new(&zones, &[outer, inner]).expect("a network");
+        let nodes_c = at_rest_c(&network, &[20.0, 12.0], -4.0);
+        let expected_c = [20.0, 12.0, 20.0 + 0.25 * (-4.0 - 20.0), 16.0];
+        assert!(nodes_c.iter().zip(expected_c).all(|(a, b)| (a - b).abs() < 1e-12), "{nodes_c:?}");
+    }
+}
