@@ -1,6 +1,5 @@
 //! Pictures of a run with a building.
 
-use interplay_building::comfort::Setpoints;
 use interplay_building::control::Exchange;
 use interplay_building::network::Network;
 use interplay_simulation::climate::people;
@@ -51,7 +50,6 @@ fn day_of(recorded: &RecordedRun, day: usize, zone: usize, value: impl Fn(&ZoneF
 
 /// Temperatures of some zones over the day, one curve a day, against what is wanted and the comfort band.
 pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
-    let Setpoints { band_k, from_h, to_h, .. } = recorded.scenario.setpoints.clone().unwrap_or_default();
     let panel = |&zone: &usize| {
         let mut curves: Vec<Curve> = days(recorded)
             .into_iter()
@@ -61,14 +59,13 @@ pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pan
                 Curve::new(format!("day {}", day + 1), style, points)
             })
             .collect();
-        for (name, beside_k, style) in
-            [("wanted", 0.0, WANTED), ("comfort band", band_k, LIMIT), ("comfort band", -band_k, LIMIT)]
+        for (name, side, style) in
+            [("wanted", 0.0, WANTED), ("comfort band", 1.0, LIMIT), ("comfort band", -1.0, LIMIT)]
         {
-            let wanted = |now: &ZoneFrame| now.reference_c.map_or(f64::NAN, |wanted_c| wanted_c + beside_k);
-            let comfortable = |hour: f64| beside_k == 0.0 || (from_h..=to_h).contains(&hour);
-            let points = day_of(recorded, 0, zone, wanted).into_iter();
-            let points: Vec<[f64; 2]> =
-                points.map(|[hour, c]| [hour, if comfortable(hour) { c } else { f64::NAN }]).collect();
+            let beside_k = |now: &ZoneFrame| if side == 0.0 { Some(0.0) } else { Some(side * now.band_k?) };
+            let place = |now: &ZoneFrame| Some(now.reference_c? + beside_k(now)?);
+            let wanted = |now: &ZoneFrame| place(now).unwrap_or(f64::NAN);
+            let points = day_of(recorded, 0, zone, wanted);
             if points.iter().any(|point| point[1].is_finite()) {
                 curves.push(Curve::new(name, style, points));
             }
@@ -80,13 +77,14 @@ pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pan
 
 /// Heat from the equipment of some zones over the day, one curve a day, against its limits.
 pub fn inputs(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
-    let limits_kw = network(recorded).map(|network| network.limits_kw().to_vec()).unwrap_or_default();
+    let network = network(recorded);
+    let limits = network.as_ref().map(Network::limits);
     let panel = |&zone: &usize| {
         let curves = days(recorded).into_iter().zip(style::line_styles()).map(|(day, style)| {
             let points = day_of(recorded, day, zone, |now| now.heat_kw);
             Curve::held(format!("day {}", day + 1), style, &points, step_h(recorded))
         });
-        let limit = limits_kw.get(zone).map_or(Vec::new(), |&limit_kw| vec![limit_kw, -limit_kw]);
+        let limit = limits.map_or(Vec::new(), |limits| vec![limits.heating_kw[zone], -limits.cooling_kw[zone]]);
         Panel {
             name: format!("{}: heat, cooling below 0 [kW]", name(recorded, zone)),
             curves: curves.collect(),
@@ -196,7 +194,7 @@ pub fn disturbance(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pane
 fn scheduled_kw(recorded: &RecordedRun) -> Vec<f64> {
     let Some(building) = &recorded.scenario.building else { return Vec::new() };
     let zones = network(recorded).map_or(0, |network| network.zone_count());
-    people(&recorded.scenario, zones).scheduled_kw(building.step_s, building.steps_per_day())
+    people(&recorded.scenario, zones).scheduled_kw(0, building.step_s, building.steps_per_day())
 }
 
 /// The cost of the common plan, round by round of an exchange of messages, for each day that had one.

@@ -14,7 +14,7 @@ mod learn;
 mod spawn;
 
 use bevy_ecs::prelude::*;
-use interplay_building::comfort::Targets;
+use interplay_building::comfort::{Agenda, Targets};
 use interplay_building::control::{ControlError, Regulator};
 use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::Model;
@@ -39,8 +39,6 @@ pub struct Temperature(pub f64);
 /// What heats and cools a zone.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Equipment {
-    /// Its largest power \[kW\].
-    pub limit_kw: f64,
     /// What the controller asked for \[kW\].
     pub requested_kw: f64,
     /// What it gives \[kW\].
@@ -56,7 +54,9 @@ pub struct Gains(pub f64);
 pub struct Building {
     /// The network with its step.
     pub model: Model,
-    /// What is wanted.
+    /// What is wanted on each day.
+    pub agenda: Agenda,
+    /// What is wanted today.
     pub targets: Targets,
     /// The weather and the people.
     pub surroundings: Surroundings,
