@@ -60,14 +60,15 @@ impl Agenda {
             }
         }
         let price_per_kwh = self.tariff.as_ref().map(|tariff| tariff.day_per_kwh(day, self.step_s, targets.steps()));
-        if let (Some(tariff), Some(price_per_kwh)) = (&self.tariff, &price_per_kwh) {
+        let weighs = self.setpoints.weigh_energy;
+        if let (Some(tariff), Some(price_per_kwh), true) = (&self.tariff, &price_per_kwh, weighs) {
             let weights = tariff.day_weights(price_per_kwh);
             for (i, input_weight) in targets.input_weight.iter_mut().enumerate() {
                 *input_weight *= weights[i / targets.zones];
             }
         }
         let heat_pump = self.heat_pump.clone();
-        let price_weight = heat_pump.as_ref().map_or(Vec::new(), |_| targets.input_weight.clone());
+        let price_weight = heat_pump.as_ref().filter(|_| weighs).map_or(Vec::new(), |_| targets.input_weight.clone());
         targets.supply = EnergySupply { price_per_kwh, heat_pump, outdoor_c: Vec::new(), price_weight };
         targets
     }

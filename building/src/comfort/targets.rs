@@ -38,6 +38,9 @@ pub struct Setpoints {
     /// Deviations up to this are comfortable \[K\].
     #[schemars(range(min = 0.0))]
     pub band_k: f64,
+    /// Whether W_u is larger where electricity is expensive and smaller where the heat pump works well. Reports state what
+    /// energy costs in either case.
+    pub weigh_energy: bool,
 }
 
 impl Default for Setpoints {
@@ -52,6 +55,7 @@ impl Default for Setpoints {
             other_weight: 1.0,
             input_weight: 1.0,
             band_k: 0.5,
+            weigh_energy: true,
         }
     }
 }
@@ -207,8 +211,11 @@ impl Targets {
         let mut targets = self.clone();
         targets.supply.outdoor_c = outdoor_c.to_vec();
         for (i, input_weight) in targets.input_weight.iter_mut().enumerate() {
-            let outdoor_c = outdoor_c.get(i / self.zones).copied().unwrap_or(self.reference_c[i]);
-            *input_weight = self.supply.price_weight[i] * self.supply.cop_weight(self.reference_c[i], outdoor_c);
+            // Without weights of prices the COP does not count either.
+            let (Some(weight), Some(outdoor_c)) = (self.supply.price_weight.get(i), outdoor_c.get(i / self.zones)) else {
+                break;
+            };
+            *input_weight = weight * self.supply.cop_weight(self.reference_c[i], *outdoor_c);
         }
         targets.tomorrow = self.tomorrow.as_ref().map(|tomorrow| Box::new(tomorrow.under(outdoor_c).into_owned()));
         Cow::Owned(targets)

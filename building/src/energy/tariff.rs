@@ -15,7 +15,7 @@ const HOUR_S: f64 = 3600.0;
 #[serde(deny_unknown_fields, default)]
 pub struct Tariff {
     /// The currency, for reports.
-    #[schemars(length(min = 1, max = 16))]
+    #[schemars(length(min = 1))]
     pub currency: String,
     /// The price of each hour from the first midnight on \[currency/kWh\]. After the last they begin again: 1 price holds
     /// always, 24 are a day, 168 a week.
