@@ -212,7 +212,8 @@ impl Targets {
         targets.supply.outdoor_c = outdoor_c.to_vec();
         for (i, input_weight) in targets.input_weight.iter_mut().enumerate() {
             // Without weights of prices the COP does not count either.
-            let (Some(weight), Some(outdoor_c)) = (self.supply.price_weight.get(i), outdoor_c.get(i / self.zones)) else {
+            let (Some(weight), Some(outdoor_c)) = (self.supply.price_weight.get(i), outdoor_c.get(i / self.zones))
+            else {
                 break;
             };
             *input_weight = weight * self.supply.cop_weight(self.reference_c[i], *outdoor_c);

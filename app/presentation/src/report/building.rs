@@ -85,7 +85,10 @@ impl Supply {
 
     fn titles(&self) -> Vec<String> {
         let electricity = self.electricity.then(|| "electricity kWh".to_owned());
-        electricity.into_iter().chain(self.currency.iter().map(|currency| format!("energy {}", currency.replace(char::is_control, " ")))).collect()
+        electricity
+            .into_iter()
+            .chain(self.currency.iter().map(|currency| format!("energy {}", currency.replace(char::is_control, " "))))
+            .collect()
     }
 
     fn cells(&self, electricity_kwh: f64, energy_cost: Option<f64>) -> Vec<String> {
