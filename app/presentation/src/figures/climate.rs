@@ -41,11 +41,19 @@ pub fn first_zones(recorded: &RecordedRun) -> Vec<usize> {
     (0..zones.min(MAX_DRAWN_ZONES)).collect()
 }
 
-/// A value of a zone over a day, at the hours of `hour`.
+/// A value of a zone over a day, at the start of each step \[h\].
 fn day_of(recorded: &RecordedRun, day: usize, zone: usize, value: impl Fn(&ZoneFrame) -> f64) -> Vec<[f64; 2]> {
     let step_h = step_h(recorded);
     let today = steps(recorded).filter(|step| step.day == day);
     today.map(|step| [step.step as f64 * step_h, value(&step.zones[zone])]).collect()
+}
+
+/// The temperature of a zone over a day, from midnight to midnight.
+fn temperature_of(recorded: &RecordedRun, day: usize, zone: usize) -> Vec<[f64; 2]> {
+    let mut points = day_of(recorded, day, zone, |now| now.temperature_c);
+    let last = steps(recorded).filter(|step| step.day == day).last();
+    points.extend(last.map(|step| [(step.step + 1) as f64 * step_h(recorded), step.zones[zone].next_c]));
+    points
 }
 
 /// Temperatures of some zones over the day, one curve a day, against what is wanted and the comfort band.
@@ -54,25 +62,30 @@ pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pan
         let mut curves: Vec<Curve> = days(recorded)
             .into_iter()
             .zip(style::line_styles())
-            .map(|(day, style)| {
-                let points = day_of(recorded, day, zone, |now| now.temperature_c);
-                Curve::new(format!("day {}", day + 1), style, points)
-            })
+            .map(|(day, style)| Curve::new(format!("day {}", day + 1), style, temperature_of(recorded, day, zone)))
             .collect();
+        let people = day_of(recorded, 0, zone, |now| now.band_k.unwrap_or(f64::NAN));
+        let occupied: Vec<bool> = people.iter().map(|[_, band_k]| band_k.is_finite()).collect();
         for (name, side, style) in
             [("wanted", 0.0, WANTED), ("comfort band", 1.0, LIMIT), ("comfort band", -1.0, LIMIT)]
         {
             let beside_k = |now: &ZoneFrame| if side == 0.0 { Some(0.0) } else { Some(side * now.band_k?) };
             let place = |now: &ZoneFrame| Some(now.reference_c? + beside_k(now)?);
             let wanted = |now: &ZoneFrame| place(now).unwrap_or(f64::NAN);
-            let points = day_of(recorded, 0, zone, wanted);
+            let points = stepped(day_of(recorded, 0, zone, wanted), occupied.clone(), step_h(recorded));
             if points.iter().any(|point| point[1].is_finite()) {
-                curves.push(Curve::new(name, style, points));
+                curves.push(Curve::new(format!("{name}{}", on_which_days(recorded)), style, points));
             }
         }
         Panel { name: format!("{}: temperature [°C]", name(recorded, zone)), curves, ..Panel::default() }
     };
     over_day(title, zones.iter().map(panel).collect())
+}
+
+/// What is added to names of what is wanted, if it is not wanted on every day.
+fn on_which_days(recorded: &RecordedRun) -> &'static str {
+    let differ = recorded.scenario.timetable().is_ok_and(|timetable| timetable.days_differ());
+    if differ { " on day 1" } else { "" }
 }
 
 /// Heat from the equipment of some zones over the day, one curve a day, against its limits.
@@ -95,7 +108,31 @@ pub fn inputs(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
     over_day(title, zones.iter().map(panel).collect())
 }
 
-fn over_day(title: &str, panels: Vec<Panel>) -> Panels {
+/// What is wanted at the hours of `points`, as steps that lie where people come and go; `occupied` says of each point whether
+/// they are there. Midnight belongs to both days.
+fn stepped(mut points: Vec<[f64; 2]>, mut occupied: Vec<bool>, step_h: f64) -> Vec<[f64; 2]> {
+    if let (Some([_, value]), Some([hour, _]), Some(is)) = (points.first(), points.last(), occupied.first()) {
+        points.push([hour + step_h, *value]);
+        occupied.push(*is);
+    }
+    let pairs = points.windows(2).zip(&occupied).zip(occupied.iter().skip(1));
+    pairs
+        .flat_map(|((pair, before), after)| {
+            let turn_h = if *before && !*after { pair[0][0] } else { pair[1][0] };
+            [pair[0], [turn_h, pair[0][1]], [turn_h, pair[1][1]], pair[1]]
+        })
+        .collect()
+}
+
+/// Plots over a day; all of them reach over the same values, so that rooms can be compared.
+fn over_day(title: &str, mut panels: Vec<Panel>) -> Panels {
+    let curves = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points).map(|point| point[1]);
+    let limits = panels.iter().flat_map(|panel| &panel.limits).map(|(limit, _)| *limit);
+    let finite = curves.chain(limits).filter(|value| value.is_finite());
+    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    if low <= high {
+        panels.iter_mut().for_each(|panel| panel.reaches = vec![low, high]);
+    }
     Panels { title: title.to_owned(), across: "time of day [h]".to_owned(), columns: 2, every: Some(4.0), panels }
 }
 
@@ -142,7 +179,7 @@ pub fn weather(title: &str, recorded: &RecordedRun) -> Panels {
     let per_day = (24.0 / step_h).round();
     let curve = |name: &str, style: LineStyle, value: fn(&BuildingFrame) -> f64| {
         let points = steps(recorded).map(|step| [step.day as f64 + step.step as f64 / per_day, value(step)]);
-        Curve::new(name, style, points.collect())
+        Curve::held(name, style, &points.collect::<Vec<_>>(), 1.0 / per_day)
     };
     let panel = Panel {
         name: "outdoor temperature [°C]".to_owned(),
@@ -181,8 +218,8 @@ pub fn disturbance(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pane
         Panel {
             name: format!("{}: net disturbance [°C]", name(recorded, zone)),
             curves: vec![
-                Curve::new("predicted", LineStyle::new(BLUE, Dash::Long), expected.collect()),
-                Curve::new("real", LineStyle::new(ORANGE, Dash::Solid), real.collect()),
+                Curve::held("predicted", LineStyle::new(BLUE, Dash::Long), &expected.collect::<Vec<_>>(), step_h),
+                Curve::held("real", LineStyle::new(ORANGE, Dash::Solid), &real.collect::<Vec<_>>(), step_h),
             ],
             ..Panel::default()
         }
