@@ -72,7 +72,7 @@ impl Tariff {
         let mean = self.mean_per_kwh();
         if mean.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
             let key = if self.file.is_some() { "file" } else { "prices_per_kwh" };
-            return refused(key, format!("the mean price is {mean}; it must be above 0"));
+            return refused(key, format!("the mean price is {:.6}; it must be above 0", mean));
         }
         Ok(())
     }
