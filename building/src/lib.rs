@@ -4,7 +4,8 @@
 //!
 //! - the building: [`network`] (zones and walls), [`discretise`] (steps of time), [`lifted`] (a day as one linear map)
 //! - its disturbances: [`weather`] (files, a synthetic climate, forecasts), [`occupancy`] (people, scheduled and actual)
-//! - [`comfort`]: the temperatures that are wanted
+//! - [`comfort`]: the temperatures that are wanted; [`schedule`] and [`calendar`]: by zone and weekday
+//! - [`energy`]: what heat takes in electricity and costs in money
 //! - [`control`]: controllers that are compared day by day, and the day's optimum
 //! - [`day`]: the closed loop of a building and a controller, and the key figures of a day
 //! - [`identify`]: thermal parameters from telemetry
@@ -49,7 +50,7 @@
 //!     let forecast = surroundings.forecast(&model, steps, day);
 //!     let actual = surroundings.actual(&model, steps, day);
 //!     let record = run_day(&model, &mut temperatures_c, &mut regulator, &targets, &forecast, &actual)?;
-//!     costs.push(KeyFigures::of(&record, &targets, model.network().limits_kw(), step_s).cost);
+//!     costs.push(KeyFigures::of(&record, &targets, model.network().limits(), step_s).cost);
 //! }
 //! assert!(costs[4] < 0.5 * costs[0], "it has learned: {costs:?}");
 //! # Ok(())
@@ -57,10 +58,12 @@
 //! ```
 
 pub mod bounds;
+pub mod calendar;
 pub mod comfort;
 pub mod control;
 pub mod day;
 pub mod discretise;
+pub mod energy;
 pub mod identify;
 pub mod json_schema;
 pub mod lifted;
@@ -68,5 +71,6 @@ pub mod nearest;
 pub mod network;
 pub mod occupancy;
 pub mod random;
+pub mod schedule;
 pub mod setting;
 pub mod weather;

@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::random::Random;
+use crate::schedule::Timetable;
 use crate::weather::TimeSeries;
 
 /// How zones are occupied on a working day, and how far from it reality strays.
@@ -113,6 +114,8 @@ impl Deviation {
 pub struct People {
     occupancy: Occupancy,
     seed: u64,
+    /// Schedules of zones that have their own.
+    timetable: Timetable,
     /// Peak of each zone's schedule \[kW\].
     pub peaks_kw: Vec<f64>,
     /// Real over scheduled heat of each zone, on an average day.
@@ -148,7 +151,7 @@ impl Occupancy {
                 1.0 + if random.chance(0.75) { bias } else { -bias }
             })
             .collect();
-        People { occupancy: *self, seed, peaks_kw, biases }
+        People { occupancy: *self, seed, timetable: Timetable::default(), peaks_kw, biases }
     }
 
     /// Share of the peak at an hour of the day, for work from one hour to another.
@@ -161,14 +164,27 @@ impl Occupancy {
 }
 
 impl People {
+    /// The same people, but those of zones with schedules of their own, who come and go by them. Reality deviates from a
+    /// schedule as from the common hours, but for the peak, which the schedule states.
+    #[must_use]
+    pub fn following(self, timetable: Timetable) -> Self {
+        Self { timetable, ..self }
+    }
+
     /// Scheduled heat of a day's steps from midnight \[kW\], stacked time-major (entry t·n + i is zone i in step t); the
-    /// middle of each step counts. It is the same every day.
-    pub fn scheduled_kw(&self, step_s: f64, steps: usize) -> Vec<f64> {
+    /// middle of each step counts. It is the same every day but in zones with schedules.
+    pub fn scheduled_kw(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
         let Occupancy { from_h, to_h, base_kw, .. } = self.occupancy;
         let mut stacked = Vec::with_capacity(steps * self.peaks_kw.len());
         for hour in hours(step_s, steps) {
             let share = self.occupancy.share(hour, from_h, to_h);
-            stacked.extend(self.peaks_kw.iter().map(|peak_kw| base_kw + peak_kw * share));
+            stacked.extend(self.peaks_kw.iter().enumerate().map(
+                |(zone, peak_kw)| match self.timetable.of(zone, day) {
+                    None => base_kw + peak_kw * share,
+                    Some(None) => 0.0,
+                    Some(Some(schedule)) => schedule.base_kw + schedule.people_kw(hour, 0.0, 0.0),
+                },
+            ));
         }
         stacked
     }
@@ -179,9 +195,24 @@ impl People {
         let days: Vec<Day> = (0..self.peaks_kw.len()).map(|zone| self.day(zone, day)).collect();
         let mut stacked = Vec::with_capacity(steps * days.len());
         for hour in hours(step_s, steps) {
-            stacked.extend(days.iter().map(|day| self.occupancy.base_kw + day.heat_kw(&self.occupancy, hour)));
+            stacked.extend(days.iter().enumerate().map(|(zone, today)| match self.timetable.of(zone, day) {
+                None => self.occupancy.base_kw + today.heat_kw(&self.occupancy, hour),
+                Some(None) => 0.0,
+                Some(Some(schedule)) => {
+                    let Occupancy { from_h, to_h, .. } = self.occupancy;
+                    let people_kw = schedule.people_kw(hour, today.from_h - from_h, today.to_h - to_h);
+                    let share = if people_kw > 0.0 { self.deviates(zone, today) } else { 0.0 };
+                    schedule.base_kw + today.disturbed_kw(people_kw, share, hour)
+                }
+            }));
         }
         stacked
+    }
+
+    /// Real over scheduled heat of a zone on a day.
+    fn deviates(&self, zone: usize, today: &Day) -> f64 {
+        let peak_kw = self.peaks_kw[zone];
+        if peak_kw > 0.0 { today.peak_kw / peak_kw } else { self.biases[zone] }
     }
 
     fn day(&self, zone: usize, day: usize) -> Day {
@@ -205,12 +236,17 @@ impl People {
 
 impl Day {
     fn heat_kw(&self, occupancy: &Occupancy, hour: f64) -> f64 {
-        const MEETING_H: f64 = 1.5;
         let share = occupancy.share(hour, self.from_h, self.to_h);
+        self.disturbed_kw(self.peak_kw, share, hour)
+    }
+
+    /// `heat_kw` times a share, with the meeting of the day and with noise while the share is not 0.
+    fn disturbed_kw(&self, heat_kw: f64, share: f64, hour: f64) -> f64 {
+        const MEETING_H: f64 = 1.5;
         let running = |meeting: &Meeting| (meeting.from_h..meeting.from_h + MEETING_H).contains(&hour);
         let factor = self.meeting.filter(running).map_or(1.0, |meeting| meeting.factor);
         let noise_kw = if share > 0.0 { self.noise_kw.at(3600.0 * hour).abs() } else { 0.0 };
-        self.peak_kw * share * factor + noise_kw
+        heat_kw * share * factor + noise_kw
     }
 }
 

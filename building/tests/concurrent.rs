@@ -14,7 +14,7 @@ use interplay_building::control::{BandPenalty, ControlError, Controller, optimum
 use interplay_building::day::KeyFigures;
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
-use interplay_building::network::Network;
+use interplay_building::network::{Network, PowerLimits};
 use nalgebra::DMatrix;
 
 fn uncertainty() -> Uncertainty {
@@ -134,7 +134,8 @@ fn it_tracks_better_than_pid_without_a_forecast_on_every_seed() {
             let mut regulator = controller.regulator(&model, STEPS).expect("valid");
             let records = run(&model, 28.5, &mut regulator, &targets, &days);
             assert!(records.iter().all(|record| record.requested_kw.iter().all(|kw| kw.abs() <= 2.0)));
-            let later = records[1..].iter().map(|r| KeyFigures::of(r, &targets, &[2.0; 4], STEP_S));
+            let later =
+                records[1..].iter().map(|r| KeyFigures::of(r, &targets, &PowerLimits::symmetric(&[2.0; 4]), STEP_S));
             later.fold((0.0, 0.0), |(rmse, beyond), f| (rmse + f.tracking_rmse_c / 4.0, beyond + f.discomfort_k_h))
         };
         let youla = figures(Controller::Concurrent(ConcurrentSettings::default()));

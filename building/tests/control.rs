@@ -15,8 +15,9 @@ use interplay_building::control::{
 };
 use interplay_building::day::{KeyFigures, Surroundings, run_day};
 use interplay_building::discretise::Model;
+use interplay_building::energy::EnergySupply;
 use interplay_building::lifted::Lifted;
-use interplay_building::network::{AMBIENT, Network, Wall, Zone};
+use interplay_building::network::{AMBIENT, Network, PowerLimits, Wall, Zone};
 use interplay_building::occupancy::Occupancy;
 use interplay_building::weather::{Climate, ErrorLevel, Forecast};
 
@@ -185,7 +186,7 @@ impl World {
                 let initial_c = temperatures_c.clone();
                 let record = run_day(&model, &mut temperatures_c, &mut regulator, &targets, &forecast, &actual);
                 let record = record.expect("runs");
-                let figures = KeyFigures::of(&record, &targets, model.network().limits_kw(), STEP_S);
+                let figures = KeyFigures::of(&record, &targets, model.network().limits(), STEP_S);
                 assert_eq!(figures.input_violation_kw, 0.0);
                 let best = optimum(&lifted, &initial_c, &targets, &actual, None).expect("solvable");
                 (figures.cost, figures.cost - best.cost)
@@ -241,9 +242,11 @@ fn key_figures_are_what_they_say() {
         zones: 2,
         reference_c: vec![20.0; 8],
         error_weight: vec![0.0, 0.0, 0.0, 0.0, 2.0, 2.0, 2.0, 2.0],
-        occupied: vec![false, false, true, true],
-        input_weight: 3.0,
-        band_k: 0.5,
+        occupied: vec![false, false, false, false, true, true, true, true],
+        input_weight: vec![3.0; 8],
+        band_k: vec![0.5; 8],
+        supply: EnergySupply::default(),
+        tomorrow: None,
     };
     let record = DayRecord {
         temperatures_c: vec![10.0, 10.0, 10.0, 10.0, 21.0, 20.0, 20.0, 18.0],
@@ -251,7 +254,7 @@ fn key_figures_are_what_they_say() {
         requested_kw: vec![1.0, -2.5, 0.0, 0.0, 0.5, 0.0, -1.0, -1.0],
         design: Default::default(),
     };
-    let figures = KeyFigures::of(&record, &targets, &[2.0, 2.0], STEP_S);
+    let figures = KeyFigures::of(&record, &targets, &PowerLimits::symmetric(&[2.0, 2.0]), STEP_S);
     assert_eq!(figures.cost, 2.0 * (1.0 + 4.0) + 3.0 * (1.0 + 4.0 + 0.25 + 1.0 + 1.0));
     assert!((figures.tracking_rmse_c - (5.0_f64 / 4.0).sqrt()).abs() < 1e-15);
     // Beyond the band: 0.5 K and 1.5 K, half an hour each, two zones.
@@ -259,7 +262,7 @@ fn key_figures_are_what_they_say() {
     assert_eq!((figures.energy_kwh, figures.heating_kwh, figures.cooling_kwh), (2.75, 0.75, 2.0));
     assert_eq!((figures.peak_kw, figures.input_violation_kw), (3.0, 0.5));
     // A peak is a mean over a quarter of an hour.
-    let fast = KeyFigures::of(&record, &targets, &[2.0, 2.0], 300.0);
+    let fast = KeyFigures::of(&record, &targets, &PowerLimits::symmetric(&[2.0, 2.0]), 300.0);
     assert!((fast.peak_kw - 2.0).abs() < 1e-15, "{}", fast.peak_kw);
 }
 
@@ -274,7 +277,7 @@ fn targets_are_wanted_at_the_ends_of_steps() {
     assert_eq!(targets.reference_at(at(19.0)), [24.0, 25.0, 26.0, 27.0]);
     assert_eq!(targets.reference_at(at(19.5)), [30.0; 4]);
     assert_eq!((targets.weight_at(at(12.0)), targets.weight_at(0)), (&[1.0; 4][..], &[0.25; 4][..]));
-    assert_eq!(targets.occupied.iter().filter(|&&occupied| occupied).count(), 23);
+    assert_eq!(targets.occupied.iter().filter(|&&occupied| occupied).count(), 23 * 4);
 }
 
 #[test]

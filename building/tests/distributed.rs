@@ -219,7 +219,8 @@ fn unstable_steps_and_missing_weather_are_said() {
 #[test]
 fn zones_that_can_solve_nothing_repeat_the_day_before() {
     // Without a price on inputs, heat after the last reference is worth nothing: no zone has a single best answer.
-    let (model, targets) = (testbed(), Targets { input_weight: 0.0, ..chapter_5(vec![22.5], 4) });
+    let targets = chapter_5(vec![22.5], 4);
+    let (model, targets) = (testbed(), Targets { input_weight: vec![0.0; targets.reference_c.len()], ..targets });
     let days: Vec<_> = (0..3).map(day).collect();
     let mut distributed = Distributed::new(DistributedSettings::default(), &model, STEPS).expect("valid");
     let records = run(&model, 28.5, &mut distributed, &targets, &days);

@@ -54,11 +54,11 @@ fn above(exchange: &Exchange) -> f64 {
 
 /// How many inputs of a plan are at their limits, and how many occupied temperatures at or beyond the edge of the band.
 fn binding(design: &Design, model: &Model, targets: &Targets) -> [usize; 2] {
-    let limits_kw = model.network().limits_kw();
+    let limits = model.network().limits();
     let n = targets.zones;
-    let limited = |(i, kw): &(usize, &f64)| kw.abs() > limits_kw[i % n] - 1e-9;
+    let limited = |(i, kw): &(usize, &f64)| limits.excess_kw(i % n, **kw) > -1e-9;
     let edge = |(i, c): &(usize, &f64)| {
-        targets.occupied[i / n] && (targets.reference_c[*i] - *c).abs() > targets.band_k - 1e-3
+        targets.occupied[*i] && (targets.reference_c[*i] - *c).abs() > targets.band_k[*i] - 1e-3
     };
     let count = |series: &[f64], is: &dyn Fn(&(usize, &f64)) -> bool| series.iter().enumerate().filter(is).count();
     [count(&design.planned_kw, &limited), count(&design.planned_c, &edge)]

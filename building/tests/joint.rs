@@ -17,7 +17,8 @@ fn posed(lifted: &Lifted, targets: &Targets, free_c: &[f64], factor: &DMatrix<f6
     let (n, size) = (lifted.zones(), lifted.size());
     let g = lifted.dense();
     let weights = DMatrix::from_diagonal(&DVector::from_column_slice(&targets.error_weight));
-    let curvature = g.tr_mul(&(&weights * &g)) + DMatrix::identity(size, size) * targets.input_weight;
+    let curvature =
+        g.tr_mul(&(&weights * &g)) + DMatrix::from_diagonal(&DVector::from_column_slice(&targets.input_weight));
     let mut program = Program::new();
     let input = program.variables("plan", size);
     let wanted = DVector::from_fn(size, |i, _| targets.reference_c[i] - free_c[i]);

@@ -1,6 +1,6 @@
 //! Zones and walls: what they become, what is refused, what is remarked upon.
 
-use interplay_building::network::{AMBIENT, Network, NetworkError, Part, Remark, Wall, Zone};
+use interplay_building::network::{AMBIENT, Network, NetworkError, Part, PowerLimits, Remark, Wall, Zone};
 
 fn zones(names: &[&str]) -> Vec<Zone> {
     names.iter().map(|name| Zone::named(*name)).collect()
@@ -144,7 +144,7 @@ fn zones_and_walls_are_read_with_units_in_the_names() {
     .expect("the documented format");
     let network = Network::new(&file.zone, &file.wall).expect("valid");
     assert_eq!(network.capacities_kj_per_k(), [1000.0, 800.0, 400.0]);
-    assert_eq!(network.limits_kw(), [2.0, 3.0]);
+    assert_eq!(*network.limits(), PowerLimits::symmetric(&[2.0, 3.0]));
     assert_eq!(network.solar_gains_kw(500.0), [0.0, 1.0]);
     assert!(toml::from_str::<Zone>("name = 'a'\nlimit = 2.0").is_err(), "a key without its unit is unknown");
 }

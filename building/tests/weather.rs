@@ -87,7 +87,7 @@ fn an_uncertain_forecast_is_the_truth_and_an_error() {
 #[test]
 fn occupancy_is_scheduled_in_working_hours() {
     let people = Occupancy::default().people(4, 1);
-    let scheduled_kw = people.scheduled_kw(STEP_S, STEPS);
+    let scheduled_kw = people.scheduled_kw(0, STEP_S, STEPS);
     let zone = |t: usize, i: usize| scheduled_kw[4 * t + i];
     for i in 0..4 {
         assert!((0.3..0.45).contains(&people.peaks_kw[i]));
@@ -109,7 +109,7 @@ fn real_occupancy_deviates_as_much_as_it_should() {
         for bias in &people.biases {
             assert!((0.1..0.25).contains(&(bias - 1.0).abs()), "{bias}");
         }
-        let scheduled_kw = people.scheduled_kw(STEP_S, STEPS);
+        let scheduled_kw = people.scheduled_kw(0, STEP_S, STEPS);
         let actual_kw: Vec<Vec<f64>> = (0..5).map(|day| people.actual_kw(day, STEP_S, STEPS)).collect();
         assert_ne!(actual_kw[0], actual_kw[1]);
         assert!(actual_kw.concat().iter().all(|&kw| kw >= 0.02));
@@ -125,5 +125,5 @@ fn real_occupancy_deviates_as_much_as_it_should() {
 #[test]
 fn without_deviation_reality_is_the_schedule() {
     let people = Occupancy { deviation: Deviation::NONE, ..Occupancy::default() }.people(3, 1);
-    assert_eq!(people.actual_kw(4, STEP_S, STEPS), people.scheduled_kw(STEP_S, STEPS));
+    assert_eq!(people.actual_kw(4, STEP_S, STEPS), people.scheduled_kw(0, STEP_S, STEPS));
 }

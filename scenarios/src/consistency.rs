@@ -7,6 +7,7 @@ mod checker;
 pub(crate) mod counterfactual;
 mod expectations;
 mod road;
+mod zones;
 
 use interplay_planners::State;
 

@@ -53,6 +53,10 @@ pub struct Expect {
     /// What the building must achieve.
     #[schemars(example = json!({ "after_iterations": 2 }), extend("x-concerns" = "building"))]
     pub building: Option<BuildingExpect>,
+    /// What a zone must achieve, one `[[expect.zone]]` each.
+    #[serde(rename = "zone")]
+    #[schemars(extend("x-concerns" = "building"))]
+    pub zones: Vec<ExpectedZone>,
 }
 
 /// The expectations of a counterfactual: those that a scenario may state, and comparisons with the scenario's own run.
@@ -91,7 +95,7 @@ pub struct CompletionShift {
 
 impl Expect {
     /// The names under which reports list these expectations, such as `order`, `completes.ego`, `speed.ego.max_above_mps`,
-    /// `yields.ego.to.human` and `building.energy_kwh_at_most`; without repetition.
+    /// `yields.ego.to.human`, `building.energy_kwh_at_most` and `zone.office.discomfort_k_h_at_most`; without repetition.
     pub fn names(&self) -> BTreeSet<String> {
         let mut names = BTreeSet::new();
         let whole = serde_json::to_value(self).unwrap_or_default();
@@ -99,6 +103,11 @@ impl Expect {
             match (key.as_str(), value) {
                 ("completes", Json::Array(items)) => names.extend(items.iter().map(|item| named("completes", item))),
                 ("yields", Json::Array(items)) => names.extend(items.iter().map(yield_name)),
+                ("zone", Json::Array(items)) => {
+                    let of = |item: &Json| format!("zone.{}", item["zone"].as_str().unwrap_or_default());
+                    let bounds = items.iter().flat_map(|item| stated(item).map(move |key| (of(item), key)));
+                    names.extend(bounds.filter(|(_, key)| key != "zone").map(|(name, key)| format!("{name}.{key}")));
+                }
                 (list @ ("speed" | "comfort"), Json::Array(items)) => {
                     let bounds = items.iter().flat_map(|item| stated(item).map(move |key| (named(list, item), key)));
                     names.extend(bounds.filter(|(_, key)| key != "vehicle").map(|(name, key)| format!("{name}.{key}")));
@@ -151,6 +160,15 @@ pub struct BuildingExpect {
     /// Heat brought in and taken out \[kWh a day\].
     #[schemars(range(min = 0.0), example = 32.0, extend("x-unit" = "kWh a day"))]
     pub energy_kwh_at_most: Option<f64>,
+    /// Electricity for this heat \[kWh a day\].
+    #[schemars(range(min = 0.0), example = 11.0, extend("x-unit" = "kWh a day"))]
+    pub electricity_kwh_at_most: Option<f64>,
+    /// Cost of the electricity \[currency a day\]; with a `[tariff]`.
+    #[schemars(example = 4.0, extend("x-unit" = "currency a day"))]
+    pub energy_cost_at_most: Option<f64>,
+    /// Cost of the electricity of all these days together \[currency\]; with a `[tariff]`.
+    #[schemars(example = 25.0, extend("x-unit" = "currency"))]
+    pub total_energy_cost_at_most: Option<f64>,
     /// Largest excess of a requested input over its limit \[kW\].
     #[schemars(range(min = 0.0), example = 0.0)]
     pub input_violation_kw_at_most: Option<f64>,
@@ -173,6 +191,44 @@ pub struct BuildingExpect {
     /// controller.
     #[schemars(range(min = 0.0), example = 0.01, extend("x-unit" = "dimensionless"))]
     pub above_centralised_at_most: Option<f64>,
+}
+
+/// Bounds on the key figures of a zone. Each is judged on every day after `after_iterations` of `[expect.building]`: the worst
+/// one counts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExpectedZone {
+    /// Name of the zone.
+    #[schemars(example = &"office")]
+    pub zone: String,
+    /// Root of the mean squared error while occupied \[K\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 0.6, extend("x-unit" = "K"))]
+    pub tracking_rmse_c_at_most: Option<f64>,
+    /// Deviation beyond the comfort band while occupied \[K·h a day\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 1.2, extend("x-unit" = "K·h a day"))]
+    pub discomfort_k_h_at_most: Option<f64>,
+    /// Heat brought in and taken out \[kWh a day\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 8.0, extend("x-unit" = "kWh a day"))]
+    pub energy_kwh_at_most: Option<f64>,
+    /// Cost of the electricity for this heat \[currency a day\]; with a `[tariff]`.
+    #[serde(default)]
+    #[schemars(example = 1.0, extend("x-unit" = "currency a day"))]
+    pub energy_cost_at_most: Option<f64>,
+}
+
+impl ExpectedZone {
+    /// Every bound by its key.
+    pub fn bounds(&self) -> [(&'static str, Option<f64>); 4] {
+        [
+            ("tracking_rmse_c_at_most", self.tracking_rmse_c_at_most),
+            ("discomfort_k_h_at_most", self.discomfort_k_h_at_most),
+            ("energy_kwh_at_most", self.energy_kwh_at_most),
+            ("energy_cost_at_most", self.energy_cost_at_most),
+        ]
+    }
 }
 
 /// A vehicle reaches its goal (its lane, or the far side of an intersection), within a window of time if one is stated.

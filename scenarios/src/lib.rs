@@ -56,6 +56,9 @@ mod standard_changes;
 mod start;
 mod start_jitter;
 mod sweep_plan;
+mod tariff_file;
+mod text_line;
+mod timetable;
 mod tree;
 mod vehicle_defaults;
 mod weather;
@@ -74,7 +77,7 @@ pub use embedded::{Embedded, embedded};
 pub use error::{Fault, LoadError};
 pub use expect::{
     BuildingExpect, Completes, CompletionShift, CounterfactualExpect, Expect, ExpectedComfort, ExpectedSpeed,
-    ExpectedYield,
+    ExpectedYield, ExpectedZone,
 };
 pub use files::{files, files_below};
 pub use lane_reference::LaneReference;
@@ -96,6 +99,7 @@ pub use source::Source;
 pub use standard_changes::{StandardChange, standard_changes};
 pub use start_jitter::StartJitter;
 pub use sweep_plan::{SweepPlan, SweepPoint, embedded_plans};
+pub use timetable::TimetableError;
 pub use vehicle_defaults::{GoalDefaults, VehicleDefaults};
 pub use weather::{EpwFile, Synthetic, WeatherConfig};
 pub use weights::Weights;

@@ -9,7 +9,7 @@ use crate::scenario::Scenario;
 use crate::source::Source;
 use crate::tree::{self, Table, TomlNode, TomlValue};
 use crate::weather::WeatherConfig;
-use crate::{budget, changed, consistency, degrees, remarks, schema, schema_check, weather_file};
+use crate::{budget, changed, consistency, degrees, remarks, schema, schema_check, tariff_file, weather_file};
 
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;
@@ -82,7 +82,8 @@ pub(crate) fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
         Some(WeatherConfig::Epw(file)) => weather_file::attach(file, days, tree).err(),
         Some(WeatherConfig::Synthetic(_)) | None => None,
     };
-    let faults: Vec<Fault> = consistency::check(&scenario, tree).into_iter().chain(unread).collect();
+    let unpriced = scenario.tariff.as_mut().and_then(|tariff| tariff_file::attach(tariff, tree).err());
+    let faults: Vec<Fault> = consistency::check(&scenario, tree).into_iter().chain(unread).chain(unpriced).collect();
     scenario.remarks = remarks::of(&scenario, tree);
     if faults.is_empty() { Ok(scenario) } else { Err(faults) }
 }

@@ -5,11 +5,14 @@
 
 use std::sync::Arc;
 
+use interplay_building::calendar::Calendar;
 use interplay_building::comfort::Setpoints;
 use interplay_building::control::Controller;
 use interplay_building::control::pid::PidSettings;
+use interplay_building::energy::{HeatPump, Tariff};
 use interplay_building::occupancy::Occupancy;
 use interplay_building::random::SplitMix64;
+use interplay_building::schedule::ZoneSchedule;
 use interplay_planners::road::network::RoadNetwork;
 use interplay_planners::sensing::{self, Sensor};
 use interplay_planners::{Body, Corridor, Driver, Limits, Planner, Route, SafetyEllipse, State, belief, human};
@@ -108,6 +111,24 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "occupied_c": [24.0] }))]
     pub setpoints: Option<Setpoints>,
+    /// Schedules of zones that have other hours, wanted temperatures or people than the others, one `[[schedule]]` each. A zone
+    /// that is named in one follows its schedules alone.
+    #[serde(rename = "schedule", default)]
+    #[schemars(length(max = 1000), extend("x-concerns" = "building"))]
+    pub schedules: Vec<ZoneSchedule>,
+    /// The date of the first day and the holidays, for schedules by weekday; by default the first day is a Monday, or the weekday
+    /// that the weather file states.
+    #[serde(default)]
+    #[schemars(extend("x-concerns" = "building"), example = json!({ "first_day": "2026-07-06" }))]
+    pub calendar: Option<Calendar>,
+    /// The price of electricity by the hour; without it energy costs no money.
+    #[serde(default)]
+    #[schemars(extend("x-concerns" = "building"), example = json!({ "prices_per_kwh": [0.3] }))]
+    pub tariff: Option<Tariff>,
+    /// The heat pump or chiller that supplies all zones; without it a kilowatt-hour of heat takes one of electricity.
+    #[serde(default)]
+    #[schemars(extend("x-concerns" = "building"), example = json!({ "heating": [{ "outdoor_c": 7.0, "cop": 3.5 }] }))]
+    pub heat_pump: Option<HeatPump>,
     /// The controller of the building; by default PID control in each zone.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "kind": "pid" }))]

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use interplay_building::calendar::Weekday;
 use interplay_building::weather::{Climate, Epw, Forecast, TimeSeries, Weather};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -72,6 +73,13 @@ impl WeatherConfig {
             WeatherConfig::Synthetic(synthetic) => synthetic.forecast,
             WeatherConfig::Epw(file) => file.forecast,
         }
+    }
+
+    /// The weekday of the first day, if a weather file that was read states one.
+    pub fn first_weekday(&self) -> Option<Weekday> {
+        let WeatherConfig::Epw(file) = self else { return None };
+        let epw = file.content.as_ref()?;
+        epw.weekday(file.start_s(epw)?)
     }
 
     /// Returns the weather over `days` days as functions of the time since the first midnight. `None` only for an EPW

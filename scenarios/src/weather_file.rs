@@ -7,8 +7,9 @@ use interplay_building::nearest::suggestion;
 use interplay_building::weather::Epw;
 
 use crate::building::DAY_S;
-use crate::error::{Document, Fault, Place, quoted};
+use crate::error::{Fault, Place, quoted};
 use crate::regular_file::read_regular;
+use crate::text_line::line_of;
 use crate::tree::TomlNode;
 use crate::weather::EpwFile;
 
@@ -70,13 +71,8 @@ fn read(file: &str, place: &Place) -> Result<(String, String), Fault> {
 
 /// A fault in a line of an EPW file, counted from 1.
 fn located(title: &str, text: &str, line: usize, fault: &str) -> Fault {
-    let ends = text.match_indices('\n').map(|(end, _)| end + 1);
-    let start = [0].into_iter().chain(ends).nth(line.saturating_sub(1)).unwrap_or(text.len());
-    let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);
-    let document = Document::new(title, text, RANK);
-    let place = Place::new(&document, start..start + length);
     let message = format!("{} is no whole EPW file: line {line}: {fault}", quoted(title));
     let help =
         "`weather.file` must name an EPW file as EnergyPlus reads it: 8 lines of header, then a row for each interval";
-    Fault::at(&place, "this line", message).help(help)
+    Fault::at(&line_of(title, text, line, RANK), "this line", message).help(help)
 }

@@ -193,3 +193,84 @@ fn keys_of_controllers_and_setpoints() {
     refusal(all, "zone_called_ambient", ("\"store\"", "\"ambient\""), &["bad.toml:13:8", "zone 2", "`ambient`"]);
     insta::assert_snapshot!("keys_of_controllers_and_setpoints", errors.0);
 }
+
+/// Hours, prices and zones of their own, and what is said where they do not fit.
+#[test]
+fn wrong_schedules_and_prices() {
+    let mut errors = Catalogue::default();
+    let mut refused = |name: &str, more: &str, fragments: &[&str]| {
+        errors.error(name, from_text("bad.toml", &format!("{GOOD}{more}"), &[]), fragments);
+    };
+    let office = "\n[[schedule]]\nzones = [\"office\"]\n";
+    let period = "\n[[schedule.period]]\nfrom_h = 8.0\nto_h = 18.0\nwanted_c = 21.0\n";
+    refused("schedule_of_nobody", &office.replace("office", "ofice"), &["bad.toml:30:10", "did you mean `office`?"]);
+    let night = period.replace("8.0\nto_h = 18.0", "22.0\nto_h = 6.0");
+    refused("a_night_in_one_period", &format!("{office}{night}"), &["bad.toml:34:8", "from 22 to 24 and from 0 to 6"]);
+    refused("periods_that_overlap", &format!("{office}{period}{period}"), &["bad.toml:38:10", "overlaps"]);
+    let twice = format!("{office}days = [\"workday\"]\n{office}days = [\"monday\"]\n");
+    refused("two_schedules_for_mondays", &twice, &["bad.toml:34:10", "two schedules for Mondays"]);
+    let learning = format!("{office}days = [\"workday\"]\n{period}");
+    let learned = GOOD.replace("\"pid\"", "\"iterative-learning\"");
+    let said = &["bad.toml:27:8", "repeats the inputs of the day before", "another controller"];
+    let mut refused_beside = |name: &str, good: &str, more: &str, fragments: &[&str]| {
+        errors.error(name, from_text("bad.toml", &format!("{good}{more}"), &[]), fragments);
+    };
+    refused_beside("plain_learning_with_weekends", &learned, &learning, said);
+    let yesterday = GOOD.replace("\"pid\"", "\"concurrent\"\nprediction = \"yesterday\"");
+    refused_beside("yesterday_with_weekends", &yesterday, &learning, &["bad.toml:28:14", "that of the day before"]);
+    let mut refused = |name: &str, more: &str, fragments: &[&str]| {
+        errors.error(name, from_text("bad.toml", &format!("{GOOD}{more}"), &[]), fragments);
+    };
+    refused("no_date", "\n[calendar]\nfirst_day = \"6.7.2026\"\n", &["bad.toml:30:13", "such as 2026-07-06"]);
+    refused(
+        "a_holiday_from_nowhere",
+        "\n[calendar]\nholidays = [\"2026-07-06\"]\n",
+        &["bad.toml:30:13", "state `first_day`"],
+    );
+    let weather = "\n[calendar]\nfirst_day = \"2026-07-09\"\n\n[weather]\nkind = \"epw\"\nfile = \"tropical-july.epw\"\nmonth = 7\nday = 8\n";
+    refused("another_day_than_the_weather", weather, &["bad.toml:30:13", "day 8 of month 7", "day = 9"]);
+    refused("no_prices", "\n[tariff]\ncurrency = \"CHF\"\n", &["bad.toml:29:1", "there are no prices"]);
+    refused("prices_below_nothing", "\n[tariff]\nprices_per_kwh = [0.1, -0.3]\n", &["bad.toml:30:18", "above 0"]);
+    refused("no_table_of_prices", "\n[tariff]\nfile = \"nowhere.csv\"\n", &["bad.toml:30:8", "nowhere.csv"]);
+    let both = "\n[tariff]\nprices_per_kwh = [0.1]\nfile = \"nowhere.csv\"\n";
+    refused("two_sources_of_prices", both, &["`prices_per_kwh`", "`file`"]);
+    let falling = "\n[heat_pump]\nheating = [{ outdoor_c = 5.0, cop = 3.0 }, { outdoor_c = 2.0, cop = 2.5 }]\n";
+    refused("a_curve_that_goes_back", falling, &["bad.toml:30:58", "above 5"]);
+    let no_cop = "\n[heat_pump]\ncooling = [{ outdoor_c = 5.0, cop = 0.0 }]\n";
+    refused("a_cop_of_nothing", no_cop, &["bad.toml:30:37", "at least 0.1"]);
+    refused(
+        "money_without_a_price",
+        "\n[expect.building]\nenergy_cost_at_most = 3.0\n",
+        &["bad.toml:30:23", "no price"],
+    );
+    let unknown = "\n[[expect.zone]]\nzone = \"attic\"\nenergy_kwh_at_most = 3.0\n";
+    refused("expectation_of_no_zone", unknown, &["bad.toml:30:8", "`office`, `store`"]);
+    refused(
+        "expectation_of_nothing",
+        "\n[[expect.zone]]\nzone = \"store\"\n",
+        &["expects nothing", "energy_kwh_at_most"],
+    );
+    insta::assert_snapshot!("schedules_and_prices", errors.0);
+}
+
+/// A table of prices beside the scenario is read, and its errors are located in it.
+#[test]
+fn prices_come_from_a_table() {
+    let folder = std::env::temp_dir().join(format!("interplay-prices-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let path = folder.join("priced.toml");
+    std::fs::write(&path, format!("{GOOD}\n[tariff]\nfile = \"prices.csv\"\n")).expect("written");
+    let load = |table: &str| {
+        std::fs::write(folder.join("prices.csv"), table).expect("written");
+        interplay_scenarios::load(path.to_str().expect("a plain path"), &[])
+    };
+    let scenario = load("hour,price_per_kwh\n0,0.25\n1,0.5\n").expect("two prices");
+    assert_eq!(scenario.tariff.expect("a tariff").prices(), [0.25, 0.5]);
+    let error = load("hour,price_per_kwh\n0,0.25\n1,cheap\n").expect_err("no number");
+    let error = common::rendered(&error, 2000);
+    assert!(error.contains("prices.csv:3:1") && error.contains("`cheap`"), "{error}");
+    let error = load("hour,price_per_kwh\n0,-0.25\n").expect_err("no mean");
+    let error = common::rendered(&error, 2000);
+    assert!(error.contains("priced.toml:30:8") && error.contains("above 0"), "{error}");
+    std::fs::remove_dir_all(&folder).expect("removed");
+}

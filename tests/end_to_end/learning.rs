@@ -68,6 +68,8 @@ fn expectations_tell_the_designs_from_their_rivals() {
         ("building/concurrent-uncertain", "controller.kind=pid", "tracking_rmse_c_at_most"),
         ("building/model-predictive", "controller.learning_rate=0.0", "regret_at_most"),
         ("building/model-predictive", "controller.kind=pid", "tracking_rmse_c_at_most"),
+        ("building/office-and-flat", "setpoints.weigh_energy=false", "total_energy_cost_at_most"),
+        ("building/office-and-flat", "controller.kind=pid", "discomfort_k_h_at_most"),
         ("building/distributed", "controller.kind=pid", "early_kwh_at_least"),
         ("building/distributed", "controller.rounds=1", "above_centralised_at_most"),
     ];

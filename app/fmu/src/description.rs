@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use interplay_building::network::PowerLimits;
+
 /// What is described.
 #[derive(Clone, Debug)]
 pub(crate) struct Description<'a> {
@@ -13,8 +15,8 @@ pub(crate) struct Description<'a> {
     pub guid: &'a str,
     /// The names of the zones.
     pub zones: &'a [String],
-    /// The largest heat of each zone \[kW\].
-    pub limits_kw: &'a [f64],
+    /// What the equipment of each zone can give.
+    pub limits: &'a PowerLimits,
     /// Time from one step to the next \[s\].
     pub step_s: f64,
     /// End of the weather \[s\].
@@ -82,9 +84,13 @@ impl Description<'_> {
     /// The variables in the order of their value references (`library/instance.rs`).
     fn variables(&self) -> Vec<Variable> {
         const OUTPUT: &str = "causality=\"output\" variability=\"continuous\" initial=\"calculated\"";
-        let heat = |(zone, limit_kw): (&String, &f64)| Variable {
+        let PowerLimits { heating_kw, cooling_kw } = self.limits;
+        let heat = |(index, zone): (usize, &String)| Variable {
             name: format!("{zone}.heat"),
-            description: format!("Heat of the equipment of {zone}, negative when it cools; at most {limit_kw} kW"),
+            description: format!(
+                "Heat of the equipment of {zone}, at most {} kW; negative when it cools, at most {} kW",
+                heating_kw[index], cooling_kw[index]
+            ),
             attributes: "causality=\"input\" variability=\"continuous\"",
             real: "unit=\"kW\" start=\"0\"".to_owned(),
         };
@@ -106,7 +112,7 @@ impl Description<'_> {
             attributes: OUTPUT,
             real: "unit=\"degC\"".to_owned(),
         };
-        let heats = self.zones.iter().zip(self.limits_kw).map(heat);
+        let heats = self.zones.iter().enumerate().map(heat);
         let temperatures = self.zones.iter().map(temperature);
         heats.chain(temperatures).chain(self.zones.iter().map(gains)).chain([outdoor]).collect()
     }

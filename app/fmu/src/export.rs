@@ -53,7 +53,7 @@ pub fn export(scenario: &Scenario) -> Result<Vec<u8>, FmuError> {
         identifier: IDENTIFIER,
         guid: &guid,
         zones: &network.names()[..zones],
-        limits_kw: &network.limits_kw()[..zones],
+        limits: network.limits(),
         step_s: described.step_s,
         stop_s: described.step_s * (steps * days) as f64,
     };

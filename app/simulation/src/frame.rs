@@ -58,6 +58,8 @@ pub struct ZoneFrame {
     pub next_c: f64,
     /// The wanted temperature at its start \[°C\]; none where it is free.
     pub reference_c: Option<f64>,
+    /// Deviations from it that are comfortable \[K\]; none while nobody is there.
+    pub band_k: Option<f64>,
     /// What the controller asked for \[kW\].
     pub requested_kw: f64,
     /// Heat from the equipment, negative for cooling \[kW\].

@@ -2,6 +2,7 @@
 
 use interplay_building::comfort::Targets;
 use interplay_building::control::DayRecord;
+use interplay_building::network::PowerLimits;
 
 /// The zones with the largest share in each key figure of a day; none where the figure is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,26 +18,27 @@ pub struct WorstZones {
 }
 
 impl WorstZones {
-    /// The zones of a day's record; `limits_kw` has one entry a zone.
-    pub fn of(record: &DayRecord, targets: &Targets, limits_kw: &[f64]) -> Self {
+    /// The zones of a day's record.
+    pub fn of(record: &DayRecord, targets: &Targets, limits: &PowerLimits) -> Self {
         let zones = targets.zones;
         let largest = |share: &dyn Fn(usize) -> f64| {
             let shares = (0..zones).map(|zone| (zone, share(zone))).filter(|(_, share)| *share > 0.0);
             shares.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(zone, _)| zone)
         };
+        let entries = |zone: usize| (zone..record.temperatures_c.len()).step_by(zones);
         let errors_k = |zone: usize| {
-            let steps = record.temperatures_c.chunks_exact(zones).zip(targets.reference_c.chunks_exact(zones));
-            let occupied = steps.zip(&targets.occupied).filter(|&(_, &occupied)| occupied);
-            occupied.map(move |((actual_c, wanted_c), _)| wanted_c[zone] - actual_c[zone])
+            let occupied = entries(zone).filter(|&i| targets.occupied[i]);
+            occupied.map(|i| targets.reference_c[i] - record.temperatures_c[i])
         };
+        let beyond_k = |zone: usize| entries(zone).map(|i| targets.beyond_k(i, record.temperatures_c[i])).sum();
         let heat_kw = |zone: usize| record.heat_kw.iter().skip(zone).step_by(zones).map(|kw| kw.abs()).sum();
         let excess_kw = |zone: usize| {
             let requested_kw = record.requested_kw.iter().skip(zone).step_by(zones);
-            requested_kw.map(|kw| kw.abs() - limits_kw[zone]).fold(0.0, f64::max)
+            requested_kw.map(|kw| limits.excess_kw(zone, *kw)).fold(0.0, f64::max)
         };
         WorstZones {
             tracking: largest(&|zone| errors_k(zone).map(|error_k| error_k * error_k).sum()),
-            discomfort: largest(&|zone| errors_k(zone).map(|error_k| (error_k.abs() - targets.band_k).max(0.0)).sum()),
+            discomfort: largest(&beyond_k),
             energy: largest(&heat_kw),
             input_violation: largest(&excess_kw),
         }

@@ -1,9 +1,12 @@
 //! Wanted temperatures of the zones over a day.
 
+use std::borrow::Cow;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::bounds::Bound;
+use crate::energy::EnergySupply;
 use crate::setting::{self, SettingError, SettingKey, check_bound};
 
 /// Wanted temperatures and what it costs to miss them.
@@ -35,6 +38,9 @@ pub struct Setpoints {
     /// Deviations up to this are comfortable \[K\].
     #[schemars(range(min = 0.0))]
     pub band_k: f64,
+    /// Whether W_u is larger where electricity is expensive and smaller where the heat pump works well. Reports state what
+    /// energy costs in either case.
+    pub weigh_energy: bool,
 }
 
 impl Default for Setpoints {
@@ -49,6 +55,7 @@ impl Default for Setpoints {
             other_weight: 1.0,
             input_weight: 1.0,
             band_k: 0.5,
+            weigh_energy: true,
         }
     }
 }
@@ -79,12 +86,16 @@ pub struct Targets {
     pub reference_c: Vec<f64>,
     /// W_e, stacked: cost of a squared kelvin; zero where the temperature is free.
     pub error_weight: Vec<f64>,
-    /// Whether zones are occupied, one for each of the N temperatures.
+    /// Whether the zone is occupied, stacked.
     pub occupied: Vec<bool>,
-    /// W_u: cost of a squared kilowatt.
-    pub input_weight: f64,
-    /// Deviations up to this are comfortable while occupied \[K\].
-    pub band_k: f64,
+    /// W_u, stacked: entry t·n + i is the cost of a squared kilowatt in zone i during step t.
+    pub input_weight: Vec<f64>,
+    /// Deviations up to this are comfortable while occupied \[K\], stacked.
+    pub band_k: Vec<f64>,
+    /// What heat takes and costs.
+    pub supply: EnergySupply,
+    /// The targets of the next day, where it differs; without them the next day is like this one.
+    pub tomorrow: Option<Box<Targets>>,
 }
 
 impl SetpointsError {
@@ -125,8 +136,11 @@ impl Setpoints {
                 error_weight.push(weight);
             }
         }
-        let (input_weight, band_k) = (self.input_weight, self.band_k);
-        Ok(Targets { zones, reference_c, error_weight, occupied, input_weight, band_k })
+        let occupied = occupied.iter().flat_map(|&occupied| std::iter::repeat_n(occupied, zones)).collect();
+        let size = zones * steps;
+        let supply = EnergySupply::default();
+        let (input_weight, band_k) = (vec![self.input_weight; size], vec![self.band_k; size]);
+        Ok(Targets { zones, reference_c, error_weight, occupied, input_weight, band_k, supply, tomorrow: None })
     }
 
     fn check(&self, zones: usize) -> Result<(), SetpointsError> {
@@ -142,7 +156,24 @@ impl Setpoints {
 impl Targets {
     /// N, how many steps the day has.
     pub fn steps(&self) -> usize {
-        self.occupied.len()
+        self.reference_c.len() / self.zones.max(1)
+    }
+
+    /// By how much a temperature is beyond the comfort band \[K\]; 0 within it, and where the zone is not occupied. `i` counts
+    /// as in the stacked quantities.
+    ///
+    /// # Panics
+    /// When there is no entry `i`.
+    pub fn beyond_k(&self, i: usize, temperature_c: f64) -> f64 {
+        if !self.occupied[i] {
+            return 0.0;
+        }
+        ((self.reference_c[i] - temperature_c).abs() - self.band_k[i]).max(0.0)
+    }
+
+    /// Whether any zone is occupied at the end of each step.
+    pub fn any_occupied(&self) -> Vec<bool> {
+        self.occupied.chunks_exact(self.zones.max(1)).map(|zones| zones.contains(&true)).collect()
     }
 
     /// Wanted temperatures at the start of step t \[°C\], one per zone. Midnight belongs to both days, so at t = 0 they are
@@ -162,18 +193,55 @@ impl Targets {
         &self.error_weight[self.row(t)]
     }
 
-    /// The targets of the `steps` steps from step `t` of the day on. After midnight the same day begins again.
+    /// The comfort band at the start of step t \[K\], one per zone; `None` where the zone is not occupied.
+    ///
+    /// # Panics
+    /// When t is not below N.
+    pub fn band_at(&self, t: usize) -> Vec<Option<f64>> {
+        self.row(t).map(|i| self.occupied[i].then_some(self.band_k[i])).collect()
+    }
+
+    /// The same targets where the outdoor temperature of each step is `outdoor_c`: with a heat pump, heat counts more where the
+    /// COP is low.
+    #[must_use]
+    pub fn under(&self, outdoor_c: &[f64]) -> Cow<'_, Self> {
+        if self.supply.heat_pump.is_none() {
+            return Cow::Borrowed(self);
+        }
+        let mut targets = self.clone();
+        targets.supply.outdoor_c = outdoor_c.to_vec();
+        for (i, input_weight) in targets.input_weight.iter_mut().enumerate() {
+            // Without weights of prices the COP does not count either.
+            let (Some(weight), Some(outdoor_c)) = (self.supply.price_weight.get(i), outdoor_c.get(i / self.zones))
+            else {
+                break;
+            };
+            *input_weight = weight * self.supply.cop_weight(self.reference_c[i], *outdoor_c);
+        }
+        targets.tomorrow = self.tomorrow.as_ref().map(|tomorrow| Box::new(tomorrow.under(outdoor_c).into_owned()));
+        Cow::Owned(targets)
+    }
+
+    /// The targets of the `steps` steps from step `t` of the day on: after midnight those of tomorrow, which begin again as
+    /// often as needed.
     #[must_use]
     pub fn ahead(&self, t: usize, steps: usize) -> Self {
-        let hours = (t..t + steps).map(|later| later % self.steps());
-        let stacked = |series: &[f64]| -> Vec<f64> {
-            hours.clone().flat_map(|t| &series[t * self.zones..(t + 1) * self.zones]).copied().collect()
-        };
+        let tomorrow = self.tomorrow.as_deref().unwrap_or(self);
+        let entries = (t..t + steps).flat_map(|later| {
+            let day = if later < self.steps() { self } else { tomorrow };
+            let step = later % self.steps();
+            (step * self.zones..(step + 1) * self.zones).map(move |i| (day, i))
+        });
+        let stacked = |of: fn(&Self) -> &[f64]| -> Vec<f64> { entries.clone().map(|(day, i)| of(day)[i]).collect() };
         Self {
-            reference_c: stacked(&self.reference_c),
-            error_weight: stacked(&self.error_weight),
-            occupied: hours.clone().map(|t| self.occupied[t]).collect(),
-            ..*self
+            zones: self.zones,
+            reference_c: stacked(|day| &day.reference_c),
+            error_weight: stacked(|day| &day.error_weight),
+            occupied: entries.clone().map(|(day, i)| day.occupied[i]).collect(),
+            input_weight: stacked(|day| &day.input_weight),
+            band_k: stacked(|day| &day.band_k),
+            supply: EnergySupply::default(),
+            tomorrow: None,
         }
     }
 
@@ -193,7 +261,7 @@ impl Targets {
         let mut cost = 0.0;
         for (i, (temperature_c, heat_kw)) in temperatures_c.iter().zip(heat_kw).enumerate() {
             let error_k = self.reference_c[i] - temperature_c;
-            cost += self.error_weight[i] * error_k * error_k + self.input_weight * heat_kw * heat_kw;
+            cost += self.error_weight[i] * error_k * error_k + self.input_weight[i] * heat_kw * heat_kw;
         }
         cost
     }

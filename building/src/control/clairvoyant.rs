@@ -43,7 +43,10 @@ impl ControllerKind for ClairvoyantSettings {
 impl Control for Clairvoyant {
     fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
         let actual = day_ahead.actual.ok_or(ControlError::NotClairvoyant)?;
-        self.planned_kw = optimum(&self.lifted, day_ahead.initial_c, day_ahead.targets, actual, None)?.heat_kw;
+        self.planned_kw = {
+            let targets = day_ahead.targets.under(&actual.ambient_c);
+            optimum(&self.lifted, day_ahead.initial_c, &targets, actual, None)?.heat_kw
+        };
         Ok(())
     }
 

@@ -65,6 +65,12 @@ impl Controller {
         self.settings().plans()
     }
 
+    /// The key of a setting, and the reason, because of which all days must have the same targets and people; `None` if
+    /// weekdays may differ.
+    pub fn needs_equal_days(&self) -> Option<(&'static str, &'static str)> {
+        self.settings().needs_equal_days()
+    }
+
     /// What to look for in a run with this kind of controller, as the end of a sentence that begins with "Look for:".
     pub fn look_for(&self) -> &'static str {
         self.settings().look_for()

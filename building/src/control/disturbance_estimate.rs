@@ -27,6 +27,14 @@ pub enum DisturbancePrediction {
     Yesterday,
 }
 
+impl DisturbancePrediction {
+    /// The key and the reason because of which all days must have the same people; `None` if weekdays may differ.
+    pub(super) fn needs_equal_days(self) -> Option<(&'static str, &'static str)> {
+        let why = "the disturbance of a day is expected to be that of the day before";
+        (self == Self::Yesterday).then_some(("prediction", why))
+    }
+}
+
 /// Estimates the disturbance of the next day from the forecast and from earlier days.
 #[derive(Clone, Debug)]
 pub struct DisturbanceEstimator {

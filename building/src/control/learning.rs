@@ -116,7 +116,7 @@ impl Learning {
     pub fn new(settings: LearningSettings, lifted: Lifted) -> Result<Self, ControlError> {
         setting::check(&settings)?;
         let model = lifted.model();
-        let feedback = Pid::new(settings.feedback, model.network().limits_kw(), model.step_s())?;
+        let feedback = Pid::new(settings.feedback, model.network().limits(), model.step_s())?;
         let planned_kw = vec![0.0; lifted.size()];
         let wanted = vec![None; lifted.size()];
         Ok(Self { settings, lifted, feedback, planned_kw, learned_kw: None, expected_kw: None, wanted })
@@ -137,6 +137,10 @@ impl ControllerKind for LearningSettings {
 
     fn look_for(&self) -> &'static str {
         "day by day the temperatures come closer to the wanted ones when people arrive, and the cost falls"
+    }
+
+    fn needs_equal_days(&self) -> Option<(&'static str, &'static str)> {
+        Some(("kind", "plain learning repeats the inputs of the day before"))
     }
 
     fn spectral_radius(&self, lifted: &Lifted) -> Option<f64> {
@@ -167,10 +171,9 @@ impl Control for Learning {
                 }
             }
         }
-        let limits_kw = self.lifted.model().network().limits_kw();
+        let limits = self.lifted.model().network().limits();
         for (i, planned_kw) in self.planned_kw.iter_mut().enumerate() {
-            let limit_kw = limits_kw[i % limits_kw.len()];
-            *planned_kw = planned_kw.clamp(-limit_kw, limit_kw);
+            *planned_kw = limits.limited(i % limits.zones(), *planned_kw);
         }
         Ok(())
     }

@@ -17,6 +17,7 @@ use super::{ControlError, Disturbance};
 use crate::comfort::Targets;
 use crate::discretise::{DENSE_NODES, Discretisation, Model};
 use crate::lifted::Lifted;
+use crate::network::PowerLimits;
 
 /// Tolerance of the solver, tighter than its default: inputs near a limit are accurate to about its square root only.
 const SOLVER_TOLERANCE: f64 = 1e-10;
@@ -71,7 +72,7 @@ const MAX_MARGIN_RATIO: f64 = 0.95;
 /// By how much a plan keeps within the limits of the day.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ConstraintTightening {
-    /// Margin of the inputs to their limits \[kW\], stacked; none if empty.
+    /// Margin of the inputs to their limits \[kW\], stacked; none if empty. A limit keeps a share of itself in any case.
     pub input_margin_kw: Vec<f64>,
     /// Margin of the temperatures to the comfort band \[K\], stacked; none if empty.
     pub band_margin_k: Vec<f64>,
@@ -80,11 +81,8 @@ pub(super) struct ConstraintTightening {
 }
 
 /// Margins of the inputs to their limits \[kW\], for inputs with these standard deviations.
-pub(super) fn margins_kw(lifted: &Lifted, input_deviation_kw: &[f64], quantile: f64) -> Vec<f64> {
-    let limits_kw = lifted.model().network().limits_kw();
-    (input_deviation_kw.iter().enumerate())
-        .map(|(i, deviation_kw)| (quantile * deviation_kw).min(MAX_MARGIN_RATIO * limits_kw[i % limits_kw.len()]))
-        .collect()
+pub(super) fn margins_kw(input_deviation_kw: &[f64], quantile: f64) -> Vec<f64> {
+    input_deviation_kw.iter().map(|deviation_kw| quantile * deviation_kw).collect()
 }
 
 /// ‖e‖₂ ≤ bound over the errors with a weight, per step and zone (eq. 3.8).
@@ -123,10 +121,8 @@ pub(super) fn plan(
     let solution = Solver::new(&posed.program, &settings)?.solve()?;
 
     let mut heat_kw = solution.value(posed.input).to_vec();
-    let limits_kw = model.network().limits_kw();
     for (i, heat_kw) in heat_kw.iter_mut().enumerate() {
-        let limit_kw = limits_kw[i % limits_kw.len()];
-        *heat_kw = heat_kw.clamp(-limit_kw, limit_kw);
+        *heat_kw = model.network().limits().limited(i % targets.zones, *heat_kw);
     }
     let temperatures_c: Vec<f64> =
         free_c.iter().zip(lifted.product(&heat_kw)).map(|(free_c, risen_k)| free_c + risen_k).collect();
@@ -140,11 +136,7 @@ pub(super) fn plan(
 impl BandPenalty {
     /// The cost of temperatures beyond the band while occupied.
     pub fn of(self, targets: &Targets, temperatures_c: &[f64]) -> f64 {
-        let beyond_k = |(i, temperature_c): (usize, &f64)| {
-            let occupied = targets.occupied[i / targets.zones];
-            let error_k = targets.reference_c[i] - temperature_c;
-            if occupied { (error_k.abs() - targets.band_k).max(0.0) } else { 0.0 }
-        };
+        let beyond_k = |(i, temperature_c): (usize, &f64)| targets.beyond_k(i, *temperature_c);
         temperatures_c.iter().enumerate().map(beyond_k).map(|s| self.linear * s + self.quadratic * s * s).sum()
     }
 }
@@ -175,7 +167,7 @@ impl Posed {
         let mut posed = Self { program, input, state, limits };
         posed.costs(model, targets, free_c);
         posed.dynamics(model, targets.steps());
-        posed.limits(model.network().limits_kw(), &tightening.input_margin_kw);
+        posed.limits(model.network().limits(), &tightening.input_margin_kw);
         if let Some(penalty) = penalty {
             posed.band(model, targets, free_c, penalty, &tightening.band_margin_k);
         }
@@ -194,7 +186,7 @@ impl Posed {
     fn costs(&mut self, model: &Model, targets: &Targets, free_c: &[f64]) {
         for (i, free_c) in free_c.iter().enumerate() {
             let (u, y) = (self.input.at(i), self.risen(model, targets.zones, i));
-            self.program.quadratic(u, u, 2.0 * targets.input_weight);
+            self.program.quadratic(u, u, 2.0 * targets.input_weight[i]);
             self.program.quadratic(y, y, 2.0 * targets.error_weight[i]);
             self.program.linear(y, -2.0 * targets.error_weight[i] * (targets.reference_c[i] - free_c));
         }
@@ -221,27 +213,29 @@ impl Posed {
         }
     }
 
-    /// −limit ≤ u ≤ limit, less the margins.
-    fn limits(&mut self, limits_kw: &[f64], margin_kw: &[f64]) {
+    /// −limit of cooling ≤ u ≤ limit of heating, less the margins.
+    fn limits(&mut self, limits: &PowerLimits, margin_kw: &[f64]) {
         let [most, least] = self.limits;
         for (i, u) in self.input.iter().enumerate() {
-            let limit_kw = limits_kw[i % limits_kw.len()] - margin_kw.get(i).copied().unwrap_or(0.0);
-            self.program.row(most, [(u, 1.0)], limit_kw);
-            self.program.row(least, [(u, -1.0)], limit_kw);
+            let margin_kw = margin_kw.get(i).copied().unwrap_or(0.0);
+            let within = |limit_kw: f64| limit_kw - margin_kw.min(MAX_MARGIN_RATIO * limit_kw);
+            let zone = i % limits.zones();
+            self.program.row(most, [(u, 1.0)], within(limits.heating_kw[zone]));
+            self.program.row(least, [(u, -1.0)], within(limits.cooling_kw[zone]));
         }
     }
 
     /// |r − T_free − y| ≤ band − margin + s, s ≥ 0 for the occupied times, at c₁ s + c₂ s².
     fn band(&mut self, model: &Model, targets: &Targets, free_c: &[f64], penalty: BandPenalty, margin_k: &[f64]) {
         let n = targets.zones;
-        let occupied: Vec<usize> = (0..free_c.len()).filter(|i| targets.occupied[i / n]).collect();
+        let occupied: Vec<usize> = (0..free_c.len()).filter(|&i| targets.occupied[i]).collect();
         let slack = self.program.variables("discomfort", occupied.len());
         let (warm, cold) = (self.program.at_most("too warm"), self.program.at_most("too cold"));
         let sign = self.program.at_most("discomfort is not negative");
         for (s, i) in slack.iter().zip(occupied) {
             let y = self.risen(model, n, i);
             let wanted_k = targets.reference_c[i] - free_c[i];
-            let band_k = targets.band_k - margin_k.get(i).copied().unwrap_or(0.0);
+            let band_k = targets.band_k[i] - margin_k.get(i).copied().unwrap_or(0.0);
             self.program.row(warm, [(y, 1.0), (s, -1.0)], band_k + wanted_k);
             self.program.row(cold, [(y, -1.0), (s, -1.0)], band_k - wanted_k);
             self.program.row(sign, [(s, -1.0)], 0.0);

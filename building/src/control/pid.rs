@@ -1,7 +1,7 @@
 //! A PID controller per zone.
 //!
 //! ```text
-//! u(t) = k_p e(t) + k_i ∫e − k_d dT/dt,        e = r − T,   |u| ≤ limit
+//! u(t) = k_p e(t) + k_i ∫e − k_d dT/dt,        e = r − T,   −limit of cooling ≤ u ≤ limit of heating
 //! ```
 //!
 //! The derivative is that of the temperature, so that a step of the reference causes no peak. Anti-windup by conditional
@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
+use crate::network::PowerLimits;
 use crate::setting::{self, SettingError};
 
 /// Gains of a PID controller. They are per hour, not per step, so that they do not depend on the step.
@@ -42,7 +43,7 @@ impl Default for PidSettings {
 #[derive(Clone, Debug)]
 pub struct Pid {
     settings: PidSettings,
-    limits_kw: Vec<f64>,
+    limits: PowerLimits,
     step_h: f64,
     /// k_i ∫e \[kW\].
     integral_kw: Vec<f64>,
@@ -54,10 +55,10 @@ impl Pid {
     ///
     /// # Errors
     /// [`SettingError`] if a gain is negative.
-    pub fn new(settings: PidSettings, limits_kw: &[f64], step_s: f64) -> Result<Self, SettingError> {
+    pub fn new(settings: PidSettings, limits: &PowerLimits, step_s: f64) -> Result<Self, SettingError> {
         setting::check(&settings)?;
-        let integral_kw = vec![0.0; limits_kw.len()];
-        Ok(Self { settings, limits_kw: limits_kw.to_vec(), step_h: step_s / 3600.0, integral_kw, before_c: None })
+        let integral_kw = vec![0.0; limits.zones()];
+        Ok(Self { settings, limits: limits.clone(), step_h: step_s / 3600.0, integral_kw, before_c: None })
     }
 
     /// The output on top of a feedforward `planned_kw`; both together are kept within the limits.
@@ -65,11 +66,11 @@ impl Pid {
         let Observation { step, temperatures_c, targets } = *observation;
         let (reference_c, weight) = (targets.reference_at(step), targets.weight_at(step));
         let before_c = self.before_c.replace(temperatures_c.to_vec());
-        let mut output_kw = Vec::with_capacity(self.limits_kw.len());
-        for (zone, &limit_kw) in self.limits_kw.iter().enumerate() {
+        let mut output_kw = Vec::with_capacity(self.limits.zones());
+        for zone in 0..self.limits.zones() {
             if weight[zone] == 0.0 {
                 self.integral_kw[zone] = 0.0;
-                output_kw.push(planned_kw[zone].clamp(-limit_kw, limit_kw));
+                output_kw.push(self.limits.limited(zone, planned_kw[zone]));
                 continue;
             }
             let error_k = reference_c[zone] - temperatures_c[zone];
@@ -77,11 +78,12 @@ impl Pid {
             let direct_kw = planned_kw[zone] + self.settings.proportional_kw_per_k * error_k
                 - self.settings.derivative_kw_h_per_k * rise_k / self.step_h;
             let grown_kw = self.integral_kw[zone] + self.settings.integral_kw_per_k_h * self.step_h * error_k;
-            let pushes_further = (direct_kw + grown_kw).abs() > limit_kw && (direct_kw + grown_kw) * error_k > 0.0;
+            let wanted_kw = direct_kw + grown_kw;
+            let pushes_further = self.limits.excess_kw(zone, wanted_kw) > 0.0 && wanted_kw * error_k > 0.0;
             if !pushes_further {
                 self.integral_kw[zone] = grown_kw;
             }
-            output_kw.push((direct_kw + self.integral_kw[zone]).clamp(-limit_kw, limit_kw));
+            output_kw.push(self.limits.limited(zone, direct_kw + self.integral_kw[zone]));
         }
         output_kw
     }
@@ -97,7 +99,7 @@ impl ControllerKind for PidSettings {
     }
 
     fn regulator(&self, model: &Model, _: usize) -> Result<Regulator, ControlError> {
-        Ok(Regulator::new(Pid::new(*self, model.network().limits_kw(), model.step_s())?))
+        Ok(Regulator::new(Pid::new(*self, model.network().limits(), model.step_s())?))
     }
 }
 
@@ -107,7 +109,7 @@ impl Control for Pid {
     }
 
     fn act(&mut self, observation: &Observation<'_>) -> Vec<f64> {
-        self.act_on_top(&vec![0.0; self.limits_kw.len()], observation)
+        self.act_on_top(&vec![0.0; self.limits.zones()], observation)
     }
 
     fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {

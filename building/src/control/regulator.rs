@@ -18,6 +18,12 @@ pub trait ControllerKind {
         false
     }
 
+    /// The key of a setting, and the reason, because of which all days must have the same targets and people; `None` if
+    /// weekdays may differ.
+    fn needs_equal_days(&self) -> Option<(&'static str, &'static str)> {
+        None
+    }
+
     /// What to look for in a run, as the end of a sentence that begins with "Look for:".
     fn look_for(&self) -> &'static str;
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
+use crate::network::PowerLimits;
 use crate::setting;
 
 /// A two-sided thermostat with a dead band.
@@ -30,7 +31,7 @@ impl Default for ThermostatSettings {
 #[derive(Clone, Debug)]
 pub struct Thermostat {
     settings: ThermostatSettings,
-    limits_kw: Vec<f64>,
+    limits: PowerLimits,
     running: Vec<f64>,
 }
 
@@ -39,9 +40,9 @@ impl Thermostat {
     ///
     /// # Errors
     /// [`ControlError::Setting`] if the dead band is negative, or the power not a share.
-    pub fn new(settings: ThermostatSettings, limits_kw: &[f64]) -> Result<Self, ControlError> {
+    pub fn new(settings: ThermostatSettings, limits: &PowerLimits) -> Result<Self, ControlError> {
         setting::check(&settings)?;
-        Ok(Self { settings, limits_kw: limits_kw.to_vec(), running: vec![0.0; limits_kw.len()] })
+        Ok(Self { settings, limits: limits.clone(), running: vec![0.0; limits.zones()] })
     }
 }
 
@@ -55,7 +56,7 @@ impl ControllerKind for ThermostatSettings {
     }
 
     fn regulator(&self, model: &Model, _: usize) -> Result<Regulator, ControlError> {
-        Ok(Regulator::new(Thermostat::new(*self, model.network().limits_kw())?))
+        Ok(Regulator::new(Thermostat::new(*self, model.network().limits())?))
     }
 }
 
@@ -78,7 +79,9 @@ impl Control for Thermostat {
                 *running = missing_k.signum();
             }
         }
-        self.running.iter().zip(&self.limits_kw).map(|(running, limit)| running * self.settings.power * limit).collect()
+        let limit_kw = |zone: usize, running: f64| self.limits.towards_kw(zone, running);
+        let running = self.running.iter().enumerate();
+        running.map(|(zone, running)| running * self.settings.power * limit_kw(zone, *running)).collect()
     }
 
     fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {

@@ -158,9 +158,10 @@ impl Uncertainty {
     }
 }
 
-/// Whether each step is occupied, or the step before or after it.
+/// Whether any zone is occupied in each step, or in the step before or after it.
 fn busy(targets: &Targets) -> Vec<bool> {
-    let at = |t: usize| t.checked_sub(1).and_then(|row| targets.occupied.get(row)).copied().unwrap_or(false);
+    let occupied = targets.any_occupied();
+    let at = |t: usize| t.checked_sub(1).and_then(|row| occupied.get(row)).copied().unwrap_or(false);
     // Step t runs from T(t) to T(t + 1); rows of targets are T(1) … T(N).
     (0..targets.steps()).map(|t| t.checked_sub(1).is_some_and(at) || at(t) || at(t + 1)).collect()
 }

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::comfort::Targets;
 use crate::control::DayRecord;
+use crate::network::PowerLimits;
 
 /// Shortest time over which a peak is averaged \[s\].
 const PEAK_WINDOW_S: f64 = 900.0;
@@ -24,6 +25,11 @@ pub struct KeyFigures {
     pub discomfort_k_h: f64,
     /// Heat brought in and taken out by the equipment \[kWh\].
     pub energy_kwh: f64,
+    /// Electricity that the equipment took for it \[kWh\]; without a heat pump as much as the heat.
+    pub electricity_kwh: f64,
+    /// What the electricity cost \[currency\]; none without a tariff.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_cost: Option<f64>,
     /// Heat brought in \[kWh\].
     pub heating_kwh: f64,
     /// Heat taken out \[kWh\].
@@ -35,28 +41,31 @@ pub struct KeyFigures {
 }
 
 impl KeyFigures {
-    /// The figures of a day.
+    /// The figures of a day. `targets` are those under the real outdoor temperature ([`Targets::under`]).
     ///
     /// # Panics
     /// When the record has not the shape of the targets.
-    pub fn of(record: &DayRecord, targets: &Targets, limits_kw: &[f64], step_s: f64) -> Self {
+    pub fn of(record: &DayRecord, targets: &Targets, limits: &PowerLimits, step_s: f64) -> Self {
         let hours = step_s / 3600.0;
         let n = targets.zones;
         let energy = |part: fn(f64) -> f64| hours * record.heat_kw.iter().map(|&kw| part(kw)).sum::<f64>();
         let (heating_kwh, cooling_kwh) = (energy(|kw| kw.max(0.0)), energy(|kw| (-kw).max(0.0)));
         let errors_k = || {
-            let steps = record.temperatures_c.chunks_exact(n).zip(targets.reference_c.chunks_exact(n));
-            let occupied = steps.zip(&targets.occupied).filter(|&(_, &occupied)| occupied);
-            occupied.flat_map(|((actual_c, wanted_c), _)| wanted_c.iter().zip(actual_c).map(|(r, t)| r - t))
+            let entries = record.temperatures_c.iter().zip(&targets.reference_c).zip(&targets.occupied);
+            entries.filter(|(_, occupied)| **occupied).map(|((actual_c, wanted_c), _)| wanted_c - actual_c)
         };
         let count = errors_k().count().max(1) as f64;
-        let beyond_k: f64 = errors_k().map(|error_k| (error_k.abs() - targets.band_k).max(0.0)).sum();
-        let excess = |(i, kw): (usize, &f64)| kw.abs() - limits_kw[i % n];
+        let beyond_k: f64 = record.temperatures_c.iter().enumerate().map(|(i, t)| targets.beyond_k(i, *t)).sum();
+        let electric_kwh = |i: usize| hours * targets.supply.electric_kw(i / n, record.heat_kw[i]);
+        let money = |i: usize| targets.supply.money(i / n, electric_kwh(i));
+        let excess = |(i, kw): (usize, &f64)| limits.excess_kw(i % n, *kw);
         Self {
             cost: targets.cost(&record.temperatures_c, &record.heat_kw),
             tracking_rmse_c: (errors_k().map(|error_k| error_k * error_k).sum::<f64>() / count).sqrt(),
             discomfort_k_h: hours * beyond_k / n as f64,
             energy_kwh: heating_kwh + cooling_kwh,
+            electricity_kwh: (0..record.heat_kw.len()).map(electric_kwh).sum(),
+            energy_cost: (0..record.heat_kw.len()).map(money).sum(),
             heating_kwh,
             cooling_kwh,
             peak_kw: peak_kw(&record.heat_kw, n, step_s),

@@ -18,9 +18,13 @@
 
 mod key_figures;
 mod surroundings;
+mod zone_figures;
 
 pub use key_figures::KeyFigures;
 pub use surroundings::Surroundings;
+pub use zone_figures::ZoneFigures;
+
+use std::borrow::Cow;
 
 use crate::comfort::Targets;
 use crate::control::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
@@ -41,6 +45,8 @@ pub struct Day {
     pub actual: Disturbance,
     /// What happened so far.
     pub record: DayRecord,
+    /// The targets under the forecast, where it changes them.
+    expected_targets: Option<Targets>,
 }
 
 /// Heat from the equipment in a step, one number per zone.
@@ -58,7 +64,7 @@ impl Day {
         let empty = || Vec::with_capacity(actual.gains_kw.len());
         let record =
             DayRecord { temperatures_c: empty(), heat_kw: empty(), requested_kw: empty(), design: Design::default() };
-        Self { initial_c, forecast, actual, record }
+        Self { initial_c, forecast, actual, record, expected_targets: None }
     }
 
     /// Lets the controller plan the day at midnight.
@@ -66,7 +72,12 @@ impl Day {
     /// # Errors
     /// [`ControlError`] if the controller cannot work on this day.
     pub fn plan(&mut self, controller: &mut impl Control, targets: &Targets) -> Result<(), ControlError> {
-        let Self { initial_c, forecast, actual, .. } = &*self;
+        self.expected_targets = match targets.under(&self.forecast.ambient_c) {
+            Cow::Borrowed(_) => None,
+            Cow::Owned(targets) => Some(targets),
+        };
+        let Self { initial_c, forecast, actual, expected_targets, .. } = &*self;
+        let targets = expected_targets.as_ref().unwrap_or(targets);
         controller.start_of_day(&DayAhead { initial_c, targets, forecast, actual: Some(actual) })?;
         self.record.design = controller.design();
         Ok(())
@@ -83,6 +94,7 @@ impl Day {
         step: usize,
         zones_c: &[f64],
     ) -> Heat {
+        let targets = self.expected_targets.as_ref().unwrap_or(targets);
         let requested_kw = controller.act(&Observation { step, temperatures_c: zones_c, targets });
         if let Some(why) = controller.trouble()
             && self.record.design.fallback.is_none()
@@ -90,8 +102,7 @@ impl Day {
             self.record.design.fallback = Some(why.clone());
             self.record.design.fallbacks += 1;
         }
-        let limits_kw = plant.network().limits_kw();
-        let applied_kw = requested_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect();
+        let applied_kw = plant.network().limits().limited_all(&requested_kw);
         Heat { requested_kw, applied_kw }
     }
 

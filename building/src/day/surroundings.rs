@@ -22,7 +22,7 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// What is forecast at the midnight before day `day`, counted from zero. People are forecast as scheduled. The sun is
+    /// What is forecast at the midnight before day `day`, counted from zero. People are forecast as scheduled for the day. The sun is
     /// forecast without error, except by [`Forecast::Persistence`], which repeats the day before.
     pub fn forecast(&self, model: &Model, steps: usize, day: usize) -> Disturbance {
         let Self { weather, forecast, forecast_seed, people } = self;
@@ -31,7 +31,7 @@ impl Surroundings {
         let sun_start_s = (day as f64 - days_back) * DAY_S;
         Disturbance {
             ambient_c: forecast.ambient_steps_c(weather, *forecast_seed, day, step_s, steps),
-            gains_kw: self.with_sun(people.scheduled_kw(step_s, steps), model, steps, sun_start_s),
+            gains_kw: self.with_sun(people.scheduled_kw(day, step_s, steps), model, steps, sun_start_s),
         }
     }
 

@@ -19,6 +19,7 @@
 mod checks;
 mod error;
 mod mismatch;
+mod power_limits;
 mod presets;
 mod remarks;
 mod settings;
@@ -27,6 +28,7 @@ use nalgebra::DMatrix;
 
 pub use error::{NetworkError, Part, Remark};
 pub use mismatch::ModelMismatch;
+pub use power_limits::PowerLimits;
 pub use settings::{AMBIENT, Wall, Zone};
 
 /// A conductance between two nodes.
@@ -46,7 +48,7 @@ pub struct Network {
     names: Vec<String>,
     zone_count: usize,
     capacities_kj_per_k: Vec<f64>,
-    limits_kw: Vec<f64>,
+    limits: PowerLimits,
     solar_apertures_m2: Vec<f64>,
     links: Vec<Link>,
     ambient_kw_per_k: Vec<f64>,
@@ -68,7 +70,10 @@ impl Network {
             names: zones.iter().map(|zone| zone.name.clone()).collect(),
             zone_count: zones.len(),
             capacities_kj_per_k: zones.iter().map(|zone| zone.capacity_kj_per_k).collect(),
-            limits_kw: zones.iter().map(|zone| zone.limit_kw).collect(),
+            limits: PowerLimits {
+                heating_kw: zones.iter().map(|zone| zone.heating_limit_kw.unwrap_or(zone.limit_kw)).collect(),
+                cooling_kw: zones.iter().map(|zone| zone.cooling_limit_kw.unwrap_or(zone.limit_kw)).collect(),
+            },
             solar_apertures_m2: zones.iter().map(|zone| zone.solar_aperture_m2).collect(),
             links: Vec::new(),
             ambient_kw_per_k: vec![0.0; zones.len()],
@@ -138,9 +143,9 @@ impl Network {
         &self.capacities_kj_per_k
     }
 
-    /// Largest heating or cooling power of each zone \[kW\].
-    pub fn limits_kw(&self) -> &[f64] {
-        &self.limits_kw
+    /// The largest heating and cooling power of each zone.
+    pub fn limits(&self) -> &PowerLimits {
+        &self.limits
     }
 
     /// Heat that the sun brings into each zone \[kW\], for a global radiation on a horizontal plane \[W/m²\].

@@ -17,10 +17,18 @@ pub struct Zone {
     #[serde(default = "default_capacity_kj_per_k")]
     #[schemars(range(min = 0.000001))]
     pub capacity_kj_per_k: f64,
-    /// Largest heating power, and largest cooling power \[kW\].
+    /// Largest heating power, and largest cooling power, where the next two keys do not state them \[kW\].
     #[serde(default = "default_limit_kw")]
     #[schemars(range(min = 0.0))]
     pub limit_kw: f64,
+    /// Largest heating power; `limit_kw` if it is left out, and 0 without heating \[kW\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0), example = 3.0)]
+    pub heating_limit_kw: Option<f64>,
+    /// Largest cooling power; `limit_kw` if it is left out, and 0 without cooling \[kW\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0), example = 1.5)]
+    pub cooling_limit_kw: Option<f64>,
     /// Area of the horizontal opening that would let in as much sun as the zone's windows do \[m²\].
     #[serde(default)]
     #[schemars(range(min = 0.0))]
@@ -42,6 +50,8 @@ impl Zone {
             name: name.into(),
             capacity_kj_per_k: default_capacity_kj_per_k(),
             limit_kw: default_limit_kw(),
+            heating_limit_kw: None,
+            cooling_limit_kw: None,
             solar_aperture_m2: 0.0,
         }
     }

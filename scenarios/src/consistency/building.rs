@@ -6,6 +6,7 @@ use interplay_building::day::MAX_REGRET_INPUTS;
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::{Network, NetworkError, Part};
 
+use super::zones;
 use crate::building::{BuildingConfig, DAY_S};
 use crate::building_plant::BuildingPlant;
 use crate::error::{Fault, quoted};
@@ -143,6 +144,7 @@ impl Checker<'_> {
         if let Err(error) = setpoints.targets(network.zone_count(), building.step_s, steps) {
             self.refuse(&format!("setpoints.{}", error.key()), "here", format!("`setpoints`: {error}"), "");
         }
+        self.faults.extend(zones::check(self.scenario, self.tree, network));
         self.regret(network.zone_count() * steps);
         match Model::new(network, building.method, building.step_s) {
             Err(error @ ModelError::BadStep { .. }) => {

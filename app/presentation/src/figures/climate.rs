@@ -1,6 +1,5 @@
 //! Pictures of a run with a building.
 
-use interplay_building::comfort::Setpoints;
 use interplay_building::control::Exchange;
 use interplay_building::network::Network;
 use interplay_simulation::climate::people;
@@ -42,35 +41,40 @@ pub fn first_zones(recorded: &RecordedRun) -> Vec<usize> {
     (0..zones.min(MAX_DRAWN_ZONES)).collect()
 }
 
-/// A value of a zone over a day, at the hours of `hour`.
+/// A value of a zone over a day, at the start of each step \[h\].
 fn day_of(recorded: &RecordedRun, day: usize, zone: usize, value: impl Fn(&ZoneFrame) -> f64) -> Vec<[f64; 2]> {
     let step_h = step_h(recorded);
     let today = steps(recorded).filter(|step| step.day == day);
     today.map(|step| [step.step as f64 * step_h, value(&step.zones[zone])]).collect()
 }
 
+/// The temperature of a zone over a day, from midnight to midnight.
+fn temperature_of(recorded: &RecordedRun, day: usize, zone: usize) -> Vec<[f64; 2]> {
+    let mut points = day_of(recorded, day, zone, |now| now.temperature_c);
+    let last = steps(recorded).filter(|step| step.day == day).last();
+    points.extend(last.map(|step| [(step.step + 1) as f64 * step_h(recorded), step.zones[zone].next_c]));
+    points
+}
+
 /// Temperatures of some zones over the day, one curve a day, against what is wanted and the comfort band.
 pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
-    let Setpoints { band_k, from_h, to_h, .. } = recorded.scenario.setpoints.clone().unwrap_or_default();
     let panel = |&zone: &usize| {
         let mut curves: Vec<Curve> = days(recorded)
             .into_iter()
             .zip(style::line_styles())
-            .map(|(day, style)| {
-                let points = day_of(recorded, day, zone, |now| now.temperature_c);
-                Curve::new(format!("day {}", day + 1), style, points)
-            })
+            .map(|(day, style)| Curve::new(format!("day {}", day + 1), style, temperature_of(recorded, day, zone)))
             .collect();
-        for (name, beside_k, style) in
-            [("wanted", 0.0, WANTED), ("comfort band", band_k, LIMIT), ("comfort band", -band_k, LIMIT)]
+        let people = day_of(recorded, 0, zone, |now| now.band_k.unwrap_or(f64::NAN));
+        let occupied: Vec<bool> = people.iter().map(|[_, band_k]| band_k.is_finite()).collect();
+        for (name, side, style) in
+            [("wanted", 0.0, WANTED), ("comfort band", 1.0, LIMIT), ("comfort band", -1.0, LIMIT)]
         {
-            let wanted = |now: &ZoneFrame| now.reference_c.map_or(f64::NAN, |wanted_c| wanted_c + beside_k);
-            let comfortable = |hour: f64| beside_k == 0.0 || (from_h..=to_h).contains(&hour);
-            let points = day_of(recorded, 0, zone, wanted).into_iter();
-            let points: Vec<[f64; 2]> =
-                points.map(|[hour, c]| [hour, if comfortable(hour) { c } else { f64::NAN }]).collect();
+            let beside_k = |now: &ZoneFrame| if side == 0.0 { Some(0.0) } else { Some(side * now.band_k?) };
+            let place = |now: &ZoneFrame| Some(now.reference_c? + beside_k(now)?);
+            let wanted = |now: &ZoneFrame| place(now).unwrap_or(f64::NAN);
+            let points = stepped(day_of(recorded, 0, zone, wanted), occupied.clone(), step_h(recorded));
             if points.iter().any(|point| point[1].is_finite()) {
-                curves.push(Curve::new(name, style, points));
+                curves.push(Curve::new(format!("{name}{}", on_which_days(recorded)), style, points));
             }
         }
         Panel { name: format!("{}: temperature [°C]", name(recorded, zone)), curves, ..Panel::default() }
@@ -78,15 +82,22 @@ pub fn temperatures(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pan
     over_day(title, zones.iter().map(panel).collect())
 }
 
+/// What is added to names of what is wanted, if it is not wanted on every day.
+fn on_which_days(recorded: &RecordedRun) -> &'static str {
+    let differ = recorded.scenario.timetable().is_ok_and(|timetable| timetable.days_differ());
+    if differ { " on day 1" } else { "" }
+}
+
 /// Heat from the equipment of some zones over the day, one curve a day, against its limits.
 pub fn inputs(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
-    let limits_kw = network(recorded).map(|network| network.limits_kw().to_vec()).unwrap_or_default();
+    let network = network(recorded);
+    let limits = network.as_ref().map(Network::limits);
     let panel = |&zone: &usize| {
         let curves = days(recorded).into_iter().zip(style::line_styles()).map(|(day, style)| {
             let points = day_of(recorded, day, zone, |now| now.heat_kw);
             Curve::held(format!("day {}", day + 1), style, &points, step_h(recorded))
         });
-        let limit = limits_kw.get(zone).map_or(Vec::new(), |&limit_kw| vec![limit_kw, -limit_kw]);
+        let limit = limits.map_or(Vec::new(), |limits| vec![limits.heating_kw[zone], -limits.cooling_kw[zone]]);
         Panel {
             name: format!("{}: heat, cooling below 0 [kW]", name(recorded, zone)),
             curves: curves.collect(),
@@ -97,7 +108,31 @@ pub fn inputs(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Panels {
     over_day(title, zones.iter().map(panel).collect())
 }
 
-fn over_day(title: &str, panels: Vec<Panel>) -> Panels {
+/// What is wanted at the hours of `points`, as steps that lie where people come and go; `occupied` says of each point whether
+/// they are there. Midnight belongs to both days.
+fn stepped(mut points: Vec<[f64; 2]>, mut occupied: Vec<bool>, step_h: f64) -> Vec<[f64; 2]> {
+    if let (Some([_, value]), Some([hour, _]), Some(is)) = (points.first(), points.last(), occupied.first()) {
+        points.push([hour + step_h, *value]);
+        occupied.push(*is);
+    }
+    let pairs = points.windows(2).zip(&occupied).zip(occupied.iter().skip(1));
+    pairs
+        .flat_map(|((pair, before), after)| {
+            let turn_h = if *before && !*after { pair[0][0] } else { pair[1][0] };
+            [pair[0], [turn_h, pair[0][1]], [turn_h, pair[1][1]], pair[1]]
+        })
+        .collect()
+}
+
+/// Plots over a day; all of them reach over the same values, so that rooms can be compared.
+fn over_day(title: &str, mut panels: Vec<Panel>) -> Panels {
+    let curves = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points).map(|point| point[1]);
+    let limits = panels.iter().flat_map(|panel| &panel.limits).map(|(limit, _)| *limit);
+    let finite = curves.chain(limits).filter(|value| value.is_finite());
+    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    if low <= high {
+        panels.iter_mut().for_each(|panel| panel.reaches = vec![low, high]);
+    }
     Panels { title: title.to_owned(), across: "time of day [h]".to_owned(), columns: 2, every: Some(4.0), panels }
 }
 
@@ -144,7 +179,7 @@ pub fn weather(title: &str, recorded: &RecordedRun) -> Panels {
     let per_day = (24.0 / step_h).round();
     let curve = |name: &str, style: LineStyle, value: fn(&BuildingFrame) -> f64| {
         let points = steps(recorded).map(|step| [step.day as f64 + step.step as f64 / per_day, value(step)]);
-        Curve::new(name, style, points.collect())
+        Curve::held(name, style, &points.collect::<Vec<_>>(), 1.0 / per_day)
     };
     let panel = Panel {
         name: "outdoor temperature [°C]".to_owned(),
@@ -183,8 +218,8 @@ pub fn disturbance(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pane
         Panel {
             name: format!("{}: net disturbance [°C]", name(recorded, zone)),
             curves: vec![
-                Curve::new("predicted", LineStyle::new(BLUE, Dash::Long), expected.collect()),
-                Curve::new("real", LineStyle::new(ORANGE, Dash::Solid), real.collect()),
+                Curve::held("predicted", LineStyle::new(BLUE, Dash::Long), &expected.collect::<Vec<_>>(), step_h),
+                Curve::held("real", LineStyle::new(ORANGE, Dash::Solid), &real.collect::<Vec<_>>(), step_h),
             ],
             ..Panel::default()
         }
@@ -196,7 +231,7 @@ pub fn disturbance(title: &str, recorded: &RecordedRun, zones: &[usize]) -> Pane
 fn scheduled_kw(recorded: &RecordedRun) -> Vec<f64> {
     let Some(building) = &recorded.scenario.building else { return Vec::new() };
     let zones = network(recorded).map_or(0, |network| network.zone_count());
-    people(&recorded.scenario, zones).scheduled_kw(building.step_s, building.steps_per_day())
+    people(&recorded.scenario, zones).scheduled_kw(0, building.step_s, building.steps_per_day())
 }
 
 /// The cost of the common plan, round by round of an exchange of messages, for each day that had one.

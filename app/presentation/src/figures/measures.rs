@@ -1,6 +1,7 @@
 //! The measures of runs, as tables.
 
-use interplay_simulation::report::{BuildingReport, CounterfactualReport, Report};
+use interplay_building::day::ZoneFigures;
+use interplay_simulation::report::{BuildingReport, CounterfactualReport, Report, ZoneReport};
 
 use super::recorded_run::RecordedRun;
 use crate::plot::TextTable;
@@ -88,6 +89,36 @@ fn building(houses: &[(&RecordedRun, &BuildingReport)]) -> TextTable {
         ]
     };
     TextTable::new("Measured", header, houses.iter().map(row).collect())
+}
+
+/// Every zone of a building, over all days.
+pub fn zones(report: &BuildingReport) -> TextTable {
+    let currency = report.currency.as_deref().unwrap_or("no tariff");
+    let money = format!("cost of electricity [{currency}]");
+    let header = [
+        "zone",
+        "cost J",
+        "error, last day [K]",
+        "discomfort [K·h]",
+        "heat [kWh]",
+        "electricity [kWh]",
+        money.as_str(),
+    ];
+    let row = |zone: &ZoneReport| {
+        let total = |value: fn(&ZoneFigures) -> f64| zone.iterations.iter().map(value).sum::<f64>();
+        let last_k = zone.iterations.last().map_or(0.0, |day| day.tracking_rmse_c);
+        let money: Option<f64> = zone.iterations.iter().map(|day| day.energy_cost).sum();
+        [
+            zone.zone.clone(),
+            format!("{:.1}", total(|day| day.cost)),
+            format!("{last_k:.3}"),
+            format!("{:.3}", total(|day| day.discomfort_k_h)),
+            format!("{:.2}", total(|day| day.energy_kwh)),
+            format!("{:.2}", total(|day| day.electricity_kwh)),
+            money.map_or_else(|| "–".to_owned(), |money| format!("{money:.2}")),
+        ]
+    };
+    TextTable::new("Zones, all days together", header, report.zone_figures.iter().map(row).collect())
 }
 
 fn label(recorded: &RecordedRun) -> String {

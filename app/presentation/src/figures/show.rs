@@ -25,6 +25,7 @@ pub(super) fn show(recorded: &RecordedRun) -> FigureContent {
         content.pictures.push(climate::weather("Weather", recorded).drawing());
     }
     content.tables = measures::side_by_side(&[recorded]);
+    content.tables.extend(recorded.report.building.as_ref().map(measures::zones));
     if !recorded.report.expectations.is_empty() {
         content.tables.push(measures::expected(&recorded.report));
     }

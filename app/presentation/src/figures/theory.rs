@@ -37,6 +37,9 @@ pub fn identification(title: &str, test: bool) -> Result<FigureContent, FigureEr
     Ok(FigureContent { pictures: vec![fit(title, &found, test).drawing()], tables, ..FigureContent::default() })
 }
 
+/// Every so many predictions are drawn: one an hour.
+const PREDICTION_EVERY_ROWS: usize = 4;
+
 fn fit(title: &str, found: &Identification, test: bool) -> Panels {
     let Some(series) = found.series.first() else { return Panels::default() };
     let rows = if test { series.test_start..series.measured_c.len() } else { 0..series.test_start };
@@ -46,16 +49,22 @@ fn fit(title: &str, found: &Identification, test: bool) -> Panels {
     };
     let measured = || {
         let curve = curve("measured", LineStyle::new(GREY, Dash::Solid), &series.measured_c);
-        Curve { style: LineStyle { width: 7, ..curve.style }, ..curve }
+        Curve { style: LineStyle { width: 1, ..curve.style }, ..curve }
     };
     let panel = |name: &str, predicted: Curve| Panel {
         name: name.to_owned(),
-        curves: vec![measured(), predicted],
+        // Dots by the hour leave the measurements between them to be seen.
+        curves: vec![measured(), predicted.dotted(PREDICTION_EVERY_ROWS)],
         ..Panel::default()
     };
-    let one_step = curve("predicted a step (15 min) ahead", LineStyle::new(ORANGE, Dash::Solid), &series.one_step_c);
+    let one_step = curve(
+        "predicted a step (15 min) ahead, a dot an hour",
+        LineStyle::new(ORANGE, Dash::Solid),
+        &series.one_step_c,
+    );
     let free_run = series.free_run_with_residual_model_c.as_ref().unwrap_or(&series.free_run_c);
-    let free_run = curve("predicted a day ahead, from midnight on", LineStyle::new(BLUE, Dash::Solid), free_run);
+    let free_run =
+        curve("predicted a day ahead, from midnight on, a dot an hour", LineStyle::new(BLUE, Dash::Solid), free_run);
     Panels {
         title: title.to_owned(),
         across: "time [days]".to_owned(),

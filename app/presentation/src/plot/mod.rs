@@ -19,5 +19,5 @@ pub use drawing::Drawing;
 pub use figure::PlotError;
 pub use footprints::{CurvedStrip, FootprintPlot, FootprintSnapshot, Strip};
 pub use identification::identification;
-pub use panels::{Curve, Panel, Panels};
+pub use panels::{Curve, Marks, Panel, Panels};
 pub use table::TextTable;

@@ -56,6 +56,17 @@ pub struct Panel {
     pub logarithmic: bool,
 }
 
+/// How the points of a curve are marked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marks {
+    /// Not at all: a line.
+    None,
+    /// By a disc each, on the line.
+    OnLine,
+    /// By a small dot each, without a line.
+    Alone,
+}
+
 /// A curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
@@ -65,19 +76,25 @@ pub struct Curve {
     pub points: Vec<[f64; 2]>,
     /// How it is drawn.
     pub style: LineStyle,
-    /// Whether each point is marked.
-    pub marked: bool,
+    /// Whether each point is marked, and how its points are joined.
+    pub marks: Marks,
 }
 
 impl Curve {
     /// A curve without marks.
     pub fn new(name: impl Into<String>, style: LineStyle, points: Vec<[f64; 2]>) -> Curve {
-        Curve { name: name.into(), points, style, marked: false }
+        Curve { name: name.into(), points, style, marks: Marks::None }
     }
 
     /// The same with a mark on each point.
     pub fn marked(self) -> Curve {
-        Curve { marked: true, ..self }
+        Curve { marks: Marks::OnLine, ..self }
+    }
+
+    /// Every `nth` point as a small dot, without a line: what lies below is seen.
+    pub fn dotted(self, nth: usize) -> Curve {
+        let points = self.points.iter().copied().step_by(nth.max(1)).collect();
+        Curve { marks: Marks::Alone, points, ..self }
     }
 
     /// A piecewise constant curve: each value holds for `step` from its x value on.
@@ -218,8 +235,13 @@ impl Panel {
             let pixels: Vec<[f64; 2]> = curve.points.iter().map(|point| [point[0], point[1]]).collect();
             for piece in pixels.split(|point| !point[1].is_finite()).filter(|piece| !piece.is_empty()) {
                 let points: Vec<[f64; 2]> = piece.iter().map(|point| [x.pixel(point[0]), y.pixel(point[1])]).collect();
-                if curve.marked {
-                    points.iter().for_each(|&point| drawing.disc(point, 6, curve.style.colour));
+                match curve.marks {
+                    Marks::None => {}
+                    Marks::OnLine => points.iter().for_each(|&point| drawing.disc(point, 6, curve.style.colour)),
+                    Marks::Alone => {
+                        points.iter().for_each(|&point| drawing.disc(point, 3, curve.style.colour));
+                        continue;
+                    }
                 }
                 drawing.line(points, curve.style);
             }

@@ -2,14 +2,17 @@
 
 use std::fmt::Write;
 
+use interplay_building::day::ZoneFigures;
 use interplay_simulation::day::DayFigures;
 use interplay_simulation::measure::Fallback;
-use interplay_simulation::report::BuildingReport;
+use interplay_simulation::report::{BuildingReport, ZoneReport};
 
 use super::columns::{Align, lines};
 
 /// The most days that a summary lists.
 const MAX_LISTED_DAYS: usize = 14;
+/// The most zones that a summary lists.
+const MAX_LISTED_ZONES: usize = 24;
 
 /// The days as a table.
 pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
@@ -19,7 +22,8 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
     for remark in &building.remarks {
         writeln!(text, "  note: {remark}")?;
     }
-    write_days(text, &building.iterations)?;
+    write_days(text, building)?;
+    write_zones(text, building)?;
     write_exchange(text, building)?;
     for Fallback { day, reason } in building.fallbacks.iter().take(MAX_LISTED_DAYS) {
         writeln!(text, "  day {day} {reason}")?;
@@ -31,12 +35,16 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
 }
 
 /// A line for each day; of many days, the first and the last ones.
-fn write_days(text: &mut String, days: &[DayFigures]) -> std::fmt::Result {
+fn write_days(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
+    let days = &building.iterations;
+    let supply = Supply::of(building);
     let titles = ["day", "cost", "regret", "rmse K", "discomfort K·h", "energy kWh", "peak kW", "over limit kW"];
-    let header = titles.into_iter().chain(["design ms"]).map(|title| (title, Align::Right));
+    let more = supply.titles();
+    let header = titles.into_iter().chain(["design ms"]).chain(more.iter().map(String::as_str));
+    let header = header.map(|title| (title, Align::Right));
     let row = |(index, day): (usize, &DayFigures)| {
         let figures = &day.figures;
-        vec![
+        let mut cells = vec![
             (index + 1).to_string(),
             format!("{:.2}", figures.cost),
             day.regret.map_or_else(|| "-".to_owned(), |regret| format!("{regret:.2}")),
@@ -46,7 +54,9 @@ fn write_days(text: &mut String, days: &[DayFigures]) -> std::fmt::Result {
             format!("{:.2}", figures.peak_kw),
             format!("{:.3}", figures.input_violation_kw),
             format!("{:.2}", 1e3 * day.design_s),
-        ]
+        ];
+        cells.extend(supply.cells(figures.electricity_kwh, figures.energy_cost));
+        cells
     };
     let left_out = days.len().saturating_sub(MAX_LISTED_DAYS);
     let is_listed =
@@ -57,6 +67,61 @@ fn write_days(text: &mut String, days: &[DayFigures]) -> std::fmt::Result {
             writeln!(text, "     …  {left_out} more in --json")?;
         }
         writeln!(text, "  {line}")?;
+    }
+    Ok(())
+}
+
+/// Which columns about electricity say more than the heat does.
+struct Supply {
+    electricity: bool,
+    currency: Option<String>,
+}
+
+impl Supply {
+    fn of(building: &BuildingReport) -> Self {
+        let differs = |day: &DayFigures| day.figures.electricity_kwh != day.figures.energy_kwh;
+        Self { electricity: building.iterations.iter().any(differs), currency: building.currency.clone() }
+    }
+
+    fn titles(&self) -> Vec<String> {
+        let electricity = self.electricity.then(|| "electricity kWh".to_owned());
+        electricity
+            .into_iter()
+            .chain(self.currency.iter().map(|currency| format!("energy {}", currency.replace(char::is_control, " "))))
+            .collect()
+    }
+
+    fn cells(&self, electricity_kwh: f64, energy_cost: Option<f64>) -> Vec<String> {
+        let electricity = self.electricity.then(|| format!("{electricity_kwh:.2}"));
+        electricity.into_iter().chain(energy_cost.map(|cost| format!("{cost:.2}"))).collect()
+    }
+}
+
+/// A line for each zone, over all days; of many zones, the first.
+fn write_zones(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
+    let supply = Supply::of(building);
+    let more = supply.titles();
+    let titles = ["cost", "discomfort K·h", "energy kWh"].into_iter().chain(more.iter().map(String::as_str));
+    let header: Vec<_> =
+        [("zone, all days", Align::Left)].into_iter().chain(titles.map(|title| (title, Align::Right))).collect();
+    let row = |zone: &ZoneReport| {
+        let total = |value: fn(&ZoneFigures) -> f64| zone.iterations.iter().map(value).sum::<f64>();
+        let mut cells = vec![
+            zone.zone.clone(),
+            format!("{:.2}", total(|day| day.cost)),
+            format!("{:.3}", total(|day| day.discomfort_k_h)),
+            format!("{:.2}", total(|day| day.energy_kwh)),
+        ];
+        let energy_cost: Option<f64> = zone.iterations.iter().map(|day| day.energy_cost).sum();
+        cells.extend(supply.cells(total(|day| day.electricity_kwh), energy_cost));
+        cells
+    };
+    for line in lines(&header, building.zone_figures.iter().take(MAX_LISTED_ZONES).map(row)) {
+        writeln!(text, "  {line}")?;
+    }
+    let left_out = building.zone_figures.len().saturating_sub(MAX_LISTED_ZONES);
+    if left_out > 0 {
+        writeln!(text, "     …  {left_out} more in --json")?;
     }
     Ok(())
 }

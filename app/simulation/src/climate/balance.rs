@@ -44,10 +44,12 @@ pub fn balance(
         temperature.0 = temperatures_c[node.index];
     }
     let (reference_c, weight) = (building.targets.reference_at(step), building.targets.weight_at(step));
+    let band_k = building.targets.band_at(step);
     let zone = |index: usize| ZoneFrame {
         temperature_c: before_c[index],
         next_c: temperatures_c[index],
         reference_c: (weight[index] > 0.0).then_some(reference_c[index]),
+        band_k: band_k[index],
         requested_kw: heat.requested_kw[index],
         heat_kw: heat.applied_kw[index],
         gains_kw: gains_kw[index],

@@ -21,6 +21,7 @@ pub fn disturb(
         let steps = building.steps_per_day();
         let (forecast, actual) = (surroundings.forecast(model, steps, day), surroundings.actual(model, steps, day));
         building.today = Day::new(initial_c, forecast, actual);
+        building.targets = building.agenda.of_day(day);
         building.design_s = 0.0;
     }
     let gains_kw = building.today.gains_kw(&building.model, step);

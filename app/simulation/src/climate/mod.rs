@@ -17,7 +17,7 @@ pub mod plant;
 mod spawn;
 
 use bevy_ecs::prelude::*;
-use interplay_building::comfort::Targets;
+use interplay_building::comfort::{Agenda, Targets};
 use interplay_building::control::Regulator;
 use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::Model;
@@ -44,8 +44,6 @@ pub struct Temperature(pub f64);
 /// What heats and cools a zone.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Equipment {
-    /// Its largest power \[kW\].
-    pub limit_kw: f64,
     /// What the controller asked for \[kW\].
     pub requested_kw: f64,
     /// What it gives \[kW\].
@@ -65,7 +63,9 @@ pub struct Building {
     pub believed: Model,
     /// What the heat acts on.
     pub plant: Box<dyn ThermalPlant>,
-    /// What is wanted.
+    /// What is wanted on each day.
+    pub agenda: Agenda,
+    /// What is wanted today.
     pub targets: Targets,
     /// The weather and the people.
     pub surroundings: Surroundings,

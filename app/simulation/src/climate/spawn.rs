@@ -1,13 +1,13 @@
 //! From a scenario to zones.
 
 use bevy_ecs::prelude::*;
-use interplay_building::comfort::SetpointsError;
+use interplay_building::comfort::{Agenda, SetpointsError};
 use interplay_building::control::{ControlError, Disturbance};
 use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::{Model, ModelError};
 use interplay_building::network::NetworkError;
 use interplay_building::occupancy::People;
-use interplay_scenarios::{BuildingConfig, BuildingPlant, Scenario};
+use interplay_scenarios::{BuildingConfig, BuildingPlant, Scenario, TimetableError};
 use thiserror::Error;
 
 use super::plant::{NetworkPlant, PlantError, SocketPlant, SocketPlantStart, ThermalPlant};
@@ -29,6 +29,9 @@ pub enum BuildingError {
     /// What is wanted makes no sense.
     #[error(transparent)]
     Setpoints(#[from] SetpointsError),
+    /// Schedules contradict one another.
+    #[error(transparent)]
+    Timetable(#[from] TimetableError),
     /// The controller cannot be started.
     #[error(transparent)]
     Control(#[from] ControlError),
@@ -52,18 +55,21 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     let zones = network.zone_count();
     let surroundings = surroundings_of(scenario, zones)?;
     let regulator = scenario.controller().regulator(&believed, steps)?;
-    let targets = scenario.setpoints.clone().unwrap_or_default().targets(zones, described.step_s, steps)?;
     let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
     for (index, initial_c) in plant.start()?.into_iter().enumerate() {
         let mut node = world.spawn((Node { index }, Temperature(initial_c)));
         if index < zones {
-            let limit_kw = network.limits_kw()[index];
-            node.insert((Equipment { limit_kw, requested_kw: 0.0, heat_kw: 0.0 }, Gains(0.0)));
+            node.insert((Equipment { requested_kw: 0.0, heat_kw: 0.0 }, Gains(0.0)));
         }
     }
+    let timetable = scenario.timetable()?;
+    let setpoints = scenario.setpoints.clone().unwrap_or_default();
+    let agenda = Agenda::new(setpoints, zones, described.step_s, steps)?;
+    let agenda = agenda.following(timetable).supplied(scenario.tariff.clone(), scenario.heat_pump.clone());
     let nothing = || Disturbance { ambient_c: Vec::new(), gains_kw: Vec::new() };
     let building = Building {
-        targets,
+        targets: agenda.of_day(0),
+        agenda,
         surroundings,
         regulator,
         step: 0,
@@ -112,5 +118,7 @@ fn plant(
 
 /// Returns the people of a scenario with `zones` zones.
 pub fn people(scenario: &Scenario, zones: usize) -> People {
-    scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ OCCUPANCY_SEED_BIT)
+    let people = scenario.occupancy.unwrap_or_default().people(zones, scenario.seed ^ OCCUPANCY_SEED_BIT);
+    // A scenario whose schedules contradict one another is refused before it is run.
+    people.following(scenario.timetable().unwrap_or_default())
 }

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use interplay_building::comfort::Targets;
 use interplay_building::control::{Controller, DayRecord, optimum};
-use interplay_building::day::{KeyFigures, MAX_REGRET_INPUTS};
+use interplay_building::day::{KeyFigures, MAX_REGRET_INPUTS, ZoneFigures};
 use interplay_building::lifted::Lifted;
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3;
@@ -40,6 +40,10 @@ pub struct BuildingDigests {
 pub struct BuildingMeasures {
     /// Every day.
     pub days: Vec<DayFigures>,
+    /// The zones on every day, in the order of the network.
+    pub zone_days: Vec<Vec<ZoneFigures>>,
+    /// The currency of costs; none without a tariff.
+    pub currency: Option<String>,
     /// The days without a plan of their own.
     pub fallbacks: Vec<Fallback>,
     /// Days whose feedback is certified less well than was asked for.
@@ -68,10 +72,12 @@ impl BuildingMeasures {
         let spectral_radius = lifted.as_ref().and_then(|lifted| controller.spectral_radius(lifted));
         BuildingMeasures {
             days: Vec::new(),
+            zone_days: Vec::new(),
+            currency: building.agenda.currency().map(str::to_owned),
             fallbacks: Vec::new(),
             weaker_feedbacks: Vec::new(),
             zones: building.targets.zones,
-            zone_names: building.model.network().names().to_vec(),
+            zone_names: building.model.network().names()[..building.targets.zones].to_vec(),
             remarks: building.model.network().remarks().iter().map(ToString::to_string).collect(),
             lifted,
             spectral_radius,
@@ -108,7 +114,10 @@ impl BuildingMeasures {
     /// The figures of the day that has ended.
     fn day(&self, building: &Building) -> DayFigures {
         let Building { model, targets, today, design_s, .. } = building;
-        let figures = KeyFigures::of(&today.record, targets, model.network().limits_kw(), model.step_s());
+        // What heat cost is a matter of the real weather, not of its forecast.
+        let targets = &*targets.under(&today.actual.ambient_c);
+        let limits = model.network().limits();
+        let figures = KeyFigures::of(&today.record, targets, limits, model.step_s());
         // An optimum that is not found is no reason to give up the run: the regret is then unknown.
         // That of the network is no optimum of another program.
         let lifted = self.lifted.as_ref().filter(|_| !building.plant.is_foreign());
@@ -118,7 +127,7 @@ impl BuildingMeasures {
         let foreign = building.plant.is_foreign();
         DayFigures {
             figures,
-            worst_zones: WorstZones::of(&today.record, targets, model.network().limits_kw()),
+            worst_zones: WorstZones::of(&today.record, targets, limits),
             regret,
             early_kwh: early_kwh(&today.record, targets, model.step_s()),
             spectral_radius: design.spectral_radius.or(self.spectral_radius),
@@ -133,7 +142,7 @@ impl BuildingMeasures {
 /// Heat brought in and taken out before the first occupied time; 0 on a day without one \[kWh\].
 fn early_kwh(record: &DayRecord, targets: &Targets, step_s: f64) -> f64 {
     // Occupation belongs to the ends of steps: the step that ends with it is the last of the early ones.
-    let steps = targets.occupied.iter().position(|&occupied| occupied).map_or(0, |first| first + 1);
+    let steps = targets.any_occupied().iter().position(|&occupied| occupied).map_or(0, |first| first + 1);
     let early_kw: f64 = record.heat_kw[..steps * targets.zones].iter().map(|kw| kw.abs()).sum();
     early_kw * step_s / 3600.0
 }
@@ -150,6 +159,9 @@ pub fn measure_building(
     if frame.step + 1 == building.steps_per_day() {
         let day = measures.day(&building);
         measures.days.push(day);
+        let targets = building.targets.under(&building.today.actual.ambient_c);
+        let zones = ZoneFigures::of_all(&building.today.record, &targets, building.model.step_s());
+        measures.zone_days.push(zones);
         if let Some(why) = &building.today.record.design.fallback {
             let day = measures.days.len();
             let reason = format!("{}: {why}", why.consequence());

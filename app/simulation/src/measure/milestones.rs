@@ -102,11 +102,11 @@ impl Today {
             *self = Today::default();
         }
         let network = building.model.network();
-        let (names, limits_kw, targets) = (network.names(), network.limits_kw(), &building.targets);
+        let (names, limits, targets) = (network.names(), network.limits(), &building.targets);
         let zones = || frame.zones.iter().enumerate();
         let mut events = Vec::new();
         let limited =
-            zones().filter(|(index, zone)| zone.requested_kw.abs() >= limits_kw[*index] && zone.heat_kw != 0.0);
+            zones().filter(|(index, zone)| limits.excess_kw(*index, zone.requested_kw) >= 0.0 && zone.heat_kw != 0.0);
         let limited: Vec<&str> = limited.map(|(index, _)| names[index].as_str()).collect();
         if !limited.is_empty() && !self.limited {
             self.limited = true;
@@ -115,10 +115,8 @@ impl Today {
                 &format!("{}: heat at its limit in {}", day_and_time(frame, building), listed(&limited)),
             ));
         }
-        let references_c = &targets.reference_c[frame.step * targets.zones..];
-        let missed = zones().filter(|(index, zone)| {
-            targets.occupied[frame.step] && (zone.next_c - references_c[*index]).abs() > targets.band_k
-        });
+        let missed =
+            zones().filter(|(index, zone)| targets.beyond_k(frame.step * targets.zones + index, zone.next_c) > 0.0);
         let missed: Vec<&str> = missed.map(|(index, _)| names[index].as_str()).collect();
         if !missed.is_empty() && !self.uncomfortable {
             self.uncomfortable = true;

@@ -1,5 +1,6 @@
 //! The outcome for a building.
 
+use interplay_building::day::ZoneFigures;
 use interplay_scenarios::Scenario;
 use serde::Serialize;
 
@@ -24,8 +25,22 @@ pub struct BuildingReport {
     pub fallbacks: Vec<Fallback>,
     /// The days whose feedback is certified less well than was asked for, and why.
     pub weaker_feedbacks: Vec<Fallback>,
+    /// The currency of costs; none without a tariff.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub currency: Option<String>,
     /// Every day.
     pub iterations: Vec<DayFigures>,
+    /// Every zone, in the order of the scenario.
+    pub zone_figures: Vec<ZoneReport>,
+}
+
+/// The outcome for a zone.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ZoneReport {
+    /// Its name.
+    pub zone: String,
+    /// Every day.
+    pub iterations: Vec<ZoneFigures>,
 }
 
 impl BuildingReport {
@@ -39,7 +54,20 @@ impl BuildingReport {
             remarks: measures.remarks.clone(),
             fallbacks: measures.fallbacks.clone(),
             weaker_feedbacks: measures.weaker_feedbacks.clone(),
+            currency: measures.currency.clone(),
             iterations: measures.days.clone(),
+            zone_figures: zone_figures(measures),
         }
     }
+}
+
+/// The figures of the days, zone by zone.
+fn zone_figures(measures: &BuildingMeasures) -> Vec<ZoneReport> {
+    let zones = measures.zone_names.iter().enumerate();
+    zones
+        .map(|(index, zone)| {
+            let iterations = measures.zone_days.iter().map(|zones| zones[index]).collect();
+            ZoneReport { zone: zone.clone(), iterations }
+        })
+        .collect()
 }

@@ -6,6 +6,7 @@ mod counterfactual;
 mod driving;
 mod expectation;
 mod judge;
+mod judge_building;
 mod outcome;
 
 use interplay_planners::road::network::{Lane, RoadNetwork};
@@ -13,7 +14,7 @@ use interplay_scenarios::{Expect, Scenario, Vehicle};
 use xxhash_rust::xxh3::xxh3_128;
 
 pub use belief::BeliefReport;
-pub use building::BuildingReport;
+pub use building::{BuildingReport, ZoneReport};
 pub use expectation::Expectation;
 pub use outcome::{CounterfactualReport, PeakTimes, PlansReport, Report, VehicleReport};
 

@@ -111,6 +111,12 @@ fn delayed(series: &[f64], size: usize, by: usize) -> Vec<f64> {
     out
 }
 
+/// The arithmetic mean; of equal values exactly their value.
+fn mean(values: &[f64]) -> f64 {
+    let first = values.first().copied().unwrap_or(0.0);
+    first + values.iter().map(|value| value - first).sum::<f64>() / values.len().max(1) as f64
+}
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -134,7 +140,7 @@ pub(super) fn check(settings: &ConcurrentSettings, lifted: &Lifted) -> Result<()
     if value < floor { Err(ControlError::BelowFloor { bound: "gamma_2", value, floor }) } else { Ok(()) }
 }
 
-/// Designs Q for the weights while occupied.
+/// Designs Q for the weights while occupied, and the mean of those of the inputs.
 ///
 /// # Errors
 /// [`ControlError::BelowFloor`] if no Q satisfies the bounds; [`ControlError::TooManyUnknowns`]; [`ControlError`] if the
@@ -158,7 +164,7 @@ pub fn design(
     let shaped = uncertainty.impulse_responses(n, lifted.steps());
     let error_weight = targets.error_weight.iter().copied().fold(0.0, f64::max);
     let responses = Responses::new(lifted, &shaped, settings.taps);
-    let (gram, linear, constant) = responses.cost(error_weight, targets.input_weight);
+    let (gram, linear, constant) = responses.cost(error_weight, mean(&targets.input_weight));
     let free = Cholesky::new(gram.clone()).ok_or(ControlError::Covariance { order: found })?.solve(&-&linear);
     let mut filter = unstacked(free.as_slice(), n);
     let mut theta = free;

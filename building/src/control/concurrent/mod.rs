@@ -105,6 +105,10 @@ impl ControllerKind for ConcurrentSettings {
          the uncertainty of the forecast"
     }
 
+    fn needs_equal_days(&self) -> Option<(&'static str, &'static str)> {
+        self.prediction.needs_equal_days()
+    }
+
     fn plans(&self) -> bool {
         true
     }
@@ -137,7 +141,7 @@ impl PlanningDesign for Concurrent {
         let quantile = normal_quantile(self.settings.confidence);
         let lifted = self.estimator.lifted();
         let tightening = ConstraintTightening {
-            input_margin_kw: margins_kw(lifted, &feedback.input_deviation_kw, quantile),
+            input_margin_kw: margins_kw(&feedback.input_deviation_kw, quantile),
             band_margin_k: feedback.temperature_deviation_k.iter().map(|deviation_k| quantile * deviation_k).collect(),
             error_bound: None,
         };
@@ -155,10 +159,8 @@ impl PlanningDesign for Concurrent {
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
         let Observation { step, temperatures_c, .. } = *observation;
         let n = temperatures_c.len();
-        let limits_kw = self.estimator.lifted().model().network().limits_kw();
-        let limited = |heat_kw: Vec<f64>| -> Vec<f64> {
-            heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
-        };
+        let limits = self.estimator.lifted().model().network().limits();
+        let limited = |heat_kw: Vec<f64>| -> Vec<f64> { limits.limited_all(&heat_kw) };
         let Some(plan) = self.history.plan() else {
             // The first day: only the initial feedback.
             let gain_kw_per_k = self.settings.initial_gain_kw_per_k;

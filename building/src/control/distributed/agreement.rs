@@ -89,8 +89,8 @@ impl JointDay<'_> {
             let known_c = stacked(&nodes_c, n);
             let slope: Vec<f64> = known_c.iter().enumerate().map(|(i, t)| self.slope(i, *t).0).collect();
             let mut gradient = messages.sensitivities(&slope);
-            for (gradient, u) in gradient.iter_mut().zip(&heat_kw) {
-                *gradient += 2.0 * self.targets.input_weight * u;
+            for ((gradient, u), weight) in gradient.iter_mut().zip(&heat_kw).zip(&self.targets.input_weight) {
+                *gradient += 2.0 * weight * u;
             }
             let proposal = self.proposals(&heat_kw, &gradient, &known_c);
             let proposal = proposal.ok_or(ControlError::NoZonePlans { zones: n, round })?;
@@ -133,7 +133,7 @@ impl JointDay<'_> {
     /// The step that each zone proposes for its inputs, stacked; `None` if no zone that answers can solve its problem.
     fn proposals(&self, heat_kw: &[f64], gradient: &[f64], known_c: &[f64]) -> Option<Vec<f64>> {
         let (n, steps) = (self.targets.zones, self.targets.steps());
-        let limits_kw = self.lifted.model().network().limits_kw();
+        let limits = self.lifted.model().network().limits();
         let solve = |i: usize| -> Option<Vec<f64>> {
             if self.silent == Some(i) {
                 return None;
@@ -146,8 +146,8 @@ impl JointDay<'_> {
                 curvature: &zone.curvature,
                 penalty: self.penalty.quadratic,
                 bounds: self.bounds(zone, known_c),
-                low: u.iter().map(|u| -limits_kw[i] - u).collect(),
-                high: u.iter().map(|u| limits_kw[i] - u).collect(),
+                low: u.iter().map(|u| -limits.cooling_kw[i] - u).collect(),
+                high: u.iter().map(|u| limits.heating_kw[i] - u).collect(),
             };
             problem.solve()
         };
@@ -164,10 +164,11 @@ impl JointDay<'_> {
             return bounds;
         }
         for (j, kernel) in &zone.near {
-            for time in (0..targets.steps()).filter(|&t| targets.occupied[t]) {
-                let error_k = targets.reference_c[time * targets.zones + j] - known_c[time * targets.zones + j];
+            let entry = |time: usize| time * targets.zones + j;
+            for time in (0..targets.steps()).filter(|&t| targets.occupied[entry(t)]) {
+                let error_k = targets.reference_c[entry(time)] - known_c[entry(time)];
                 for sign in [1.0, -1.0] {
-                    bounds.push(Bound { value: -sign * error_k - targets.band_k, sign, kernel, time });
+                    bounds.push(Bound { value: -sign * error_k - targets.band_k[entry(time)], sign, kernel, time });
                 }
             }
         }
@@ -176,9 +177,9 @@ impl JointDay<'_> {
 
     /// u + step within the limits.
     fn limited(&self, heat_kw: &[f64], step_kw: impl Fn(usize) -> f64) -> Vec<f64> {
-        let limits_kw = self.lifted.model().network().limits_kw();
-        let n = limits_kw.len();
-        let moved = |k: usize| (heat_kw[k] + step_kw(k)).clamp(-limits_kw[k % n], limits_kw[k % n]);
+        let limits = self.lifted.model().network().limits();
+        let n = limits.zones();
+        let moved = |k: usize| limits.limited(k % n, heat_kw[k] + step_kw(k));
         (0..heat_kw.len()).map(|k| if self.silent == Some(k % n) { heat_kw[k] } else { moved(k) }).collect()
     }
 
@@ -214,9 +215,9 @@ impl JointDay<'_> {
 
     /// An earlier step without the inputs that are at a limit and stay there.
     fn masked(&self, messages: &mut Messages, heat_kw: &[f64], d: &[f64], direction: &Direction) -> Direction {
-        let limits_kw = self.lifted.model().network().limits_kw();
-        let n = limits_kw.len();
-        let stays = |k: usize| d[k] == 0.0 && heat_kw[k].abs() >= limits_kw[k % n];
+        let limits = self.lifted.model().network().limits();
+        let n = limits.zones();
+        let stays = |k: usize| d[k] == 0.0 && limits.excess_kw(k % n, heat_kw[k]) >= 0.0;
         if (0..heat_kw.len()).all(|k| direction.heat_kw[k] == 0.0 || !stays(k)) {
             return direction.clone();
         }

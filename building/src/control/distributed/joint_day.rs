@@ -37,8 +37,7 @@ impl JointDay<'_> {
         let targets = self.targets;
         let error_k = targets.reference_c[i] - temperature_c;
         let weight = targets.error_weight[i];
-        let beyond_k =
-            if targets.occupied[i / targets.zones] { (error_k.abs() - targets.band_k).max(0.0) } else { 0.0 };
+        let beyond_k = targets.beyond_k(i, temperature_c);
         let c = self.penalty.quadratic;
         let bent = if beyond_k > 0.0 { 2.0 * c } else { 0.0 };
         (-2.0 * weight * error_k - 2.0 * c * beyond_k * error_k.signum(), 2.0 * weight + bent)

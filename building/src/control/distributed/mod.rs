@@ -27,6 +27,7 @@ use super::{ControlError, DayAhead, Design, Exchange, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
+use crate::network::PowerLimits;
 use agreement::Rules;
 use cooperative::{Conditions, LearningLaw, cooperative_error};
 use joint_day::JointDay;
@@ -144,7 +145,7 @@ fn central(
 fn follow(
     history: &PlanHistory,
     gain_kw_per_k: impl Fn(usize) -> f64,
-    limits_kw: &[f64],
+    limits: &PowerLimits,
     observation: &Observation<'_>,
 ) -> Vec<f64> {
     let Observation { step, temperatures_c, .. } = *observation;
@@ -156,7 +157,7 @@ fn follow(
     (0..n)
         .map(|i| {
             let correction_kw = deviation_k.as_ref().map_or(0.0, |deviation_k| gain_kw_per_k(i) * deviation_k[i]);
-            (planned_kw[i] + correction_kw).clamp(-limits_kw[i], limits_kw[i])
+            limits.limited(i, planned_kw[i] + correction_kw)
         })
         .collect()
 }
@@ -168,6 +169,10 @@ impl ControllerKind for DistributedSettings {
 
     fn look_for(&self) -> &'static str {
         "zones that send messages to their neighbours only agree on a common plan round by round, and cool before people come"
+    }
+
+    fn needs_equal_days(&self) -> Option<(&'static str, &'static str)> {
+        self.prediction.needs_equal_days()
     }
 
     fn plans(&self) -> bool {
@@ -248,8 +253,8 @@ impl PlanningDesign for Distributed {
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
-        let limits_kw = self.estimator.lifted().model().network().limits_kw();
-        follow(&self.history, |zone| self.gains_kw_per_k[zone], limits_kw, observation)
+        let limits = self.estimator.lifted().model().network().limits();
+        follow(&self.history, |zone| self.gains_kw_per_k[zone], limits, observation)
     }
 }
 
@@ -272,6 +277,10 @@ impl ControllerKind for CentralisedSettings {
 
     fn look_for(&self) -> &'static str {
         "one problem for the whole building, whose optimum the zones of the distributed design approach"
+    }
+
+    fn needs_equal_days(&self) -> Option<(&'static str, &'static str)> {
+        self.prediction.needs_equal_days()
     }
 
     fn plans(&self) -> bool {
@@ -306,7 +315,7 @@ impl PlanningDesign for Centralised {
     }
 
     fn follow(&mut self, observation: &Observation<'_>) -> Vec<f64> {
-        let limits_kw = self.estimator.lifted().model().network().limits_kw();
-        follow(&self.history, |_| self.settings.gain_kw_per_k, limits_kw, observation)
+        let limits = self.estimator.lifted().model().network().limits();
+        follow(&self.history, |_| self.settings.gain_kw_per_k, limits, observation)
     }
 }

@@ -79,8 +79,8 @@ impl StepSpace<'_> {
         *self.sums += 1;
         let count = self.directions.len();
         let (mut gradient, mut hessian) = (DVector::zeros(count), DMatrix::zeros(count, count));
-        let weight = 2.0 * self.day.targets.input_weight;
         for k in 0..self.heat_kw.len() {
+            let weight = 2.0 * self.day.targets.input_weight[k];
             let u = self.heat_kw[k] + self.step_kw(x, k);
             let (slope, bend) = self.day.slope(k, self.temperature_c(x, k));
             for (i, first) in self.directions.iter().enumerate() {

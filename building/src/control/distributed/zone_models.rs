@@ -1,6 +1,6 @@
 //! What the zones know before they talk.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::messages::Messages;
@@ -41,13 +41,14 @@ impl ZoneModels {
             let mut near: Vec<usize> = messages.neighbours(i).chain([i]).collect();
             near.sort_unstable();
             near.dedup();
-            let mut curvature = DMatrix::from_diagonal_element(steps, steps, 2.0 * targets.input_weight);
+            let weight = |t: usize| 2.0 * targets.input_weight[t * n + i];
+            let mut curvature = DMatrix::from_diagonal(&DVector::from_fn(steps, |t, _| weight(t)));
             for j in 0..n {
                 let kernel = kernel(j);
                 if size(&kernel) > least {
                     // Bounds of zones that send no messages to this one: as if they were all violated.
                     let bent = if near.binary_search(&j).is_ok() { 0.0 } else { penalty.quadratic };
-                    let bend = |t: usize| if targets.occupied[t] { bent } else { 0.0 };
+                    let bend = |t: usize| if targets.occupied[t * n + j] { bent } else { 0.0 };
                     add_curvature(&mut curvature, &kernel, |t| targets.error_weight[t * n + j] + bend(t));
                 }
             }

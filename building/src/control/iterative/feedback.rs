@@ -35,7 +35,7 @@ impl Response {
         let mut cost = 0.0;
         for (temperatures_k, inputs_kw) in self.temperatures_k.column_iter().zip(self.inputs_kw.column_iter()) {
             for (i, (t, u)) in temperatures_k.iter().zip(&inputs_kw).enumerate() {
-                cost += targets.error_weight[i] * t * t + targets.input_weight * u * u;
+                cost += targets.error_weight[i] * t * t + targets.input_weight[i] * u * u;
             }
         }
         cost
@@ -142,7 +142,7 @@ fn curvature(lifted: &Lifted, targets: &Targets) -> DMatrix<f64> {
     for column in 0..size {
         unit[column] = 1.0;
         matrix.column_mut(column).copy_from_slice(&weighted_twice(lifted, targets, &unit));
-        matrix[(column, column)] += targets.input_weight;
+        matrix[(column, column)] += targets.input_weight[column];
         unit[column] = 0.0;
     }
     matrix

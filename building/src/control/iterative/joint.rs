@@ -67,7 +67,7 @@ pub fn design(
     let round = |price: &[f64]| -> Result<(Joint, Vec<f64>), ControlError> {
         let response = optimal_causal(lifted, targets, factor, price)?;
         let deviation_kw = response.input_deviation_kw();
-        let input_margin_kw = margins_kw(lifted, &deviation_kw, quantile);
+        let input_margin_kw = margins_kw(&deviation_kw, quantile);
         let tightening = ConstraintTightening { input_margin_kw, ..ConstraintTightening::default() };
         let plan = plan(lifted, free_c, targets, None, &tightening)?;
         let next = plan.limit_price.iter().zip(&deviation_kw).map(|(price, deviation_kw)| {

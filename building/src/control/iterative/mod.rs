@@ -122,7 +122,7 @@ impl Iterative {
 
     /// Φ⁻¹(η) σ_u (eq. 3.21).
     fn margins_kw(&self, feedback: &StaticFeedback) -> Vec<f64> {
-        margins_kw(self.estimator.lifted(), &feedback.input_deviation_kw, self.quantile())
+        margins_kw(&feedback.input_deviation_kw, self.quantile())
     }
 
     /// ‖E_k+1‖ ≤ ‖E_k‖ over the errors that have a weight (eq. 3.8).
@@ -165,6 +165,10 @@ impl ControllerKind for IterativeSettings {
     fn look_for(&self) -> &'static str {
         "after one day temperatures follow their plan; the feedback acts on forecast errors only, and its gain is designed \
          again as their size becomes known"
+    }
+
+    fn needs_equal_days(&self) -> Option<(&'static str, &'static str)> {
+        self.prediction.needs_equal_days()
     }
 
     fn plans(&self) -> bool {
@@ -220,8 +224,7 @@ impl PlanningDesign for Iterative {
                 *heat_kw += gain * error_k;
             }
         }
-        let limits_kw = self.estimator.lifted().model().network().limits_kw();
-        heat_kw.iter().zip(limits_kw).map(|(kw, limit)| kw.clamp(-limit, *limit)).collect()
+        self.estimator.lifted().model().network().limits().limited_all(&heat_kw)
     }
 
     fn update_uncertainty(&mut self, prediction_error: &PredictionError) {

@@ -38,6 +38,8 @@ pub(super) fn identified_network(profiler: &Profiler<'_>, scale_is_known: bool) 
         zones.push(Zone {
             capacity_kj_per_k: capacity,
             limit_kw: limit_kw(telemetry, index),
+            heating_limit_kw: None,
+            cooling_limit_kw: None,
             solar_aperture_m2: sun.unwrap_or(0.0),
             ..Zone::named(measured.name.clone())
         });

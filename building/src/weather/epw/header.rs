@@ -2,6 +2,7 @@
 
 use super::calendar::Date;
 use super::error::{EpwError, EpwProblem};
+use crate::calendar::Weekday;
 
 /// Where the weather was measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +29,8 @@ pub(super) struct Header {
     pub(super) location: Location,
     pub(super) first: Date,
     pub(super) last: Date,
+    /// The weekday of the first day, if the file states one.
+    pub(super) weekday: Option<Weekday>,
     pub(super) intervals_per_hour: u32,
     /// How many lines it has.
     pub(super) lines: usize,
@@ -76,6 +79,7 @@ impl Header {
             location,
             first: fields.date(5, "the first day of the data period")?,
             last: fields.date(6, "the last day of the data period")?,
+            weekday: Weekday::named(fields.text(4)),
             intervals_per_hour: intervals as u32,
             lines: fields.line,
         })

@@ -23,6 +23,7 @@ use header::Header;
 pub use header::Location;
 
 use super::{TimeSeries, Weather};
+use crate::calendar::Weekday;
 
 const HOUR_S: f64 = 3600.0;
 const DAY_S: f64 = 86_400.0;
@@ -37,6 +38,7 @@ pub struct Epw {
     /// How many values of each field were missing and were bridged; fields without gaps are left out.
     pub filled: Vec<(Field, usize)>,
     first: Date,
+    weekday: Option<Weekday>,
     leap: bool,
     whole_year: bool,
     /// Values of each field in the order of [`FIELDS`]; none if all are missing.
@@ -71,6 +73,7 @@ impl Epw {
             interval_s: HOUR_S / f64::from(header.intervals_per_hour),
             filled,
             first: header.first,
+            weekday: header.weekday,
             leap,
             whole_year: rows == days * 24 * header.intervals_per_hour as usize,
             columns,
@@ -102,6 +105,12 @@ impl Epw {
         let date = Date::new(month, day).filter(|date| self.leap || *date != Date::FEBRUARY_29)?;
         let start_s = f64::from(date.days_after(self.first, self.leap)) * DAY_S;
         (start_s < self.rows() as f64 * self.interval_s).then_some(start_s)
+    }
+
+    /// The weekday of the day that begins at a midnight, as time after that of the first day \[s\]; `None` if the file states
+    /// no weekday. (Typical years are put together from several, so it need not be that of the calendar.)
+    pub fn weekday(&self, midnight_s: f64) -> Option<Weekday> {
+        self.weekday.map(|first| first.after((midnight_s / DAY_S).round() as usize))
     }
 
     /// Temperature and sunshine as functions of time; without radiation in the file the sun does not shine.

@@ -27,7 +27,7 @@ pub fn layout(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     let mut numbers = vec![
         (1.1, LayoutNode::View(plot(building_layer, "Heating (+), cooling (-) [kW]", inputs(building_layer)))),
         (1.1, LayoutNode::View(plot(building_layer, "Outdoors [°C]", vec!["/building/outdoors/**".to_owned()]))),
-        (1.1, LayoutNode::View(plot(building_layer, "Cost J of each day", vec!["/building/iteration/**".to_owned()]))),
+        (1.1, LayoutNode::View(plot(building_layer, "Cost J of the day", vec!["/building/iteration/**".to_owned()]))),
     ];
     if words != TextPanels::Elsewhere {
         numbers.push((1.3, about()));

@@ -62,7 +62,7 @@ impl BuildingLayer {
         let shown = shown(names.len());
         let setpoints = scenario.setpoints.clone().unwrap_or_default();
         let plan = FloorPlanLayer::begin(stream, building.floor_plan(), &setpoints)?;
-        let series = ZonePlots::begin(stream, &names, &shown, network.limits_kw(), setpoints.band_k)?;
+        let series = ZonePlots::begin(stream, &names, &shown, network.limits(), setpoints.band_k)?;
         let duration_s = building.step_s * (scenario.days() * building.steps_per_day()) as f64;
         let plans = DesignPlots::begin(stream, &names, &shown, scenario.controller().plans())?;
         Ok(Some(BuildingLayer { names, shown, duration_s, range_c: None, plan, series, plans }))

@@ -1,5 +1,6 @@
 //! Numbers of a building over time.
 
+use interplay_building::network::PowerLimits;
 use interplay_simulation::frame::BuildingFrame;
 use rerun::{RecordingStream, RecordingStreamResult};
 
@@ -9,9 +10,10 @@ use super::super::re_sdk_types::components::{Color, InterpolationMode};
 
 /// The series of a building.
 pub struct ZonePlots {
+    /// The comfort band while nobody is there \[K\].
     band_k: f64,
-    /// The largest power of any zone that is shown \[kW\].
-    limit_kw: f64,
+    /// The largest cooling and heating power of any zone that is shown \[kW\].
+    limits_kw: [f64; 2],
     /// Whether each shown zone had a wanted temperature at the last step.
     wanted: Vec<bool>,
 }
@@ -30,7 +32,7 @@ impl ZonePlots {
         stream: &RecordingStream,
         names: &[String],
         shown: &[usize],
-        limits_kw: &[f64],
+        limits: &PowerLimits,
         band_k: f64,
     ) -> RecordingStreamResult<ZonePlots> {
         for (place, &index) in shown.iter().enumerate() {
@@ -49,8 +51,9 @@ impl ZonePlots {
         style(stream, "building/outdoors/forecast", "forecast at midnight", forecast.solid(), 1.5)?;
         style(stream, "building/iteration/cost", "cost of the day", palette::series(1).solid(), 2.0)?;
         style(stream, "building/iteration/optimum", "cheapest possible", palette::series(0).solid(), 1.5)?;
-        let limit_kw = shown.iter().map(|&index| limits_kw[index]).fold(0.0, f64::max);
-        Ok(ZonePlots { band_k, limit_kw, wanted: vec![false; shown.len()] })
+        let largest = |kw: &[f64]| shown.iter().map(|&index| kw[index]).fold(0.0, f64::max);
+        let limits_kw = [&limits.cooling_kw, &limits.heating_kw].map(|kw| largest(kw));
+        Ok(ZonePlots { band_k, limits_kw, wanted: vec![false; shown.len()] })
     }
 
     /// Logs one step.
@@ -68,7 +71,8 @@ impl ZonePlots {
             let now = &frame.zones[index];
             log(&zone(index, "temperature"), now.temperature_c)?;
             log(&zone(index, "heat"), now.heat_kw)?;
-            let lines = [("reference", 0.0), ("band/low", -self.band_k), ("band/high", self.band_k)];
+            let band_k = now.band_k.unwrap_or(self.band_k);
+            let lines = [("reference", 0.0), ("band/low", -band_k), ("band/high", band_k)];
             for (what, beside_k) in lines {
                 match now.reference_c {
                     Some(wanted_c) => log(&zone(index, what), wanted_c + beside_k)?,
@@ -78,8 +82,8 @@ impl ZonePlots {
             }
             self.wanted[place] = now.reference_c.is_some();
         }
-        log("building/limit/low", -self.limit_kw)?;
-        log("building/limit/high", self.limit_kw)?;
+        log("building/limit/low", -self.limits_kw[0])?;
+        log("building/limit/high", self.limits_kw[1])?;
         log("building/outdoors/real", frame.ambient_c)?;
         log("building/outdoors/forecast", frame.forecast_c)?;
         if let Some(day) = &frame.figures {

@@ -1,0 +1,117 @@
+//! The price of electricity, hour by hour.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::setting::{self, SettingKey};
+
+/// In the weights of a plan a price counts at least as this share of the mean one, so that cheap heat is not free: prices of
+/// markets may be negative.
+const MIN_PRICE_RATIO: f64 = 0.05;
+const HOUR_S: f64 = 3600.0;
+
+/// What a kilowatt-hour of electricity costs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Tariff {
+    /// The currency, for reports.
+    #[schemars(length(min = 1))]
+    pub currency: String,
+    /// The price of each hour from the first midnight on \[currency/kWh\]. After the last they begin again: 1 price holds
+    /// always, 24 are a day, 168 a week.
+    #[schemars(
+        inner(range(min = -1000.0, max = 1000.0)),
+        length(max = 100000),
+        example = vec![0.3],
+        extend("x-unit" = "currency/kWh")
+    )]
+    pub prices_per_kwh: Vec<f64>,
+    /// A table of the prices as comma-separated values, relative to the scenario file: a header `hour,price_per_kwh`, and a row
+    /// an hour from the first midnight on, counted from 0.
+    #[schemars(example = &"prices.csv", extend("x-excludes" = ["prices_per_kwh"]))]
+    pub file: Option<String>,
+    /// The prices of the file, once it was read \[currency/kWh\].
+    #[serde(skip)]
+    pub file_prices_per_kwh: Vec<f64>,
+}
+
+impl Default for Tariff {
+    fn default() -> Self {
+        Self { currency: "EUR".to_owned(), prices_per_kwh: Vec::new(), file: None, file_prices_per_kwh: Vec::new() }
+    }
+}
+
+/// A tariff without a price to compare others with.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{problem}")]
+pub struct TariffError {
+    /// The key at fault, in the table of the tariff.
+    pub key: SettingKey,
+    /// What is wrong, and what would work.
+    pub problem: String,
+}
+
+impl Tariff {
+    /// Refuses a tariff that states no prices, or with a mean price that is not positive.
+    ///
+    /// # Errors
+    /// [`TariffError`].
+    pub fn check(&self) -> Result<(), TariffError> {
+        let refused = |key: &str, problem: String| Err(TariffError { key: key.into(), problem });
+        if let Err(error) = setting::check(self) {
+            return Err(TariffError { key: error.key.clone(), problem: error.to_string() });
+        }
+        // A file that was not read has its own error.
+        if self.file.is_some() && self.file_prices_per_kwh.is_empty() {
+            return Ok(());
+        }
+        if self.prices().is_empty() {
+            let problem = "there are no prices: state `prices_per_kwh`, such as `[0.3]`, or a `file`".to_owned();
+            return refused("prices_per_kwh", problem);
+        }
+        let mean = self.mean_per_kwh();
+        if mean.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
+            let key = if self.file.is_some() { "file" } else { "prices_per_kwh" };
+            return refused(key, format!("the mean price is {:.6}; it must be above 0", mean));
+        }
+        Ok(())
+    }
+
+    /// The price of each hour \[currency/kWh\].
+    pub fn prices(&self) -> &[f64] {
+        if self.file.is_some() { &self.file_prices_per_kwh } else { &self.prices_per_kwh }
+    }
+
+    /// The mean of all prices \[currency/kWh\].
+    pub fn mean_per_kwh(&self) -> f64 {
+        self.prices().iter().sum::<f64>() / self.prices().len().max(1) as f64
+    }
+
+    /// Whether one day has other prices than the next.
+    pub fn days_differ(&self) -> bool {
+        24 % self.prices().len().max(1) != 0
+    }
+
+    /// The price in each step of a day, counted from zero \[currency/kWh\]: the mean over the step.
+    pub fn day_per_kwh(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
+        let first_h = day * 24;
+        let price = |hour: usize| self.prices()[(first_h + hour) % self.prices().len()];
+        let step_price = |step: usize| {
+            let (from_s, to_s) = (step as f64 * step_s, (step + 1) as f64 * step_s);
+            let hour = (from_s / HOUR_S + 1e-9).floor() as usize;
+            let turn_s = (hour + 1) as f64 * HOUR_S;
+            if to_s <= turn_s + 1e-6 {
+                return price(hour);
+            }
+            // A step is at most an hour, so it lies in two hours at most.
+            let share = (turn_s - from_s) / step_s;
+            share * price(hour) + (1.0 - share) * price(hour + 1)
+        };
+        (0..steps).map(step_price).collect()
+    }
+
+    /// How a price counts in the weights of a plan: its ratio to the mean, at least a twentieth.
+    pub(super) fn relative(&self, price_per_kwh: f64) -> f64 {
+        (price_per_kwh / self.mean_per_kwh()).max(MIN_PRICE_RATIO)
+    }
+}

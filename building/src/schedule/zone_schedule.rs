@@ -1,0 +1,131 @@
+//! What a scenario file says about the schedule of some zones.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use crate::calendar::{DayKind, Weekday};
+
+/// When a period begins or ends may be missed by this much, so that rounding moves no step \[h\].
+const ROUNDING_H: f64 = 1e-9;
+
+/// Wanted temperatures and people of some zones on some days. What it does not state is as in `[setpoints]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ZoneSchedule {
+    /// The names of the zones that follow it. On days for which a zone has no schedule nobody is there.
+    #[schemars(length(min = 1, max = 1000), example = vec!["office"])]
+    pub zones: Vec<String>,
+    /// The days on which it applies. A holiday is none of its weekdays.
+    #[serde(default = "everyday")]
+    #[schemars(length(min = 1, max = 11))]
+    pub days: Vec<DayChoice>,
+    /// Wanted temperature outside of the periods, with `other_weight` of `[setpoints]`; without it the temperature is then
+    /// free \[°C\].
+    #[serde(default)]
+    #[schemars(range(min = -50.0, max = 100.0), example = 17.0)]
+    pub other_c: Option<f64>,
+    /// Heat of machines at all times \[kW\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub base_kw: f64,
+    /// When people are there, one `[[schedule.period]]` each; none on an empty day.
+    #[serde(rename = "period", default)]
+    #[schemars(length(max = 48), example = json!([{ "from_h": 8.0, "to_h": 18.0, "wanted_c": 21.0 }]))]
+    pub periods: Vec<Period>,
+}
+
+fn everyday() -> Vec<DayChoice> {
+    vec![DayChoice::Everyday]
+}
+
+/// Hours of a day during which a zone is occupied.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Period {
+    /// When it begins \[h\].
+    #[schemars(range(min = 0.0, max = 24.0), example = 8.0)]
+    pub from_h: f64,
+    /// When it ends; a night is two periods, up to 24 and from 0 \[h\].
+    #[schemars(range(min = 0.0, max = 24.0), example = 18.0)]
+    pub to_h: f64,
+    /// Wanted temperature \[°C\].
+    #[schemars(range(min = -50.0, max = 100.0), example = 21.0)]
+    pub wanted_c: f64,
+    /// Deviations up to this are comfortable; that of `[setpoints]` if it is left out \[K\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 1.0)]
+    pub band_k: Option<f64>,
+    /// Heat of people and what they switch on \[kW\].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub people_kw: f64,
+}
+
+/// The days on which a schedule applies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DayChoice {
+    /// All days, holidays too.
+    Everyday,
+    /// Monday to Friday, but no holiday.
+    Workday,
+    /// Saturday and Sunday, but no holiday.
+    Weekend,
+    /// Holidays.
+    Holiday,
+    /// Mondays that are no holiday.
+    Monday,
+    /// Tuesdays that are no holiday.
+    Tuesday,
+    /// Wednesdays that are no holiday.
+    Wednesday,
+    /// Thursdays that are no holiday.
+    Thursday,
+    /// Fridays that are no holiday.
+    Friday,
+    /// Saturdays that are no holiday.
+    Saturday,
+    /// Sundays that are no holiday.
+    Sunday,
+}
+
+impl DayChoice {
+    /// Whether it chooses days of this kind.
+    pub fn includes(self, kind: DayKind) -> bool {
+        let DayKind::Plain(weekday) = kind else { return matches!(self, Self::Everyday | Self::Holiday) };
+        let is_weekend = matches!(weekday, Weekday::Saturday | Weekday::Sunday);
+        match self {
+            Self::Everyday => true,
+            Self::Workday => !is_weekend,
+            Self::Weekend => is_weekend,
+            Self::Holiday => false,
+            Self::Monday => weekday == Weekday::Monday,
+            Self::Tuesday => weekday == Weekday::Tuesday,
+            Self::Wednesday => weekday == Weekday::Wednesday,
+            Self::Thursday => weekday == Weekday::Thursday,
+            Self::Friday => weekday == Weekday::Friday,
+            Self::Saturday => weekday == Weekday::Saturday,
+            Self::Sunday => weekday == Weekday::Sunday,
+        }
+    }
+}
+
+impl ZoneSchedule {
+    /// Whether it applies on days of this kind.
+    pub fn applies_on(&self, kind: DayKind) -> bool {
+        self.days.iter().any(|days| days.includes(kind))
+    }
+
+    /// The period of an hour; both ends belong to it, and to the earlier one where two meet.
+    pub fn period_at(&self, hour: f64) -> Option<&Period> {
+        let holds = |period: &&Period| period.from_h - ROUNDING_H <= hour && hour <= period.to_h + ROUNDING_H;
+        self.periods.iter().filter(holds).min_by(|a, b| a.from_h.total_cmp(&b.from_h))
+    }
+
+    /// Heat of people at an hour \[kW\], for people who come and go later by these times \[h\].
+    pub fn people_kw(&self, hour: f64, comes_later_h: f64, goes_later_h: f64) -> f64 {
+        let there = |period: &&Period| (period.from_h + comes_later_h..period.to_h + goes_later_h).contains(&hour);
+        self.periods.iter().filter(there).map(|period| period.people_kw).fold(0.0, f64::max)
+    }
+}
