@@ -171,3 +171,12 @@ fn a_horizon_beyond_midnight_knows_the_next_day() {
     assert_eq!(occupied(&ahead(0)), 6, "Friday afternoon, and no Saturday morning");
     assert_eq!(occupied(&ahead(2)), 5, "Monday morning");
 }
+
+/// Prices of markets may be negative: the plan stays convex, and the bill counts what is paid.
+#[test]
+fn a_negative_price_counts_little_in_plans_and_fully_in_the_bill() {
+    let agenda = Agenda::new(Setpoints::default(), 1, 3600.0, 24).expect("setpoints");
+    let today = agenda.supplied(Some(tariff(vec![-0.1, 0.5])), None).of_day(0);
+    assert_eq!(today.input_weight[..3], [0.05, 2.5, 0.05], "at least a twentieth of the mean, 0.2");
+    assert_eq!(today.supply.money(2, 3.0), Some(3.0 * -0.1));
+}

@@ -1,6 +1,6 @@
 //! What the heat of a day takes and costs.
 
-use super::{HeatPump, Tariff};
+use super::HeatPump;
 
 /// Prices and outdoor temperatures of the steps of a day, with the equipment that turns electricity into heat.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,12 +33,5 @@ impl EnergySupply {
     /// where it is colder outdoors than wanted, and cooled where it is not.
     pub(crate) fn cop_weight(&self, wanted_c: f64, outdoor_c: f64) -> f64 {
         self.heat_pump.as_ref().map_or(1.0, |heat_pump| heat_pump.relative(outdoor_c < wanted_c, outdoor_c))
-    }
-}
-
-impl Tariff {
-    /// How much more than on average a kilowatt-hour counts in a plan in each step of a day, counted from zero.
-    pub(crate) fn day_weights(&self, day_per_kwh: &[f64]) -> Vec<f64> {
-        day_per_kwh.iter().map(|price_per_kwh| self.relative(*price_per_kwh)).collect()
     }
 }

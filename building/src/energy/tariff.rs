@@ -110,8 +110,10 @@ impl Tariff {
         (0..steps).map(step_price).collect()
     }
 
-    /// How a price counts in the weights of a plan: its ratio to the mean, at least a twentieth.
-    pub(super) fn relative(&self, price_per_kwh: f64) -> f64 {
-        (price_per_kwh / self.mean_per_kwh()).max(MIN_PRICE_RATIO)
+    /// How much more than on average a kilowatt-hour counts in a plan in each step of a day: the ratio of its price to the mean
+    /// one, at least a twentieth.
+    pub(crate) fn day_weights(&self, day_per_kwh: &[f64]) -> Vec<f64> {
+        let mean_per_kwh = self.mean_per_kwh();
+        day_per_kwh.iter().map(|price_per_kwh| (price_per_kwh / mean_per_kwh).max(MIN_PRICE_RATIO)).collect()
     }
 }

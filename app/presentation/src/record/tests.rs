@@ -236,6 +236,7 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
             temperature_c: 24.0 + tick as f64,
             next_c: 25.0 + tick as f64,
             reference_c: (tick == 1).then_some(25.0),
+            band_k: None,
             requested_kw: 0.0,
             heat_kw: 0.0,
             gains_kw: 0.0,

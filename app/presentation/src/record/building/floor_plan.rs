@@ -133,6 +133,7 @@ mod tests {
             temperature_c,
             next_c: 0.0,
             reference_c: None,
+            band_k: None,
             requested_kw: 0.0,
             heat_kw: 0.0,
             gains_kw: 0.0,
