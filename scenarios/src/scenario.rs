@@ -99,7 +99,7 @@ pub struct Scenario {
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "preset": "testbed" }))]
     pub building: Option<BuildingConfig>,
-    /// The weather around the building; by default a synthetic tropical climate, forecast without error.
+    /// The weather around the building; by default synthetic and tropical, forecast without error.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "building"), example = json!({ "kind": "synthetic" }))]
     pub weather: Option<WeatherConfig>,

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum WeatherConfig {
-    /// A synthetic tropical climate, drawn from the scenario's seed.
+    /// Synthetic weather, drawn from the scenario's seed; by default of a tropical climate.
     Synthetic(Synthetic),
     /// A file in the format of EnergyPlus.
     Epw(EpwFile),
@@ -23,7 +23,7 @@ impl Default for WeatherConfig {
     }
 }
 
-/// A synthetic tropical climate.
+/// Synthetic weather.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Synthetic {

@@ -8,7 +8,7 @@ use super::super::markdown::code;
 pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
     let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
     let weather = match scenario.weather.clone().unwrap_or_default() {
-        WeatherConfig::Synthetic(_) => "a synthetic tropical climate".to_owned(),
+        WeatherConfig::Synthetic(synthetic) => format!("synthetic weather around {} °C", synthetic.climate.mean_c),
         WeatherConfig::Epw(file) => format!("the file {}", code(&file.file)),
     };
     format!(
