@@ -1,7 +1,7 @@
 //! The measures of runs, as tables.
 
 use interplay_building::day::ZoneFigures;
-use interplay_simulation::report::{BuildingReport, CounterfactualReport, Report, ZoneReport};
+use interplay_simulation::report::{BuildingReport, CounterfactualReport, Report, ZoneOutcome};
 
 use super::recorded_run::RecordedRun;
 use crate::plot::TextTable;
@@ -104,7 +104,7 @@ pub fn zones(report: &BuildingReport) -> TextTable {
         "electricity [kWh]",
         money.as_str(),
     ];
-    let row = |zone: &ZoneReport| {
+    let row = |zone: &ZoneOutcome| {
         let total = |value: fn(&ZoneFigures) -> f64| zone.iterations.iter().map(value).sum::<f64>();
         let last_k = zone.iterations.last().map_or(0.0, |day| day.tracking_rmse_c);
         let money: Option<f64> = zone.iterations.iter().map(|day| day.energy_cost).sum();

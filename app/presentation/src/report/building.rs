@@ -5,7 +5,7 @@ use std::fmt::Write;
 use interplay_building::day::ZoneFigures;
 use interplay_simulation::day::DayFigures;
 use interplay_simulation::measure::Fallback;
-use interplay_simulation::report::{BuildingReport, ZoneReport};
+use interplay_simulation::report::{BuildingReport, ZoneOutcome};
 
 use super::columns::{Align, lines};
 
@@ -104,7 +104,7 @@ fn write_zones(text: &mut String, building: &BuildingReport) -> std::fmt::Result
     let titles = ["cost", "discomfort K·h", "energy kWh"].into_iter().chain(more.iter().map(String::as_str));
     let header: Vec<_> =
         [("zone, all days", Align::Left)].into_iter().chain(titles.map(|title| (title, Align::Right))).collect();
-    let row = |zone: &ZoneReport| {
+    let row = |zone: &ZoneOutcome| {
         let total = |value: fn(&ZoneFigures) -> f64| zone.iterations.iter().map(value).sum::<f64>();
         let mut cells = vec![
             zone.zone.clone(),

@@ -31,12 +31,12 @@ pub struct BuildingReport {
     /// Every day.
     pub iterations: Vec<DayFigures>,
     /// Every zone, in the order of the scenario.
-    pub zone_figures: Vec<ZoneReport>,
+    pub zone_figures: Vec<ZoneOutcome>,
 }
 
 /// The outcome for a zone.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ZoneReport {
+pub struct ZoneOutcome {
     /// Its name.
     pub zone: String,
     /// Every day.
@@ -62,12 +62,12 @@ impl BuildingReport {
 }
 
 /// The figures of the days, zone by zone.
-fn zone_figures(measures: &BuildingMeasures) -> Vec<ZoneReport> {
+fn zone_figures(measures: &BuildingMeasures) -> Vec<ZoneOutcome> {
     let zones = measures.zone_names.iter().enumerate();
     zones
         .map(|(index, zone)| {
             let iterations = measures.zone_days.iter().map(|zones| zones[index]).collect();
-            ZoneReport { zone: zone.clone(), iterations }
+            ZoneOutcome { zone: zone.clone(), iterations }
         })
         .collect()
 }

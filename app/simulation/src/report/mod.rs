@@ -14,7 +14,7 @@ use interplay_scenarios::{Expect, Scenario, Vehicle};
 use xxhash_rust::xxh3::xxh3_128;
 
 pub use belief::BeliefReport;
-pub use building::{BuildingReport, ZoneReport};
+pub use building::{BuildingReport, ZoneOutcome};
 pub use expectation::Expectation;
 pub use outcome::{CounterfactualReport, PeakTimes, PlansReport, Report, VehicleReport};
 

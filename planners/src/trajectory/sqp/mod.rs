@@ -27,6 +27,7 @@
 mod comparison;
 mod descent;
 mod exploration;
+mod hysteresis;
 mod line_search;
 mod optimiser;
 mod optimum;

@@ -10,8 +10,7 @@
 //! 3. Each class is bounded by what one Gauss-Newton step from its representative promises. Where that is less than the plan
 //!    at hand costs, a descent begins there. It is given up as soon as it enters a class whose optimum is known and its steps
 //!    promise nothing cheaper: most descents that fail end in the plan at hand.
-//! 4. The cheapest optimum wins if it saves at least [`MIN_COST_ADVANTAGE`] of `1 + cost`: the hysteresis between plans that
-//!    are equally good.
+//! 4. The cheapest optimum wins if it saves enough ([`super::hysteresis`]).
 //!
 //! A comparison may take several plans: each has a limit of work, and an exploration that reaches it goes on with the next
 //! plan, a step later. Only the first comparison, and one without any plan to fall back on, are made at once.
@@ -34,8 +33,6 @@ use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
 use motions::for_each_motion;
 
-/// Another class replaces the plan at hand if it saves this share of `1 + cost`.
-const MIN_COST_ADVANTAGE: f64 = 1e-3;
 /// Most classes that are examined in one comparison, the cheapest representatives first.
 const MAX_CLASSES: usize = 4;
 /// Most work of one exploration, spread over plans.
@@ -216,23 +213,6 @@ impl<S: StageSolver> Optimiser<S> {
         };
         best.iter_mut().for_each(|held| held.add_work(&statistics));
         statistics.work()
-    }
-
-    /// Whether a motion at which an exploration stopped is a better plan than the one at hand: cheaper, and safe or no less safe.
-    fn is_better(&self, reached: &Optimum, best: &Result<Optimum, DescentError>) -> bool {
-        let unsafety = best.as_ref().map_or(0.0, |held| held.cost.unsafety());
-        reached.cost.total < self.bar(best) && reached.cost.unsafety() <= unsafety.max(self.tolerances.slack)
-    }
-
-    /// What an optimum of another class has to cost less than. In trouble no hysteresis holds.
-    fn bar(&self, best: &Result<Optimum, DescentError>) -> f64 {
-        match best {
-            Ok(held) if self.tolerances.trust(best) => {
-                held.cost.total - MIN_COST_ADVANTAGE * (1.0 + held.cost.total.abs())
-            }
-            Ok(held) => held.bar(),
-            Err(_) => f64::INFINITY,
-        }
     }
 }
 
