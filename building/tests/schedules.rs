@@ -94,6 +94,8 @@ fn contradictions_are_refused() {
     refused(&[schedule("ofice", &[DayChoice::Everyday], &day)], "zones.0", "did you mean `office`");
     let twice = [schedule("flat", &[DayChoice::Workday], &day), schedule("flat", &[DayChoice::Friday], &day)];
     refused(&twice, "zones.0", "two schedules for Fridays");
+    let doubled = ZoneSchedule { zones: vec!["flat".to_owned(); 2], ..schedule("flat", &[DayChoice::Everyday], &day) };
+    refused(&[doubled], "zones.1", "named twice");
     let holidays = [schedule("flat", &[DayChoice::Everyday], &day), schedule("flat", &[DayChoice::Holiday], &day)];
     refused(&holidays, "zones.0", "two schedules for");
     refused(

@@ -78,6 +78,10 @@ fn each_condition_is_found_where_it_is_violated_first() {
     assert!(broken(&alone, &not_a_number).contains(&(PlanCondition::Dynamics, 9)));
     let short = with(|plan| plan.states.truncate(HORIZON));
     assert!(broken(&alone, &short).contains(&(PlanCondition::Dynamics, 0)));
+    let empty = Trajectory::default();
+    let beside = scene(agent("ego", [0.0, 0.0, 0.0, 1.0]), vec![agent("other", [3.0, 0.0, 0.0, 0.0])]);
+    assert!(broken(&beside, &empty).contains(&(PlanCondition::Dynamics, 0)));
+    assert!(refused(&beside, &empty, &violations(&beside, &empty)).is_some());
     let hard = with(|plan| plan.inputs[4].acceleration_mps2 = -1.1);
     assert!(broken(&alone, &hard).contains(&(PlanCondition::InputLimits, 4)));
     for wrong in [moved, not_a_number, short, hard] {
@@ -113,6 +117,7 @@ fn a_plan_may_touch_somebody_as_long_as_there_is_a_way_out() {
     assert!(keeps_speed(0.7), "there is room for a step and the braking after it");
     assert!(!keeps_speed(0.6), "there is room for braking now, and none after the next step");
     assert!(!keeps_speed(0.3), "braking does not end before the other, and does less harm");
+    assert!(!keeps_speed(0.05), "the first step touches the other");
 }
 
 /// Without a planner: it brakes before somebody who stands, and does not brake to a stand in the way of somebody who crosses.
@@ -159,7 +164,7 @@ fn where_braking_does_harm_another_acceleration_is_chosen() {
     let users = [agent("ego", [0.0, 0.0, 0.0, 1.0]), crossing].map(|agent| RoadUser::new(agent, goal(), false));
     let mut traffic = Traffic { tick: 0, step_s: STEP_S, horizon: HORIZON, road_users: users.into() };
     let braking = last_resorts(&traffic.scene(0)).next().expect("full braking");
-    assert!(Harm::of(&traffic.scene(0), &braking).impact_mps > 0.5);
+    assert!(Harm::of(&traffic.scene(0), &braking).impact_mps > Some(0.5));
     let decisions = traffic.drive(|index, scene| match index {
         0 => Err(PlanError::Infeasible("on purpose".to_owned())),
         _ => Ok(Plan { trajectory: steadily(scene), ..Plan::default() }),
@@ -177,9 +182,9 @@ fn steadily(scene: &Scene) -> Trajectory {
 fn of_harmful_motions_the_one_with_the_weakest_impact_is_the_least() {
     let ego = agent("ego", [0.0, 0.0, 0.0, 1.0]);
     let scene = scene(ego, vec![agent("other", [0.6, 0.0, 0.0, 0.0])]);
-    let impacts: Vec<f64> = last_resorts(&scene).map(|motion| Harm::of(&scene, &motion).impact_mps).collect();
+    let impacts: Vec<Option<f64>> = last_resorts(&scene).map(|motion| Harm::of(&scene, &motion).impact_mps).collect();
     assert!(
-        impacts[..4].is_sorted() && impacts[0] > 0.5,
+        impacts[..4].is_sorted() && impacts[0] > Some(0.5),
         "straight on, full braking is the least harmful: {impacts:?}"
     );
     let plan = plan(&scene, 0.0);

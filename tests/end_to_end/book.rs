@@ -23,6 +23,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("rerun", "another program"),
     ("interplay sweep real-roads", "takes six minutes; the mechanism is in `sweeps`"),
     ("interplay sweep contingency", "takes a quarter of an hour; the mechanism is in `sweeps`"),
+    ("interplay run intersection/nice --set 'vehicle.ego.driver.passing_orders=", "a global search takes minutes"),
     ("mdbook ", "another program"),
     ("tests/cluster/", "needs a scheduler"),
     ("interplay view ", "waits for a viewer: see `authoring`"),

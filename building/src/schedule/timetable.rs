@@ -53,6 +53,9 @@ impl Timetable {
                 let own = zones[zone].get_or_insert([None; DAY_KINDS]);
                 for kind in DayKind::all().filter(|kind| schedule.applies_on(*kind)) {
                     if let Some(first) = own[kind.index()].replace(number) {
+                        if first == number {
+                            return Err(refused(format!("zone `{name}` is named twice: name it once")));
+                        }
                         let day = match kind {
                             DayKind::Plain(weekday) => format!("{weekday:?}s"),
                             DayKind::Holiday => "holidays".to_owned(),

@@ -17,8 +17,8 @@ const IMPACT_TOLERANCE_MPS: f64 = 1e-6;
 /// What a motion does to others and to itself, if everybody else does what is expected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Harm {
-    /// The largest relative speed at which it first touches somebody \[m/s\]; 0 if it touches nobody.
-    pub impact_mps: f64,
+    /// The largest relative speed at which it first touches somebody \[m/s\]; none if it touches nobody.
+    pub impact_mps: Option<f64>,
     /// Whether it leaves the road by more than a tenth of its length.
     pub leaves_road: bool,
 }
@@ -30,7 +30,12 @@ impl Harm {
             let stage = first_contact(scene, motion, other)?;
             Some(relative_speed_mps(&motion.states[stage], expected(other, stage)?))
         });
-        Harm { impact_mps: impacts.fold(0.0, f64::max), leaves_road: first_off_road(scene, motion, SHOULDER).is_some() }
+        // What is no number is as bad as can be.
+        let impacts = impacts.map(|mps| if mps.is_nan() { f64::INFINITY } else { mps });
+        Harm {
+            impact_mps: impacts.max_by(f64::total_cmp),
+            leaves_road: first_off_road(scene, motion, SHOULDER).is_some(),
+        }
     }
 
     /// Whether the motion touches nobody and stays on the road.
@@ -40,8 +45,12 @@ impl Harm {
 
     /// Whether a motion does less harm than another: a weaker impact, and of equal impacts one that stays on the road.
     pub fn is_less_than(&self, other: &Harm) -> bool {
-        let differs = (self.impact_mps - other.impact_mps).abs() > IMPACT_TOLERANCE_MPS;
-        if differs { self.impact_mps < other.impact_mps } else { !self.leaves_road && other.leaves_road }
+        match (self.impact_mps, other.impact_mps) {
+            (None, Some(_)) => true,
+            (Some(_), None) => false,
+            (Some(own), Some(others)) if (own - others).abs() > IMPACT_TOLERANCE_MPS => own < others,
+            _ => !self.leaves_road && other.leaves_road,
+        }
     }
 }
 
@@ -93,11 +102,15 @@ pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory
 pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
     let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
     let could_stand = 1 + (scene.ego.state.speed_mps.abs() / braking_mps).ceil() as usize;
-    let touches = |other| first_contact(scene, plan, other).is_some_and(|stage| stage <= could_stand);
+    let contact = scene.others.iter().filter_map(|other| first_contact(scene, plan, other)).min();
+    if contact.is_none_or(|stage| stage > could_stand) {
+        return false;
+    }
+    // Who touches somebody with the first step has no way out after it.
+    let is_over = contact <= Some(1);
     let is_left = |later: &Scene| last_resorts(later).any(|motion| Harm::of(later, &motion).is_none());
     let harm = Harm::of(scene, plan);
-    scene.others.iter().any(touches)
-        && !is_left(&after_first_step(scene, plan))
+    (is_over || !is_left(&after_first_step(scene, plan)))
         && last_resorts(scene).any(|motion| Harm::of(scene, &motion).is_less_than(&harm))
 }
 

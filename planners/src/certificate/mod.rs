@@ -23,6 +23,7 @@ use crate::{Scene, Trajectory};
 
 /// Of what a plan violates, that for which it must not be driven.
 pub fn refused<'a>(scene: &Scene, plan: &Trajectory, violations: &'a [PlanViolation]) -> Option<&'a PlanViolation> {
-    let gives_away = || !violations.is_empty() && gives_away_the_last_way_out(scene, plan);
-    violations.iter().find(|violation| violation.is_fault()).or_else(|| violations.first().filter(|_| gives_away()))
+    let contact = violations.iter().find(|violation| matches!(violation.condition, PlanCondition::Clear(_)));
+    let fault = violations.iter().find(|violation| violation.is_fault());
+    fault.or_else(|| contact.filter(|_| gives_away_the_last_way_out(scene, plan)))
 }

@@ -129,5 +129,6 @@ pub(super) fn first_contact(scene: &Scene, plan: &Trajectory, other: &Agent) -> 
         let body = scene.ego.body.corners(&plan.states[stage]);
         expected(other, stage).is_some_and(|there| overlap_m(&body, &other.body.corners(there)) > tolerance_m)
     };
-    if touches(0) { None } else { (1..plan.states.len()).find(|stage| touches(*stage)) }
+    let mut stages = 0..plan.states.len();
+    if stages.next().is_none_or(touches) { None } else { stages.find(|stage| touches(*stage)) }
 }

@@ -79,7 +79,10 @@ struct Supply {
 
 impl Supply {
     fn of(building: &BuildingReport) -> Self {
-        let differs = |day: &DayFigures| day.figures.electricity_kwh != day.figures.energy_kwh;
+        // Beyond rounding: the two are sums in different orders.
+        let differs = |DayFigures { figures, .. }: &DayFigures| {
+            (figures.electricity_kwh - figures.energy_kwh).abs() > 1e-9 * (1.0 + figures.energy_kwh)
+        };
         Self { electricity: building.iterations.iter().any(differs), currency: building.currency.clone() }
     }
 

@@ -46,7 +46,10 @@ impl Question<'_> {
             answer: line.chars().take(MAX_SHOWN_CHARACTERS).collect(),
         })?;
         let temperatures_c = match (answer, self.step) {
-            (Answer::Error { reason }, _) => return Err(PlantError::Reported { question: question(), reason }),
+            (Answer::Error { reason }, _) => {
+                let reason = reason.chars().take(MAX_SHOWN_CHARACTERS).flat_map(char::escape_debug).collect();
+                return Err(PlantError::Reported { question: question(), reason });
+            }
             (Answer::Ready { protocol, .. }, None) if protocol != PROTOCOL => {
                 return Err(invalid(format!("it speaks protocol {protocol}, and this program speaks {PROTOCOL}")));
             }
