@@ -116,8 +116,7 @@ fn a_plan_may_touch_somebody_as_long_as_there_is_a_way_out() {
     };
     assert!(keeps_speed(0.7), "there is room for a step and the braking after it");
     assert!(!keeps_speed(0.6), "there is room for braking now, and none after the next step");
-    assert!(!keeps_speed(0.3), "braking does not end before the other, and does less harm");
-    assert!(!keeps_speed(0.05), "the first step touches the other");
+    assert!(keeps_speed(0.3), "no way out is left to be given away");
 }
 
 /// Without a planner: it brakes before somebody who stands, and does not brake to a stand in the way of somebody who crosses.
@@ -187,6 +186,4 @@ fn of_harmful_motions_the_one_with_the_weakest_impact_is_the_least() {
         impacts[..4].is_sorted() && impacts[0] > Some(0.5),
         "straight on, full braking is the least harmful: {impacts:?}"
     );
-    let plan = plan(&scene, 0.0);
-    assert!(refused(&scene, &plan, &violations(&scene, &plan)).is_some());
 }

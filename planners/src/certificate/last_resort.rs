@@ -97,8 +97,11 @@ pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory
     best.map(|(number, motion, _)| (number, motion))
 }
 
-/// Whether a plan gives away the last way out: it touches somebody before the vehicle could stand, from the place after its first
-/// step no last resort is harmless any more, and from here one is less harmful than the plan.
+/// Whether a plan gives away the last way out: it touches somebody before the vehicle could stand, some last resort from here is
+/// harmless, and from the place after its first step none is any more.
+///
+/// Where no harmless motion is left now, the plan is driven: of two motions that touch somebody, the one that was planned counts on
+/// what the others will do next, and the other one on nothing.
 pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
     let braking_mps = -scene.ego.limits.acceleration_min_mps2 * scene.step_s;
     let could_stand = 1 + (scene.ego.state.speed_mps.abs() / braking_mps).ceil() as usize;
@@ -106,12 +109,10 @@ pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
     if contact.is_none_or(|stage| stage > could_stand) {
         return false;
     }
+    let is_left = |scene: &Scene| last_resorts(scene).any(|motion| Harm::of(scene, &motion).is_none());
     // Who touches somebody with the first step has no way out after it.
     let is_over = contact <= Some(1);
-    let is_left = |later: &Scene| last_resorts(later).any(|motion| Harm::of(later, &motion).is_none());
-    let harm = Harm::of(scene, plan);
-    (is_over || !is_left(&after_first_step(scene, plan)))
-        && last_resorts(scene).any(|motion| Harm::of(scene, &motion).is_less_than(&harm))
+    is_left(scene) && (is_over || !is_left(&after_first_step(scene, plan)))
 }
 
 /// The scene after the first step of a plan, if everybody does what is expected.
