@@ -9,6 +9,7 @@ use crate::certificate::{refused, violations};
 use crate::conservative::{self, Conservative};
 use crate::contingency::{self, Contingency, Outlook};
 use crate::cooperative::{self, Cooperative};
+use crate::deadline::PlanDeadline;
 use crate::diagnostic::Explanation;
 use crate::game::{self, Game};
 use crate::human::{self, Human};
@@ -58,6 +59,8 @@ pub struct Planner {
     prediction: Prediction,
     /// Whether a plan may be refused. Those who go first are what the others have to live with, and drive as they do.
     may_be_refused: bool,
+    /// When a plan is too late; never by default.
+    deadline: Option<PlanDeadline>,
 }
 
 /// How a planner finds its plans.
@@ -102,6 +105,7 @@ impl Driver {
             passing_orders: PassingOrderLog::default(),
             prediction: self.prediction().unwrap_or_default(),
             may_be_refused: !self.goes_first(),
+            deadline: None,
         }
     }
 
@@ -241,6 +245,11 @@ impl Driver {
 }
 
 impl Planner {
+    /// The same planner, whose plans have a deadline. Those who go first have none: people do not plan by a computer's clock.
+    pub fn with_deadline(self, deadline: PlanDeadline) -> Self {
+        Planner { deadline: self.may_be_refused.then_some(deadline), ..self }
+    }
+
     /// Plans the next move in a scene in which everybody is seen as it is.
     ///
     /// # Errors
@@ -288,6 +297,7 @@ impl Planner {
             Method::Nash(planner) => planner.plan(scene),
             Method::Contingency(planner) => planner.plan(scene, outlook),
         }?;
+        self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
         let expected = self.prediction.applied_to(scene);
         plan.violations = violations(&expected, &plan.trajectory);
         let refused = self.may_be_refused.then(|| refused(&expected, &plan.trajectory, &plan.violations)).flatten();

@@ -26,6 +26,7 @@ pub mod certificate;
 pub mod conservative;
 pub mod contingency;
 pub mod cooperative;
+mod deadline;
 pub mod diagnostic;
 mod driver;
 pub mod driver_estimate;
@@ -55,6 +56,7 @@ pub mod traffic;
 pub mod trajectory;
 pub mod vehicle;
 
+pub use deadline::PlanDeadline;
 pub use diagnostic::Diagnostic;
 pub use driver::{Driver, Planner};
 pub use driver_setting::DriverSettingError;

@@ -111,6 +111,14 @@ pub enum PlanError {
     /// There is a plan, but its certificate says that it must not be driven.
     #[error("the plan was refused: {0}")]
     Refused(PlanViolation),
+    /// There is a plan, but it took more work than its deadline allows.
+    #[error("the plan is late: it took {work} units of work, and {most_work} were allowed")]
+    Late {
+        /// The work that it took.
+        work: usize,
+        /// The most that it may take.
+        most_work: usize,
+    },
 }
 
 impl From<DescentError> for PlanError {

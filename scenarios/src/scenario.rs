@@ -28,6 +28,7 @@ use crate::expect::Expect;
 use crate::lane_reference::LaneReference;
 use crate::name;
 use crate::plant::Plant;
+use crate::real_time::RealTime;
 use crate::remark::ScenarioRemarks;
 use crate::road::{Branch, Road};
 use crate::start::StartConfig;
@@ -72,6 +73,10 @@ pub struct Scenario {
     /// Seed of all random numbers.
     #[serde(default = "defaults::seed")]
     pub seed: u64,
+    /// How long a plan may take; without the table as long as it likes.
+    #[serde(default)]
+    #[schemars(extend("x-concerns" = "vehicles"), example = json!({ "plan_budget_ms": 10.0, "deadline": "enforced" }))]
+    pub real_time: Option<RealTime>,
     /// What moves the vehicles, `kind` choosing; by default exactly the model that planners use.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "vehicles"))]

@@ -7,6 +7,7 @@ use interplay_planners::predict::steady;
 use interplay_simulation::components::{Identity, VehicleGoal};
 use interplay_simulation::frame::{Frame, Level, Origin};
 use interplay_simulation::measure::Measures;
+use interplay_simulation::run::run;
 use interplay_simulation::{phases, spawn};
 
 use crate::film::{Camera, authored, film};
@@ -80,4 +81,27 @@ fn a_planner_that_never_succeeds_brakes_to_a_standstill() {
     assert!((ego.last.x_m - 0.5 * (1.0 + 0.1)).abs() < 1e-9, "ten steps from 1 m/s at −1 m/s²: {:?}", ego.last);
     let counted = film.report.expectations.iter().find(|one| one.what == "plan_failures_at_most");
     assert!(counted.is_some_and(|one| !one.passed && one.got == 30), "{counted:?}");
+}
+
+/// The digest of a run, how many of the ego's plans failed and how many took longer than they may.
+fn with_deadline(overrides: &[&str]) -> (String, usize, Option<usize>) {
+    let report = run("late", &authored("intersection/tough", overrides), Vec::new()).expect("a run");
+    let ego = report.vehicle("ego").expect("an ego").plans;
+    assert_eq!(report.vehicle("crossing").expect("a driver").plans.over_budget, None, "people have no deadline");
+    (report.digest.clone(), ego.failed, ego.over_budget)
+}
+
+#[test]
+fn a_late_plan_fails_by_its_work_where_the_deadline_is_enforced() {
+    let without = with_deadline(&[]);
+    assert_eq!((without.1, without.2), (0, None));
+    let reported = with_deadline(&["real_time.plan_budget_ms=0.1"]);
+    assert_eq!((&reported.0, reported.1), (&without.0, 0), "what is reported changes nothing");
+    assert!(reported.2.is_some_and(|count| count > 0), "no plan is that fast: {reported:?}");
+    let enforced =
+        |budget| with_deadline(&[&format!("real_time.plan_budget_ms={budget}"), "real_time.deadline=\"enforced\""]);
+    assert_eq!(enforced(1e4).0, without.0);
+    let late = enforced(1.0);
+    assert!(late.1 > 0 && late.0 != without.0, "{late:?}");
+    assert_eq!(late.0, enforced(1.0).0);
 }

@@ -48,7 +48,7 @@ fn the_report_has_the_keys_of_the_contract() {
         has_keys(&vehicle["peak_times_s"], "acceleration braking jerk lateral_acceleration off_road speeding");
         assert_eq!(vehicle["speeding_mps"], Value::Null, "this road has no limits");
         has_keys(&vehicle["final"], "x_m y_m heading_rad speed_mps");
-        has_keys(&vehicle["plans"], "count failed unfinished violating median_ms p99_ms");
+        has_keys(&vehicle["plans"], "count failed unfinished violating over_budget median_ms p99_ms");
         assert_eq!(vehicle["plans"]["count"], 20);
     }
     for expectation in report["expectations"].as_array().expect("a list") {

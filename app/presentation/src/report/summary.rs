@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use interplay_simulation::report::{BeliefReport, CounterfactualReport, Report, VehicleReport};
+use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansReport, Report, VehicleReport};
 
 use super::building;
 use super::columns::{Align, lines};
@@ -103,6 +103,13 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
+/// What is wrong with a vehicle's plans.
+fn remarks(plans: &PlansReport) -> String {
+    let failed = (plans.failed > 0).then(|| format!("{} FAILED", plans.failed));
+    let slow = plans.over_budget.filter(|count| *count > 0).map(|count| format!("{count} over budget"));
+    failed.into_iter().chain(slow).collect::<Vec<_>>().join(", ")
+}
+
 fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Result {
     use Align::{Left, Right};
     let header = [
@@ -125,7 +132,7 @@ fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Re
             plans.count.to_string(),
             format!("{:.2}", plans.median_ms),
             format!("{:.2}", plans.p99_ms),
-            if plans.failed > 0 { format!("{} FAILED", plans.failed) } else { String::new() },
+            remarks(plans),
         ]
     };
     lines(&header, vehicles.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))

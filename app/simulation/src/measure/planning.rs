@@ -6,6 +6,8 @@ use crate::frame::{Origin, VehicleFrame};
 #[derive(Clone, Debug, Default)]
 pub struct Planning {
     times_ms: Vec<f64>,
+    /// How long a plan may take; none where nobody asks \[ms\].
+    budget_ms: Option<f64>,
     /// Plans that failed and were replaced by a fallback.
     pub failed: usize,
     /// Plans that are not optimal, because their descent reached the limit of its work: they violate nothing, or are cheaper and no
@@ -16,6 +18,11 @@ pub struct Planning {
 }
 
 impl Planning {
+    /// No plan yet; with how long one may take \[ms\].
+    pub fn new(budget_ms: Option<f64>) -> Self {
+        Planning { budget_ms, ..Planning::default() }
+    }
+
     /// Takes one tick.
     pub fn observe(&mut self, vehicle: &VehicleFrame) {
         if vehicle.origin == Origin::Crashed {
@@ -30,6 +37,12 @@ impl Planning {
     /// How many plans were made.
     pub fn count(&self) -> usize {
         self.times_ms.len()
+    }
+
+    /// How many plans took longer than they may, by the clock; none where nobody asks.
+    pub fn over_budget(&self) -> Option<usize> {
+        let budget_ms = self.budget_ms?;
+        Some(self.times_ms.iter().filter(|time_ms| **time_ms > budget_ms).count())
     }
 
     /// Wall time below which this share of the plans took \[ms\]; 0 without plans.

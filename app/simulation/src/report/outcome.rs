@@ -169,6 +169,8 @@ pub struct PlansReport {
     /// planner counts on what it asks for or on its next plans. A plan that gives away the last way out is refused, and counts as
     /// failed.
     pub violating: usize,
+    /// Plans that took longer than `real_time` allows, by the clock; none without it, and of drivers who stand for people.
+    pub over_budget: Option<usize>,
     /// Median time \[ms\].
     pub median_ms: f64,
     /// 99th percentile \[ms\].
@@ -222,6 +224,7 @@ impl VehicleReport {
                 failed: measured.planning.failed,
                 unfinished: measured.planning.unfinished,
                 violating: measured.planning.violating,
+                over_budget: measured.planning.over_budget(),
                 median_ms: measured.planning.quantile_ms(0.5),
                 p99_ms: measured.planning.quantile_ms(0.99),
             },
