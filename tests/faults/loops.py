@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""Fault and kill loops: the n-th change of a file fails, or the command is killed there, for n = 1, 2, … until none is left.
+"""Fault and kill loops: the n-th change of a file fails, or the command is killed there, for n = 1, 2, … until none is left. Then
+the n-th allocation of memory fails, for the first ones and others spread over the command.
 
 After a fault the exit code is 3, every file is the old one or whole, and nothing else is there. After a kill every file is
 the old one or whole, and the same command works. The standard output is a file, too, whose faults count. `--short` takes every
-seventh n from the tenth on. Prints a table as Markdown; exits with 1 if anything did not hold. Needs Linux on x86-64 and a C
+seventh n from the tenth on, and a tenth of the allocations. Prints a table as Markdown; exits with 1 if anything did not hold. Needs Linux on x86-64 and a C
 compiler; says so where it skips.
 
-    tests/faults/loops.py [--short] [--binary target/release/interplay] [COMMAND ...]
+    tests/faults/loops.py [--short] [--allocations 100] [--binary target/release/interplay] [COMMAND ...]
 """
 
 import argparse
 import json
+import os
 import pathlib
 import platform
 import shutil
@@ -32,6 +34,8 @@ OLD = "old"
 # All that the command makes stands there already, from a run before.
 AGAIN = "again"
 TIMEOUT_S = 120
+# Compression asks the C library for memory itself, and its binding panics where there is none.
+ZSTD_PANIC = "zstd returned null pointer"
 RUN = ["run", "mine.toml", "--record", "first.rrd", "--report", "page", "--json"]
 
 COMMANDS = {
@@ -91,15 +95,18 @@ def prepare(folder: pathlib.Path, old: list[str] | str, reference: pathlib.Path 
 class Loop:
     """One command, with a fault or a kill at each of its changes of files."""
 
-    def __init__(self, inject: pathlib.Path, binary: pathlib.Path, base: pathlib.Path, short: bool):
-        self.inject, self.binary, self.base, self.short = inject, binary, base, short
+    def __init__(self, tools: dict[str, pathlib.Path], binary: pathlib.Path, base: pathlib.Path, short: bool):
+        self.tools, self.binary, self.base, self.short = tools, binary, base, short
         self.broken: list[str] = []
+        self.panics = 0
 
-    def execute(self, words: list[str], folder: pathlib.Path, before: list[str]) -> subprocess.CompletedProcess:
+    def execute(
+        self, words: list[str], folder: pathlib.Path, before: list[str], environment: dict[str, str] | None = None
+    ) -> subprocess.CompletedProcess:
         """Runs the command with its standard output in a file; one that hangs has exit code -9."""
         command = [*before, str(self.binary), *words]
         with open(self.base / "stdout", "w") as stdout:
-            told = {"cwd": folder, "stdout": stdout, "stderr": subprocess.PIPE, "text": True, "timeout": TIMEOUT_S}
+            told = {"env": {**os.environ, **(environment or {})}, "cwd": folder, "stdout": stdout, "stderr": subprocess.PIPE, "text": True, "timeout": TIMEOUT_S}
             try:
                 return subprocess.run(command, **told)
             except subprocess.TimeoutExpired:
@@ -137,7 +144,7 @@ class Loop:
         while True:
             n += 7 if self.short and n >= 10 else 1
             prepare(folder, old, reference)
-            outcome = self.execute(words, folder, [str(self.inject), mode, str(n)])
+            outcome = self.execute(words, folder, [str(self.tools["inject"]), mode, str(n)])
             at = f"{title}, {mode} {n}"
             code = outcome.returncode
             if code in (-9, 97, 98, 101):
@@ -154,10 +161,39 @@ class Loop:
                 if again.returncode not in again_codes:
                     self.broken.append(f"{at}: afterwards exit code {again.returncode}: {again.stderr[-300:]}")
 
+    def exhaust(self, title: str, most: int) -> tuple[int, int]:
+        """Lets allocations fail, each in a run of its own; returns how many, and how many runs did without and ended well."""
+        words, old = COMMANDS[title]
+        reference, folder, counted = self.base / "reference", self.base / "work", self.base / "allocations"
+        shim = {"LD_PRELOAD": str(self.tools["malloc"]), "ALLOCATIONS": str(counted)}
+        prepare(reference, old)
+        sound = self.execute(words, reference, [], {**shim, "FAILING_ALLOCATION": "0"})
+        if sound.returncode != 0:
+            sys.exit(f"{title} does not work with counted allocations: {sound.stderr}")
+        count = int(counted.read_text())
+        first, done = min(most // 2, count), 0
+        spread = [first + (count - first) * at // (most - first) for at in range(most - first)]
+        for n in [*range(1, first + 1), *spread]:
+            prepare(folder, old, reference)
+            outcome = self.execute(words, folder, [], {**shim, "FAILING_ALLOCATION": str(n)})
+            at = f"{title}, allocation {n} of {count}"
+            if outcome.returncode == 0:
+                # The C library can do without some; and how many there are depends on the threads.
+                done += 1
+                missing = set(files(reference)) - set(files(folder))
+                self.broken.extend(f"{at}: exit code 0 without {name}" for name in sorted(missing))
+            elif outcome.returncode == 101 and ZSTD_PANIC in outcome.stderr:
+                self.panics += 1
+            elif outcome.returncode != 3:
+                self.broken.append(f"{at}: exit code {outcome.returncode}: {outcome.stderr[-300:]}")
+            self.check(at, folder, reference, old, False)
+        return most, done
+
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--short", action="store_true")
+    parser.add_argument("--allocations", type=int, default=100, metavar="COUNT", help="how many allocations fail, a command")
     parser.add_argument("--binary", default="target/release/interplay")
     parser.add_argument("commands", nargs="*", metavar="COMMAND")
     stated = parser.parse_args()
@@ -171,13 +207,18 @@ def main() -> int:
         if subprocess.run([str(inject), "fail", "1", "true"], capture_output=True).returncode != 100:
             print("skipped: processes cannot be traced here")
             return 0
-        loop = Loop(inject, pathlib.Path(stated.binary).resolve(), base, stated.short)
-        print("| command | faults | kills | left behind after a fault | after a kill |\n|---|---|---|---|---|")
+        malloc = base / "failing_malloc.so"
+        subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-Wall", "-o", str(malloc), str(HERE / "failing_malloc.c")], check=True)
+        loop = Loop({"inject": inject, "malloc": malloc}, pathlib.Path(stated.binary).resolve(), base, stated.short)
+        print("| command | faults | kills | left behind after a fault | after a kill | failed allocations | done without |\n|---|---|---|---|---|---|---|")
+        allocations = max(1, stated.allocations // 10) if stated.short else stated.allocations
         for title in stated.commands or COMMANDS:
             failed, killed = loop.run(title, "fail"), loop.run(title, "kill")
-            print(f"| `{title}` | {failed[0]} | {killed[0]} | {failed[1]} | {killed[1]} |", flush=True)
+            exhausted = loop.exhaust(title, allocations)
+            print(f"| `{title}` | {failed[0]} | {killed[0]} | {failed[1]} | {killed[1]} | {exhausted[0]} | {exhausted[1]} |", flush=True)
     for line in loop.broken:
         print(line, file=sys.stderr)
+    print(f"{loop.panics} panics of zstd without memory", file=sys.stderr)
     print(f"{len(loop.broken)} faults of the program", file=sys.stderr)
     return 1 if loop.broken else 0
 

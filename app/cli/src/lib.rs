@@ -14,6 +14,7 @@ mod identify;
 mod list;
 mod man;
 mod new;
+mod out_of_memory;
 mod output;
 mod plan_flags;
 mod progress;
