@@ -5,7 +5,7 @@ mod common;
 use common::exchange::{designed, exchange, falls};
 use common::reference::*;
 use interplay_building::comfort::Targets;
-use interplay_building::control::distributed::cooperative::{LearningLaw, cooperative_error, omega};
+use interplay_building::control::cooperative::{LearningLaw, cooperative_error, omega};
 use interplay_building::control::distributed::{
     Centralised, CentralisedSettings, Distributed, DistributedSettings, Scheme,
 };

@@ -3,22 +3,24 @@
 //! With the day as iteration k and stacked signals,
 //!
 //! ```text
-//! U_ff,k+1 = U_k + L E_k [− (D̂_k+1 − D̂_k)],        (L E)(t) = l_p e(t+1) + l_d (e(t+1) − e(t))
+//! U_ff,k+1 = U_k + L Ω E_k [− (D̂_k+1 − D̂_k)],      (L E)(t) = l_p e(t+1) + l_d (e(t+1) − e(t))
 //! U_k      = U_ff,k + C E_k                         C a PID controller per zone
 //! ```
 //!
-//! P-type is l_d = 0. The error e(t+1) is the first that u(t) influences. With a forecast, the expected change from
+//! Ω is the identity, or makes a zone learn from its neighbours as well ([`LearnedErrors`]). P-type is l_d = 0. The error e(t+1) is the first that u(t) influences. With a forecast, the expected change from
 //! yesterday to today is compensated; D̂ is the zone heat that has the effect of the forecast, G⁻¹ T_free. Where the
 //! temperature is free, nothing is learned.
 //!
-//! If every day were the same, the errors would follow E_k+1 = (I + GC)⁻¹(I − GL) E_k. [`LearningSettings::convergence`]
-//! analyses I − GL: its spectral radius decides whether the errors vanish in the end, its largest singular value whether
+//! If every day were the same, the errors would follow E_k+1 = (I + GC)⁻¹(I − G L Ω) E_k. [`LearningSettings::convergence`]
+//! analyses I − G L Ω: its spectral radius decides whether the errors vanish in the end, its largest singular value whether
 //! they may grow before. The two differ by orders of magnitude for P-type learning.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::cooperative::{LearnedErrors, block_radius};
 use super::pid::{Pid, PidSettings};
+use super::powers::largest_singular_value;
 use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
@@ -35,6 +37,9 @@ pub struct LearningSettings {
     /// l_d \[kW/K\] per change of the error over a step; 0 for P-type. It suits one step and capacity.
     #[schemars(range(min = 0.0))]
     pub derivative_kw_per_k: f64,
+    /// Which errors a zone learns from. With those of its neighbours the same gains act more strongly: with two neighbours up to
+    /// five times.
+    pub errors: LearnedErrors,
     /// Whether inputs are corrected for the change of the forecast from yesterday to today.
     pub forecast: bool,
     /// The feedback C.
@@ -45,16 +50,22 @@ impl Default for LearningSettings {
     /// PD-type l(I − aZ) with l = 0.15 kW/K and a = 0.88, which suits the testbed at half an hour; feedback 0.1 kW/K.
     fn default() -> Self {
         let feedback = PidSettings { proportional_kw_per_k: 0.1, integral_kw_per_k_h: 0.0, derivative_kw_h_per_k: 0.0 };
-        Self { proportional_kw_per_k: 0.018, derivative_kw_per_k: 0.132, forecast: true, feedback }
+        Self {
+            proportional_kw_per_k: 0.018,
+            derivative_kw_per_k: 0.132,
+            errors: LearnedErrors::Own,
+            forecast: true,
+            feedback,
+        }
     }
 }
 
 /// How errors would change from day to day if all days were equal, all errors had a weight and there were no feedback.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LearningConvergence {
-    /// Spectral radius of I − GL: below 1 the errors vanish in the end.
+    /// Spectral radius of I − G L Ω: below 1 the errors vanish in the end.
     pub spectral_radius: f64,
-    /// Largest singular value of I − GL: at most 1, the errors never grow.
+    /// Largest singular value of I − G L Ω: at most 1, the errors never grow.
     pub largest_singular_value: f64,
 }
 
@@ -70,24 +81,34 @@ impl LearningSettings {
             .collect()
     }
 
-    /// Analyses I − GL. It takes time in the cube of n·N.
+    /// Lᵀ u, for a stacked u.
+    fn learn_transposed(&self, zones: usize, heat_kw: &[f64]) -> Vec<f64> {
+        let Self { proportional_kw_per_k, derivative_kw_per_k, .. } = *self;
+        (0..heat_kw.len())
+            .map(|i| {
+                let after_kw = heat_kw.get(i + zones).copied().unwrap_or(0.0);
+                proportional_kw_per_k * heat_kw[i] + derivative_kw_per_k * (heat_kw[i] - after_kw)
+            })
+            .collect()
+    }
+
+    /// Analyses I − G L Ω, from products with sparse matrices.
     pub fn convergence(&self, lifted: &Lifted) -> LearningConvergence {
-        let (n, size) = (lifted.zones(), lifted.size());
-        let mut unit = vec![0.0; size];
-        let mut map = nalgebra::DMatrix::identity(size, size);
-        for column in 0..size {
-            unit[column] = 1.0;
-            let effect = nalgebra::DVector::from_vec(lifted.product(&self.learn(n, &unit)));
-            map.column_mut(column).axpy(-1.0, &effect, 1.0);
-            unit[column] = 0.0;
-        }
-        // I − GL is block lower triangular and Toeplitz: all its eigenvalues are those of the first block, which is
-        // similar to a symmetric matrix because L is a multiple of the identity there and h₁ is symmetric.
-        let first = map.view((0, 0), (n.min(size), n.min(size))).into_owned();
-        let gram = map.tr_mul(&map);
+        let n = lifted.zones();
+        // Ω, which is symmetric, for errors that all have a weight.
+        let omega = |errors_k: &[f64]| -> Vec<f64> {
+            let weighed: Vec<Option<f64>> = errors_k.iter().copied().map(Some).collect();
+            self.errors.of(lifted, &weighed)
+        };
+        let less = |x: &[f64], y: Vec<f64>| x.iter().zip(y).map(|(x, y)| x - y).collect();
         LearningConvergence {
-            spectral_radius: first.symmetric_eigenvalues().iter().fold(0.0, |radius, e| f64::max(radius, e.abs())),
-            largest_singular_value: gram.symmetric_eigenvalues().iter().fold(0.0, |s, e| f64::max(s, *e)).sqrt(),
+            // I − G L Ω is block lower triangular and Toeplitz: all its eigenvalues are those of the first block.
+            spectral_radius: block_radius(lifted, |errors_k| self.learn(n, &omega(errors_k))),
+            largest_singular_value: largest_singular_value(
+                lifted.size(),
+                |x| less(x, lifted.product(&self.learn(n, &omega(x)))),
+                |y| less(y, omega(&self.learn_transposed(n, &lifted.transpose_product(y)))),
+            ),
         }
     }
 }
@@ -187,10 +208,11 @@ impl Control for Learning {
     fn end_of_day(&mut self, record: &DayRecord) -> Result<(), ControlError> {
         ControlError::check_length("the day's temperatures", record.temperatures_c.len(), self.lifted.size())?;
         ControlError::check_length("the day's inputs", record.heat_kw.len(), self.lifted.size())?;
-        let errors_k: Vec<f64> = (self.wanted.iter().zip(&record.temperatures_c))
-            .map(|(wanted_c, temperature_c)| wanted_c.map_or(0.0, |wanted_c| wanted_c - temperature_c))
+        let errors_k: Vec<Option<f64>> = (self.wanted.iter().zip(&record.temperatures_c))
+            .map(|(wanted_c, temperature_c)| wanted_c.map(|wanted_c| wanted_c - temperature_c))
             .collect();
-        let correction_kw = self.settings.learn(self.lifted.zones(), &errors_k);
+        let learned_k = self.settings.errors.of(&self.lifted, &errors_k);
+        let correction_kw = self.settings.learn(self.lifted.zones(), &learned_k);
         self.learned_kw =
             Some(record.heat_kw.iter().zip(&correction_kw).map(|(u, correction)| u + correction).collect());
         Ok(())

@@ -20,6 +20,7 @@
 mod clairvoyant;
 pub mod concurrent;
 mod controller;
+pub mod cooperative;
 mod design;
 pub mod distributed;
 pub mod disturbance_estimate;
@@ -30,6 +31,7 @@ pub mod learning;
 mod optimum;
 pub mod pid;
 mod planning;
+mod powers;
 pub mod predictive;
 mod regulator;
 pub mod stability;

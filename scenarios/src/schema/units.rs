@@ -4,10 +4,11 @@
 //! `"dimensionless"`. Whole numbers are counts and have none.
 
 /// Endings of keys, and the units that they stand for.
-const ENDINGS: [(&str, &str); 22] = [
+const ENDINGS: [(&str, &str); 23] = [
     ("m", "m"),
     ("m2", "m²"),
     ("s", "s"),
+    ("ms", "ms"),
     ("h", "h"),
     ("days", "days"),
     ("deg", "deg"),

@@ -2,14 +2,13 @@
 //!
 //! Both plan the inputs of least cost with a soft comfort band, and follow them with a feedback of each zone on its own
 //! error. The distributed design plans by messages between neighbours: `messages` has the messages, `zone` the problem of one
-//! zone, `agreement` the rounds, [`cooperative`] the learning from neighbours and its convergence.
+//! zone, `agreement` the rounds, [`cooperative`](super::cooperative) the learning from neighbours and its convergence.
 //!
 //! The centralised problem, with temperatures as variables, is sparse and much faster than any exchange; the "exponential"
 //! growth of the source belongs to the dense form. The advantages of the exchange are privacy and robustness: a zone informs
 //! its neighbours only, and the others continue when one fails.
 
 mod agreement;
-pub mod cooperative;
 mod joint_day;
 mod messages;
 mod settings;
@@ -19,6 +18,7 @@ mod zone_models;
 
 pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
 
+use super::cooperative::{Conditions, LearningLaw, cooperative_error};
 use super::disturbance_estimate::DisturbanceEstimator;
 use super::optimum::{ConstraintTightening, check_size, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
@@ -29,14 +29,10 @@ use crate::discretise::Model;
 use crate::lifted::Lifted;
 use crate::network::PowerLimits;
 use agreement::Rules;
-use cooperative::{Conditions, LearningLaw, cooperative_error};
 use joint_day::JointDay;
 use messages::Messages;
 use settings::penalty;
 use zone_models::ZoneModels;
-
-/// The largest number of inputs of a day for which the convergence conditions are computed each day.
-const MOST_FOR_CONDITIONS: usize = 200;
 
 /// The distributed design with its state.
 #[derive(Clone, Debug)]
@@ -80,7 +76,7 @@ impl Distributed {
     fn conditions(&self, lifted: &Lifted, targets: &Targets, plan: &DayPlan) -> Option<Conditions> {
         let (n, gain) = (lifted.zones(), self.settings.gain_kw_per_k);
         let uniform = self.gains_kw_per_k.iter().all(|own| *own == gain);
-        let yesterday = self.history.yesterday().filter(|_| uniform && lifted.size() <= MOST_FOR_CONDITIONS)?;
+        let yesterday = self.history.yesterday().filter(|_| uniform)?;
         let errors_k = |temperatures_c: &[f64]| -> Vec<f64> {
             targets.reference_c.iter().zip(temperatures_c).map(|(wanted, actual)| wanted - actual).collect()
         };
