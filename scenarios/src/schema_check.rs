@@ -238,8 +238,9 @@ impl Checker {
 
     fn range(&mut self, node: &TomlNode, number: f64, schema: SchemaNode, path: &Path) {
         for bound in schema.bounds().filter(|bound| !bound.admits(number)) {
-            // Below 1e12 all digits are shown.
-            let shown = if number.abs() < 1e12 { number.to_string() } else { format!("{number:e}") };
+            // All digits are shown where there are few zeros.
+            let is_plain = number == 0.0 || (1e-6..1e12).contains(&number.abs());
+            let shown = if is_plain { number.to_string() } else { format!("{number:e}") };
             let message = format!("{} must be {bound}, not {shown}", quoted(&path.0));
             self.refuse(&node.place, &format!("must be {bound}"), message, schema.description());
         }
