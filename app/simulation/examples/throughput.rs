@@ -159,7 +159,7 @@ fn vehicles() -> Result<(), Box<dyn Error>> {
 /// A scenario with vehicles at different speeds on two lanes of a straight road.
 fn straight_road(count: usize, driver: &str) -> String {
     let mut text = format!(
-        "duration_s = {DRIVE_S:?}\nstep_s = 0.1\nhorizon_steps = 30\nroad = {{ kind = 'lanes', lane_count = 2, lane_width_m = 0.37 }}\n"
+        "title = 'Straight road'\nshows = 'Vehicles one behind another'\nduration_s = {DRIVE_S:?}\nstep_s = 0.1\nhorizon_steps = 30\nroad = {{ kind = 'lanes', lane_count = 2, lane_width_m = 0.37 }}\n"
     );
     for index in 0..count {
         let (lane, place) = (index % 2, index / 2);

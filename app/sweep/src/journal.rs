@@ -21,8 +21,8 @@ use crate::shard::Shard;
 const PREFIX: &str = "journal";
 const SUFFIX: &str = ".jsonl";
 /// Time between two times at which what was written is forced onto the disk. A killed process loses nothing of it either way; a
-/// machine that loses its power, at most the runs of this time.
-const SYNC_INTERVAL: Duration = Duration::from_secs(1);
+/// machine that loses its power, at most the runs of this time. All threads wait meanwhile, for tens of milliseconds on a busy disk.
+const SYNC_INTERVAL: Duration = Duration::from_secs(10);
 
 /// The journal of a shard in a folder.
 pub(crate) fn path_of(folder: &Path, shard: Shard) -> PathBuf {

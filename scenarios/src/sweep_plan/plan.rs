@@ -8,7 +8,8 @@ use super::arm::{Arm, path_of};
 use super::factor::Factor;
 use super::names::NamedScenario;
 use crate::error::{Fault, LoadError, Place};
-use crate::load::assemble;
+use crate::load::assemble_on;
+use crate::placement::KnownRoads;
 use crate::plan_file::Sampling;
 use crate::scenario::Scenario;
 use crate::start_jitter::StartJitter;
@@ -29,6 +30,8 @@ pub struct SweepPlan {
     pub(super) seed: u64,
     /// Where a key that no line states is blamed.
     pub(super) place: Place,
+    /// What its scenarios have in common of their roads.
+    pub(super) known_roads: KnownRoads,
 }
 
 /// A scenario of a plan, without what the plan changes.
@@ -243,7 +246,7 @@ impl SweepPlan {
         if let TomlValue::Table(root) = &mut tree.value {
             self.lay(root, place, instead.as_ref()).map_err(|fault| vec![in_run(fault)])?;
         }
-        assemble(&tree).map_err(|faults| faults.into_iter().map(in_run).collect())
+        assemble_on(&tree, &self.known_roads).map_err(|faults| faults.into_iter().map(in_run).collect())
     }
 
     fn lay(&self, root: &mut Table, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Result<(), Fault> {

@@ -14,6 +14,7 @@ use super::plan::{PlannedScenario, SweepPlan};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::load;
 use crate::overrides::settings_of;
+use crate::placement::KnownRoads;
 use crate::plan_file::PlanFile;
 use crate::scenario::Scenario;
 use crate::schema::{self, SchemaNode};
@@ -110,6 +111,7 @@ fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) ->
         samples: file.samples,
         seed: file.seed,
         place,
+        known_roads: KnownRoads::default(),
     };
     let named = scenarios(tree, folder)?;
     refuse_too_many(plan.count_for(named.len()), file.max_runs, tree)?;
