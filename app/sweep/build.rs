@@ -1,4 +1,4 @@
-//! The version of the program as far as it decides results: a digest of the sources that a run is computed by.
+//! The version of the program as far as it decides results: a digest of the sources that a run and its row are computed by.
 //!
 //! A row of an older version must not be taken for one of this version, and the version number of the package changes too
 //! seldom to tell. The digest is of contents, so that it is the same on every machine that builds the same sources.
@@ -10,8 +10,16 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 /// What decides results, from the root of the repository.
-const SOURCES: [&str; 6] =
-    ["Cargo.lock", "convex/src", "planners/src", "building/src", "scenarios/src", "app/simulation/src"];
+const SOURCES: [&str; 8] = [
+    "Cargo.lock",
+    "convex/src",
+    "planners/src",
+    "building/src",
+    "scenarios/src",
+    "app/simulation/src",
+    "app/sweep/src/measure.rs",
+    "app/sweep/src/row.rs",
+];
 /// How much of the digest is kept \[bytes\].
 const DIGEST_BYTES: usize = 8;
 

@@ -4,7 +4,7 @@ use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::expansion::{expand, with_defaults};
 use crate::merge::merge_tables;
 use crate::overrides::Override;
-use crate::placement::resolve_starts;
+use crate::placement::{KnownRoads, resolve_starts};
 use crate::scenario::Scenario;
 use crate::source::Source;
 use crate::tree::{self, Table, TomlNode, TomlValue};
@@ -62,6 +62,11 @@ fn finish(name: &str, mut tree: TomlNode, overrides: &[Override]) -> Result<Scen
 
 /// The scenario that a whole tree describes, but for what its counterfactuals run.
 pub(crate) fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
+    assemble_on(tree, &KnownRoads::default())
+}
+
+/// The same; what is known of its road is not computed again.
+pub(crate) fn assemble_on(tree: &TomlNode, known_roads: &KnownRoads) -> Result<Scenario, Vec<Fault>> {
     let tree = &with_defaults(tree.clone())?;
     let faults = schema_check::check(tree);
     if !faults.is_empty() {
@@ -70,7 +75,7 @@ pub(crate) fn assemble(tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
     let mut stated = tree.to_json();
     degrees::to_radians(schema::complete(), &mut stated);
     expand(&mut stated);
-    let placed = resolve_starts(&mut stated, tree)?;
+    let placed = resolve_starts(&mut stated, tree, known_roads)?;
     let mut scenario: Scenario = serde_json::from_value(stated)
         .map_err(|error| vec![Fault::at(&tree.place, "in this file", error.to_string())])?;
     scenario.network = placed.network;

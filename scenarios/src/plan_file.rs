@@ -26,6 +26,9 @@ pub(crate) struct PlanFile {
     #[serde(default)]
     #[schemars(length(max = 1000), example = vec!["nice", "tough"])]
     pub style: Vec<StyleEntry>,
+    /// Whether each scenario's own counterfactuals are run besides, as planners of that scenario alone that are called like them.
+    #[serde(default)]
+    pub counterfactuals: bool,
     /// What is changed in all runs: paths as `--set` has them, each with its new value; `vehicle.*` is every vehicle but the
     /// ego.
     #[serde(default)]

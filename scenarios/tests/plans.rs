@@ -101,6 +101,41 @@ fn drawn_values_have_their_distributions() {
     assert!((middle - 1.2).abs() < 0.002, "{middle}");
 }
 
+/// Each scenario has its own counterfactuals as planners after those of the plan, with the same values and seeds.
+#[test]
+fn counterfactuals_are_planners_of_their_scenario_alone() {
+    let plan = sound(
+        "scenario = ['lane-keeping/conservative-nice', 'intersection/nice']\nplanner = ['as-written', 'idm']\nstyle = ['as-written', \
+         'tough']\ncounterfactuals = true\nsamples = 3\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
+    );
+    let own = |name: &str| interplay_scenarios::load(name, &[]).expect("sound");
+    let [one, other] = ["lane-keeping/conservative-nice", "intersection/nice"].map(own);
+    let counts = [one.counterfactuals.len(), other.counterfactuals.len()];
+    assert!(counts[1] == 3 && counts[0] != 3, "{counts:?}");
+    assert_eq!(plan.counterfactual_count(), counts[0] + 3);
+    let points = points(&plan);
+    assert_eq!(points.len(), 2 * 3 * (2 * 2 + counts[0] + 3));
+    for (scenario, of) in [(&one, "lane-keeping/conservative-nice"), (&other, "intersection/nice")] {
+        let names: Vec<&str> = scenario.counterfactuals.iter().map(|one| one.name.as_str()).collect();
+        let of_scenario: Vec<&SweepPoint> = points.iter().filter(|point| point.scenario == of).collect();
+        for pair in of_scenario.chunks(2 + names.len()) {
+            let planners: Vec<&str> = pair.iter().map(|point| point.planner.as_str()).collect();
+            assert_eq!(planners, [&["as-written", "idm"][..], &names].concat());
+            let same = |point: &SweepPoint| (point.seed, point.sample, point.style.clone());
+            assert!(pair.iter().all(|point| same(point) == same(pair[0])), "{pair:?}");
+        }
+        let styles: std::collections::BTreeSet<&str> = of_scenario.iter().map(|one| one.style.as_str()).collect();
+        assert_eq!(styles.len(), 2);
+    }
+    // What a counterfactual changes is changed, from the same start.
+    let find = |planner: &str| points.iter().find(|point| point.planner == planner && point.style == "as-written");
+    let run = |planner: &str| plan.scenario(find(planner).expect("there")).expect("sound");
+    let conservative = run("A conservative ego crosses second");
+    assert_eq!(conservative.vehicles[0].driver.kind(), "conservative");
+    assert_eq!(conservative.vehicles[1], other.vehicles[1]);
+    assert_eq!(conservative.start_jitter.position_m, 0.1);
+}
+
 #[test]
 fn a_star_is_every_vehicle_but_the_ego() {
     let plan = sound("scenario = ['lane-change/front-nice']\nstyle = ['tough']\nplanner = ['conservative']\n");
@@ -158,6 +193,13 @@ const WRONG: &[(&str, usize, usize, &str)] = &[
     ("scenario = ['lane-change/front-nice']\nplanner = ['imd']\n", 2, 12, "cannot be `imd`"),
     ("scenario = ['lane-change/front-nice']\nplanner = ['idm', 'idm']\n", 2, 19, "two entries `idm`"),
     ("scenario = ['lane-change/front-nice']\nstyle = ['tuff']\n", 2, 10, "no style and no kind of driver"),
+    (
+        "scenario = ['intersection/nice']\nplanner = [{ name = 'A conservative ego crosses second', kind = 'idm' }]\n\
+         counterfactuals = true\n",
+        3,
+        19,
+        "which a planner is called, too",
+    ),
     ("scenario = ['building/tower']\nplanner = ['idm']\n", 2, 12, "no vehicles"),
     (
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.sped_mps = [1.0]\n",

@@ -154,6 +154,94 @@ fn comparisons_are_printed_as_a_page_and_as_json() {
     assert!(wrong.stderr.contains("did you mean `idm`?"), "{}", wrong.stderr);
 }
 
+/// The lines of a journal.
+fn journal(folder: &Path, out: &str) -> Vec<serde_json::Value> {
+    let text = fs::read_to_string(folder.join(out).join("journal.jsonl")).expect("a journal");
+    text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
+}
+
+/// A planner among those of the last group.
+fn of_planner<'a>(figures: &'a serde_json::Value, name: &str) -> &'a serde_json::Value {
+    let planners = figures["groups"].as_array().expect("a list").last().expect("a group")["planners"].as_array();
+    planners.expect("a list").iter().find(|one| one["planner"] == name).unwrap_or_else(|| panic!("no {name}"))
+}
+
+#[test]
+fn scenarios_are_compared_with_their_counterfactuals() {
+    let folder = scratch("sweep-counterfactuals");
+    let flags = ["--scenario", "intersection/nice", "--counterfactuals", "--planner", "conservative", "--starts", "2"];
+    let done = interplay(&folder, &[&["sweep", "--out", "out"], &flags[..]].concat());
+    assert_eq!(done.code, Some(0), "{done:?}");
+    // The scenario, a conservative ego, and three counterfactuals, of which the first is the conservative ego: one run, two rows.
+    assert!(done.stderr.contains("8 runs to make") && done.stdout.contains("10 runs in"), "{done:?}");
+    assert_eq!(journal(&folder, "out").len(), 8);
+    let figures = interplay(&folder, &["compare", "out", "--json"]).json();
+    assert_eq!(figures["baseline"], "as-written");
+    let [same, counterfactual, own] =
+        ["conservative", "A conservative ego crosses second", "as-written"].map(|name| of_planner(&figures, name));
+    for key in ["runs", "completed_s", "order_kept", "hard_braking", "touched"] {
+        assert_eq!(same[key]["of"], counterfactual[key]["of"], "{key}");
+        assert_eq!(same[key]["mean"], counterfactual[key]["mean"], "{key}");
+    }
+    assert_eq!((&own["order_kept"]["count"], &own["order_kept"]["of"]), (&2.into(), &2.into()), "as its file expects");
+    assert_eq!(counterfactual["order_kept"]["count"], 0, "as its counterfactual claims");
+    assert_eq!(counterfactual["versus_baseline"]["place"]["losses"], 2);
+    // Both rows stay when the table is merged.
+    let merged = interplay(&folder, &["sweep", "merge", "out", "--to", "merged.parquet"]);
+    assert!(merged.stdout.contains("10 runs"), "{merged:?}");
+}
+
+/// What a row says of braking is what the report of a run says.
+#[test]
+fn hard_braking_is_a_share_of_what_a_vehicle_is_capable_of() {
+    let folder = scratch("sweep-braking");
+    let mut found = Vec::new();
+    for limit in ["-2.0", "-6.0"] {
+        let set = format!("vehicle.ego.limits.acceleration_min_mps2={limit}");
+        let run =
+            interplay(&folder, &["run", "intersection/tough", "--seed", "1", "--set", &set, "--no-record", "--json"]);
+        let peak_mps2 = run.json()["vehicles"][0]["peak_braking_mps2"].as_f64().expect("a number");
+        let out = format!("limit{limit}");
+        let flags = ["--scenario", "intersection/tough", "--set", &set, "--out", &out];
+        assert_eq!(interplay(&folder, &[&["sweep"], &flags[..]].concat()).code, Some(0));
+        let row = &journal(&folder, &out)[0]["result"]["traffic"];
+        let share = peak_mps2 / -limit.parse::<f64>().expect("a number");
+        assert!((row["peak_braking_share"].as_f64().expect("a number") - share).abs() < 1e-12, "{row}");
+        assert_eq!(row["hard_braking"], share >= 0.75, "{share}");
+        found.push(share >= 0.75);
+    }
+    assert!(found.contains(&true) && found.contains(&false), "{found:?}: the test says nothing");
+}
+
+/// The bill of a row is that of the days of a run.
+#[test]
+fn bills_and_electricity_of_buildings_are_compared() {
+    let folder = scratch("sweep-bills");
+    let fewer = "iterations=2";
+    let flags = ["--scenario", "building/office-and-flat", "--counterfactuals", "--set", fewer, "--out", "out"];
+    let done = interplay(&folder, &[&["sweep"], &flags[..]].concat());
+    assert!(done.stdout.contains("cheaper / dearer") && !done.stdout.contains("stuck"), "{done:?}");
+    let figures = interplay(&folder, &["compare", "out", "--json"]).json();
+    let run = interplay(
+        &folder,
+        &["run", "building/office-and-flat", "--seed", "1", "--set", fewer, "--json", "--no-record"],
+    );
+    let report = run.json();
+    let days = report["building"]["iterations"].as_array().expect("days");
+    let own = &of_planner(&figures, "as-written")["building"];
+    for (key, of_day) in [("bill", "energy_cost"), ("electricity_kwh", "electricity_kwh"), ("energy_kwh", "energy_kwh")]
+    {
+        let sum: f64 = days.iter().map(|day| day[of_day].as_f64().expect("a number")).sum();
+        let found = own[key]["mean"].as_f64().expect("a number");
+        assert!((found - sum).abs() < 1e-9 * sum, "{key}: {found} and {sum}");
+    }
+    assert_eq!(own["currency"], "EUR");
+    let versus =
+        &of_planner(&figures, "Plans that ignore prices and COP cost a tenth more")["versus_baseline"]["building"];
+    assert_eq!(versus["cheaper"]["losses"], 1, "it is dearer");
+    assert!(versus["bill"]["mean"].as_f64().expect("a number") > 0.0);
+}
+
 #[test]
 fn two_sweeps_of_one_version_do_not_differ() {
     let folder = scratch("sweep-versions");

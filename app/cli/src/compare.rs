@@ -31,7 +31,7 @@ pub(crate) struct Compare {
     #[arg(value_name = "OTHER", conflicts_with_all = ["baseline", "by"])]
     second: Option<PathBuf>,
 
-    /// The planner that the others are compared with [default: the first by name]
+    /// The planner that the others are compared with [default: as-written, otherwise the first by name]
     #[arg(long, value_name = "PLANNER")]
     baseline: Option<String>,
 

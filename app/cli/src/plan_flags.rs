@@ -19,6 +19,10 @@ pub(crate) struct PlanFlags {
     #[arg(long = "arm", value_name = "PATH=VALUE[; PATH=VALUE]...", requires = "scenario")]
     arms: Vec<String>,
 
+    /// Compare each scenario with its own counterfactuals, too
+    #[arg(long, requires = "scenario")]
+    counterfactuals: bool,
+
     /// Who drives the other vehicles: a style of humans or a kind of driver; may be repeated [default: as each file says]
     #[arg(long, value_name = "STYLE|KIND", requires = "scenario")]
     style: Vec<String>,
@@ -55,7 +59,11 @@ impl PlanFlags {
 
     fn write(&self, text: &mut String) -> std::fmt::Result {
         let all = |words: &[String]| -> Vec<String> { words.iter().map(|word| quoted(word)).collect() };
-        let as_written = if self.arms.is_empty() { None } else { Some(quoted("as-written")) };
+        if self.counterfactuals {
+            writeln!(text, "counterfactuals = true")?;
+        }
+        let is_compared = self.counterfactuals || !self.arms.is_empty();
+        let as_written = if !is_compared { None } else { Some(quoted("as-written")) };
         let arms = self.arms.iter().map(|arm| arm_of(arm));
         let planners = as_written.into_iter().chain(all(&self.planner)).chain(arms).collect();
         for (key, entries) in [("scenario", all(&self.scenario)), ("planner", planners), ("style", all(&self.style))] {

@@ -35,7 +35,7 @@ pub(crate) struct Sweep {
     action: Option<Action>,
 
     #[arg(value_name = "PLAN", help = plan_help(), default_value = DEFAULT_PLAN)]
-    #[arg(conflicts_with_all = ["scenario", "planner", "arms", "style", "vary", "sets", "starts"])]
+    #[arg(conflicts_with_all = ["scenario", "planner", "arms", "counterfactuals", "style", "vary", "sets", "starts"])]
     plan: String,
 
     #[command(flatten)]
@@ -189,8 +189,12 @@ fn counted(plan: &SweepPlan) -> String {
     let listed = |what: &str, names: &[&str]| format!("{} {what}: {}\n", names.len(), names.join(", "));
     let varied: Vec<String> = plan.inputs().into_iter().map(|(path, _)| path).collect();
     let varied = if varied.is_empty() { String::new() } else { format!("varied: {}\n", varied.join(", ")) };
+    let counterfactuals = match plan.counterfactual_count() {
+        0 => String::new(),
+        count => format!("counterfactuals of the scenarios, besides: {count}\n"),
+    };
     format!(
-        "{}: {}\n{}{}{}{varied}",
+        "{}: {}\n{}{}{}{counterfactuals}{varied}",
         plan.title(),
         runs(plan.run_count()),
         listed("scenarios", &scenarios),

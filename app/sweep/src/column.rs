@@ -71,7 +71,7 @@ pub(crate) const HEAD: [FixedColumn; 8] = [
 ];
 
 /// Columns after those of what varies.
-pub(crate) const TAIL: [FixedColumn; 46] = [
+pub(crate) const TAIL: [FixedColumn; 53] = [
     column!("error", Text, |row: &SweepRow| row.error.clone()),
     column!("digest", Text, |row| result(row, |of| of.digest.clone())),
     column!("simulated_s", Number, |row| result(row, |of| of.simulated_s)),
@@ -87,6 +87,7 @@ pub(crate) const TAIL: [FixedColumn; 46] = [
     column!("ego_contact", Flag, |row| traffic(row, |of| of.ego_contact)),
     column!("contact_by_ego", Flag, |row| traffic(row, |of| of.contact_by_ego)),
     column!("ego_contact_s", Number, |row| traffic(row, |of| of.ego_contact_s).flatten()),
+    column!("order_kept", Flag, |row| traffic(row, |of| of.order_kept).flatten()),
     column!("impulse_ns", Number, |row| traffic(row, |of| of.impulse_ns).flatten()),
     column!("order", Text, |row| traffic(row, |of| of.order.join(" "))),
     column!("ego_place", Count, |row| traffic(row, |of| of.ego_place)),
@@ -99,6 +100,8 @@ pub(crate) const TAIL: [FixedColumn; 46] = [
     column!("mean_abs_jerk", Number, |row| traffic(row, |of| of.mean_abs_jerk)),
     column!("peak_acceleration_mps2", Number, |row| traffic(row, |of| of.peak_acceleration_mps2)),
     column!("peak_braking_mps2", Number, |row| traffic(row, |of| of.peak_braking_mps2)),
+    column!("peak_braking_share", Number, |row| traffic(row, |of| of.peak_braking_share)),
+    column!("hard_braking", Flag, |row| traffic(row, |of| of.hard_braking)),
     column!("peak_jerk_mps3", Number, |row| traffic(row, |of| of.peak_jerk_mps3)),
     column!("peak_lateral_acceleration_mps2", Number, |row| traffic(row, |of| of.peak_lateral_acceleration_mps2)),
     column!("min_speed_mps", Number, |row| traffic(row, |of| of.min_speed_mps)),
@@ -106,6 +109,7 @@ pub(crate) const TAIL: [FixedColumn; 46] = [
     column!("off_road_m", Number, |row| traffic(row, |of| of.off_road_m)),
     column!("speeding_mps", Number, |row| traffic(row, |of| of.speeding_mps).flatten()),
     column!("others_peak_braking_mps2", Number, |row| traffic(row, |of| of.others_peak_braking_mps2).flatten()),
+    column!("others_hard_braking", Flag, |row| traffic(row, |of| of.others_hard_braking)),
     column!("plans", Count, |row| traffic(row, |of| of.plans)),
     column!("plans_failed", Count, |row| traffic(row, |of| of.plans_failed)),
     column!("plans_unfinished", Count, |row| traffic(row, |of| of.plans_unfinished)),
@@ -113,6 +117,9 @@ pub(crate) const TAIL: [FixedColumn; 46] = [
     column!("controller", Text, |row| building(row, |of| of.controller.clone())),
     column!("days", Count, |row| building(row, |of| of.days)),
     column!("energy_kwh", Number, |row| building(row, |of| of.energy_kwh)),
+    column!("electricity_kwh", Number, |row| building(row, |of| of.electricity_kwh)),
+    column!("bill", Number, |row| building(row, |of| of.bill).flatten()),
+    column!("currency", Text, |row| building(row, |of| of.currency.clone()).flatten()),
     column!("discomfort_k_h", Number, |row| building(row, |of| of.discomfort_k_h)),
     column!("last_cost", Number, |row| building(row, |of| of.last_cost)),
     column!("wall_s", Number, |row: &SweepRow| Some(row.wall_s)),

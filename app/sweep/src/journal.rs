@@ -21,8 +21,8 @@ use crate::shard::Shard;
 const PREFIX: &str = "journal";
 const SUFFIX: &str = ".jsonl";
 /// Time between two times at which what was written is forced onto the disk. A killed process loses nothing of it either way; a
-/// machine that loses its power, at most the runs of this time.
-const SYNC_INTERVAL: Duration = Duration::from_secs(1);
+/// machine that loses its power, at most the runs of this time. All threads wait meanwhile, for tens of milliseconds on a busy disk.
+const SYNC_INTERVAL: Duration = Duration::from_secs(10);
 
 /// The journal of a shard in a folder.
 pub(crate) fn path_of(folder: &Path, shard: Shard) -> PathBuf {
@@ -174,11 +174,14 @@ impl JournalIndex {
         self.places.contains_key(&key)
     }
 
-    /// Reads the rows of some keys, in their order, as far as they are there.
-    pub fn rows<'a>(&'a self, keys: &'a [RunKey]) -> impl Iterator<Item = Result<SweepRow, SweepError>> + 'a {
+    /// Reads the rows of some keys, in their order, as far as they are there, each with what stands beside its key.
+    pub fn rows<'a, T: Copy>(
+        &'a self,
+        keys: &'a [(RunKey, T)],
+    ) -> impl Iterator<Item = Result<(SweepRow, T), SweepError>> + 'a {
         let mut files: Vec<Option<File>> = self.journals.iter().map(|_| None).collect();
-        let places = keys.iter().filter_map(|key| self.places.get(key));
-        places.map(move |place| self.row(&mut files, place))
+        let places = keys.iter().filter_map(|(key, beside)| Some((self.places.get(key)?, *beside)));
+        places.map(move |(place, beside)| Ok((self.row(&mut files, place)?, beside)))
     }
 
     fn row(&self, files: &mut [Option<File>], place: &LinePlace) -> Result<SweepRow, SweepError> {
@@ -236,10 +239,10 @@ mod tests {
             assert_eq!(JournalIndex::read(folder.path()).expect("sound").places.len(), 1);
             let mut journal = Journal::open(&path).expect("there");
             journal.append(&row("two")).expect("written");
-            let keys = ["two", "one", "three"].map(|name| RunKey::of_parts(&[name]));
+            let keys = ["two", "one", "three"].map(|name| (RunKey::of_parts(&[name]), name));
             let index = JournalIndex::read(folder.path()).expect("sound");
-            let rows: Vec<SweepRow> = index.rows(&keys).map(|row| row.expect("sound")).collect();
-            assert_eq!(rows, [row("two"), row("one")]);
+            let rows: Vec<(SweepRow, &str)> = index.rows(&keys).map(|row| row.expect("sound")).collect();
+            assert_eq!(rows, [(row("two"), "two"), (row("one"), "one")]);
         }
     }
 

@@ -14,6 +14,9 @@ use crate::key::RunKey;
 use crate::row::{BuildingResult, RunResult, SweepRow, TrafficResult};
 use crate::version::program_version;
 
+/// The share of a vehicle's strongest braking from which on it brakes hard.
+const HARD_BRAKING_SHARE: f64 = 0.75;
+
 /// Makes a run and its row. A run that cannot be finished, or that panics, has a row with the reason.
 pub(crate) fn measured_run(key: RunKey, point: &SweepPoint, scenario: &Scenario) -> SweepRow {
     let began = Instant::now();
@@ -85,6 +88,7 @@ fn traffic(scenario: &Scenario, report: &Report, ego: &VehicleReport, contact_by
         ego_contact,
         contact_by_ego,
         ego_contact_s: of_ego().map(|contact| contact.time_s).min_by(f64::total_cmp),
+        order_kept: order_kept(report),
         impulse_ns: report.collisions.iter().map(|contact| contact.impulse_ns).max_by(f64::total_cmp),
         order: report.order.clone(),
         ego_place: place,
@@ -97,6 +101,8 @@ fn traffic(scenario: &Scenario, report: &Report, ego: &VehicleReport, contact_by
         mean_abs_jerk: ego.mean_abs_jerk,
         peak_acceleration_mps2: ego.peak_acceleration_mps2,
         peak_braking_mps2: ego.peak_braking_mps2,
+        peak_braking_share: braking_share(scenario, ego),
+        hard_braking: braking_share(scenario, ego) >= HARD_BRAKING_SHARE,
         peak_jerk_mps3: ego.peak_jerk_mps3,
         peak_lateral_acceleration_mps2: ego.peak_lateral_acceleration_mps2,
         min_speed_mps: ego.min_speed_mps,
@@ -104,11 +110,26 @@ fn traffic(scenario: &Scenario, report: &Report, ego: &VehicleReport, contact_by
         off_road_m: ego.off_road_m,
         speeding_mps: ego.speeding_mps,
         others_peak_braking_mps2: others().map(|vehicle| vehicle.peak_braking_mps2).max_by(f64::total_cmp),
+        others_hard_braking: others().any(|vehicle| braking_share(scenario, vehicle) >= HARD_BRAKING_SHARE),
         plans: ego.plans.count as u64,
         plans_failed: ego.plans.failed as u64,
         plans_unfinished: ego.plans.unfinished as u64,
         others_plans_failed: others().map(|vehicle| vehicle.plans.failed as u64).sum(),
     }
+}
+
+/// Whether the scenario's expectations of order and right of way hold and nobody touches anybody; none without such expectations.
+fn order_kept(report: &Report) -> Option<bool> {
+    let is_order = |what: &str| what == "order" || what.starts_with("yields.");
+    let mut of_order = report.expectations.iter().filter(|expectation| is_order(&expectation.what)).peekable();
+    of_order.peek()?;
+    Some(of_order.all(|expectation| expectation.passed) && report.collisions.is_empty())
+}
+
+/// A vehicle's largest deceleration as a share of its strongest braking.
+fn braking_share(scenario: &Scenario, vehicle: &VehicleReport) -> f64 {
+    let strongest_mps2 = scenario.vehicle(&vehicle.name).map_or(f64::INFINITY, |of| -of.limits.acceleration_min_mps2);
+    vehicle.peak_braking_mps2 / strongest_mps2
 }
 
 fn building(report: &BuildingReport) -> BuildingResult {
@@ -118,6 +139,9 @@ fn building(report: &BuildingReport) -> BuildingResult {
         days: days.len() as u64,
         fallbacks: days.iter().filter(|day| day.fallback).count() as u64,
         energy_kwh: days.iter().map(|day| day.figures.energy_kwh).sum(),
+        electricity_kwh: days.iter().map(|day| day.figures.electricity_kwh).sum(),
+        bill: report.currency.as_ref().and_then(|_| days.iter().map(|day| day.figures.energy_cost).sum()),
+        currency: report.currency.clone(),
         discomfort_k_h: days.iter().map(|day| day.figures.discomfort_k_h).sum(),
         last_cost: days.last().map_or(0.0, |day| day.figures.cost),
     }

@@ -137,7 +137,7 @@ impl Cursor {
     }
 }
 
-/// Writes the rows of all tables in the order of their keys, each key once.
+/// Writes the rows of all tables in the order of their keys. All rows of one key are in one shard, in their order.
 fn merge_tables(
     readers: Vec<TableReader>,
     schema: TableSchema,
@@ -150,16 +150,12 @@ fn merge_tables(
     let mut cursors: Vec<Cursor> =
         readers.into_iter().map(|reader| Cursor::new(reader, &schema)).collect::<Result<_, _>>()?;
     let mut writer = TableWriter::new(target, schema, about)?;
-    let (mut count, mut last) = (0, None);
+    let mut count = 0;
     loop {
         let keys = cursors.iter().enumerate().filter_map(|(at, cursor)| Some((cursor.key()?, at)));
-        let Some((key, at)) = keys.min() else { break };
-        let cells = cursors[at].take()?;
-        if last.as_ref() != Some(&key) {
-            writer.push(cells)?;
-            count += 1;
-            last = Some(key);
-        }
+        let Some((_, at)) = keys.min() else { break };
+        writer.push(cursors[at].take()?)?;
+        count += 1;
     }
     writer.finish()?;
     Ok(count)

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use interplay_scenarios::SweepPoint;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
@@ -79,6 +80,10 @@ pub struct TrafficResult {
     pub ego_contact: bool,
     /// Whether in its first contact the ego moved towards the other at least as fast as the other towards it.
     pub contact_by_ego: bool,
+    /// Whether the scenario's expectations of order and right of way hold and nobody touches anybody; none without such
+    /// expectations. They are about the drivers that the file states.
+    #[serde(default)]
+    pub order_kept: Option<bool>,
     /// When the ego's first contact was \[s\].
     pub ego_contact_s: Option<f64>,
     /// The largest impulse of a contact \[N s\].
@@ -105,6 +110,12 @@ pub struct TrafficResult {
     pub peak_acceleration_mps2: f64,
     /// Largest deceleration of the ego \[m/s²\].
     pub peak_braking_mps2: f64,
+    /// The same as a share of the strongest braking that the ego is capable of.
+    #[serde(default)]
+    pub peak_braking_share: f64,
+    /// Whether the ego brakes hard: with at least 75 % of its strongest braking.
+    #[serde(default)]
+    pub hard_braking: bool,
     /// Largest magnitude of the ego's jerk \[m/s³\].
     pub peak_jerk_mps3: f64,
     /// Largest magnitude of the ego's lateral acceleration \[m/s²\].
@@ -119,6 +130,9 @@ pub struct TrafficResult {
     pub speeding_mps: Option<f64>,
     /// Largest deceleration of any other vehicle \[m/s²\].
     pub others_peak_braking_mps2: Option<f64>,
+    /// Whether any other vehicle brakes hard.
+    #[serde(default)]
+    pub others_hard_braking: bool,
     /// How many plans the ego made.
     pub plans: u64,
     /// How many of them failed and were replaced by a fallback.
@@ -140,6 +154,15 @@ pub struct BuildingResult {
     pub fallbacks: u64,
     /// The energy of all days \[kWh\].
     pub energy_kwh: f64,
+    /// The electricity that the equipment took for it on all days \[kWh\]; without a heat pump as much as the heat.
+    #[serde(default)]
+    pub electricity_kwh: f64,
+    /// What the electricity of all days cost \[currency\]; none without a tariff.
+    #[serde(default)]
+    pub bill: Option<f64>,
+    /// The currency of the bill; none without a tariff.
+    #[serde(default)]
+    pub currency: Option<String>,
     /// The discomfort of all days \[K h\].
     pub discomfort_k_h: f64,
     /// The cost of the last day.
@@ -147,6 +170,14 @@ pub struct BuildingResult {
 }
 
 impl SweepRow {
+    /// The same result as a row of another run of the same key: another plan, or another arm of the plan that changes the same, may
+    /// have made it.
+    #[must_use]
+    pub(crate) fn labelled(self, point: SweepPoint) -> SweepRow {
+        let SweepPoint { scenario, family, style, planner, sample, seed, inputs, .. } = point;
+        SweepRow { scenario, family, style, planner, sample, seed, inputs: inputs.into_iter().collect(), ..self }
+    }
+
     /// Whether the run is worth looking at: it has no result, or the ego did not do its task without contact; without vehicles,
     /// an expectation failed.
     pub fn is_failure(&self) -> bool {

@@ -73,7 +73,7 @@ pub(crate) fn plan_digest(plan: &SweepPlan) -> String {
 /// Runs a plan, or a shard of it, in the threads of the current pool: checks every run, makes those that are in no journal of the
 /// folder, and writes the table.
 ///
-/// The runs are not held in memory: of each there are 16 bytes for its key and some 60 for where its row is.
+/// The runs are not held in memory: of each there are 24 bytes for its key and number, and some 60 for where its row is.
 ///
 /// # Errors
 /// Runs that are refused, before any is made; files that cannot be read or written.
@@ -99,14 +99,14 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     let journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     journal.sync()?;
     let table = table_path(folder, shard);
-    let (rows, unfinished) = write_table(plan, shard, folder, &table, part.keys)?;
+    let (rows, unfinished) = write_table(plan, shard, folder, &table, &part.runs)?;
     Ok(SweepOutcome { table, rows, made: part.to_make.len() as u64, unfinished })
 }
 
 /// The runs of a shard.
 struct Part {
-    /// The keys of all its runs.
-    keys: Vec<RunKey>,
+    /// The keys and numbers of all its runs, sorted.
+    runs: Vec<(RunKey, u64)>,
     /// The numbers of the runs that have no row.
     to_make: Vec<u64>,
     /// How many have one.
@@ -116,7 +116,7 @@ struct Part {
 impl Part {
     /// Finds the runs of a shard, and checks those that have no row.
     fn of(plan: &SweepPlan, shard: Shard, known: &JournalIndex) -> Result<Part, SweepError> {
-        type Checked = (RunKey, Option<u64>);
+        type Checked = (RunKey, u64);
         let check = |index: u64| -> Option<Result<Checked, LoadError>> {
             let point = plan.point(index);
             let key = RunKey::of(plan, &point);
@@ -124,9 +124,9 @@ impl Part {
                 return None;
             }
             if known.holds(key) {
-                return Some(Ok((key, None)));
+                return Some(Ok((key, index)));
             }
-            Some(plan.scenario(&point).map(|_| (key, Some(index))))
+            Some(plan.scenario(&point).map(|_| (key, index)))
         };
         let refusals = Mutex::new(Vec::new());
         let is_refused = |refusals: &Mutex<Vec<LoadError>>| {
@@ -144,15 +144,35 @@ impl Part {
         if !refusals.is_empty() {
             return Err(SweepError::Refused(refusals));
         }
+        // Runs of one key are one run: arms that change the same, or a list that states a value twice.
         let mut seen = HashSet::new();
-        // Two runs of one key are one run: a list that states a value twice.
-        let to_make: Vec<u64> =
-            checked.iter().filter(|(key, _)| seen.insert(*key)).filter_map(|(_, index)| *index).collect();
-        let mut keys: Vec<RunKey> = seen.into_iter().collect();
-        keys.sort_unstable();
-        let there = (keys.len() - to_make.len()) as u64;
-        Ok(Part { keys, to_make, there })
+        let first = checked.iter().filter(|(key, _)| seen.insert(*key));
+        let to_make: Vec<u64> = first.filter(|(key, _)| !known.holds(*key)).map(|(_, index)| *index).collect();
+        let there = (seen.len() - to_make.len()) as u64;
+        let mut runs = checked;
+        runs.sort_unstable();
+        // Of the latter there is one row.
+        let mut arms: (Option<RunKey>, Vec<[String; 2]>) = (None, Vec::new());
+        runs.dedup_by(|next, before| {
+            if next.0 != before.0 {
+                return false;
+            }
+            if arms.0 != Some(before.0) {
+                arms = (Some(before.0), vec![arm_of(plan, before.1)]);
+            }
+            let arm = arm_of(plan, next.1);
+            let is_known = arms.1.contains(&arm);
+            arms.1.push(arm);
+            is_known
+        });
+        Ok(Part { runs, to_make, there })
     }
+}
+
+/// The drivers of a run, as the plan names them.
+fn arm_of(plan: &SweepPlan, number: u64) -> [String; 2] {
+    let point = plan.point(number);
+    [point.style, point.planner]
 }
 
 /// Makes the folder and writes the plan into it.
@@ -178,14 +198,15 @@ fn write_table(
     shard: Shard,
     folder: &Path,
     table: &Path,
-    keys: Vec<RunKey>,
+    runs: &[(RunKey, u64)],
 ) -> Result<(usize, usize), SweepError> {
     let index = JournalIndex::read(folder)?;
     let kind = |is_number: bool| if is_number { ColumnKind::Number } else { ColumnKind::Text };
     let inputs: TableSchema = plan.inputs().into_iter().map(|(path, is_number)| (path, kind(is_number))).collect();
     let about = [(PLAN_NOTE, plan_digest(plan)), (SHARD_NOTE, shard.to_string())];
     let mut unfinished = 0;
-    let rows = index.rows(&keys).inspect(|row| {
+    let rows = index.rows(runs).map(|row| row.map(|(row, number)| row.labelled(plan.point(number))));
+    let rows = rows.inspect(|row| {
         unfinished += usize::from(row.as_ref().is_ok_and(|row| row.error.is_some()));
     });
     let count = write_rows(table, &inputs, &about, rows)?;

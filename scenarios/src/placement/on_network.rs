@@ -6,6 +6,7 @@ use interplay_building::nearest::{listed, suggestion};
 use interplay_planners::road::network::{Lane, RoadNetwork, RouteError};
 use interplay_planners::{Route, State};
 
+use super::known_roads::KnownNetwork;
 use super::written::{Start, VehicleAsWritten, next_to};
 use crate::error::{Fault, quoted};
 use crate::lane_reference::LaneReference;
@@ -21,8 +22,8 @@ const MAX_NAMES: usize = 12;
 ///
 /// # Errors
 /// For a start that is on no lane, and where no route leads to the goal.
-pub(super) fn place(written: &VehicleAsWritten<'_>, network: &RoadNetwork) -> Result<Start, Fault> {
-    let vehicle = NetworkVehicle { written, network };
+pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Result<Start, Fault> {
+    let vehicle = NetworkVehicle { written, network: &known.network, known };
     if written.start.is_in_lane() {
         let lane = vehicle.start_lane()?;
         let along_m = vehicle.along_m(lane)?;
@@ -38,6 +39,7 @@ pub(super) fn place(written: &VehicleAsWritten<'_>, network: &RoadNetwork) -> Re
 struct NetworkVehicle<'a> {
     written: &'a VehicleAsWritten<'a>,
     network: &'a RoadNetwork,
+    known: &'a KnownNetwork,
 }
 
 impl NetworkVehicle<'_> {
@@ -120,13 +122,19 @@ impl NetworkVehicle<'_> {
     }
 
     /// A state at a distance along the first lane of a route \[m\].
-    fn on_route(&self, state: State, along_m: f64, route: Route) -> Start {
+    fn on_route(&self, state: State, along_m: f64, route: Arc<Route>) -> Start {
         let along_rad = route.locate(state.position(), Some(along_m)).heading_rad;
-        (State { heading_rad: next_to(state.heading_rad, along_rad), ..state }, Arc::new(route))
+        (State { heading_rad: next_to(state.heading_rad, along_rad), ..state }, route)
     }
 
     /// The route from the begin of a lane on: along the stated lanes, or to the lane of the goal, or the only one there is.
-    fn route(&self, lane: &Lane) -> Result<Route, Fault> {
+    fn route(&self, lane: &Lane) -> Result<Arc<Route>, Fault> {
+        let goal = self.written.goal_lane.as_ref().map(|goal| format!("{goal:?}")).unwrap_or_default();
+        let words = [&[lane.name.clone(), goal], self.written.lanes.as_slice()].concat();
+        self.known.route(words, || self.new_route(lane))
+    }
+
+    fn new_route(&self, lane: &Lane) -> Result<Route, Fault> {
         let refused = |error| self.no_route(error);
         let goal = self.written.goal_lane.as_ref().map(|goal| self.known("goal.lane", goal)).transpose()?;
         let Some(first) = self.written.lanes.first() else {

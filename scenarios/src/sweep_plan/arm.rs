@@ -50,6 +50,12 @@ impl Arm {
         }
     }
 
+    /// A counterfactual of a scenario, whose name it has.
+    pub fn counterfactual(table: &Table) -> Result<Arm, Vec<Fault>> {
+        let kind = table.get("planner").map(|entry| entry.node.clone());
+        Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0))? })
+    }
+
     /// Drivers of the others: a style of humans, a kind of driver, or a table.
     pub fn style(node: &TomlNode, settings: DrawSettings) -> Result<Arm, Vec<Fault>> {
         if let TomlValue::Table(table) = &node.value {

@@ -8,7 +8,8 @@ use super::arm::{Arm, path_of};
 use super::factor::Factor;
 use super::names::NamedScenario;
 use crate::error::{Fault, LoadError, Place};
-use crate::load::assemble;
+use crate::load::assemble_on;
+use crate::placement::KnownRoads;
 use crate::plan_file::Sampling;
 use crate::scenario::Scenario;
 use crate::start_jitter::StartJitter;
@@ -29,6 +30,8 @@ pub struct SweepPlan {
     pub(super) seed: u64,
     /// Where a key that no line states is blamed.
     pub(super) place: Place,
+    /// What its scenarios have in common of their roads.
+    pub(super) known_roads: KnownRoads,
 }
 
 /// A scenario of a plan, without what the plan changes.
@@ -39,6 +42,8 @@ pub(super) struct PlannedScenario {
     pub canonical: String,
     /// The random change of its starts, scaled to its vehicles.
     pub jitter: Option<StartJitter>,
+    /// Planners of this scenario alone, after those of the plan: its counterfactuals, if they are run.
+    pub counterfactuals: Vec<Arm>,
 }
 
 /// One run of a plan.
@@ -88,13 +93,37 @@ impl SweepPlan {
 
     /// How many runs it stands for.
     pub fn run_count(&self) -> u64 {
-        self.count_for(self.scenarios.len()).unwrap_or(u64::MAX)
+        self.count().unwrap_or(u64::MAX)
+    }
+
+    /// The same; none if they are more than can be counted.
+    pub(super) fn count(&self) -> Option<u64> {
+        let planners = (0..self.scenarios.len()).map(|scenario| self.planner_count(scenario)).sum();
+        self.samples_of_all_styles()?.checked_mul(planners)
     }
 
     /// How many runs there are with so many scenarios; none if they are more than can be counted.
     pub(super) fn count_for(&self, scenarios: usize) -> Option<u64> {
-        let one = (0..self.styles.len()).try_fold(0_u64, |sum, style| sum.checked_add(self.samples_of(style)?))?;
-        one.checked_mul(scenarios as u64)?.checked_mul(self.planners.len() as u64)
+        self.samples_of_all_styles()?.checked_mul(scenarios as u64)?.checked_mul(self.planners.len() as u64)
+    }
+
+    fn samples_of_all_styles(&self) -> Option<u64> {
+        (0..self.styles.len()).try_fold(0_u64, |sum, style| sum.checked_add(self.samples_of(style)?))
+    }
+
+    /// How many planners there are in a scenario: those of the plan, then the scenario's counterfactuals.
+    fn planner_count(&self, scenario: usize) -> u64 {
+        (self.planners.len() + self.scenarios[scenario].counterfactuals.len()) as u64
+    }
+
+    fn planner(&self, place: &Indices) -> &Arm {
+        let own = || &self.scenarios[place.scenario].counterfactuals[place.planner - self.planners.len()];
+        self.planners.get(place.planner).unwrap_or_else(own)
+    }
+
+    /// How many counterfactuals of scenarios are run besides the planners.
+    pub fn counterfactual_count(&self) -> usize {
+        self.scenarios.iter().map(|scenario| scenario.counterfactuals.len()).sum()
     }
 
     /// The paths of everything that varies, sorted, each with whether all of its values are numbers.
@@ -138,17 +167,21 @@ impl SweepPlan {
     /// If there are not so many runs.
     pub fn point(&self, index: u64) -> SweepPoint {
         assert!(index < self.run_count(), "the plan has no run {index}");
-        let planners = self.planners.len() as u64;
-        let (mut rest, planner) = (index / planners, (index % planners) as usize);
+        let mut rest = index;
         let mut style = 0;
-        let scenarios = self.scenarios.len() as u64;
-        // Samples of a style, for one scenario after the other.
-        while rest >= self.samples_of(style).unwrap_or(u64::MAX).saturating_mul(scenarios) {
-            rest -= self.samples_of(style).unwrap_or(0) * scenarios;
+        let planners = (0..self.scenarios.len()).map(|scenario| self.planner_count(scenario)).sum::<u64>();
+        // Samples of a style, for one scenario after the other, with all planners of the scenario.
+        while rest >= self.samples_of(style).unwrap_or(u64::MAX).saturating_mul(planners) {
+            rest -= self.samples_of(style).unwrap_or(0) * planners;
             style += 1;
         }
         let of_one = self.samples_of(style).unwrap_or(1);
-        let (scenario, sample) = ((rest / of_one) as usize, rest % of_one);
+        let mut scenario = 0;
+        while rest >= of_one.saturating_mul(self.planner_count(scenario)) {
+            rest -= of_one * self.planner_count(scenario);
+            scenario += 1;
+        }
+        let (sample, planner) = (rest / self.planner_count(scenario), (rest % self.planner_count(scenario)) as usize);
         let place = Indices { scenario, style, planner, cell: sample / self.samples, draw: sample % self.samples };
         let named = &self.scenarios[scenario].named;
         let inputs = self.values(&place).map(|(factor, value)| (factor.path.written(), value.to_json())).collect();
@@ -157,7 +190,7 @@ impl SweepPlan {
             scenario: named.name.clone(),
             family: named.family.clone(),
             style: self.styles[style].name.clone(),
-            planner: self.planners[planner].name.clone(),
+            planner: self.planner(&place).name.clone(),
             sample,
             seed: self.seed + place.draw,
             inputs,
@@ -191,7 +224,7 @@ impl SweepPlan {
         let place = &point.place;
         let jitter = self.scenarios[place.scenario].jitter;
         let jitter = jitter.map(|jitter| format!("jitter={:?}\n", jitter)).unwrap_or_default();
-        let arms = [&self.changes, &self.styles[place.style], &self.planners[place.planner]];
+        let arms = [&self.changes, &self.styles[place.style], self.planner(place)];
         let arms = arms.map(Arm::canonical).join("\n;\n");
         let inputs: Vec<String> = point.inputs.iter().map(|(path, value)| format!("{path}={value}")).collect();
         format!("{jitter}{arms}\n;\n{}\n;\nseed={}", inputs.join("\n"), point.seed)
@@ -213,7 +246,7 @@ impl SweepPlan {
         if let TomlValue::Table(root) = &mut tree.value {
             self.lay(root, place, instead.as_ref()).map_err(|fault| vec![in_run(fault)])?;
         }
-        assemble(&tree).map_err(|faults| faults.into_iter().map(in_run).collect())
+        assemble_on(&tree, &self.known_roads).map_err(|faults| faults.into_iter().map(in_run).collect())
     }
 
     fn lay(&self, root: &mut Table, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Result<(), Fault> {
@@ -227,7 +260,7 @@ impl SweepPlan {
         path_of("seed", &self.place)?.lay(root, &at(seed))?;
         self.changes.lay(root)?;
         self.styles[place.style].lay(root)?;
-        self.planners[place.planner].lay(root)?;
+        self.planner(place).lay(root)?;
         for (index, (factor, value)) in self.values(place).enumerate() {
             let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value);
             factor.path.lay(root, other.unwrap_or(&value))?;
@@ -238,7 +271,7 @@ impl SweepPlan {
     /// The same fault, with the run in which it shows. What is wrong with a scenario once values vary is blamed on these values.
     fn in_run(&self, fault: Fault, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Fault {
         let scenario = &self.scenarios[place.scenario].named.name;
-        let (style, planner) = (&self.styles[place.style].name, &self.planners[place.planner].name);
+        let (style, planner) = (&self.styles[place.style].name, &self.planner(place).name);
         let run = format!("in the runs of `{scenario}` with the style `{style}` and the planner `{planner}`");
         let values: Vec<String> = self
             .values(place)
@@ -262,7 +295,7 @@ impl SweepPlan {
     pub(super) fn check_extremes(&self) -> Vec<Fault> {
         for scenario in 0..self.scenarios.len() {
             for style in 0..self.styles.len() {
-                for planner in 0..self.planners.len() {
+                for planner in 0..self.planner_count(scenario) as usize {
                     let place = Indices { scenario, style, planner, cell: 0, draw: 0 };
                     let mut faults = self.assembled(&place, None).err().unwrap_or_default();
                     if faults.is_empty() {

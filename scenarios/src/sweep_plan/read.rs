@@ -14,6 +14,7 @@ use super::plan::{PlannedScenario, SweepPlan};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::load;
 use crate::overrides::settings_of;
+use crate::placement::KnownRoads;
 use crate::plan_file::PlanFile;
 use crate::scenario::Scenario;
 use crate::schema::{self, SchemaNode};
@@ -26,10 +27,11 @@ use crate::weather::WeatherConfig;
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 6] = [
+const EMBEDDED: [(&str, &str); 7] = [
     ("quick", include_str!("../../plans/quick.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
     ("contingency", include_str!("../../plans/contingency.toml")),
+    ("inferred", include_str!("../../plans/inferred.toml")),
     ("real-roads", include_str!("../../plans/real-roads.toml")),
     ("any-weight", include_str!("../../plans/any-weight.toml")),
     ("benchmark", include_str!("../../plans/benchmark.toml")),
@@ -109,10 +111,14 @@ fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) ->
         samples: file.samples,
         seed: file.seed,
         place,
+        known_roads: KnownRoads::default(),
     };
     let named = scenarios(tree, folder)?;
-    refuse_too_many(&plan, named.len(), file.max_runs, tree)?;
-    plan.scenarios = named.into_iter().map(|named| planned(named, file.jitter)).collect::<Result<_, _>>()?;
+    refuse_too_many(plan.count_for(named.len()), file.max_runs, tree)?;
+    let read = |named| planned(named, file.jitter, file.counterfactuals);
+    plan.scenarios = named.into_iter().map(read).collect::<Result<_, _>>()?;
+    refuse_too_many(plan.count(), file.max_runs, tree)?;
+    refuse_equal_names(&plan, tree)?;
     let faults = plan.check_extremes();
     if faults.is_empty() { Ok(plan) } else { Err(faults) }
 }
@@ -171,8 +177,19 @@ fn scenarios(tree: &TomlNode, folder: &Path) -> Result<Vec<NamedScenario>, Vec<F
     if faults.is_empty() { Ok(order) } else { Err(faults) }
 }
 
-fn refuse_too_many(plan: &SweepPlan, scenarios: usize, most: u64, tree: &TomlNode) -> Result<(), Vec<Fault>> {
-    let count = plan.count_for(scenarios);
+/// A counterfactual that is called like a planner of the plan could not be told from it.
+fn refuse_equal_names(plan: &SweepPlan, tree: &TomlNode) -> Result<(), Vec<Fault>> {
+    let counterfactuals = plan.scenarios.iter().flat_map(|scenario| {
+        scenario.counterfactuals.iter().map(|counterfactual| (&scenario.named.name, &counterfactual.name))
+    });
+    let is_planner = |name: &str| plan.planners.iter().any(|planner| planner.name == name);
+    let Some((scenario, name)) = counterfactuals.into_iter().find(|(_, name)| is_planner(name)) else { return Ok(()) };
+    let message = format!("{} has a counterfactual {}, which a planner is called, too", quoted(scenario), quoted(name));
+    let place = tree.at("counterfactuals").map_or(&tree.place, |node| &node.place);
+    Err(vec![Fault::at(place, "could not be told apart", message).help("give the planner another `name`")])
+}
+
+fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(), Vec<Fault>> {
     if count.is_some_and(|count| count <= most) {
         return Ok(());
     }
@@ -183,9 +200,14 @@ fn refuse_too_many(plan: &SweepPlan, scenarios: usize, most: u64, tree: &TomlNod
     Err(vec![Fault::at(blamed.map_or(&tree.place, |node| &node.place), "too many", message).help(help)])
 }
 
-/// Reads a scenario and what it extends. Its counterfactuals are no part of a plan.
-fn planned(named: NamedScenario, jitter: Option<StartJitter>) -> Result<PlannedScenario, Vec<Fault>> {
+/// Reads a scenario and what it extends. Its counterfactuals are a part of a plan that asks for them.
+fn planned(
+    named: NamedScenario,
+    jitter: Option<StartJitter>,
+    with_counterfactuals: bool,
+) -> Result<PlannedScenario, Vec<Fault>> {
     let mut tree = load::tree(&named.source).map_err(|error| error.faults().to_vec())?;
+    let counterfactuals = if with_counterfactuals { counterfactuals(&tree)? } else { Vec::new() };
     if let TomlValue::Table(root) = &mut tree.value {
         root.remove("counterfactual");
     }
@@ -196,7 +218,20 @@ fn planned(named: NamedScenario, jitter: Option<StartJitter>) -> Result<PlannedS
         speed_mps: jitter.speed_mps * scale.sqrt(),
     };
     let canonical = format!("{}{}", tree.to_json(), weather(&scenario));
-    Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(scaled) })
+    Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(scaled), counterfactuals })
+}
+
+/// The counterfactuals of a scenario as planners.
+fn counterfactuals(tree: &TomlNode) -> Result<Vec<Arm>, Vec<Fault>> {
+    let scenario = load::assemble(tree)?;
+    let faults = crate::consistency::counterfactual::check(&scenario, tree, false);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let Some(TomlValue::Array(stated)) = tree.at("counterfactual").map(|node| &node.value) else {
+        return Ok(Vec::new());
+    };
+    stated.iter().filter_map(TomlNode::table).map(Arm::counterfactual).collect()
 }
 
 /// What a weather file says, which the tree of the scenario only names.

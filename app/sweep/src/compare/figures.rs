@@ -1,16 +1,17 @@
 //! Figures of every planner, by family and style.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::building::BuildingFigures;
+use super::estimate::{Estimate, Quantiles, Share};
 use super::pairs::{PairedDifference, correct};
 use super::records::{Conditions, Records, RunRecord};
 use crate::error::SweepError;
-use crate::statistics::{mean_interval, quantile, wilson_interval};
 
 /// What the rows of a folder say of the planners.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -34,6 +35,8 @@ pub struct GroupFigures {
     pub family: Option<String>,
     /// The drivers of the other vehicles; none for all.
     pub style: Option<String>,
+    /// Whether there are vehicles in any run.
+    pub has_vehicles: bool,
     /// Each planner.
     pub planners: Vec<PlannerFigures>,
 }
@@ -55,12 +58,22 @@ pub struct PlannerFigures {
     pub first: Share,
     /// Runs in which another went before the ego in a conflict zone.
     pub yields: Share,
+    /// Runs in which the ego went before another in a conflict zone.
+    pub others_yield: Share,
+    /// Runs in which the order is that of the scenario's file and nobody touched anybody, of those whose file states one.
+    pub order_kept: Share,
     /// Runs in which the ego never did its task, though nobody touched anybody.
     pub deadlocks: usize,
     /// Runs in which the ego touched somebody.
     pub contacts: usize,
     /// Those of them in which it moved towards the other at least as fast as the other towards it.
     pub contacts_by_ego: usize,
+    /// Runs in which anybody touched anybody.
+    pub touched: usize,
+    /// Runs in which the ego braked hard: with at least 75 % of its strongest braking.
+    pub hard_braking: Share,
+    /// Runs in which another vehicle did.
+    pub others_hard_braking: Share,
     /// Smallest distance of the ego to another \[m\].
     pub gap_m: Option<Quantiles>,
     /// Shortest time to collision \[s\].
@@ -71,41 +84,10 @@ pub struct PlannerFigures {
     pub plan_median_ms: Option<f64>,
     /// Median over the runs of the 99th percentile of the times of plans \[ms\]; not reproducible.
     pub plan_p99_ms: Option<f64>,
+    /// What became of the building; none without one.
+    pub building: Option<BuildingFigures>,
     /// What is different from the baseline under the same conditions; none for the baseline itself.
     pub versus_baseline: Option<PairedDifference>,
-}
-
-/// A share with Wilson's interval at 95 %.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Share {
-    /// How many.
-    pub count: usize,
-    /// Of how many.
-    pub of: usize,
-    /// Lower and upper bound.
-    pub interval: [f64; 2],
-}
-
-/// A mean with its bootstrap interval at 95 %.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Estimate {
-    /// The mean.
-    pub mean: f64,
-    /// Lower and upper bound.
-    pub interval: [f64; 2],
-    /// Of how many numbers.
-    pub of: usize,
-}
-
-/// Quantiles of a measure over runs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Quantiles {
-    /// The smallest.
-    pub least: f64,
-    /// At 5 %.
-    pub p05: f64,
-    /// The median.
-    pub median: f64,
 }
 
 /// What rows are grouped by besides the style.
@@ -118,27 +100,11 @@ pub enum GroupBy {
     Scenario,
 }
 
-impl Share {
-    fn of(records: &[&RunRecord], is: impl Fn(&RunRecord) -> bool) -> Share {
-        let (count, of) = (records.iter().filter(|record| is(record)).count(), records.len());
-        Share { count, of, interval: wilson_interval(count, of) }
-    }
+/// The name of the driver that a scenario's file states.
+const AS_WRITTEN: &str = "as-written";
 
-    /// The share itself; none of none.
-    pub fn share(&self) -> Option<f64> {
-        (self.of > 0).then(|| self.count as f64 / self.of as f64)
-    }
-}
-
-impl Quantiles {
-    fn of(mut numbers: Vec<f64>) -> Option<Quantiles> {
-        numbers.sort_by(f64::total_cmp);
-        let at = |share| quantile(&numbers, share);
-        Some(Quantiles { least: at(0.0)?, p05: at(0.05)?, median: at(0.5)? })
-    }
-}
-
-/// Compares the planners in the rows of a folder or file. Without a `baseline`, they are compared with the first by name.
+/// Compares the planners in the rows of a folder or file. Without a `baseline`, they are compared with `as-written` if that is
+/// there, otherwise with the first by name.
 ///
 /// # Errors
 /// Files that cannot be read or are no table of runs; a baseline that has no row.
@@ -153,6 +119,7 @@ pub fn compare(path: &Path, baseline: Option<&str>, by: GroupBy) -> Result<Compa
             let known = interplay_building::nearest::suggestion(stated, "there are", &planners);
             return Err(SweepError::Input(format!("no run has the planner `{stated}`; {known}")));
         }
+        None if planners.contains(&AS_WRITTEN) => AS_WRITTEN.to_owned(),
         None => planners.first().copied().unwrap_or_default().to_owned(),
     };
     let groups = grouped(&all, by);
@@ -161,7 +128,8 @@ pub fn compare(path: &Path, baseline: Option<&str>, by: GroupBy) -> Result<Compa
         .enumerate()
         .map(|(index, ((family, style), records))| {
             let planners = planner_figures(&records, &baseline, (index as u64) << 16);
-            GroupFigures { family: family.map(String::from), style: style.map(String::from), planners }
+            let has_vehicles = records.iter().any(|record| record.has_vehicles);
+            GroupFigures { family: family.map(String::from), style: style.map(String::from), has_vehicles, planners }
         })
         .collect();
     let figures = groups.iter_mut().flat_map(|group| &mut group.planners);
@@ -211,6 +179,7 @@ fn planner_figures(records: &[&RunRecord], baseline: &str, stream: u64) -> Vec<P
     for record in records {
         by_planner.entry(&record.planner).or_default().push(record);
     }
+    leave_out_those_of_some_scenarios(&mut by_planner);
     let base: HashMap<Conditions, &RunRecord> =
         by_planner.get(baseline).into_iter().flatten().map(|record| (record.conditions(), *record)).collect();
     let figures = by_planner.iter().enumerate().map(|(index, (planner, records))| {
@@ -225,6 +194,17 @@ fn planner_figures(records: &[&RunRecord], baseline: &str, stream: u64) -> Vec<P
     figures.collect()
 }
 
+/// Leaves out planners that were run in some of the scenarios only, such as counterfactuals of one of them, where others were run in
+/// all: their means would be those of other encounters.
+fn leave_out_those_of_some_scenarios(by_planner: &mut BTreeMap<&str, Vec<&RunRecord>>) {
+    let count =
+        |records: &[&RunRecord]| records.iter().map(|record| &*record.scenario).collect::<BTreeSet<&str>>().len();
+    let counts: BTreeMap<&str, usize> =
+        by_planner.iter().map(|(planner, records)| (*planner, count(records))).collect();
+    let most = counts.values().copied().max().unwrap_or_default();
+    by_planner.retain(|planner, _| counts.get(planner) == Some(&most));
+}
+
 fn figures_of(planner: &str, records: &[&RunRecord], stream: u64) -> PlannerFigures {
     let finished: Vec<&RunRecord> = records.iter().copied().filter(|record| record.is_finished()).collect();
     let count = |is: fn(&RunRecord) -> bool| finished.iter().filter(|record| is(record)).count();
@@ -232,24 +212,28 @@ fn figures_of(planner: &str, records: &[&RunRecord], stream: u64) -> PlannerFigu
         |of: fn(&RunRecord) -> Option<f64>| -> Vec<f64> { finished.iter().filter_map(|one| of(one)).collect() };
     let median = |of: fn(&RunRecord) -> Option<f64>| Quantiles::of(numbers(of)).map(|quantiles| quantiles.median);
     let times_s = numbers(|record| record.completed_s.filter(|_| record.success));
-    let completed_s =
-        mean_interval(&times_s, stream).map(|(mean, interval)| Estimate { mean, interval, of: times_s.len() });
     PlannerFigures {
         planner: planner.to_owned(),
         runs: finished.len(),
         unfinished: records.len() - finished.len(),
-        success: Share::of(&finished, |record| record.success),
-        completed_s,
-        first: Share::of(&finished, |record| record.place == Some(1)),
-        yields: Share::of(&finished, |record| record.yields),
+        success: Share::of(&finished, |record| Some(record.success)),
+        completed_s: Estimate::of(&times_s, stream),
+        first: Share::of(&finished, |record| Some(record.place == Some(1))),
+        yields: Share::of(&finished, |record| Some(record.yields)),
+        others_yield: Share::of(&finished, |record| record.others_yield),
+        order_kept: Share::of(&finished, |record| record.is_order_kept),
         deadlocks: count(|record| record.is_deadlock),
         contacts: count(|record| record.has_contact),
         contacts_by_ego: count(|record| record.has_contact_by_ego),
+        touched: count(|record| record.has_any_contact),
+        hard_braking: Share::of(&finished, |record| record.brakes_hard),
+        others_hard_braking: Share::of(&finished, |record| record.others_brake_hard),
         gap_m: Quantiles::of(numbers(|record| record.gap_m)),
         time_to_collision_s: Quantiles::of(numbers(|record| record.time_to_collision_s)),
         plans_failed: finished.iter().map(|record| record.plans_failed).sum(),
         plan_median_ms: median(|record| record.plan_median_ms),
         plan_p99_ms: median(|record| record.plan_p99_ms),
+        building: BuildingFigures::of(&finished, stream),
         versus_baseline: None,
     }
 }

@@ -1,10 +1,16 @@
 //! What the rows of a sweep say of the planners, and what two versions of the program do differently.
 
+mod building;
+mod estimate;
 mod figures;
 mod pairs;
 mod records;
+mod split;
 mod versions;
 
-pub use figures::{Comparison, Estimate, GroupBy, GroupFigures, PlannerFigures, Quantiles, Share, compare};
-pub use pairs::{PairedDifference, Split};
+pub use building::{BuildingDifference, BuildingFigures};
+pub use estimate::{Estimate, Quantiles, Share};
+pub use figures::{Comparison, GroupBy, GroupFigures, PlannerFigures, compare};
+pub use pairs::PairedDifference;
+pub use split::Split;
 pub use versions::{VersionComparison, VersionGroup, compare_versions};

@@ -2,24 +2,13 @@
 
 use serde::Serialize;
 
+use super::building::BuildingDifference;
 use super::records::RunRecord;
-use crate::statistics::{holm, mean_interval, median, sign_test};
+use super::split::Split;
+use crate::statistics::{holm, mean_interval, median};
 
 /// Times of completion that differ by less count as equal: half a tick of 1/10 scale cars \[s\].
 const MIN_DELAY_S: f64 = 0.05;
-
-/// How often each of two did better, and whether that is chance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Split {
-    /// Pairs in which the first did better.
-    pub wins: usize,
-    /// Pairs in which the other did better.
-    pub losses: usize,
-    /// The probability of a split at least as uneven if both were equally good (McNemar's exact test).
-    pub p: f64,
-    /// The same after Holm's correction for all splits of this kind in the comparison.
-    pub p_holm: f64,
-}
 
 /// What is different with one of two, under the same conditions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -39,13 +28,10 @@ pub struct PairedDifference {
     pub delay_interval_s: Option<[f64; 2]>,
     /// The median over these pairs \[s\].
     pub delay_median_s: Option<f64>,
-}
-
-impl Split {
-    fn of(wins: usize, losses: usize) -> Split {
-        let p = sign_test(wins, losses);
-        Split { wins, losses, p, p_holm: p }
-    }
+    /// Who does not brake hard where the other does.
+    pub hard_braking: Split,
+    /// What is different for the building; none without one.
+    pub building: Option<BuildingDifference>,
 }
 
 impl PairedDifference {
@@ -64,6 +50,10 @@ impl PairedDifference {
         let sooner = delays_s.iter().filter(|delay_s| **delay_s < -MIN_DELAY_S).count();
         let later = delays_s.iter().filter(|delay_s| **delay_s > MIN_DELAY_S).count();
         let delay = mean_interval(&delays_s, stream);
+        let brakes_less =
+            |one: &RunRecord, other: &RunRecord| one.brakes_hard == Some(false) && other.brakes_hard == Some(true);
+        let gentler = pairs.iter().filter(|(one, other)| brakes_less(one, other)).count();
+        let harder = pairs.iter().filter(|(one, other)| brakes_less(other, one)).count();
         PairedDifference {
             pairs: pairs.len(),
             success: Split::of(wins, losses),
@@ -72,21 +62,31 @@ impl PairedDifference {
             delay_s: delay.map(|(mean, _)| mean),
             delay_interval_s: delay.map(|(_, interval)| interval),
             delay_median_s: median(delays_s),
+            hard_braking: Split::of(gentler, harder),
+            building: BuildingDifference::of(&pairs, stream),
         }
     }
 }
 
+/// A kind of split of a difference.
+type SplitOf = fn(&mut PairedDifference) -> Option<&mut Split>;
+
+/// All kinds of splits.
+const KINDS: [SplitOf; 5] = [
+    |one| Some(&mut one.success),
+    |one| Some(&mut one.place),
+    |one| Some(&mut one.time),
+    |one| Some(&mut one.hard_braking),
+    |one| one.building.as_mut().map(|building| &mut building.cheaper),
+];
+
 /// Corrects the probabilities of all differences of a comparison together, those of each kind by themselves.
 pub(super) fn correct(differences: &mut [&mut PairedDifference]) {
-    let corrected = |of: fn(&PairedDifference) -> f64, differences: &[&mut PairedDifference]| {
-        holm(&differences.iter().map(|one| of(one)).collect::<Vec<f64>>())
-    };
-    let success = corrected(|one| one.success.p, differences);
-    let place = corrected(|one| one.place.p, differences);
-    let time = corrected(|one| one.time.p, differences);
-    for (index, one) in differences.iter_mut().enumerate() {
-        one.success.p_holm = success[index];
-        one.place.p_holm = place[index];
-        one.time.p_holm = time[index];
+    for kind in KINDS {
+        let mut splits: Vec<&mut Split> = differences.iter_mut().filter_map(|one| kind(one)).collect();
+        let corrected = holm(&splits.iter().map(|split| split.p).collect::<Vec<f64>>());
+        for (split, p_holm) in splits.iter_mut().zip(corrected) {
+            split.p_holm = p_holm;
+        }
     }
 }

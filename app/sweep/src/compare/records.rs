@@ -9,7 +9,7 @@ use crate::sweep::RUNS_FILE;
 use crate::table::{RowTable, TableColumn};
 
 /// The columns that are read.
-const COLUMNS: [&str; 22] = [
+const COLUMNS: [&str; 31] = [
     "version",
     "scenario",
     "family",
@@ -32,6 +32,15 @@ const COLUMNS: [&str; 22] = [
     "plans_failed",
     "plan_median_ms",
     "plan_p99_ms",
+    "others_yield",
+    "order_kept",
+    "hard_braking",
+    "others_hard_braking",
+    "energy_kwh",
+    "electricity_kwh",
+    "bill",
+    "currency",
+    "discomfort_k_h",
 ];
 
 /// One row.
@@ -61,6 +70,26 @@ pub(super) struct RunRecord {
     pub plans_failed: u64,
     pub plan_median_ms: Option<f64>,
     pub plan_p99_ms: Option<f64>,
+    /// Whether there are vehicles.
+    pub has_vehicles: bool,
+    /// Whether the ego went before another in a conflict zone; none in rows of older versions, like what follows.
+    pub others_yield: Option<bool>,
+    /// Whether the order is that of the scenario's file and nobody touches anybody.
+    pub is_order_kept: Option<bool>,
+    pub brakes_hard: Option<bool>,
+    /// Whether any other vehicle brakes hard.
+    pub others_brake_hard: Option<bool>,
+    pub building: Option<BuildingRecord>,
+}
+
+/// What a row says of a building, over all its days.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct BuildingRecord {
+    pub energy_kwh: f64,
+    pub discomfort_k_h: f64,
+    pub electricity_kwh: Option<f64>,
+    pub bill: Option<f64>,
+    pub currency: Option<Arc<str>>,
 }
 
 impl RunRecord {
@@ -120,6 +149,7 @@ impl Records {
         let times = columns.numbers("time_to_collision_s")?;
         // Timings may have been left out.
         let [medians, tails] = ["plan_median_ms", "plan_p99_ms"].map(|name| columns.numbers(name).unwrap_or(&[]));
+        let newer = NewerColumns::of(&columns);
         let mut word = |column: &[Option<String>], row: usize| words.shared(column[row].as_deref().unwrap_or_default());
         let all = (0..table.row_count).map(|row| RunRecord {
             scenario: word(scenarios, row),
@@ -142,10 +172,59 @@ impl Records {
             plans_failed: failed[row].unwrap_or(0),
             plan_median_ms: medians.get(row).copied().flatten(),
             plan_p99_ms: tails.get(row).copied().flatten(),
+            has_vehicles: counts[row].is_some(),
+            others_yield: newer.others_yield.get(row).copied().flatten().map(|count| count > 0),
+            is_order_kept: newer.order_kept.get(row).copied().flatten(),
+            brakes_hard: newer.hard_braking.get(row).copied().flatten(),
+            others_brake_hard: newer.others_hard_braking.get(row).copied().flatten(),
+            building: newer.building(row),
         });
         let all = all.collect();
         let versions: BTreeSet<&str> = versions.iter().flatten().map(String::as_str).collect();
         Ok(Records { all, versions: versions.into_iter().map(str::to_owned).collect() })
+    }
+}
+
+/// Columns that tables of older versions do not have; empty there.
+struct NewerColumns<'a> {
+    others_yield: &'a [Option<u64>],
+    order_kept: &'a [Option<bool>],
+    hard_braking: &'a [Option<bool>],
+    others_hard_braking: &'a [Option<bool>],
+    energy_kwh: &'a [Option<f64>],
+    discomfort_k_h: &'a [Option<f64>],
+    electricity_kwh: &'a [Option<f64>],
+    bill: &'a [Option<f64>],
+    currency: &'a [Option<String>],
+}
+
+impl<'a> NewerColumns<'a> {
+    fn of(columns: &Columns<'a>) -> Self {
+        let flags = |name| columns.flags(name).unwrap_or(&[]);
+        let numbers = |name| columns.numbers(name).unwrap_or(&[]);
+        NewerColumns {
+            others_yield: columns.counts("others_yield").unwrap_or(&[]),
+            order_kept: flags("order_kept"),
+            hard_braking: flags("hard_braking"),
+            others_hard_braking: flags("others_hard_braking"),
+            energy_kwh: numbers("energy_kwh"),
+            discomfort_k_h: numbers("discomfort_k_h"),
+            electricity_kwh: numbers("electricity_kwh"),
+            bill: numbers("bill"),
+            currency: columns.texts("currency").unwrap_or(&[]),
+        }
+    }
+
+    /// What a row says of a building; none without one.
+    fn building(&self, row: usize) -> Option<BuildingRecord> {
+        let number = |column: &[Option<f64>]| column.get(row).copied().flatten();
+        Some(BuildingRecord {
+            energy_kwh: number(self.energy_kwh)?,
+            discomfort_k_h: number(self.discomfort_k_h)?,
+            electricity_kwh: number(self.electricity_kwh),
+            bill: number(self.bill),
+            currency: self.currency.get(row).and_then(|word| word.as_deref()).map(Arc::from),
+        })
     }
 }
 

@@ -21,6 +21,8 @@ pub struct VersionComparison {
     pub pairs: usize,
     /// How many of them differ.
     pub changed: usize,
+    /// Whether there are vehicles in any run.
+    pub has_vehicles: bool,
     /// Each family, style and planner.
     pub groups: Vec<VersionGroup>,
 }
@@ -81,6 +83,7 @@ pub fn compare_versions(first: &Path, second: &Path) -> Result<VersionComparison
         versions: [before.versions, after.versions],
         unpaired: [before.all.len() - pairs, after.all.len() - pairs],
         pairs,
+        has_vehicles: after.all.iter().any(|record| record.has_vehicles),
         changed: groups.iter().map(|group| group.changed).sum(),
         groups,
     })

@@ -1,16 +1,18 @@
 //! Comparisons as a page.
 
-use interplay_sweep::compare::{Comparison, GroupFigures, PlannerFigures, VersionComparison};
+use interplay_sweep::compare::{Comparison, GroupFigures, PairedDifference, PlannerFigures, VersionComparison};
 
-use super::rows::{DIFFERENCES, FIGURES, difference, figures, heading, version_name};
+use super::rows::{TextRows, differences, figures, heading, version_name, versus};
 use crate::page::{Page, Section};
 use crate::plot::{IntervalBar, IntervalBars, PlotError, TextTable};
 
 /// How the columns are to be read.
 const LEGEND: [&str; 3] = [
     "Success: the ego did its task and touched nobody. Stuck: it never did its task, though nobody touched anybody. First: it had \
-     the first place in the order, or on a network nobody went before it. Contacts by the ego: it moved towards the other at \
-     least as fast as the other towards it.",
+     the first place in the order, or on a network nobody went before it. As in the file: the order and right of way that the \
+     scenario expects, and nobody touched anybody. Contacts by the ego: it moved towards the other at least as fast as the other \
+     towards it; any: of any two vehicles. Yields: in a conflict zone of a network another went first, or the ego did. Brakes \
+     hard: with at least 75 % of its strongest braking.",
     "Intervals of shares are Wilson's, those of means are bootstrapped, at 95 %. Pairs are runs of the same scenario, style, \
      sample and seed. Place: touching nobody where the other does, or nearer to the front; that is no judgement. p is the probability of a split at least as uneven if both were equally good (McNemar's exact test), after \
      Holm's correction for all tests of its kind on the page; a star marks those below 5 %.",
@@ -65,14 +67,9 @@ fn section(index: usize, family: String, groups: Vec<&GroupFigures>, baseline: &
     }
     let mut tables = Vec::new();
     for group in groups {
-        tables.push(table(heading(group), &FIGURES, group.planners.iter().map(figures).collect()));
-        let versus = group.planners.iter().filter_map(|planner| {
-            Some(difference(&planner.planner, planner.versus_baseline.as_ref().filter(|versus| versus.pairs > 0)?))
-        });
-        let versus: Vec<Vec<String>> = versus.collect();
-        if !versus.is_empty() {
-            tables.push(table(format!("{}, versus {baseline}", heading(group)), &DIFFERENCES, versus));
-        }
+        tables.extend(figures(group).into_iter().map(|of| table(heading(group), of)));
+        let title = format!("{}, versus {baseline}", heading(group));
+        tables.extend(versus(group).into_iter().map(|of| table(title.clone(), of)));
     }
     Ok(Section { id: format!("part-{index}"), heading: family, pictures, tables, ..Section::default() })
 }
@@ -86,13 +83,16 @@ pub fn version_comparison_page(title: &str, comparison: &VersionComparison) -> P
          pair: {only_before} of the first, {only_after} of the second."
     );
     let changed = groups.iter().filter(|group| group.changed > 0);
-    let rows: Vec<Vec<String>> = changed.map(|group| difference(&version_name(group), &group.difference)).collect();
-    let tables = vec![table("The second versus the first, where any run differs".to_owned(), &DIFFERENCES, rows)];
+    let changed: Vec<(String, &PairedDifference)> =
+        changed.map(|group| (version_name(group), &group.difference)).collect();
+    let heading = "The second versus the first, where any run differs";
+    let tables = differences(&changed, comparison.has_vehicles);
+    let tables: Vec<TextTable> = tables.into_iter().map(|of| table(heading.to_owned(), of)).collect();
     let section = Section { id: "changes".to_owned(), heading: "Changes".to_owned(), tables, ..Section::default() };
     let opening = std::iter::once(summary).chain([LEGEND[1].to_owned()]).collect();
     Page { title: title.to_owned(), opening, sections: vec![section] }
 }
 
-fn table(title: String, header: &[&str], rows: Vec<Vec<String>>) -> TextTable {
-    TextTable { title, header: header.iter().map(|word| (*word).to_owned()).collect(), rows }
+fn table(title: String, (header, rows): TextRows) -> TextTable {
+    TextTable { title, header, rows }
 }

@@ -1,8 +1,8 @@
 //! Comparisons as text.
 
-use interplay_sweep::compare::{Comparison, VersionComparison};
+use interplay_sweep::compare::{Comparison, PairedDifference, VersionComparison};
 
-use super::rows::{DIFFERENCES, FIGURES, difference, figures, heading, version_name};
+use super::rows::{TextRows, differences, figures, heading, version_name, versus};
 use crate::report::columns::{Align, lines};
 
 /// The figures of every planner, and below each group its differences from the baseline.
@@ -10,14 +10,11 @@ pub fn comparison(comparison: &Comparison) -> String {
     let mut text = format!("{} runs, {} of them without a result\n", comparison.runs, comparison.unfinished);
     for group in &comparison.groups {
         text += &format!("\n{}\n", heading(group));
-        text += &indented(&FIGURES, group.planners.iter().map(figures));
-        let versus = group.planners.iter().filter_map(|planner| {
-            Some(difference(&planner.planner, planner.versus_baseline.as_ref().filter(|versus| versus.pairs > 0)?))
-        });
-        let versus: Vec<Vec<String>> = versus.collect();
+        text.extend(figures(group).iter().map(indented));
+        let versus = versus(group);
         if !versus.is_empty() {
             text += &format!("  versus {}, under the same conditions\n", comparison.baseline);
-            text += &indented(&DIFFERENCES, versus);
+            text.extend(versus.iter().map(indented));
         }
     }
     text += "\n* unlikely to be chance: below 5 % after Holm's correction for all tests of a kind\n";
@@ -33,16 +30,17 @@ pub fn version_comparison(comparison: &VersionComparison) -> String {
          first, {only_after} of the second\n"
     );
     let groups = comparison.groups.iter().filter(|group| group.changed > 0);
-    let rows: Vec<Vec<String>> = groups.map(|group| difference(&version_name(group), &group.difference)).collect();
-    if !rows.is_empty() {
+    let changed: Vec<(String, &PairedDifference)> =
+        groups.map(|group| (version_name(group), &group.difference)).collect();
+    if !changed.is_empty() {
         text += "\nthe second versus the first, where any run differs\n";
-        text += &indented(&DIFFERENCES, rows);
+        text.extend(differences(&changed, comparison.has_vehicles).iter().map(indented));
         text += "\n* unlikely to be chance: below 5 % after Holm's correction for all tests of a kind\n";
     }
     text
 }
 
-fn indented(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    let header: Vec<(&str, Align)> = header.iter().map(|title| (*title, Align::Left)).collect();
-    lines(&header, rows).into_iter().map(|line| format!("  {line}\n")).collect()
+fn indented((header, rows): &TextRows) -> String {
+    let header: Vec<(&str, Align)> = header.iter().map(|title| (title.as_str(), Align::Left)).collect();
+    lines(&header, rows.iter().cloned()).into_iter().map(|line| format!("  {line}\n")).collect()
 }

@@ -1,0 +1,69 @@
+//! Shares, means and quantiles of what runs amount to.
+
+use serde::Serialize;
+
+use super::records::RunRecord;
+use crate::statistics::{mean_interval, quantile, wilson_interval};
+
+/// A share with Wilson's interval at 95 %.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Share {
+    /// How many.
+    pub count: usize,
+    /// Of how many.
+    pub of: usize,
+    /// Lower and upper bound.
+    pub interval: [f64; 2],
+}
+
+/// A mean with its bootstrap interval at 95 %.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Estimate {
+    /// The mean.
+    pub mean: f64,
+    /// Lower and upper bound.
+    pub interval: [f64; 2],
+    /// Of how many numbers.
+    pub of: usize,
+}
+
+/// Quantiles of a measure over runs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Quantiles {
+    /// The smallest.
+    pub least: f64,
+    /// At 5 %.
+    pub p05: f64,
+    /// The median.
+    pub median: f64,
+}
+
+impl Share {
+    /// The share of the runs that do something, of those of which it is known.
+    pub(super) fn of(records: &[&RunRecord], does: impl Fn(&RunRecord) -> Option<bool>) -> Share {
+        let known: Vec<bool> = records.iter().filter_map(|record| does(record)).collect();
+        let (count, of) = (known.iter().filter(|does| **does).count(), known.len());
+        Share { count, of, interval: wilson_interval(count, of) }
+    }
+
+    /// The share itself; none of none.
+    pub fn share(&self) -> Option<f64> {
+        (self.of > 0).then(|| self.count as f64 / self.of as f64)
+    }
+}
+
+impl Estimate {
+    /// The mean of some numbers; none without any. `stream` tells the draws of one interval from another's.
+    pub(super) fn of(numbers: &[f64], stream: u64) -> Option<Estimate> {
+        mean_interval(numbers, stream).map(|(mean, interval)| Estimate { mean, interval, of: numbers.len() })
+    }
+}
+
+impl Quantiles {
+    /// The quantiles of numbers in any order; none without any.
+    pub(super) fn of(mut numbers: Vec<f64>) -> Option<Quantiles> {
+        numbers.sort_by(f64::total_cmp);
+        let at = |share| quantile(&numbers, share);
+        Some(Quantiles { least: at(0.0)?, p05: at(0.05)?, median: at(0.5)? })
+    }
+}

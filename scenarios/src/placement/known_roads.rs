@@ -1,0 +1,88 @@
+//! What is computed of roads, kept for other scenarios on the same road: networks, routes through them, and where these meet.
+//!
+//! Each is a function of its key alone, so what is kept is what would be computed again.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use interplay_planners::Route;
+use interplay_planners::road::network::RoadNetwork;
+
+/// The most entries that are kept of each kind. A plan that varies its road has more; the later ones are computed each time.
+const MAX_ENTRIES: usize = 256;
+
+/// Networks by the text of their road.
+#[derive(Default)]
+pub(crate) struct KnownRoads(Memo<String, KnownNetwork>);
+
+/// A network, and what was computed of it.
+pub(super) struct KnownNetwork {
+    /// The network.
+    pub network: Arc<RoadNetwork>,
+    /// Routes by the words that decide them.
+    routes: Memo<Vec<String>, Route>,
+    /// Routes that know where they meet, by the lanes of each.
+    sets: Memo<Vec<Vec<String>>, Vec<Arc<Route>>>,
+}
+
+impl KnownRoads {
+    /// The network of a road; none for a road that has none.
+    ///
+    /// # Errors
+    /// Those of `compute`, which makes it.
+    pub(super) fn network<E>(
+        &self,
+        road: String,
+        compute: impl FnOnce() -> Result<Option<RoadNetwork>, E>,
+    ) -> Result<Option<Arc<KnownNetwork>>, E> {
+        let network = || -> Result<KnownNetwork, Option<E>> {
+            let network = Arc::new(compute()?.ok_or(None)?);
+            Ok(KnownNetwork { network, routes: Memo::default(), sets: Memo::default() })
+        };
+        self.0.get(road, network).map_or_else(|error| error.map_or(Ok(None), Err), |known| Ok(Some(known)))
+    }
+}
+
+impl KnownNetwork {
+    /// The route that some words decide.
+    ///
+    /// # Errors
+    /// Those of `compute`, which makes it.
+    pub fn route<E>(&self, words: Vec<String>, compute: impl FnOnce() -> Result<Route, E>) -> Result<Arc<Route>, E> {
+        self.routes.get(words, compute)
+    }
+
+    /// These routes, so that they know where they meet.
+    pub fn set_of(&self, routes: Vec<Arc<Route>>) -> Vec<Arc<Route>> {
+        let lanes = |route: &Arc<Route>| route.legs.iter().map(|leg| leg.lane.clone()).collect::<Vec<String>>();
+        let key = routes.iter().map(lanes).collect();
+        let compute = || Ok::<_, ()>(Route::set_of(routes.into_iter().map(Arc::unwrap_or_clone).collect()));
+        self.sets.get(key, compute).map(|set| Vec::clone(&set)).unwrap_or_default()
+    }
+}
+
+/// Values by keys.
+struct Memo<K, V>(Mutex<HashMap<K, Arc<V>>>);
+
+impl<K, V> Default for Memo<K, V> {
+    fn default() -> Self {
+        Memo(Mutex::new(HashMap::new()))
+    }
+}
+
+impl<K: Eq + Hash, V> Memo<K, V> {
+    /// The value of a key, computed if it is not known. Threads that ask at once may each compute it.
+    fn get<E>(&self, key: K, compute: impl FnOnce() -> Result<V, E>) -> Result<Arc<V>, E> {
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(value) = known().get(&key) {
+            return Ok(Arc::clone(value));
+        }
+        let value = Arc::new(compute()?);
+        let mut all = known();
+        if all.len() < MAX_ENTRIES {
+            all.insert(key, Arc::clone(&value));
+        }
+        Ok(value)
+    }
+}
