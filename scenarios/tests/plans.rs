@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use interplay_scenarios::{LoadError, SweepPlan, SweepPoint, embedded_plans};
+use interplay_scenarios::{LoadError, Override, SweepPlan, SweepPoint, embedded_plans};
 
 fn read(text: &str) -> Result<SweepPlan, LoadError> {
     SweepPlan::from_text("plan.toml", text, Path::new(""))
@@ -158,6 +158,22 @@ fn jitter_is_scaled_to_the_vehicles() {
         assert_eq!(scenario.vehicles[0].body.scale, scale);
         let jitter = scenario.start_jitter;
         assert_eq!((jitter.position_m, jitter.speed_mps), (0.1 * scale, 0.1 * scale.sqrt()));
+    }
+}
+
+/// What a plan keeps of a road for its other runs is what a scenario by itself computes.
+#[test]
+fn runs_on_a_known_road_are_those_of_the_scenario_itself() {
+    let plan = sound(
+        "scenario = ['roundabout', 't-junction', 'narrow-passage', 'left-turn', 'on-ramp', 'all-way-stop', 'overtaking']\nsamples = 2\n",
+    );
+    let points = points(&plan);
+    for point in points.iter().chain(&points) {
+        let changes = [Override::Set("counterfactual=[]".to_owned()), Override::Seed(point.seed)];
+        let alone = interplay_scenarios::load(&point.scenario, &changes).expect("sound");
+        let in_plan = plan.scenario(point).expect("sound");
+        assert!(alone.network.is_some() && alone.vehicles.iter().all(|vehicle| vehicle.route.is_in_network()));
+        assert_eq!((&in_plan.network, &in_plan.vehicles), (&alone.network, &alone.vehicles), "{}", point.scenario);
     }
 }
 

@@ -18,6 +18,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     (".ci/run", "the same"),
     ("tests/peers/", "needs Python with CasADi"),
     ("python tests/peers/", "the same"),
+    ("tests/instructions/", "needs valgrind"),
     ("tests/build_times.py", "needs the timings of a cold build"),
     ("pip ", "needs the network"),
     ("rerun", "another program"),
