@@ -75,7 +75,7 @@ fn a_hundred_zones_have_the_radius_of_the_closed_form() {
     }
 }
 
-/// With ones for neighbours Ω has a negative eigenvalue where a zone has two: whatever the gain, some pattern of errors grows.
+/// With ones for neighbours Ω of four zones in a square has a negative eigenvalue: whatever the gain, some pattern of errors grows.
 #[test]
 fn with_the_matrix_as_printed_every_gain_diverges() {
     let lifted = grid(2, 2);
@@ -91,7 +91,7 @@ fn with_the_matrix_as_printed_every_gain_diverges() {
     }
 }
 
-/// A zone without a weight learns nothing and teaches nobody.
+/// A zone without a weight learns nothing, and its neighbours learn nothing from it.
 #[test]
 fn nothing_is_learned_where_the_temperature_is_free() {
     let lifted = Lifted::new(&Model::euler(&Network::grid(1, 3), STEP_S).expect("stable"), 1);

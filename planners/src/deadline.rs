@@ -3,7 +3,7 @@
 use crate::PlanError;
 use crate::trajectory::Statistics;
 
-/// The most work that a plan may take. A later plan is none: its vehicle drives on without it.
+/// The most work that a plan may take. Its vehicle drives on without a plan that took more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanDeadline {
     most_work: usize,

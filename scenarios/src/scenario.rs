@@ -73,7 +73,7 @@ pub struct Scenario {
     /// Seed of all random numbers.
     #[serde(default = "defaults::seed")]
     pub seed: u64,
-    /// How long a plan may take; without the table as long as it likes.
+    /// How long a plan may take; without the table there is no limit.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "vehicles"), example = json!({ "plan_budget_ms": 10.0, "deadline": "enforced" }))]
     pub real_time: Option<RealTime>,

@@ -54,6 +54,30 @@ fn threads_and_shards_do_not_change_the_rows() {
     assert!(rows(&folder, "two") == expected && rows(&folder, "shards") == expected);
 }
 
+/// Two files that say the same have a row each, and a shard under the name of another is refused.
+#[test]
+fn scenarios_that_are_the_same_are_counted_each() {
+    let folder = scratch("sweep-same");
+    for name in ["a", "b"] {
+        let file = format!("{name}.toml");
+        let made = interplay(&folder, &["new", &file, "--from", "lane-change/among-idm"]);
+        assert_eq!(made.code, Some(0), "{made:?}");
+    }
+    fs::copy(folder.join("a.toml"), folder.join("b.toml")).expect("copied");
+    let sweep = ["sweep", "--scenario", "a.toml", "--scenario", "b.toml", "--planner", "idm", "--starts", "1"];
+    let done = interplay(&folder, &[&sweep[..], &["--out", "out"]].concat());
+    assert!(done.stdout.contains("2 runs"), "{done:?}");
+    for shard in ["1/2", "2/2"] {
+        let done = interplay(&folder, &[&sweep[..], &["--out", "shards", "--shard", shard]].concat());
+        assert_eq!(done.code, Some(0), "{done:?}");
+    }
+    let shards = folder.join("shards");
+    fs::copy(shards.join("shard-1-of-2.parquet"), shards.join("shard-2-of-2.parquet")).expect("copied");
+    let merged = interplay(&folder, &["sweep", "merge", "shards"]);
+    assert_eq!(merged.code, Some(2), "{merged:?}");
+    assert!(merged.stderr.contains("is not shard 2/2 but 1/2"), "{}", merged.stderr);
+}
+
 /// When a sweep is killed.
 #[cfg(unix)]
 enum Moment {

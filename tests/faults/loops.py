@@ -172,7 +172,7 @@ class Loop:
             sys.exit(f"{title} does not work with counted allocations: {sound.stderr}")
         count = int(counted.read_text())
         first, done = min(most // 2, count), 0
-        spread = [first + (count - first) * at // (most - first) for at in range(most - first)]
+        spread = [first + 1 + (count - first - 1) * at // (most - first) for at in range(most - first)]
         for n in [*range(1, first + 1), *spread]:
             prepare(folder, old, reference)
             outcome = self.execute(words, folder, [], {**shim, "FAILING_ALLOCATION": str(n)})

@@ -1,7 +1,7 @@
 //! What happens when there is no more memory: exit code 3, as with everything else that cannot be finished.
 //!
-//! Without this the process would be aborted, which a build server cannot tell from a crash. Files are not affected: they have no
-//! name until they are whole.
+//! Without this the process would be aborted, which a build server cannot tell from a crash; elsewhere than on Unix it still is. What
+//! it has written is left as after a kill.
 
 #![expect(unsafe_code, reason = "an allocator is the only place where all allocations can be seen to fail")]
 
@@ -40,15 +40,18 @@ fn or_end(place: *mut u8) -> *mut u8 {
     if place.is_null() { end() } else { place }
 }
 
-/// Ends the process without asking for memory: standard error is not buffered, and nothing that waits for the end is called.
+/// Ends the process without asking for memory: the message goes straight to standard error, and nothing that waits for the end is
+/// called.
 #[cold]
 #[cfg(unix)]
 fn end() -> ! {
-    use std::io::Write;
-
-    let _ = std::io::stderr().write_all(b"Error:   \xc3\x97 there is not enough memory\n");
-    // SAFETY: it takes any number and does not come back.
-    unsafe { libc::_exit(3) }
+    const MESSAGE: &[u8] = b"Error:   \xc3\x97 there is not enough memory\n";
+    const EXIT_CODE: i32 = 3;
+    // SAFETY: the message is as long as stated; `_exit` takes any number and does not come back.
+    unsafe {
+        libc::write(libc::STDERR_FILENO, MESSAGE.as_ptr().cast(), MESSAGE.len());
+        libc::_exit(EXIT_CODE)
+    }
 }
 
 #[cold]

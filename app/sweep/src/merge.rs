@@ -36,7 +36,13 @@ pub fn merge(folder: &Path, target: Option<&Path>, timings: bool) -> Result<Merg
     let readers = sources.iter().map(|path| TableReader::open(path)).collect::<Result<Vec<TableReader>, _>>()?;
     let Some(first) = readers.first() else { return Err(SweepError::Input("there is nothing to merge".to_owned())) };
     let schema = first.schema()?;
-    for (reader, path) in readers.iter().zip(&sources) {
+    for (index, (reader, path)) in readers.iter().zip(&sources).enumerate() {
+        let named = Shard { index: index as u32 + 1, count: sources.len() as u32 }.to_string();
+        let stated = reader.about(SHARD_NOTE).unwrap_or_default();
+        if sources.len() > 1 && stated != named {
+            let message = format!("`{}` is not shard {named} but {stated}; make that shard again", path.display());
+            return Err(SweepError::Input(message));
+        }
         if reader.about(PLAN_NOTE) != first.about(PLAN_NOTE) || reader.schema()? != schema {
             let [one, other] = [&sources[0], path].map(|path| path.display());
             let message = format!("`{one}` and `{other}` are of different plans; run the shards of one plan again");

@@ -152,7 +152,7 @@ impl Part {
         let mut runs = checked;
         runs.sort_unstable();
         // Of the latter there is one row.
-        let mut arms: (Option<RunKey>, Vec<[String; 2]>) = (None, Vec::new());
+        let mut arms: (Option<RunKey>, Vec<[String; 3]>) = (None, Vec::new());
         runs.dedup_by(|next, before| {
             if next.0 != before.0 {
                 return false;
@@ -169,10 +169,10 @@ impl Part {
     }
 }
 
-/// The drivers of a run, as the plan names them.
-fn arm_of(plan: &SweepPlan, number: u64) -> [String; 2] {
+/// The scenario and the drivers of a run, as the plan names them.
+fn arm_of(plan: &SweepPlan, number: u64) -> [String; 3] {
     let point = plan.point(number);
-    [point.style, point.planner]
+    [point.scenario, point.style, point.planner]
 }
 
 /// Makes the folder and writes the plan into it.

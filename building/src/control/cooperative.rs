@@ -7,8 +7,8 @@
 //! U_k+1 = U_k + L Ω E_k + C (E_k+1 − …)      E_k+1 = (I + GC)⁻¹ (I − G L Ω) E_k    on days that are all the same
 //! ```
 //!
-//! The source calls Ω the adjacency matrix with ones on the diagonal. That has negative eigenvalues, and any uniform L > 0
-//! diverges. It also equates spectral radius, largest singular value and diagonal. The radius of the block lower triangular
+//! The source calls Ω the adjacency matrix with ones on the diagonal. That has a negative eigenvalue wherever two
+//! neighbours of a zone are not neighbours of each other, and then any uniform L > 0 diverges. It also equates spectral radius, largest singular value and diagonal. The radius of the block lower triangular
 //! matrix is that of its diagonal blocks, max_t ρ(I − B diag(L_i(t,t)) Ω), and decides the end; the largest singular value
 //! decides whether errors grow on the way, and may be far above one when the radius is below.
 
@@ -34,7 +34,7 @@ pub enum LearnedErrors {
 }
 
 impl LearnedErrors {
-    /// What is learned from stacked errors \[K\]; errors without a weight are none, and nothing is learned there.
+    /// What is learned from stacked errors \[K\]. An error without a weight does not count, and 0 is learned in its place.
     pub fn of(self, lifted: &Lifted, errors_k: &[Option<f64>]) -> Vec<f64> {
         let n = lifted.zones();
         let mut out: Vec<f64> = errors_k.iter().map(|error_k| error_k.unwrap_or(0.0)).collect();
@@ -191,7 +191,7 @@ impl LearningLaw {
     }
 }
 
-/// Up to so many zones the spectral radius is computed from the matrix itself.
+/// The largest number of zones for which the spectral radius is computed from the matrix itself.
 const MOST_DENSE_ZONES: usize = 64;
 
 /// ρ(I − h₁ L), for what a law makes of the errors of one step \[kW\]: h₁ is the rise of all zones a step after one kilowatt.

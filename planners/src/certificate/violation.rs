@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::rectangles::overlap_m;
-use crate::{Agent, Scene, State, Trajectory};
+use crate::{Agent, Body, Scene, State, Trajectory};
 
 /// States may differ from those that follow from the inputs by this share of the vehicle's length.
 const STATE_TOLERANCE: f64 = 1e-6;
@@ -116,6 +116,11 @@ pub(super) fn first_off_road(scene: &Scene, plan: &Trajectory, share: f64) -> Op
     if is_off(&ego.state) { None } else { plan.states.iter().position(is_off) }
 }
 
+/// How far the corners of a body are from its position \[m\]: bodies further apart than both cannot touch.
+fn farthest_corner_m(body: &Body) -> f64 {
+    libm::hypot(body.front_m.max(body.rear_m), 0.5 * body.width_m)
+}
+
 /// Where a vehicle is expected to be.
 pub(super) fn expected(other: &Agent, stage: usize) -> Option<&State> {
     let states = &other.prediction.states;
@@ -125,9 +130,13 @@ pub(super) fn expected(other: &Agent, stage: usize) -> Option<&State> {
 /// The first stage at which the body touches that of another where it is expected to be.
 pub(super) fn first_contact(scene: &Scene, plan: &Trajectory, other: &Agent) -> Option<usize> {
     let tolerance_m = PLACE_TOLERANCE * length_m(&scene.ego);
+    let reach_m = [&scene.ego, other].map(|agent| farthest_corner_m(&agent.body)).iter().sum::<f64>();
     let touches = |stage: usize| {
-        let body = scene.ego.body.corners(&plan.states[stage]);
-        expected(other, stage).is_some_and(|there| overlap_m(&body, &other.body.corners(there)) > tolerance_m)
+        let here = &plan.states[stage];
+        expected(other, stage).is_some_and(|there| {
+            let is_far = libm::hypot(here.x_m - there.x_m, here.y_m - there.y_m) > reach_m;
+            !is_far && overlap_m(&scene.ego.body.corners(here), &other.body.corners(there)) > tolerance_m
+        })
     };
     let mut stages = 0..plan.states.len();
     if stages.next().is_none_or(touches) { None } else { stages.find(|stage| touches(*stage)) }

@@ -6,7 +6,7 @@ use crate::frame::{Origin, VehicleFrame};
 #[derive(Clone, Debug, Default)]
 pub struct Planning {
     times_ms: Vec<f64>,
-    /// How long a plan may take; none where nobody asks \[ms\].
+    /// How long a plan may take, if the scenario says so \[ms\].
     budget_ms: Option<f64>,
     /// Plans that failed and were replaced by a fallback.
     pub failed: usize,
@@ -39,7 +39,7 @@ impl Planning {
         self.times_ms.len()
     }
 
-    /// How many plans took longer than they may, by the clock; none where nobody asks.
+    /// How many plans took longer than they may, by the clock, if the scenario says how long that is.
     pub fn over_budget(&self) -> Option<usize> {
         let budget_ms = self.budget_ms?;
         Some(self.times_ms.iter().filter(|time_ms| **time_ms > budget_ms).count())
