@@ -3,6 +3,11 @@
 use interplay_planners::Body;
 use interplay_scenarios::{Vehicle, VehicleClass};
 
+/// Length of the longest vehicle at 1/10 scale \[m\].
+const MAX_SCALE_MODEL_M: f64 = 1.7;
+/// The scale of vehicles of full size.
+const FULL_SIZE_SCALE: f64 = 10.0;
+
 /// What a vehicle looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyStyle {
@@ -29,8 +34,10 @@ impl BodyStyle {
     }
 
     fn of_size(body: &Body) -> BodyStyle {
-        let length = (body.front_m + body.rear_m) / body.scale;
-        let width = body.width_m / body.scale;
+        let length_m = body.front_m + body.rear_m;
+        // A body without a class does not say its scale: longer than any lorry at 1/10 scale, it is of full size.
+        let scale = if body.scale == 1.0 && length_m > MAX_SCALE_MODEL_M { FULL_SIZE_SCALE } else { body.scale };
+        let (length, width) = (length_m / scale, body.width_m / scale);
         match (length, width) {
             (length, _) if length > 0.8 => BodyStyle::Lorry,
             (length, _) if length > 0.52 => BodyStyle::Van,
@@ -48,6 +55,8 @@ mod tests {
 
     #[test]
     fn vehicles_look_like_their_class_or_size() {
+        let full_size = load("full-size/lane-change", &[]).expect("embedded");
+        assert_eq!(BodyStyle::of(&full_size.vehicles[0]), BodyStyle::Car, "without a class");
         let scenario = load("on-ramp/five", &[]).expect("embedded");
         let style = |name: &str| BodyStyle::of(scenario.vehicle(name).expect("there"));
         assert_eq!((style("lorry"), style("front")), (BodyStyle::Lorry, BodyStyle::Car));

@@ -51,8 +51,8 @@ const WHOLE_HEIGHT_RATIO: f64 = 2.0;
 /// Size of the picture from the side, and its focal length \[px\].
 const SIDE_PX: [f64; 2] = [480.0, 360.0];
 const SIDE_FOCAL_PX: f64 = 430.0;
-/// Distance of this camera from the middle of what is seen from above, by the width of that; how steeply it looks down,
-/// and how far to the left of the ego's first direction \[rad\].
+/// Distance of this camera from what it looks at, by the width of what is seen from above; how steeply it looks down, and how
+/// far to the right of the ego's first direction \[rad\].
 const SIDE_DISTANCE_RATIO: f64 = 0.55;
 const SIDE_PITCH_RAD: f64 = 0.5;
 const SIDE_YAW_RAD: f64 = 0.35;
@@ -228,7 +228,10 @@ impl Cameras {
     ) -> RecordingStreamResult<()> {
         let extent_m = view.size_px[0] / view.px_per_m;
         stream.log(TOP, &from_above(view.centre_m, HEIGHT_RATIO * extent_m))?;
-        stream.log(SIDE, &from_the_side(view.centre_m, SIDE_DISTANCE_RATIO * extent_m, yaw_rad - SIDE_YAW_RAD))?;
+        // Between the middle of what is seen and the ego, so that the ego never is below the camera.
+        let ego = tick.moment.states[scenario.ego_index()].position();
+        let target_m = [0, 1].map(|axis| 0.5 * (view.centre_m[axis] + ego[axis]));
+        stream.log(SIDE, &from_the_side(target_m, SIDE_DISTANCE_RATIO * extent_m, yaw_rad - SIDE_YAW_RAD))?;
         self.log_labels(stream, scenario, tick, view)?;
         self.log_star(stream, scenario, tick.time_s)
     }

@@ -17,7 +17,7 @@ use super::palette::opaque;
 use super::panels::{about, events, status};
 use super::planner_panels;
 use super::plots::{self, Plots};
-use super::time_plot::TimePlot;
+use super::time_plot::{TimePlot, ranged};
 use super::timelines::{SIM_TIME, TICK};
 use crate::palette::GRASS;
 
@@ -87,7 +87,8 @@ fn longest_name(scenario: &Scenario) -> usize {
 }
 
 fn speeds(scenario: &Scenario, plots: &Plots) -> LayoutNode {
-    let plot = TimePlot::new(scenario.duration_s, "Speeds [m/s]", vec!["/plots/speed/**".to_owned()]);
+    let title = ranged("Speeds", plots.speeds_mps(), "m/s");
+    let plot = TimePlot::new(scenario.duration_s, &title, vec!["/plots/speed/**".to_owned()]);
     let plot = match plots.speeds_mps() {
         Some(range) => plot.around(range),
         None => plot,
@@ -97,7 +98,9 @@ fn speeds(scenario: &Scenario, plots: &Plots) -> LayoutNode {
 
 fn gap(scenario: &Scenario, plots: &Plots) -> LayoutNode {
     let contents = if plots.has(plots::GAP) { vec![format!("/{}", plots::GAP)] } else { Vec::new() };
-    TimePlot::new(scenario.duration_s, "Gap to the nearest [m]", contents).alone()
+    let title =
+        plots.smallest_gap_m().map_or("Gap [m]".to_owned(), |gap_m| format!("Gap of the ego, least {gap_m:.2} m"));
+    TimePlot::new(scenario.duration_s, &title, contents).alone()
 }
 
 /// What goes on in the planners, what they apply, and how long they take.

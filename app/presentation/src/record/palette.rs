@@ -43,6 +43,11 @@ pub fn opaque([red, green, blue]: Colour) -> Color {
     Color::from_rgb(red, green, blue)
 }
 
+/// Colours of zones, in their order; who comes later starts again.
+pub fn zone(index: usize) -> NamedColour {
+    [GREEN, ORANGE, SKY, PURPLE, YELLOW][index % 5]
+}
+
 /// Colours of a planner's numbers, by their place among those that share a panel.
 pub fn series(index: usize) -> NamedColour {
     let palette = [GREEN, ORANGE, SKY, PURPLE, YELLOW, NEUTRAL, FAILURE];

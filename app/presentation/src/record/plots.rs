@@ -43,6 +43,8 @@ pub struct Plots {
     seen: BTreeMap<String, String>,
     /// Least and greatest speed so far \[m/s\].
     speeds_mps: Option<[f64; 2]>,
+    /// Smallest gap of the ego so far \[m\].
+    smallest_gap_m: Option<f64>,
 }
 
 impl Plots {
@@ -73,7 +75,7 @@ impl Plots {
             planners.push(PlannerPaths { folder, end, explanation: vehicle.driver.explanation() });
         }
         style(stream, GAP, "gap", NEUTRAL.solid(), false)?;
-        Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None })
+        Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None, smallest_gap_m: None })
     }
 
     /// Whether there is anything at a path that not every run has.
@@ -84,6 +86,11 @@ impl Plots {
     /// Least and greatest speed so far \[m/s\].
     pub fn speeds_mps(&self) -> Option<[f64; 2]> {
         self.speeds_mps
+    }
+
+    /// Smallest gap of the ego so far \[m\].
+    pub fn smallest_gap_m(&self) -> Option<f64> {
+        self.smallest_gap_m
     }
 
     /// The recorded numbers of these quantities, of one kind of planner or of all.
@@ -125,6 +132,8 @@ impl Plots {
         }
         if let Some(gap) = frame.gap_m {
             self.seen.insert(GAP.to_owned(), String::new());
+            let least_m = frame.smallest_gap_m.unwrap_or(gap).min(gap);
+            self.smallest_gap_m = Some(self.smallest_gap_m.map_or(least_m, |known| known.min(least_m)));
             stream.log(GAP, &Scalars::single(gap))?;
         }
         self.reasons(stream, frame)?;

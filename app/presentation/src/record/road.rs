@@ -15,6 +15,9 @@ const GROUND_LANES: f64 = -0.02;
 const LINES_LANES: f64 = 0.005;
 /// How far the road goes on beyond the vehicles, in lane widths.
 const BEYOND_LANES: f64 = 40.0;
+/// Length of the pieces of a line, in lane widths, and most of them between two points.
+const PIECE_LANES: f64 = 2.0;
+const MAX_PIECES: f64 = 2000.0;
 /// How far the ground reaches beyond the road, as a share of the larger of the road's extents.
 const GROUND_BEYOND_RATIO: f64 = 3.0;
 
@@ -47,10 +50,25 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
         ("arrows", &arrows, 1.4, ARROW),
     ] {
         if !lines.is_empty() {
-            stream.log_static(format!("world/road/{part}"), &lines_at(lines, height_m, points, colour))?;
+            let lines: Vec<WorldLine> = lines.iter().map(|line| in_pieces(line, PIECE_LANES * shapes.lane_m)).collect();
+            stream.log_static(format!("world/road/{part}"), &lines_at(&lines, height_m, points, colour))?;
         }
     }
     Ok(())
+}
+
+/// The same line with points that are not further apart than a distance \[m\]: between points far from and near to a camera
+/// the viewer draws lines of the wrong width.
+fn in_pieces(line: &[[f64; 2]], longest_m: f64) -> WorldLine {
+    let pieces = line.windows(2).flat_map(|pair| {
+        let [from, to] = [pair[0], pair[1]];
+        let count = (libm::hypot(to[0] - from[0], to[1] - from[1]) / longest_m).ceil().clamp(1.0, MAX_PIECES) as u32;
+        let at = move |part: u32| {
+            [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * f64::from(part) / f64::from(count))
+        };
+        (0..count).map(at)
+    });
+    pieces.chain(line.last().copied()).collect()
 }
 
 /// Lines at a height, as thick on the screen from wherever they are seen.
@@ -80,4 +98,15 @@ fn around(shapes: &RoadShapes, [low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
 pub fn turn(angle_rad: f64) -> [[f32; 3]; 3] {
     let (sin, cos) = (angle_rad.sin() as f32, angle_rad.cos() as f32);
     [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_pieces;
+
+    #[test]
+    fn pieces_are_short_and_end_where_the_line_ends() {
+        let line = in_pieces(&[[0.0, 0.0], [10.0, 0.0], [10.0, 1.0]], 3.0);
+        assert_eq!(line, [[0.0, 0.0], [2.5, 0.0], [5.0, 0.0], [7.5, 0.0], [10.0, 0.0], [10.0, 1.0]]);
+    }
 }

@@ -14,6 +14,14 @@ const MAX_LEGEND_RATIO: f64 = 0.5;
 /// Space above and below the curves, as a share of their range.
 const RANGE_MARGIN_SHARE: f64 = 0.08;
 
+/// A title that says between which values its curves are: on a low plot the viewer may write no numbers at the axis.
+pub fn ranged(title: &str, range: Option<[f64; 2]>, unit: &str) -> String {
+    match range {
+        Some([low, high]) => format!("{title}: {low:.1} to {high:.1} {unit}"),
+        None => format!("{title} [{unit}]"),
+    }
+}
+
 /// A plot over a run of a duration \[s\].
 pub struct TimePlot {
     view: View,
@@ -56,5 +64,16 @@ impl TimePlot {
         let at = |time_s: f64| TimeRangeBoundary::Absolute(TimeInt((time_s * 1e9) as i64));
         let axis = TimeAxis::new().with_view_range(ViewRange(TimeRange { start: at(0.0), end: at(end_s) }));
         LayoutNode::View(self.view.with("TimeAxis", axis).with("PlotLegend", legend))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ranged;
+
+    #[test]
+    fn a_title_says_the_range_where_it_is_known() {
+        assert_eq!(ranged("Speeds", Some([0.64, 1.28]), "m/s"), "Speeds: 0.6 to 1.3 m/s");
+        assert_eq!(ranged("Speeds", None, "m/s"), "Speeds [m/s]");
     }
 }

@@ -14,9 +14,9 @@ const ROOM_PX: usize = 24;
 /// Width of a wall.
 const WALL_PX: usize = 1;
 /// Width of the strip around the building that stands for the outdoor air, of one floor and of several, which have names.
-const OUTDOORS_PX: [usize; 2] = [10, 34];
+const OUTDOORS_PX: [usize; 2] = [10, 44];
 /// Space between two floors.
-const BETWEEN_FLOORS_PX: usize = 18;
+const BETWEEN_FLOORS_PX: usize = 40;
 /// In more rooms than this a label has no space for a name.
 const MAX_NAMED_ROOMS: usize = 16;
 /// In more rooms than this there is no space for labels.
@@ -65,12 +65,13 @@ impl FloorPlanLayer {
         let labelled = if names.len() <= MAX_LABELLED_ROOMS { names.len() } else { 0 };
         let labels =
             names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]).chain(self.floor_names());
-        // The viewer writes labels below their places.
+        // The viewer writes labels below their places. Above several floors are their names.
+        let outdoors_y = if self.rooms.floors > 1 { height as f32 - 40.0 } else { 0.0 };
         let centre = |index: usize| {
             let [left, top] = self.corner(index);
             [(left + ROOM_PX / 2) as f32, (top + ROOM_PX / 4) as f32]
         };
-        let places = (0..labelled).map(centre).chain([[0.5 * width as f32, 0.0]]).chain(self.floor_places());
+        let places = (0..labelled).map(centre).chain([[0.5 * width as f32, outdoors_y]]).chain(self.floor_places());
         let labels = Points2D::update_fields().with_positions(places).with_labels(labels).with_show_labels(true);
         stream.log("building/plan/labels", &labels)
     }
@@ -91,7 +92,7 @@ impl FloorPlanLayer {
         let place = move |floor: usize| {
             let [left, top] = self.corner(floor * rows * columns);
             let wide = columns * (ROOM_PX + WALL_PX);
-            [left as f32 + 0.5 * wide as f32, top as f32 - 0.8 * BETWEEN_FLOORS_PX as f32]
+            [left as f32 + 0.5 * wide as f32, top as f32 - BETWEEN_FLOORS_PX as f32]
         };
         (0..if floors > 1 { floors } else { 0 }).map(place)
     }
@@ -104,7 +105,7 @@ impl FloorPlanLayer {
     }
 
     /// Picture elements across and down.
-    fn size(&self) -> [usize; 2] {
+    pub fn size(&self) -> [usize; 2] {
         let FloorPlan { columns, rows, floors } = self.rooms;
         let along = |blocks: usize, rooms: usize| {
             2 * self.outdoors_px() + blocks * (rooms * (ROOM_PX + WALL_PX) - WALL_PX) + (blocks - 1) * BETWEEN_FLOORS_PX

@@ -3,7 +3,10 @@
 use super::super::blueprint::{LayoutNode, View};
 use super::super::layout::rows;
 use super::super::panels::{about, events};
-use super::super::time_plot::TimePlot;
+use super::super::re_sdk_types::blueprint::archetypes::VisualBounds2D;
+use super::super::re_sdk_types::blueprint::components::VisualBounds2D as ViewBounds;
+use super::super::re_sdk_types::datatypes::Range2D;
+use super::super::time_plot::{TimePlot, ranged};
 use super::{BuildingLayer, design, series};
 
 /// Most zones with a plot of their own on the first tab.
@@ -46,7 +49,8 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     let letters = |names: &[&str]| names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
     let names: Vec<&str> =
         first_zones(building_layer).iter().map(|index| building_layer.names[*index].as_str()).collect();
-    let outdoors = plot("Outdoors [°C]", vec!["/building/outdoors/**".to_owned()]);
+    let outdoors =
+        plot(&ranged("Outdoors", building_layer.outdoors_range_c, "°C"), vec!["/building/outdoors/**".to_owned()]);
     let heat = plot("Heating (+) and cooling (−) [kW]", inputs(building_layer));
     let cost = plot("Cost of each day, J", vec!["/building/iteration/**".to_owned()]);
     let mut below = vec![
@@ -58,10 +62,10 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
         TextPanels::Elsewhere => {}
         TextPanels::About => below.push((1.2, about())),
         TextPanels::AboutAndEvents => {
-            below.push((1.2, LayoutNode::Column(vec![(1.3, about()), (1.0, events())])));
+            below.push((1.7, LayoutNode::Column(vec![(1.3, about()), (1.0, events())])));
         }
     }
-    let above = LayoutNode::Row(vec![(1.0, floor()), (1.9, temperatures(building_layer))]);
+    let above = LayoutNode::Row(vec![(1.0, floor(building_layer)), (1.9, temperatures(building_layer))]);
     LayoutNode::Column(vec![(1.5, above), (1.0, LayoutNode::Row(below))])
 }
 
@@ -80,10 +84,13 @@ fn spread(count: usize, most: usize) -> Vec<usize> {
 
 /// Plots that together show every zone: one each, or one for each group where there are many.
 fn every_zone(building_layer: &BuildingLayer) -> LayoutNode {
-    let single = |&index: &usize| temperature(building_layer, index, QUARTER_WIDTH);
+    let single = |&index: &usize| temperature(building_layer, index, None);
     let grouped = |(number, group): (usize, &Vec<usize>)| {
         let (first, last) = (group.first().copied().unwrap_or(0), group.last().copied().unwrap_or(0));
-        let title = format!("{} to {} [°C]", building_layer.names[first], building_layer.names[last]);
+        let title = format!("{} to {}", building_layer.names[first], building_layer.names[last]);
+        let ranges = group.iter().filter_map(|zone| building_layer.zone_ranges_c.get(*zone).copied());
+        let range = ranges.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
+        let title = ranged(&title, range, "°C");
         let plot = TimePlot::new(building_layer.duration_s, &title, vec![format!("/{}", series::group(number))]);
         plot.around(building_layer.range_c.unwrap_or(USUAL_RANGE_C)).alone()
     };
@@ -119,29 +126,32 @@ fn plans(building_layer: &BuildingLayer) -> Vec<LayoutNode> {
     all.filter(|(path, _)| building_layer.plans.has(path)).map(|(_, view)| view).collect()
 }
 
-fn floor() -> LayoutNode {
-    LayoutNode::View(View::new(
-        "2D",
-        "Floor plan by temperature: blue cold, red warm",
-        vec!["/building/plan/**".to_owned()],
-    ))
+fn floor(building_layer: &BuildingLayer) -> LayoutNode {
+    let [width, height] = building_layer.plan.size();
+    let bounds = Range2D { x_range: [0.0, width as f64].into(), y_range: [0.0, height as f64].into() };
+    let title = "Floor plan: blue is too cold, red too warm";
+    let view = View::new("2D", title, vec!["/building/plan/**".to_owned()]);
+    LayoutNode::View(view.with("VisualBounds2D", VisualBounds2D::new(ViewBounds(bounds))))
 }
 
 /// The temperatures of the first tab, two plots in a row.
 fn temperatures(building_layer: &BuildingLayer) -> LayoutNode {
     let zones = first_zones(building_layer);
     let width = if zones.len() > 1 { TEMPERATURE_WIDTH } else { 2.0 * TEMPERATURE_WIDTH };
-    LayoutNode::Column(rows(zones.iter().map(|index| temperature(building_layer, *index, width)).collect(), 2))
+    LayoutNode::Column(rows(zones.iter().map(|index| temperature(building_layer, *index, Some(width))).collect(), 2))
 }
 
-/// The temperature of a zone against what is wanted.
-fn temperature(building_layer: &BuildingLayer, index: usize, width: f64) -> LayoutNode {
+/// The temperature of a zone against what is wanted, with a legend in a plot of a width.
+fn temperature(building_layer: &BuildingLayer, index: usize, width: Option<f64>) -> LayoutNode {
     let paths = ["temperature", "reference", "band/**"];
     let paths = paths.map(|what| format!("/building/zone/{}/{what}", index + 1));
-    let title = format!("{} [°C]", building_layer.names[index]);
+    let title = ranged(&building_layer.names[index], building_layer.zone_ranges_c.get(index).copied(), "°C");
     let plot = TimePlot::new(building_layer.duration_s, &title, paths.to_vec());
     let plot = plot.around(building_layer.range_c.unwrap_or(USUAL_RANGE_C));
-    plot.with_legend("comfort, high".len(), width)
+    match width {
+        Some(width) => plot.with_legend("comfort, high".len(), width),
+        None => plot.alone(),
+    }
 }
 
 fn inputs(building_layer: &BuildingLayer) -> Vec<String> {

@@ -47,8 +47,11 @@ pub struct BuildingLayer {
     groups: Vec<Vec<usize>>,
     /// How long the run is \[s\].
     duration_s: f64,
-    /// Coldest and warmest of all zones \[°C\].
+    /// Coldest and warmest of all zones, wanted temperatures included \[°C\].
     range_c: Option<[f64; 2]>,
+    /// Coldest and warmest of each zone, and outdoors \[°C\].
+    zone_ranges_c: Vec<[f64; 2]>,
+    outdoors_range_c: Option<[f64; 2]>,
     plan: FloorPlanLayer,
     series: ZonePlots,
     plans: DesignPlots,
@@ -72,7 +75,18 @@ impl BuildingLayer {
         let series = ZonePlots::begin(stream, &names, &shown, network.limits(), setpoints.band_k)?;
         let duration_s = building.step_s * (scenario.days() * building.steps_per_day()) as f64;
         let plans = DesignPlots::begin(stream, &names, &shown, scenario.controller().plans())?;
-        Ok(Some(BuildingLayer { names, shown, groups, duration_s, range_c: None, plan, series, plans }))
+        Ok(Some(BuildingLayer {
+            names,
+            shown,
+            groups,
+            duration_s,
+            range_c: None,
+            zone_ranges_c: Vec::new(),
+            outdoors_range_c: None,
+            plan,
+            series,
+            plans,
+        }))
     }
 
     /// Logs one step.
@@ -81,6 +95,14 @@ impl BuildingLayer {
     /// If Rerun refuses a component.
     pub fn step(&mut self, stream: &RecordingStream, frame: &BuildingFrame) -> RecordingStreamResult<()> {
         stream.set_time_sequence(ITERATION, i64::try_from(frame.day + 1).unwrap_or(i64::MAX));
+        let widened = |range: [f64; 2], value: f64| [range[0].min(value), range[1].max(value)];
+        self.outdoors_range_c = Some(widened(self.outdoors_range_c.unwrap_or([frame.ambient_c; 2]), frame.ambient_c));
+        if self.zone_ranges_c.is_empty() {
+            self.zone_ranges_c = frame.zones.iter().map(|now| [now.temperature_c; 2]).collect();
+        }
+        for (range, now) in self.zone_ranges_c.iter_mut().zip(&frame.zones) {
+            *range = widened(*range, now.temperature_c);
+        }
         for now in &frame.zones {
             let [low_c, high_c] = self.range_c.unwrap_or([now.temperature_c; 2]);
             let wanted_c = now.reference_c.unwrap_or(now.temperature_c);

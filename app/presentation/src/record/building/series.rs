@@ -36,7 +36,7 @@ impl ZonePlots {
         band_k: f64,
     ) -> RecordingStreamResult<ZonePlots> {
         for (place, &index) in shown.iter().enumerate() {
-            let series_colour = palette::series(place);
+            let series_colour = palette::zone(place);
             style(stream, &zone(index, "temperature"), "temperature", series_colour.solid(), 2.0)?;
             style(stream, &zone(index, "reference"), "wanted", NEUTRAL.solid(), 1.5)?;
             style(stream, &zone(index, "band/low"), "comfort, low", MARKING.veiled(150), 1.0)?;
@@ -109,7 +109,7 @@ pub fn begin_groups(stream: &RecordingStream, names: &[String], groups: &[Vec<us
     for (number, zones) in groups.iter().enumerate() {
         let lines = SeriesLines::new()
             .with_names(zones.iter().map(|zone| names[*zone].as_str()))
-            .with_colors((0..zones.len()).map(|place| palette::series(place).solid()))
+            .with_colors((0..zones.len()).map(|place| palette::zone(place).solid()))
             .with_widths(vec![1.0; zones.len()]);
         stream.log_static(group(number), &lines.with_interpolation_mode(InterpolationMode::StepAfter))?;
     }
