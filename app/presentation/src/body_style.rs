@@ -34,10 +34,8 @@ impl BodyStyle {
     }
 
     fn of_size(body: &Body) -> BodyStyle {
-        let length_m = body.front_m + body.rear_m;
-        // A body without a class does not say its scale: longer than any lorry at 1/10 scale, it is of full size.
-        let scale = if body.scale == 1.0 && length_m > MAX_SCALE_MODEL_M { FULL_SIZE_SCALE } else { body.scale };
-        let (length, width) = (length_m / scale, body.width_m / scale);
+        let scale = scale(body);
+        let (length, width) = ((body.front_m + body.rear_m) / scale, body.width_m / scale);
         match (length, width) {
             (length, _) if length > 0.8 => BodyStyle::Lorry,
             (length, _) if length > 0.52 => BodyStyle::Van,
@@ -45,6 +43,14 @@ impl BodyStyle {
             _ => BodyStyle::Car,
         }
     }
+}
+
+/// The size of a vehicle as a multiple of one at 1/10 scale.
+///
+/// A body with stated lengths may not say its scale. One that is longer than any lorry at 1/10 scale is of full size.
+pub fn scale(body: &Body) -> f64 {
+    let is_large = body.front_m + body.rear_m > MAX_SCALE_MODEL_M;
+    if body.scale == 1.0 && is_large { FULL_SIZE_SCALE } else { body.scale }
 }
 
 #[cfg(test)]

@@ -4,7 +4,9 @@ use interplay_planners::State;
 use interplay_scenarios::{Branch, Scenario};
 use interplay_simulation::frame::VehicleFrame;
 
-/// Length of a car where there is no ego \[m\]: that of 1/10 scale.
+use crate::body_style::scale;
+
+/// Length of a car of 1/10 scale \[m\].
 const CAR_M: f64 = 0.4;
 /// Space between the vehicles and the edge of the view, in lengths of a car.
 const MARGIN_CARS: f64 = 1.3;
@@ -78,9 +80,9 @@ impl CameraView {
 /// Least and greatest coordinates \[m\].
 type Extent = [[f64; 2]; 2];
 
-/// Length of the ego \[m\], by which views are scaled.
+/// Length of a car of the scenario's scale \[m\].
 pub fn car_m(scenario: &Scenario) -> f64 {
-    scenario.ego().map_or(CAR_M, |ego| ego.body.front_m + ego.body.rear_m)
+    CAR_M * scenario.ego().map_or(1.0, |ego| scale(&ego.body))
 }
 
 /// The view at every moment; all have one height.

@@ -53,7 +53,7 @@ const SIDE_PX: [f64; 2] = [480.0, 360.0];
 const SIDE_FOCAL_PX: f64 = 430.0;
 /// Distance of this camera from what it looks at, by the width of what is seen from above; how steeply it looks down, and how
 /// far to the right of the ego's first direction \[rad\].
-const SIDE_DISTANCE_RATIO: f64 = 0.55;
+const SIDE_DISTANCE_RATIO: f64 = 0.62;
 const SIDE_PITCH_RAD: f64 = 0.5;
 const SIDE_YAW_RAD: f64 = 0.35;
 /// Before and after a contact, for how long it is shown close \[s\], and for how long it is marked, at 1/10 scale.

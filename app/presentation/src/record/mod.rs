@@ -211,6 +211,10 @@ impl Recorder {
     /// # Errors
     /// [`RecordError::Unwritable`] if the disk refuses the file, [`RecordError::Broken`] if the viewer went away.
     pub fn finish(mut self) -> Result<(), RecordError> {
+        self.plots.end();
+        if let Some(building_layer) = &mut self.building_layer {
+            building_layer.end();
+        }
         if matches!(self.output, Output::File { .. }) {
             self.cameras.log_all(&self.stream, &self.scenario)?;
         }

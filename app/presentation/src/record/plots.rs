@@ -45,6 +45,8 @@ pub struct Plots {
     speeds_mps: Option<[f64; 2]>,
     /// Smallest gap of the ego so far \[m\].
     smallest_gap_m: Option<f64>,
+    /// Whether the run is over, so that these are final.
+    is_over: bool,
 }
 
 impl Plots {
@@ -75,7 +77,7 @@ impl Plots {
             planners.push(PlannerPaths { folder, end, explanation: vehicle.driver.explanation() });
         }
         style(stream, GAP, "gap", NEUTRAL.solid(), false)?;
-        Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None, smallest_gap_m: None })
+        Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None, smallest_gap_m: None, is_over: false })
     }
 
     /// Whether there is anything at a path that not every run has.
@@ -83,14 +85,19 @@ impl Plots {
         self.seen.contains_key(path)
     }
 
-    /// Least and greatest speed so far \[m/s\].
+    /// Least and greatest speed of a run that is over \[m/s\].
     pub fn speeds_mps(&self) -> Option<[f64; 2]> {
-        self.speeds_mps
+        self.speeds_mps.filter(|_| self.is_over)
     }
 
-    /// Smallest gap of the ego so far \[m\].
+    /// Says that nothing more comes.
+    pub fn end(&mut self) {
+        self.is_over = true;
+    }
+
+    /// Smallest gap of the ego in a run that is over \[m\].
     pub fn smallest_gap_m(&self) -> Option<f64> {
-        self.smallest_gap_m
+        self.smallest_gap_m.filter(|_| self.is_over)
     }
 
     /// The recorded numbers of these quantities, of one kind of planner or of all.

@@ -12,11 +12,9 @@ use super::{BuildingLayer, design, series};
 /// Most zones with a plot of their own on the first tab.
 const MAX_FIRST_ZONES: usize = 4;
 /// Widths of plots in a window 1280 points wide.
-const QUARTER_WIDTH: f64 = 290.0;
+const QUARTER_WIDTH: f64 = 262.0;
 const TEMPERATURE_WIDTH: f64 = 390.0;
 const HALF_WIDTH: f64 = 600.0;
-/// The axis before there is a temperature \[°C\].
-const USUAL_RANGE_C: [f64; 2] = [19.0, 31.0];
 
 /// The words that belong to a recording of a building. Beside vehicles their layout has them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,8 +48,8 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     let names: Vec<&str> =
         first_zones(building_layer).iter().map(|index| building_layer.names[*index].as_str()).collect();
     let outdoors =
-        plot(&ranged("Outdoors", building_layer.outdoors_range_c, "°C"), vec!["/building/outdoors/**".to_owned()]);
-    let heat = plot("Heating (+) and cooling (−) [kW]", inputs(building_layer));
+        plot(&ranged("Outdoors", building_layer.ranges.outdoors(), "°C"), vec!["/building/outdoors/**".to_owned()]);
+    let heat = plot("Heat (negative cools) [kW]", inputs(building_layer));
     let cost = plot("Cost of each day, J", vec!["/building/iteration/**".to_owned()]);
     let mut below = vec![
         (1.0, outdoors.with_legend(letters(&["forecast"]), QUARTER_WIDTH)),
@@ -88,11 +86,9 @@ fn every_zone(building_layer: &BuildingLayer) -> LayoutNode {
     let grouped = |(number, group): (usize, &Vec<usize>)| {
         let (first, last) = (group.first().copied().unwrap_or(0), group.last().copied().unwrap_or(0));
         let title = format!("{} to {}", building_layer.names[first], building_layer.names[last]);
-        let ranges = group.iter().filter_map(|zone| building_layer.zone_ranges_c.get(*zone).copied());
-        let range = ranges.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
-        let title = ranged(&title, range, "°C");
+        let title = ranged(&title, building_layer.ranges.of(group), "°C");
         let plot = TimePlot::new(building_layer.duration_s, &title, vec![format!("/{}", series::group(number))]);
-        plot.around(building_layer.range_c.unwrap_or(USUAL_RANGE_C)).alone()
+        around(plot, building_layer).alone()
     };
     let panels: Vec<LayoutNode> = if building_layer.groups.is_empty() {
         building_layer.shown.iter().map(single).collect()
@@ -145,12 +141,19 @@ fn temperatures(building_layer: &BuildingLayer) -> LayoutNode {
 fn temperature(building_layer: &BuildingLayer, index: usize, width: Option<f64>) -> LayoutNode {
     let paths = ["temperature", "reference", "band/**"];
     let paths = paths.map(|what| format!("/building/zone/{}/{what}", index + 1));
-    let title = ranged(&building_layer.names[index], building_layer.zone_ranges_c.get(index).copied(), "°C");
-    let plot = TimePlot::new(building_layer.duration_s, &title, paths.to_vec());
-    let plot = plot.around(building_layer.range_c.unwrap_or(USUAL_RANGE_C));
+    let title = ranged(&building_layer.names[index], building_layer.ranges.of(&[index]), "°C");
+    let plot = around(TimePlot::new(building_layer.duration_s, &title, paths.to_vec()), building_layer);
     match width {
         Some(width) => plot.with_legend("comfort, high".len(), width),
         None => plot.alone(),
+    }
+}
+
+/// A plot with an axis for the temperatures of all zones, once they are known.
+fn around(plot: TimePlot, building_layer: &BuildingLayer) -> TimePlot {
+    match building_layer.ranges.all() {
+        Some(range_c) => plot.around(range_c),
+        None => plot,
     }
 }
 

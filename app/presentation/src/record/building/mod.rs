@@ -47,11 +47,7 @@ pub struct BuildingLayer {
     groups: Vec<Vec<usize>>,
     /// How long the run is \[s\].
     duration_s: f64,
-    /// Coldest and warmest of all zones, wanted temperatures included \[°C\].
-    range_c: Option<[f64; 2]>,
-    /// Coldest and warmest of each zone, and outdoors \[°C\].
-    zone_ranges_c: Vec<[f64; 2]>,
-    outdoors_range_c: Option<[f64; 2]>,
+    ranges: TemperatureRanges,
     plan: FloorPlanLayer,
     series: ZonePlots,
     plans: DesignPlots,
@@ -80,13 +76,16 @@ impl BuildingLayer {
             shown,
             groups,
             duration_s,
-            range_c: None,
-            zone_ranges_c: Vec::new(),
-            outdoors_range_c: None,
+            ranges: TemperatureRanges::default(),
             plan,
             series,
             plans,
         }))
+    }
+
+    /// Says that nothing more comes.
+    pub fn end(&mut self) {
+        self.ranges.are_final = true;
     }
 
     /// Logs one step.
@@ -95,24 +94,55 @@ impl BuildingLayer {
     /// If Rerun refuses a component.
     pub fn step(&mut self, stream: &RecordingStream, frame: &BuildingFrame) -> RecordingStreamResult<()> {
         stream.set_time_sequence(ITERATION, i64::try_from(frame.day + 1).unwrap_or(i64::MAX));
-        let widened = |range: [f64; 2], value: f64| [range[0].min(value), range[1].max(value)];
-        self.outdoors_range_c = Some(widened(self.outdoors_range_c.unwrap_or([frame.ambient_c; 2]), frame.ambient_c));
-        if self.zone_ranges_c.is_empty() {
-            self.zone_ranges_c = frame.zones.iter().map(|now| [now.temperature_c; 2]).collect();
-        }
-        for (range, now) in self.zone_ranges_c.iter_mut().zip(&frame.zones) {
-            *range = widened(*range, now.temperature_c);
-        }
-        for now in &frame.zones {
-            let [low_c, high_c] = self.range_c.unwrap_or([now.temperature_c; 2]);
-            let wanted_c = now.reference_c.unwrap_or(now.temperature_c);
-            self.range_c =
-                Some([low_c.min(now.temperature_c).min(wanted_c), high_c.max(now.temperature_c).max(wanted_c)]);
-        }
+        self.ranges.widen(frame);
         self.plan.step(stream, &self.names, frame)?;
         self.plans.step(stream, &self.shown, frame)?;
         series::step_groups(stream, &self.groups, frame)?;
         self.series.step(stream, &self.shown, frame)
+    }
+}
+
+/// Coldest and warmest temperatures so far.
+#[derive(Default)]
+struct TemperatureRanges {
+    /// Of all zones, wanted temperatures included \[°C\].
+    all_c: Option<[f64; 2]>,
+    /// Of each zone \[°C\].
+    zones_c: Vec<[f64; 2]>,
+    /// Outdoors \[°C\].
+    outdoors_c: Option<[f64; 2]>,
+    /// Whether the run is over, so that these are final.
+    are_final: bool,
+}
+
+impl TemperatureRanges {
+    fn widen(&mut self, frame: &BuildingFrame) {
+        let widened = |range: [f64; 2], value: f64| [range[0].min(value), range[1].max(value)];
+        self.outdoors_c = Some(widened(self.outdoors_c.unwrap_or([frame.ambient_c; 2]), frame.ambient_c));
+        if self.zones_c.is_empty() {
+            self.zones_c = frame.zones.iter().map(|now| [now.temperature_c; 2]).collect();
+        }
+        for (range, now) in self.zones_c.iter_mut().zip(&frame.zones) {
+            *range = widened(*range, now.temperature_c);
+            let all_c = widened(self.all_c.unwrap_or([now.temperature_c; 2]), now.temperature_c);
+            self.all_c = Some(widened(all_c, now.reference_c.unwrap_or(now.temperature_c)));
+        }
+    }
+
+    /// Of some zones, once it is known \[°C\].
+    fn of(&self, zones: &[usize]) -> Option<[f64; 2]> {
+        let ranges = zones.iter().filter_map(|zone| self.zones_c.get(*zone).copied()).filter(|_| self.are_final);
+        ranges.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)])
+    }
+
+    /// Of all zones, once it is known \[°C\].
+    fn all(&self) -> Option<[f64; 2]> {
+        self.all_c.filter(|_| self.are_final)
+    }
+
+    /// Outdoors, once it is known \[°C\].
+    fn outdoors(&self) -> Option<[f64; 2]> {
+        self.outdoors_c.filter(|_| self.are_final)
     }
 }
 
