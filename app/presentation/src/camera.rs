@@ -10,6 +10,8 @@ use crate::body_style::scale;
 const CAR_M: f64 = 0.4;
 /// Space between the vehicles and the edge of the view, in lengths of a car.
 const MARGIN_CARS: f64 = 1.3;
+/// The same where two are shown close.
+const CLOSE_MARGIN_CARS: f64 = 0.4;
 /// How far ahead of each vehicle the view reaches, in its motion at 1/10 scale \[s\].
 const LOOK_AHEAD_S: f64 = 0.35;
 /// A vehicle that is further away than this many widths of the largest view does not draw the camera.
@@ -185,7 +187,7 @@ pub fn partner(scenario: &Scenario, vehicle: &VehicleFrame) -> Option<usize> {
 fn around(scenario: &Scenario, moment: &CameraMoment, largest_m: [f64; 2]) -> Extent {
     let CameraMoment { states, partner, close_up } = moment;
     let ego = scenario.ego_index();
-    let margin_m = MARGIN_CARS * car_m(scenario);
+    let margin_m = if close_up.is_some() { CLOSE_MARGIN_CARS } else { MARGIN_CARS } * car_m(scenario);
     let of = |index: usize| {
         let vehicle = &scenario.vehicles[index];
         let ahead_m = LOOK_AHEAD_S * vehicle.body.time_ratio() * states[index].speed_mps;

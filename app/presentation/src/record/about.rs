@@ -10,7 +10,6 @@ use super::building;
 use super::markdown::code;
 use super::palette::{FAILURE, NamedColour};
 use super::planner_panels;
-use super::status::wants;
 
 /// Logs the text beside the pictures.
 ///
@@ -40,11 +39,11 @@ fn description(scenario: &Scenario, vehicle_colours: &[NamedColour], command: Op
         .vehicles
         .iter()
         .zip(vehicle_colours)
-        .map(|(vehicle, vehicle_colour)| row(scenario, vehicle, *vehicle_colour))
+        .map(|(vehicle, vehicle_colour)| row(vehicle, *vehicle_colour))
         .collect();
     format!(
         "**{title}**\n\n{shows}{figure}.{again}\n\n\
-         | vehicle | colour | driver | wants |\n|---|---|---|---|\n{who}\n\
+         | vehicle | colour | driver |\n|---|---|---|\n{who}\n\
          **On the road**, in each vehicle's colour:\n\n\
          - thick line ahead: its plan\n\
          - dashes: what the others expect of it\n\
@@ -85,9 +84,8 @@ fn verdicts(counterfactuals: &[CounterfactualReport]) -> String {
     format!("**Counterfactuals**, runs beside this one in which something is changed:\n\n{lines}")
 }
 
-fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: NamedColour) -> String {
-    let goal = wants(scenario, vehicle);
-    format!("| **{}** | {} | {} | {goal} |\n", vehicle.name, vehicle_colour.word, vehicle.driver.description())
+fn row(vehicle: &Vehicle, vehicle_colour: NamedColour) -> String {
+    format!("| **{}** | {} | {} |\n", vehicle.name, vehicle_colour.word, vehicle.driver.description())
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ const TOP_WIDTH_PX: f64 = 800.0;
 /// Height of this picture, above a picture of the whole road and without one \[px\].
 const TOP_HEIGHTS_PX: [f64; 2] = [236.0, 340.0];
 /// Least and greatest length of a car \[px\].
-const CAR_PX: [f64; 2] = [48.0, 104.0];
+const CAR_PX: [f64; 2] = [42.0, 104.0];
 /// Distance of a camera from what it sees from above, by the width of what it sees: of the picture that follows the
 /// interaction, and of that of the whole road. From further away the viewer cannot tell heights apart.
 const HEIGHT_RATIO: f64 = 6.0;
@@ -58,7 +58,7 @@ const SIDE_PITCH_RAD: f64 = 0.5;
 const SIDE_YAW_RAD: f64 = 0.35;
 /// Before and after a contact, for how long it is shown close \[s\], and for how long it is marked, at 1/10 scale.
 const CLOSE_UP_S: [f64; 2] = [0.6, 1.6];
-const MARKED_S: f64 = 2.5;
+const MARKED_S: f64 = 1.6;
 /// Size of the star that marks a contact, in lengths of a car.
 const STAR_CARS: f64 = 0.35;
 /// Width of the picture of the whole road \[px\].
@@ -354,3 +354,6 @@ fn label_at(label: Option<Rectangle>, words: String) -> Points2D {
     let (points, words): (Vec<[f32; 2]>, Vec<String>) = label.map(|label| (point(label), words)).into_iter().unzip();
     Points2D::update_fields().with_positions(points).with_labels(words)
 }
+
+#[cfg(test)]
+mod tests;

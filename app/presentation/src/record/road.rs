@@ -13,6 +13,8 @@ use crate::road_shapes::RoadShapes;
 /// How far below the road the ground is, and how far above it its lines are, in lane widths.
 const GROUND_LANES: f64 = -0.02;
 const LINES_LANES: f64 = 0.005;
+/// How far the asphalt reaches beyond the edges, in lane widths.
+const SHOULDER_LANES: f64 = 0.08;
 /// How far the road goes on beyond the vehicles, in lane widths.
 const BEYOND_LANES: f64 = 40.0;
 /// Length of the pieces of a line, in lane widths, and most of them between two points.
@@ -35,6 +37,7 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
     let mut surface = Mesh::default();
     for ring in &shapes.surfaces {
         surface.add_polygon(ring, 0.0, ASPHALT);
+        add_shoulder(&mut surface, ring, &shapes);
     }
     let height_m = LINES_LANES * shapes.lane_m;
     let mut arrows = Vec::new();
@@ -55,6 +58,24 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
         }
     }
     Ok(())
+}
+
+/// Adds a strip along the outline of a surface, a little below it. It closes the holes between lanes of a junction.
+fn add_shoulder(mesh: &mut Mesh, ring: &[[f64; 2]], shapes: &RoadShapes) {
+    let half_m = SHOULDER_LANES * shapes.lane_m;
+    for index in 0..ring.len() {
+        let [from, to] = [ring[index], ring[(index + 1) % ring.len()]];
+        let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
+        if length > 0.0 {
+            let along = [0, 1].map(|axis| half_m * (to[axis] - from[axis]) / length);
+            let across = [-along[1], along[0]];
+            let at = |point: [f64; 2], ahead: f64, left: f64| {
+                [0, 1].map(|axis| point[axis] + ahead * along[axis] + left * across[axis])
+            };
+            let strip = [at(from, -0.5, -1.0), at(to, 0.5, -1.0), at(to, 0.5, 1.0), at(from, -0.5, 1.0)];
+            mesh.add_polygon(&strip, 0.5 * GROUND_LANES * shapes.lane_m, ASPHALT);
+        }
+    }
 }
 
 /// The same line with points that are not further apart than a distance \[m\]: between points far from and near to a camera

@@ -54,7 +54,7 @@ impl StatusLines {
 }
 
 /// The goal of a vehicle.
-pub fn wants(scenario: &Scenario, vehicle: &Vehicle) -> String {
+fn wants(scenario: &Scenario, vehicle: &Vehicle) -> String {
     let target = vehicle.target(&scenario.road);
     match &vehicle.goal.lane {
         Some(LaneReference::Number(lane)) if scenario.road.parallel_lanes().is_some_and(|lanes| lanes.count > 1) => {
