@@ -3,7 +3,7 @@
 use super::super::blueprint::{LayoutNode, View};
 use super::super::layout::rows;
 use super::super::panels::{about, events};
-use super::super::re_sdk_types::blueprint::archetypes::VisualBounds2D;
+use super::super::re_sdk_types::blueprint::archetypes::{PlotLegend, VisualBounds2D};
 use super::super::re_sdk_types::blueprint::components::VisualBounds2D as ViewBounds;
 use super::super::re_sdk_types::datatypes::Range2D;
 use super::super::time_plot::{TimePlot, ranged};
@@ -116,7 +116,8 @@ fn plans(building_layer: &BuildingLayer) -> Vec<LayoutNode> {
         (path, TimePlot::new(building_layer.duration_s, title, below(path)).with_legend(letters, HALF_WIDTH))
     };
     let bar = |(path, title): (&'static str, &str)| {
-        (path, LayoutNode::View(View::new("BarChart", title, vec![format!("/{path}")])))
+        let view = View::new("BarChart", title, vec![format!("/{path}")]);
+        (path, LayoutNode::View(view.with("PlotLegend", PlotLegend::new().with_visible(false))))
     };
     let all = lines.into_iter().map(line).chain(bars.into_iter().map(bar));
     all.filter(|(path, _)| building_layer.plans.has(path)).map(|(_, view)| view).collect()
