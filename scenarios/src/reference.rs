@@ -20,7 +20,8 @@ const HEAD: &str = "# Every key\n\n\
     - *Default*: the value of a key that is left out. **Required** keys have none. Defaults are those of 1/10 scale cars; vehicles of\n  \
     another [size](authoring.md#full-size) get scaled ones.\n\
     - *Unit* 1: dimensionless. Whole numbers are counts and have none.\n\
-    - Where a table has a `kind`, that key chooses which of its sections applies.\n";
+    - Where a table has a `kind`, that key chooses which of its sections applies.\n\
+    - Every key exists since version 0.1.0, the first.\n";
 
 /// The page.
 pub fn key_reference() -> String {
@@ -190,4 +191,16 @@ fn code(text: &str) -> String {
 /// A text that does not end its cell.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::HEAD;
+
+    /// With a second version the page must say of each key since when it exists.
+    #[test]
+    fn the_page_speaks_of_one_version() {
+        assert_eq!(env!("CARGO_PKG_VERSION"), "0.1.0", "state of each key since when it exists");
+        assert!(HEAD.contains("since version 0.1.0"));
+    }
 }

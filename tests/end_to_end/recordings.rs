@@ -94,3 +94,14 @@ fn a_run_that_is_killed_leaves_no_recording() {
     let left = contents(&folder);
     assert!(left.iter().all(|name| name.starts_with('.') && name.ends_with(".part")), "{left:?}");
 }
+
+/// A run of 12 s takes about 1 MB; a building of a hundred rooms, of which every zone is drawn, less than 3 MB for ten days.
+#[test]
+fn recordings_are_small() {
+    let folder = scratch("recording-size");
+    for (name, most_bytes) in [("lane-change/front-nice", 2_000_000), ("building/hundred-zones", 5_000_000)] {
+        interplay(&folder, &["run", name, "--record", "size.rrd"]);
+        let bytes = fs::metadata(folder.join("size.rrd")).expect("there is a recording").len();
+        assert!(bytes > 100_000 && bytes < most_bytes, "{name}: {bytes} bytes");
+    }
+}

@@ -3,6 +3,10 @@
 //! Everything here is made from the plain values of [`interplay_simulation`]: its frames and its report.
 
 pub mod animation;
+mod answer;
+mod body_style;
+mod camera;
+mod contact;
 mod curved_road;
 pub mod figures;
 mod font;
@@ -12,4 +16,6 @@ mod palette;
 pub mod plot;
 pub mod record;
 pub mod report;
+mod road_shapes;
 pub mod shell;
+mod signals;

@@ -40,8 +40,28 @@ pub const VERMILLION: NamedColour = NamedColour { rgb: [0xD5, 0x5E, 0x00], word:
 /// The others in the scenario's order; who comes later starts again.
 pub const OTHERS: [NamedColour; 5] = [BLUE, GREEN, PURPLE, SKY, OLIVE];
 
-/// The surface of roads in animations.
+/// The surface of roads.
 pub const ASPHALT: Colour = [0x4B, 0x4F, 0x56];
+/// Beside the road.
+pub const GRASS: Colour = [0xB9, 0xCB, 0xA4];
+/// Lines on the road.
+pub const PAINT: Colour = [0xEC, 0xEC, 0xE6];
+/// Arrows on the road.
+pub const ARROW: Colour = [0xB9, 0xBC, 0xBE];
+/// Tyres.
+pub const TYRE: Colour = [0x17, 0x18, 0x1A];
+/// Windows.
+pub const GLASS: Colour = [0x22, 0x2C, 0x38];
+/// Headlights.
+pub const HEADLIGHT: Colour = [0xFF, 0xF6, 0xD6];
+/// Tail lights.
+pub const TAIL_LIGHT: Colour = [0x7A, 0x1A, 0x1C];
+/// A lit brake light.
+pub const BRAKE_LIGHT: Colour = [0xFF, 0x2A, 0x2A];
+/// A lit indicator.
+pub const INDICATOR: Colour = [0xFF, 0xC4, 0x1F];
+/// The middle of the star that marks a contact.
+pub const FLASH: Colour = [0xFF, 0xE3, 0x6B];
 
 /// Distance from the wanted temperature at which the colour scale of rooms ends \[K\].
 pub const COLOUR_RANGE_K: f64 = 5.0;
@@ -63,6 +83,11 @@ pub fn vehicle_colours(scenario: &Scenario) -> Vec<NamedColour> {
     (0..scenario.vehicles.len())
         .map(|index| if index == ego { ORANGE } else { others.next().unwrap_or(BLUE) })
         .collect()
+}
+
+/// A darker shade.
+pub fn darker(colour: Colour) -> Colour {
+    colour.map(|part| (f64::from(part) * 0.55) as u8)
 }
 
 #[cfg(test)]

@@ -1,18 +1,17 @@
 //! The words under a picture: who asks whom, what the other answers, and what happened last.
 
-use interplay_planners::{PassingOrder, PlanEvent, PlanEventKind};
+use interplay_planners::PassingOrder;
 use interplay_simulation::frame::{Event, Frame, Level};
 
 use super::scene::DrivingRun;
+use crate::answer::{answer, is_new};
+use crate::contact::numbers;
 
 /// How long a collision stays in the caption, and any other event \[s\] at 1/10 scale.
 const COLLISION_SHOWN_S: f64 = 3.0;
 const EVENT_SHOWN_S: f64 = 2.5;
 /// How long the place of a contact is marked \[s\] at 1/10 scale.
 const CONTACT_SHOWN_S: f64 = 0.35;
-/// From this share of acceptance on a vehicle accepts, below the other it declines.
-const ACCEPTS: f64 = 0.7;
-const DECLINES: f64 = 0.3;
 
 /// What is said at a moment.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -49,8 +48,7 @@ pub fn contacts(run: &DrivingRun, time_s: f64) -> Vec<[usize; 2]> {
     let ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
     let hits = run.frames.iter().flat_map(|frame| &frame.collisions);
     let recent = hits.filter(|hit| hit.time_s <= time_s && time_s < hit.time_s + CONTACT_SHOWN_S * ratio);
-    let number = |name: &String| run.scenario.vehicles.iter().position(|vehicle| vehicle.name == *name);
-    recent.filter_map(|hit| Some([number(&hit.between[0])?, number(&hit.between[1])?])).collect()
+    recent.filter_map(|hit| numbers(run.scenario, &hit.between)).collect()
 }
 
 /// Who asks whom for the dotted motion, and how far the other follows it; of the ego if it asks.
@@ -67,17 +65,10 @@ fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
         return Some(format!("{name} expects {to} to take the dotted way"));
     };
     let asks = format!("{name} asks {to} to take the dotted way");
-    // Nobody has answered before the first proposal.
-    let is_new = |event: &PlanEvent| matches!(&event.kind, PlanEventKind::Partner(Some(partner)) if partner == to);
-    if vehicle.plan.events.iter().any(is_new) {
+    if is_new(&vehicle.plan, to) {
         return Some(asks);
     }
-    let answer = match share {
-        share if share >= ACCEPTS => "accepts",
-        share if share < DECLINES => "declines",
-        _ => "hesitates",
-    };
-    Some(format!("{asks} – {to} {answer} ({:.0} %)", 100.0 * share))
+    Some(format!("{asks} – {to} {} ({:.0} %)", answer(share), 100.0 * share))
 }
 
 /// How the ego passes the others by its plan.

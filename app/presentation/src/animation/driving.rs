@@ -5,16 +5,17 @@ use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::caption::{Caption, caption, contacts};
 use super::letters::{cut, width_of};
 use super::pictures::{Pictures, Rgb};
-use super::road::{GRASS, RoadShapes};
+use super::road;
 use super::scene::{DrivingRun, SeenVehicle};
 use super::timing::{Moment, PICTURE_S, moments};
 use super::title::{BAR, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, draw_title};
 use super::vehicle;
+use crate::contact::{contact_place, star};
 use crate::figures::RecordedRun;
-use crate::palette::{ASPHALT, Colour, VERMILLION};
+use crate::palette::{ASPHALT, BRAKE_LIGHT, Colour, FLASH, GRASS, INDICATOR, VERMILLION};
+use crate::road_shapes::RoadShapes;
 
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
-const FLASH: Colour = [0xFF, 0xE3, 0x6B];
 const ALARM: Colour = [0xFF, 0x6B, 0x5B];
 /// Opacity of the band of a plan.
 const PLAN_OPACITY: f64 = 0.42;
@@ -63,7 +64,7 @@ impl<'a> DrivingPictures<'a> {
     }
 
     fn draw_view(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], time_s: f64) {
-        self.road.draw(canvas, view);
+        road::draw(&self.road, canvas, view);
         let lane_px = self.run.scenario.road.lane_width_m() * view.px_per_m;
         for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen) {
             let plan: Vec<[f64; 2]> = seen.plan.iter().map(|point| view.place(*point)).collect();
@@ -94,26 +95,12 @@ impl<'a> DrivingPictures<'a> {
     fn draw_contacts(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], time_s: f64) {
         let car_px = car_m(self.run.scenario) * view.px_per_m;
         for between in contacts(&self.run, time_s) {
-            let of = |index: usize, other: usize| {
-                let corners = self.run.scenario.vehicles[index].body.corners(&seen[index].state);
-                let away = |corner: &[f64; 2]| {
-                    let [x, y] = seen[other].state.position();
-                    libm::hypot(corner[0] - x, corner[1] - y)
-                };
-                corners.into_iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|corner| view.place(corner))
+            let states = between.map(|index| &seen[index].state);
+            let Some(place) = contact_place(self.run.scenario, between, states).map(|place| view.place(place)) else {
+                continue;
             };
-            let (Some(one), Some(two)) = (of(between[0], between[1]), of(between[1], between[0])) else { continue };
-            let [x, y] = [0, 1].map(|axis| 0.5 * (one[axis] + two[axis]));
-            let star = |size: f64| -> Vec<[f64; 2]> {
-                let radius = |point: i32| if point % 2 == 0 { size } else { 0.5 * size };
-                let at = |point: i32| libm::sincos(std::f64::consts::PI * f64::from(point) / 8.0);
-                (0..16)
-                    .map(|point| (at(point), radius(point)))
-                    .map(|((sin, cos), r)| [x + r * cos, y + r * sin])
-                    .collect()
-            };
-            canvas.fill(&star(0.28 * car_px), VERMILLION.rgb);
-            canvas.fill(&star(0.18 * car_px), FLASH);
+            canvas.fill(&star(place, 0.28 * car_px), VERMILLION.rgb);
+            canvas.fill(&star(place, 0.18 * car_px), FLASH);
         }
     }
 
@@ -136,10 +123,10 @@ impl<'a> DrivingPictures<'a> {
                 [left - 0.5 * wide - 4.0, y],
             ];
             let label = |[x, y]: [f64; 2]| [x - 0.5 * wide, y - 0.5 * high, x + 0.5 * wide, y + 0.5 * high];
-            let is_seen = right > 0.0 && left < WIDTH_PX && bottom > 0.0 && top < view.height_px;
+            let is_seen = right > 0.0 && left < WIDTH_PX && bottom > 0.0 && top < view.size_px[1];
             let is_free = |middle: &&[f64; 2]| {
                 let [l, t, r, b] = label(**middle);
-                let inside = l >= 2.0 && t >= 2.0 && r <= WIDTH_PX - 2.0 && b <= view.height_px - 2.0;
+                let inside = l >= 2.0 && t >= 2.0 && r <= WIDTH_PX - 2.0 && b <= view.size_px[1] - 2.0;
                 inside && !taken.iter().any(|other| l < other[2] && other[0] < r && t < other[3] && other[1] < b)
             };
             let Some(middle) = middles.iter().find(is_free).filter(|_| is_seen) else { continue };
@@ -193,26 +180,26 @@ impl Pictures for DrivingPictures<'_> {
     }
 
     fn size(&self) -> [u32; 2] {
-        let height = TITLE_PX + self.views[0].height_px + self.bar_px();
+        let height = TITLE_PX + self.views[0].size_px[1] + self.bar_px();
         [WIDTH_PX as u32, (2.0 * (0.5 * height).ceil()) as u32]
     }
 
     fn draw(&self, index: usize) -> Option<Rgb> {
         let (moment, view) = (&self.moments[index], &self.views[index]);
         let seen = self.run.seen(moment.time_s, index as f64 * PICTURE_S);
-        let mut ground = Canvas::new([WIDTH_PX as u32, view.height_px as u32], GRASS)?;
+        let mut ground = Canvas::new([WIDTH_PX as u32, view.size_px[1] as u32], GRASS)?;
         self.draw_view(&mut ground, view, &seen, moment.time_s);
         let mut canvas = Canvas::new(self.size(), BAR)?;
         canvas.put(&ground, TITLE_PX as u32);
         self.draw_title(&mut canvas, moment);
-        self.draw_words(&mut canvas, TITLE_PX + view.height_px, &caption(&self.run, moment.time_s), &seen);
+        self.draw_words(&mut canvas, TITLE_PX + view.size_px[1], &caption(&self.run, moment.time_s), &seen);
         Some(canvas.into_rgb())
     }
 
     fn exact_colours(&self) -> Vec<Colour> {
         // What is small or seldom seen would otherwise be mixed with its neighbours.
         let plan = |colour: &Colour| Ink::veiled(*colour, PLAN_OPACITY).over(ASPHALT);
-        let rare = [vehicle::BRAKE_LIGHT, vehicle::INDICATOR, vehicle::brake_glow().over(ASPHALT), BAR, WORDS, ALARM];
+        let rare = [BRAKE_LIGHT, INDICATOR, vehicle::brake_glow().over(ASPHALT), BAR, WORDS, ALARM];
         self.run.colours.iter().copied().chain(rare).chain(self.run.colours.iter().map(plan)).collect()
     }
 }

@@ -1,348 +1,43 @@
-//! The road as shapes in the world, whatever its form, and how it is drawn: verge, kerb, asphalt, lines, arrows.
-
-use interplay_planners::road::network::{Lane, RoadNetwork};
-use interplay_planners::{Axes, Corridor};
-use interplay_scenarios::{Branch, Road, Scenario};
+//! How a road is drawn: verge, kerb, asphalt, lines, arrows.
 
 use super::camera::CameraView;
 use super::canvas::{Canvas, LineEnd};
-use crate::curved_road::{CurvedRoad, WorldLine, taper_m};
-use crate::network_lines::NetworkLines;
-use crate::palette::{ASPHALT, Colour};
+use crate::curved_road::WorldLine;
+use crate::palette::{ARROW, ASPHALT, Colour, PAINT};
+use crate::road_shapes::RoadShapes;
 
-/// Beside the road.
-pub const GRASS: Colour = [0xB9, 0xCB, 0xA4];
 const VERGE: Colour = [0xCD, 0xD3, 0xB8];
 const KERB: Colour = [0x9A, 0x9C, 0x9A];
-const PAINT: Colour = [0xEC, 0xEC, 0xE6];
-const ARROW: Colour = [0xB9, 0xBC, 0xBE];
-/// Widths of verge and kerb, of a line and of a stop line, in lane widths.
+/// Widths of verge and kerb, of a line, of a stop line and of an arrow, in lane widths.
 const VERGE_LANES: f64 = 0.34;
 const KERB_LANES: f64 = 0.07;
 const LINE_LANES: f64 = 0.035;
 const STOP_LINE_LANES: f64 = 0.11;
-/// Length of a dash and of the space behind it, in lane widths.
-const DASH_LANES: f64 = 0.8;
-/// How many points the edge of a lane that ends has.
-const TAPER_POINTS: usize = 48;
-/// How far the road goes on beyond the ends of a network, in lane widths.
-const WAY_OUT_LANES: f64 = 80.0;
-/// Points of a line that are nearer than this to the line without them are left out, in lane widths.
-const FLATNESS_LANES: f64 = 0.002;
-/// Distance of an arrow from the end of its lane, in lane widths.
-const ARROW_LANES: f64 = 2.2;
-/// A lane shorter than this has no arrow, in lane widths.
-const MIN_ARROW_LANE_LANES: f64 = 5.0;
-/// From this angle on a way is a turn \[rad\].
-const TURN_RAD: f64 = 0.6;
+const ARROW_WIDTH_LANES: f64 = 0.07;
 
-/// A road, all lengths in metres of the world.
-#[derive(Default)]
-pub struct RoadShapes {
-    lane_m: f64,
-    /// Closed polygons that together cover the road.
-    surfaces: Vec<WorldLine>,
-    edges: Vec<WorldLine>,
-    dashes: Vec<WorldLine>,
-    stop_lines: Vec<WorldLine>,
-    /// Arrows: place, direction \[rad\], and where one may go.
-    arrows: Vec<([f64; 2], f64, Ways)>,
-}
-
-/// Where one may go from a lane.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Ways {
-    left: bool,
-    straight: bool,
-    right: bool,
-}
-
-impl RoadShapes {
-    /// The shapes of a scenario's road between least and greatest coordinates.
-    pub fn of(scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> RoadShapes {
-        let road = &scenario.road;
-        let mut shapes = RoadShapes { lane_m: road.lane_width_m(), ..RoadShapes::default() };
-        if let Some(network) = &scenario.network {
-            shapes.add_network(network);
-        } else if let Some(curved) = CurvedRoad::new(road) {
-            let along = |corner: [f64; 2]| scenario.main_route().along(corner);
-            let [from_m, to_m] = range(corners(bounds_m).map(along), 4.0 * shapes.lane_m);
-            let [right, left] = curved.edges([from_m, to_m]);
-            shapes.surfaces.push(right.iter().chain(left.iter().rev()).copied().collect());
-            shapes.edges.extend([right, left]);
-            shapes.dashes.extend(curved.dashes(DASH_LANES * shapes.lane_m, [from_m, to_m]));
-        } else {
-            for branch in [Branch::Main, Branch::Cross] {
-                let corridor = road.corridor(branch);
-                let exists = branch == Branch::Main || road.conflict_zone_m(Branch::Cross).is_some();
-                if let Some(corridor) = corridor.filter(|_| exists) {
-                    shapes.add_strip(road, branch, &corridor, bounds_m);
-                }
-            }
-        }
-        let flatness_m = FLATNESS_LANES * shapes.lane_m;
-        for line in shapes.surfaces.iter_mut().chain(&mut shapes.edges).chain(&mut shapes.dashes) {
-            *line = flattened(line, flatness_m);
-        }
-        shapes
+/// Draws a road.
+pub fn draw(shapes: &RoadShapes, canvas: &mut Canvas, view: &CameraView) {
+    let lane_px = shapes.lane_m * view.px_per_m;
+    let place = |line: &WorldLine| line.iter().map(|point| view.place(*point)).collect::<Vec<_>>();
+    let surfaces: Vec<Vec<[f64; 2]>> = shapes.surfaces.iter().map(place).collect();
+    for (colour, beyond) in [(VERGE, VERGE_LANES), (KERB, KERB_LANES)] {
+        surfaces.iter().for_each(|ring| canvas.outline(ring, 2.0 * beyond * lane_px, colour));
     }
-
-    fn add_network(&mut self, network: &RoadNetwork) {
-        let lines = NetworkLines::new(network);
-        let ring = |[right, left]: &[WorldLine; 2]| right.iter().chain(left.iter().rev()).copied().collect();
-        self.surfaces.extend(lines.surfaces().iter().map(ring));
-        self.edges = lines.edges();
-        for (lane, edges) in network.lanes().iter().zip(lines.surfaces()) {
-            self.add_ways_out(network, lane, edges);
-        }
-        self.dashes = lines.dashes(DASH_LANES * self.lane_m);
-        self.stop_lines = lines.stop_lines();
-        for lane in network.lanes() {
-            let ways = ways(network, lane);
-            let end_m = lane.centre.length_m();
-            let is_choice = ways.left || ways.right;
-            if is_choice && end_m > MIN_ARROW_LANE_LANES * self.lane_m {
-                let at_m = end_m - ARROW_LANES * self.lane_m;
-                let heading_rad = direction(lane, at_m);
-                self.arrows.push((lane.centre.position(at_m, 0.0), heading_rad, ways));
-            }
-        }
+    for ring in &surfaces {
+        canvas.fill(ring, ASPHALT);
     }
-
-    /// Goes on beyond the ends of the network, where vehicles go on too.
-    fn add_ways_out(&mut self, network: &RoadNetwork, lane: &Lane, [right, left]: &[WorldLine; 2]) {
-        let has_before = network.lanes().iter().any(|other| other.successors.contains(&lane.name));
-        let end_m = lane.centre.length_m();
-        for (is_open, at_m) in [(lane.successors.is_empty(), end_m), (!has_before, 0.0)] {
-            let reached = lane.centre.position(at_m, 0.0);
-            let goes_beside = |other: &Lane| {
-                let place = other.centre.project(reached, None);
-                let inside = self.lane_m..other.centre.length_m() - self.lane_m;
-                other.name != lane.name && inside.contains(&place.along_m) && place.across_m.abs() < 1.5 * self.lane_m
-            };
-            if !is_open || network.lanes().iter().any(goes_beside) {
-                continue;
-            }
-            let sign = if at_m > 0.0 { 1.0 } else { -1.0 };
-            let direction = Axes::along(direction(lane, at_m)).vector([sign * WAY_OUT_LANES * self.lane_m, 0.0]);
-            let [near_right, near_left] = [right, left].map(|edge| if at_m > 0.0 { edge.last() } else { edge.first() });
-            let (Some(&near_right), Some(&near_left)) = (near_right, near_left) else { continue };
-            let far = |[x, y]: [f64; 2]| [x + direction[0], y + direction[1]];
-            self.surfaces.push(vec![near_right, far(near_right), far(near_left), near_left]);
-            self.edges.extend([near_right, near_left].map(|near| vec![near, far(near)]));
-        }
+    // Closes the hairlines between lanes that touch.
+    surfaces.iter().for_each(|ring| canvas.outline(ring, 0.8, ASPHALT));
+    let width = (LINE_LANES * lane_px).max(1.3);
+    for (lines, width) in
+        [(&shapes.edges, width), (&shapes.dashes, width), (&shapes.stop_lines, STOP_LINE_LANES * lane_px)]
+    {
+        lines.iter().for_each(|line| canvas.line(&place(line), width, LineEnd::Flat, PAINT));
     }
-
-    fn add_strip(&mut self, road: &Road, branch: Branch, corridor: &Corridor, bounds_m: [[f64; 2]; 2]) {
-        let axes = Axes::along(corridor.heading_rad);
-        let lane_m = self.lane_m;
-        let [from_m, to_m] = range(corners(bounds_m).map(|corner| axes.components(corner)[0]), 4.0 * lane_m);
-        let world = |[along, across]: [f64; 2]| axes.vector([along, across]);
-        let right_at = |along_m: f64| [along_m, corridor.right_edge_m(along_m)];
-        let bend = corridor.end.map(taper_m).unwrap_or([from_m; 2]);
-        let between = (0..=TAPER_POINTS).map(|part| bend[0] + (bend[1] - bend[0]) * part as f64 / TAPER_POINTS as f64);
-        let inside: Vec<f64> = between.filter(|at| from_m < *at && *at < to_m).collect();
-        let right = |from_m: f64, to_m: f64| -> WorldLine {
-            let inside = inside.iter().copied().filter(|at| from_m < *at && *at < to_m);
-            [from_m].into_iter().chain(inside).chain([to_m]).map(|along_m| world(right_at(along_m))).collect()
-        };
-        let left = |from_m: f64, to_m: f64| vec![world([from_m, corridor.left_m]), world([to_m, corridor.left_m])];
-        let whole = right(from_m, to_m);
-        self.surfaces.push(whole.into_iter().chain(left(from_m, to_m).into_iter().rev()).collect());
-        let pieces = |lateral_m: f64| match road.crossed_m(branch, lateral_m) {
-            Some([enters_m, leaves_m]) => vec![[from_m, enters_m], [leaves_m, to_m]],
-            None => vec![[from_m, to_m]],
-        };
-        self.edges.extend(pieces(corridor.right_m).into_iter().map(|[from_m, to_m]| right(from_m, to_m)));
-        self.edges.extend(pieces(corridor.left_m).into_iter().map(|[from_m, to_m]| left(from_m, to_m)));
-        for between in 1..road.parallel_lanes().map_or(0, |lanes| lanes.count) {
-            let lateral_m = corridor.right_m + between as f64 * lane_m;
-            let until_m = corridor.end.filter(|_| between == 1).map_or(to_m, |end| taper_m(end)[0]);
-            for [from_m, to_m] in pieces(lateral_m) {
-                let dashes = dashes([from_m, to_m.min(until_m)], DASH_LANES * lane_m);
-                let line = |[start_m, end_m]: [f64; 2]| vec![world([start_m, lateral_m]), world([end_m, lateral_m])];
-                self.dashes.extend(dashes.into_iter().map(line));
-            }
-        }
-        if let Some(end) = corridor.end {
-            let centre_m = corridor.right_m + 0.5 * lane_m;
-            let ways = Ways { left: true, ..Ways::default() };
-            let places = [1.0, 5.0].map(|lanes| taper_m(end)[0] - lanes * lane_m);
-            self.arrows.extend(places.map(|along_m| (world([along_m, centre_m]), corridor.heading_rad, ways)));
-        }
-    }
-
-    /// Draws the road.
-    pub fn draw(&self, canvas: &mut Canvas, view: &CameraView) {
-        let lane_px = self.lane_m * view.px_per_m;
-        let place = |line: &WorldLine| line.iter().map(|point| view.place(*point)).collect::<Vec<_>>();
-        let surfaces: Vec<Vec<[f64; 2]>> = self.surfaces.iter().map(place).collect();
-        for (colour, beyond) in [(VERGE, VERGE_LANES), (KERB, KERB_LANES)] {
-            surfaces.iter().for_each(|ring| canvas.outline(ring, 2.0 * beyond * lane_px, colour));
-        }
-        for ring in &surfaces {
-            canvas.fill(ring, ASPHALT);
-        }
-        // Closes the hairlines between lanes that touch.
-        surfaces.iter().for_each(|ring| canvas.outline(ring, 0.8, ASPHALT));
-        let width = (LINE_LANES * lane_px).max(1.3);
-        for (lines, width) in
-            [(&self.edges, width), (&self.dashes, width), (&self.stop_lines, STOP_LINE_LANES * lane_px)]
-        {
-            lines.iter().for_each(|line| canvas.line(&place(line), width, LineEnd::Flat, PAINT));
-        }
-        for (at_m, heading_rad, ways) in &self.arrows {
-            self.draw_arrow(canvas, view, *at_m, *heading_rad, *ways);
-        }
-    }
-
-    fn draw_arrow(&self, canvas: &mut Canvas, view: &CameraView, at_m: [f64; 2], heading_rad: f64, ways: Ways) {
-        let axes = Axes::along(heading_rad);
-        let place = |[along, across]: [f64; 2]| {
-            let [dx, dy] = axes.vector([along * self.lane_m, across * self.lane_m]);
-            view.place([at_m[0] + dx, at_m[1] + dy])
-        };
-        let width = 0.07 * self.lane_m * view.px_per_m;
-        let stem_end = if ways.straight { 0.55 } else { 0.1 };
-        canvas.line(&[place([-0.6, 0.0]), place([stem_end, 0.0])], width, LineEnd::Flat, ARROW);
-        if ways.straight {
-            canvas.fill(&[place([0.95, 0.0]), place([0.5, 0.15]), place([0.5, -0.15])], ARROW);
-        }
-        for (turns, side) in [(ways.left, 1.0), (ways.right, -1.0)] {
-            if turns {
-                canvas.line(&[place([0.0, 0.0]), place([0.18, side * 0.2])], width, LineEnd::Round, ARROW);
-                let head = [place([0.4, side * 0.42]), place([0.05, side * 0.28]), place([0.3, side * 0.1])];
-                canvas.fill(&head, ARROW);
-            }
-        }
-    }
-}
-
-/// A line without the points that change it by less than a distance: the method of Douglas and Peucker.
-fn flattened(line: &[[f64; 2]], distance: f64) -> WorldLine {
-    let (Some(first), Some(last)) = (line.first(), line.last()) else { return Vec::new() };
-    let mut kept = vec![*first];
-    let mut waiting = vec![(0, line.len() - 1)];
-    while let Some((from, to)) = waiting.pop() {
-        let [[x, y], end] = [line[from], line[to]];
-        let (dx, dy) = (end[0] - x, end[1] - y);
-        let length = libm::hypot(dx, dy);
-        let off = |point: &[f64; 2]| {
-            let [px, py] = [point[0] - x, point[1] - y];
-            if length > 0.0 { (px * dy - py * dx).abs() / length } else { libm::hypot(px, py) }
-        };
-        let inner = (from + 1..to).map(|index| (off(&line[index]), index));
-        match inner.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(off, _)| *off > distance) {
-            Some((_, middle)) => waiting.extend([(middle, to), (from, middle)]),
-            None if to < line.len() - 1 => kept.push(line[to]),
-            None => {}
-        }
-    }
-    kept.push(*last);
-    kept
-}
-
-/// Where the lanes after a lane lead.
-fn ways(network: &RoadNetwork, lane: &Lane) -> Ways {
-    let end_rad = direction(lane, lane.centre.length_m());
-    let mut ways = Ways::default();
-    for successor in lane.successors.iter().filter_map(|name| network.lane(name)) {
-        let turned = direction(successor, successor.centre.length_m()) - end_rad;
-        let turned = libm::atan2(libm::sin(turned), libm::cos(turned));
-        match turned {
-            left if left > TURN_RAD => ways.left = true,
-            right if right < -TURN_RAD => ways.right = true,
-            _ => ways.straight = true,
-        }
-    }
-    ways
-}
-
-/// The direction of a lane at an arc length \[rad\].
-fn direction(lane: &Lane, along_m: f64) -> f64 {
-    let step_m = 1e-3 * lane.centre.length_m();
-    let before_m = (along_m - step_m).max(0.0);
-    let [from, to] = [before_m, before_m + step_m].map(|along_m| lane.centre.position(along_m, 0.0));
-    libm::atan2(to[1] - from[1], to[0] - from[0])
-}
-
-fn corners([low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
-    [low, [low[0], high[1]], high, [high[0], low[1]]]
-}
-
-/// Least and greatest of four coordinates, and a little more.
-fn range(values: [f64; 4], beyond: f64) -> [f64; 2] {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    [low - beyond, values.iter().copied().fold(f64::NEG_INFINITY, f64::max) + beyond]
-}
-
-/// Dashes at whole multiples of their period, so that they stand still while the camera moves.
-fn dashes([from_m, to_m]: [f64; 2], dash_m: f64) -> Vec<[f64; 2]> {
-    let period_m = 2.0 * dash_m;
-    let first = (from_m / period_m).ceil() as i64;
-    let starts = (first..).map(|index| index as f64 * period_m).take_while(|start_m| start_m + dash_m <= to_m);
-    starts.map(|start_m| [start_m, start_m + dash_m]).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use interplay_scenarios::load;
-
-    use super::*;
-
-    fn shapes(name: &str) -> RoadShapes {
-        RoadShapes::of(&load(name, &[]).expect("embedded"), [[-20.0, -20.0], [20.0, 20.0]])
-    }
-
-    #[test]
-    fn every_form_of_road_has_a_surface_and_edges() {
-        for name in [
-            "lane-change/front-nice",
-            "ramp-merge/nice",
-            "intersection/nice",
-            "intersection/slanted-nice",
-            "curve/lane-drop",
-            "roundabout/nice",
-            "left-turn/nice",
-            "on-ramp/five",
-            "narrow-passage/nice",
-            "overtaking/oncoming",
-            "all-way-stop/four",
-        ] {
-            let shapes = shapes(name);
-            assert!(!shapes.surfaces.is_empty() && shapes.edges.len() >= 2, "{name}");
-            assert!(shapes.surfaces.iter().flatten().flatten().all(|part| part.is_finite()), "{name}");
-        }
-    }
-
-    #[test]
-    fn marks_say_what_one_may_do() {
-        let crossing = shapes("left-turn/nice");
-        assert!(crossing.arrows.iter().any(|(.., ways)| ways.left && ways.straight), "a choice of ways");
-        assert!(!shapes("all-way-stop/four").stop_lines.is_empty());
-        let ramp = shapes("ramp-merge/nice");
-        assert!(ramp.arrows.iter().all(|(.., ways)| ways.left && !ways.straight && !ways.right));
-        assert_eq!(ramp.arrows.len(), 2);
-        assert!(shapes("intersection/nice").arrows.is_empty());
-    }
-
-    #[test]
-    fn flat_lines_keep_their_form_with_few_points() {
-        let arc: Vec<[f64; 2]> = (0..=400).map(|i| libm::sincos(f64::from(i) / 400.0)).map(|(x, y)| [x, y]).collect();
-        let few = flattened(&arc, 1e-3);
-        assert!(few.len() > 5 && few.len() < 40, "{}", few.len());
-        assert_eq!((few.first(), few.last()), (arc.first(), arc.last()));
-        assert!(few.windows(2).all(|pair| pair[1][0] > pair[0][0]), "in order");
-        let middles =
-            few.windows(2).map(|pair| libm::hypot(0.5 * (pair[0][0] + pair[1][0]), 0.5 * (pair[0][1] + pair[1][1])));
-        assert!(middles.into_iter().all(|radius| (1.0 - radius) < 1.1e-3));
-        assert_eq!(flattened(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], 0.1), [[0.0, 0.0], [2.0, 0.0]]);
-    }
-
-    #[test]
-    fn dashes_do_not_depend_on_where_the_picture_begins() {
-        let all = dashes([-10.0, 10.0], 0.8);
-        let some = dashes([-3.1, 4.0], 0.8);
-        assert!(some.iter().all(|dash| all.contains(dash)) && some.len() > 3);
+    for arrow in shapes.arrows() {
+        let width = ARROW_WIDTH_LANES * lane_px;
+        canvas.line(&place(&arrow.stem), width, LineEnd::Flat, ARROW);
+        arrow.bends.iter().for_each(|bend| canvas.line(&place(bend), width, LineEnd::Round, ARROW));
+        arrow.heads.iter().for_each(|head| canvas.fill(&head.map(|corner| view.place(corner)), ARROW));
     }
 }

@@ -1,62 +1,19 @@
 //! A vehicle from above: shadow, wheels that steer, body, windows, lights. Lorries, vans and bicycles look like themselves.
 
 use interplay_planners::{Body, State};
-use interplay_scenarios::{Vehicle, VehicleClass};
+use interplay_scenarios::Vehicle;
 
 use super::camera::CameraView;
 use super::canvas::{Canvas, Ink, LineEnd};
-use super::scene::{SeenVehicle, Turn};
-use crate::palette::Colour;
+use super::scene::SeenVehicle;
+use crate::body_style::BodyStyle;
+use crate::palette::{BRAKE_LIGHT, Colour, GLASS, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
+use crate::signals::Turn;
 
 const SHADOW: Colour = [0x1B, 0x1D, 0x20];
-const TYRE: Colour = [0x17, 0x18, 0x1A];
-const GLASS: Colour = [0x22, 0x2C, 0x38];
-const HEADLIGHT: Colour = [0xFF, 0xF6, 0xD6];
-const TAIL_LIGHT: Colour = [0x7A, 0x1A, 0x1C];
-/// A lit brake light.
-pub const BRAKE_LIGHT: Colour = [0xFF, 0x2A, 0x2A];
-/// A lit indicator.
-pub const INDICATOR: Colour = [0xFF, 0xC4, 0x1F];
 const SKIN: Colour = [0xE8, 0xC3, 0xA0];
 /// Rectangles along and across a body: rear, front, right, left, from −1 at the rear and right to 1 at the front and left.
 type Share = [f64; 4];
-
-/// What a vehicle looks like.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BodyStyle {
-    /// A car with bonnet and boot.
-    Car,
-    /// A van: the windscreen is far ahead and there is no rear window.
-    Van,
-    /// A lorry: a cab and a box.
-    Lorry,
-    /// A bicycle with its rider.
-    Bicycle,
-}
-
-impl BodyStyle {
-    /// The style of a vehicle: by its class, or without one by its size.
-    pub fn of(vehicle: &Vehicle) -> BodyStyle {
-        match vehicle.class {
-            Some(VehicleClass::ScaleCar | VehicleClass::Car) => BodyStyle::Car,
-            Some(VehicleClass::Van) => BodyStyle::Van,
-            Some(VehicleClass::Truck) => BodyStyle::Lorry,
-            Some(VehicleClass::Bicycle) => BodyStyle::Bicycle,
-            None => BodyStyle::of_size(&vehicle.body),
-        }
-    }
-
-    fn of_size(body: &Body) -> BodyStyle {
-        let length = (body.front_m + body.rear_m) / body.scale;
-        let width = body.width_m / body.scale;
-        match (length, width) {
-            (length, _) if length > 0.8 => BodyStyle::Lorry,
-            (length, _) if length > 0.52 => BodyStyle::Van,
-            (_, width) if width < 0.1 => BodyStyle::Bicycle,
-            _ => BodyStyle::Car,
-        }
-    }
-}
 
 /// A vehicle on its way to the canvas: from its own frame to pixels.
 struct Placed<'a> {
@@ -237,21 +194,17 @@ pub fn brake_glow() -> Ink {
     Ink::veiled(BRAKE_LIGHT, 0.3)
 }
 
-/// A darker shade.
-pub fn darker(colour: Colour) -> Colour {
-    colour.map(|part| (f64::from(part) * 0.55) as u8)
-}
-
 #[cfg(test)]
 mod tests {
     use interplay_scenarios::load;
 
     use super::*;
+    use crate::animation::camera::WIDTH_PX;
 
     /// A picture of one vehicle at 60 px/m around it, and what has a colour in it.
     fn count(seen: &SeenVehicle, colour: Colour) -> usize {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
-        let view = CameraView { centre_m: seen.state.position(), px_per_m: 200.0, height_px: 200.0 };
+        let view = CameraView { centre_m: seen.state.position(), px_per_m: 200.0, size_px: [WIDTH_PX, 200.0] };
         let mut canvas = Canvas::new([720, 200], [0x80; 3]).expect("a size");
         draw(&mut canvas, &view, &scenario.vehicles[0], seen, [10, 200, 30]);
         canvas.into_rgb().chunks_exact(3).filter(|pixel| *pixel == colour).count()
@@ -281,18 +234,5 @@ mod tests {
         assert!(count(&left, INDICATOR) > 10);
         assert_eq!(count(&SeenVehicle { blinks: false, ..left }, INDICATOR), 0);
         assert!(count(&dark, [10, 200, 30]) > 1000 && count(&dark, GLASS) > 100);
-    }
-
-    #[test]
-    fn vehicles_look_like_their_class_or_size() {
-        let scenario = load("on-ramp/five", &[]).expect("embedded");
-        let style = |name: &str| BodyStyle::of(scenario.vehicle(name).expect("there"));
-        assert_eq!((style("lorry"), style("front")), (BodyStyle::Lorry, BodyStyle::Car));
-        let size = |front_m: f64, rear_m: f64, width_m: f64| {
-            BodyStyle::of_size(&Body { front_m, rear_m, width_m, scale: 10.0, ..Body::default() })
-        };
-        assert_eq!(size(2.8, 3.2, 2.0), BodyStyle::Van);
-        assert_eq!(size(0.9, 0.9, 0.65), BodyStyle::Bicycle);
-        assert_eq!(size(2.2, 2.3, 1.8), BodyStyle::Car);
     }
 }

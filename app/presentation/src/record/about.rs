@@ -2,7 +2,7 @@
 
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
-use interplay_scenarios::{LaneReference, Scenario, Vehicle};
+use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::report::CounterfactualReport;
 use rerun::{RecordingStream, RecordingStreamResult};
 
@@ -26,7 +26,9 @@ pub fn about(
     let command = command.filter(|_| driving.is_none());
     let building = scenario.building.is_some().then(|| building::about(scenario, command));
     let verdicts = (!counterfactuals.is_empty()).then(|| verdicts(counterfactuals));
-    let text = driving.into_iter().chain(building).chain(verdicts).collect::<Vec<_>>().join("\n\n");
+    let clocks = (driving.is_some() && building.is_some()).then(|| clocks(scenario));
+    let driving = driving.into_iter().chain(clocks);
+    let text = driving.chain(building).chain(verdicts).collect::<Vec<_>>().join("\n\n");
     stream.log_static("about", &TextDocument::new(text).with_media_type(MediaType::MARKDOWN))
 }
 
@@ -37,18 +39,33 @@ fn description(scenario: &Scenario, vehicle_colours: &[NamedColour], command: Op
         .vehicles
         .iter()
         .zip(vehicle_colours)
-        .map(|(vehicle, vehicle_colour)| row(scenario, vehicle, *vehicle_colour))
+        .map(|(vehicle, vehicle_colour)| row(vehicle, *vehicle_colour))
         .collect();
     format!(
-        "### {title}\n\n{shows}{figure}.{again}\n\n\
-         | vehicle | colour | driver | wants |\n|---|---|---|---|\n{who}\n\
-         In a vehicle's colour: pale behind it, the path it drove; solid ahead, its plan; dashed, what others expect \
-         of it; dotted, what it asks another to do. Ellipses: where the ego's centre keeps out. A plan in {failure} \
-         is a fallback, because the planner failed: the events say why.\n{guide}",
+        "**{title}**\n\n{shows}{figure}.{again}\n\n\
+         | vehicle | colour | driver |\n|---|---|---|\n{who}\n\
+         **On the road**, in each vehicle's colour:\n\n\
+         - thick line ahead: its plan\n\
+         - dashes: what the others expect of it\n\
+         - pale line behind: where it was\n\
+         - dots: what it asks another vehicle to do\n\
+         - white ellipse: the ego's centre keeps out of it\n\
+         - line in {failure}: a fallback, because the planner has no plan; the events say why\n\
+         - red lights: it brakes; yellow lights: it is going to turn or to change lanes\n{guide}",
         guide = planner_panels::guide(scenario),
         title = scenario.title,
         shows = scenario.shows.trim_end_matches('.'),
         failure = FAILURE.word,
+    )
+}
+
+/// How vehicles and building share the time.
+fn clocks(scenario: &Scenario) -> String {
+    format!(
+        "**Two clocks**: the vehicles drive during the first {:.0} s of {} days. *The building* has its own tab; for its days \
+         drag the time cursor, or play some thousand times faster.",
+        scenario.duration_s,
+        scenario.days()
     )
 }
 
@@ -67,14 +84,8 @@ fn verdicts(counterfactuals: &[CounterfactualReport]) -> String {
     format!("**Counterfactuals**, runs beside this one in which something is changed:\n\n{lines}")
 }
 
-fn row(scenario: &Scenario, vehicle: &Vehicle, vehicle_colour: NamedColour) -> String {
-    let target = vehicle.target(&scenario.road);
-    let goal = match &vehicle.goal.lane {
-        Some(LaneReference::Number(lane)) => format!("lane {lane} at {:.2} m/s", target.speed_mps),
-        Some(LaneReference::Name(lane)) => format!("lane `{lane}` at {:.2} m/s", target.speed_mps),
-        None => format!("{:.2} m/s", target.speed_mps),
-    };
-    format!("| **{}** | {} | {} | {goal} |\n", vehicle.name, vehicle_colour.word, vehicle.driver.kind())
+fn row(vehicle: &Vehicle, vehicle_colour: NamedColour) -> String {
+    format!("| **{}** | {} | {} |\n", vehicle.name, vehicle_colour.word, vehicle.driver.description())
 }
 
 #[cfg(test)]

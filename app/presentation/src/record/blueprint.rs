@@ -8,7 +8,7 @@ use super::re_sdk_types::blueprint::archetypes::{
     ContainerBlueprint, PanelBlueprint, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
 };
 use super::re_sdk_types::blueprint::components::{
-    ColumnShare, ContainerKind, IncludedContent, LoopMode, PanelState, PlayState, RootContainer, RowShare,
+    ActiveTab, ColumnShare, ContainerKind, IncludedContent, LoopMode, PanelState, PlayState, RootContainer, RowShare,
 };
 use super::re_sdk_types::datatypes::Uuid;
 use super::timelines::SIM_TIME;
@@ -23,6 +23,8 @@ pub enum LayoutNode {
     Row(Vec<(f32, LayoutNode)>),
     /// One below the other, with shares of the height.
     Column(Vec<(f32, LayoutNode)>),
+    /// One behind the other, the first in front, with words on the tabs; those of a view are its title.
+    Tabs(Vec<(&'static str, LayoutNode)>),
     /// A view.
     View(View),
 }
@@ -37,7 +39,7 @@ pub struct View {
 }
 
 impl View {
-    /// A view of one of the viewer's classes (`2D`, `TimeSeries`, `TextLog`, `TextDocument`), of the entities that
+    /// A view of one of the viewer's classes (`2D`, `3D`, `TimeSeries`, `TextLog`, `TextDocument`), of the entities that
     /// `contents` matches.
     pub fn new(class: &'static str, title: &str, contents: Vec<String>) -> View {
         View { class, title: title.to_owned(), origin: "/".to_owned(), contents, properties: Vec::new() }
@@ -90,7 +92,7 @@ pub fn send(
     blueprint.set_log_time_enabled(false);
     blueprint.set_log_tick_enabled(false);
     let mut writer = Writer { stream: &blueprint, names: 0 };
-    let (root, _) = writer.panel(root)?;
+    let (root, _) = writer.panel(root, "")?;
     blueprint.log(
         "viewport",
         &ViewportBlueprint::new()
@@ -127,13 +129,14 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Writes a panel and everything in it; returns its name and its path.
-    fn panel(&mut self, panel: &LayoutNode) -> RecordingStreamResult<(Uuid, String)> {
+    /// Writes a panel and everything in it; returns its name and its path. On a tab it is called by its title.
+    fn panel(&mut self, panel: &LayoutNode, title: &str) -> RecordingStreamResult<(Uuid, String)> {
         self.names += 1;
         let (sort, class) = match panel {
             LayoutNode::View(view) => ("view", view.class),
             LayoutNode::Row(_) => ("container", "row"),
             LayoutNode::Column(_) => ("container", "column"),
+            LayoutNode::Tabs(_) => ("container", "tabs"),
         };
         // The viewer remembers what it knows of a view by its name, also when it goes over to another recording's layout: a
         // name must never stand for a view of another class.
@@ -142,23 +145,32 @@ impl Writer<'_> {
         match panel {
             LayoutNode::View(view) => self.view(&path, view)?,
             LayoutNode::Row(parts) => {
-                let contents = self.contents(parts)?;
-                let shares = parts.iter().map(|(share, _)| ColumnShare((*share).into()));
-                let row = ContainerBlueprint::new(ContainerKind::Horizontal);
-                self.stream.log(path.as_str(), &row.with_contents(contents).with_col_shares(shares))?;
+                let row = ContainerBlueprint::new(ContainerKind::Horizontal).with_contents(self.contents(parts)?);
+                let row = row.with_col_shares(parts.iter().map(|(share, _)| ColumnShare((*share).into())));
+                self.stream.log(path.as_str(), &titled(row, title))?;
             }
             LayoutNode::Column(parts) => {
-                let contents = self.contents(parts)?;
-                let shares = parts.iter().map(|(share, _)| RowShare((*share).into()));
-                let column = ContainerBlueprint::new(ContainerKind::Vertical);
-                self.stream.log(path.as_str(), &column.with_contents(contents).with_row_shares(shares))?;
+                let column = ContainerBlueprint::new(ContainerKind::Vertical).with_contents(self.contents(parts)?);
+                let column = column.with_row_shares(parts.iter().map(|(share, _)| RowShare((*share).into())));
+                self.stream.log(path.as_str(), &titled(column, title))?;
+            }
+            LayoutNode::Tabs(parts) => {
+                let mut contents = Vec::new();
+                for (title, part) in parts {
+                    contents.push(IncludedContent(self.panel(part, title)?.1.into()));
+                }
+                let mut tabs = ContainerBlueprint::new(ContainerKind::Tabs).with_contents(contents.clone());
+                if let Some(first) = contents.into_iter().next() {
+                    tabs = tabs.with_active_tab(ActiveTab(first.0));
+                }
+                self.stream.log(path.as_str(), &titled(tabs, title))?;
             }
         }
         Ok((name, path))
     }
 
     fn contents(&mut self, parts: &[(f32, LayoutNode)]) -> RecordingStreamResult<Vec<IncludedContent>> {
-        parts.iter().map(|(_, part)| Ok(IncludedContent(self.panel(part)?.1.into()))).collect()
+        parts.iter().map(|(_, part)| Ok(IncludedContent(self.panel(part, "")?.1.into()))).collect()
     }
 
     fn view(&self, path: &str, view: &View) -> RecordingStreamResult<()> {
@@ -172,4 +184,9 @@ impl Writer<'_> {
         }
         Ok(())
     }
+}
+
+/// A container with words on its tab.
+fn titled(container: ContainerBlueprint, title: &str) -> ContainerBlueprint {
+    if title.is_empty() { container } else { container.with_display_name(title) }
 }

@@ -1,64 +1,80 @@
 //! Which panels a recording opens with: only those that have something to show.
 //!
-//! The close-up and the whole road lie across the window, since roads are long and narrow; below them the numbers,
-//! and at the bottom the words.
+//! The first tab shows the interaction, from above and from the side, with the speeds and the words; behind it are the
+//! numbers of the planners.
 
-use super::re_sdk_types::blueprint::archetypes::{PlotLegend, ScalarAxis, TimeAxis, VisibleTimeRanges, VisualBounds2D};
-use super::re_sdk_types::blueprint::components::{Corner2D, VisibleTimeRange};
-use super::re_sdk_types::components::Range1D;
+use super::re_sdk_types::blueprint::archetypes::{
+    Background, EyeControls3D, LineGrid3D, VisibleTimeRanges, VisualBounds2D,
+};
+use super::re_sdk_types::blueprint::components::{BackgroundKind, VisibleTimeRange};
 use super::re_sdk_types::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
 use super::re_sdk_types::{blueprint, datatypes};
-use interplay_scenarios::{Branch, Scenario, Vehicle};
+use interplay_scenarios::{Branch, Scenario};
 
 use super::blueprint::{LayoutNode, View};
-use super::panels::{about, events};
+use super::cameras::{self, Cameras};
+use super::palette::opaque;
+use super::panels::{about, events, status};
 use super::planner_panels;
 use super::plots::{self, Plots};
+use super::time_plot::{TimePlot, ranged};
 use super::timelines::{SIM_TIME, TICK};
-use super::vehicles::FOLLOW;
-use crate::curved_road::CurvedRoad;
-use crate::network_lines::expected_bounds_m;
+use crate::palette::GRASS;
 
-/// Width of the close-up as a multiple of its height.
-const CLOSE_UP_ASPECT: f64 = 5.6;
-/// How much of the land beside the road the close-up shows on either side, in lane widths.
-const BESIDE_LANES: f64 = 0.5;
-/// How far the close-up of a road that turns reaches from the ego, in widths of the road and the land beside it.
-const AROUND_WIDTHS: f64 = 2.0;
-/// The same on a network, where the width is that of one lane.
-const AROUND_WIDTHS_ON_NETWORK: f64 = 4.0;
-/// How much of the close-up lies behind the ego.
-const SHARE_BEHIND: f64 = 0.42;
+/// Widths of the plots in a window 1280 points wide: on the first tab, and of three in a row.
+const FIRST_WIDTH: f64 = 300.0;
+const THIRD_WIDTH: f64 = 390.0;
+/// The colour behind the scene, where the ground ends.
+const SKY: [u8; 3] = [0xC9, 0xDC, 0xEA];
+/// A picture of the whole road that is lower than this share of its width is a strip below the picture from above.
+const STRIP_RATIO: f64 = 0.2;
 
-/// The layout for a scenario of which `plots` were recorded between the longitudinal coordinates `road_m`.
-pub fn layout(scenario: &Scenario, plots: &Plots, road_m: [f64; 2]) -> LayoutNode {
-    let words = (1.9, LayoutNode::Row(words(scenario, plots)));
-    if let Some([from_m, to_m]) = scenario.road.conflict_zone_m(Branch::Main) {
-        let beside = LayoutNode::Column(rows(numbers(scenario, plots), 2));
-        let above = LayoutNode::Row(vec![(1.0, crossing(scenario, 0.5 * (from_m + to_m))), (1.2, beside)]);
-        return LayoutNode::Column(vec![(3.4, above), words]);
-    }
-    let bounds_m = match (&scenario.network, CurvedRoad::new(&scenario.road)) {
-        (Some(_), _) => Some(expected_bounds_m(scenario)),
-        (None, curved) => curved.map(|curved| curved.bounds_m(road_m)),
+/// The tabs for a scenario of which `plots` were recorded.
+pub fn tabs(scenario: &Scenario, plots: &Plots, cameras: &Cameras) -> Vec<(&'static str, LayoutNode)> {
+    vec![
+        ("The interaction", interaction(scenario, plots, cameras)),
+        ("Numbers of the planners", LayoutNode::Column(rows(numbers(scenario, plots), 3))),
+    ]
+}
+
+/// Whether the whole road is seen as a strip, by the least and greatest coordinates of the vehicles.
+pub fn has_strip(scenario: &Scenario, [low, high]: [[f64; 2]; 2]) -> bool {
+    let is_long = (high[1] - low[1]) + 4.0 * scenario.road.lane_width_m() < STRIP_RATIO * (high[0] - low[0]);
+    is_long && scenario.network.is_none() && scenario.road.conflict_zone_m(Branch::Main).is_none()
+}
+
+fn interaction(scenario: &Scenario, plots: &Plots, cameras: &Cameras) -> LayoutNode {
+    let from_above = traced(scenario, from_above("From above", cameras::TOP, cameras.top_px()));
+    let whole_px = cameras.whole_px(scenario);
+    let whole = traced(scenario, without_details(scenario, from_above_whole(whole_px)));
+    let side = LayoutNode::View(traced(scenario, from_the_side()));
+    let views = if cameras.has_strip() {
+        let above = LayoutNode::Column(vec![(3.0, LayoutNode::View(from_above)), (1.0, LayoutNode::View(whole))]);
+        LayoutNode::Row(vec![(1.72, above), (1.0, side)])
+    } else {
+        let beside = LayoutNode::Tabs(vec![("", side), ("", LayoutNode::View(whole))]);
+        LayoutNode::Row(vec![(1.72, LayoutNode::View(from_above)), (1.0, beside)])
     };
-    if let Some(bounds_m) = bounds_m {
-        let views = vec![(1.2, around_the_ego(scenario)), (1.0, whole_curve(scenario, bounds_m))];
-        let beside = LayoutNode::Column(rows(numbers(scenario, plots), 2));
-        let above = LayoutNode::Row(vec![(2.2, LayoutNode::Row(views)), (1.4, beside)]);
-        return LayoutNode::Column(vec![(3.4, above), words]);
+    // A legend of many names is high.
+    let speeds_share = 1.15 + 0.3 * scenario.vehicles.len().saturating_sub(3) as f32;
+    let gap = (1.0, gap(scenario, plots));
+    let mut words = vec![(1.0, LayoutNode::Column(vec![(speeds_share, speeds(scenario, plots)), gap]))];
+    if !plots.has(plots::GAP) {
+        words = vec![(1.0, speeds(scenario, plots))];
     }
-    let mut parts = vec![(1.7, close_up(scenario)), (0.65, whole_road(scenario, road_m))];
-    parts.extend(rows(numbers(scenario, plots), 4).into_iter().map(|(_, row)| (1.5, row)));
-    parts.push(words);
-    LayoutNode::Column(parts)
+    words.push((1.25, status()));
+    if plots.has(plots::LOG) {
+        words.push((1.1, events()));
+    }
+    words.push((1.1, about()));
+    LayoutNode::Column(vec![(1.4, views), (1.0, LayoutNode::Row(words))])
 }
 
 /// Panels in rows of at most `longest`, all about equally long.
-fn rows(panels: Vec<(f32, LayoutNode)>, longest: usize) -> Vec<(f32, LayoutNode)> {
+pub fn rows(panels: Vec<LayoutNode>, longest: usize) -> Vec<(f32, LayoutNode)> {
     let count = panels.len().div_ceil(longest).max(1);
     let length = panels.len().div_ceil(count).max(1);
-    let mut panels = panels.into_iter().peekable();
+    let mut panels = panels.into_iter().map(|panel| (1.0, panel)).peekable();
     let mut rows = Vec::new();
     while panels.peek().is_some() {
         rows.push((1.0, LayoutNode::Row(panels.by_ref().take(length).collect())));
@@ -66,120 +82,83 @@ fn rows(panels: Vec<(f32, LayoutNode)>, longest: usize) -> Vec<(f32, LayoutNode)
     rows
 }
 
-/// Speeds, what goes on in the planners, and the gap.
-fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<(f32, LayoutNode)> {
-    let fastest = scenario.vehicles.iter().map(|vehicle| vehicle.limits.speed_max_mps).fold(0.0, f64::max);
-    let speeds = Plot::new(scenario, "Speeds [m/s]", vec!["/plots/speed/**".to_owned()]);
-    let mut panels = vec![(1.0, speeds.between(0.0, 1.05 * fastest).legend_at(Corner2D::RightBottom))];
+fn longest_name(scenario: &Scenario) -> usize {
+    scenario.vehicles.iter().map(|vehicle| vehicle.name.chars().count()).max().unwrap_or(0)
+}
+
+fn speeds(scenario: &Scenario, plots: &Plots) -> LayoutNode {
+    let title = ranged("Speeds", plots.speeds_mps(), "m/s");
+    let plot = TimePlot::new(scenario.duration_s, &title, vec!["/plots/speed/**".to_owned()]);
+    let plot = match plots.speeds_mps() {
+        Some(range) => plot.around(range),
+        None => plot,
+    };
+    plot.with_legend(longest_name(scenario), FIRST_WIDTH)
+}
+
+fn gap(scenario: &Scenario, plots: &Plots) -> LayoutNode {
+    let contents = if plots.has(plots::GAP) { vec![format!("/{}", plots::GAP)] } else { Vec::new() };
+    let title =
+        plots.smallest_gap_m().map_or("Gap [m]".to_owned(), |gap_m| format!("Gap of the ego, least {gap_m:.2} m"));
+    TimePlot::new(scenario.duration_s, &title, contents).alone()
+}
+
+/// What goes on in the planners, what they apply, and how long they take.
+fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<LayoutNode> {
+    let mut panels = Vec::new();
     for panel in planner_panels::panels(scenario) {
         let series = plots.among(panel.kind, panel.content.quantities);
         if !series.is_empty() {
-            let mut plot = Plot::new(scenario, panel.content.title, series);
-            if let Some([low, high]) = panel.axis() {
-                plot = plot.between(low, high);
+            let letters = plots.longest_label(&series);
+            let mut plot = TimePlot::new(scenario.duration_s, panel.content.title, series);
+            if let Some(axis) = panel.axis() {
+                plot = plot.between(axis);
             }
-            panels.push((1.0, plot.legend_at(Corner2D::RightTop)));
+            panels.push(plot.with_legend(letters, THIRD_WIDTH));
         }
     }
-    if plots.has(plots::GAP) {
-        let gap = vec![format!("/{}", plots::GAP)];
-        panels.push((1.0, Plot::new(scenario, "Gap from the ego to the nearest vehicle [m]", gap).alone()));
+    for (title, folder) in [
+        ("Accelerations [m/s²]", "acceleration"),
+        ("Angles of the front wheels [rad]", "steering"),
+        ("Time to plan [ms]", "planner-ms"),
+    ] {
+        let plot = TimePlot::new(scenario.duration_s, title, vec![format!("/plots/{folder}/**")]);
+        panels.push(plot.with_legend(longest_name(scenario), THIRD_WIDTH));
     }
     panels
 }
 
-fn words(scenario: &Scenario, plots: &Plots) -> Vec<(f32, LayoutNode)> {
-    let computing = Plot::new(scenario, "Time to plan [ms]", vec!["/plots/planner-ms/**".to_owned()]);
-    let mut row = vec![(0.8, computing.legend_at(Corner2D::RightTop))];
-    if plots.has(plots::LOG) {
-        row.push((1.0, events()));
-    }
-    row.push((1.6, about()));
-    row
-}
-
-/// A plot over the whole run.
-struct Plot(View);
-
-impl Plot {
-    fn new(scenario: &Scenario, title: &str, contents: Vec<String>) -> Plot {
-        let at = |time_s: f64| TimeRangeBoundary::Absolute(TimeInt((time_s * 1e9) as i64));
-        let run = TimeRange { start: at(0.0), end: at(scenario.duration_s) };
-        let axis = TimeAxis::new().with_view_range(blueprint::components::TimeRange(run));
-        Plot(View::new("TimeSeries", title, contents).with("TimeAxis", axis))
-    }
-
-    /// With a fixed vertical axis.
-    fn between(self, low: f64, high: f64) -> Plot {
-        Plot(self.0.with("ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high))))
-    }
-
-    fn legend_at(self, corner: Corner2D) -> LayoutNode {
-        LayoutNode::View(self.0.with("PlotLegend", PlotLegend::new().with_corner(corner)))
-    }
-
-    /// Of one series that the title names.
-    fn alone(self) -> LayoutNode {
-        LayoutNode::View(self.0.with("PlotLegend", PlotLegend::new().with_visible(false)))
-    }
-}
-
-/// Length of road in the close-up \[m\].
-pub fn close_up_span_m(scenario: &Scenario) -> f64 {
-    CLOSE_UP_ASPECT * (scenario.road.width_m() + 2.0 * BESIDE_LANES * scenario.road.lane_width_m())
-}
-
-fn close_up(scenario: &Scenario) -> LayoutNode {
-    let beside = BESIDE_LANES * scenario.road.lane_width_m();
-    let across = [-scenario.road.width_m() - beside, beside];
-    let span = close_up_span_m(scenario);
-    let along = [-SHARE_BEHIND * span, (1.0 - SHARE_BEHIND) * span];
-    LayoutNode::View(traced(scenario, top_view("Around the ego", along, across).from(FOLLOW)))
-}
-
-/// A square around the ego on a road that turns.
-fn around_the_ego(scenario: &Scenario) -> LayoutNode {
-    let widths = if scenario.network.is_some() { AROUND_WIDTHS_ON_NETWORK } else { AROUND_WIDTHS };
-    let reach = widths * (scenario.road.width_m() + 2.0 * BESIDE_LANES * scenario.road.lane_width_m());
-    LayoutNode::View(traced(scenario, top_view("Around the ego", [-reach, reach], [-reach, reach]).from(FOLLOW)))
-}
-
-/// The whole of a road that turns or of a network, between least and greatest coordinates in the world.
-fn whole_curve(scenario: &Scenario, [low, high]: [[f64; 2]; 2]) -> LayoutNode {
-    let beside = BESIDE_LANES * scenario.road.lane_width_m();
-    let across = [-high[1] - beside, -low[1] + beside];
-    LayoutNode::View(without_details(scenario, top_view("The whole road", [low[0] - beside, high[0] + beside], across)))
-}
-
-/// Where the roads meet, as far around as the vehicles come from.
-fn crossing(scenario: &Scenario, centre_m: f64) -> LayoutNode {
-    let middle = [centre_m, 0.5 * scenario.road.width_m()];
-    let off = |vehicle: &Vehicle| (vehicle.start.x_m - middle[0]).abs().max((vehicle.start.y_m - middle[1]).abs());
-    let reach =
-        scenario.vehicles.iter().map(off).fold(scenario.road.width_m(), f64::max) + scenario.road.lane_width_m();
-    let across = [-middle[1] - reach, -middle[1] + reach];
-    let view = top_view("The intersection", [middle[0] - reach, middle[0] + reach], across);
-    LayoutNode::View(traced(scenario, view))
-}
-
-fn whole_road(scenario: &Scenario, road_m: [f64; 2]) -> LayoutNode {
-    let view = top_view("The whole road", road_m, [-scenario.road.width_m(), 0.0]);
-    LayoutNode::View(without_details(scenario, view))
-}
-
-/// A view from far above: bodies and paths only.
-fn without_details(scenario: &Scenario, view: View) -> View {
-    let view = scenario.vehicles.iter().fold(view, |view, vehicle| {
-        let parts = ["label", "order", "prediction", "safety"];
-        parts.iter().fold(view, |view, part| view.without(&format!("/world/vehicle/{}/{part}", vehicle.name)))
-    });
-    traced(scenario, view)
-}
-
-fn top_view(title: &str, [left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> View {
-    let bounds = Range2D { x_range: [left, right].into(), y_range: [top, bottom].into() };
+/// What a camera sees from above.
+fn from_above(title: &str, camera: &str, [width, height]: [f64; 2]) -> View {
+    let bounds = Range2D { x_range: [0.0, width].into(), y_range: [0.0, height].into() };
     let bounds = blueprint::components::VisualBounds2D(bounds);
-    View::new("2D", title, vec!["/world/**".to_owned()]).with("VisualBounds2D", VisualBounds2D::new(bounds))
+    View::new("2D", title, vec!["/world/**".to_owned(), format!("- /{}", cameras::SIDE)])
+        .from(&format!("/{camera}"))
+        .with("VisualBounds2D", VisualBounds2D::new(bounds))
+        .with("Background", Background::new(BackgroundKind::SolidColor).with_color(opaque(GRASS)))
+}
+
+/// The whole road, without the labels of the other picture.
+fn from_above_whole(size_px: [f64; 2]) -> View {
+    from_above("The whole road", cameras::WHOLE, size_px).without(&format!("/{}/**", cameras::TOP))
+}
+
+/// The same in three dimensions; it can be turned with the mouse.
+fn from_the_side() -> View {
+    let contents = ["/world/**", "- /world/camera/**"].map(str::to_owned).into_iter();
+    let eye = format!("/{}", cameras::SIDE);
+    View::new("3D", "From the side", contents.chain([format!("+ {eye}")]).collect())
+        .with("EyeControls3D", EyeControls3D::new().with_tracking_entity(eye.as_str()))
+        .with("LineGrid3D", LineGrid3D::new().with_visible(false))
+        .with("Background", Background::new(BackgroundKind::SolidColor).with_color(opaque(SKY)))
+}
+
+/// A view from far above: bodies, plans and paths only.
+fn without_details(scenario: &Scenario, view: View) -> View {
+    scenario.vehicles.iter().fold(view, |view, vehicle| {
+        let parts = ["prediction", "proposal", "safety"];
+        parts.iter().fold(view, |view, part| view.without(&format!("/world/vehicle/{}/{part}", vehicle.name)))
+    })
 }
 
 /// Shows of each path all pieces up to the time cursor.

@@ -4,44 +4,49 @@
 //! that two recordings of one run can be compared. Entities have names, never numbers:
 //!
 //! ```text
-//! world/road[/cross]/{surface,edges,markings}         static
-//! world/vehicle/<name>/{body,label,trace}             where it is and was
+//! world/{ground,road/{surface,edges,markings}}        static
+//! world/vehicle/<name>/{body,trace}                   where it is and was; `body/…` are its solids and lights
 //! world/vehicle/<name>/{plan,branches,prediction,proposal}     what it will do or may do instead, is expected to do, asks of another
 //! world/vehicle/<name>/safety                         where the ego keeps out
-//! world/vehicle/<ego>/order                           ahead of or behind whom its plan leads, in words
+//! world/camera/…                                      see `cameras.rs`
 //! plots/{speed,acceleration,steering,planner-ms}/<name>
 //! plots/<kind of planner>/<diagnostic>[/<name>]       as letters, digits, `-`; the name if several have that planner
 //! plots/gap                                           the ego's distance to the nearest footprint
-//! log, about                                          events; what the recording shows
+//! status, log, about                                  what each driver does; events; what the recording shows
 //! building/…                                          see `building/mod.rs`
 //! ```
 
 mod about;
 mod blueprint;
 mod building;
+mod cameras;
+mod car;
 mod error;
+mod labels;
 mod layout;
 mod live;
 mod markdown;
+mod mesh;
 mod open;
 mod palette;
 mod panels;
 mod planner_panels;
 mod plots;
 mod road;
+mod status;
 #[cfg(test)]
 mod tests;
+mod time_plot;
 mod timelines;
 mod vehicles;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Duration;
 
 use ::re_sdk_types;
 use blueprint::LayoutNode;
 use building::BuildingLayer;
-use interplay_planners::Route;
+use cameras::Cameras;
 use interplay_scenarios::Scenario;
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::MemorySinkStorage;
@@ -50,10 +55,14 @@ use rerun::{RecordingStream, RecordingStreamBuilder};
 pub use error::{RecordError, ViewerAddressError};
 pub use live::Viewer;
 pub use open::OpenRecording;
+use palette::NamedColour;
 use plots::Plots;
 use re_sdk_types::blueprint::components::PlayState;
+use status::StatusLines;
 pub use timelines::{SIM_TIME, TICK};
 use vehicles::VehicleLayer;
+
+use crate::network_lines::expected_bounds_m;
 
 use interplay_simulation::frame::Frame;
 use interplay_simulation::report::CounterfactualReport;
@@ -90,15 +99,14 @@ pub struct Recorder {
     stream: RecordingStream,
     output: Output,
     scenario: Scenario,
-    /// The main road.
-    route: Arc<Route>,
+    vehicle_colours: Vec<NamedColour>,
     vehicles: VehicleLayer,
+    cameras: Cameras,
+    status: StatusLines,
     plots: Plots,
     building_layer: Option<BuildingLayer>,
     /// What a reader types to get the run again.
     command: Option<String>,
-    /// Longitudinal coordinates between which somebody was \[m\].
-    driven_m: Option<[f64; 2]>,
 }
 
 enum Output {
@@ -132,17 +140,30 @@ impl Recorder {
         stream.set_log_tick_enabled(false);
         stream.send_recording_name(format!("{name}: {}", scenario.title))?;
         let vehicle_colours = palette::vehicle_colours(scenario);
-        let [from_m, to_m] = expected_road(scenario);
-        let beyond_m = layout::close_up_span_m(scenario);
-        if !scenario.vehicles.is_empty() {
-            road::road(&stream, scenario, [from_m - beyond_m, to_m + beyond_m])?;
+        let has_vehicles = !scenario.vehicles.is_empty();
+        let bounds_m = if has_vehicles { expected_bounds_m(scenario) } else { Default::default() };
+        if has_vehicles {
+            road::road(&stream, scenario, bounds_m)?;
         }
         about::about(&stream, scenario, &vehicle_colours, None, &[])?;
         let vehicles = VehicleLayer::begin(&stream, scenario, &vehicle_colours)?;
+        let has_strip = layout::has_strip(scenario, bounds_m);
+        let cameras = Cameras::begin(&stream, scenario, &vehicle_colours, (has_strip, bounds_m))?;
         let plots = Plots::begin(&stream, scenario, &vehicle_colours)?;
         let building_layer = BuildingLayer::begin(&stream, scenario)?;
-        let (scenario, route) = (scenario.clone(), scenario.main_route());
-        Ok(Recorder { stream, output, scenario, route, vehicles, plots, building_layer, command: None, driven_m: None })
+        let (scenario, status) = (scenario.clone(), StatusLines::default());
+        Ok(Recorder {
+            stream,
+            output,
+            scenario,
+            vehicle_colours,
+            vehicles,
+            cameras,
+            status,
+            plots,
+            building_layer,
+            command: None,
+        })
     }
 
     /// Adds to the text of the recording what a reader types to get the run again.
@@ -156,9 +177,8 @@ impl Recorder {
 
     /// Writes the text of the recording anew, with what became of the counterfactuals.
     fn describe(&self, counterfactuals: &[CounterfactualReport]) -> Result<(), RecordError> {
-        let vehicle_colours = palette::vehicle_colours(&self.scenario);
         let command = self.command.as_deref();
-        Ok(about::about(&self.stream, &self.scenario, &vehicle_colours, command, counterfactuals)?)
+        Ok(about::about(&self.stream, &self.scenario, &self.vehicle_colours, command, counterfactuals)?)
     }
 
     /// Records one tick.
@@ -168,22 +188,20 @@ impl Recorder {
     pub fn tick(&mut self, frame: &Frame) -> Result<(), RecordError> {
         self.stream.set_duration_secs(SIM_TIME, frame.time_s);
         self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
-        self.vehicles.tick(&self.stream, frame)?;
+        self.vehicles.tick(&self.stream, &self.scenario, frame)?;
+        self.status.tick(&self.stream, &self.scenario, &self.vehicle_colours, frame)?;
         self.plots.tick(&self.stream, frame)?;
         if let (Some(building_layer), Some(frame)) = (&mut self.building_layer, &frame.building) {
             building_layer.step(&self.stream, frame)?;
         }
-        for vehicle in &frame.vehicles {
-            let along = self.route.along(vehicle.state.position());
-            let [from, to] = self.driven_m.unwrap_or([along, along]);
-            self.driven_m = Some([from.min(along), to.max(along)]);
-        }
-        let count = self.plots.seen().len();
-        if let Output::Live { series } = &mut self.output
-            && *series != count
-        {
-            *series = count;
-            self.arrange(expected_road(&self.scenario))?;
+        self.cameras.note(&self.scenario, frame);
+        let count = self.plots.seen_count();
+        if let Output::Live { series } = &mut self.output {
+            let is_new = std::mem::replace(series, count) != count;
+            self.cameras.log_last(&self.stream, &self.scenario)?;
+            if is_new {
+                self.arrange()?;
+            }
         }
         Ok(())
     }
@@ -192,9 +210,15 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RecordError::Unwritable`] if the disk refuses the file, [`RecordError::Broken`] if the viewer went away.
-    pub fn finish(self) -> Result<(), RecordError> {
-        let road_m = self.driven_m.map(|[from, to]| [from - margin(&self.scenario), to + margin(&self.scenario)]);
-        self.arrange(road_m.unwrap_or_else(|| expected_road(&self.scenario)))?;
+    pub fn finish(mut self) -> Result<(), RecordError> {
+        self.plots.end();
+        if let Some(building_layer) = &mut self.building_layer {
+            building_layer.end();
+        }
+        if matches!(self.output, Output::File { .. }) {
+            self.cameras.log_all(&self.stream, &self.scenario)?;
+        }
+        self.arrange()?;
         match &self.output {
             Output::File { path, content } => {
                 let content = content.drain_as_bytes().map_err(|error| RecordError::Broken(Box::new(error)))?;
@@ -206,20 +230,22 @@ impl Recorder {
         }
     }
 
-    /// Sends the layout.
-    fn arrange(&self, road_m: [f64; 2]) -> Result<(), RecordError> {
-        let driving = || layout::layout(&self.scenario, &self.plots, road_m);
-        let words = match self.scenario.vehicles.is_empty() {
-            false => building::TextPanels::Elsewhere,
-            true if self.plots.has(plots::LOG) => building::TextPanels::AboutAndEvents,
-            true => building::TextPanels::About,
+    /// Sends the layout: a tab for each clock, and for what is only looked up.
+    fn arrange(&self) -> Result<(), RecordError> {
+        let has_vehicles = !self.scenario.vehicles.is_empty();
+        let words = match has_vehicles {
+            true => building::TextPanels::Elsewhere,
+            false if self.plots.has(plots::LOG) => building::TextPanels::AboutAndEvents,
+            false => building::TextPanels::About,
         };
-        let building_layer = self.building_layer.as_ref().map(|building_layer| building::layout(building_layer, words));
-        let panel = match building_layer {
-            None => driving(),
-            Some(building_layer) if self.scenario.vehicles.is_empty() => building_layer,
-            Some(building_layer) => LayoutNode::Row(vec![(1.0, driving()), (1.0, building_layer)]),
-        };
+        let mut tabs = Vec::new();
+        if has_vehicles {
+            tabs.extend(layout::tabs(&self.scenario, &self.plots, &self.cameras));
+        }
+        if let Some(building_layer) = &self.building_layer {
+            tabs.extend(building::tabs(building_layer, words));
+        }
+        let panel = LayoutNode::Tabs(tabs);
         let speed = if self.scenario.vehicles.is_empty() { BUILDING_PLAYBACK_SPEED } else { 1.0 };
         let play = match self.output {
             Output::File { .. } => PlayState::Playing,
@@ -245,21 +271,4 @@ fn identity(scenario: &Scenario, name: &str) -> String {
     let controller = scenario.controller();
     drivers.extend(scenario.building.is_some().then(|| controller.kind()));
     format!("{name} ({}; seed {})", drivers.join(", "), scenario.seed)
-}
-
-/// Space on the road before the first and after the last vehicle \[m\].
-fn margin(scenario: &Scenario) -> f64 {
-    2.0 * scenario.road.lane_width_m()
-}
-
-/// The longitudinal coordinates between which the vehicles will stay if they drive as they wish \[m\].
-fn expected_road(scenario: &Scenario) -> [f64; 2] {
-    let route = scenario.main_route();
-    let mut road = [f64::INFINITY, f64::NEG_INFINITY];
-    for vehicle in &scenario.vehicles {
-        let start = route.along(vehicle.start.position());
-        let speed = vehicle.start.speed_mps.max(vehicle.target(&scenario.road).speed_mps);
-        road = [road[0].min(start), road[1].max(start + speed * scenario.duration_s)];
-    }
-    [road[0] - margin(scenario), road[1] + margin(scenario)]
 }

@@ -1,15 +1,13 @@
 //! The colours of recordings: those of the whole project, and of what only recordings draw.
 
 use super::re_sdk_types::components::Color;
-use crate::palette::{self, GREEN, ORANGE, PURPLE, SKY};
+use crate::palette::{self, ASPHALT, Colour, GREEN, ORANGE, PURPLE, SKY};
 
 pub use crate::palette::{NamedColour, vehicle_colours};
 
 /// Something went wrong: a plan that is only a fallback. Vermillion, which no vehicle has.
 pub const FAILURE: NamedColour = palette::VERMILLION;
-/// The surface of the road.
-pub const ASPHALT: NamedColour = NamedColour { rgb: [0x2B, 0x2E, 0x33], word: "grey" };
-/// Edges and lane markings.
+/// Bounds of what is wanted.
 pub const MARKING: NamedColour = NamedColour { rgb: [0xA8, 0xAC, 0xB3], word: "light grey" };
 /// What belongs to nobody.
 pub const NEUTRAL: NamedColour = NamedColour { rgb: [0xDD, 0xDD, 0xDD], word: "white" };
@@ -28,11 +26,26 @@ impl NamedColour {
         Color::from_unmultiplied_rgba(red, green, blue, opacity)
     }
 
-    /// A darker shade of the colour, opaque.
-    pub fn dark(self) -> Color {
-        let [red, green, blue] = self.rgb.map(|part| part / 5 * 2);
-        Color::from_rgb(red, green, blue)
+    /// A lighter shade, for words on a dark ground.
+    pub fn on_labels(self) -> Color {
+        opaque(self.rgb.map(|part| part.saturating_add((0xFF - part) / 4 * 3)))
     }
+
+    /// The colour mixed with that of the road, opaque; `share` 1 is the colour itself.
+    pub fn on_asphalt(self, share: f64) -> Color {
+        let mixed = |part: usize| share * f64::from(self.rgb[part]) + (1.0 - share) * f64::from(ASPHALT[part]);
+        opaque([0, 1, 2].map(|part| mixed(part).round() as u8))
+    }
+}
+
+/// A colour for the viewer.
+pub fn opaque([red, green, blue]: Colour) -> Color {
+    Color::from_rgb(red, green, blue)
+}
+
+/// Colours of zones, in their order; who comes later starts again.
+pub fn zone(index: usize) -> NamedColour {
+    [GREEN, ORANGE, SKY, PURPLE, YELLOW][index % 5]
 }
 
 /// Colours of a planner's numbers, by their place among those that share a panel.

@@ -1,20 +1,30 @@
 //! Panels of words, which every layout has.
 
 use super::re_sdk_types::blueprint::archetypes::TextLogColumns;
-use super::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
+use super::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind, TimelineColumn};
 
 use super::blueprint::{LayoutNode, View};
 use super::plots;
+use super::status;
+use super::timelines::{SIM_TIME, TICK};
 
 /// What the recording is, and what to look for.
 pub fn about() -> LayoutNode {
     LayoutNode::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))
 }
 
-/// What happened, in words.
+/// What each driver wants and does.
+pub fn status() -> LayoutNode {
+    let contents = vec![format!("/{}", status::STATUS)];
+    LayoutNode::View(View::new("TextDocument", "What each driver does now", contents))
+}
+
+/// What happened, in words. The texts begin with their time, which the viewer's own column would cut off.
 pub fn events() -> LayoutNode {
-    let column = |kind| TextLogColumn { visible: true.into(), kind };
-    let columns = [TextLogColumnKind::LogLevel, TextLogColumnKind::Body].map(column);
-    let view = View::new("TextLog", "Events", vec![format!("/{}", plots::LOG)]);
-    LayoutNode::View(view.with("TextLogColumns", TextLogColumns::new().with_text_log_columns(columns)))
+    let hidden = |timeline: &str| TimelineColumn { visible: false.into(), timeline: timeline.into() };
+    let columns = TextLogColumns::new()
+        .with_timeline_columns([SIM_TIME, TICK].map(hidden))
+        .with_text_log_columns([TextLogColumn { visible: true.into(), kind: TextLogColumnKind::Body }]);
+    let view = View::new("TextLog", "What happens", vec![format!("/{}", plots::LOG)]);
+    LayoutNode::View(view.with("TextLogColumns", columns))
 }

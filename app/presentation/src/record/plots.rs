@@ -1,6 +1,6 @@
 //! Numbers over time: speeds and inputs, the planners' reasons, gaps and computing times; and the log of events.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use interplay_planners::Diagnostic;
 use interplay_planners::diagnostic::{DiagnosticQuantity, Explanation};
@@ -39,8 +39,14 @@ struct PlannerPaths {
 pub struct Plots {
     /// Where the numbers of each planner go, in the scenario's order of vehicles.
     planners: Vec<PlannerPaths>,
-    /// Every series so far that not every run has.
-    seen: BTreeSet<String>,
+    /// Every series so far that not every run has, with its name in legends.
+    seen: BTreeMap<String, String>,
+    /// Least and greatest speed so far \[m/s\].
+    speeds_mps: Option<[f64; 2]>,
+    /// Smallest gap of the ego so far \[m\].
+    smallest_gap_m: Option<f64>,
+    /// Whether the run is over, so that these are final.
+    is_over: bool,
 }
 
 impl Plots {
@@ -71,12 +77,27 @@ impl Plots {
             planners.push(PlannerPaths { folder, end, explanation: vehicle.driver.explanation() });
         }
         style(stream, GAP, "gap", NEUTRAL.solid(), false)?;
-        Ok(Plots { planners, seen: BTreeSet::new() })
+        Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None, smallest_gap_m: None, is_over: false })
     }
 
     /// Whether there is anything at a path that not every run has.
     pub fn has(&self, path: &str) -> bool {
-        self.seen.contains(path)
+        self.seen.contains_key(path)
+    }
+
+    /// Least and greatest speed of a run that is over \[m/s\].
+    pub fn speeds_mps(&self) -> Option<[f64; 2]> {
+        self.speeds_mps.filter(|_| self.is_over)
+    }
+
+    /// Says that nothing more comes.
+    pub fn end(&mut self) {
+        self.is_over = true;
+    }
+
+    /// Smallest gap of the ego in a run that is over \[m\].
+    pub fn smallest_gap_m(&self) -> Option<f64> {
+        self.smallest_gap_m.filter(|_| self.is_over)
     }
 
     /// The recorded numbers of these quantities, of one kind of planner or of all.
@@ -88,12 +109,19 @@ impl Plots {
             kind.is_none_or(|kind| folder == Some(kind))
                 && name.is_some_and(|name| slugs.iter().any(|slug| slug == name))
         };
-        self.seen.iter().filter(mine).map(|path| format!("/{path}")).collect()
+        self.seen.keys().filter(mine).map(|path| format!("/{path}")).collect()
     }
 
-    /// Every path so far that not every run has.
-    pub fn seen(&self) -> &BTreeSet<String> {
-        &self.seen
+    /// How many series there are so far that not every run has.
+    pub fn seen_count(&self) -> usize {
+        self.seen.len()
+    }
+
+    /// Letters of the longest name in the legend of some series.
+    pub fn longest_label(&self, series: &[String]) -> usize {
+        let label =
+            |path: &String| self.seen.get(path.trim_start_matches('/')).map_or(0, |label| label.chars().count());
+        series.iter().map(label).max().unwrap_or(0)
     }
 
     /// Logs one tick.
@@ -102,12 +130,17 @@ impl Plots {
     /// If Rerun refuses a component.
     pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
         for vehicle in &frame.vehicles {
+            let speed_mps = vehicle.state.speed_mps;
+            let [low, high] = self.speeds_mps.unwrap_or([speed_mps; 2]);
+            self.speeds_mps = Some([low.min(speed_mps), high.max(speed_mps)]);
             for (quantity, value) in QUANTITIES {
                 stream.log(format!("plots/{quantity}/{}", vehicle.name), &Scalars::single(value(vehicle)))?;
             }
         }
         if let Some(gap) = frame.gap_m {
-            self.seen.insert(GAP.to_owned());
+            self.seen.insert(GAP.to_owned(), String::new());
+            let least_m = frame.smallest_gap_m.unwrap_or(gap).min(gap);
+            self.smallest_gap_m = Some(self.smallest_gap_m.map_or(least_m, |known| known.min(least_m)));
             stream.log(GAP, &Scalars::single(gap))?;
         }
         self.reasons(stream, frame)?;
@@ -118,12 +151,12 @@ impl Plots {
         for (vehicle, PlannerPaths { folder, end, explanation }) in frame.vehicles.iter().zip(&self.planners) {
             for Diagnostic { quantity, value } in &vehicle.plan.diagnostics {
                 let path = format!("{folder}/{}{end}", slug(quantity));
-                if !self.seen.contains(&path) {
+                if !self.seen.contains_key(&path) {
                     let name = quantity.name;
                     let label = if end.is_empty() { name.to_owned() } else { format!("{name}, {}", vehicle.name) };
                     let series_colour = palette::series(place(explanation, quantity).unwrap_or_default());
                     style(stream, &path, &label, series_colour.solid(), quantity.is_switch())?;
-                    self.seen.insert(path.clone());
+                    self.seen.insert(path.clone(), label);
                 }
                 stream.log(path, &Scalars::single(*value))?;
             }
@@ -133,7 +166,7 @@ impl Plots {
 
     fn events(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
         for event in &frame.events {
-            self.log_text(stream, event.level, &format!("{}: {}", event.vehicle, event.text))?;
+            self.log_text(stream, event.level, &said(frame, &event.vehicle, &event.text))?;
         }
         for vehicle in &frame.vehicles {
             let is_logged =
@@ -145,7 +178,7 @@ impl Plots {
                 Origin::Evading => "no plan: evading",
             };
             if !is_logged {
-                self.log_text(stream, Level::Warning, &format!("{}: {fallback}", vehicle.name))?;
+                self.log_text(stream, Level::Warning, &said(frame, &vehicle.name, fallback))?;
             }
         }
         Ok(())
@@ -157,13 +190,41 @@ impl Plots {
             Level::Warning => (TextLogLevel::WARN, FAILURE),
             Level::Alarm => (TextLogLevel::ERROR, FAILURE),
         };
-        self.seen.insert(LOG.to_owned());
+        self.seen.insert(LOG.to_owned(), String::new());
         stream.log(LOG, &TextLog::new(text).with_level(level).with_color(colour.solid()))
     }
+}
+
+/// What happened to a vehicle, or to the building or its controller, after its time; some texts begin with it.
+fn said(frame: &Frame, who: &str, what: &str) -> String {
+    let is_vehicle = frame.vehicles.iter().any(|vehicle| vehicle.name == who);
+    match (is_vehicle, what.starts_with("day ")) {
+        (true, _) => format!("{:.1} s   {who}: {what}", frame.time_s),
+        (false, true) => what.to_owned(),
+        (false, false) => format!("{}   {who}: {what}", clock(frame.time_s)),
+    }
+}
+
+/// A time as a day from 1 and a time of the day.
+fn clock(time_s: f64) -> String {
+    let minutes = (time_s / 60.0).round() as u64;
+    format!("day {} {:02}:{:02}", minutes / (24 * 60) + 1, minutes / 60 % 24, minutes % 60)
 }
 
 fn style(stream: &RecordingStream, path: &str, name: &str, colour: Color, steps: bool) -> RecordingStreamResult<()> {
     let how = if steps { InterpolationMode::StepAfter } else { InterpolationMode::Linear };
     let line = SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([2.0]);
     stream.log_static(path, &line.with_interpolation_mode(how))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clock;
+
+    #[test]
+    fn a_time_in_a_building_is_a_day_and_an_hour() {
+        assert_eq!(clock(0.0), "day 1 00:00");
+        assert_eq!(clock(27_000.0), "day 1 07:30");
+        assert_eq!(clock(86_400.0 + 3600.0), "day 2 01:00");
+    }
 }

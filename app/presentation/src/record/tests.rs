@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use interplay_planners::diagnostic::{COMMON_PANELS, COST, RUNNER_UP_COST};
 use interplay_planners::negotiation::diagnostics::CONCESSION_WEIGHT;
@@ -93,8 +94,9 @@ fn recorded(scenario: &Scenario, path: &Path) -> Recorder {
 }
 
 /// How many rows each entity has, and which timelines they are on.
-fn entities(recorder: &Recorder) -> BTreeMap<String, (usize, Vec<String>)> {
-    recorder.arrange([0.0, 10.0]).expect("arranged");
+fn entities(recorder: &mut Recorder) -> BTreeMap<String, (usize, Vec<String>)> {
+    recorder.cameras.log_all(&recorder.stream, &recorder.scenario).expect("logged");
+    recorder.arrange().expect("arranged");
     let Output::File { content, .. } = &recorder.output else { panic!("a recording in memory") };
     let mut entities: BTreeMap<String, (usize, Vec<String>)> = BTreeMap::new();
     for message in content.take() {
@@ -113,13 +115,15 @@ fn entities(recorder: &Recorder) -> BTreeMap<String, (usize, Vec<String>)> {
 #[test]
 fn a_recording_has_the_promised_entities_at_every_tick() {
     let folder = Folder::new("entities");
-    let recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
-    let entities = entities(&recorder);
+    let mut recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
+    let entities = entities(&mut recorder);
     let rows = |path: &str| entities.get(path).unwrap_or_else(|| panic!("{path} in {:?}", entities.keys())).0;
     for vehicle in ["ego", "front", "rear"] {
-        for part in ["body", "label", "plan", "prediction"] {
+        for part in ["body", "plan", "prediction"] {
             assert_eq!(rows(&format!("/world/vehicle/{vehicle}/{part}")), 10);
         }
+        assert_eq!(rows(&format!("/world/camera/top/label/{vehicle}")), 10);
+        assert_eq!(rows(&format!("/world/vehicle/{vehicle}/body/mesh")), 0, "static");
         assert_eq!(rows(&format!("/world/vehicle/{vehicle}/trace")), 9);
         for quantity in ["speed", "acceleration", "steering", "planner-ms"] {
             assert_eq!(rows(&format!("/plots/{quantity}/{vehicle}")), 10);
@@ -127,7 +131,8 @@ fn a_recording_has_the_promised_entities_at_every_tick() {
     }
     assert_eq!(rows("/world/vehicle/front/safety"), 10);
     assert!(!entities.contains_key("/world/vehicle/ego/safety"));
-    assert_eq!(rows("/world/vehicle/ego/order"), 10, "whom the ego's plan passes, in words");
+    assert_eq!((rows("/world/camera/top"), rows("/world/camera/side")), (10, 10));
+    assert!((2..10).contains(&rows("/status")), "where it changes");
     assert_eq!(rows("/world/vehicle/ego/proposal"), 6, "five proposals, and one row that takes the last away");
     assert_eq!(rows("/plots/negotiation/concession-weight"), 5);
     assert_eq!(rows("/plots/human/cost/rear"), 10, "two humans: the name tells them apart");
@@ -139,22 +144,22 @@ fn a_recording_has_the_promised_entities_at_every_tick() {
 }
 
 #[test]
-fn a_crossing_road_is_drawn_only_where_there_is_one() {
+fn markings_are_drawn_only_between_lanes() {
     let folder = Folder::new("crossing");
     let crossing = load("intersection/nice", &[]).expect("embedded");
     let drawn = |scenario: &Scenario| {
-        let entities = entities(&recorded(scenario, &folder.0.join("run.rrd")));
-        entities.keys().filter(|path| path.starts_with("/world/road/cross/")).count()
+        let entities = entities(&mut recorded(scenario, &folder.0.join("run.rrd")));
+        entities.keys().filter(|path| path.starts_with("/world/road/")).count()
     };
-    assert_eq!(drawn(&crossing), 3, "surface, edges, markings");
-    assert_eq!(drawn(&scenario(None)), 0);
+    assert_eq!(drawn(&crossing), 2, "surface, edges");
+    assert_eq!(drawn(&scenario(None)), 3, "and markings between lanes");
 }
 
 #[test]
 fn there_is_no_clock_of_the_wall() {
     let folder = Folder::new("clock");
-    let recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
-    for (path, (_, timelines)) in entities(&recorder) {
+    let mut recorder = recorded(&scenario(None), &folder.0.join("run.rrd"));
+    for (path, (_, timelines)) in entities(&mut recorder) {
         assert!(
             timelines.iter().all(|name| [SIM_TIME, TICK, building::ITERATION, "blueprint"].contains(&name.as_str())),
             "{path}: {timelines:?}"
@@ -166,10 +171,10 @@ fn there_is_no_clock_of_the_wall() {
 fn a_panel_is_there_only_if_it_has_something_to_show() {
     let folder = Folder::new("panels");
     let views = |planner| {
-        let recorder = recorded(&scenario(planner), &folder.0.join("run.rrd"));
+        let mut recorder = recorded(&scenario(planner), &folder.0.join("run.rrd"));
         let is_view = |path: &&String| path.starts_with("/view/") && path.ends_with("/ViewContents");
-        let panel = layout::layout(&recorder.scenario, &recorder.plots, [0.0, 10.0]);
-        (entities(&recorder).keys().filter(is_view).count(), titles(&panel))
+        let panel = LayoutNode::Tabs(layout::tabs(&recorder.scenario, &recorder.plots, &recorder.cameras));
+        (entities(&mut recorder).keys().filter(is_view).count(), titles(&panel))
     };
     let (count, shown) = views(None);
     assert_eq!(count, shown.len());
@@ -177,8 +182,9 @@ fn a_panel_is_there_only_if_it_has_something_to_show() {
     let (_, shown) = views(Some("conservative"));
     assert!(!shown.iter().any(|title| title.starts_with("Negotiation")), "{shown:?}");
     let nothing = Recorder::begin(&scenario(None), "x", &Sink::File(folder.0.join("x.rrd"))).expect("writable");
-    let shown = titles(&layout::layout(&nothing.scenario, &nothing.plots, [0.0, 10.0]));
-    assert!(!shown.iter().any(|title| title == "Events" || title.starts_with("Gap")), "{shown:?}");
+    let tabs = layout::tabs(&nothing.scenario, &nothing.plots, &nothing.cameras);
+    let shown = titles(&LayoutNode::Tabs(tabs));
+    assert!(!shown.iter().any(|title| title == "What happens" || title.starts_with("Gap")), "{shown:?}");
 }
 
 /// Keeps the names of the numbers that the ego's planner gives.
@@ -220,6 +226,7 @@ fn planners_give_every_number_that_a_panel_shows() {
 fn titles(panel: &LayoutNode) -> Vec<String> {
     match panel {
         LayoutNode::Row(parts) | LayoutNode::Column(parts) => parts.iter().flat_map(|(_, part)| titles(part)).collect(),
+        LayoutNode::Tabs(parts) => parts.iter().flat_map(|(_, part)| titles(part)).collect(),
         LayoutNode::View(view) => vec![view.title().to_owned()],
     }
 }
@@ -254,22 +261,23 @@ fn a_building_has_a_plan_plots_and_a_timeline_of_days() {
         let frame = Frame { tick, time_s: 1800.0 * tick as f64, building: Some(building), ..Frame::default() };
         recorder.tick(&frame).expect("recorded");
     }
-    let entities = entities(&recorder);
+    let entities = entities(&mut recorder);
     let rows = |path: &str| entities.get(path).map_or(0, |(rows, _)| *rows);
     assert_eq!((rows("/building/plan/rooms"), rows("/building/zone/100/temperature")), (3, 3));
     assert_eq!(rows("/building/zone/1/reference"), 2, "one value, and its end");
-    assert_eq!(rows("/building/zone/2/temperature"), 0, "a plot for each of a hundred would be none");
+    assert_eq!(rows("/building/zone/2/temperature"), 0, "it is in a group");
+    assert_eq!((rows("/building/group/1"), rows("/building/group/10"), rows("/building/group/11")), (3, 3, 0));
     let (_, timelines) = &entities["/building/outdoors/real"];
     assert!([SIM_TIME, TICK, building::ITERATION].iter().all(|name| timelines.iter().any(|there| there == name)));
     assert!(!entities.keys().any(|path| path.starts_with("/world")), "no road without vehicles");
     let building_layer = recorder.building_layer.as_ref().expect("a building");
+    let shown = |words| titles(&LayoutNode::Tabs(building::tabs(building_layer, words)));
     assert_eq!(
-        titles(&building::layout(building_layer, building::TextPanels::About)).len(),
-        1 + 4 + 4,
-        "plan, temperatures, numbers and words"
+        shown(building::TextPanels::About).len(),
+        1 + 4 + 4 + 10,
+        "plan, temperatures, numbers, words, every zone"
     );
-    let beside = titles(&building::layout(building_layer, building::TextPanels::Elsewhere));
-    assert_eq!(beside.len(), 1 + 4 + 3, "vehicles have the words");
+    assert_eq!(shown(building::TextPanels::Elsewhere).len(), 1 + 4 + 3 + 10, "vehicles have the words");
 }
 
 #[test]

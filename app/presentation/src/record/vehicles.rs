@@ -1,22 +1,31 @@
-//! What moves: bodies with their labels, the paths behind them and the lines ahead of them.
+//! What moves: bodies, the paths behind them and the lines ahead of them.
 
 use std::sync::Arc;
 
-use interplay_planners::{Body, PassingOrder, Plan, Route, State, Trajectory};
+use interplay_planners::{Body, Route, State, Trajectory};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
 
-use super::palette::{FAILURE, NEUTRAL, NamedColour};
-use super::re_sdk_types::archetypes::{Ellipses2D, LineStrips2D, Points2D, Transform3D};
+use super::car;
+use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
+use super::re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use super::re_sdk_types::components::Radius;
 use super::road::turn;
+use crate::palette::{BRAKE_LIGHT, INDICATOR};
+use crate::signals::{Turn, is_braking, turn as indicated};
 
-/// The entity whose frame moves along the road with the ego.
-pub const FOLLOW: &str = "follow";
-
-/// How many lines fill a body from side to side.
-const FILL_LINES: u8 = 7;
+/// Heights of what lies on the road, in widths of a body: ellipses, paths, predictions, branches, plans and proposals.
+const ELLIPSE_WIDTHS: f64 = 0.03;
+const TRACE_WIDTHS: f64 = 0.04;
+const PREDICTION_WIDTHS: f64 = 0.05;
+const BRANCH_WIDTHS: f64 = 0.06;
+const PLAN_WIDTHS: f64 = 0.07;
+const PROPOSAL_WIDTHS: f64 = 0.25;
+/// Radius of a light, in widths of a body.
+const LIGHT_WIDTHS: f64 = 0.1;
+/// Points of an ellipse.
+const ELLIPSE_POINTS: u16 = 72;
 
 /// All vehicles, in the scenario's order.
 pub struct VehicleLayer {
@@ -35,6 +44,9 @@ struct DrawnVehicle {
     asks: bool,
     /// Whether its last plan had branches.
     branches: bool,
+    /// What its lights showed last.
+    brakes: bool,
+    turns: Option<Turn>,
 }
 
 impl VehicleLayer {
@@ -50,20 +62,27 @@ impl VehicleLayer {
         let ego = scenario.ego_index();
         let mut vehicles = Vec::new();
         for (vehicle, vehicle_colour) in scenario.vehicles.iter().zip(vehicle_colours) {
-            let path = format!("world/vehicle/{}", vehicle.name);
-            let route = Arc::clone(&vehicle.route);
-            let (vehicle_colour, body) = (*vehicle_colour, vehicle.body);
-            let drawn = DrawnVehicle { path, vehicle_colour, body, route, last: None, asks: false, branches: false };
+            let drawn = DrawnVehicle {
+                path: format!("world/vehicle/{}", vehicle.name),
+                vehicle_colour: *vehicle_colour,
+                body: vehicle.body,
+                route: Arc::clone(&vehicle.route),
+                last: None,
+                asks: false,
+                branches: false,
+                brakes: false,
+                turns: None,
+            };
+            let mesh = car::mesh(vehicle, vehicle_colour.rgb);
+            stream.log_static(format!("{}/body/mesh", drawn.path), &mesh.to_component())?;
             drawn.log_style(stream)?;
             vehicles.push(drawn);
         }
         if let Some(vehicle) = scenario.ego() {
-            let half_axes = [vehicle.safety.along_m as f32, vehicle.safety.across_m as f32];
             for (_, other) in vehicles.iter().enumerate().filter(|(index, _)| *index != ego) {
-                let ellipse = Ellipses2D::from_half_sizes([half_axes])
-                    .with_colors([NEUTRAL.veiled(90)])
-                    .with_line_radii([Radius::new_ui_points(0.8)])
-                    .with_draw_order(1.0);
+                let ring = ellipse([vehicle.safety.along_m, vehicle.safety.across_m], other.z(ELLIPSE_WIDTHS));
+                let ellipse =
+                    LineStrips3D::new([ring]).with_colors([NEUTRAL.solid()]).with_radii([Radius::new_ui_points(0.7)]);
                 stream.log_static(format!("{}/safety", other.path), &ellipse)?;
             }
         }
@@ -74,17 +93,13 @@ impl VehicleLayer {
     ///
     /// # Errors
     /// If Rerun refuses a component.
-    pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+    pub fn tick(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
             drawn.log_tick(stream, vehicle)?;
-            let road_point = drawn.route.locate(vehicle.state.position(), None);
-            if index == self.ego {
-                drawn.log_order(stream, &vehicle.plan)?;
-                let [x, y] = drawn.route.centre.position(road_point.along_m, 0.0);
-                let here = [x as f32, -y as f32, 0.0];
-                stream.log(FOLLOW, &Transform3D::update_fields().with_translation(here))?;
-            } else {
-                let place = pose(&State { heading_rad: road_point.heading_rad, ..vehicle.state });
+            drawn.log_lights(stream, scenario, vehicle)?;
+            if index != self.ego {
+                let heading_rad = drawn.route.locate(vehicle.state.position(), None).heading_rad;
+                let place = pose(&State { heading_rad, ..vehicle.state });
                 stream.log(format!("{}/safety", drawn.path), &place)?;
             }
         }
@@ -97,111 +112,113 @@ impl DrawnVehicle {
         format!("{}/{part}", self.path)
     }
 
+    /// A height \[m\] from a height in widths of the body.
+    fn z(&self, widths: f64) -> f64 {
+        widths * self.body.width_m
+    }
+
     fn log_style(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
-        let style = |opacity: u8, points: f32, order: f32| {
-            LineStrips2D::update_fields()
-                .with_colors([self.vehicle_colour.veiled(opacity)])
+        let style = |share: f64, points: f32| {
+            LineStrips3D::update_fields()
+                .with_colors([self.vehicle_colour.on_asphalt(share)])
                 .with_radii([Radius::new_ui_points(points)])
-                .with_draw_order(order)
         };
-        stream.log_static(self.at("prediction"), &style(130, 1.0, 2.0))?;
-        stream.log_static(self.at("trace"), &style(110, 1.5, 3.0))?;
-        stream.log_static(self.at("branches"), &style(150, 1.4, 3.5))?;
-        let plan = LineStrips2D::update_fields().with_radii([Radius::new_ui_points(1.8)]).with_draw_order(4.0);
+        stream.log_static(self.at("prediction"), &style(0.7, 1.0))?;
+        stream.log_static(self.at("trace"), &style(0.45, 1.5))?;
+        stream.log_static(self.at("branches"), &style(0.8, 1.4))?;
+        let plan = LineStrips3D::update_fields().with_radii([Radius::new_ui_points(2.2)]);
         stream.log_static(self.at("plan"), &plan)?;
-        let order = Points2D::update_fields().with_colors([self.vehicle_colour.solid()]);
-        stream.log_static(self.at("order"), &order.with_radii([Radius::new_ui_points(0.0)]).with_draw_order(8.0))?;
-        let dots = Points2D::update_fields().with_colors([self.vehicle_colour.solid()]);
-        stream.log_static(self.at("proposal"), &dots.with_radii([Radius::new_ui_points(2.6)]).with_draw_order(5.0))?;
-        let (lines, radius) = filling(&self.body);
-        let body = LineStrips2D::new(lines).with_radii([radius]).with_colors([self.vehicle_colour.solid()]);
-        stream.log_static(self.at("body"), &body.with_draw_order(6.0))?;
-        let (ahead, half) = (0.45 * self.body.front_m as f32, 0.36 * self.body.width_m as f32);
-        let pane = LineStrips2D::new([[[ahead, -half], [ahead, half]]])
-            .with_radii([Radius::new_scene_units(0.12 * self.body.front_m as f32)])
-            .with_colors([self.vehicle_colour.dark()])
-            .with_draw_order(7.0);
-        stream.log_static(self.at("body/windscreen"), &pane)?;
-        let label = Points2D::update_fields().with_colors([self.vehicle_colour.solid()]);
-        stream.log_static(self.at("label"), &label.with_radii([Radius::new_ui_points(0.0)]).with_draw_order(8.0))
+        let dots = Points3D::update_fields().with_colors([self.vehicle_colour.solid()]);
+        stream.log_static(self.at("proposal"), &dots.with_radii([Radius::new_ui_points(3.0)]))?;
+        let radius = Radius::new_scene_units(self.z(LIGHT_WIDTHS) as f32);
+        for (part, colour) in [("brake-lights", BRAKE_LIGHT), ("indicators", INDICATOR)] {
+            let lights = Points3D::update_fields().with_colors([opaque(colour)]).with_radii([radius]);
+            stream.log_static(self.at(&format!("body/{part}")), &lights)?;
+        }
+        Ok(())
     }
 
     fn log_tick(&mut self, stream: &RecordingStream, vehicle: &VehicleFrame) -> RecordingStreamResult<()> {
         let state = &vehicle.state;
         stream.log(self.at("body"), &pose(state))?;
-        let words = format!("{} {:.2} m/s", vehicle.name, state.speed_mps);
-        let below = [state.x_m as f32, (state.y_m - 0.5 * self.body.width_m) as f32];
-        let label = Points2D::update_fields().with_positions([below]).with_labels([words]);
-        stream.log(self.at("label"), &label)?;
         if let Some(last) = self.last.replace(*state) {
-            stream.log(self.at("trace"), &strips([vec![point(&last), point(state)]]))?;
+            let height_m = self.z(TRACE_WIDTHS);
+            stream.log(self.at("trace"), &strips([vec![point(&last, height_m), point(state, height_m)]]))?;
         }
         let plan_colour = if vehicle.origin == Origin::Planned { self.vehicle_colour } else { FAILURE };
-        let plan = strips([points(&vehicle.plan.trajectory)]).with_colors([plan_colour.solid()]);
+        let plan = strips([points(&vehicle.plan.trajectory, self.z(PLAN_WIDTHS))]).with_colors([plan_colour.solid()]);
         stream.log(self.at("plan"), &plan)?;
-        stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction)))?;
-        let asks = vehicle.plan.proposal.as_ref().map(|proposal| points(&proposal.trajectory));
+        stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction, self.z(PREDICTION_WIDTHS))))?;
+        let asks = vehicle.plan.proposal.as_ref();
         if asks.is_some() || self.asks {
             self.asks = asks.is_some();
-            let dots = Points2D::update_fields().with_positions(asks.unwrap_or_default());
-            stream.log(self.at("proposal"), &dots)?;
+            let dots = asks.map(|proposal| points(&proposal.trajectory, self.z(PROPOSAL_WIDTHS)));
+            stream.log(self.at("proposal"), &Points3D::update_fields().with_positions(dots.unwrap_or_default()))?;
         }
         let branches = &vehicle.plan.branches;
         if !branches.is_empty() || self.branches {
             self.branches = !branches.is_empty();
-            let lines: Vec<_> = branches.iter().map(|branch| points(&branch.trajectory)).collect();
+            let lines: Vec<_> =
+                branches.iter().map(|branch| points(&branch.trajectory, self.z(BRANCH_WIDTHS))).collect();
             stream.log(self.at("branches"), &strips(lines))?;
         }
         Ok(())
     }
 
-    /// Writes the passing orders of a plan at its end.
-    fn log_order(&self, stream: &RecordingStream, plan: &Plan) -> RecordingStreamResult<()> {
-        let (words, end) = (order_words(plan), plan.trajectory.states.last());
-        let (ends, words) = end.filter(|_| !words.is_empty()).map(|end| (point(end), words)).into_iter().unzip();
-        let (ends, words): (Vec<[f32; 2]>, Vec<String>) = (ends, words);
-        stream.log(self.at("order"), &Points2D::update_fields().with_positions(ends).with_labels(words))
+    /// Logs brake lights and indicators where they change.
+    fn log_lights(
+        &mut self,
+        stream: &RecordingStream,
+        scenario: &Scenario,
+        vehicle: &VehicleFrame,
+    ) -> RecordingStreamResult<()> {
+        let lights = |places: Option<[[f64; 3]; 2]>| {
+            let places = places.into_iter().flatten().map(|place| place.map(|part| part as f32));
+            Points3D::update_fields().with_positions(places)
+        };
+        let brakes = is_braking(vehicle.input.acceleration_mps2) && vehicle.state.speed_mps > 1e-3;
+        if brakes != self.brakes {
+            self.brakes = brakes;
+            let places = brakes.then(|| car::brake_lights(&self.body));
+            stream.log(self.at("body/brake-lights"), &lights(places))?;
+        }
+        let turns = indicated(scenario, &self.route, vehicle);
+        if turns != self.turns {
+            self.turns = turns;
+            let places = turns.map(|turn| car::indicators(&self.body, turn == Turn::Left));
+            stream.log(self.at("body/indicators"), &lights(places))?;
+        }
+        Ok(())
     }
 }
 
-/// The passing orders of a plan in words, a line each.
-fn order_words(plan: &Plan) -> String {
-    plan.passing_orders.iter().map(PassingOrder::to_string).collect::<Vec<_>>().join("\n")
+fn point(state: &State, height_m: f64) -> [f32; 3] {
+    [state.x_m as f32, state.y_m as f32, height_m as f32]
 }
 
-fn point(state: &State) -> [f32; 2] {
-    [state.x_m as f32, state.y_m as f32]
+fn points(trajectory: &Trajectory, height_m: f64) -> Vec<[f32; 3]> {
+    trajectory.states.iter().map(|state| point(state, height_m)).collect()
 }
 
-fn points(trajectory: &Trajectory) -> Vec<[f32; 2]> {
-    trajectory.states.iter().map(point).collect()
-}
-
-fn strips(strips: impl IntoIterator<Item = Vec<[f32; 2]>>) -> LineStrips2D {
-    LineStrips2D::update_fields().with_strips(strips)
+fn strips(strips: impl IntoIterator<Item = Vec<[f32; 3]>>) -> LineStrips3D {
+    LineStrips3D::update_fields().with_strips(strips)
 }
 
 /// Every second step of a motion.
-fn dashes(trajectory: &Trajectory) -> Vec<Vec<[f32; 2]>> {
-    points(trajectory).chunks_exact(2).map(<[_]>::to_vec).collect()
+fn dashes(trajectory: &Trajectory, height_m: f64) -> Vec<Vec<[f32; 3]>> {
+    points(trajectory, height_m).chunks_exact(2).map(<[_]>::to_vec).collect()
 }
 
 /// The frame of a vehicle in the world.
 fn pose(state: &State) -> Transform3D {
-    let place = [state.x_m as f32, state.y_m as f32, 0.0];
-    Transform3D::update_fields().with_translation(place).with_mat3x3(turn(state.heading_rad))
+    Transform3D::update_fields().with_translation(point(state, 0.0)).with_mat3x3(turn(state.heading_rad))
 }
 
-/// Lines, thick enough to cover the body with rounded corners: the viewer has no filled shapes.
-fn filling(body: &Body) -> ([Vec<[f32; 2]>; 2], Radius) {
-    let radius = body.width_m / (2.0 * f64::from(FILL_LINES));
-    let (rear, front) = ((radius - body.rear_m) as f32, (body.front_m - radius) as f32);
-    let left = |index: u8| (radius * f64::from(2 * index + 1) - 0.5 * body.width_m) as f32;
-    let across = |index: u8| {
-        let there = [[rear, left(index)], [front, left(index)]];
-        if index.is_multiple_of(2) { there } else { [there[1], there[0]] }
+/// An ellipse around the origin, by its half axes \[m\].
+fn ellipse([along_m, across_m]: [f64; 2], height_m: f64) -> Vec<[f32; 3]> {
+    let at = |index: u16| {
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(index) / f64::from(ELLIPSE_POINTS));
+        [(along_m * cos) as f32, (across_m * sin) as f32, height_m as f32]
     };
-    let (right, last) = (left(0), left(FILL_LINES - 1));
-    let outline = vec![[rear, right], [front, right], [front, last], [rear, last], [rear, right]];
-    ([outline, (0..FILL_LINES).flat_map(across).collect()], Radius::new_scene_units(1.05 * radius as f32))
+    (0..=ELLIPSE_POINTS).map(at).collect()
 }

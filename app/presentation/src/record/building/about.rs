@@ -12,7 +12,7 @@ pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
         WeatherConfig::Epw(file) => format!("the file {}", code(&file.file)),
     };
     format!(
-        "### {title}\n\n{shows}.{again}\n\n**Look for**: {look}.\n\n\
+        "**{title}**\n\n{shows}.{again}\n\n**Look for**: {look}.\n\n\
          A day is an iteration of the controller ({kind}); {days} days in {weather}. Where no wanted temperature is \
          drawn nobody is there, and the temperature is free. The cost J of a day adds squared deviations and squared \
          power; *cheapest possible* is what the same day would have cost had everything been known. The timeline \

@@ -62,7 +62,7 @@ impl DesignPlots {
             return Ok(DesignPlots::default());
         }
         for (place, &index) in shown.iter().enumerate() {
-            let (series_colour, name) = (palette::series(place), &names[index]);
+            let (series_colour, name) = (palette::zone(place), &names[index]);
             style(stream, &of(LEARNED, index), name, series_colour.solid(), 1.5)?;
             style(stream, &(of(GAIN, index) + "/own"), &format!("{name}: own error"), series_colour.solid(), 2.0)?;
             style(stream, &(of(GAIN, index) + "/others"), &format!("{name}: others'"), series_colour.veiled(130), 1.5)?;

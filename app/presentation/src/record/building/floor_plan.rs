@@ -1,6 +1,5 @@
 //! The floor plan: rooms coloured by temperature, floors side by side, and the air outside around them.
 
-use interplay_building::comfort::Setpoints;
 use interplay_scenarios::FloorPlan;
 use interplay_simulation::frame::{BuildingFrame, ZoneFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
@@ -14,10 +13,10 @@ use crate::palette::{COLOUR_RANGE_K, temperature_colour};
 const ROOM_PX: usize = 24;
 /// Width of a wall.
 const WALL_PX: usize = 1;
-/// Width of the strip around the building that stands for the outdoor air.
-const OUTDOORS_PX: usize = 8;
+/// Width of the strip around the building that stands for the outdoor air, of one floor and of several, which have names.
+const OUTDOORS_PX: [usize; 2] = [10, 44];
 /// Space between two floors.
-const BETWEEN_FLOORS_PX: usize = 6;
+const BETWEEN_FLOORS_PX: usize = 40;
 /// In more rooms than this a label has no space for a name.
 const MAX_NAMED_ROOMS: usize = 16;
 /// In more rooms than this there is no space for labels.
@@ -26,8 +25,8 @@ const MAX_LABELLED_ROOMS: usize = 144;
 /// How the floor plan is drawn.
 pub struct FloorPlanLayer {
     rooms: FloorPlan,
-    /// The temperature that is neither cold nor warm \[°C\].
-    middle_c: f64,
+    /// The temperature of each zone that is neither cold nor warm \[°C\].
+    middles_c: Vec<f64>,
 }
 
 impl FloorPlanLayer {
@@ -38,16 +37,14 @@ impl FloorPlanLayer {
     pub fn begin(
         stream: &RecordingStream,
         rooms: FloorPlan,
-        setpoints: &Setpoints,
+        middles_c: Vec<f64>,
     ) -> RecordingStreamResult<FloorPlanLayer> {
-        let wanted_c = &setpoints.occupied_c;
-        let middle_c = wanted_c.iter().sum::<f64>() / wanted_c.len().max(1) as f64;
         let style = Points2D::update_fields()
             .with_colors([NEUTRAL.solid()])
             .with_radii([Radius::new_ui_points(0.0)])
             .with_draw_order(1.0);
         stream.log_static("building/plan/labels", &style)?;
-        Ok(FloorPlanLayer { rooms, middle_c })
+        Ok(FloorPlanLayer { rooms, middles_c })
     }
 
     /// Logs one step.
@@ -66,11 +63,38 @@ impl FloorPlanLayer {
         };
         let outdoors = format!("outdoors {:.1} °C", frame.ambient_c);
         let labelled = if names.len() <= MAX_LABELLED_ROOMS { names.len() } else { 0 };
-        let labels = names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]);
-        let centre = |index: usize| self.corner(index).map(|place| (place + ROOM_PX / 2) as f32);
-        let places = (0..labelled).map(centre).chain([[0.5 * width as f32, 0.5 * OUTDOORS_PX as f32]]);
+        let labels =
+            names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]).chain(self.floor_names());
+        // The viewer writes labels below their places. Above several floors are their names.
+        let outdoors_y = if self.rooms.floors > 1 { height as f32 - 40.0 } else { 0.0 };
+        let centre = |index: usize| {
+            let [left, top] = self.corner(index);
+            [(left + ROOM_PX / 2) as f32, (top + ROOM_PX / 4) as f32]
+        };
+        let places = (0..labelled).map(centre).chain([[0.5 * width as f32, outdoors_y]]).chain(self.floor_places());
         let labels = Points2D::update_fields().with_positions(places).with_labels(labels).with_show_labels(true);
         stream.log("building/plan/labels", &labels)
+    }
+
+    fn outdoors_px(&self) -> usize {
+        OUTDOORS_PX[usize::from(self.rooms.floors > 1)]
+    }
+
+    /// The names of the floors, where there are several.
+    fn floor_names(&self) -> impl Iterator<Item = String> {
+        let floors = if self.rooms.floors > 1 { self.rooms.floors } else { 0 };
+        (1..=floors).map(|floor| format!("floor {floor}"))
+    }
+
+    /// Where the names of the floors are: above each.
+    fn floor_places(&self) -> impl Iterator<Item = [f32; 2]> {
+        let FloorPlan { columns, rows, floors } = self.rooms;
+        let place = move |floor: usize| {
+            let [left, top] = self.corner(floor * rows * columns);
+            let wide = columns * (ROOM_PX + WALL_PX);
+            [left as f32 + 0.5 * wide as f32, top as f32 - BETWEEN_FLOORS_PX as f32]
+        };
+        (0..if floors > 1 { floors } else { 0 }).map(place)
     }
 
     /// Floors beside one another, so that the picture is about as wide as high.
@@ -81,10 +105,10 @@ impl FloorPlanLayer {
     }
 
     /// Picture elements across and down.
-    fn size(&self) -> [usize; 2] {
+    pub fn size(&self) -> [usize; 2] {
         let FloorPlan { columns, rows, floors } = self.rooms;
         let along = |blocks: usize, rooms: usize| {
-            2 * OUTDOORS_PX + blocks * (rooms * (ROOM_PX + WALL_PX) - WALL_PX) + (blocks - 1) * BETWEEN_FLOORS_PX
+            2 * self.outdoors_px() + blocks * (rooms * (ROOM_PX + WALL_PX) - WALL_PX) + (blocks - 1) * BETWEEN_FLOORS_PX
         };
         [along(self.across(), columns), along(floors.div_ceil(self.across()), rows)]
     }
@@ -94,7 +118,7 @@ impl FloorPlanLayer {
         let FloorPlan { columns, rows, .. } = self.rooms;
         let (floor, room) = (index / (rows * columns), index % (rows * columns));
         let along = |block: usize, rooms: usize, room: usize| {
-            OUTDOORS_PX
+            self.outdoors_px()
                 + block * (rooms * (ROOM_PX + WALL_PX) - WALL_PX + BETWEEN_FLOORS_PX)
                 + room * (ROOM_PX + WALL_PX)
         };
@@ -103,11 +127,12 @@ impl FloorPlanLayer {
 
     /// Red, green and blue of every picture element, row by row.
     fn pixels(&self, frame: &BuildingFrame, [width, height]: [usize; 2]) -> Vec<u8> {
-        let outdoors = self.colour(frame.ambient_c).map(|part| part / 2);
+        let middle_c = self.middles_c.iter().sum::<f64>() / self.middles_c.len().max(1) as f64;
+        let outdoors = colour(frame.ambient_c, middle_c).map(|part| part / 2);
         let mut pixels: Vec<u8> = std::iter::repeat_n(outdoors, width * height).flatten().collect();
         for (index, zone) in frame.zones.iter().enumerate() {
             let [left, top] = self.corner(index);
-            let colour = self.colour(zone.temperature_c);
+            let colour = colour(zone.temperature_c, self.middles_c.get(index).copied().unwrap_or(middle_c));
             for row in top..top + ROOM_PX {
                 let first = 3 * (row * width + left);
                 pixels[first..first + 3 * ROOM_PX].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&colour));
@@ -115,11 +140,11 @@ impl FloorPlanLayer {
         }
         pixels
     }
+}
 
-    /// The colour of a temperature, by its distance from the wanted one.
-    fn colour(&self, temperature_c: f64) -> [u8; 3] {
-        temperature_colour((temperature_c - self.middle_c) / COLOUR_RANGE_K)
-    }
+/// The colour of a temperature, by its distance from the wanted one.
+fn colour(temperature_c: f64, middle_c: f64) -> [u8; 3] {
+    temperature_colour((temperature_c - middle_c) / COLOUR_RANGE_K)
 }
 
 #[cfg(test)]
@@ -128,7 +153,7 @@ mod tests {
 
     #[test]
     fn every_room_has_its_place_and_its_colour() {
-        let plan = FloorPlanLayer { rooms: FloorPlan { columns: 2, rows: 2, floors: 1 }, middle_c: 25.0 };
+        let plan = FloorPlanLayer { rooms: FloorPlan { columns: 2, rows: 2, floors: 1 }, middles_c: vec![25.0; 4] };
         let zone = |temperature_c| ZoneFrame {
             temperature_c,
             next_c: 0.0,
@@ -144,13 +169,13 @@ mod tests {
         let [width, height] = plan.size();
         assert_eq!(
             [width, height],
-            [2 * OUTDOORS_PX + 2 * ROOM_PX + WALL_PX; 2],
+            [2 * OUTDOORS_PX[0] + 2 * ROOM_PX + WALL_PX; 2],
             "two columns, the second row half empty"
         );
         let pixels = plan.pixels(&frame, [width, height]);
         assert_eq!(pixels.len(), 3 * width * height);
         let at = |x: usize, y: usize| [0, 1, 2].map(|part| pixels[3 * (y * width + x) + part]);
-        let (first, second) = (OUTDOORS_PX + 3, OUTDOORS_PX + ROOM_PX + WALL_PX + 3);
+        let (first, second) = (OUTDOORS_PX[0] + 3, OUTDOORS_PX[0] + ROOM_PX + WALL_PX + 3);
         assert_eq!(at(first, first), [30, 90, 190], "cold");
         assert_eq!(at(second, first), [95, 100, 95], "neither");
         assert_eq!(at(first, second), [200, 60, 20], "warm");
@@ -159,7 +184,7 @@ mod tests {
 
     #[test]
     fn floors_lie_side_by_side_and_never_overlap() {
-        let plan = FloorPlanLayer { rooms: FloorPlan { columns: 5, rows: 5, floors: 16 }, middle_c: 25.0 };
+        let plan = FloorPlanLayer { rooms: FloorPlan { columns: 5, rows: 5, floors: 16 }, middles_c: Vec::new() };
         assert_eq!(plan.across(), 4);
         let [width, height] = plan.size();
         assert_eq!(width, height);
@@ -172,6 +197,6 @@ mod tests {
         }
         assert_eq!(covered.iter().sum::<i32>(), (400 * ROOM_PX * ROOM_PX) as i32);
         assert_eq!(covered.iter().max(), Some(&1));
-        assert_eq!(plan.corner(399), [width - OUTDOORS_PX - ROOM_PX; 2]);
+        assert_eq!(plan.corner(399), [width - OUTDOORS_PX[1] - ROOM_PX; 2]);
     }
 }

@@ -1,14 +1,20 @@
 //! Which panels a building opens with.
 
-use super::super::re_sdk_types::blueprint;
-use super::super::re_sdk_types::blueprint::archetypes::{PlotLegend, ScalarAxis, TimeAxis};
-use super::super::re_sdk_types::blueprint::components::Corner2D;
-use super::super::re_sdk_types::components::Range1D;
-use super::super::re_sdk_types::datatypes::{TimeInt, TimeRange, TimeRangeBoundary};
-
 use super::super::blueprint::{LayoutNode, View};
+use super::super::layout::rows;
 use super::super::panels::{about, events};
-use super::{BuildingLayer, design};
+use super::super::re_sdk_types::blueprint::archetypes::{PlotLegend, VisualBounds2D};
+use super::super::re_sdk_types::blueprint::components::VisualBounds2D as ViewBounds;
+use super::super::re_sdk_types::datatypes::Range2D;
+use super::super::time_plot::{TimePlot, ranged};
+use super::{BuildingLayer, design, series};
+
+/// Most zones with a plot of their own on the first tab.
+const MAX_FIRST_ZONES: usize = 4;
+/// Widths of plots in a window 1280 points wide.
+const QUARTER_WIDTH: f64 = 262.0;
+const TEMPERATURE_WIDTH: f64 = 390.0;
+const HALF_WIDTH: f64 = 600.0;
 
 /// The words that belong to a recording of a building. Beside vehicles their layout has them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,87 +27,151 @@ pub enum TextPanels {
     AboutAndEvents,
 }
 
-/// The layout: the floor plan beside the temperatures, below it inputs, weather and costs; then what the controller says of
-/// its plans, if it plans; and the words.
-pub fn layout(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
-    let mut numbers = vec![
-        (1.1, LayoutNode::View(plot(building_layer, "Heating (+), cooling (-) [kW]", inputs(building_layer)))),
-        (1.1, LayoutNode::View(plot(building_layer, "Outdoors [°C]", vec!["/building/outdoors/**".to_owned()]))),
-        (1.1, LayoutNode::View(plot(building_layer, "Cost J of the day", vec!["/building/iteration/**".to_owned()]))),
+/// The tabs: the floor plan beside the temperatures of some zones, with weather, heat, costs and words below it; every zone,
+/// where there are more; and what the controller says of its plans, if it plans.
+pub fn tabs(building_layer: &BuildingLayer, words: TextPanels) -> Vec<(&'static str, LayoutNode)> {
+    let mut tabs = vec![("The building", overview(building_layer, words))];
+    if building_layer.names.len() > MAX_FIRST_ZONES {
+        tabs.push(("Every zone", every_zone(building_layer)));
+    }
+    let plans = plans(building_layer);
+    if !plans.is_empty() {
+        tabs.push(("Plans of the controller", LayoutNode::Column(rows(plans, 2))));
+    }
+    tabs
+}
+
+fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
+    let run_s = building_layer.duration_s;
+    let plot = |title: &str, contents: Vec<String>| TimePlot::new(run_s, title, contents);
+    let letters = |names: &[&str]| names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    let names: Vec<&str> =
+        first_zones(building_layer).iter().map(|index| building_layer.names[*index].as_str()).collect();
+    let outdoors =
+        plot(&ranged("Outdoors", building_layer.ranges.outdoors(), "°C"), vec!["/building/outdoors/**".to_owned()]);
+    let heat = plot("Heat (negative cools) [kW]", inputs(building_layer));
+    let cost = plot("Cost of each day, J", vec!["/building/iteration/**".to_owned()]);
+    let mut below = vec![
+        (1.0, outdoors.with_legend(letters(&["forecast"]), QUARTER_WIDTH)),
+        (1.0, heat.with_legend(letters(&names).max(letters(&["limit, heating"])), QUARTER_WIDTH)),
+        (1.0, cost.with_legend(letters(&["cheapest possible"]), QUARTER_WIDTH)),
     ];
-    if words != TextPanels::Elsewhere {
-        numbers.push((1.3, about()));
+    match words {
+        TextPanels::Elsewhere => {}
+        TextPanels::About => below.push((1.2, about())),
+        TextPanels::AboutAndEvents => {
+            below.push((1.7, LayoutNode::Column(vec![(1.3, about()), (1.0, events())])));
+        }
     }
-    let top = LayoutNode::Row(vec![(1.0, floor()), (2.3, temperatures(building_layer))]);
-    let mut rows = vec![(1.6, top), (1.0, LayoutNode::Row(numbers))];
-    let mut said = plans(building_layer);
-    if words == TextPanels::AboutAndEvents {
-        said.push((1.1, events()));
+    let above = LayoutNode::Row(vec![(1.0, floor(building_layer)), (1.9, temperatures(building_layer))]);
+    LayoutNode::Column(vec![(1.5, above), (1.0, LayoutNode::Row(below))])
+}
+
+/// The zones with a plot of their own on the first tab: all of a few, otherwise some from the first to the last.
+fn first_zones(building_layer: &BuildingLayer) -> Vec<usize> {
+    spread(building_layer.names.len(), MAX_FIRST_ZONES)
+}
+
+/// Numbers from 0, at most `most` of them, spread over all.
+fn spread(count: usize, most: usize) -> Vec<usize> {
+    if count <= most {
+        return (0..count).collect();
     }
-    if !said.is_empty() {
-        // A log alone needs less room than plots.
-        let share = if said.len() == 1 { 0.5 } else { 0.9 };
-        rows.push((share, LayoutNode::Row(said)));
-    }
-    LayoutNode::Column(rows)
+    (0..most).map(|index| index * (count - 1) / (most - 1)).collect()
+}
+
+/// Plots that together show every zone: one each, or one for each group where there are many.
+fn every_zone(building_layer: &BuildingLayer) -> LayoutNode {
+    let single = |&index: &usize| temperature(building_layer, index, None);
+    let grouped = |(number, group): (usize, &Vec<usize>)| {
+        let (first, last) = (group.first().copied().unwrap_or(0), group.last().copied().unwrap_or(0));
+        let title = format!("{} to {}", building_layer.names[first], building_layer.names[last]);
+        let title = ranged(&title, building_layer.ranges.of(group), "°C");
+        let plot = TimePlot::new(building_layer.duration_s, &title, vec![format!("/{}", series::group(number))]);
+        around(plot, building_layer).alone()
+    };
+    let panels: Vec<LayoutNode> = if building_layer.groups.is_empty() {
+        building_layer.shown.iter().map(single).collect()
+    } else {
+        building_layer.groups.iter().enumerate().map(grouped).collect()
+    };
+    LayoutNode::Column(rows(panels, 4))
 }
 
 /// What the controller says of its plans.
-fn plans(building_layer: &BuildingLayer) -> Vec<(f32, LayoutNode)> {
+fn plans(building_layer: &BuildingLayer) -> Vec<LayoutNode> {
     let below = |path: &str| vec![format!("/{path}/**")];
+    let longest = building_layer.names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
     let lines = [
-        (design::LEARNED, "Learned extra heat [kW]"),
-        (design::GAIN, "Feedback gain K [kW/K]"),
-        (design::TAPS, "Feedback Q [kW/K]"),
-        (design::CONVERGENCE, "Convergence of the design"),
+        (design::LEARNED, "Heat beyond the forecast that the controller has learned [kW]", longest),
+        (design::GAIN, "Feedback gain K: heat for an error of the temperature [kW/K]", longest + 11),
+        (design::TAPS, "Feedback Q: heat for an error so many steps ago [kW/K]", 14),
+        (design::CONVERGENCE, "Convergence: below 1, errors fall from day to day", 22),
     ];
-    let bars = [(design::COST, "First exchange: log10 J by round"), (design::MESSAGES, "Messages sent by each zone")];
-    let lines = lines.into_iter().map(|(path, title)| (path, plot(building_layer, title, below(path))));
-    let bars = bars.into_iter().map(|(path, title)| (path, View::new("BarChart", title, vec![format!("/{path}")])));
-    lines
-        .chain(bars)
-        .filter(|(path, _)| building_layer.plans.has(path))
-        .map(|(_, view)| (1.0, LayoutNode::View(view)))
-        .collect()
-}
-
-fn floor() -> LayoutNode {
-    LayoutNode::View(View::new(
-        "2D",
-        "Floor plan by temperature: blue cold, red warm",
-        vec!["/building/plan/**".to_owned()],
-    ))
-}
-
-/// A panel a zone, two in a row.
-fn temperatures(building_layer: &BuildingLayer) -> LayoutNode {
-    let panel = |&index: &usize| {
-        let paths = ["temperature", "reference", "band/**"];
-        let paths = paths.map(|what| format!("/building/zone/{}/{what}", index + 1));
-        let title = format!("{}: temperature against what is wanted [°C]", building_layer.names[index]);
-        let view = plot(building_layer, &title, paths.to_vec());
-        let [low_c, high_c] = building_layer.range_c.unwrap_or([20.0, 30.0]);
-        (
-            1.0,
-            LayoutNode::View(
-                view.with("ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low_c - 1.0, high_c + 1.0))),
-            ),
-        )
+    let bars = [
+        (design::COST, "First exchange of messages: log10 of the cost J by round"),
+        (design::MESSAGES, "Messages sent by each zone"),
+    ];
+    let line = |(path, title, letters): (&'static str, &str, usize)| {
+        (path, TimePlot::new(building_layer.duration_s, title, below(path)).with_legend(letters, HALF_WIDTH))
     };
-    let rows = building_layer.shown.chunks(2).map(|row| (1.0, LayoutNode::Row(row.iter().map(panel).collect())));
-    LayoutNode::Column(rows.collect())
+    let bar = |(path, title): (&'static str, &str)| {
+        let view = View::new("BarChart", title, vec![format!("/{path}")]);
+        (path, LayoutNode::View(view.with("PlotLegend", PlotLegend::new().with_visible(false))))
+    };
+    let all = lines.into_iter().map(line).chain(bars.into_iter().map(bar));
+    all.filter(|(path, _)| building_layer.plans.has(path)).map(|(_, view)| view).collect()
+}
+
+fn floor(building_layer: &BuildingLayer) -> LayoutNode {
+    let [width, height] = building_layer.plan.size();
+    let bounds = Range2D { x_range: [0.0, width as f64].into(), y_range: [0.0, height as f64].into() };
+    let title = "Floor plan: blue is too cold, red too warm";
+    let view = View::new("2D", title, vec!["/building/plan/**".to_owned()]);
+    LayoutNode::View(view.with("VisualBounds2D", VisualBounds2D::new(ViewBounds(bounds))))
+}
+
+/// The temperatures of the first tab, two plots in a row.
+fn temperatures(building_layer: &BuildingLayer) -> LayoutNode {
+    let zones = first_zones(building_layer);
+    let width = if zones.len() > 1 { TEMPERATURE_WIDTH } else { 2.0 * TEMPERATURE_WIDTH };
+    LayoutNode::Column(rows(zones.iter().map(|index| temperature(building_layer, *index, Some(width))).collect(), 2))
+}
+
+/// The temperature of a zone against what is wanted, with a legend in a plot of a width.
+fn temperature(building_layer: &BuildingLayer, index: usize, width: Option<f64>) -> LayoutNode {
+    let paths = ["temperature", "reference", "band/**"];
+    let paths = paths.map(|what| format!("/building/zone/{}/{what}", index + 1));
+    let title = ranged(&building_layer.names[index], building_layer.ranges.of(&[index]), "°C");
+    let plot = around(TimePlot::new(building_layer.duration_s, &title, paths.to_vec()), building_layer);
+    match width {
+        Some(width) => plot.with_legend("comfort, high".len(), width),
+        None => plot.alone(),
+    }
+}
+
+/// A plot with an axis for the temperatures of all zones, once they are known.
+fn around(plot: TimePlot, building_layer: &BuildingLayer) -> TimePlot {
+    match building_layer.ranges.all() {
+        Some(range_c) => plot.around(range_c),
+        None => plot,
+    }
 }
 
 fn inputs(building_layer: &BuildingLayer) -> Vec<String> {
-    let heat = building_layer.shown.iter().map(|index| format!("/building/zone/{}/heat", index + 1));
+    let heat = first_zones(building_layer).into_iter().map(|index| format!("/building/zone/{}/heat", index + 1));
     heat.chain(["/building/limit/**".to_owned()]).collect()
 }
 
-/// A plot over the whole run.
-fn plot(building_layer: &BuildingLayer, title: &str, contents: Vec<String>) -> View {
-    let at = |time_s: f64| TimeRangeBoundary::Absolute(TimeInt((time_s * 1e9) as i64));
-    let run = TimeRange { start: at(0.0), end: at(building_layer.duration_s) };
-    let axis = TimeAxis::new().with_view_range(blueprint::components::TimeRange(run));
-    let view = View::new("TimeSeries", title, contents).with("TimeAxis", axis);
-    view.with("PlotLegend", PlotLegend::new().with_corner(Corner2D::RightTop))
+#[cfg(test)]
+mod tests {
+    use super::spread;
+
+    #[test]
+    fn the_zones_of_the_first_tab_are_spread_over_all() {
+        assert_eq!(spread(1, 4), [0]);
+        assert_eq!(spread(4, 4), [0, 1, 2, 3]);
+        assert_eq!(spread(5, 4), [0, 1, 2, 4]);
+        assert_eq!(spread(100, 4), [0, 33, 66, 99]);
+    }
 }

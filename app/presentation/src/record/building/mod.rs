@@ -6,6 +6,7 @@
 //! building/plan/{rooms,labels}                         the floor plan, coloured by temperature
 //! building/zone/<n>/{temperature,reference,band/…}     what it is, what is wanted
 //! building/zone/<n>/heat, building/limit/…             inputs and their limits
+//! building/group/<g>                                   of many zones: the temperatures of some of them
 //! building/outdoors/{real,forecast}
 //! building/iteration/{cost,optimum}                    one value a day
 //! building/{learned,feedback,convergence,exchange}/…   what the controller says of its plans, see `design.rs`
@@ -21,7 +22,7 @@ use interplay_scenarios::Scenario;
 use rerun::{RecordingStream, RecordingStreamResult};
 
 pub use about::about;
-pub use layout::{TextPanels, layout};
+pub use layout::{TextPanels, tabs};
 
 use design::DesignPlots;
 use floor_plan::FloorPlanLayer;
@@ -31,19 +32,22 @@ use series::ZonePlots;
 /// The timeline of days, from 1.
 pub const ITERATION: &str = "iteration";
 
-/// The most zones whose temperatures have a plot of their own.
-const MAX_PLOTTED_ZONES: usize = 4;
+/// Most zones of which everything is recorded.
+const MAX_SHOWN_ZONES: usize = 16;
+/// Most plots that together show the temperatures of more zones.
+const MAX_GROUPS: usize = 12;
 
 /// What a recording must know of a building.
 pub struct BuildingLayer {
     /// Names of the zones.
     pub names: Vec<String>,
-    /// The zones that have plots, by number from 0.
+    /// The zones of which everything is recorded, by number from 0: all, or some of many.
     pub shown: Vec<usize>,
+    /// Where there are many, all zones in groups.
+    groups: Vec<Vec<usize>>,
     /// How long the run is \[s\].
     duration_s: f64,
-    /// Coldest and warmest of the zones that have plots \[°C\].
-    range_c: Option<[f64; 2]>,
+    ranges: TemperatureRanges,
     plan: FloorPlanLayer,
     series: ZonePlots,
     plans: DesignPlots,
@@ -60,12 +64,28 @@ impl BuildingLayer {
         let Some((building, network)) = network else { return Ok(None) };
         let names = network.names()[..network.zone_count()].to_vec();
         let shown = shown(names.len());
+        let groups = groups(names.len(), building.floor_plan().columns);
         let setpoints = scenario.setpoints.clone().unwrap_or_default();
-        let plan = FloorPlanLayer::begin(stream, building.floor_plan(), &setpoints)?;
+        series::begin_groups(stream, &names, &groups)?;
+        let plan = FloorPlanLayer::begin(stream, building.floor_plan(), wanted_c(scenario, &names))?;
         let series = ZonePlots::begin(stream, &names, &shown, network.limits(), setpoints.band_k)?;
         let duration_s = building.step_s * (scenario.days() * building.steps_per_day()) as f64;
         let plans = DesignPlots::begin(stream, &names, &shown, scenario.controller().plans())?;
-        Ok(Some(BuildingLayer { names, shown, duration_s, range_c: None, plan, series, plans }))
+        Ok(Some(BuildingLayer {
+            names,
+            shown,
+            groups,
+            duration_s,
+            ranges: TemperatureRanges::default(),
+            plan,
+            series,
+            plans,
+        }))
+    }
+
+    /// Says that nothing more comes.
+    pub fn end(&mut self) {
+        self.ranges.are_final = true;
     }
 
     /// Logs one step.
@@ -74,36 +94,105 @@ impl BuildingLayer {
     /// If Rerun refuses a component.
     pub fn step(&mut self, stream: &RecordingStream, frame: &BuildingFrame) -> RecordingStreamResult<()> {
         stream.set_time_sequence(ITERATION, i64::try_from(frame.day + 1).unwrap_or(i64::MAX));
-        for &index in &self.shown {
-            let now = &frame.zones[index];
-            let [low_c, high_c] = self.range_c.unwrap_or([now.temperature_c; 2]);
-            let wanted_c = now.reference_c.unwrap_or(now.temperature_c);
-            self.range_c =
-                Some([low_c.min(now.temperature_c).min(wanted_c), high_c.max(now.temperature_c).max(wanted_c)]);
-        }
+        self.ranges.widen(frame);
         self.plan.step(stream, &self.names, frame)?;
         self.plans.step(stream, &self.shown, frame)?;
+        series::step_groups(stream, &self.groups, frame)?;
         self.series.step(stream, &self.shown, frame)
     }
 }
 
-/// The zones that have plots: all of a few, otherwise some from the first to the last.
+/// Coldest and warmest temperatures so far.
+#[derive(Default)]
+struct TemperatureRanges {
+    /// Of all zones, wanted temperatures included \[°C\].
+    all_c: Option<[f64; 2]>,
+    /// Of each zone \[°C\].
+    zones_c: Vec<[f64; 2]>,
+    /// Outdoors \[°C\].
+    outdoors_c: Option<[f64; 2]>,
+    /// Whether the run is over, so that these are final.
+    are_final: bool,
+}
+
+impl TemperatureRanges {
+    fn widen(&mut self, frame: &BuildingFrame) {
+        let widened = |range: [f64; 2], value: f64| [range[0].min(value), range[1].max(value)];
+        self.outdoors_c = Some(widened(self.outdoors_c.unwrap_or([frame.ambient_c; 2]), frame.ambient_c));
+        if self.zones_c.is_empty() {
+            self.zones_c = frame.zones.iter().map(|now| [now.temperature_c; 2]).collect();
+        }
+        for (range, now) in self.zones_c.iter_mut().zip(&frame.zones) {
+            *range = widened(*range, now.temperature_c);
+            let all_c = widened(self.all_c.unwrap_or([now.temperature_c; 2]), now.temperature_c);
+            self.all_c = Some(widened(all_c, now.reference_c.unwrap_or(now.temperature_c)));
+        }
+    }
+
+    /// Of some zones, once it is known \[°C\].
+    fn of(&self, zones: &[usize]) -> Option<[f64; 2]> {
+        let ranges = zones.iter().filter_map(|zone| self.zones_c.get(*zone).copied()).filter(|_| self.are_final);
+        ranges.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)])
+    }
+
+    /// Of all zones, once it is known \[°C\].
+    fn all(&self) -> Option<[f64; 2]> {
+        self.all_c.filter(|_| self.are_final)
+    }
+
+    /// Outdoors, once it is known \[°C\].
+    fn outdoors(&self) -> Option<[f64; 2]> {
+        self.outdoors_c.filter(|_| self.are_final)
+    }
+}
+
+/// The temperature that each zone usually has to have while people are there \[°C\].
+fn wanted_c(scenario: &Scenario, names: &[String]) -> Vec<f64> {
+    let mean_c = |values: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
+        (count > 0).then(|| sum / f64::from(count))
+    };
+    let setpoints = scenario.setpoints.clone().unwrap_or_default();
+    let of_all = |zone: usize| setpoints.occupied_c.get(zone.min(setpoints.occupied_c.len().saturating_sub(1)));
+    let of_zone = |(zone, name): (usize, &String)| {
+        let own = scenario.schedules.iter().filter(|schedule| schedule.zones.contains(name));
+        let scheduled = mean_c(&mut own.flat_map(|schedule| &schedule.periods).map(|period| period.wanted_c));
+        scheduled.or_else(|| of_all(zone).copied()).unwrap_or_default()
+    };
+    names.iter().enumerate().map(of_zone).collect()
+}
+
+/// The zones of which everything is recorded: all of a few, otherwise four from the first to the last.
 fn shown(zones: usize) -> Vec<usize> {
-    if zones <= MAX_PLOTTED_ZONES {
+    if zones <= MAX_SHOWN_ZONES {
         return (0..zones).collect();
     }
-    (0..MAX_PLOTTED_ZONES).map(|index| index * (zones - 1) / (MAX_PLOTTED_ZONES - 1)).collect()
+    (0..4).map(|index| index * (zones - 1) / 3).collect()
+}
+
+/// Many zones in groups, each of whole rows of the floor plan.
+fn groups(zones: usize, columns: usize) -> Vec<Vec<usize>> {
+    if zones <= MAX_SHOWN_ZONES {
+        return Vec::new();
+    }
+    let columns = columns.max(1);
+    let rows = zones.div_ceil(columns).div_ceil(MAX_GROUPS);
+    (0..zones).collect::<Vec<_>>().chunks(rows * columns).map(<[usize]>::to_vec).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::shown;
+    use super::{groups, shown};
 
     #[test]
-    fn the_zones_with_plots_are_spread_over_all() {
-        assert_eq!(shown(1), [0]);
-        assert_eq!(shown(4), [0, 1, 2, 3]);
-        assert_eq!(shown(5), [0, 1, 2, 4]);
+    fn every_zone_is_recorded_by_itself_or_in_a_group() {
+        assert_eq!(shown(16).len(), 16);
+        assert!(groups(16, 4).is_empty());
         assert_eq!(shown(100), [0, 33, 66, 99]);
+        for (zones, columns) in [(17, 5), (100, 10), (1000, 10), (23, 23)] {
+            let groups = groups(zones, columns);
+            assert!(groups.len() <= 12, "{zones}");
+            assert_eq!(groups.concat(), (0..zones).collect::<Vec<_>>());
+        }
     }
 }

@@ -36,19 +36,19 @@ impl ZonePlots {
         band_k: f64,
     ) -> RecordingStreamResult<ZonePlots> {
         for (place, &index) in shown.iter().enumerate() {
-            let series_colour = palette::series(place);
+            let series_colour = palette::zone(place);
             style(stream, &zone(index, "temperature"), "temperature", series_colour.solid(), 2.0)?;
             style(stream, &zone(index, "reference"), "wanted", NEUTRAL.solid(), 1.5)?;
             style(stream, &zone(index, "band/low"), "comfort, low", MARKING.veiled(150), 1.0)?;
             style(stream, &zone(index, "band/high"), "comfort, high", MARKING.veiled(150), 1.0)?;
             style(stream, &zone(index, "heat"), &names[index], series_colour.solid(), 1.5)?;
         }
-        for (end, name) in [("low", "limit of cooling"), ("high", "limit of heating")] {
+        for (end, name) in [("low", "limit, cooling"), ("high", "limit, heating")] {
             style(stream, &format!("building/limit/{end}"), name, FAILURE.solid(), 1.0)?;
         }
         let (real, forecast) = (palette::series(1), palette::series(2));
         style(stream, "building/outdoors/real", "real", real.solid(), 2.0)?;
-        style(stream, "building/outdoors/forecast", "forecast at midnight", forecast.solid(), 1.5)?;
+        style(stream, "building/outdoors/forecast", "forecast", forecast.solid(), 1.5)?;
         style(stream, "building/iteration/cost", "cost of the day", palette::series(1).solid(), 2.0)?;
         style(stream, "building/iteration/optimum", "cheapest possible", palette::series(0).solid(), 1.5)?;
         let largest = |kw: &[f64]| shown.iter().map(|&index| kw[index]).fold(0.0, f64::max);
@@ -94,6 +94,42 @@ impl ZonePlots {
         }
         Ok(())
     }
+}
+
+/// Where the temperatures of a group of zones are recorded.
+pub fn group(number: usize) -> String {
+    format!("building/group/{}", number + 1)
+}
+
+/// Logs the names and colours of the zones of each group.
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn begin_groups(stream: &RecordingStream, names: &[String], groups: &[Vec<usize>]) -> RecordingStreamResult<()> {
+    for (number, zones) in groups.iter().enumerate() {
+        let lines = SeriesLines::new()
+            .with_names(zones.iter().map(|zone| names[*zone].as_str()))
+            .with_colors((0..zones.len()).map(|place| palette::zone(place).solid()))
+            .with_widths(vec![1.0; zones.len()]);
+        stream.log_static(group(number), &lines.with_interpolation_mode(InterpolationMode::StepAfter))?;
+    }
+    Ok(())
+}
+
+/// Logs the temperatures of each group.
+///
+/// # Errors
+/// If Rerun refuses a component.
+pub fn step_groups(
+    stream: &RecordingStream,
+    groups: &[Vec<usize>],
+    frame: &BuildingFrame,
+) -> RecordingStreamResult<()> {
+    for (number, zones) in groups.iter().enumerate() {
+        let temperatures: Vec<f64> = zones.iter().map(|zone| frame.zones[*zone].temperature_c).collect();
+        stream.log(group(number), &Scalars::new(temperatures))?;
+    }
+    Ok(())
 }
 
 /// Logs how a series of steps is called and drawn.

@@ -1,0 +1,359 @@
+//! The cameras of the views: one from above that follows the interaction, one that looks at the same from the side, and one
+//! that sees the whole road.
+//!
+//! The scene is in three dimensions. A view from above is a picture of a pinhole camera so far away that nothing looks
+//! smaller for being lower. Labels are marks on this picture, so that they are as large however near the camera is.
+//!
+//! ```text
+//! world/camera/{top,side}                 a pose at every tick
+//! world/camera/top/label/<name>           name and speed, beside the vehicle
+//! world/camera/top/collision              who collides
+//! world/camera/whole                      static
+//! world/collision                         the star that marks a contact
+//! ```
+
+use interplay_planners::State;
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::Frame;
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::car;
+use super::labels::{self, Rectangle};
+use super::mesh::Mesh;
+use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
+use super::re_sdk_types::archetypes::{Clear, Pinhole, Points2D, Transform3D};
+use super::re_sdk_types::components::{Radius, ViewCoordinates};
+use super::timelines::{SIM_TIME, TICK};
+use crate::camera::{self, CameraMoment, CameraView, ViewFormat};
+use crate::contact::{contact_place, numbers, star};
+use crate::palette::{FLASH, VERMILLION};
+
+/// The camera from above, the one from the side, and the one that sees the whole road.
+pub const TOP: &str = "world/camera/top";
+/// See [`TOP`].
+pub const SIDE: &str = "world/camera/side";
+/// See [`TOP`].
+pub const WHOLE: &str = "world/camera/whole";
+
+/// The star that marks a contact.
+const STAR: &str = "world/collision";
+
+/// Width of the picture from above \[px\]: about as wide as its view in a window of 1280 × 720.
+const TOP_WIDTH_PX: f64 = 800.0;
+/// Height of this picture, above a picture of the whole road and without one \[px\].
+const TOP_HEIGHTS_PX: [f64; 2] = [236.0, 340.0];
+/// Least and greatest length of a car \[px\].
+const CAR_PX: [f64; 2] = [42.0, 104.0];
+/// Distance of a camera from what it sees from above, by the width of what it sees: of the picture that follows the
+/// interaction, and of that of the whole road. From further away the viewer cannot tell heights apart.
+const HEIGHT_RATIO: f64 = 6.0;
+const WHOLE_HEIGHT_RATIO: f64 = 2.0;
+/// Size of the picture from the side, and its focal length \[px\].
+const SIDE_PX: [f64; 2] = [480.0, 360.0];
+const SIDE_FOCAL_PX: f64 = 430.0;
+/// Distance of this camera from what it looks at, by the width of what is seen from above; how steeply it looks down, and how
+/// far to the right of the ego's first direction \[rad\].
+const SIDE_DISTANCE_RATIO: f64 = 0.62;
+const SIDE_PITCH_RAD: f64 = 0.5;
+const SIDE_YAW_RAD: f64 = 0.35;
+/// Before and after a contact, for how long it is shown close \[s\], and for how long it is marked, at 1/10 scale.
+const CLOSE_UP_S: [f64; 2] = [0.6, 1.6];
+const MARKED_S: f64 = 1.6;
+/// Size of the star that marks a contact, in lengths of a car.
+const STAR_CARS: f64 = 0.35;
+/// Width of the picture of the whole road \[px\].
+const WHOLE_PX: f64 = 1000.0;
+/// Most moments before the present that a live camera remembers.
+const LIVE_MOMENTS: usize = 40;
+
+/// A tick as the cameras need it.
+struct CameraTick {
+    tick: i64,
+    time_s: f64,
+    moment: CameraMoment,
+}
+
+/// A contact of two vehicles.
+struct Contact {
+    time_s: f64,
+    between: [usize; 2],
+    place_m: [f64; 2],
+}
+
+/// The cameras of a run.
+pub struct Cameras {
+    format: ViewFormat,
+    /// Ticks that have not been logged.
+    ticks: Vec<CameraTick>,
+    contacts: Vec<Contact>,
+    /// On which side each label stood last; the last one is that of contacts.
+    sides: Vec<usize>,
+    time_ratio: f64,
+    /// Least and greatest coordinates of all vehicles so far \[m\].
+    seen_m: Option<[[f64; 2]; 2]>,
+    /// The same of what the picture of the whole road shows.
+    whole_m: [[f64; 2]; 2],
+}
+
+impl Cameras {
+    /// Logs what never changes about the cameras. Where `has_strip`, the whole road is seen below the picture from above;
+    /// `expected_m` are the least and greatest coordinates of the vehicles to come.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn begin(
+        stream: &RecordingStream,
+        scenario: &Scenario,
+        vehicle_colours: &[NamedColour],
+        (has_strip, expected_m): (bool, [[f64; 2]; 2]),
+    ) -> RecordingStreamResult<Cameras> {
+        let height_px = if has_strip { TOP_HEIGHTS_PX[0] } else { TOP_HEIGHTS_PX[1] };
+        let time_ratio = scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
+        let format = ViewFormat {
+            width_px: TOP_WIDTH_PX,
+            height_px: [height_px; 2],
+            straight_height_px: [height_px; 2],
+            car_px: CAR_PX,
+            step_s: scenario.step_s / time_ratio,
+        };
+        if !scenario.vehicles.is_empty() {
+            stream.log_static(TOP, &pinhole(HEIGHT_RATIO * TOP_WIDTH_PX, [TOP_WIDTH_PX, height_px]))?;
+            stream.log_static(SIDE, &pinhole(SIDE_FOCAL_PX, SIDE_PX))?;
+            stream.log_static(format!("{TOP}/collision"), &label_style(FAILURE))?;
+            log_whole(stream, scenario, expected_m)?;
+        }
+        for (vehicle, vehicle_colour) in scenario.vehicles.iter().zip(vehicle_colours) {
+            let style = label_style(*vehicle_colour);
+            stream.log_static(format!("{TOP}/label/{}", vehicle.name), &style)?;
+        }
+        Ok(Cameras {
+            format,
+            ticks: Vec::new(),
+            contacts: Vec::new(),
+            sides: vec![0; scenario.vehicles.len() + 1],
+            time_ratio,
+            seen_m: None,
+            whole_m: expected_m,
+        })
+    }
+
+    /// The size of the picture from above \[px\].
+    pub fn top_px(&self) -> [f64; 2] {
+        [self.format.width_px, self.format.height_px[1]]
+    }
+
+    /// Whether the whole road is seen below the picture from above.
+    pub fn has_strip(&self) -> bool {
+        self.format.height_px[1] == TOP_HEIGHTS_PX[0]
+    }
+
+    /// The size of the picture of the whole road \[px\].
+    pub fn whole_px(&self, scenario: &Scenario) -> [f64; 2] {
+        let [extent_m, _] = whole(scenario, self.whole_m);
+        [WHOLE_PX, WHOLE_PX * extent_m[1] / extent_m[0]]
+    }
+
+    /// Takes note of a tick.
+    pub fn note(&mut self, scenario: &Scenario, frame: &Frame) {
+        let Some(ego) = frame.vehicles.get(scenario.ego_index()) else { return };
+        let states: Vec<State> = frame.vehicles.iter().map(|vehicle| vehicle.state).collect();
+        for hit in &frame.collisions {
+            let Some(between) = numbers(scenario, &hit.between) else { continue };
+            let place = contact_place(scenario, between, between.map(|index| &states[index]));
+            self.contacts.extend(place.map(|place_m| Contact { time_s: hit.time_s, between, place_m }));
+        }
+        for [x, y] in states.iter().map(State::position) {
+            let [low, high] = self.seen_m.unwrap_or([[x, y]; 2]);
+            self.seen_m = Some([[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]]);
+        }
+        let moment = CameraMoment { states, partner: camera::partner(scenario, ego), close_up: None };
+        let tick = i64::try_from(frame.tick).unwrap_or(i64::MAX);
+        self.ticks.push(CameraTick { tick, time_s: frame.time_s, moment });
+    }
+
+    /// Logs all ticks that were noted: the cameras know what comes, so they move without lag.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn log_all(&mut self, stream: &RecordingStream, scenario: &Scenario) -> RecordingStreamResult<()> {
+        let mut ticks = std::mem::take(&mut self.ticks);
+        if ticks.is_empty() {
+            return Ok(());
+        }
+        for tick in &mut ticks {
+            tick.moment.close_up = self.close_up(tick.time_s);
+        }
+        let moments: Vec<CameraMoment> = ticks.iter().map(|tick| tick.moment.clone()).collect();
+        let views = camera::views(scenario, &moments, &self.format);
+        let yaw_rad = ticks.first().map_or(0.0, |tick| tick.moment.states[scenario.ego_index()].heading_rad);
+        for (tick, view) in ticks.iter().zip(&views) {
+            stream.set_duration_secs(SIM_TIME, tick.time_s);
+            stream.set_time_sequence(TICK, tick.tick);
+            self.log(stream, scenario, tick, view, yaw_rad)?;
+        }
+        self.whole_m = self.seen_m.unwrap_or(self.whole_m);
+        log_whole(stream, scenario, self.whole_m)
+    }
+
+    /// Logs the tick that was noted last, without knowing what comes.
+    ///
+    /// # Errors
+    /// If Rerun refuses a component.
+    pub fn log_last(&mut self, stream: &RecordingStream, scenario: &Scenario) -> RecordingStreamResult<()> {
+        let first = self.ticks.len().saturating_sub(LIVE_MOMENTS);
+        self.ticks.drain(..first);
+        let moments: Vec<CameraMoment> = self.ticks.iter().map(|tick| tick.moment.clone()).collect();
+        let view = camera::views(scenario, &moments, &self.format).pop();
+        let Some((tick, view)) = self.ticks.pop().zip(view) else { return Ok(()) };
+        let yaw_rad = scenario.ego().map_or(0.0, |ego| ego.start.heading_rad);
+        self.log(stream, scenario, &tick, &view, yaw_rad)?;
+        self.ticks.push(tick);
+        Ok(())
+    }
+
+    /// Who is shown close at a time, because they touch.
+    fn close_up(&self, time_s: f64) -> Option<[usize; 2]> {
+        let [before_s, after_s] = CLOSE_UP_S.map(|part| part * self.time_ratio);
+        let near = self.contacts.iter().find(|hit| (hit.time_s - before_s..hit.time_s + after_s).contains(&time_s));
+        near.map(|hit| hit.between)
+    }
+
+    fn log(
+        &mut self,
+        stream: &RecordingStream,
+        scenario: &Scenario,
+        tick: &CameraTick,
+        view: &CameraView,
+        yaw_rad: f64,
+    ) -> RecordingStreamResult<()> {
+        let extent_m = view.size_px[0] / view.px_per_m;
+        stream.log(TOP, &from_above(view.centre_m, HEIGHT_RATIO * extent_m))?;
+        // Between the middle of what is seen and the ego, so that the ego never is below the camera.
+        let ego = tick.moment.states[scenario.ego_index()].position();
+        let target_m = [0, 1].map(|axis| 0.5 * (view.centre_m[axis] + ego[axis]));
+        stream.log(SIDE, &from_the_side(target_m, SIDE_DISTANCE_RATIO * extent_m, yaw_rad - SIDE_YAW_RAD))?;
+        self.log_labels(stream, scenario, tick, view)?;
+        self.log_star(stream, scenario, tick.time_s)
+    }
+
+    fn log_labels(
+        &mut self,
+        stream: &RecordingStream,
+        scenario: &Scenario,
+        tick: &CameraTick,
+        view: &CameraView,
+    ) -> RecordingStreamResult<()> {
+        let vehicles = scenario.vehicles.iter().zip(&tick.moment.states);
+        let mut boxes: Vec<Rectangle> = vehicles
+            .clone()
+            .map(|(vehicle, state)| labels::bounds(&vehicle.body.corners(state).map(|corner| view.place(corner))))
+            .collect();
+        let mut words: Vec<String> =
+            vehicles.map(|(vehicle, state)| format!("{} {:.1} m/s", vehicle.name, state.speed_mps.abs())).collect();
+        let mut paths: Vec<String> =
+            scenario.vehicles.iter().map(|vehicle| format!("{TOP}/label/{}", vehicle.name)).collect();
+        if let Some(hit) = self.marked(scenario, tick.time_s) {
+            let ([x, y], size) = (view.place(hit.place_m), STAR_CARS * camera::car_m(scenario) * view.px_per_m);
+            boxes.push([x - size, y - size, x + size, y + size]);
+            let [one, other] = hit.between.map(|index| scenario.vehicles[index].name.as_str());
+            words.push(format!("{one} and {other} collide"));
+        } else {
+            boxes.push([f64::NEG_INFINITY; 4]);
+            words.push(String::new());
+        }
+        paths.push(format!("{TOP}/collision"));
+        let labels = labels::placed(&boxes, &words, view.size_px, &mut self.sides);
+        for ((path, words), label) in paths.into_iter().zip(words).zip(labels) {
+            // The last one is seldom there, and then says so only while there are contacts at all.
+            if label.is_some() || !words.is_empty() || !self.contacts.is_empty() {
+                stream.log(path, &label_at(label, words))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The contact that is marked at a time.
+    fn marked(&self, scenario: &Scenario, time_s: f64) -> Option<&Contact> {
+        let marked_s = MARKED_S * self.time_ratio;
+        self.contacts.iter().find(|hit| (0.0..marked_s).contains(&(time_s - hit.time_s + scenario.step_s)))
+    }
+
+    /// Marks contacts for a while after they began.
+    fn log_star(&self, stream: &RecordingStream, scenario: &Scenario, time_s: f64) -> RecordingStreamResult<()> {
+        let Some(hit) = self.marked(scenario, time_s) else {
+            return if self.contacts.is_empty() { Ok(()) } else { stream.log(STAR, &Clear::flat()) };
+        };
+        let car_m = camera::car_m(scenario);
+        let height_m = hit.between.map(|index| car::height_m(&scenario.vehicles[index]));
+        let mut mesh = Mesh::default();
+        for (size, colour, above) in [(STAR_CARS, VERMILLION.rgb, 1.05), (0.6 * STAR_CARS, FLASH, 1.15)] {
+            let star = star(hit.place_m, size * car_m);
+            mesh.add_polygon(&star, above * height_m[0].max(height_m[1]), colour);
+        }
+        stream.log(STAR, &mesh.to_component())
+    }
+}
+
+/// A camera, by its focal length and the size of its picture \[px\].
+fn pinhole(focal_px: f64, size_px: [f64; 2]) -> Pinhole {
+    let focal_px = focal_px as f32;
+    Pinhole::from_focal_length_and_resolution([focal_px, focal_px], size_px.map(|part| part as f32))
+        .with_camera_xyz(ViewCoordinates::RDF)
+        .with_image_plane_distance(0.0)
+        .with_color(opaque(NEUTRAL.rgb))
+}
+
+/// The pose of a camera above a place that looks down, with x to the right.
+fn from_above([x, y]: [f64; 2], height_m: f64) -> Transform3D {
+    Transform3D::update_fields().with_translation([x, y, height_m].map(|part| part as f32)).with_mat3x3([
+        [1.0, 0.0, 0.0],
+        [0.0, -1.0, 0.0],
+        [0.0, 0.0, -1.0],
+    ])
+}
+
+/// The pose of a camera that looks at a place from a distance \[m\], in a horizontal direction \[rad\] and downwards.
+fn from_the_side([x, y]: [f64; 2], distance_m: f64, yaw_rad: f64) -> Transform3D {
+    let ((sin, cos), (down, level)) = (libm::sincos(yaw_rad), libm::sincos(SIDE_PITCH_RAD));
+    let ahead = [level * cos, level * sin, -down];
+    let right = [sin, -cos, 0.0];
+    let below = [-down * cos, -down * sin, -level];
+    let eye = [x - distance_m * ahead[0], y - distance_m * ahead[1], -distance_m * ahead[2]];
+    let columns = [right, below, ahead].map(|column| column.map(|part| part as f32));
+    Transform3D::update_fields().with_translation(eye.map(|part| part as f32)).with_mat3x3(columns)
+}
+
+/// Logs the camera that sees all of a rectangle; its picture is as high as the rectangle.
+fn log_whole(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> RecordingStreamResult<()> {
+    let [extent_m, centre_m] = whole(scenario, bounds_m);
+    let px_per_m = WHOLE_PX / extent_m[0];
+    let size_px = [WHOLE_PX, px_per_m * extent_m[1]];
+    stream.log_static(WHOLE, &pinhole(WHOLE_HEIGHT_RATIO * WHOLE_PX, size_px))?;
+    stream.log_static(WHOLE, &from_above(centre_m, WHOLE_HEIGHT_RATIO * extent_m[0]))
+}
+
+/// Extents and middle of the picture of the whole road \[m\].
+fn whole(scenario: &Scenario, [low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let margin_m = 2.0 * scenario.road.lane_width_m();
+    let extent_m = [0, 1].map(|axis| high[axis] - low[axis] + 2.0 * margin_m);
+    [extent_m, [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]))]
+}
+
+/// How a label looks.
+fn label_style(colour: NamedColour) -> Points2D {
+    Points2D::update_fields()
+        .with_colors([colour.on_labels()])
+        .with_radii([Radius::new_ui_points(0.0)])
+        .with_show_labels(true)
+        .with_draw_order(10.0)
+}
+
+/// Words in a rectangle; the viewer writes them below a point.
+fn label_at(label: Option<Rectangle>, words: String) -> Points2D {
+    let point = |[left, top, right, _]: Rectangle| [(0.5 * (left + right)) as f32, (top - 2.0) as f32];
+    let (points, words): (Vec<[f32; 2]>, Vec<String>) = label.map(|label| (point(label), words)).into_iter().unzip();
+    Points2D::update_fields().with_positions(points).with_labels(words)
+}
+
+#[cfg(test)]
+mod tests;

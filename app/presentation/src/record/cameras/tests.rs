@@ -1,0 +1,74 @@
+//! What the cameras of authored scenarios see.
+
+use interplay_scenarios::load;
+
+use super::super::palette::vehicle_colours;
+use super::*;
+use crate::figures::RecordedRun;
+use crate::network_lines::expected_bounds_m;
+
+/// The cameras of an authored scenario after its run, and their views.
+fn filmed(name: &str) -> (Scenario, Cameras, Vec<CameraView>) {
+    let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+    let scenario = recorded.scenario;
+    let shape = (false, expected_bounds_m(&scenario));
+    let stream = RecordingStream::disabled();
+    let mut cameras = Cameras::begin(&stream, &scenario, &vehicle_colours(&scenario), shape).expect("begun");
+    recorded.frames.iter().for_each(|frame| cameras.note(&scenario, frame));
+    for index in 0..cameras.ticks.len() {
+        cameras.ticks[index].moment.close_up = cameras.close_up(cameras.ticks[index].time_s);
+    }
+    let moments: Vec<CameraMoment> = cameras.ticks.iter().map(|tick| tick.moment.clone()).collect();
+    let views = camera::views(&scenario, &moments, &cameras.format);
+    (scenario, cameras, views)
+}
+
+/// At every tick the ego is in view, as long as a car should be, and no label lies on a vehicle or another label.
+#[test]
+fn the_ego_is_seen_and_labels_cover_no_vehicle() {
+    let overlap = |a: &Rectangle, b: &Rectangle| a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+    for name in ["lane-change/front-nice", "intersection/tough", "roundabout/nice", "full-size/ramp-merge"] {
+        let (scenario, mut cameras, views) = filmed(name);
+        let mut shown = 0;
+        for (tick, view) in std::mem::take(&mut cameras.ticks).iter().zip(&views) {
+            let vehicles = scenario.vehicles.iter().zip(&tick.moment.states);
+            let place = |corner: [f64; 2]| view.place(corner);
+            let boxes: Vec<Rectangle> =
+                vehicles.map(|(one, state)| labels::bounds(&one.body.corners(state).map(place))).collect();
+            let [left, top, right, bottom] = boxes[scenario.ego_index()];
+            let [width, height] = view.size_px;
+            assert!(left > 0.0 && top > 0.0 && right < width && bottom < height, "{name}: {:?}", boxes[0]);
+            let car_px = camera::car_m(&scenario) * view.px_per_m;
+            assert!(car_px > 0.8 * CAR_PX[0] && car_px < 1.01 * CAR_PX[1], "{name}: {car_px}");
+            let words: Vec<String> = scenario.vehicles.iter().map(|one| format!("{} 1.0 m/s", one.name)).collect();
+            let labels = labels::placed(&boxes, &words, view.size_px, &mut cameras.sides);
+            let labels: Vec<Rectangle> = labels.into_iter().flatten().collect();
+            for (index, label) in labels.iter().enumerate() {
+                assert!(!boxes.iter().chain(&labels[..index]).any(|other| overlap(label, other)), "{name}");
+            }
+            shown += labels.len();
+        }
+        assert!(shown >= views.len(), "{name}: {shown} labels in {} views", views.len());
+    }
+}
+
+#[test]
+fn a_collision_is_marked_and_shown_close() {
+    let (scenario, cameras, views) = filmed("crash/side-impact");
+    let hit = cameras.contacts.first().expect("they collide");
+    let at = |time_s: f64| {
+        let tick = cameras.ticks.iter().position(|tick| tick.time_s >= time_s - 1e-9).expect("a tick");
+        views[tick].px_per_m
+    };
+    let greatest = CAR_PX[1] / camera::car_m(&scenario);
+    assert!(at(hit.time_s + 0.5) > 0.85 * greatest, "{} of {greatest}", at(hit.time_s + 0.5));
+    assert!(cameras.marked(&scenario, hit.time_s + 0.2).is_some());
+    assert!(cameras.marked(&scenario, hit.time_s - 0.5).is_none());
+    assert!(cameras.marked(&scenario, hit.time_s + 60.0).is_none());
+    let apart = |index: usize| {
+        let [x, y] = cameras.ticks.iter().rfind(|tick| tick.time_s <= hit.time_s).expect("a tick").moment.states[index]
+            .position();
+        libm::hypot(x - hit.place_m[0], y - hit.place_m[1])
+    };
+    assert!(hit.between.iter().all(|index| apart(*index) < 0.4), "the mark lies between the two");
+}

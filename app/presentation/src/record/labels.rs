@@ -1,0 +1,91 @@
+//! Where the labels of vehicles stand: beside them, where they cover neither a vehicle nor another label.
+//!
+//! Places are pixels of the view, y downwards.
+
+/// Width of a letter and of the edges of a label, and its height \[px\].
+const LETTER_PX: f64 = 7.3;
+const EDGES_PX: f64 = 14.0;
+const HEIGHT_PX: f64 = 25.0;
+/// Distance between a vehicle and its label \[px\].
+const DISTANCE_PX: f64 = 4.0;
+
+/// A rectangle: left, top, right, bottom \[px\].
+pub type Rectangle = [f64; 4];
+
+/// The rectangle around some points.
+pub fn bounds(points: &[[f64; 2]]) -> Rectangle {
+    points.iter().fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |[l, t, r, b], [x, y]| {
+        [l.min(*x), t.min(*y), r.max(*x), b.max(*y)]
+    })
+}
+
+/// The label of each vehicle as a rectangle; none where there is no space or the vehicle is out of view.
+///
+/// `vehicles` are rectangles around the bodies, `sides` where each label stood last: it stays there as long as it can.
+pub fn placed(
+    vehicles: &[Rectangle],
+    words: &[String],
+    size_px: [f64; 2],
+    sides: &mut [usize],
+) -> Vec<Option<Rectangle>> {
+    let mut taken = vehicles.to_vec();
+    let mut labels = Vec::new();
+    for (index, (vehicle, words)) in vehicles.iter().zip(words).enumerate() {
+        let [left, top, right, bottom] = *vehicle;
+        let is_seen = right > 0.0 && left < size_px[0] && bottom > 0.0 && top < size_px[1];
+        let candidates = candidates(*vehicle, LETTER_PX * words.chars().count() as f64 + EDGES_PX);
+        let is_free = |[l, t, r, b]: &Rectangle| {
+            let inside = *l >= 0.0 && *t >= 0.0 && *r <= size_px[0] && *b <= size_px[1];
+            inside && !taken.iter().any(|other| *l < other[2] && other[0] < *r && *t < other[3] && other[1] < *b)
+        };
+        let order = [sides[index]].into_iter().chain(0..candidates.len());
+        let found = order.into_iter().find(|side| is_free(&candidates[*side])).filter(|_| is_seen);
+        if let Some(side) = found {
+            sides[index] = side;
+            taken.push(candidates[side]);
+        }
+        labels.push(found.map(|side| candidates[side]));
+    }
+    labels
+}
+
+/// Places around a vehicle, the best first: above, below, to the right, to the left, and at its corners.
+fn candidates([left, top, right, bottom]: Rectangle, width_px: f64) -> [Rectangle; 8] {
+    let (x, y) = (0.5 * (left + right), 0.5 * (top + bottom));
+    let beside = 0.5 * width_px + DISTANCE_PX;
+    let away = 0.5 * HEIGHT_PX + DISTANCE_PX;
+    let (l, t, r, b) = (left - beside, top - away, right + beside, bottom + away);
+    [[x, t], [x, b], [r, y], [l, y], [r, t], [l, t], [r, b], [l, b]]
+        .map(|[x, y]| [x - 0.5 * width_px, y - 0.5 * HEIGHT_PX, x + 0.5 * width_px, y + 0.5 * HEIGHT_PX])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn overlap(a: &Rectangle, b: &Rectangle) -> bool {
+        a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
+    }
+
+    #[test]
+    fn labels_cover_neither_vehicles_nor_each_other() {
+        let vehicles = [[100.0, 100.0, 160.0, 130.0], [110.0, 135.0, 170.0, 165.0], [165.0, 100.0, 225.0, 130.0]];
+        let words = ["ego 1.00 m/s", "front 1.00 m/s", "rear 1.00 m/s"].map(str::to_owned);
+        let mut sides = [0; 3];
+        let labels = placed(&vehicles, &words, [800.0, 300.0], &mut sides);
+        let labels: Vec<Rectangle> = labels.into_iter().map(|label| label.expect("there is space")).collect();
+        for (index, label) in labels.iter().enumerate() {
+            assert!(vehicles.iter().all(|vehicle| !overlap(label, vehicle)), "{label:?}");
+            assert!(labels[..index].iter().all(|other| !overlap(label, other)), "{label:?}");
+        }
+    }
+
+    #[test]
+    fn a_label_stays_on_its_side_and_nobody_out_of_view_has_one() {
+        let words = ["ego".to_owned()];
+        let mut sides = [1];
+        let label = placed(&[[100.0, 100.0, 160.0, 130.0]], &words, [800.0, 300.0], &mut sides)[0].expect("space");
+        assert!(label[1] > 130.0 && sides == [1], "below, as before");
+        assert_eq!(placed(&[[-90.0, 100.0, -30.0, 130.0]], &words, [800.0, 300.0], &mut sides), [None]);
+    }
+}

@@ -1,0 +1,186 @@
+//! What each driver wants and does at the moment, a line for each.
+
+use std::fmt::Write;
+
+use interplay_planners::{PassingOrder, PassingPosition};
+use interplay_scenarios::{LaneReference, Scenario, Vehicle};
+use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
+use rerun::{RecordingStream, RecordingStreamResult};
+
+use super::palette::NamedColour;
+use super::re_sdk_types::archetypes::TextDocument;
+use super::re_sdk_types::components::MediaType;
+use crate::answer::{answer, is_new};
+use crate::signals::is_braking;
+
+/// Where the lines are.
+pub const STATUS: &str = "status";
+/// Slower than this share of its wanted speed a vehicle stands.
+const STANDS_SHARE: f64 = 0.08;
+/// A vehicle keeps its speed if its acceleration is below this \[m/s²\].
+const KEEPS_MPS2: f64 = 0.05;
+
+/// The lines of all drivers, which are logged when they change.
+#[derive(Default)]
+pub struct StatusLines(String);
+
+impl StatusLines {
+    /// Logs the lines of a tick.
+    ///
+    /// # Errors
+    /// If Rerun refuses the text.
+    pub fn tick(
+        &mut self,
+        stream: &RecordingStream,
+        scenario: &Scenario,
+        vehicle_colours: &[NamedColour],
+        frame: &Frame,
+    ) -> RecordingStreamResult<()> {
+        if frame.vehicles.is_empty() {
+            return Ok(());
+        }
+        let mut text = String::new();
+        for ((vehicle, now), colour) in scenario.vehicles.iter().zip(&frame.vehicles).zip(vehicle_colours) {
+            let (name, wants, does) = (&vehicle.name, wants(scenario, vehicle), does(scenario, vehicle, now));
+            let _ = writeln!(text, "**{name}** ({}) wants {wants}: {does}.\n", colour.word);
+        }
+        if self.0 == text {
+            return Ok(());
+        }
+        stream.log(STATUS, &TextDocument::new(text.as_str()).with_media_type(MediaType::MARKDOWN))?;
+        self.0 = text;
+        Ok(())
+    }
+}
+
+/// The goal of a vehicle.
+fn wants(scenario: &Scenario, vehicle: &Vehicle) -> String {
+    let target = vehicle.target(&scenario.road);
+    match &vehicle.goal.lane {
+        Some(LaneReference::Number(lane)) if scenario.road.parallel_lanes().is_some_and(|lanes| lanes.count > 1) => {
+            format!("lane {lane} at {:.1} m/s", target.speed_mps)
+        }
+        Some(LaneReference::Name(lane)) => format!("lane `{lane}` at {:.1} m/s", target.speed_mps),
+        Some(LaneReference::Number(_)) | None => format!("{:.1} m/s", target.speed_mps),
+    }
+}
+
+/// What a vehicle does, and because of whom.
+fn does(scenario: &Scenario, vehicle: &Vehicle, now: &VehicleFrame) -> String {
+    match now.origin {
+        Origin::Planned => {}
+        Origin::Crashed => return "has collided and brakes until it stands".to_owned(),
+        Origin::Continued => return "finds no new plan and continues the last one".to_owned(),
+        Origin::Braking => return "finds no plan and brakes fully".to_owned(),
+        Origin::Evading => return "finds no plan and evades".to_owned(),
+    }
+    let wanted_mps = vehicle.target(&scenario.road).speed_mps;
+    let stands = now.state.speed_mps.abs() < STANDS_SHARE * wanted_mps;
+    let brakes = is_braking(now.input.acceleration_mps2);
+    let mut parts: Vec<String> = asks(now).into_iter().collect();
+    let orders = &now.plan.passing_orders;
+    parts.extend(grouped(orders, |order| verb(order, stands, brakes)));
+    let speed = match now.input.acceleration_mps2 {
+        _ if stands => "stands",
+        _ if brakes => "brakes",
+        acceleration if acceleration > KEEPS_MPS2 => "speeds up",
+        _ => "keeps its speed",
+    };
+    let waits = orders.iter().any(|order| order.position == PassingPosition::Behind);
+    if !(stands || brakes) || !waits {
+        parts.push(speed.to_owned());
+    }
+    parts.join("; ")
+}
+
+/// Whom a vehicle asks for the dotted motion, and the answer.
+fn asks(now: &VehicleFrame) -> Option<String> {
+    let proposal = now.plan.proposal.as_ref()?;
+    let to = &proposal.to;
+    Some(match proposal.acceptance {
+        None => format!("expects {to} to take the dotted way"),
+        Some(_) if is_new(&now.plan, to) => format!("asks {to} to take the dotted way"),
+        Some(share) => format!("asks {to} to take the dotted way: it {} ({:.0} %)", answer(share), 100.0 * share),
+    })
+}
+
+/// What a vehicle does with respect to another one.
+fn verb(order: &PassingOrder, stands: bool, brakes: bool) -> &'static str {
+    match order.position {
+        PassingPosition::Ahead => "goes ahead of",
+        PassingPosition::Behind if stands => "waits for",
+        PassingPosition::Behind if brakes => "yields to",
+        PassingPosition::Behind => "stays behind",
+        PassingPosition::Left => "passes on the left of",
+        PassingPosition::Right => "passes on the right of",
+    }
+}
+
+/// Orders with the same verb as one part of a sentence.
+fn grouped(orders: &[PassingOrder], verb: impl Fn(&PassingOrder) -> &'static str) -> Vec<String> {
+    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
+    for order in orders {
+        let verb = verb(order);
+        match groups.iter_mut().find(|(known, _)| *known == verb) {
+            Some((_, names)) => names.push(&order.of),
+            None => groups.push((verb, vec![&order.of])),
+        }
+    }
+    groups.into_iter().map(|(verb, names)| format!("{verb} {}", names.join(" and "))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_planners::{Input, Plan, Proposal, State};
+    use interplay_scenarios::load;
+
+    use super::*;
+
+    fn order(of: &str, position: PassingPosition) -> PassingOrder {
+        PassingOrder { of: of.to_owned(), position }
+    }
+
+    fn said(speed_mps: f64, acceleration_mps2: f64, plan: Plan, origin: Origin) -> String {
+        let scenario = load("lane-change/front-nice", &[]).expect("embedded");
+        let state = State { speed_mps, ..State::default() };
+        let input = Input { acceleration_mps2, ..Input::default() };
+        does(&scenario, &scenario.vehicles[0], &VehicleFrame { state, input, plan, origin, ..Default::default() })
+    }
+
+    #[test]
+    fn a_line_says_who_waits_for_whom_and_why() {
+        let behind = || Plan {
+            passing_orders: vec![order("front", PassingPosition::Behind), order("rear", PassingPosition::Behind)],
+            ..Plan::default()
+        };
+        assert_eq!(said(1.0, 0.0, behind(), Origin::Planned), "stays behind front and rear; keeps its speed");
+        assert_eq!(said(0.8, -0.5, behind(), Origin::Planned), "yields to front and rear");
+        assert_eq!(said(0.0, 0.0, behind(), Origin::Planned), "waits for front and rear");
+        assert_eq!(said(1.0, 0.2, Plan::default(), Origin::Planned), "speeds up");
+        assert_eq!(said(1.0, 0.0, behind(), Origin::Braking), "finds no plan and brakes fully");
+    }
+
+    #[test]
+    fn a_line_says_who_is_asked_and_what_it_answers() {
+        let asks = |acceptance| Plan {
+            proposal: Some(Proposal { to: "front".to_owned(), trajectory: Default::default(), acceptance }),
+            passing_orders: vec![order("front", PassingPosition::Ahead)],
+            ..Plan::default()
+        };
+        assert_eq!(
+            said(1.0, -0.3, asks(Some(0.85)), Origin::Planned),
+            "asks front to take the dotted way: it accepts (85 %); goes ahead of front; brakes"
+        );
+        assert!(said(1.0, 0.0, asks(None), Origin::Planned).starts_with("expects front to take the dotted way; "));
+    }
+
+    #[test]
+    fn a_goal_names_its_lane_only_where_there_are_several() {
+        let said = |name: &str| {
+            let scenario = load(name, &[]).expect("embedded");
+            wants(&scenario, &scenario.vehicles[0])
+        };
+        assert_eq!(said("lane-change/front-nice"), "lane 1 at 1.0 m/s");
+        assert_eq!(said("intersection/nice"), "1.2 m/s");
+    }
+}

@@ -1,0 +1,71 @@
+//! What vehicles signal: brake lights and indicators.
+
+use interplay_planners::road::network::RouteLeg;
+use interplay_planners::{Route, State};
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::VehicleFrame;
+
+/// A vehicle brakes visibly if its acceleration is below this \[m/s²\].
+const BRAKING_MPS2: f64 = -0.1;
+/// A plan that leads further sideways than this is a change of lane, in lane widths.
+const LANE_CHANGE_LANES: f64 = 0.5;
+/// How much a way turns away from the lane before it, where there is a choice, to be indicated \[rad\].
+const TURN_RAD: f64 = 0.6;
+/// How far ahead a turn is indicated, in lane widths.
+const TURN_AHEAD_LANES: f64 = 5.0;
+
+/// The side to which a vehicle is going to move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+}
+
+/// Whether an acceleration lights the brake lights.
+pub fn is_braking(acceleration_mps2: f64) -> bool {
+    acceleration_mps2 < BRAKING_MPS2
+}
+
+/// To which side a plan leads: into another lane, or on a network around a corner.
+pub fn turn(scenario: &Scenario, route: &Route, vehicle: &VehicleFrame) -> Option<Turn> {
+    let states = &vehicle.plan.trajectory.states;
+    let (first, last) = (&vehicle.state, states.last()?);
+    let side = |amount: f64| if amount > 0.0 { Turn::Left } else { Turn::Right };
+    let across = |state: &State| route.locate(state.position(), None).across_m;
+    let sideways_m = across(last) - across(first);
+    if sideways_m.abs() > LANE_CHANGE_LANES * scenario.road.lane_width_m() {
+        return Some(side(sideways_m));
+    }
+    turned_rad(scenario, route, route.along(first.position())).map(side)
+}
+
+/// How much the way of a vehicle turns at the next lane from which several lead on, if that is near \[rad\].
+///
+/// From a lane that is itself bent at its end, as on a ring, a lane that is bent as much leads straight on.
+fn turned_rad(scenario: &Scenario, route: &Route, along_m: f64) -> Option<f64> {
+    let network = scenario.network.as_ref()?;
+    let ahead_m = TURN_AHEAD_LANES * scenario.road.lane_width_m();
+    let pairs = route.legs.windows(2).filter(|legs| {
+        let is_choice = network.lane(&legs[0].lane).is_some_and(|lane| lane.successors.len() > 1);
+        is_choice && legs[0].to_m - ahead_m < along_m && along_m < legs[1].to_m
+    });
+    let direction = |at_m: f64| {
+        let [from, to] = [at_m - 0.01 * ahead_m, at_m].map(|at_m| route.centre.position(at_m, 0.0));
+        libm::atan2(to[1] - from[1], to[0] - from[0])
+    };
+    let turned = |legs: &[RouteLeg]| {
+        let (here_m, length_m) = (legs[0].to_m, legs[1].to_m - legs[1].from_m);
+        let own_m = length_m.min(legs[0].to_m - legs[0].from_m).max(1e-3 * ahead_m);
+        let own_rad = wrapped(direction(here_m) - direction(here_m - own_m));
+        wrapped(direction(legs[1].to_m) - direction(here_m) - own_rad * length_m / own_m)
+    };
+    pairs.map(turned).find(|turned_rad| turned_rad.abs() > TURN_RAD)
+}
+
+/// An angle between −π and π \[rad\].
+pub fn wrapped(angle_rad: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    (angle_rad + PI).rem_euclid(TAU) - PI
+}
