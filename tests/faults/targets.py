@@ -90,10 +90,10 @@ train_days = 1.0
 ]
 PLANS = [
     'scenario = ["intersection/nice", "lane-change/front-nice"]\nplanner = ["idm", { name = "p", kind = "negotiation", '
-    "set = { vehicle.ego.driver.patience_steps = 20 } }]\nsamples = 1\nseed = 1\nset = { duration_s = 1.0 }\n\n"
+    "set = { vehicle.ego.driver.patience_steps = 20 } }]\nsamples = 1\nseed = 1\nset = { duration_s = 3.0 }\n\n"
     "[vary]\nvehicle.ego.goal.speed_mps = { uniform = [1.0, 1.3] }\n",
     'scenario = ["lane-change/front-*"]\nplanner = ["conservative"]\nstyle = ["nice"]\nsampling = "latin-hypercube"\nmax_runs = 8\n'
-    "jitter = { position_m = 0.1, speed_mps = 0.1 }\nsamples = 2\n\n[set]\nduration_s = 1.0\n\n[vary]\n"
+    "jitter = { position_m = 0.1, speed_mps = 0.1 }\nsamples = 2\n\n[set]\nduration_s = 3.0\n\n[vary]\n"
     "vehicle.front.goal.speed_mps = { range = [1.2, 1.3], count = 2 }\nvehicle.rear.start.speed_mps = { log_uniform = [1.2, 1.3] }\n",
     'title = "Rooms"\nscenario = ["building/four-room-pid"]\nsamples = 1\nset = { iterations = 2 }\n\n'
     '[[style]]\nname = "cold"\nset = { building.initial_c = 20.0 }\nvary = { "building.step_s" = [900.0, 1800.0] }\n',
