@@ -188,7 +188,7 @@ class Session:
         return f"| `{self.name}` | " + " | ".join(str(cell) for cell in cells) + " |"
 
 
-HEADER = "target | minutes | inputs | accepted | refused (2) | unfinished (3) | run | expectation failed (1) | unfinished (3) "
+HEADER = "target | minutes | inputs | accepted | refused (2) | unfinished (3) | run | expectation failed (1) | run unfinished (3) "
 HEADER += "| left out as costly | distinct outcomes | messages without a place | faults"
 
 
