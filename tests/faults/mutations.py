@@ -1,50 +1,52 @@
 #!/usr/bin/env python3
-"""Authored scenarios with random mistakes in them: `check` answers each, and what it accepts is run with recording and report.
+"""Input with random mistakes in it: a command answers each, and what it accepts is run with recording and report.
 
-No command may panic, abort, hang, or refuse what `check` accepted, and no recording may be twice as large as `check` states.
-Prints counts as Markdown; exits with 1, and keeps the files, if anything did not hold. The same seed makes the same files.
+No command may panic, abort, hang, or refuse what was accepted, and no recording may be twice as large as `check` states.
+A refusal names a file with its line, or a flag. Inputs that led to a message not seen before are kept in tests/faults/corpus/TARGET
+while these are small; they come first in the next call, and further mistakes are made in them. Prints counts as Markdown; exits
+with 1 if anything did not hold, and keeps that input as small as it could be made. The same seed and corpus make the same inputs.
 
-    tests/faults/mutations.py [--count 1000] [--seed 1] [--binary target/release/interplay]
+    tests/faults/mutations.py [TARGET ...] [--count 1000 | --minutes 5] [--seed 1] [--binary target/release/interplay]
 """
 
 import argparse
 import collections
+import dataclasses
+import json
 import pathlib
 import random
 import re
 import subprocess
 import sys
 import tempfile
+import time
+import zlib
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.])")
-NUMBERS = ["0", "0.0", "-1", "-0.0", "1e-9", "1e-300", "1e9", "1e308", "nan", "inf", "-inf", "0.5", "3", "64", "1000", "''", "[]", "true"]
-PIECES = ["[", "]", "[[vehicle]]\n", "=", "'", '"', "\n", "{", "}", ",", "\t", "\0", "é", "extends = 'tower'\n", "duration_s = 2\n", "#"]
+import messages
+import targets
+
+CORPUS = pathlib.Path(__file__).resolve().parent / "corpus"
+MOST_CORPUS_BYTES, MOST_INPUT_BYTES = 25_000, 8_000
 TIMEOUT_S = 120
 STATED = re.compile(r"in about ([\d.]+) MB")
+# Telemetry can be good enough for a report and not for a network; only `--scenario` asks for one.
+NO_NETWORK = "there is no network to write as a scenario"
+MOST_TRIALS, MOST_SHRINKING_S = 60, 20.0
 
 
-def mutated(text: str, dice: random.Random) -> str:
-    """The text with one or two mistakes: numbers of another size, lines that are lost or doubled, pieces at random places."""
-    for _ in range(dice.randint(1, 2)):
-        kind = dice.random()
-        numbers = list(NUMBER.finditer(text))
-        if kind < 0.75 and numbers:
-            number = dice.choice(numbers)
-            scaled = f"{float(number[0]) * dice.choice([-1.0, 0.1, 0.5, 0.9, 1.1, 2.0, 10.0]):.6g}"
-            text = text[: number.start()] + (scaled if dice.random() < 0.8 else dice.choice(NUMBERS)) + text[number.end() :]
-        elif kind < 0.9:
-            lines = text.splitlines(keepends=True)
-            at = dice.randrange(len(lines))
-            lines[at : at + 1] = dice.choice([[], [lines[at]] * 2, [lines[at], dice.choice(lines)]])
-            text = "".join(lines) or "\n"
-        else:
-            at = dice.randrange(len(text) + 1)
-            text = text[:at] + dice.choice(PIECES) + text[at + dice.choice([0, 0, 1, 5]) :]
-    return text
+@dataclasses.dataclass
+class Outcome:
+    """What became of one input: exit codes, the messages, and what was wrong with the program, if anything."""
+
+    checked: str
+    said: str
+    runs: list[str]
+    left_out: bool = False
+    fault: str | None = None
+    kinds: set[str] = dataclasses.field(default_factory=set)
 
 
-def execute(binary: str, folder: pathlib.Path, *words: str) -> tuple[str, str]:
+def execute(binary: str, folder: pathlib.Path, words: list[str]) -> tuple[str, str]:
     """How a command ended, and what it said."""
     try:
         done = subprocess.run([binary, *words], cwd=folder, capture_output=True, timeout=TIMEOUT_S)
@@ -54,44 +56,179 @@ def execute(binary: str, folder: pathlib.Path, *words: str) -> tuple[str, str]:
     return str(done.returncode) if done.returncode in (0, 1, 2, 3) else f"crash {done.returncode}", said
 
 
+def attempt(binary: str, target: targets.Target, text: str) -> Outcome:
+    """Gives one input to the commands of its target."""
+    with tempfile.TemporaryDirectory(prefix="interplay-mutations-") as name:
+        folder = pathlib.Path(name)
+        for file, content in {**target.files, f"input.{target.suffix}": text}.items():
+            (folder / file).write_bytes(content.encode("utf-8", "surrogateescape"))
+        check, runs = target.commands(text)
+        ended, said = execute(binary, folder, check)
+        outcome = Outcome(ended, said, [], kinds={f"{ended}: {kind}" for kind in messages.kinds(said) or {""}})
+        if ended not in "0123":
+            outcome.fault = f"{' '.join(check)}: {ended}"
+        elif ended != "2" and check[0] in ("check", "sweep") and ended != "0":
+            outcome.fault = f"{' '.join(check)}: exit code {ended}"
+        elif ended in "01":
+            _run(binary, folder, runs, outcome)
+        return outcome
+
+
+def _run(binary: str, folder: pathlib.Path, runs: list[list[str]], outcome: Outcome) -> None:
+    """Runs what was accepted, and adds to the outcome."""
+    for words in runs:
+        if not targets.cost_is_small(outcome.said):
+            outcome.left_out = True
+            return
+        stated_mb = [float(size) for size in STATED.findall(outcome.said)]
+        ended, said = execute(binary, folder, words)
+        outcome.runs.append(ended)
+        outcome.said = said
+        outcome.kinds |= {f"{words[0]} {ended}: {kind}" for kind in messages.kinds(said) or {""}}
+        if NO_NETWORK in said:
+            return
+        recording = folder / "run.rrd"
+        if ended not in "013":
+            outcome.fault = f"{' '.join(words)}: {'refused after it was accepted' if ended == '2' else ended}"
+        elif stated_mb and recording.exists() and recording.stat().st_size > 2e6 * max(stated_mb):
+            outcome.fault = f"the recording has {recording.stat().st_size} bytes, stated were {max(stated_mb)} MB"
+        if ended not in "01" or outcome.fault:
+            return
+
+
+def smaller(binary: str, target: targets.Target, text: str, wanted: Outcome, trials: int) -> str:
+    """A smaller input with the same messages and the same fault, found by leaving out lines or, of lists, words."""
+    is_list = target.suffix == "json"
+    parts = json.loads(text) if is_list else text.splitlines(keepends=True)
+    size, end = len(parts) // 2, time.monotonic() + MOST_SHRINKING_S
+    while size and trials and time.monotonic() < end:
+        at = 2 if is_list else 0
+        while at < len(parts) and trials and time.monotonic() < end:
+            fewer = parts[:at] + parts[at + size :]
+            trials -= 1
+            shorter = json.dumps(fewer) if is_list else "".join(fewer)
+            if _is_same(attempt(binary, target, shorter), wanted):
+                parts = fewer
+            else:
+                at += size
+        size //= 2
+    return json.dumps(parts) if is_list else "".join(parts)
+
+
+def _is_same(found: Outcome, wanted: Outcome) -> bool:
+    return found.kinds == wanted.kinds and (found.fault is None) == (wanted.fault is None)
+
+
+class Session:
+    """All inputs of one target, what is known of them, and the corpus that remains."""
+
+    def __init__(self, binary: str, name: str, target: targets.Target) -> None:
+        self.binary, self.name, self.target = binary, name, target
+        self.folder = CORPUS / name
+        self.kept = sorted(self.folder.glob(f"*.{target.suffix}")) if self.folder.exists() else []
+        self.corpus = [file.read_bytes().decode("utf-8", "surrogateescape") for file in self.kept]
+        self.seen: dict[str, int] = collections.Counter()
+        self.unplaced: dict[str, str] = {}
+        self.checks, self.runs = collections.Counter(), collections.Counter()
+        self.left_out, self.faults, self.examples, self.began = 0, [], {}, time.monotonic()
+
+    def drive(self, count: int, minutes: float | None, seed: int) -> None:
+        """Replays the corpus, then makes new inputs until there are enough or the time is over."""
+        for text in self.corpus:
+            self.judge(text, is_kept=True)
+        index = 0
+        while time.monotonic() - self.began < 60 * minutes if minutes else index < count:
+            dice = random.Random(f"{seed}/{self.name}/{index}")
+            from_corpus = self.corpus and dice.random() < 0.3
+            text = dice.choice(self.corpus if from_corpus else self.target.seeds)
+            self.judge(self.target.spoil(text, self.target.seeds, dice), is_kept=False)
+            index += 1
+
+    def judge(self, text: str, is_kept: bool) -> None:
+        """Counts one input, and keeps it if it shows something new."""
+        outcome = attempt(self.binary, self.target, text)
+        self.checks[outcome.checked] += 1
+        self.runs.update(outcome.runs[-1:])
+        self.left_out += outcome.left_out
+        new = outcome.kinds - self.seen.keys()
+        self.seen.update(outcome.kinds)
+        if outcome.checked == "2" and not messages.names_place(outcome.said):
+            self.unplaced.update({kind: outcome.said for kind in outcome.kinds if kind not in self.unplaced})
+        if outcome.fault and outcome.fault not in [fault for fault, _, _ in self.faults]:
+            trials = 0 if "hang" in outcome.fault else MOST_TRIALS
+            text = smaller(self.binary, self.target, text, outcome, trials)
+            self.faults.append((outcome.fault, text, outcome.said))
+            if not is_kept:
+                self.keep("fault-", text)
+        elif new:
+            if not is_kept and not outcome.runs:
+                text = smaller(self.binary, self.target, text, outcome, MOST_TRIALS)
+            self.examples.update({kind: (text, outcome.said) for kind in new})
+            if not is_kept:
+                self.keep("", text)
+
+    def keep(self, prefix: str, text: str) -> None:
+        """Puts an input into the corpus, if there is room."""
+        content = text.encode("utf-8", "surrogateescape")
+        used = sum(file.stat().st_size for file in self.kept)
+        if len(content) <= MOST_INPUT_BYTES and used + len(content) <= MOST_CORPUS_BYTES:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            file = self.folder / f"{prefix}{zlib.crc32(content):08x}.{self.target.suffix}"
+            if not file.exists():
+                file.write_bytes(content)
+                self.kept.append(file)
+
+    def row(self) -> str:
+        """Counts as a row of a table."""
+        answered = [self.checks["2"], self.checks["3"], self.checks.total() - sum(self.checks[code] for code in "0123")]
+        ran = [self.runs.total(), self.runs["1"], self.runs["3"]]
+        minutes = f"{(time.monotonic() - self.began) / 60:.1f}"
+        accepted = self.checks["0"] + self.checks["1"]
+        cells = [minutes, self.checks.total(), accepted, *answered[:2], *ran, self.left_out, len(self.seen), len(self.unplaced), len(self.faults)]
+        return f"| `{self.name}` | " + " | ".join(str(cell) for cell in cells) + " |"
+
+
+HEADER = "target | minutes | inputs | accepted | refused (2) | unfinished (3) | run | expectation failed (1) | run unfinished (3) "
+HEADER += "| left out as costly | distinct outcomes | messages without a place | faults"
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=1000)
+    parser.add_argument("target", nargs="*")
+    parser.add_argument("--count", type=int, default=1000, help="inputs of each target besides the corpus")
+    parser.add_argument("--minutes", type=float, help="time for each target, in place of a count")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--binary", default="target/release/interplay")
+    parser.add_argument("--messages", type=pathlib.Path, help="a new folder for all distinct messages, each with its input")
     stated = parser.parse_args()
     binary = str(pathlib.Path(stated.binary).resolve())
-    authored = [file.read_text("utf-8") for file in sorted((ROOT / "scenarios/files").rglob("*.toml"))]
-    checks, runs, broken = collections.Counter(), collections.Counter(), []
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="interplay-mutations-"))
-    for index in range(stated.count):
-        dice = random.Random(f"{stated.seed}/{index}")
-        name = f"{index}.toml"
-        (folder / name).write_text(mutated(dice.choice(authored), dice), "utf-8")
-        ended, said = execute(binary, folder, "check", name)
-        checks[ended] += 1
-        fault = None if ended in "02" else f"check: {ended}"
-        if ended == "0":
-            limit_mb = 2.0 * max(float(size) for size in STATED.findall(said))
-            ended, said = execute(binary, folder, "run", name, "--record", "run.rrd", "--report", "page")
-            runs[ended] += 1
-            recording = folder / "run.rrd"
-            if ended not in "013":
-                fault = f"run: {ended}"
-            elif recording.exists() and recording.stat().st_size > 1e6 * limit_mb:
-                fault = f"the recording has {recording.stat().st_size} bytes, stated were {limit_mb / 2} MB"
-            recording.unlink(missing_ok=True)
-        if fault:
-            broken.append(f"{folder / name}: {fault}\n{said[-600:]}")
-        else:
-            (folder / name).unlink()
-    print("| | all | well (0) | expectation failed (1) | refused (2) | unfinished (3) | crash or hang |\n|---|---|---|---|---|---|---|")
-    for title, counts in [("`check`", checks), ("`run --record --report`", runs)]:
-        other = sum(count for ended, count in counts.items() if ended not in "0123")
-        print(f"| {title} | {counts.total()} | {' | '.join(str(counts[code]) for code in '0123')} | {other} |")
-    for line in broken:
-        print(line, file=sys.stderr)
-    return 1 if broken else 0
+    every = targets.all_targets(binary)
+    unknown = [name for name in stated.target if name not in every]
+    if unknown:
+        parser.error(f"there is no target {unknown[0]}; there are: {', '.join(every)}")
+    print(f"| {HEADER} |\n|{'---|' * len(HEADER.split('|'))}", flush=True)
+    faults = 0
+    for name in stated.target or every:
+        session = Session(binary, name, every[name])
+        session.drive(stated.count, stated.minutes, stated.seed)
+        print(session.row(), flush=True)
+        faults += len(session.faults)
+        for fault, text, said in session.faults:
+            print(f"{name}: {fault}\n{text}\n{said[-1500:]}\n", file=sys.stderr, flush=True)
+        if stated.messages:
+            write_messages(stated.messages, session)
+    return 1 if faults else 0
+
+
+def write_messages(folder: pathlib.Path, session: Session) -> None:
+    """Writes each distinct outcome of a target: how often it occurred, the first input, and what was said."""
+    folder.mkdir(parents=True, exist_ok=True)
+    parts = [
+        f"## {count} x {kind}{'   (NO PLACE)' if kind in session.unplaced else ''}\n--- input\n{session.examples.get(kind, ('', ''))[0][-600:]}\n"
+        f"--- said\n{session.examples.get(kind, ('', ''))[1][-1500:]}\n"
+        for kind, count in session.seen.items()
+    ]
+    (folder / f"{session.name}.txt").write_text("\n".join(parts), "utf-8", "surrogateescape")
 
 
 if __name__ == "__main__":
