@@ -147,6 +147,11 @@ impl Checker {
             let help = schema.property(key).map(SchemaNode::description).unwrap_or_default();
             let meant = node.label().and_then(|name| nearest(name, complete_entries.iter().map(String::as_str)));
             match (meant, table.get("name")) {
+                (Some(meant), Some(name)) if name.node.text() == Some(meant) => {
+                    let message = format!("{} stands there twice", quoted(&path.0));
+                    let help = "join them, or give one of them another name";
+                    self.refuse(&name.node.place, "the same name again", message, help);
+                }
                 (Some(meant), Some(name)) => {
                     let help = format!("did you mean `{meant}`? An entry with a new name needs `{key}`: {help}");
                     self.refuse(&name.node.place, "a new name", message, help);

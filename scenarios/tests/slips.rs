@@ -31,6 +31,15 @@ fn a_misspelt_vehicle_of_a_variant_is_told_its_nearest_name() {
 }
 
 #[test]
+fn a_vehicle_of_a_variant_that_stands_there_twice_is_told_so() {
+    let entry = "[[vehicle]]\nname = \"front\"\ndriver = { kind = \"human\", style = \"tough\" }\n";
+    let fault = only(&format!("{VARIANT}{entry}{entry}"), &[]);
+    assert_eq!(fault.message(), "`vehicle.front` stands there twice");
+    assert_eq!(hint(&fault), "join them, or give one of them another name");
+    assert_eq!((fault.file(), fault.line_and_column()), (Some("my.toml"), Some((8, 8))));
+}
+
+#[test]
 fn a_word_in_capitals_is_told_its_own_spelling() {
     let fault = only(&format!("{VARIANT}[[vehicle]]\nname = \"front\"\ndriver = {{ kind = \"IDM\" }}\n"), &[]);
     assert_eq!(hint(&fault), "did you mean `idm`?");

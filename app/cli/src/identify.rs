@@ -58,31 +58,41 @@ impl Identify {
                 return ExitStatus::BadInput;
             }
         };
-        let scenario = match self.scenario_text(&found) {
-            Ok(scenario) => scenario,
-            Err(error) => {
-                print_error(&format!("Error: {error}"));
-                return ExitStatus::BadInput;
-            }
-        };
-        let printed = self.print_findings(&found).and_then(|()| self.write_scenario(scenario));
-        if let Err(error) = printed {
+        if let Err(error) = self.print_findings(&found) {
             print_error(&format!("Error: {error}"));
             return ExitStatus::Unfinished;
         }
-        ExitStatus::Well
+        match self.scenario_text(&found) {
+            Ok(scenario) => match self.write_scenario(scenario) {
+                Ok(()) => ExitStatus::Well,
+                Err(error) => {
+                    print_error(&format!("Error: {error}"));
+                    ExitStatus::Unfinished
+                }
+            },
+            // What was found says why.
+            Err(error) => {
+                print_error(&format!("Error: {error}"));
+                ExitStatus::BadInput
+            }
+        }
     }
 
     /// The scenario, if one is asked for.
     fn scenario_text(&self, found: &Identification) -> Result<Option<String>, InputError> {
         let Some(path) = &self.scenario else { return Ok(None) };
-        let network = found.network.as_ref().map_err(|reason| InputError::NoNetwork { reason: reason.clone() })?;
-        let text = report::identified_scenario(&self.table.display().to_string(), &found.report, network);
+        let table = self.table.display().to_string();
+        let network = found
+            .network
+            .as_ref()
+            .map_err(|reason| InputError::NoNetwork { table: table.clone(), reason: reason.clone() })?;
+        let text = report::identified_scenario(&table, &found.report, network);
         match interplay_scenarios::from_text(&path.display().to_string(), &text, &[]) {
             Ok(_) => Ok(Some(text)),
             Err(error) => {
                 let faults: Vec<&str> = error.faults().iter().map(Fault::message).collect();
-                Err(InputError::NoNetwork { reason: format!("no scenario can hold it: {}", faults.join("; ")) })
+                let reason = format!("no scenario can hold it: {}", faults.join("; "));
+                Err(InputError::NoNetwork { table, reason })
             }
         }
     }
@@ -144,8 +154,8 @@ enum InputError {
     NotUtf8 { path: PathBuf, line: usize },
     #[error("`{}` exists already, and `--scenario` overwrites nothing; choose another name", path.display())]
     ScenarioExists { path: PathBuf },
-    #[error("there is no network to write as a scenario: {reason}")]
-    NoNetwork { reason: String },
+    #[error("{table}: no scenario is written: {reason}")]
+    NoNetwork { table: String, reason: String },
     #[error(transparent)]
     Telemetry(#[from] TelemetryError),
     #[error("{name}: {reason}")]
