@@ -89,6 +89,6 @@ fn no_file_is_overwritten_and_what_is_not_known_is_not_written() {
     fs::write(folder.join("house.toml"), MAPPING.replace("'kw'", "'unknown'")).expect("written");
     let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "found.toml"]);
     assert_eq!(outcome.code, Some(2), "{outcome:?}");
-    assert!(outcome.stdout.contains("UA"), "what was found says why: {}", outcome.stdout);
+    assert!(outcome.stdout.contains("not identifiable"), "what was found says why: {}", outcome.stdout);
     assert!(outcome.stderr.contains("no scale") && !folder.join("found.toml").exists(), "{}", outcome.stderr);
 }
