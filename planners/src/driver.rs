@@ -245,9 +245,9 @@ impl Driver {
 }
 
 impl Planner {
-    /// The same planner, whose plans have a deadline. Those who go first have none: people do not plan by a computer's clock.
-    pub fn with_deadline(self, deadline: PlanDeadline) -> Self {
-        Planner { deadline: self.may_be_refused.then_some(deadline), ..self }
+    /// The same planner, whose plans have this deadline, or none.
+    pub fn with_deadline(self, deadline: Option<PlanDeadline>) -> Self {
+        Planner { deadline, ..self }
     }
 
     /// Plans the next move in a scene in which everybody is seen as it is.

@@ -184,7 +184,12 @@ mod defaults {
 impl Scenario {
     /// Index of the ego in [`Scenario::vehicles`]: the vehicle called `ego` if there is one, otherwise the first.
     pub fn ego_index(&self) -> usize {
-        self.vehicles.iter().position(|vehicle| vehicle.name == EGO).unwrap_or(0)
+        self.index_of(EGO).unwrap_or(0)
+    }
+
+    /// Index in [`Scenario::vehicles`] of the vehicle of that name.
+    pub fn index_of(&self, name: &str) -> Option<usize> {
+        self.vehicles.iter().position(|vehicle| vehicle.name == name)
     }
 
     /// The ego: the vehicle called `ego` if there is one, otherwise the first; `None` only without vehicles.

@@ -62,20 +62,19 @@ impl Identify {
             print_error(&format!("Error: {error}"));
             return ExitStatus::Unfinished;
         }
-        match self.scenario_text(&found) {
-            Ok(scenario) => match self.write_scenario(scenario) {
-                Ok(()) => ExitStatus::Well,
-                Err(error) => {
-                    print_error(&format!("Error: {error}"));
-                    ExitStatus::Unfinished
-                }
-            },
+        let scenario = match self.scenario_text(&found) {
+            Ok(scenario) => scenario,
             // What was found says why.
             Err(error) => {
                 print_error(&format!("Error: {error}"));
-                ExitStatus::BadInput
+                return ExitStatus::BadInput;
             }
+        };
+        if let Err(error) = self.write_scenario(scenario) {
+            print_error(&format!("Error: {error}"));
+            return ExitStatus::Unfinished;
         }
+        ExitStatus::Well
     }
 
     /// The scenario, if one is asked for.

@@ -5,6 +5,7 @@ use interplay_scenarios::{Branch, Scenario};
 use interplay_simulation::frame::VehicleFrame;
 
 use crate::body_style::scale;
+use crate::extent::extent;
 
 /// Length of a car of 1/10 scale \[m\].
 const CAR_M: f64 = 0.4;
@@ -158,12 +159,7 @@ fn middles(shown: &[Extent], axis: usize) -> Vec<f64> {
 
 /// A view that contains everything that is ever shown, if its cars are as long as cars of the smaller of two scales.
 fn still(shown: &[Extent], [greatest, least]: [f64; 2], size_px: [f64; 2]) -> Option<CameraView> {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for [l, h] in shown {
-        for axis in 0..2 {
-            (low[axis], high[axis]) = (low[axis].min(l[axis]), high[axis].max(h[axis]));
-        }
-    }
+    let [low, high] = extent(shown.iter().flatten().copied());
     let px_per_m = (size_px[0] / (high[0] - low[0])).min(size_px[1] / (high[1] - low[1])).min(greatest);
     let centre_m = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
     (px_per_m >= least).then(|| CameraView { centre_m, px_per_m, size_px }.on_pixels())
@@ -180,7 +176,7 @@ fn straight_road_m(scenario: &Scenario) -> Option<[f64; 2]> {
 /// Whom a vehicle asks for something.
 pub fn partner(scenario: &Scenario, vehicle: &VehicleFrame) -> Option<usize> {
     let proposal = vehicle.plan.proposal.as_ref()?;
-    scenario.vehicles.iter().position(|other| other.name == proposal.to)
+    scenario.index_of(&proposal.to)
 }
 
 /// Least and greatest coordinates of the ego and of those near it, with a margin, within the largest extent \[m\].
@@ -196,18 +192,12 @@ fn around(scenario: &Scenario, moment: &CameraMoment, largest_m: [f64; 2]) -> Ex
         let soon = [x + ahead_m * cos, y + ahead_m * sin];
         vehicle.body.corners(&states[index]).into_iter().chain([soon])
     };
-    let extent = |indices: &[usize]| {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for point in indices.iter().flat_map(|index| of(*index)) {
-            for axis in 0..2 {
-                (low[axis], high[axis]) =
-                    (low[axis].min(point[axis] - margin_m), high[axis].max(point[axis] + margin_m));
-            }
-        }
-        [low, high]
+    let around = |indices: &[usize]| {
+        let [low, high] = extent(indices.iter().flat_map(|index| of(*index)));
+        [low.map(|part| part - margin_m), high.map(|part| part + margin_m)]
     };
     if let Some(pair) = close_up {
-        return extent(pair);
+        return around(pair);
     }
     let away = |index: &usize| {
         let [dx, dy] = [states[*index].x_m - states[ego].x_m, states[*index].y_m - states[ego].y_m];
@@ -218,12 +208,12 @@ fn around(scenario: &Scenario, moment: &CameraMoment, largest_m: [f64; 2]) -> Ex
     let (mut kept, next) = (vec![ego], others.first().copied());
     for other in others {
         kept.push(other);
-        let [low, high] = extent(&kept);
+        let [low, high] = around(&kept);
         if (0..2).any(|axis| high[axis] - low[axis] > largest_m[axis]) {
             kept.pop();
         }
     }
-    let [mut low, mut high] = extent(&kept);
+    let [mut low, mut high] = around(&kept);
     // Nobody fits: as much as there is space for of the way to the one who comes next.
     let is_near = |next: &usize| away(next) < NEAR_WIDTHS * largest_m[0] && are_closing([&states[ego], &states[*next]]);
     if let Some(next) = next.filter(|next| kept.len() == 1 && is_near(next)) {

@@ -24,6 +24,5 @@ pub fn star([x, y]: [f64; 2], size: f64) -> Vec<[f64; 2]> {
 
 /// The numbers of two vehicles by their names.
 pub fn numbers(scenario: &Scenario, between: &[String; 2]) -> Option<[usize; 2]> {
-    let number = |name: &String| scenario.vehicles.iter().position(|vehicle| vehicle.name == *name);
-    Some([number(&between[0])?, number(&between[1])?])
+    Some([scenario.index_of(&between[0])?, scenario.index_of(&between[1])?])
 }

@@ -8,6 +8,7 @@ mod body_style;
 mod camera;
 mod contact;
 mod curved_road;
+mod extent;
 pub mod figures;
 mod font;
 mod network_lines;

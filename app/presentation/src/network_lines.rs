@@ -6,6 +6,7 @@ use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, 
 use interplay_scenarios::Scenario;
 
 use crate::curved_road::WorldLine;
+use crate::extent::extent;
 
 /// Largest distance between two points of a line, by the width of the lane.
 const POINT_DISTANCE_RATIO: f64 = 0.25;
@@ -59,7 +60,7 @@ impl<'a> NetworkLines<'a> {
             .iter()
             .map(|lane| [LaneSide::Right, LaneSide::Left].map(|side| line(lane, side, [0.0, lane.centre.length_m()])))
             .collect();
-        let bounds = edges.iter().map(|edges| bounds_of(edges.iter().flatten())).collect();
+        let bounds = edges.iter().map(|edges| extent(edges.iter().flatten().copied())).collect();
         let numbers = lanes.iter().enumerate().map(|(number, lane)| (lane.name.as_str(), number)).collect();
         NetworkLines { lanes, numbers, edges, bounds }
     }
@@ -217,14 +218,7 @@ pub fn expected_bounds_m(scenario: &Scenario) -> [[f64; 2]; 2] {
         let length_m = speed_mps * scenario.duration_s;
         (0..=100).map(move |part| route.position(start_m + length_m * f64::from(part) / 100.0, 0.0))
     });
-    let places: Vec<[f64; 2]> = places.collect();
-    bounds_of(places.iter())
-}
-
-fn bounds_of<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
-    points.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], point| {
-        [[0, 1].map(|axis| low[axis].min(point[axis])), [0, 1].map(|axis| high[axis].max(point[axis]))]
-    })
+    extent(places)
 }
 
 /// The position on the edge of a lane, or beyond it by a distance \[m\].

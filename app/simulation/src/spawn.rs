@@ -24,10 +24,6 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
     let mut physics = Physics::new(scenario);
     for (index, (vehicle, state)) in scenario.vehicles.iter().zip(scenario.starts()).enumerate() {
         let handle = physics.add(index, &vehicle.body, &state);
-        let planner = match scenario.real_time.and_then(|time| time.enforced(scenario.step_s)) {
-            Some(deadline) => vehicle.planner().with_deadline(deadline),
-            None => vehicle.planner(),
-        };
         let goal = Goal {
             target: vehicle.target(&scenario.road),
             tracking: vehicle.weights.tracking(),
@@ -41,7 +37,7 @@ pub fn world(scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Wor
             VehicleGoal { goal, shared: vehicle.driver.shared_goal(&goal) },
             Driving {
                 can_be_asked: vehicle.driver.can_be_asked(),
-                planner,
+                planner: vehicle.planner().with_deadline(scenario.plan_deadline(vehicle)),
                 goes_first: vehicle.driver.goes_first(),
                 knows_plans: vehicle.driver.knows_plans(),
                 sensor: vehicle.sensor(scenario.seed),

@@ -7,10 +7,11 @@
 //! U_k+1 = U_k + L Ω E_k + C (E_k+1 − …)      E_k+1 = (I + GC)⁻¹ (I − G L Ω) E_k    on days that are all the same
 //! ```
 //!
-//! The source calls Ω the adjacency matrix with ones on the diagonal. That has a negative eigenvalue wherever two
-//! neighbours of a zone are not neighbours of each other, and then any uniform L > 0 diverges. It also equates spectral radius, largest singular value and diagonal. The radius of the block lower triangular
-//! matrix is that of its diagonal blocks, max_t ρ(I − B diag(L_i(t,t)) Ω), and decides the end; the largest singular value
-//! decides whether errors grow on the way, and may be far above one when the radius is below.
+//! The source calls Ω the adjacency matrix with ones on the diagonal. That has a negative eigenvalue wherever two neighbours of a
+//! zone are not neighbours of each other, and then any uniform L > 0 diverges. It also equates spectral radius, largest singular
+//! value and diagonal. The radius of the block lower triangular matrix is that of its diagonal blocks,
+//! max_t ρ(I − B diag(L_i(t,t)) Ω), and decides the end; the largest singular value decides whether errors grow on the way, and may
+//! be far above one when the radius is below.
 
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
@@ -52,6 +53,12 @@ impl LearnedErrors {
         }
         out
     }
+
+    /// The same of errors that all have a weight.
+    pub(super) fn of_all(self, lifted: &Lifted, errors_k: &[f64]) -> Vec<f64> {
+        let weighed: Vec<Option<f64>> = errors_k.iter().copied().map(Some).collect();
+        self.of(lifted, &weighed)
+    }
 }
 
 /// Ω, zones by zones.
@@ -69,8 +76,7 @@ pub fn omega(lifted: &Lifted) -> DMatrix<f64> {
 
 /// Ω E, for stacked errors: what (5.1) asks of neighbours.
 pub fn cooperative_error(lifted: &Lifted, errors_k: &[f64]) -> Vec<f64> {
-    let weighed: Vec<Option<f64>> = errors_k.iter().copied().map(Some).collect();
-    LearnedErrors::Neighbours.of(lifted, &weighed)
+    LearnedErrors::Neighbours.of_all(lifted, errors_k)
 }
 
 /// A learning law L, one lower triangular N by N matrix per zone \[kW/K\].

@@ -7,9 +7,9 @@
 //! U_k      = U_ff,k + C E_k                         C a PID controller per zone
 //! ```
 //!
-//! Ω is the identity, or makes a zone learn from its neighbours as well ([`LearnedErrors`]). P-type is l_d = 0. The error e(t+1) is the first that u(t) influences. With a forecast, the expected change from
-//! yesterday to today is compensated; D̂ is the zone heat that has the effect of the forecast, G⁻¹ T_free. Where the
-//! temperature is free, nothing is learned.
+//! Ω is the identity, or makes a zone learn from its neighbours as well ([`LearnedErrors`]). P-type is l_d = 0. The error e(t+1)
+//! is the first that u(t) influences. With a forecast, the expected change from yesterday to today is compensated; D̂ is the zone
+//! heat that has the effect of the forecast, G⁻¹ T_free. Where the temperature is free, nothing is learned.
 //!
 //! If every day were the same, the errors would follow E_k+1 = (I + GC)⁻¹(I − G L Ω) E_k. [`LearningSettings::convergence`]
 //! analyses I − G L Ω: its spectral radius decides whether the errors vanish in the end, its largest singular value whether
@@ -18,7 +18,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::cooperative::{LearnedErrors, block_radius};
+use super::cooperative::{Conditions, LearnedErrors, block_radius};
 use super::pid::{Pid, PidSettings};
 use super::powers::largest_singular_value;
 use super::regulator::{ControllerKind, Regulator};
@@ -60,15 +60,6 @@ impl Default for LearningSettings {
     }
 }
 
-/// How errors would change from day to day if all days were equal, all errors had a weight and there were no feedback.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LearningConvergence {
-    /// Spectral radius of I − G L Ω: below 1 the errors vanish in the end.
-    pub spectral_radius: f64,
-    /// Largest singular value of I − G L Ω: at most 1, the errors never grow.
-    pub largest_singular_value: f64,
-}
-
 impl LearningSettings {
     /// L v, for a stacked v.
     fn learn(&self, zones: usize, errors_k: &[f64]) -> Vec<f64> {
@@ -92,16 +83,14 @@ impl LearningSettings {
             .collect()
     }
 
-    /// Analyses I − G L Ω, from products with sparse matrices.
-    pub fn convergence(&self, lifted: &Lifted) -> LearningConvergence {
+    /// How errors would change from day to day if all days were equal, all errors had a weight and there were no feedback: analyses
+    /// I − G L Ω, from products with sparse matrices.
+    pub fn convergence(&self, lifted: &Lifted) -> Conditions {
         let n = lifted.zones();
-        // Ω, which is symmetric, for errors that all have a weight.
-        let omega = |errors_k: &[f64]| -> Vec<f64> {
-            let weighed: Vec<Option<f64>> = errors_k.iter().copied().map(Some).collect();
-            self.errors.of(lifted, &weighed)
-        };
+        // Ω is symmetric.
+        let omega = |errors_k: &[f64]| self.errors.of_all(lifted, errors_k);
         let less = |x: &[f64], y: Vec<f64>| x.iter().zip(y).map(|(x, y)| x - y).collect();
-        LearningConvergence {
+        Conditions {
             // I − G L Ω is block lower triangular and Toeplitz: all its eigenvalues are those of the first block.
             spectral_radius: block_radius(lifted, |errors_k| self.learn(n, &omega(errors_k))),
             largest_singular_value: largest_singular_value(

@@ -5,7 +5,8 @@ const MAX_PRODUCTS: usize = 600;
 /// A singular value is found when it changes by no more than this share from one product to the next.
 const SINGULAR_VALUE_TOLERANCE: f64 = 1e-9;
 
-/// ‖M‖₂ by the power method on MᵀM, to six digits, or a thousandth where several are nearly as large. `product` is M x, `transpose_product` Mᵀ y.
+/// ‖M‖₂ by the power method on MᵀM, to six digits, or a thousandth where several are nearly as large. `product` is M x,
+/// `transpose_product` Mᵀ y.
 pub(super) fn largest_singular_value(
     size: usize,
     product: impl Fn(&[f64]) -> Vec<f64>,

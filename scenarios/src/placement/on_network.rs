@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use interplay_building::nearest::{listed, suggestion};
-use interplay_planners::road::network::{Lane, RoadNetwork, RouteError};
+use interplay_planners::road::network::{Lane, RouteError};
 use interplay_planners::{Route, State};
 
 use super::known_roads::KnownNetwork;
@@ -23,7 +23,7 @@ const MAX_NAMES: usize = 12;
 /// # Errors
 /// For a start that is on no lane, and where no route leads to the goal.
 pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Result<Start, Fault> {
-    let vehicle = NetworkVehicle { written, network: &known.network, known };
+    let vehicle = NetworkVehicle { written, known };
     if written.start.is_in_lane() {
         let lane = vehicle.start_lane()?;
         let along_m = vehicle.along_m(lane)?;
@@ -38,7 +38,6 @@ pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Res
 
 struct NetworkVehicle<'a> {
     written: &'a VehicleAsWritten<'a>,
-    network: &'a RoadNetwork,
     known: &'a KnownNetwork,
 }
 
@@ -60,8 +59,8 @@ impl NetworkVehicle<'_> {
                 return Err(fault.help(format!("the lanes are: {}", self.some_names())));
             }
         };
-        self.network.lane(name).ok_or_else(|| {
-            let names: Vec<&str> = self.network.lanes().iter().map(|lane| lane.name.as_str()).collect();
+        self.known.network.lane(name).ok_or_else(|| {
+            let names: Vec<&str> = self.known.network.lanes().iter().map(|lane| lane.name.as_str()).collect();
             let near = suggestion(name, "", &names);
             let help = if near.starts_with("did") { near } else { format!("the lanes are: {}", self.some_names()) };
             let message = format!("{shown} names lane {}, which the road does not have", quoted(name));
@@ -71,7 +70,7 @@ impl NetworkVehicle<'_> {
 
     /// The names of lanes that begin or end the network, and of others where there is room.
     fn some_names(&self) -> String {
-        let lanes = self.network.lanes();
+        let lanes = self.known.network.lanes();
         let has_before = |lane: &Lane| lanes.iter().any(|other| other.successors.contains(&lane.name));
         let is_outer = |lane: &&Lane| lane.successors.is_empty() || !has_before(lane);
         let names: Vec<&str> = lanes.iter().filter(is_outer).map(|lane| lane.name.as_str()).collect();
@@ -97,10 +96,10 @@ impl NetworkVehicle<'_> {
         let [x_m, y_m] = self.written.position()?;
         let heading_rad = self.written.start.heading_rad();
         let state = State { x_m, y_m, heading_rad, speed_mps: self.written.start.speed_mps };
-        let places = self.network.locate([x_m, y_m], heading_rad);
+        let places = self.known.network.locate([x_m, y_m], heading_rad);
         let mut refused = None;
         for place in places.iter().filter(|place| libm::cos(place.heading_error_rad) >= MIN_COS_OF_START) {
-            let Some(lane) = self.network.lane(&place.lane) else { continue };
+            let Some(lane) = self.known.network.lane(&place.lane) else { continue };
             match self.route(lane) {
                 Ok(route) => return Ok(self.on_route(state, place.point.along_m, route)),
                 Err(fault) => refused = refused.or(Some(fault)),
@@ -139,8 +138,8 @@ impl NetworkVehicle<'_> {
         let goal = self.written.goal_lane.as_ref().map(|goal| self.known("goal.lane", goal)).transpose()?;
         let Some(first) = self.written.lanes.first() else {
             return match goal {
-                Some(goal) => self.network.shortest_route(&lane.name, &goal.name).map_err(refused),
-                None => self.network.route(&self.only_way(lane)?).map_err(refused),
+                Some(goal) => self.known.network.shortest_route(&lane.name, &goal.name).map_err(refused),
+                None => self.known.network.route(&self.only_way(lane)?).map_err(refused),
             };
         };
         for (index, name) in self.written.lanes.iter().enumerate() {
@@ -167,7 +166,7 @@ impl NetworkVehicle<'_> {
                 .fault(&key, "the last lane", message)
                 .help(format!("leave the `lane` of its goal out, or add the lanes from `{last}` to `{}`", goal.name)));
         }
-        self.network.route(&self.written.lanes).map_err(refused)
+        self.known.network.route(&self.written.lanes).map_err(refused)
     }
 
     /// The lanes from a lane on, as long as each has one successor.
@@ -175,7 +174,7 @@ impl NetworkVehicle<'_> {
         let mut names = vec![lane.name.clone()];
         let mut last = lane;
         while let [only] = last.successors.as_slice() {
-            let Some(next) = self.network.lane(only).filter(|_| !names.contains(only)) else { break };
+            let Some(next) = self.known.network.lane(only).filter(|_| !names.contains(only)) else { break };
             names.push(only.clone());
             last = next;
         }
@@ -191,10 +190,11 @@ impl NetworkVehicle<'_> {
     fn reached_from<'b>(&'b self, lane: &'b Lane) -> Vec<&'b str> {
         let mut reached: Vec<&str> = vec![&lane.name];
         let mut index = 0;
-        while let Some(lane) = reached.get(index).and_then(|name| self.network.lane(name)) {
+        while let Some(lane) = reached.get(index).and_then(|name| self.known.network.lane(name)) {
             let beside = [&lane.left, &lane.right].into_iter().flatten().filter(|other| other.is_open());
             for name in lane.successors.iter().chain(beside.map(|other| &other.lane)) {
-                if let Some(next) = self.network.lane(name).filter(|next| !reached.contains(&next.name.as_str())) {
+                if let Some(next) = self.known.network.lane(name).filter(|next| !reached.contains(&next.name.as_str()))
+                {
                     reached.push(&next.name);
                 }
             }
@@ -205,7 +205,7 @@ impl NetworkVehicle<'_> {
 
     /// Those of them without successors.
     fn ends_from<'b>(&'b self, lane: &'b Lane) -> Vec<&'b str> {
-        let is_end = |name: &&str| self.network.lane(name).is_some_and(|lane| lane.successors.is_empty());
+        let is_end = |name: &&str| self.known.network.lane(name).is_some_and(|lane| lane.successors.is_empty());
         self.reached_from(lane).into_iter().filter(is_end).collect()
     }
 
@@ -219,7 +219,7 @@ impl NetworkVehicle<'_> {
         let of = format!("the route of {}", quoted(&self.written.shown));
         match error {
             RouteError::NotConnected { from, to } => {
-                let ahead = self.network.lane(&from).map(|lane| lane.successors.as_slice()).unwrap_or_default();
+                let ahead = self.known.network.lane(&from).map(|lane| lane.successors.as_slice()).unwrap_or_default();
                 let help = match ahead {
                     [] => format!("lane `{from}` ends there; lanes beside it need `may_change`"),
                     ahead => format!("lane `{from}` leads to {}", listed(ahead)),
@@ -237,7 +237,7 @@ impl NetworkVehicle<'_> {
                 self.written.fault(&self.key_of(&to), "no room to change", message).help(help)
             }
             RouteError::NoWay { from, to } => {
-                let from_lane = self.network.lane(&from);
+                let from_lane = self.known.network.lane(&from);
                 if from_lane.is_some_and(|lane| self.reached_from(lane).contains(&to.as_str())) {
                     let message =
                         format!("{of} has no room to change lanes on the way from lane `{from}` to lane `{to}`");

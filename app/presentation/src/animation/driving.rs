@@ -11,6 +11,7 @@ use super::timing::{Moment, PICTURE_S, moments};
 use super::title::{BAR, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, draw_title};
 use super::vehicle;
 use crate::contact::{contact_place, star};
+use crate::extent::extent;
 use crate::figures::RecordedRun;
 use crate::palette::{ASPHALT, BRAKE_LIGHT, Colour, FLASH, GRASS, INDICATOR, VERMILLION};
 use crate::road_shapes::RoadShapes;
@@ -109,7 +110,8 @@ impl<'a> DrivingPictures<'a> {
         let boxes = |vehicle: usize| {
             let corners =
                 self.run.scenario.vehicles[vehicle].body.corners(&seen[vehicle].state).map(|corner| view.place(corner));
-            bounds(&corners)
+            let [[left, top], [right, bottom]] = extent(corners);
+            [left, top, right, bottom]
         };
         let mut taken: Vec<[f64; 4]> = (0..seen.len()).map(boxes).collect();
         for (index, vehicle) in self.run.scenario.vehicles.iter().enumerate() {
@@ -221,13 +223,6 @@ fn legend(run: &DrivingRun) -> Vec<Vec<(usize, String, f64)>> {
         left += wide;
     }
     rows
-}
-
-/// Left, top, right and bottom of some points.
-fn bounds(points: &[[f64; 2]]) -> [f64; 4] {
-    points.iter().fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |[l, t, r, b], [x, y]| {
-        [l.min(*x), t.min(*y), r.max(*x), b.max(*y)]
-    })
 }
 
 /// Points of a line at equal distances.

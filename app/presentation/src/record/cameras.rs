@@ -26,6 +26,7 @@ use super::re_sdk_types::components::{Radius, ViewCoordinates};
 use super::timelines::{SIM_TIME, TICK};
 use crate::camera::{self, CameraMoment, CameraView, ViewFormat};
 use crate::contact::{contact_place, numbers, star};
+use crate::extent::extent;
 use crate::palette::{FLASH, VERMILLION};
 
 /// The camera from above, the one from the side, and the one that sees the whole road.
@@ -162,10 +163,7 @@ impl Cameras {
             let place = contact_place(scenario, between, between.map(|index| &states[index]));
             self.contacts.extend(place.map(|place_m| Contact { time_s: hit.time_s, between, place_m }));
         }
-        for [x, y] in states.iter().map(State::position) {
-            let [low, high] = self.seen_m.unwrap_or([[x, y]; 2]);
-            self.seen_m = Some([[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]]);
-        }
+        self.seen_m = Some(extent(states.iter().map(State::position).chain(self.seen_m.into_iter().flatten())));
         let moment = CameraMoment { states, partner: camera::partner(scenario, ego), close_up: None };
         let tick = i64::try_from(frame.tick).unwrap_or(i64::MAX);
         self.ticks.push(CameraTick { tick, time_s: frame.time_s, moment });
@@ -246,7 +244,7 @@ impl Cameras {
         let vehicles = scenario.vehicles.iter().zip(&tick.moment.states);
         let mut boxes: Vec<Rectangle> = vehicles
             .clone()
-            .map(|(vehicle, state)| labels::bounds(&vehicle.body.corners(state).map(|corner| view.place(corner))))
+            .map(|(vehicle, state)| labels::bounds(vehicle.body.corners(state).map(|corner| view.place(corner))))
             .collect();
         let mut words: Vec<String> =
             vehicles.map(|(vehicle, state)| format!("{} {:.1} m/s", vehicle.name, state.speed_mps.abs())).collect();

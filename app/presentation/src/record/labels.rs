@@ -2,6 +2,8 @@
 //!
 //! Places are pixels of the view, y downwards.
 
+use crate::extent::extent;
+
 /// Width of a letter and of the edges of a label, and its height \[px\].
 const LETTER_PX: f64 = 7.3;
 const EDGES_PX: f64 = 14.0;
@@ -13,10 +15,9 @@ const DISTANCE_PX: f64 = 4.0;
 pub type Rectangle = [f64; 4];
 
 /// The rectangle around some points.
-pub fn bounds(points: &[[f64; 2]]) -> Rectangle {
-    points.iter().fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |[l, t, r, b], [x, y]| {
-        [l.min(*x), t.min(*y), r.max(*x), b.max(*y)]
-    })
+pub fn bounds(points: impl IntoIterator<Item = [f64; 2]>) -> Rectangle {
+    let [[left, top], [right, bottom]] = extent(points);
+    [left, top, right, bottom]
 }
 
 /// The label of each vehicle as a rectangle; none where there is no space or the vehicle is out of view.

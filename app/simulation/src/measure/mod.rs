@@ -86,15 +86,13 @@ pub struct VehicleMeasures {
 impl VehicleMeasures {
     /// A vehicle at its start.
     fn new(vehicle: &Vehicle, start: State, scenario: &Scenario) -> Self {
-        let has_deadline = !vehicle.driver.goes_first();
-        let real_time = scenario.real_time.filter(|_| has_deadline);
         let mut measures = VehicleMeasures {
             completion: Completion::new(vehicle, &scenario.road),
             comfort: RideComfort::new(scenario.step_s),
             speed: SpeedRange::new(start.speed_mps),
             off_road: OffRoad::new(&vehicle.route, vehicle.body),
             speeding: Speeding::new(&vehicle.route),
-            planning: Planning::new(real_time.map(|time| time.budget_ms(scenario.step_s))),
+            planning: Planning::new(scenario.plan_budget_ms(vehicle)),
             beliefs: Beliefs::default(),
             last: start,
             route: Arc::clone(&vehicle.route),

@@ -79,10 +79,8 @@ impl BuildingDifference {
             let prices = price(one).zip(price(other)).filter(|_| one.currency == other.currency);
             prices.is_some_and(|(one, other)| one < other && !is_equal(one, other))
         };
-        let wins = pairs.iter().filter(|(one, other)| is_cheaper(one, other)).count();
-        let losses = pairs.iter().filter(|(one, other)| is_cheaper(other, one)).count();
         Some(BuildingDifference {
-            cheaper: Split::of(wins, losses),
+            cheaper: Split::between(pairs.iter().copied(), is_cheaper),
             electricity_kwh: more(0, |one, other| Some(one.electricity_kwh? - other.electricity_kwh?)),
             bill: more(1, |one, other| {
                 one.bill.zip(other.bill).filter(|_| one.currency == other.currency).map(|(one, other)| one - other)

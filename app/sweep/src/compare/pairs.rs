@@ -38,31 +38,25 @@ impl PairedDifference {
     /// Compares the first of each pair with the second; `stream` tells the draws of one interval from another's.
     pub(super) fn of(pairs: &[(&RunRecord, &RunRecord)], stream: u64) -> PairedDifference {
         let pairs: Vec<_> = pairs.iter().filter(|(one, other)| one.is_finished() && other.is_finished()).collect();
-        let better = |one: &RunRecord, other: &RunRecord| one.success && !other.success;
-        let wins = pairs.iter().filter(|(one, other)| better(one, other)).count();
-        let losses = pairs.iter().filter(|(one, other)| better(other, one)).count();
+        let split = |is_better: &dyn Fn(&RunRecord, &RunRecord) -> bool| {
+            Split::between(pairs.iter().map(|(one, other)| (*one, *other)), is_better)
+        };
         let rank = |record: &RunRecord| (record.has_any_contact, record.place.unwrap_or(u64::MAX));
-        let ahead = pairs.iter().filter(|(one, other)| rank(one) < rank(other)).count();
-        let behind = pairs.iter().filter(|(one, other)| rank(other) < rank(one)).count();
         let succeeded = pairs.iter().filter(|(one, other)| one.success && other.success);
         let delays_s: Vec<f64> =
             succeeded.filter_map(|(one, other)| Some(one.completed_s? - other.completed_s?)).collect();
         let sooner = delays_s.iter().filter(|delay_s| **delay_s < -MIN_DELAY_S).count();
         let later = delays_s.iter().filter(|delay_s| **delay_s > MIN_DELAY_S).count();
         let delay = mean_interval(&delays_s, stream);
-        let brakes_less =
-            |one: &RunRecord, other: &RunRecord| one.brakes_hard == Some(false) && other.brakes_hard == Some(true);
-        let gentler = pairs.iter().filter(|(one, other)| brakes_less(one, other)).count();
-        let harder = pairs.iter().filter(|(one, other)| brakes_less(other, one)).count();
         PairedDifference {
             pairs: pairs.len(),
-            success: Split::of(wins, losses),
-            place: Split::of(ahead, behind),
+            success: split(&|one, other| one.success && !other.success),
+            place: split(&|one, other| rank(one) < rank(other)),
             time: Split::of(sooner, later),
             delay_s: delay.map(|(mean, _)| mean),
             delay_interval_s: delay.map(|(_, interval)| interval),
             delay_median_s: median(delays_s),
-            hard_braking: Split::of(gentler, harder),
+            hard_braking: split(&|one, other| one.brakes_hard == Some(false) && other.brakes_hard == Some(true)),
             building: BuildingDifference::of(&pairs, stream),
         }
     }

@@ -18,6 +18,15 @@ pub struct Split {
 }
 
 impl Split {
+    /// How often the first of a pair did better, and how often the second.
+    pub(super) fn between<'a, T: 'a>(
+        pairs: impl Iterator<Item = (&'a T, &'a T)> + Clone,
+        is_better: impl Fn(&T, &T) -> bool,
+    ) -> Split {
+        let wins = pairs.clone().filter(|(one, other)| is_better(one, other)).count();
+        Split::of(wins, pairs.filter(|(one, other)| is_better(other, one)).count())
+    }
+
     /// A split, not yet corrected.
     pub(super) fn of(wins: usize, losses: usize) -> Split {
         let p = sign_test(wins, losses);

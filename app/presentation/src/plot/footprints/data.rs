@@ -2,6 +2,7 @@
 
 use super::super::legend::{Legend, Sample};
 use super::super::style::{Colour, Dash, LineStyle, VERMILLION};
+use crate::extent::extent;
 
 /// Width of the picture.
 pub(super) const WIDTH_PX: f64 = 1400.0;
@@ -105,13 +106,7 @@ impl FootprintPlot {
 
     /// Smallest and largest x and y of all bodies.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
-        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for point in self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().flatten()) {
-            for axis in 0..2 {
-                bounds[0][axis] = bounds[0][axis].min(point[axis]);
-                bounds[1][axis] = bounds[1][axis].max(point[axis]);
-            }
-        }
+        let bounds = extent(self.snapshots.iter().flat_map(|snapshot| snapshot.bodies.iter().flatten().copied()));
         if bounds[0][0] <= bounds[1][0] { bounds } else { [[0.0; 2], [1.0; 2]] }
     }
 
