@@ -4,6 +4,7 @@
 
 pub mod animation;
 mod answer;
+mod body_shape;
 mod body_style;
 mod camera;
 mod contact;

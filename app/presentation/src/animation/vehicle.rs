@@ -6,8 +6,9 @@ use interplay_scenarios::Vehicle;
 use super::camera::CameraView;
 use super::canvas::{Canvas, Ink, LineEnd};
 use super::scene::SeenVehicle;
+use crate::body_shape::{BodyPart, body_parts, rectangle};
 use crate::body_style::BodyStyle;
-use crate::palette::{BRAKE_LIGHT, Colour, GLASS, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
+use crate::palette::{BRAKE_LIGHT, Colour, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
 use crate::signals::Turn;
 
 const SHADOW: Colour = [0x1B, 0x1D, 0x20];
@@ -35,8 +36,8 @@ impl Placed<'_> {
         self.place([0.5 * (front - rear) + 0.5 * along * (front + rear), 0.5 * across * self.body.width_m])
     }
 
-    fn rectangle(&self, [rear, front, right, left]: Share) -> [[f64; 2]; 4] {
-        [[rear, right], [front, right], [front, left], [rear, left]].map(|corner| self.shared(corner))
+    fn rectangle(&self, share: Share) -> [[f64; 2]; 4] {
+        rectangle(share).map(|corner| self.shared(corner))
     }
 
     fn px(&self, metres: f64) -> f64 {
@@ -62,30 +63,25 @@ pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &Se
         return;
     }
     draw_wheels(canvas, &placed, style, seen.steering_rad);
-    let width = vehicle.body.width_m;
-    let ring = placed.rectangle([-1.0, 1.0, -1.0, 1.0]);
-    let radius = placed.px(if style == BodyStyle::Car { 0.3 } else { 0.12 } * width);
-    canvas.fill_rounded(&ring, radius, colour);
-    let edge = (0.035 * placed.px(width)).max(1.0);
+    let width = placed.px(vehicle.body.width_m);
+    let parts = body_parts(style);
+    for BodyPart { ring, radius, paint } in &parts {
+        let ring: Vec<[f64; 2]> = ring.iter().map(|corner| placed.shared(*corner)).collect();
+        canvas.fill_rounded(&ring, radius * width, paint.colour(colour));
+    }
+    let edge = (0.035 * width).max(1.0);
     match style {
-        BodyStyle::Car => draw_cabin(canvas, &placed, colour, [-0.62, 0.42]),
+        BodyStyle::Car => draw_pillars(canvas, &placed, colour),
         BodyStyle::Van => {
-            draw_glass(canvas, &placed, [0.62, 0.82], [0.88, 0.78]);
-            canvas.line(
-                &[placed.shared([0.55, -0.86]), placed.shared([0.55, 0.86])],
-                edge,
-                LineEnd::Flat,
-                darker(colour),
-            );
+            let door = [placed.shared([0.55, -0.86]), placed.shared([0.55, 0.86])];
+            canvas.line(&door, edge, LineEnd::Flat, darker(colour));
         }
         BodyStyle::Lorry | BodyStyle::Bicycle => {
-            draw_glass(canvas, &placed, [0.86, 0.95], [0.9, 0.86]);
-            let gap = placed.rectangle([0.66, 0.69, -1.0, 1.0]);
-            canvas.fill(&gap, TYRE);
             let lid = placed.rectangle([-0.97, 0.63, -0.86, 0.86]);
             canvas.outline_rounded(&lid, 1.0, edge, darker(colour));
         }
     }
+    let (ring, radius) = (placed.rectangle([-1.0, 1.0, -1.0, 1.0]), parts[0].radius * width);
     canvas.outline_rounded(&ring, radius, edge, darker(colour));
     draw_lights(canvas, &placed, seen);
 }
@@ -112,26 +108,13 @@ fn draw_wheels(canvas: &mut Canvas, placed: &Placed, style: BodyStyle, steering_
     }
 }
 
-/// Windows all around a roof of the vehicle's colour, between two places along the body.
-fn draw_cabin(canvas: &mut Canvas, placed: &Placed, colour: Colour, [rear, front]: [f64; 2]) {
-    let ring = [[rear, -0.6], [rear, 0.6], [front - 0.06, 0.84], [front, 0.7], [front, -0.7], [front - 0.06, -0.84]];
-    let ring = ring.map(|corner| placed.shared(corner));
-    let width = placed.px(placed.body.width_m);
-    canvas.fill_rounded(&ring, 0.14 * width, GLASS);
-    let roof = [[rear + 0.17, -0.62], [rear + 0.17, 0.62], [front - 0.26, 0.68], [front - 0.26, -0.68]];
-    canvas.fill_rounded(&roof.map(|corner| placed.shared(corner)), 0.1 * width, colour);
-    // The pillars between the side windows.
-    let pillar = 0.5 * (rear + front) - 0.05;
+/// The pillars between the side windows of a car.
+fn draw_pillars(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
+    const ALONG: f64 = -0.15;
     for side in [-1.0, 1.0] {
-        let line = [placed.shared([pillar, side * 0.62]), placed.shared([pillar, side * 0.86])];
-        canvas.line(&line, 0.06 * width, LineEnd::Flat, colour);
+        let line = [placed.shared([ALONG, side * 0.62]), placed.shared([ALONG, side * 0.86])];
+        canvas.line(&line, 0.06 * placed.px(placed.body.width_m), LineEnd::Flat, colour);
     }
-}
-
-/// A windscreen between two places along the body, `across` at its rear and at its front edge.
-fn draw_glass(canvas: &mut Canvas, placed: &Placed, [rear, front]: [f64; 2], across: [f64; 2]) {
-    let ring = [[rear, -across[0]], [rear, across[0]], [front, across[1]], [front, -across[1]]];
-    canvas.fill_rounded(&ring.map(|corner| placed.shared(corner)), 0.06 * placed.px(placed.body.width_m), GLASS);
 }
 
 fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
@@ -200,6 +183,7 @@ mod tests {
 
     use super::*;
     use crate::animation::camera::WIDTH_PX;
+    use crate::palette::GLASS;
 
     /// A picture of one vehicle at 60 px/m around it, and what has a colour in it.
     fn count(seen: &SeenVehicle, colour: Colour) -> usize {

@@ -5,10 +5,11 @@ use interplay_scenarios::{Road, Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
 
 use super::recorded_run::RecordedRun;
+use crate::body_style::BodyStyle;
 use crate::curved_road::CurvedRoad;
 use crate::network_lines::NetworkLines;
 use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
-use crate::plot::{Curve, CurvedStrip, FootprintPlot, FootprintSnapshot, Panel, Panels, Strip};
+use crate::plot::{Curve, CurvedStrip, FootprintPlot, FootprintSnapshot, FootprintVehicle, Panel, Panels, Strip};
 
 /// How many snapshots a picture of footprints has: in strips, and on one map.
 const SNAPSHOT_COUNTS: [usize; 2] = [8, 12];
@@ -45,12 +46,14 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
             .collect(),
     };
     let line_styles = line_styles(scenario);
+    let vehicle =
+        |vehicle: &Vehicle, colour| FootprintVehicle { label: who(vehicle), colour, style: BodyStyle::of(vehicle) };
     let last = ticks.last().copied().unwrap_or_default();
     FootprintPlot {
         title: title.to_owned(),
         roads,
         curves,
-        vehicles: order.iter().map(|&index| (who(&scenario.vehicles[index]), line_styles[index].colour)).collect(),
+        vehicles: order.iter().map(|&index| vehicle(&scenario.vehicles[index], line_styles[index].colour)).collect(),
         snapshots: ticks.into_iter().map(snapshot).collect(),
         path: (0..=last.min(frames.len()))
             .map(|tick| (time_s(recorded, tick), state(recorded, tick, ego).position()))

@@ -8,7 +8,7 @@ mod data;
 mod plan;
 mod strips;
 
-pub use data::{CurvedStrip, FootprintPlot, FootprintSnapshot, Strip};
+pub use data::{CurvedStrip, FootprintPlot, FootprintSnapshot, FootprintVehicle, Strip};
 
 use super::drawing::Drawing;
 
@@ -22,10 +22,28 @@ impl FootprintPlot {
 
 #[cfg(test)]
 mod tests {
-    use super::data::distance;
     use super::*;
+    use crate::body_style::BodyStyle;
+    use crate::extent::extent;
     use crate::plot::drawing::Mark;
-    use crate::plot::style::{BLUE, Dash, GREY, ORANGE};
+    use crate::plot::style::{BLUE, Colour, Dash, GREY, ORANGE, SURFACE};
+
+    fn car(label: &str, colour: Colour) -> FootprintVehicle {
+        FootprintVehicle { label: label.to_owned(), colour, style: BodyStyle::Car }
+    }
+
+    /// Length and width of each body: it is filled, and has an edge.
+    fn bodies_px(drawing: &Drawing) -> Vec<[f64; 2]> {
+        let body = |marks: &[Mark]| match marks {
+            [Mark::Fill { ring, .. }, Mark::Line { points, .. }] if points.starts_with(ring) => {
+                let [low, high] = extent(ring.iter().copied());
+                let [across, upwards] = [0, 1].map(|axis| high[axis] - low[axis]);
+                Some([across.max(upwards), across.min(upwards)])
+            }
+            _ => None,
+        };
+        drawing.marks.windows(2).filter_map(body).collect()
+    }
 
     /// Two cars of 4.5 m on a straight road, seen at equal steps while they go `length_m`.
     fn drive(length_m: f64) -> FootprintPlot {
@@ -39,7 +57,7 @@ mod tests {
             title: "Drive".to_owned(),
             roads: vec![Strip { edges_m: [0.0, 7.0], dividers_m: vec![3.5], ..Strip::default() }],
             curves: Vec::new(),
-            vehicles: vec![("ego: human".to_owned(), ORANGE), ("front: human".to_owned(), BLUE)],
+            vehicles: vec![car("ego: human", ORANGE), car("front: human", BLUE)],
             snapshots: (0..8).map(snapshot).collect(),
             path: (0..8).map(|i| (f64::from(i), [place(i), 1.75])).collect(),
         }
@@ -51,16 +69,11 @@ mod tests {
         for length_m in [20.0, 100.0, 2000.0] {
             let drawing = drive(length_m).drawing();
             assert_eq!(drawing.illegible(), Vec::<String>::new(), "{length_m} m");
-            let bodies = drawing.marks.iter().filter_map(|mark| match mark {
-                Mark::Fill { ring, colour, .. } if ring.len() == 4 && [ORANGE, BLUE].contains(colour) => Some(ring),
-                _ => None,
-            });
-            // Two of the patches belong to the legend.
-            let lengths: Vec<f64> =
-                bodies.map(|ring| distance(ring[0], ring[3]).max(distance(ring[0], ring[1]))).collect();
-            assert_eq!(lengths.len(), 2 + 16, "{length_m} m");
+            let lengths: Vec<f64> = bodies_px(&drawing).iter().map(|[length, _]| *length).collect();
+            assert_eq!(lengths.len(), 16, "{length_m} m");
             assert!(lengths.iter().all(|length| *length > 25.0), "{length_m} m: {lengths:?}");
-            assert_eq!(drawing.words().iter().filter(|words| **words == "8").count(), 3, "{length_m} m");
+            let strips = (1..=8).filter(|number| drawing.words().contains(&number.to_string().as_str())).count();
+            assert_eq!(strips, 8, "{length_m} m: a number a strip");
         }
     }
 
@@ -78,16 +91,7 @@ mod tests {
             .iter_mut()
             .for_each(|snapshot| snapshot.bodies[1] = snapshot.bodies[1].map(|[x, y]| [-y, x]));
         let drawing = footprints.drawing();
-        let sizes: Vec<[f64; 2]> = drawing
-            .marks
-            .iter()
-            .filter_map(|mark| match mark {
-                Mark::Fill { ring, opacity, .. } if *opacity < 1.0 => {
-                    Some([distance(ring[0], ring[3]), distance(ring[0], ring[1])])
-                }
-                _ => None,
-            })
-            .collect();
+        let sizes = bodies_px(&drawing);
         assert_eq!(drawing.illegible(), Vec::<String>::new());
         assert_eq!(sizes.len(), 16);
         assert!(sizes.iter().all(|[length, width]| (length / width - 2.25).abs() < 1e-9), "{sizes:?}");
@@ -98,7 +102,7 @@ mod tests {
     fn numbers_do_not_pile_up_where_many_vehicles_pass() {
         let mut footprints = drive(100.0);
         for who in 2..7 {
-            footprints.vehicles.push((format!("car {who}"), BLUE));
+            footprints.vehicles.push(car(&format!("car {who}"), BLUE));
             let offset = 0.4 * f64::from(who);
             for snapshot in &mut footprints.snapshots {
                 let body = snapshot.bodies[1].map(|[x, y]| [x - offset, y]);
@@ -146,7 +150,7 @@ mod tests {
         let footprints = FootprintPlot { roads: Vec::new(), curves: vec![curve], ..drive(10.0) };
         let drawing = footprints.drawing();
         assert_eq!(drawing.illegible(), Vec::<String>::new());
-        let is_surface = |mark: &&Mark| matches!(mark, Mark::Fill { ring, .. } if ring.len() >= 10);
+        let is_surface = |mark: &&Mark| matches!(mark, Mark::Fill { colour, .. } if *colour == SURFACE);
         assert_eq!(drawing.marks.iter().filter(is_surface).count(), 1);
         let [low, high] = footprints.bounds();
         assert_eq!((low, high), ([-2.2, 0.75], [24.3, 6.25]), "the part without vehicles is cut away");

@@ -1,19 +1,60 @@
-//! A footprint: a filled rectangle with a windscreen and a number.
+//! A footprint: the body of a vehicle with its windows, and a number.
 
 use super::super::drawing::{Drawing, SMALL_TEXT_PX, Side, width_of};
 use super::super::style::{BLACK, Colour, Dash, LineStyle, PAPER};
 use super::data::distance;
+use crate::body_shape::{BodyPaint, BodyPart, body_parts};
+use crate::body_style::BodyStyle;
+
+/// Points of a rounded corner.
+const CORNER_POINTS: usize = 5;
+/// Opacity of the windows of a pale footprint, so that its number can be read on them.
+const PALE_GLASS_OPACITY: f64 = 0.2;
 
 /// Draws a footprint; corners are in pixels, in the order of [`super::data::FootprintSnapshot::bodies`].
-pub(super) fn draw(drawing: &mut Drawing, corners: [[f64; 2]; 4], colour: Colour, opacity: f64) {
+pub(super) fn draw(drawing: &mut Drawing, corners: [[f64; 2]; 4], style: BodyStyle, colour: Colour, opacity: f64) {
     let [front_right, front_left, rear_right, rear_left] = corners;
-    let ring = vec![front_right, front_left, rear_left, rear_right];
-    drawing.fill(ring.clone(), colour, opacity);
-    let edge = LineStyle { width: 1, ..LineStyle::new(BLACK, Dash::Solid) };
-    drawing.line(ring.into_iter().chain([front_right]).collect(), edge);
-    let between = |a: [f64; 2], b: [f64; 2]| [a[0] + 0.15 * (b[0] - a[0]), a[1] + 0.15 * (b[1] - a[1])];
-    let screen = vec![between(front_right, rear_right), between(front_left, rear_left)];
-    drawing.line(screen, edge.thin());
+    let width_px = distance(front_right, front_left);
+    let place = |[along, across]: [f64; 2]| {
+        let weights = [(1.0 + along) * (1.0 - across), (1.0 + along) * (1.0 + across), (1.0 - along) * (1.0 - across)];
+        let rest = (1.0 - along) * (1.0 + across);
+        [0, 1].map(|axis| {
+            let ahead = weights[0] * front_right[axis] + weights[1] * front_left[axis];
+            0.25 * (ahead + weights[2] * rear_right[axis] + rest * rear_left[axis])
+        })
+    };
+    for (index, BodyPart { ring, radius, paint }) in body_parts(style).into_iter().enumerate() {
+        let ring: Vec<[f64; 2]> = ring.into_iter().map(place).collect();
+        let ring = rounded(&ring, radius * width_px);
+        let is_pale_glass = paint == BodyPaint::Glass && opacity < 1.0;
+        let opacity = if is_pale_glass { PALE_GLASS_OPACITY } else { opacity };
+        drawing.fill(ring.clone(), paint.colour(colour), opacity);
+        if index == 0 {
+            let edge = LineStyle { width: 1, ..LineStyle::new(BLACK, Dash::Solid) };
+            drawing.line(ring.iter().chain(&ring[..1]).copied().collect(), edge);
+        }
+    }
+}
+
+/// A polygon whose corners are curves of some points; a curve takes at most half of an edge.
+fn rounded(ring: &[[f64; 2]], radius: f64) -> Vec<[f64; 2]> {
+    let count = ring.len();
+    let corner = |index: usize| {
+        let [before, here, after] = [index + count - 1, index, index + 1].map(|corner| ring[corner % count]);
+        let toward = |to: [f64; 2]| {
+            let share = (radius / distance(here, to).max(1e-9)).min(0.5);
+            [0, 1].map(|axis| here[axis] + share * (to[axis] - here[axis]))
+        };
+        let (start, end) = (toward(before), toward(after));
+        (0..CORNER_POINTS).map(move |point| {
+            let t = point as f64 / (CORNER_POINTS - 1) as f64;
+            [0, 1].map(|axis| {
+                let (first, last) = ((1.0 - t) * start[axis], t * end[axis]);
+                (1.0 - t) * first + 2.0 * t * (1.0 - t) * here[axis] + t * last
+            })
+        })
+    };
+    (0..count).flat_map(corner).collect()
 }
 
 /// Black or white, whichever is better read on a colour.

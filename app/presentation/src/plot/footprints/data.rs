@@ -2,6 +2,7 @@
 
 use super::super::legend::{Legend, Sample};
 use super::super::style::{Colour, Dash, LineStyle, VERMILLION};
+use crate::body_style::BodyStyle;
 use crate::extent::extent;
 
 /// Width of the picture.
@@ -24,8 +25,8 @@ pub struct FootprintPlot {
     pub roads: Vec<Strip>,
     /// The roads that turn, and networks.
     pub curves: Vec<CurvedStrip>,
-    /// The vehicles, each with its label and colour.
-    pub vehicles: Vec<(String, Colour)>,
+    /// The vehicles.
+    pub vehicles: Vec<FootprintVehicle>,
     /// The snapshots, in order of time.
     pub snapshots: Vec<FootprintSnapshot>,
     /// Where the ego's centre was, with the time \[s\].
@@ -84,6 +85,17 @@ pub struct CurvedStrip {
     pub dividers_m: Vec<Vec<[f64; 2]>>,
 }
 
+/// A vehicle that leaves footprints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FootprintVehicle {
+    /// What the legend calls it.
+    pub label: String,
+    /// Its colour.
+    pub colour: Colour,
+    /// What it looks like.
+    pub style: BodyStyle,
+}
+
 /// The vehicles at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FootprintSnapshot {
@@ -96,10 +108,10 @@ pub struct FootprintSnapshot {
 impl FootprintPlot {
     pub(super) fn legend(&self) -> Legend {
         let mut legend = Legend::default();
-        for (name, colour) in &self.vehicles {
-            legend.add(Sample::Patch(*colour), name);
+        for vehicle in &self.vehicles {
+            legend.add(Sample::Patch(vehicle.colour), &vehicle.label);
         }
-        let who = self.vehicles.first().map_or("", |(name, _)| name.split(':').next().unwrap_or(name));
+        let who = self.vehicles.first().map_or("", |first| first.label.split(':').next().unwrap_or(&first.label));
         legend.add(Sample::Line(PATH), &format!("path of {who}"));
         legend
     }

@@ -95,8 +95,9 @@ impl FootprintPlot {
     fn draw_footprints(&self, drawing: &mut Drawing, map: &Map) {
         let last = self.snapshots.len().saturating_sub(1).max(1) as f64;
         for (index, snapshot) in self.snapshots.iter().enumerate() {
-            for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.vehicles) {
-                body::draw(drawing, body.map(|corner| map.place(corner)), *colour, 0.45 + 0.5 * index as f64 / last);
+            for (body, vehicle) in snapshot.bodies.iter().zip(&self.vehicles) {
+                let corners = body.map(|corner| map.place(corner));
+                body::draw(drawing, corners, vehicle.style, vehicle.colour, 0.45 + 0.5 * index as f64 / last);
             }
         }
         let mut groups: Vec<NumberGroup> = (0..self.vehicles.len()).flat_map(|who| self.number_groups(who)).collect();

@@ -127,12 +127,11 @@ impl FootprintPlot {
         let path = self.path_pixels(snapshot.time_s, point).into_iter();
         drawing.line(path.filter(|[x, _]| (LEFT_MARGIN_PX..=WIDTH_PX - MARGIN_PX).contains(x)).collect(), PATH);
         let number = format!("{}", index + 1);
-        for (body, (_, colour)) in snapshot.bodies.iter().zip(&self.vehicles) {
+        for (body, vehicle) in snapshot.bodies.iter().zip(&self.vehicles) {
             let x = body.map(|corner| LEFT_MARGIN_PX + (corner[0] - shift_m - window.start_m) * window.scale);
             if x.iter().all(|x| (LEFT_MARGIN_PX..=WIDTH_PX - MARGIN_PX).contains(x)) {
                 let corners = body.map(place);
-                body::draw(drawing, corners, *colour, 1.0);
-                body::number(drawing, corners, *colour, &number);
+                body::draw(drawing, corners, vehicle.style, vehicle.colour, 1.0);
             }
         }
         let middle = 0.5 * (top + bottom);
