@@ -15,7 +15,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::exponential::{INFINITESIMAL, Number, real};
-use super::gains::{Measured, RowGain, Schedule, follow, schedule};
+use super::gains::{Gains, Measured, Schedule, follow, schedule};
 use super::linear_model::{ContinuousModel, SampledModel};
 
 /// Measurements in rows. Each row has p outputs and m inputs.
@@ -119,19 +119,16 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Real gains of an arrow: n a output, one output after the other, and S.
-struct RealGain {
+/// Real gains of all arrows, as [`Gains`].
+struct RealGains {
     gains: Vec<f64>,
     variances: Vec<f64>,
 }
 
-impl RealGain {
-    fn all(gains: &[RowGain], part: fn(Number) -> f64) -> Vec<Self> {
-        let one = |row: &RowGain| Self {
-            gains: row.gains.iter().map(|entry| part(*entry)).collect(),
-            variances: row.variances.iter().map(|entry| part(*entry)).collect(),
-        };
-        gains.iter().map(one).collect()
+impl RealGains {
+    fn new(found: &Gains, part: fn(Number) -> f64) -> Self {
+        let parts = |numbers: &[Number]| numbers.iter().map(|entry| part(*entry)).collect();
+        Self { gains: parts(&found.gains), variances: parts(&found.variances) }
     }
 }
 
@@ -149,9 +146,9 @@ struct Filter<'a> {
     model: ContinuousModel,
     matrices: StepMatrices,
     schedule: Schedule,
-    gains: Vec<RealGain>,
-    /// Logarithms of the variances of `gains`.
-    logarithms: Vec<Vec<f64>>,
+    gains: RealGains,
+    /// Logarithms of 2π S.
+    logarithms: Vec<f64>,
     measured: Vec<Measured>,
 }
 
@@ -159,8 +156,8 @@ struct Filter<'a> {
 struct Tangent {
     /// `None` if they do not depend on the parameter.
     matrices: Option<StepMatrices>,
-    /// Empty if the gains do not depend on the parameter.
-    gains: Vec<RealGain>,
+    /// `None` if the gains do not depend on the parameter.
+    gains: Option<RealGains>,
     initial: ContinuousModel,
 }
 
@@ -180,11 +177,8 @@ impl<'a> Filter<'a> {
         let of = |row: &usize| (measured[*row], starts[*row]);
         let (of_rows, starts): (Vec<_>, Vec<_>) = rows.iter().map(of).unzip();
         let (schedule, gains) = schedule(&model, &sampled, &of_rows, &starts)?;
-        let gains = RealGain::all(&gains, value);
-        let logarithms = gains
-            .iter()
-            .map(|gain| gain.variances.iter().map(|&variance| libm::log(TAU * variance)).collect())
-            .collect();
+        let gains = RealGains::new(&gains, value);
+        let logarithms = gains.variances.iter().map(|&variance| libm::log(TAU * variance)).collect();
         let matrices = StepMatrices::new(&sampled, value);
         Some(Self { observations, model, matrices, schedule, gains, logarithms, measured })
     }
@@ -192,8 +186,8 @@ impl<'a> Filter<'a> {
     fn tangent(&self, model: ContinuousModel) -> Option<Tangent> {
         let sampled = model.sampled(self.observations.step_s)?;
         let gains = match moves_covariances(&model, &sampled) {
-            true => RealGain::all(&follow(&self.schedule, &model, &sampled)?, derivative),
-            false => Vec::new(),
+            true => Some(RealGains::new(&follow(&self.schedule, &model, &sampled)?, derivative)),
+            false => None,
         };
         let mut numbers = sampled.transition.iter().chain(&sampled.gain).chain(&sampled.slope_gain);
         let moves_states = numbers.any(|number| number.im != 0.0);
@@ -265,17 +259,18 @@ impl<'a> Filter<'a> {
         let n = self.matrices.n;
         let state = self.model.outputs[output];
         let innovation = self.observations.outputs[row * self.observations.widths.0 + output] - x[state];
-        let variance = self.gains[arrow].variances[output];
-        let gain = &self.gains[arrow].gains[output * n..(output + 1) * n];
-        sums.log_likelihood -= 0.5 * (self.logarithms[arrow][output] + innovation * innovation / variance);
+        let which = arrow * self.observations.widths.0 + output;
+        let variance = self.gains.variances[which];
+        let gain = &self.gains.gains[which * n..(which + 1) * n];
+        sums.log_likelihood -= 0.5 * (self.logarithms[which] + innovation * innovation / variance);
         for ((tangent, dx), slot) in tangents.iter().zip(dx.chunks_mut(n)).zip(&mut sums.row) {
             let dv = -dx[state];
             dx.iter_mut().zip(gain).for_each(|(dx, gain)| *dx += gain * dv);
             *slot = (dv, 0.0);
-            if let Some(change) = tangent.gains.get(arrow) {
-                let dk = &change.gains[output * n..(output + 1) * n];
+            if let Some(change) = &tangent.gains {
+                let dk = &change.gains[which * n..(which + 1) * n];
                 dx.iter_mut().zip(dk).for_each(|(dx, dk)| *dx += dk * innovation);
-                slot.1 = change.variances[output];
+                slot.1 = change.variances[which];
             }
         }
         sums.add(innovation, variance);

@@ -8,14 +8,16 @@
 //! exact for inputs that change at a constant rate u' over a step (first-order hold; with u' = 0, zero-order hold):
 //!
 //! ```text
-//!     ⎡A B 0⎤         ⎡Φ Γ₀ Γ₁⎤               ⎡A diag(q)⎤         ⎡Φ  Q Φ⁻ᵀ⎤
-//! exp ⎢0 0 I⎥ h   =   ⎢0 I  hI⎥           exp ⎢0   −Aᵀ  ⎥ h   =   ⎣0   Φ⁻ᵀ ⎦      (Van Loan, 1978)
-//!     ⎣0 0 0⎦         ⎣0 0  I ⎦               ⎣         ⎦
+//! Φ = exp(A h),   Γ₀ = h φ₁(A h) B,   Γ₁ = h² φ₂(A h) B
+//!
+//!     ⎡A diag(q)⎤         ⎡Φ  Q Φ⁻ᵀ⎤
+//! exp ⎢0   −Aᵀ  ⎥ h   =   ⎣0   Φ⁻ᵀ ⎦      (Van Loan, 1978)
+//!     ⎣         ⎦
 //! ```
 
 use nalgebra::DMatrix;
 
-use super::exponential::{Number, matrix_exponential, product, real};
+use super::exponential::{Number, matrix_exponential, phi_functions, product, real};
 
 /// A model in continuous time with n states, m inputs and p outputs.
 #[derive(Debug, Clone)]
@@ -63,19 +65,11 @@ pub(super) struct SampledModel {
 impl ContinuousModel {
     /// The model in steps of `step_s`; `None` if it is too fast for that, or not finite.
     pub fn sampled(&self, step_s: f64) -> Option<SampledModel> {
-        let (n, m) = (self.dynamics.nrows(), self.inputs.ncols());
-        let size = n + 2 * m;
-        let held = DMatrix::from_fn(size, size, |i, j| match (i < n, j) {
-            (true, j) if j < n => self.dynamics[(i, j)] * step_s,
-            (true, j) if j < n + m => self.inputs[(i, j - n)] * step_s,
-            (false, j) if i < n + m && j == i + m => real(step_s),
-            _ => real(0.0),
-        });
-        let held = matrix_exponential(&held)?;
+        let [transition, first, second] = phi_functions(&self.dynamics.map(|entry| entry * step_s))?;
         Some(SampledModel {
-            transition: held.view((0, 0), (n, n)).into_owned(),
-            gain: held.view((0, n), (n, m)).into_owned(),
-            slope_gain: held.view((0, n + m), (n, m)).into_owned(),
+            transition,
+            gain: product(&first, &self.inputs).map(|entry| entry * step_s),
+            slope_gain: product(&second, &self.inputs).map(|entry| entry * (step_s * step_s)),
             noise: self.sampled_noise(step_s)?,
         })
     }
