@@ -5,8 +5,9 @@
 //! cargo run --release -p interplay-building --example identify_coverage -- 100
 //! ```
 //!
-//! The first argument is the number of houses of each kind, the second one, if there is one, the only kind. A fourth kind is heated and mild all the time alike, so that its data say
-//! next to nothing of the conductance. The houses are simulated in steps of six seconds; telemetry is sampled every 5 to 60 minutes.
+//! The first argument is the number of houses of each kind; the second one, if there is one, the number of the first house
+//! (0), and the third one the only kind. A fourth kind is heated and mild all the time alike, so that its data say next to
+//! nothing of the capacity. The houses are simulated in steps of six seconds; telemetry is sampled every 5 to 60 minutes.
 
 #![allow(clippy::print_stdout, reason = "this is a program: its results go to standard output")]
 
@@ -222,9 +223,9 @@ fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
 }
 
 fn main() {
-    let argument = std::env::args().nth(1);
-    let houses: u64 = argument.and_then(|text| text.parse().ok()).unwrap_or(10);
-    let only = std::env::args().nth(2);
+    let number = |argument: usize| std::env::args().nth(argument).and_then(|text| text.parse::<u64>().ok());
+    let (houses, first) = (number(1).unwrap_or(10), number(2).unwrap_or(0));
+    let only = std::env::args().nth(3);
     for (label, kind, name) in [
         (1, Kind::Air, "one state"),
         (2, Kind::Wall, "two states"),
@@ -235,8 +236,10 @@ fn main() {
             continue;
         }
         let count = if kind == Kind::Silent { houses / 4 } else { houses };
-        let found: Vec<Outcome> =
-            (0..count).into_par_iter().flat_map_iter(|seed| of_house(kind, 1000 * label + seed)).collect();
+        let found: Vec<Outcome> = (first..first + count)
+            .into_par_iter()
+            .flat_map_iter(|house| of_house(kind, 1000 * label + house))
+            .collect();
         print_kind(name, &found);
     }
 }

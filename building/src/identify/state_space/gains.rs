@@ -48,6 +48,13 @@ pub(super) struct Schedule {
     pub of_row: Vec<usize>,
 }
 
+impl Schedule {
+    /// Number of arrows.
+    pub fn arrow_count(&self) -> usize {
+        self.arrows.len()
+    }
+}
+
 /// Builds the schedule of the rows `measured`, whose segments begin at `starts`, and the gains of each arrow.
 ///
 /// `None` if a variance is not positive.

@@ -15,8 +15,9 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::exponential::{INFINITESIMAL, Number, real};
-use super::gains::{Gains, Measured, Schedule, follow, schedule};
-use super::linear_model::{ContinuousModel, SampledModel};
+use super::gains::{Measured, Schedule, schedule};
+use super::linear_model::ContinuousModel;
+use super::tangents::{StepMatrices, Tangents, derivative, value};
 
 /// Measurements in rows. Each row has p outputs and m inputs.
 #[derive(Debug, Clone)]
@@ -75,69 +76,10 @@ pub(super) struct Filtered {
 /// From parameters to a model.
 pub(super) type Parametrisation<'a> = dyn Fn(&[Number]) -> ContinuousModel + 'a;
 
-/// Real matrices of a step, row by row.
-struct StepMatrices {
-    n: usize,
-    m: usize,
-    transition: Vec<f64>,
-    gain: Vec<f64>,
-    slope_gain: Vec<f64>,
-}
-
-impl StepMatrices {
-    /// The real parts, or the infinitesimal ones per unit.
-    fn new(sampled: &SampledModel, part: fn(Number) -> f64) -> Self {
-        let rows = |matrix: &DMatrix<Number>| matrix.transpose().iter().map(|entry| part(*entry)).collect();
-        Self {
-            n: sampled.transition.nrows(),
-            m: sampled.gain.ncols(),
-            transition: rows(&sampled.transition),
-            gain: rows(&sampled.gain),
-            slope_gain: rows(&sampled.slope_gain),
-        }
-    }
-
-    /// out += Φ x.
-    fn add_states(&self, out: &mut [f64], x: &[f64]) {
-        for (out, row) in out.iter_mut().zip(self.transition.chunks(self.n)) {
-            *out += dot(row, x);
-        }
-    }
-
-    /// out += Γ₀ u + Γ₁ u'.
-    fn add_inputs(&self, out: &mut [f64], u: &[f64], slope: &[f64]) {
-        if self.m > 0 {
-            let rows = self.gain.chunks(self.m).zip(self.slope_gain.chunks(self.m));
-            for (out, (gain, slope_gain)) in out.iter_mut().zip(rows) {
-                *out += dot(gain, u) + dot(slope_gain, slope);
-            }
-        }
-    }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Real gains of all arrows, as [`Gains`].
+/// Real gains of all arrows, as [`Gains`](super::gains::Gains).
 struct RealGains {
     gains: Vec<f64>,
     variances: Vec<f64>,
-}
-
-impl RealGains {
-    fn new(found: &Gains, part: fn(Number) -> f64) -> Self {
-        let parts = |numbers: &[Number]| numbers.iter().map(|entry| part(*entry)).collect();
-        Self { gains: parts(&found.gains), variances: parts(&found.variances) }
-    }
-}
-
-fn value(number: Number) -> f64 {
-    number.re
-}
-
-fn derivative(number: Number) -> f64 {
-    number.im / INFINITESIMAL
 }
 
 /// The filter at one set of parameters.
@@ -152,21 +94,6 @@ struct Filter<'a> {
     measured: Vec<Measured>,
 }
 
-/// Everything that changes with one parameter.
-struct Tangent {
-    /// `None` if they do not depend on the parameter.
-    matrices: Option<StepMatrices>,
-    /// `None` if the gains do not depend on the parameter.
-    gains: Option<RealGains>,
-    initial: ContinuousModel,
-}
-
-/// Whether a change of the model changes the covariances of its filter.
-fn moves_covariances(model: &ContinuousModel, sampled: &SampledModel) -> bool {
-    let numbers = sampled.transition.iter().chain(&sampled.noise).chain(&model.sensor_variance);
-    numbers.chain(&model.initial.variance).any(|number| number.im != 0.0)
-}
-
 impl<'a> Filter<'a> {
     fn new(model: ContinuousModel, observations: &'a Observations) -> Option<Self> {
         let sampled = model.sampled(observations.step_s)?;
@@ -177,21 +104,17 @@ impl<'a> Filter<'a> {
         let of = |row: &usize| (measured[*row], starts[*row]);
         let (of_rows, starts): (Vec<_>, Vec<_>) = rows.iter().map(of).unzip();
         let (schedule, gains) = schedule(&model, &sampled, &of_rows, &starts)?;
-        let gains = RealGains::new(&gains, value);
+        let parts = |numbers: &[Number]| numbers.iter().map(|entry| value(*entry)).collect::<Vec<f64>>();
+        let gains = RealGains { gains: parts(&gains.gains), variances: parts(&gains.variances) };
         let logarithms = gains.variances.iter().map(|&variance| libm::log(TAU * variance)).collect();
-        let matrices = StepMatrices::new(&sampled, value);
+        let matrices = StepMatrices::new(&sampled);
         Some(Self { observations, model, matrices, schedule, gains, logarithms, measured })
     }
 
-    fn tangent(&self, model: ContinuousModel) -> Option<Tangent> {
-        let sampled = model.sampled(self.observations.step_s)?;
-        let gains = match moves_covariances(&model, &sampled) {
-            true => Some(RealGains::new(&follow(&self.schedule, &model, &sampled)?, derivative)),
-            false => None,
-        };
-        let mut numbers = sampled.transition.iter().chain(&sampled.gain).chain(&sampled.slope_gain);
-        let moves_states = numbers.any(|number| number.im != 0.0);
-        Some(Tangent { matrices: moves_states.then(|| StepMatrices::new(&sampled, derivative)), gains, initial: model })
+    /// The derivatives by parameters, from one model with an infinitesimal change of each.
+    fn tangents(&self, models: Vec<ContinuousModel>) -> Option<Tangents> {
+        let widths = (self.matrices.n, self.observations.widths.1, self.observations.widths.0);
+        Tangents::new(widths, models, self.observations.step_s, &self.schedule)
     }
 
     /// The state at the start of a segment, as `part` of the numbers of `model`.
@@ -210,35 +133,25 @@ impl<'a> Filter<'a> {
         (0..self.matrices.n).map(state).collect()
     }
 
-    /// Runs over all rows; the derivatives are summed into `sums`.
-    fn run(&self, tangents: &[Tangent], sums: &mut Sums, mut visit: impl FnMut(usize, &[f64], &[(f64, f64)])) {
-        let n = self.matrices.n;
+    /// Runs over all rows; the derivatives by the parameters of `tangents` are summed into `sums`.
+    fn run(&self, tangents: &mut Tangents, sums: &mut Sums, mut visit: impl FnMut(usize, &[f64], &[(f64, f64)])) {
         let (p, m) = self.observations.widths;
         let mut arrows = self.schedule.of_row.iter();
         let mut found = vec![(f64::NAN, f64::NAN); p];
-        let mut next = vec![0.0; n];
+        let mut next = vec![0.0; self.matrices.n];
         for segment in &self.observations.segments {
             let mut x = self.initial(&self.model, segment.start, value);
-            let mut dx: Vec<f64> =
-                tangents.iter().flat_map(|tangent| self.initial(&tangent.initial, segment.start, derivative)).collect();
+            tangents.begin(|model| self.initial(model, segment.start, derivative));
             for row in segment.clone() {
                 let Some(&arrow) = arrows.next() else { return };
                 found.fill((f64::NAN, f64::NAN));
                 for output in (0..p).filter(|output| self.measured[row] >> output & 1 == 1) {
-                    found[output] = self.update((row, arrow, output), &mut x, tangents, &mut dx, sums);
+                    found[output] = self.update((row, arrow, output), &mut x, tangents, sums);
                 }
                 visit(row, &x, &found);
                 let u = &self.observations.inputs[row * m..(row + 1) * m];
                 let slope = &self.observations.slopes[row * m..(row + 1) * m];
-                for (tangent, dx) in tangents.iter().zip(dx.chunks_mut(n)) {
-                    next.fill(0.0);
-                    self.matrices.add_states(&mut next, dx);
-                    if let Some(matrices) = &tangent.matrices {
-                        matrices.add_states(&mut next, &x);
-                        matrices.add_inputs(&mut next, u, slope);
-                    }
-                    dx.copy_from_slice(&next);
-                }
+                tangents.advance(&self.matrices, &x, u, slope);
                 next.fill(0.0);
                 self.matrices.add_states(&mut next, &x);
                 self.matrices.add_inputs(&mut next, u, slope);
@@ -252,8 +165,7 @@ impl<'a> Filter<'a> {
         &self,
         (row, arrow, output): (usize, usize, usize),
         x: &mut [f64],
-        tangents: &[Tangent],
-        dx: &mut [f64],
+        tangents: &mut Tangents,
         sums: &mut Sums,
     ) -> (f64, f64) {
         let n = self.matrices.n;
@@ -263,17 +175,8 @@ impl<'a> Filter<'a> {
         let variance = self.gains.variances[which];
         let gain = &self.gains.gains[which * n..(which + 1) * n];
         sums.log_likelihood -= 0.5 * (self.logarithms[which] + innovation * innovation / variance);
-        for ((tangent, dx), slot) in tangents.iter().zip(dx.chunks_mut(n)).zip(&mut sums.row) {
-            let dv = -dx[state];
-            dx.iter_mut().zip(gain).for_each(|(dx, gain)| *dx += gain * dv);
-            *slot = (dv, 0.0);
-            if let Some(change) = &tangent.gains {
-                let dk = &change.gains[which * n..(which + 1) * n];
-                dx.iter_mut().zip(dk).for_each(|(dx, dk)| *dx += dk * innovation);
-                slot.1 = change.variances[which];
-            }
-        }
-        sums.add(innovation, variance);
+        let (of_innovation, of_variance) = tangents.update(which, state, gain, innovation);
+        sums.add((innovation, variance), of_innovation, of_variance);
         x.iter_mut().zip(gain).for_each(|(x, gain)| *x += gain * innovation);
         (innovation, variance)
     }
@@ -296,9 +199,10 @@ fn measured(observations: &Observations, model: &ContinuousModel) -> Vec<Measure
 struct Sums {
     log_likelihood: f64,
     gradient: Vec<f64>,
-    information: DMatrix<f64>,
-    /// ∂v and ∂S of the innovation at hand, one a parameter.
-    row: Vec<(f64, f64)>,
+    /// Lower triangle of the information, row by row.
+    information: Vec<f64>,
+    /// ∂S/S of the innovation at hand.
+    relative: Vec<f64>,
 }
 
 impl Sums {
@@ -306,20 +210,30 @@ impl Sums {
         Self {
             log_likelihood: 0.0,
             gradient: vec![0.0; parameters],
-            information: DMatrix::zeros(parameters, parameters),
-            row: vec![(0.0, 0.0); parameters],
+            information: vec![0.0; parameters * parameters],
+            relative: vec![0.0; parameters],
         }
     }
 
-    fn add(&mut self, innovation: f64, variance: f64) {
+    /// Adds an innovation v of variance S, with ∂v and ∂S.
+    fn add(&mut self, (innovation, variance): (f64, f64), of_innovation: &[f64], of_variance: &[f64]) {
         let (weight, excess) = (1.0 / variance, innovation * innovation / variance - 1.0);
-        for (j, &(dv, ds)) in self.row.iter().enumerate() {
-            let relative = ds * weight;
-            self.gradient[j] += 0.5 * excess * relative - innovation * dv * weight;
-            for (k, &(other_dv, other_ds)) in self.row[..=j].iter().enumerate() {
-                self.information[(j, k)] += (dv * other_dv + 0.5 * relative * other_ds) * weight;
+        self.relative.iter_mut().zip(of_variance).for_each(|(relative, ds)| *relative = ds * weight);
+        let parameters = self.gradient.len();
+        for (j, gradient) in self.gradient.iter_mut().enumerate() {
+            let (dv, relative) = (of_innovation[j] * weight, self.relative[j]);
+            *gradient += 0.5 * excess * relative - innovation * dv;
+            let row = &mut self.information[j * parameters..j * parameters + j + 1];
+            for ((entry, other_dv), other_relative) in row.iter_mut().zip(of_innovation).zip(&self.relative) {
+                *entry += dv * other_dv + 0.5 * relative * other_relative;
             }
         }
+    }
+
+    /// The information, both triangles.
+    fn information(&self) -> DMatrix<f64> {
+        let parameters = self.gradient.len();
+        DMatrix::from_fn(parameters, parameters, |j, k| self.information[j.max(k) * parameters + j.min(k)])
     }
 }
 
@@ -327,29 +241,21 @@ impl Sums {
 pub(super) fn log_likelihood(model: &Parametrisation, theta: &[f64], observations: &Observations) -> Option<f64> {
     let filter = Filter::new(model(&numbers(theta)), observations)?;
     let mut sums = Sums::new(0);
-    filter.run(&[], &mut sums, |_, _, _| {});
+    filter.run(&mut filter.tangents(Vec::new())?, &mut sums, |_, _, _| {});
     Some(sums.log_likelihood).filter(|sum| sum.is_finite())
 }
 
 /// The log-likelihood at θ with gradient and Fisher information; `None` where the model has none.
 pub(super) fn evaluate(model: &Parametrisation, theta: &[f64], observations: &Observations) -> Option<Evaluation> {
     let filter = Filter::new(model(&numbers(theta)), observations)?;
-    let tangents = (0..theta.len())
-        .map(|parameter| filter.tangent(model(&changed(theta, parameter))))
-        .collect::<Option<Vec<_>>>()?;
+    let mut tangents =
+        filter.tangents((0..theta.len()).map(|parameter| model(&changed(theta, parameter))).collect())?;
     let mut sums = Sums::new(theta.len());
-    filter.run(&tangents, &mut sums, |_, _, _| {});
-    for j in 0..theta.len() {
-        for k in 0..j {
-            sums.information[(k, j)] = sums.information[(j, k)];
-        }
-    }
-    let is_finite = sums.log_likelihood.is_finite() && sums.information.iter().all(|entry| entry.is_finite());
-    is_finite.then_some(Evaluation {
-        log_likelihood: sums.log_likelihood,
-        gradient: sums.gradient,
-        information: sums.information,
-    })
+    filter.run(&mut tangents, &mut sums, |_, _, _| {});
+    let information = sums.information();
+    let is_finite = sums.log_likelihood.is_finite() && information.iter().all(|entry| entry.is_finite());
+    let (log_likelihood, gradient) = (sums.log_likelihood, sums.gradient);
+    is_finite.then_some(Evaluation { log_likelihood, gradient, information })
 }
 
 /// Innovations and states at θ; `None` where the model has none.
@@ -363,7 +269,7 @@ pub(super) fn filter(model: &Parametrisation, theta: &[f64], observations: &Obse
         standardised: vec![f64::NAN; rows * p],
         states: vec![f64::NAN; rows * n],
     };
-    filter.run(&[], &mut Sums::new(0), |row, x, found| {
+    filter.run(&mut filter.tangents(Vec::new())?, &mut Sums::new(0), |row, x, found| {
         filtered.states[row * n..(row + 1) * n].copy_from_slice(x);
         for (output, &(innovation, variance)) in found.iter().enumerate() {
             filtered.innovations[row * p + output] = innovation;

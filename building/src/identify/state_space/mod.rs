@@ -14,6 +14,7 @@ mod gains;
 mod heat_balance;
 mod likelihood;
 mod linear_model;
+mod model_average;
 mod network_run;
 mod observations;
 mod profile;
@@ -22,6 +23,7 @@ mod scoring;
 mod selection;
 mod starts;
 mod structure;
+mod tangents;
 mod trust;
 
 use std::ops::Range;

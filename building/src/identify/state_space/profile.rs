@@ -1,11 +1,13 @@
 //! Intervals by profile likelihood: all values of a quantity f for which the best log-likelihood with f held there is less
 //! than 1.92 below the maximum, half of the 95 % point of chi-squared with one degree of freedom.
 //!
-//! Where the likelihood is nearly quadratic, the interval of the information matrix is the same, and is kept.
+//! Where the likelihood is nearly quadratic, the interval of the information matrix is the same, and is kept. Both are averaged
+//! with the next larger model ([`super::model_average`]).
 
 use std::cell::RefCell;
 
 use super::likelihood::Observations;
+use super::model_average::Rival;
 use super::quantities::{Precision, QuantityKind, logarithm};
 use super::scoring::{Ascent, Constraint};
 use super::selection::Fit;
@@ -79,37 +81,34 @@ impl Profiler<'_> {
         if !log_error.is_finite() {
             return Some(Estimated { value, log_error, interval: (None, None) });
         }
-        let widening = self.widening((kind, zone), log_value, log_error);
+        let rival = self.rival((kind, zone), log_value, log_error);
         let reach = STANDARD_ERRORS_OF_95_PERCENT * log_error;
-        let end = |sign: f64| -> Option<f64> {
-            let distance = match WORTH_A_PROFILE.contains(&log_error) {
+        let distance = |sign: f64| -> Option<f64> {
+            let own = match WORTH_A_PROFILE.contains(&log_error) {
                 true => self.profile_end((kind, zone), log_value, &gradient, sign * reach)?,
                 false => sign * reach,
             };
-            let distance = widening * distance;
-            (distance.abs() < MOST_LOG_RATIO).then(|| value * libm::exp(distance))
+            let averaged = rival.map_or(own.abs(), |rival| rival.towards(sign).averaged_end(own.abs()));
+            (averaged < MOST_LOG_RATIO).then_some(averaged)
         };
-        Some(Estimated { value, log_error: widening * log_error, interval: (end(-1.0), end(1.0)) })
+        let (below, above) = (distance(-1.0), distance(1.0));
+        let widest = below.unwrap_or(reach).max(above.unwrap_or(reach));
+        Some(Estimated {
+            value,
+            log_error: log_error.max(widest / STANDARD_ERRORS_OF_95_PERCENT),
+            interval: (below.map(|d| value * libm::exp(-d)), above.map(|d| value * libm::exp(d))),
+        })
     }
 
-    /// By how much an interval grows because the next larger model may be the right one:
-    ///
-    /// ```text
-    /// s² = w₁ s₁² + w₂ (s₂² + (ln f₂ − ln f₁)²),      w ∝ exp(−AIC/2)      (Burnham and Anderson, 2002, section 4.3)
-    /// ```
-    fn widening(&self, quantity: (QuantityKind, usize), log_value: f64, log_error: f64) -> f64 {
-        let Some((larger, precision)) = &self.larger else { return 1.0 };
+    /// What the next larger model says of a quantity, if there is one.
+    fn rival(&self, quantity: (QuantityKind, usize), log_value: f64, log_error: f64) -> Option<Rival> {
+        let (larger, precision) = self.larger.as_ref()?;
         let theta = &larger.maximum.theta;
-        let Some((other, gradient)) = logarithm(self.telemetry, &larger.structure, quantity, theta) else { return 1.0 };
-        let other_error = precision.standard_error(&gradient);
-        let other_error = if other_error.is_finite() { other_error } else { log_error };
+        let (other, gradient) = logarithm(self.telemetry, &larger.structure, quantity, theta)?;
+        let error = precision.standard_error(&gradient);
+        let error = if error.is_finite() { error } else { log_error };
         let criterion = |fit: &Fit| fit.maximum.evaluation.log_likelihood - fit.structure.parameters.len() as f64;
-        let ratio = libm::exp((criterion(larger) - criterion(self.fit)).min(0.0));
-        let weight = ratio / (1.0 + ratio);
-        let distance = other - log_value;
-        let variance =
-            (1.0 - weight) * log_error * log_error + weight * (other_error * other_error + distance * distance);
-        libm::sqrt(variance / (log_error * log_error)).max(1.0)
+        Some(Rival::new(criterion(larger) - criterion(self.fit), other - log_value, error))
     }
 
     /// How far ln f may move in the direction of `guess`; `None` without a bound.
