@@ -115,7 +115,11 @@ fn other_names(missing: &str) -> String {
         let near = nearest(word.rsplit(['/', '\\']).next()?, names().map(last_part))?;
         names().find(|name| last_part(name) == near)
     });
+    let is_path = word.len() < missing.len();
     match near {
+        Some(name) if is_path => format!(
+            "is it in another folder? `{name}` is the name of an embedded scenario; `interplay list` shows all of them"
+        ),
         Some(name) => format!("did you mean the embedded scenario `{name}`? `interplay list` shows all of them"),
         None => {
             "give the path of a TOML file, or the name of an embedded scenario: `interplay list` shows them".to_owned()

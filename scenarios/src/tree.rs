@@ -45,11 +45,27 @@ pub(crate) fn parse(document: &Arc<Document>, text: &str) -> Result<TomlNode, Ve
     if errors.is_empty() {
         return Ok(TomlNode { place: Place::new(document, 0..0), value: from_table(document, 0, table.into_inner()) });
     }
+    if let Some(fault) = errors.iter().find_map(|error| single_brackets(document, text, error.span()?)) {
+        return Err(vec![fault]);
+    }
     let faults = errors.iter().take(MAX_SYNTAX_ERRORS).map(|error| {
         let place = Place::new(document, error.span().unwrap_or(0..0));
         Fault::at(&place, "here", format!("not valid TOML: {}", error.message().replace('\n', ", ")))
     });
     Err(faults.collect())
+}
+
+/// The fault of a header such as `[vehicle]` that stands twice: a list wants two brackets. All other errors follow from it.
+fn single_brackets(document: &Arc<Document>, text: &str, span: std::ops::Range<usize>) -> Option<Fault> {
+    let start = text.get(..span.start)?.rfind('\n').map_or(0, |end| end + 1);
+    let line = text[start..].lines().next()?.trim_end();
+    let name = line.strip_prefix('[')?.strip_suffix(']').filter(|name| !name.starts_with('['))?;
+    let is_again = text.lines().filter(|other| other.trim_end() == line).count() > 1;
+    let place = Place::new(document, start..start + line.len());
+    let message = format!("`{line}` stands here for the second time");
+    is_again.then(|| {
+        Fault::at(&place, "two brackets?", message).help(format!("of each one of several, write `[[{name}]]`"))
+    })
 }
 
 /// Parses a single value that is written at `offset` in the document; `None` if it is not TOML.

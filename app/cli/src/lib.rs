@@ -17,6 +17,7 @@ mod new;
 mod out_of_memory;
 mod output;
 mod plan_flags;
+mod program;
 mod progress;
 mod refusal;
 mod reproduce;

@@ -19,6 +19,7 @@ use crate::error::CommandError;
 use crate::exit_status::ExitStatus;
 use crate::files::{destroyed, is_same_file, short_name};
 use crate::output::{json, print, print_error, print_load_error};
+use crate::program::this_program;
 use crate::watch::WatchedFiles;
 
 /// Run one scenario, say whether its expectations held, and record it.
@@ -136,7 +137,7 @@ impl Run {
         match passed {
             Ok(passed) => {
                 if let Some(path) = self.recording(&name).filter(|_| self.connect.is_none()) {
-                    let view = shell::line(["interplay", "view", &path.to_string_lossy()]);
+                    let view = shell::line([this_program().as_str(), "view", &path.to_string_lossy()]);
                     print_error(&format!("recorded to {}; to open it: {view}", path.display()));
                 }
                 if passed { ExitStatus::Well } else { ExitStatus::Failed }
@@ -213,7 +214,7 @@ impl Run {
         let Some(folder) = &self.report else { return Ok(()) };
         let recording = self.recording(name).filter(|path| self.connect.is_none() && path.parent() == Some(folder));
         let file = recording.as_ref().and_then(|path| path.file_name()).map(|file| file.to_string_lossy().into_owned());
-        let what = |file: &String| format!("the recording; `interplay view {file}` opens it");
+        let what = |file: &String| format!("the recording; \u{201c}interplay view {file}\u{201d} opens it");
         let page = run_page(recorded, folder, file.map(|file| (file.clone(), what(&file))).into_iter().collect())?;
         print_error(&format!("page in {}", page.display()));
         Ok(())

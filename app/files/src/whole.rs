@@ -37,7 +37,10 @@ impl WholeFile {
         // Readable for whom any new file would be.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        Ok(WholeFile { target: target.to_owned(), file: Unplaced::Named(builder.tempfile_in(folder)?) })
+        Ok(WholeFile {
+            target: target.to_owned(),
+            file: Unplaced::Named(builder.tempfile_in(folder).map_err(of_disk)?),
+        })
     }
 
     /// Gives the file its place, where another may stand.
@@ -101,6 +104,13 @@ impl Write for WholeFile {
 /// The folder in which a file is or will be.
 pub fn folder_of(target: &Path) -> &Path {
     target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// What the disk said, without the passing name of a file that has no place yet.
+fn of_disk(error: io::Error) -> io::Error {
+    let said = error.to_string();
+    let (reason, _) = said.split_once(" at path ").unwrap_or((&said, ""));
+    io::Error::new(error.kind(), reason.to_owned())
 }
 
 /// How files are called that have no place yet.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use interplay_scenarios::{Completes, Expect, ExpectedSpeed};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::driving;
 use super::expectation::Expectation;
@@ -65,11 +65,19 @@ fn completes(window: &Completes, report: &Report) -> Expectation {
     let (after, before) = (window.after_s.unwrap_or(0.0), window.before_s.unwrap_or(f64::INFINITY));
     Expectation {
         what: format!("completes.{}", window.vehicle),
-        want: json!({ "after_s": window.after_s, "before_s": window.before_s }),
+        want: wanted_window(window),
         got: json!(completed),
         passed: completed.is_some_and(|time| (after..=before).contains(&time)),
         at: None,
     }
+}
+
+/// The limits that are stated; without one, any time will do.
+fn wanted_window(window: &Completes) -> Value {
+    let limits = [("after_s", window.after_s), ("before_s", window.before_s)];
+    let stated: Map<String, Value> =
+        limits.into_iter().filter_map(|(key, limit)| Some((key.to_owned(), json!(limit?)))).collect();
+    if stated.is_empty() { json!("any time") } else { Value::Object(stated) }
 }
 
 fn speed(range: &ExpectedSpeed, report: &Report) -> Vec<Expectation> {
