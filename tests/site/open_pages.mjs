@@ -10,10 +10,12 @@ import { begin, end, inspectPage } from "../browser/chromium.mjs";
 
 /** Runs in the page: which pictures are missing, and whether there is text. */
 async function inspect() {
-  const pictures = [...document.querySelectorAll("main img")];
+  // Pages that mdBook did not make, such as the benchmark, need no <main>.
+  const main = document.querySelector("main") ?? document.body;
+  const pictures = [...main.querySelectorAll("img")];
   for (const picture of pictures) await picture.decode().catch(() => {});
   const missing = pictures.filter((picture) => !picture.complete || picture.naturalWidth === 0);
-  const words = document.querySelector("main")?.innerText.split(/\s+/).length ?? 0;
+  const words = main.innerText.split(/\s+/).filter(Boolean).length;
   const wide = document.documentElement.scrollWidth > document.documentElement.clientWidth;
   return { pictures: pictures.length, missing: missing.map((picture) => picture.src), words, wide };
 }
