@@ -13,6 +13,10 @@ use crate::plot::{Curve, CurvedStrip, FootprintPlot, FootprintSnapshot, Footprin
 
 /// How many snapshots a picture of footprints has: in strips, and on one map.
 const SNAPSHOT_COUNTS: [usize; 2] = [8, 12];
+/// The least number of them.
+const MIN_SNAPSHOTS: usize = 5;
+/// From one footprint to the next, of the vehicle that comes farthest in one plan, in lengths of its body.
+const FOOTPRINT_DISTANCE_LENGTHS: f64 = 1.5;
 /// How long a picture of footprints goes on after the last vehicle has reached its goal \[s\].
 const TIME_AFTER_GOALS_S: f64 = 1.5;
 /// How far a road that turns is drawn beyond the first and the last vehicle, in widths of the road.
@@ -33,11 +37,12 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     let RecordedRun { scenario, frames, .. } = recorded;
     let (roads, curves) = (roads(scenario), curves(recorded));
     let parallel = curves.is_empty() && roads.iter().all(|road| road.heading_rad == roads[0].heading_rad);
-    let count = SNAPSHOT_COUNTS[usize::from(!parallel)];
+    let end = end_tick(recorded);
+    let count = if parallel { SNAPSHOT_COUNTS[0] } else { count_in_one_plan(recorded, end) };
     let ego = scenario.ego_index();
     let mut order: Vec<usize> = (0..scenario.vehicles.len()).collect();
     order.sort_by_key(|&index| index != ego);
-    let ticks = ticks(recorded, count);
+    let ticks: Vec<usize> = (0..=end).step_by(end.div_ceil(count - 1).max(1)).collect();
     let snapshot = |tick: usize| FootprintSnapshot {
         time_s: time_s(recorded, tick),
         bodies: order
@@ -61,15 +66,27 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     }
 }
 
-/// The ticks that a picture of footprints shows: equal steps, the first is the start.
-fn ticks(recorded: &RecordedRun, count: usize) -> Vec<usize> {
+/// How many snapshots one plan holds, so that the footprints of the vehicle that comes farthest do not touch.
+fn count_in_one_plan(recorded: &RecordedRun, end: usize) -> usize {
+    let lengths = recorded.scenario.vehicles.iter().enumerate().map(|(index, vehicle)| {
+        let places =
+            recorded.frames[..end].iter().filter_map(|frame| Some(frame.vehicles.get(index)?.state.position()));
+        let places: Vec<[f64; 2]> = places.collect();
+        let driven_m: f64 =
+            places.windows(2).map(|pair| libm::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1])).sum();
+        driven_m / (vehicle.body.front_m + vehicle.body.rear_m)
+    });
+    let apart = lengths.fold(0.0, f64::max) / FOOTPRINT_DISTANCE_LENGTHS;
+    (apart as usize + 1).clamp(MIN_SNAPSHOTS, SNAPSHOT_COUNTS[1])
+}
+
+/// The last tick that a picture of footprints shows.
+fn end_tick(recorded: &RecordedRun) -> usize {
     let completed = recorded.report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s);
     let step_s = recorded.scenario.step_s;
     let last = (completed.fold(0.0, f64::max) + TIME_AFTER_GOALS_S) / step_s;
     let whole = recorded.report.vehicles.get(recorded.scenario.ego_index()).is_none_or(|ego| ego.completed_s.is_none());
-    let end = if whole { recorded.frames.len() } else { (last.round() as usize).min(recorded.frames.len()) };
-    let every = end.div_ceil(count.max(2) - 1).max(1);
-    (0..=end).step_by(every).collect()
+    if whole { recorded.frames.len() } else { (last.round() as usize).min(recorded.frames.len()) }
 }
 
 fn time_s(recorded: &RecordedRun, tick: usize) -> f64 {

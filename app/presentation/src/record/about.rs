@@ -43,15 +43,11 @@ fn description(scenario: &Scenario, vehicle_colours: &[NamedColour], command: Op
         .collect();
     format!(
         "**{title}**\n\n{shows}{figure}.{again}\n\n\
-         | vehicle | colour | driver |\n|---|---|---|\n{who}\n\
-         **On the road**, in each vehicle's colour:\n\n\
-         - thick line ahead: its plan\n\
-         - dashes: what the others expect of it\n\
-         - pale line behind: where it was\n\
-         - dots: what it asks another vehicle to do\n\
-         - white ellipse: the ego's centre keeps out of it\n\
-         - line in {failure}: a fallback, because the planner has no plan; the events say why\n\
-         - red lights: it brakes; yellow lights: it is going to turn or to change lanes\n{guide}",
+         **On the road**, in each vehicle's colour: a *thick line* ahead is its plan, *dashes* are what the others expect of it, a \
+         *pale line* is where it was, *dots* are what it asks another vehicle to do. The ego's centre keeps out of the *white \
+         ellipses*. A plan in *{failure}* is a fallback, because the planner has none; the events say why. Red lights: it brakes. \
+         Yellow lights: it is going to turn or to change lanes.\n\n\
+         | vehicle | colour | driver |\n|---|---|---|\n{who}{guide}",
         guide = planner_panels::guide(scenario),
         title = scenario.title,
         shows = scenario.shows.trim_end_matches('.'),

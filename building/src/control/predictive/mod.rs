@@ -107,7 +107,7 @@ impl ControllerKind for PredictiveSettings {
     }
 
     fn look_for(&self) -> &'static str {
-        "it cools before people come, and what the forecast missed is corrected within hours"
+        "it heats or cools before people come, and what the forecast missed is corrected within hours"
     }
 
     fn regulator(&self, model: &Model, _steps: usize) -> Result<Regulator, ControlError> {
