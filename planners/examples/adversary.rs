@@ -1,14 +1,19 @@
 //! A search for encounters in which a planner touches somebody.
 //!
 //! ```sh
-//! cargo run --release -p interplay-planners --example adversary -- [STEPS [WORD ...]]
+//! cargo run --release -p interplay-planners --example adversary -- [STEPS [seed=NUMBER] [WORD ...]]
 //! ```
 //!
 //! For each planner and family of scenarios it varies where everybody starts, how fast, and how much each human minds others
 //! (safety weights from 0.01 to 100), so that the ego comes as near to somebody as possible: half of the steps (200 unless stated) are
-//! drawn at random, the others change the nearest encounter so far by ever smaller amounts. Of every contact it says until which
-//! tick one of the [last resorts](interplay_planners::certificate::last_resorts) would have avoided it if the others had moved as they
-//! did. Words select families and planners.
+//! drawn at random, the others change the nearest encounter so far by ever smaller amounts. Of every contact it says
+//!
+//! - until which tick one of the [last resorts](interplay_planners::certificate::last_resorts) would have avoided it if the others
+//!   had moved as they did (*avoidable*), which nobody knows beforehand, and
+//! - whether the same motion of the ego would have touched somebody if the others had done from that tick on what they planned at
+//!   it (*foretold*).
+//!
+//! Words select families and planners; another seed (7 unless stated) draws others.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -27,6 +32,9 @@ const ALONG_M: f64 = 0.5;
 const SPEED_MPS: f64 = 0.3;
 /// Everybody starts at least so far apart \[m\].
 const FIRST_GAP_M: f64 = 0.1;
+/// Words of a verdict.
+const AVOIDABLE: &str = "avoidable";
+const FORETOLD: &str = "foretold";
 /// Numbers that vary, a vehicle: place, speed, and the weight of a human.
 const NUMBERS: usize = 3;
 
@@ -36,15 +44,23 @@ struct Encounter {
     gap_m: f64,
     /// The tick at which it was smallest.
     tick: usize,
-    /// Per tick, the ego's scene.
+    /// Per tick, the ego's scene before anybody plans.
     scenes: Vec<Scene>,
+    /// Per tick, what the others plan then, in the order of the scene.
+    told: Vec<Vec<Trajectory>>,
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut words: Vec<String> = std::env::args().skip(1).collect();
     let steps = if words.is_empty() { 200 } else { words.remove(0).parse()? };
+    let mut seed = 7;
+    if let Some(stated) = words.first().and_then(|word| word.strip_prefix("seed=")) {
+        seed = stated.parse()?;
+        words.remove(0);
+    }
     let mut out = std::io::stdout();
-    writeln!(out, "| family | planner | runs | contacts | avoidable | smallest gap m |\n|---|---|---|---|---|---|")?;
+    writeln!(out, "| family | planner | runs | contacts | avoidable | foretold | smallest gap m |")?;
+    writeln!(out, "|---|---|---|---|---|---|---|")?;
     // The styles of humans are varied here: one of the families that differ in them only.
     let names = ["lane-change/nice-nice", "ramp-merge/nice-nice", "lane-keeping/nice", "intersection/nice"];
     for (family, pose) in families().into_iter().filter(|(name, _)| names.contains(&name.as_str())) {
@@ -60,15 +76,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 }
                 vehicles
             };
-            let (runs, nearest_m, contacts) = search(&vehicles, steps);
-            let avoidable = contacts.iter().filter(|contact| contact.contains("avoidable until")).count();
-            writeln!(
-                out,
-                "| {family} | {} | {runs} | {} | {avoidable} | {nearest_m:.3} |",
-                ego.kind(),
-                contacts.len()
-            )?;
-            contacts.iter().take(3).try_for_each(|contact| writeln!(out, "{contact}"))?;
+            let (runs, nearest_m, contacts) = search(&vehicles, steps, seed);
+            let counted = |word: &str| contacts.iter().filter(|contact| contact.contains(word)).count();
+            let (all, avoidable, foretold) = (contacts.len(), counted(AVOIDABLE), counted(FORETOLD));
+            let kind = ego.kind();
+            writeln!(out, "| {family} | {kind} | {runs} | {all} | {avoidable} | {foretold} | {nearest_m:.3} |")?;
+            contacts.iter().take(20).try_for_each(|contact| writeln!(out, "{contact}"))?;
             out.flush()?;
         }
     }
@@ -76,8 +89,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// The number of runs, the smallest gap in them, and the contacts in words.
-fn search(vehicles: &dyn Fn() -> Vec<Vehicle>, steps: usize) -> (usize, f64, Vec<String>) {
-    let mut random = Random(7);
+fn search(vehicles: &dyn Fn() -> Vec<Vehicle>, steps: usize, seed: u64) -> (usize, f64, Vec<String>) {
+    let mut random = Random(seed);
     let count = NUMBERS * vehicles().len();
     let (mut best, mut best_m, mut runs) = (vec![0.5; count], f64::INFINITY, 0);
     let mut contacts = Vec::new();
@@ -93,9 +106,11 @@ fn search(vehicles: &dyn Fn() -> Vec<Vehicle>, steps: usize) -> (usize, f64, Vec
             (best, best_m) = (numbers.clone(), encounter.gap_m);
         }
         if encounter.gap_m <= 0.0 {
-            let verdict = avoidable_until(&encounter)
-                .map_or("not shown to be avoidable".to_owned(), |tick| format!("avoidable until tick {tick}"));
-            contacts.push(format!("contact at tick {}, {verdict}: {numbers:.3?}", encounter.tick));
+            let verdict = avoidable_until(&encounter).map_or("no last resort avoids it".to_owned(), |tick| {
+                let told = if touches_as_told(&encounter, tick) { FORETOLD } else { "not as planned then" };
+                format!("{AVOIDABLE} until tick {tick}, {told}")
+            });
+            contacts.push(format!("contact at tick {}, {verdict}: {numbers:?}", encounter.tick));
         }
     }
     (runs, best_m, contacts)
@@ -121,10 +136,12 @@ fn drive(mut vehicles: Vec<Vehicle>, numbers: &[f64]) -> Option<Encounter> {
         return None;
     }
     let (mut traffic, mut planners) = begin(&vehicles);
-    let mut encounter = Encounter { gap_m: f64::INFINITY, tick: 0, scenes: Vec::new() };
+    let mut encounter = Encounter { gap_m: f64::INFINITY, tick: 0, scenes: Vec::new(), told: Vec::new() };
     for tick in 0..TICKS {
         encounter.scenes.push(traffic.scene(0));
-        traffic.drive(|index, scene| planners[index].plan(scene));
+        let mut decisions = traffic.drive(|index, scene| planners[index].plan(scene));
+        decisions.sort_by_key(|decision| decision.vehicle);
+        encounter.told.push(decisions.into_iter().skip(1).map(|decision| decision.plan.trajectory).collect());
         let gap_m = gap_m(&traffic.scene(0));
         if gap_m < encounter.gap_m {
             (encounter.gap_m, encounter.tick) = (gap_m, tick + 1);
@@ -165,5 +182,16 @@ fn avoidable_until(encounter: &Encounter) -> Option<usize> {
             })
         };
         last_resorts(&encounter.scenes[*from]).any(|motion| is_clear(&motion))
+    })
+}
+
+/// Whether the ego's motion from a tick on touches somebody if the others do what they planned at that tick.
+fn touches_as_told(encounter: &Encounter, tick: usize) -> bool {
+    encounter.scenes[tick..].iter().enumerate().skip(1).any(|(stage, scene)| {
+        let ego = scene.ego.body.corners(&scene.ego.state);
+        scene.others.iter().zip(&encounter.told[tick]).any(|(other, told)| {
+            let state = told.states.get(stage).or(told.states.last());
+            state.is_some_and(|state| overlap_m(&ego, &other.body.corners(state)) > 0.0)
+        })
     })
 }
