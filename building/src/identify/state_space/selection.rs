@@ -48,19 +48,21 @@ pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_st
     let guess = Guess::new(telemetry);
     let smallest = Structure::new(telemetry, Vec::new());
     let starts = guess.of_smallest(telemetry, &smallest);
-    let mut chosen = fit(&guess, smallest, (&starts, None), observations)?;
+    let mut chosen = fit(&guess, smallest, (&starts, &[]), observations)?;
     let mut table = vec![row(telemetry, &chosen, None)];
     let mut chosen_row = 0;
+    let mut known = vec![chosen.clone()];
     loop {
         let left: Vec<HiddenNode> =
             candidates(telemetry).into_iter().filter(|hidden| !chosen.structure.hidden.contains(hidden)).collect();
         let larger: Vec<Option<Fit>> =
-            left.par_iter().map(|&added| extended(telemetry, &guess, &chosen, added, observations)).collect();
+            left.par_iter().map(|&added| extended(telemetry, &guess, (&chosen, &known), added, observations)).collect();
         let mut tried: Vec<(usize, Fit)> = Vec::new();
         for larger in larger.into_iter().flatten() {
             table.push(row(telemetry, &larger, Some(&chosen)));
             tried.push((table.len() - 1, larger));
         }
+        known.extend(tried.iter().map(|(_, fit)| fit.clone()));
         let best = tried.iter().max_by(|a, b| likelihood(&a.1).total_cmp(&likelihood(&b.1))).cloned();
         let Some((index, best)) = best else {
             table[chosen_row].chosen = true;
@@ -79,28 +81,36 @@ fn likelihood(fit: &Fit) -> f64 {
     fit.maximum.evaluation.log_likelihood
 }
 
-/// The best fit of the model with one more hidden node.
+/// The best fit of the model with one more hidden node than the chosen one. It begins near all known models that lack one of its
+/// nodes: the best optimum may be next to one that was not chosen.
 fn extended(
     telemetry: &Telemetry,
     guess: &Guess,
-    smaller: &Fit,
+    (chosen, known): (&Fit, &[Fit]),
     added: HiddenNode,
     observations: &Observations,
 ) -> Option<Fit> {
-    let mut hidden = smaller.structure.hidden.clone();
+    let mut hidden = chosen.structure.hidden.clone();
     hidden.push(added);
-    let structure = Structure::new(telemetry, hidden);
-    let mut starts = guess.of_larger(&smaller.structure, &smaller.maximum.theta, &structure, added);
-    let near = starts.pop();
-    fit(guess, structure, (&starts, near), observations)
+    let structure = Structure::new(telemetry, hidden.clone());
+    let (mut starts, mut near) = (Vec::new(), Vec::new());
+    for smaller in known {
+        let lacking: Vec<HiddenNode> =
+            hidden.iter().copied().filter(|node| !smaller.structure.hidden.contains(node)).collect();
+        if let &[added] = lacking.as_slice() {
+            starts.extend(guess.of_larger(&smaller.structure, &smaller.maximum.theta, &structure, added));
+            near.extend(starts.pop());
+        }
+    }
+    fit(guess, structure, (&starts, &near), observations)
 }
 
-/// Ascends from every start for a few steps on the first rows, then from the best ones to the end on all rows. The last start
-/// of a model that is not the smallest is near the model that it extends, and always goes to the end.
+/// Ascends from every start for a few steps on the first rows, then from the best ones to the end on all rows. Those
+/// near a smaller model always go to the end.
 fn fit(
     guess: &Guess,
     structure: Structure,
-    (starts, near): (&[Vec<f64>], Option<Vec<f64>>),
+    (starts, near): (&[Vec<f64>], &[Vec<f64>]),
     observations: &Observations,
 ) -> Option<Fit> {
     let bounds = guess.bounds(&structure);
@@ -117,7 +127,11 @@ fn fit(
     let mut first: Vec<Maximum> = starts.par_iter().filter_map(screened).collect();
     first.sort_by(|a, b| by_likelihood(b, a));
     let (zones, _) = observations.widths;
-    let finished = first.into_iter().take((FINISHED_STARTS / zones).max(1)).map(|maximum| maximum.theta).chain(near);
+    let finished = first
+        .into_iter()
+        .take((FINISHED_STARTS / zones).max(1))
+        .map(|maximum| maximum.theta)
+        .chain(near.iter().cloned());
     let finished: Vec<Vec<f64>> = finished.collect();
     let finish = |start: &Vec<f64>| ascent(observations, SCREENING_GAIN).run(start, MOST_STEPS);
     let all: Vec<Maximum> = finished.par_iter().filter_map(finish).collect();
