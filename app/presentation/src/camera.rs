@@ -7,7 +7,9 @@ pub use crate::shown_extent::{CameraMoment, car_m, partners};
 use crate::shown_extent::{Extent, LEAST_MARGIN_CARS, Largest, keeping_partners, shown_extent};
 
 /// How long the camera takes to follow a change of place, and of scale \[s\]: standard deviations.
-const SMOOTHING_S: [f64; 2] = [0.7, 1.1];
+const SMOOTHING_S: [f64; 2] = [0.7, 0.8];
+/// The same of what still brings the partners into view.
+const CORRECTION_S: f64 = 0.3;
 /// How long before and after somebody is spoken of it is kept in view \[s\]: what is smoothed has come there by then.
 const KEPT_S: f64 = 2.0 * SMOOTHING_S[1];
 /// A camera whose scale changes by less than this share stands still in scale.
@@ -89,6 +91,11 @@ pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat)
         vec![closest; scales.len()]
     } else {
         let logarithms: Vec<f64> = scales.iter().map(|scale| libm::log(*scale)).collect();
+        let lowest = lowest_near(&logarithms, SMOOTHING_S[1] / format.step_s);
+        let is_close_up = |index: usize| moments[index].close_up.is_some();
+        let logarithms: Vec<f64> = (0..moments.len())
+            .map(|index| if is_close_up(index) { logarithms[index] } else { lowest[index] })
+            .collect();
         smooth(&logarithms, SMOOTHING_S[1] / format.step_s).into_iter().map(libm::exp).collect()
     };
     let middles = [0, 1].map(|axis| smooth(&middles(&shown, axis), SMOOTHING_S[0] / format.step_s));
@@ -100,7 +107,8 @@ pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat)
         px_per_m: scales[index],
         size_px: [format.width_px, height_px],
     };
-    (0..moments.len()).map(|index| with_partners(view(index), scenario, &moments[index]).on_pixels()).collect()
+    let views: Vec<CameraView> = (0..moments.len()).map(view).collect();
+    with_partners(&views, scenario, moments, (format.least_car_px / car_m, CORRECTION_S / format.step_s))
 }
 
 /// The views of a straight road along x between two lateral coordinates \[m\], in one scale.
@@ -127,10 +135,10 @@ fn straight_views(
     let size_px = [format.width_px, height_px];
     let middle = smooth(&middles(&shown, 0), SMOOTHING_S[0] / format.step_s);
     let view = |x: &f64| CameraView { centre_m: [*x, 0.5 * (right_m + left_m)], px_per_m, size_px };
-    let views = middle.iter().zip(moments).map(|(x, moment)| (view(x), with_partners(view(x), scenario, moment)));
-    views
-        .map(|(view, kept)| CameraView { centre_m: [kept.centre_m[0], view.centre_m[1]], ..kept }.on_pixels())
-        .collect()
+    let views: Vec<CameraView> = middle.iter().map(view).collect();
+    let kept = with_partners(&views, scenario, moments, (px_per_m, CORRECTION_S / format.step_s));
+    let along = |view: CameraView| CameraView { centre_m: [view.centre_m[0], 0.5 * (right_m + left_m)], ..view };
+    kept.into_iter().map(|view| along(view).on_pixels()).collect()
 }
 
 /// The middles of what is shown, along one axis.
@@ -160,27 +168,64 @@ fn largest(format: &ViewFormat, car_m: f64, height_px: f64) -> Largest {
     Largest { usual_m: at(format.car_px[0]), spoken_of_m: at(format.least_car_px) }
 }
 
-/// The view moved so that the ego is seen, and with it as many partners as there is space for.
-fn with_partners(view: CameraView, scenario: &Scenario, moment: &CameraMoment) -> CameraView {
+/// The views moved, and where it helps widened to a least scale, so that the ego is seen, and with it as many partners as there is
+/// space for; the changes are smoothed with a deviation in numbers of views.
+fn with_partners(
+    views: &[CameraView],
+    scenario: &Scenario,
+    moments: &[CameraMoment],
+    (least_px_per_m, deviation): (f64, f64),
+) -> Vec<CameraView> {
+    let wanted: Vec<CameraView> =
+        views.iter().zip(moments).map(|(view, moment)| containing(*view, scenario, moment, least_px_per_m)).collect();
+    let pairs = || views.iter().zip(&wanted);
+    let change = |axis: usize| {
+        let changes: Vec<f64> = pairs().map(|(view, wanted)| wanted.centre_m[axis] - view.centre_m[axis]).collect();
+        smooth(&changes, deviation)
+    };
+    let (right_m, up_m) = (change(0), change(1));
+    let scales: Vec<f64> = pairs().map(|(view, wanted)| libm::log(wanted.px_per_m / view.px_per_m)).collect();
+    let scales = smooth(&lowest_near(&scales, deviation), deviation);
+    let moved = |index: usize| {
+        let (view, moment) = (views[index], &moments[index]);
+        let centre_m = [view.centre_m[0] + right_m[index], view.centre_m[1] + up_m[index]];
+        let px_per_m = (view.px_per_m * libm::exp(scales[index])).max(least_px_per_m.min(view.px_per_m));
+        let alone = CameraMoment { partners: Vec::new(), ..moment.clone() };
+        containing(CameraView { centre_m, px_per_m, ..view }, scenario, &alone, least_px_per_m).on_pixels()
+    };
+    (0..views.len()).map(moved).collect()
+}
+
+/// The view that contains the ego, and as many partners as a scale allows.
+fn containing(view: CameraView, scenario: &Scenario, moment: &CameraMoment, least_px_per_m: f64) -> CameraView {
     if moment.close_up.is_some() {
         return view;
     }
     let margin_m = LEAST_MARGIN_CARS * car_m(scenario);
     let corners = |index: usize| scenario.vehicles[index].body.corners(&moment.states[index]);
-    let half_m = view.size_px.map(|pixels| 0.5 * pixels / view.px_per_m - margin_m);
-    let mut seen = extent(corners(scenario.ego_index()));
+    let (mut seen, mut px_per_m) = (extent(corners(scenario.ego_index())), view.px_per_m);
     for partner in &moment.partners {
-        let [low, high] = extent(seen.into_iter().chain(corners(*partner)));
-        if (0..2).all(|axis| high[axis] - low[axis] <= 2.0 * half_m[axis]) {
-            seen = [low, high];
+        let both = extent(seen.into_iter().chain(corners(*partner)));
+        let fit = |axis: usize| view.size_px[axis] / (both[1][axis] - both[0][axis] + 2.0 * margin_m);
+        let needed = fit(0).min(fit(1));
+        if needed >= least_px_per_m {
+            (seen, px_per_m) = (both, px_per_m.min(needed));
         }
     }
+    let half_m = view.size_px.map(|pixels| 0.5 * pixels / px_per_m - margin_m);
     let [low, high] = seen;
     let centre = |axis: usize| {
         let [first, last] = [high[axis] - half_m[axis], low[axis] + half_m[axis]];
         if first <= last { view.centre_m[axis].clamp(first, last) } else { 0.5 * (first + last) }
     };
-    CameraView { centre_m: [centre(0), centre(1)], ..view }
+    CameraView { centre_m: [centre(0), centre(1)], px_per_m, ..view }
+}
+
+/// The lowest of the values that are at most `reach` away.
+fn lowest_near(values: &[f64], reach: f64) -> Vec<f64> {
+    let reach = reach as usize;
+    let near = |index: usize| &values[index.saturating_sub(reach)..(index + reach + 1).min(values.len())];
+    (0..values.len()).map(|index| near(index).iter().copied().fold(f64::INFINITY, f64::min)).collect()
 }
 
 /// Means of neighbouring values, weighted by a normal distribution with a standard deviation in numbers of values.
