@@ -22,7 +22,7 @@ const PLAN_PX: [f64; 4] = [14.0, 44.0, 384.0, 394.0];
 const OUTDOORS_PX: [f64; 4] = [440.0, 66.0, 704.0, 216.0];
 const INDOORS_PX: [f64; 4] = [440.0, 260.0, 704.0, 404.0];
 /// How many pictures show a day.
-const PICTURES_A_DAY: usize = 48;
+const PICTURES_A_DAY: usize = 32;
 /// In a longer run only the first and the last day are shown.
 const MAX_SHOWN_DAYS: usize = 2;
 const HOURS: f64 = 24.0;

@@ -173,7 +173,7 @@ impl<'a> DrivingPictures<'a> {
         let speed = match moment.rate {
             1.0 => String::new(),
             rate if rate < 1.0 => format!("slow motion 1/{:.0}", 1.0 / rate),
-            rate => format!("{rate:.0}× speed"),
+            rate => format!("{rate}× speed"),
         };
         let clock_left = WIDTH_PX - MARGIN_PX - 66.0;
         let longest = clock_left - 2.0 * MARGIN_PX - width_of("slow motion 1/4", LABEL_PX);

@@ -15,7 +15,7 @@ const AFTER_COLLISION_S: f64 = 2.5;
 /// How long it is shown after the last order is settled \[s\]: from then on nobody has anything to do with the ego.
 const AFTER_ORDERS_S: f64 = 2.0;
 /// The longest that a run is shown before it is sped up \[s\].
-const LONGEST_S: f64 = 12.0;
+const LONGEST_S: f64 = 8.5;
 /// How fast time passes around a contact.
 const SLOW_RATE: f64 = 0.25;
 /// Before and after a contact, for how long time is slow \[s\], at 1/10 scale.
@@ -46,10 +46,7 @@ pub struct RunTimes {
 /// The moments of a run.
 pub fn moments(report: &Report, times: &RunTimes) -> Vec<Moment> {
     let (end_s, time_ratio) = (last_s(report, times), times.time_ratio);
-    let mut usual_rate = 1.0;
-    while end_s / usual_rate > LONGEST_S {
-        usual_rate *= 2.0;
-    }
+    let usual_rate = usual_rate(end_s);
     let is_slow = |time_s: f64| {
         let [before_s, after_s] = SLOW_S.map(|part| part * time_ratio);
         report.collisions.iter().any(|hit| (hit.time_s - before_s..hit.time_s + after_s).contains(&time_s))
@@ -63,6 +60,18 @@ pub fn moments(report: &Report, times: &RunTimes) -> Vec<Moment> {
     }
     moments.push(Moment { time_s: end_s, rate: usual_rate });
     moments
+}
+
+/// The least of 1, 1.5, 2, 3, 4, 6, 8 and so on with which a time is not shown for too long.
+fn usual_rate(end_s: f64) -> f64 {
+    let mut rate = 1.0;
+    while end_s / rate > LONGEST_S {
+        if end_s / (1.5 * rate) <= LONGEST_S {
+            return 1.5 * rate;
+        }
+        rate *= 2.0;
+    }
+    rate
 }
 
 /// When a picture of a run ends: a while after everything has happened, or with the run.
@@ -126,7 +135,8 @@ mod tests {
         assert_eq!(last(moments(&unfinished, &times(7.0, Some(1.5)))), 1.5 + AFTER_ORDERS_S);
         assert_eq!(last(moments(&unfinished, &times(7.0, Some(6.5)))), 7.0, "not after the run");
         let long = moments(&unfinished, &times(40.0, None));
-        assert_eq!(long[0].rate, 4.0);
+        assert_eq!([8.0, 12.0, 16.0, 25.0, 40.0].map(usual_rate), [1.0, 1.5, 2.0, 3.0, 6.0]);
+        assert_eq!(long[0].rate, 6.0);
         assert!(long.len() as f64 * PICTURE_S < LONGEST_S);
     }
 }
