@@ -23,9 +23,9 @@ use crate::road_shapes::RoadShapes;
 
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
 const ALARM: Colour = [0xFF, 0x6B, 0x5B];
-/// A plan that leads less far from the vehicle's middle than this many of its lengths, which is half a length ahead of its front,
-/// is not drawn.
-const MIN_RIBBON_RATIO: f64 = 1.0;
+/// A plan that leads less far from the vehicle's middle than this many of its lengths, which is one length ahead of its front, is
+/// not drawn: whoever stands or creeps has a plan that is a knot.
+const MIN_RIBBON_RATIO: f64 = 1.5;
 /// Height of a line of words below the view \[px\].
 const LINE_PX: f64 = 22.0;
 /// Size of small words \[px\].
@@ -314,5 +314,33 @@ impl DrivingPictures<'_> {
             .filter(|(place, _)| inside(place))
             .map(|([x, y], colour)| ([x, y + TITLE_PX], colour))
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::*;
+
+    /// What a film does not draw is not explained: a game has no proposals, and a negotiator's film has dots.
+    #[test]
+    fn the_legend_has_what_is_drawn() {
+        let key = |name: &str| {
+            let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+            DrivingPictures::of(&recorded).expect("vehicles").key
+        };
+        assert_eq!(key("roundabout/nice"), "band: plan");
+        assert_eq!(key("intersection/nice"), "band: plan   dots: what it asks for");
+        assert_eq!(key("ramp-merge/contingency"), "band: plan   lines: what it may do instead");
+    }
+
+    #[test]
+    fn whoever_stands_has_no_ribbon() {
+        let body = Body::default();
+        let length_m = body.front_m + body.rear_m;
+        let knot: Vec<[f64; 2]> = [0.0, 0.4, 0.8].map(|share| [share * length_m, 0.2 * share * length_m]).to_vec();
+        assert!(!is_ribbon(&knot, &body) && !is_ribbon(&[], &body));
+        assert!(is_ribbon(&[[0.0, 0.0], [2.0 * length_m, 0.0]], &body));
     }
 }
