@@ -40,6 +40,7 @@ mod merge;
 mod name;
 mod overrides;
 mod placement;
+mod plan_deadlines;
 mod plan_file;
 mod plant;
 mod readable;

@@ -1,10 +1,7 @@
 //! How long a plan may take, and what happens to one that takes longer.
 
-use interplay_planners::PlanDeadline;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use crate::scenario::{Scenario, Vehicle};
 
 /// How long a plan of an automated vehicle may take. Drivers who stand for people (`human`, `idm`, `scripted`) are not held to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,19 +26,4 @@ pub enum Deadline {
     /// It counts as failed, and the vehicle falls back. What decides is the optimiser's work, of which a millisecond stands for 50
     /// units (steps posed and iterations inside them), and not the clock: the same file gives the same result on any machine.
     Enforced,
-}
-
-impl Scenario {
-    /// How long a plan of a vehicle may take, if the file says so \[ms\]. Drivers who go first have no limit: people do not plan
-    /// by a computer's clock.
-    pub fn plan_budget_ms(&self, vehicle: &Vehicle) -> Option<f64> {
-        let real_time = self.real_time.filter(|_| !vehicle.driver.goes_first())?;
-        Some(real_time.plan_budget_ms.unwrap_or(1e3 * self.step_s))
-    }
-
-    /// The deadline of a vehicle's plans, if it is enforced.
-    pub fn plan_deadline(&self, vehicle: &Vehicle) -> Option<PlanDeadline> {
-        let is_enforced = self.real_time.is_some_and(|time| time.deadline == Deadline::Enforced);
-        self.plan_budget_ms(vehicle).filter(|_| is_enforced).map(PlanDeadline::after_ms)
-    }
 }

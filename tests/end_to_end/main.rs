@@ -1,7 +1,7 @@
 //! End-to-end tests, through the binary and through the library. Each module is one idea.
 //!
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
-//!   [`figures`], [`animations`], [`authoring`], [`documents`], [`book`]
+//!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`]
 //! - many runs from one plan: [`sweeps`]
 //! - what happens to nobody's files, terminal and server: [`unharmed`], [`faults`]
 //! - what must hold in every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`]
@@ -33,6 +33,7 @@ mod figures;
 mod film;
 mod fmu;
 mod foreign_plants;
+mod gallery;
 mod identified_houses;
 mod laws;
 mod learning;

@@ -1,13 +1,15 @@
-//! What a vehicle answers to a proposal, in words.
+//! What vehicles ask for and what they answer, in words.
 
-use interplay_planners::{Plan, PlanEvent, PlanEventKind};
+use interplay_planners::{Plan, PlanEvent, PlanEventKind, Proposal};
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::{Frame, VehicleFrame};
 
 /// From this share of acceptance on a vehicle accepts, below the other it declines.
 const ACCEPTS: f64 = 0.7;
 const DECLINES: f64 = 0.3;
 
 /// What a vehicle does that follows a proposal by a share from 0 to 1.
-pub fn answer(share: f64) -> &'static str {
+fn answer(share: f64) -> &'static str {
     match share {
         share if share >= ACCEPTS => "accepts",
         share if share < DECLINES => "declines",
@@ -15,8 +17,92 @@ pub fn answer(share: f64) -> &'static str {
     }
 }
 
+/// A motion that nowhere leaves the expected one by more than this share of the asked vehicle's width asks for nothing: its
+/// dots lie on the band of the plan, so nobody can see a difference either.
+const NOTHING_NEW_WIDTHS: f64 = 0.5;
+
+/// Of every vehicle whom it asks without a pause, and whether it has asked for anything but what was expected anyway.
+///
+/// A driver who follows a proposal is expected to do what it is asked for, so the past counts, too.
+#[derive(Clone, Debug, Default)]
+pub struct Requests(Vec<Option<(String, bool)>>);
+
+impl Requests {
+    /// Takes note of a tick, which must be the next one.
+    pub fn tick(&mut self, scenario: &Scenario, frame: &Frame) {
+        let before = std::mem::take(&mut self.0);
+        let now = |(index, vehicle): (usize, &VehicleFrame)| {
+            let proposal = vehicle.plan.proposal.as_ref()?;
+            let known = before.get(index).cloned().flatten().filter(|(to, _)| *to == proposal.to);
+            let asked = known.is_some_and(|(_, asked)| asked) || asks_for_more(scenario, frame, proposal);
+            Some((proposal.to.clone(), asked))
+        };
+        self.0 = frame.vehicles.iter().enumerate().map(now).collect();
+    }
+
+    /// What a vehicle asks for at the last tick and what the other answers, without the subject; none if it asks for nothing.
+    pub fn sentence(&self, frame: &Frame, vehicle: usize) -> Option<String> {
+        let plan = &frame.vehicles[vehicle].plan;
+        let Proposal { to, acceptance, .. } = plan.proposal.as_ref()?;
+        let Some(share) = acceptance else {
+            return Some(format!("expects {to} to take the dotted way"));
+        };
+        if self.0.get(vehicle).is_some_and(|asks| asks.as_ref().is_some_and(|(_, asked)| !asked)) {
+            return Some(format!("asks nothing new of {to}"));
+        }
+        let asks = format!("asks {to} to take the dotted way");
+        if is_new(plan, to) {
+            return Some(asks);
+        }
+        Some(format!("{asks} – {to} {} ({:.0} %)", answer(*share), 100.0 * share))
+    }
+}
+
+/// Whether a proposal anywhere differs visibly from what is expected of the asked vehicle.
+fn asks_for_more(scenario: &Scenario, frame: &Frame, proposal: &Proposal) -> bool {
+    let Some(index) = scenario.index_of(&proposal.to) else { return true };
+    let expected = &frame.vehicles[index].prediction.states;
+    let most_m = NOTHING_NEW_WIDTHS * scenario.vehicles[index].body.width_m;
+    let pairs = proposal.trajectory.states.iter().zip(expected);
+    pairs.into_iter().any(|(a, b)| libm::hypot(a.x_m - b.x_m, a.y_m - b.y_m) > most_m)
+}
+
 /// Whether a plan is the first that asks a vehicle: nobody has answered it.
-pub fn is_new(plan: &Plan, to: &str) -> bool {
+fn is_new(plan: &Plan, to: &str) -> bool {
     let names = |event: &PlanEvent| matches!(&event.kind, PlanEventKind::Partner(Some(partner)) if partner == to);
     plan.events.iter().any(names)
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::*;
+    use crate::figures::RecordedRun;
+
+    fn sentences(name: &str) -> Vec<String> {
+        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let (scenario, mut requests) = (&recorded.scenario, Requests::default());
+        let said = recorded.frames.iter().filter_map(|frame| {
+            requests.tick(scenario, frame);
+            requests.sentence(frame, scenario.ego_index())
+        });
+        said.collect()
+    }
+
+    /// Who is made to wait is asked for something, and its answer counts as long as it is asked.
+    #[test]
+    fn who_yields_was_asked_for_something() {
+        let said = sentences("intersection/nice");
+        assert!(said.iter().all(|words| words.starts_with("asks crossing to take the dotted way")), "{said:?}");
+        assert!(said.last().is_some_and(|words| words.contains("accepts")), "{said:?}");
+    }
+
+    /// The tough driver ahead of the ramp is asked for what it does anyway: it accepts nothing.
+    #[test]
+    fn who_is_asked_for_what_it_does_accepts_nothing() {
+        let said = sentences("on-ramp/five");
+        assert!(said.iter().any(|words| words == "asks nothing new of front"), "{said:?}");
+        assert!(!said.iter().any(|words| words.contains("front accepts")), "{said:?}");
+    }
 }

@@ -1,26 +1,17 @@
 //! Where the camera is: it follows the ego and whoever is near enough to be seen with it, without jerks.
 
-use interplay_planners::State;
 use interplay_scenarios::{Branch, Scenario};
-use interplay_simulation::frame::VehicleFrame;
 
-use crate::body_style::scale;
 use crate::extent::extent;
+pub use crate::shown_extent::{CameraMoment, car_m, partners};
+use crate::shown_extent::{Extent, LEAST_MARGIN_CARS, Largest, keeping_partners, shown_extent};
 
-/// Length of a car of 1/10 scale \[m\].
-const CAR_M: f64 = 0.4;
-/// Space between the vehicles and the edge of the view, in lengths of a car.
-const MARGIN_CARS: f64 = 1.3;
-/// The same where two are shown close.
-const CLOSE_MARGIN_CARS: f64 = 0.4;
-/// How far ahead of each vehicle the view reaches, in its motion at 1/10 scale \[s\].
-const LOOK_AHEAD_S: f64 = 0.35;
-/// A vehicle that is further away than this many widths of the largest view does not draw the camera.
-const NEAR_WIDTHS: f64 = 2.5;
-/// Around an ego that is alone, this share of the largest view is shown.
-const ALONE_RATIO: f64 = 0.7;
 /// How long the camera takes to follow a change of place, and of scale \[s\]: standard deviations.
-const SMOOTHING_S: [f64; 2] = [0.7, 1.1];
+const SMOOTHING_S: [f64; 2] = [0.7, 0.8];
+/// The same of what still brings the partners into view.
+const CORRECTION_S: f64 = 0.3;
+/// How long before and after somebody is spoken of it is kept in view \[s\]: what is smoothed has come there by then.
+const KEPT_S: f64 = 2.0 * SMOOTHING_S[1];
 /// A camera whose scale changes by less than this share stands still in scale.
 const STILL_SCALE_RATIO: f64 = 1.3;
 
@@ -35,19 +26,10 @@ pub struct ViewFormat {
     pub straight_height_px: [f64; 2],
     /// Least and greatest length of a car \[px\].
     pub car_px: [f64; 2],
+    /// Least length of a car while somebody further away is spoken of \[px\]: to see both matters more than to see large cars.
+    pub least_car_px: f64,
     /// Time from one view to the next \[s\], at 1/10 scale.
     pub step_s: f64,
-}
-
-/// What the camera must know of a moment.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CameraMoment {
-    /// Every vehicle, in the scenario's order.
-    pub states: Vec<State>,
-    /// Whom the ego asks for something.
-    pub partner: Option<usize>,
-    /// Two vehicles that the camera shows alone, as large as it can.
-    pub close_up: Option<[usize; 2]>,
 }
 
 /// A part of the world that is seen.
@@ -80,14 +62,6 @@ impl CameraView {
     }
 }
 
-/// Least and greatest coordinates \[m\].
-type Extent = [[f64; 2]; 2];
-
-/// Length of a car of the scenario's scale \[m\].
-pub fn car_m(scenario: &Scenario) -> f64 {
-    CAR_M * scenario.ego().map_or(1.0, |ego| scale(&ego.body))
-}
-
 /// The view at every moment; all have one height.
 pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat) -> Vec<CameraView> {
     let car_m = car_m(scenario);
@@ -95,14 +69,16 @@ pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat)
     if let Some(road_m) = straight_road_m(scenario) {
         return straight_views(scenario, moments, format, road_m);
     }
+    let moments = &keeping_partners(moments, KEPT_S / format.step_s);
     let height_px = format.height_px[1];
-    let largest_m = [format.width_px / least, height_px / least];
-    let shown: Vec<Extent> = moments.iter().map(|moment| around(scenario, moment, largest_m)).collect();
-    let fit = |[low, high]: &Extent| {
+    let largest = largest(format, car_m, height_px);
+    let shown: Vec<Extent> = moments.iter().map(|moment| shown_extent(scenario, moment, &largest)).collect();
+    let fit = |([low, high], moment): (&Extent, &CameraMoment)| {
         let needed = |axis: usize, pixels: f64| pixels / (high[axis] - low[axis]).max(1e-6);
+        let least = if moment.partners.is_empty() { least } else { format.least_car_px / car_m };
         needed(0, format.width_px).min(needed(1, height_px)).clamp(least, greatest)
     };
-    let scales: Vec<f64> = shown.iter().map(fit).collect();
+    let scales: Vec<f64> = shown.iter().zip(moments).map(fit).collect();
     let closest = scales.iter().copied().fold(greatest, f64::min);
     let comes_close = moments.iter().any(|moment| moment.close_up.is_some());
     let size_px = [format.width_px, height_px];
@@ -110,11 +86,16 @@ pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat)
     if let Some(still) = still.filter(|_| !comes_close) {
         return vec![still; moments.len()];
     }
-    let widest = scales.iter().copied().fold(least, f64::max);
+    let widest = scales.iter().copied().fold(closest, f64::max);
     let scales = if widest < STILL_SCALE_RATIO * closest && !comes_close {
         vec![closest; scales.len()]
     } else {
         let logarithms: Vec<f64> = scales.iter().map(|scale| libm::log(*scale)).collect();
+        let lowest = lowest_near(&logarithms, SMOOTHING_S[1] / format.step_s);
+        let is_close_up = |index: usize| moments[index].close_up.is_some();
+        let logarithms: Vec<f64> = (0..moments.len())
+            .map(|index| if is_close_up(index) { logarithms[index] } else { lowest[index] })
+            .collect();
         smooth(&logarithms, SMOOTHING_S[1] / format.step_s).into_iter().map(libm::exp).collect()
     };
     let middles = [0, 1].map(|axis| smooth(&middles(&shown, axis), SMOOTHING_S[0] / format.step_s));
@@ -126,7 +107,8 @@ pub fn views(scenario: &Scenario, moments: &[CameraMoment], format: &ViewFormat)
         px_per_m: scales[index],
         size_px: [format.width_px, height_px],
     };
-    (0..moments.len()).map(|index| view(index).on_pixels()).collect()
+    let views: Vec<CameraView> = (0..moments.len()).map(view).collect();
+    with_partners(&views, scenario, moments, (format.least_car_px / car_m, CORRECTION_S / format.step_s))
 }
 
 /// The views of a straight road along x between two lateral coordinates \[m\], in one scale.
@@ -139,17 +121,24 @@ fn straight_views(
     let car_m = car_m(scenario);
     let [least, greatest] = format.car_px.map(|length| length / car_m);
     let [lowest_px, highest_px] = format.straight_height_px;
-    let largest_m = [format.width_px / least, highest_px / least];
-    let shown: Vec<Extent> = moments.iter().map(|moment| around(scenario, moment, largest_m)).collect();
-    let fit = |[low, high]: &Extent| (format.width_px / (high[0] - low[0]).max(1e-6)).clamp(least, greatest);
-    let closest = shown.iter().map(fit).fold(greatest, f64::min);
+    let moments = &keeping_partners(moments, KEPT_S / format.step_s);
+    let largest = largest(format, car_m, highest_px);
+    let shown: Vec<Extent> = moments.iter().map(|moment| shown_extent(scenario, moment, &largest)).collect();
+    let fit = |([low, high], moment): (&Extent, &CameraMoment)| {
+        let least = if moment.partners.is_empty() { least } else { format.least_car_px / car_m };
+        (format.width_px / (high[0] - low[0]).max(1e-6)).clamp(least, greatest)
+    };
+    let closest = shown.iter().zip(moments).map(fit).fold(greatest, f64::min);
     let px_per_m = closest.min(highest_px / (left_m - right_m + 0.8 * car_m));
     let wanted = px_per_m * (left_m - right_m + 2.4 * car_m);
     let height_px = (2.0 * (0.5 * wanted.clamp(lowest_px, highest_px)).round()).round();
     let size_px = [format.width_px, height_px];
     let middle = smooth(&middles(&shown, 0), SMOOTHING_S[0] / format.step_s);
-    let view = |x: &f64| CameraView { centre_m: [*x, 0.5 * (right_m + left_m)], px_per_m, size_px }.on_pixels();
-    middle.iter().map(view).collect()
+    let view = |x: &f64| CameraView { centre_m: [*x, 0.5 * (right_m + left_m)], px_per_m, size_px };
+    let views: Vec<CameraView> = middle.iter().map(view).collect();
+    let kept = with_partners(&views, scenario, moments, (px_per_m, CORRECTION_S / format.step_s));
+    let along = |view: CameraView| CameraView { centre_m: [view.centre_m[0], 0.5 * (right_m + left_m)], ..view };
+    kept.into_iter().map(|view| along(view).on_pixels()).collect()
 }
 
 /// The middles of what is shown, along one axis.
@@ -173,77 +162,70 @@ fn straight_road_m(scenario: &Scenario) -> Option<[f64; 2]> {
     (is_alone && is_straight).then_some([corridor.right_m, corridor.left_m])
 }
 
-/// Whom a vehicle asks for something.
-pub fn partner(scenario: &Scenario, vehicle: &VehicleFrame) -> Option<usize> {
-    let proposal = vehicle.plan.proposal.as_ref()?;
-    scenario.index_of(&proposal.to)
+/// The largest extents in a view of a height \[px\], with cars of a length \[m\].
+fn largest(format: &ViewFormat, car_m: f64, height_px: f64) -> Largest {
+    let at = |car_px: f64| [format.width_px, height_px].map(|pixels| pixels * car_m / car_px);
+    Largest { usual_m: at(format.car_px[0]), spoken_of_m: at(format.least_car_px) }
 }
 
-/// Least and greatest coordinates of the ego and of those near it, with a margin, within the largest extent \[m\].
-fn around(scenario: &Scenario, moment: &CameraMoment, largest_m: [f64; 2]) -> Extent {
-    let CameraMoment { states, partner, close_up } = moment;
-    let ego = scenario.ego_index();
-    let margin_m = if close_up.is_some() { CLOSE_MARGIN_CARS } else { MARGIN_CARS } * car_m(scenario);
-    let of = |index: usize| {
-        let vehicle = &scenario.vehicles[index];
-        let ahead_m = LOOK_AHEAD_S * vehicle.body.time_ratio() * states[index].speed_mps;
-        let (sin, cos) = libm::sincos(states[index].heading_rad);
-        let [x, y] = states[index].position();
-        let soon = [x + ahead_m * cos, y + ahead_m * sin];
-        vehicle.body.corners(&states[index]).into_iter().chain([soon])
+/// The views moved, and where it helps widened to a least scale, so that the ego is seen, and with it as many partners as there is
+/// space for; the changes are smoothed with a deviation in numbers of views.
+fn with_partners(
+    views: &[CameraView],
+    scenario: &Scenario,
+    moments: &[CameraMoment],
+    (least_px_per_m, deviation): (f64, f64),
+) -> Vec<CameraView> {
+    let wanted: Vec<CameraView> =
+        views.iter().zip(moments).map(|(view, moment)| containing(*view, scenario, moment, least_px_per_m)).collect();
+    let pairs = || views.iter().zip(&wanted);
+    let change = |axis: usize| {
+        let changes: Vec<f64> = pairs().map(|(view, wanted)| wanted.centre_m[axis] - view.centre_m[axis]).collect();
+        smooth(&changes, deviation)
     };
-    let around = |indices: &[usize]| {
-        let [low, high] = extent(indices.iter().flat_map(|index| of(*index)));
-        [low.map(|part| part - margin_m), high.map(|part| part + margin_m)]
+    let (right_m, up_m) = (change(0), change(1));
+    let scales: Vec<f64> = pairs().map(|(view, wanted)| libm::log(wanted.px_per_m / view.px_per_m)).collect();
+    let scales = smooth(&lowest_near(&scales, deviation), deviation);
+    let moved = |index: usize| {
+        let (view, moment) = (views[index], &moments[index]);
+        let centre_m = [view.centre_m[0] + right_m[index], view.centre_m[1] + up_m[index]];
+        let px_per_m = (view.px_per_m * libm::exp(scales[index])).max(least_px_per_m.min(view.px_per_m));
+        let alone = CameraMoment { partners: Vec::new(), ..moment.clone() };
+        containing(CameraView { centre_m, px_per_m, ..view }, scenario, &alone, least_px_per_m).on_pixels()
     };
-    if let Some(pair) = close_up {
-        return around(pair);
-    }
-    let away = |index: &usize| {
-        let [dx, dy] = [states[*index].x_m - states[ego].x_m, states[*index].y_m - states[ego].y_m];
-        libm::hypot(dx, dy)
-    };
-    let mut others: Vec<usize> = (0..states.len()).filter(|index| *index != ego).collect();
-    others.sort_by(|a, b| (Some(*a) != *partner).cmp(&(Some(*b) != *partner)).then(away(a).total_cmp(&away(b))));
-    let (mut kept, next) = (vec![ego], others.first().copied());
-    for other in others {
-        kept.push(other);
-        let [low, high] = around(&kept);
-        if (0..2).any(|axis| high[axis] - low[axis] > largest_m[axis]) {
-            kept.pop();
-        }
-    }
-    let [mut low, mut high] = around(&kept);
-    // Nobody fits: as much as there is space for of the way to the one who comes next.
-    let is_near = |next: &usize| away(next) < NEAR_WIDTHS * largest_m[0] && are_closing([&states[ego], &states[*next]]);
-    if let Some(next) = next.filter(|next| kept.len() == 1 && is_near(next)) {
-        let other = states[next].position();
-        for axis in 0..2 {
-            if other[axis] < low[axis] {
-                low[axis] = other[axis].max(high[axis] - largest_m[axis]);
-            } else {
-                high[axis] = high[axis].max(other[axis].min(low[axis] + largest_m[axis]));
-            }
-        }
-    }
-    if kept.len() == 1 {
-        for axis in 0..2 {
-            let missing = (ALONE_RATIO * largest_m[axis] - (high[axis] - low[axis])).max(0.0);
-            (low[axis], high[axis]) = (low[axis] - 0.5 * missing, high[axis] + 0.5 * missing);
-        }
-    }
-    [low, high]
+    (0..views.len()).map(moved).collect()
 }
 
-/// Whether two vehicles come closer to each other.
-fn are_closing([one, other]: [&State; 2]) -> bool {
-    let velocity = |state: &State| {
-        let (sin, cos) = libm::sincos(state.heading_rad);
-        [state.speed_mps * cos, state.speed_mps * sin]
+/// The view that contains the ego, and as many partners as a scale allows.
+fn containing(view: CameraView, scenario: &Scenario, moment: &CameraMoment, least_px_per_m: f64) -> CameraView {
+    if moment.close_up.is_some() {
+        return view;
+    }
+    let margin_m = LEAST_MARGIN_CARS * car_m(scenario);
+    let corners = |index: usize| scenario.vehicles[index].body.corners(&moment.states[index]);
+    let (mut seen, mut px_per_m) = (extent(corners(scenario.ego_index())), view.px_per_m);
+    for partner in &moment.partners {
+        let both = extent(seen.into_iter().chain(corners(*partner)));
+        let fit = |axis: usize| view.size_px[axis] / (both[1][axis] - both[0][axis] + 2.0 * margin_m);
+        let needed = fit(0).min(fit(1));
+        if needed >= least_px_per_m {
+            (seen, px_per_m) = (both, px_per_m.min(needed));
+        }
+    }
+    let half_m = view.size_px.map(|pixels| 0.5 * pixels / px_per_m - margin_m);
+    let [low, high] = seen;
+    let centre = |axis: usize| {
+        let [first, last] = [high[axis] - half_m[axis], low[axis] + half_m[axis]];
+        if first <= last { view.centre_m[axis].clamp(first, last) } else { 0.5 * (first + last) }
     };
-    let (one_mps, other_mps) = (velocity(one), velocity(other));
-    let [x, y] = [other.x_m - one.x_m, other.y_m - one.y_m];
-    x * (other_mps[0] - one_mps[0]) + y * (other_mps[1] - one_mps[1]) < 0.0
+    CameraView { centre_m: [centre(0), centre(1)], px_per_m, ..view }
+}
+
+/// The lowest of the values that are at most `reach` away.
+fn lowest_near(values: &[f64], reach: f64) -> Vec<f64> {
+    let reach = reach as usize;
+    let near = |index: usize| &values[index.saturating_sub(reach)..(index + reach + 1).min(values.len())];
+    (0..values.len()).map(|index| near(index).iter().copied().fold(f64::INFINITY, f64::min)).collect()
 }
 
 /// Means of neighbouring values, weighted by a normal distribution with a standard deviation in numbers of values.

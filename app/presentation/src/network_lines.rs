@@ -16,6 +16,9 @@ const MAX_POINTS: f64 = 2000.0;
 const SHARED_RATIO: f64 = 0.15;
 /// A line is inside of a lane if it is further from its edges than this share of the width.
 const INSIDE_RATIO: f64 = 0.01;
+/// Where the edges of several lanes of a junction cross, pieces of them may be outside of all; shorter ones than this, by the
+/// width of the lane, are left out.
+const MIN_PIECE_RATIO: f64 = 0.5;
 /// Length of the dashes across a lane that yields at its end, and of the spaces between them, by its width.
 const YIELD_DASH_RATIO: f64 = 0.125;
 
@@ -72,7 +75,11 @@ impl<'a> NetworkLines<'a> {
 
     /// The lines that nobody may cross: where the network ends sideways, and between lanes into which nobody may change \[m\].
     pub fn edges(&self) -> Vec<WorldLine> {
-        let solid = self.parts().into_iter().filter(|part| part.style == EdgeStyle::Solid);
+        let is_long = |part: &EdgePart| {
+            let least_m = MIN_PIECE_RATIO * self.lanes[part.lane].width.value(part.range_m[0]);
+            part.range_m[1] - part.range_m[0] > least_m
+        };
+        let solid = self.parts().into_iter().filter(|part| part.style == EdgeStyle::Solid).filter(is_long);
         solid.map(|part| line(&self.lanes[part.lane], part.side, part.range_m)).collect()
     }
 

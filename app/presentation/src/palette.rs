@@ -58,8 +58,8 @@ pub const HEADLIGHT: Colour = [0xFF, 0xF6, 0xD6];
 pub const TAIL_LIGHT: Colour = [0x7A, 0x1A, 0x1C];
 /// A lit brake light.
 pub const BRAKE_LIGHT: Colour = [0xFF, 0x2A, 0x2A];
-/// A lit indicator.
-pub const INDICATOR: Colour = [0xFF, 0xC4, 0x1F];
+/// A lit indicator: further from the orange of the ego than real ones.
+pub const INDICATOR: Colour = [0xFF, 0xE8, 0x3A];
 /// The middle of the star that marks a contact.
 pub const FLASH: Colour = [0xFF, 0xE3, 0x6B];
 
@@ -181,6 +181,24 @@ mod tests {
                     assert!(found >= MIN_COLOUR_DISTANCE, "{vision}: {word} and {other_word}: {found:.1}");
                 }
             }
+        }
+    }
+
+    /// A lit indicator is seen on every vehicle; its dark rim separates it from headlights.
+    #[test]
+    fn indicators_are_seen_on_every_vehicle() {
+        for (vision, matrix) in &VISIONS {
+            let apart = |one: Colour, other: Colour| ciede2000(lab(one, matrix), lab(other, matrix));
+            for vehicle in [ORANGE, BLUE, GREEN, PURPLE, SKY, OLIVE] {
+                let found = [apart(INDICATOR, vehicle.rgb), apart(TYRE, vehicle.rgb)];
+                assert!(
+                    found.iter().all(|found| *found >= MIN_COLOUR_DISTANCE),
+                    "{vision}: {}: {found:?}",
+                    vehicle.word
+                );
+            }
+            let rim = [INDICATOR, HEADLIGHT].map(|light| apart(TYRE, light));
+            assert!(rim.iter().all(|found| *found >= MIN_COLOUR_DISTANCE), "{vision}: {rim:?}");
         }
     }
 

@@ -17,6 +17,8 @@ const TAPER_POINTS: usize = 48;
 const WAY_OUT_LANES: f64 = 80.0;
 /// Points of a line that are nearer than this to the line without them are left out, in lane widths.
 const FLATNESS_LANES: f64 = 0.002;
+/// Distance of a stop line from the front of the vehicle that stands there, in lane widths.
+const STOP_LINE_AHEAD_LANES: f64 = 0.12;
 /// Distance of an arrow from the end of its lane, in lane widths.
 const ARROW_LANES: f64 = 2.2;
 /// A lane shorter than this has no arrow, in lane widths.
@@ -71,6 +73,7 @@ impl RoadShapes {
                     shapes.add_strip(road, branch, &corridor, bounds_m);
                 }
             }
+            shapes.add_stop_lines(scenario);
         }
         let flatness_m = FLATNESS_LANES * shapes.lane_m;
         for line in shapes.surfaces.iter_mut().chain(&mut shapes.edges).chain(&mut shapes.dashes) {
@@ -161,6 +164,21 @@ impl RoadShapes {
             let ways = Ways { left: true, ..Ways::default() };
             let places = [1.0, 5.0].map(|lanes| taper_m(end)[0] - lanes * lane_m);
             self.arrows.extend(places.map(|along_m| (world([along_m, centre_m]), corridor.heading_rad, ways)));
+        }
+    }
+
+    /// A line ahead of every vehicle that stands before the crossing of two roads at first: there it stops.
+    fn add_stop_lines(&mut self, scenario: &Scenario) {
+        for vehicle in scenario.vehicles.iter().filter(|vehicle| vehicle.start.speed_mps == 0.0) {
+            let zone = scenario.road.conflict_zone_m(vehicle.road).zip(scenario.road.corridor(vehicle.road));
+            let Some(([enters_m, _], corridor)) = zone else { continue };
+            let axes = Axes::along(corridor.heading_rad);
+            let front_m = axes.components(vehicle.start.position())[0] + vehicle.body.front_m;
+            let line_m = front_m + STOP_LINE_AHEAD_LANES * self.lane_m;
+            if line_m < enters_m {
+                let end = |across_m: f64| axes.vector([line_m, across_m]);
+                self.stop_lines.push(vec![end(corridor.right_m), end(corridor.left_m)]);
+            }
         }
     }
 
@@ -301,6 +319,9 @@ mod tests {
         let crossing = shapes("left-turn/nice");
         assert!(crossing.arrows.iter().any(|(.., ways)| ways.left && ways.straight), "a choice of ways");
         assert!(!shapes("all-way-stop/four").stop_lines.is_empty());
+        let stop = shapes("intersection/stop-sign").stop_lines;
+        assert_eq!(stop.len(), 1, "the ego alone stands before the crossing");
+        assert!(stop[0].iter().all(|[x, _]| (-0.9..-0.2).contains(x)), "{stop:?}");
         let ramp = shapes("ramp-merge/nice");
         assert!(ramp.arrows.iter().all(|(.., ways)| ways.left && !ways.straight && !ways.right));
         assert_eq!(ramp.arrows.len(), 2);

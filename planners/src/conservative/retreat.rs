@@ -30,6 +30,7 @@ pub(crate) fn retreat(
 ) -> Result<Solved, DescentError> {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let solved = solo::solve_or_improve(optimiser, problem(scene, &others), last)?;
-    let event = PlanEvent { kind: PlanEventKind::Retreat, text: format!("conservative plan: {because}") };
+    let event =
+        PlanEvent { kind: PlanEventKind::Retreat(because.to_string()), text: "drives a conservative plan".to_owned() };
     Ok(Solved { event: Some(event), ..solved })
 }

@@ -35,7 +35,7 @@ use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
-use crate::{Agent, Input, Plan, PlanError, PlanEvent, Proposal, Scene};
+use crate::{Agent, Input, Plan, PlanError, PlanEvent, PlanEventKind, Proposal, Scene};
 use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_STRENGTH, SAFETY_FILTER};
 use filter::Filter;
 use partner_selection::PartnerSelection;
@@ -86,7 +86,8 @@ impl Negotiation {
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
             Err(error) => {
-                events.push(PlanEvent::note(format!("no proposal: {error}")));
+                let text = "finds no proposal".to_owned();
+                events.push(PlanEvent { kind: PlanEventKind::NoProposal(error.to_string()), text });
                 return Ok(Plan { events, ..conservative::answer(retreat?) });
             }
         };

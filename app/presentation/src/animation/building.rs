@@ -10,6 +10,7 @@ use super::rooms::Rooms;
 use super::title::{BAR, TITLE_PX, WORDS, draw_title};
 use crate::figures::RecordedRun;
 use crate::palette::{BLUE, COLOUR_RANGE_K, Colour, ORANGE, temperature_colour};
+use crate::wanted_temperature::{deviation_colour, one_decimal, usual_wanted_c, zone_colour};
 
 const PAPER: Colour = [0xF7, 0xF7, 0xF4];
 const DARK_WORDS: Colour = [0x2A, 0x2C, 0x30];
@@ -21,7 +22,7 @@ const PLAN_PX: [f64; 4] = [14.0, 44.0, 384.0, 394.0];
 const OUTDOORS_PX: [f64; 4] = [440.0, 66.0, 704.0, 216.0];
 const INDOORS_PX: [f64; 4] = [440.0, 260.0, 704.0, 404.0];
 /// How many pictures show a day.
-const PICTURES_A_DAY: usize = 48;
+const PICTURES_A_DAY: usize = 32;
 /// In a longer run only the first and the last day are shown.
 const MAX_SHOWN_DAYS: usize = 2;
 const HOURS: f64 = 24.0;
@@ -33,8 +34,8 @@ pub struct BuildingPictures<'a> {
     /// The steps of every day that is shown, in order, with the number of the day from 1.
     days: Vec<(usize, Vec<&'a BuildingFrame>)>,
     day_count: usize,
-    /// The temperature that is neither cold nor warm \[°C\].
-    middle_c: f64,
+    /// The temperature of each zone that is neither cold nor warm while none is wanted \[°C\].
+    usual_c: Vec<f64>,
     /// Least and greatest temperature outdoors and in the rooms \[°C\].
     outdoors_c: [f64; 2],
     indoors_c: [f64; 2],
@@ -53,14 +54,13 @@ impl<'a> BuildingPictures<'a> {
             if day_count <= MAX_SHOWN_DAYS { (0..day_count).collect() } else { vec![0, day_count - 1] };
         let of_day = |day: usize| (day + 1, steps.iter().copied().filter(|step| step.day == day).collect());
         let days: Vec<(usize, Vec<&BuildingFrame>)> = shown.into_iter().map(of_day).collect();
-        let wanted = scenario.setpoints.clone().unwrap_or_default().occupied_c;
         let seen = || days.iter().flat_map(|(_, steps)| steps);
         let zones = || seen().flat_map(|step| &step.zones);
         let wanted_c = zones().filter_map(|zone| zone.reference_c);
         Some(BuildingPictures {
             title: &scenario.title,
+            usual_c: usual_wanted_c(scenario, &names),
             rooms: Rooms::new(building.floor_plan(), names, PLAN_PX),
-            middle_c: wanted.iter().sum::<f64>() / wanted.len().max(1) as f64,
             outdoors_c: range(seen().flat_map(|step| [step.ambient_c, step.forecast_c])),
             indoors_c: range(zones().map(|zone| zone.temperature_c).chain(wanted_c)),
             days,
@@ -74,13 +74,14 @@ impl<'a> BuildingPictures<'a> {
         (day, HOURS * (index - day * PICTURES_A_DAY) as f64 / PICTURES_A_DAY as f64)
     }
 
-    fn colour(&self, temperature_c: f64) -> Colour {
-        temperature_colour((temperature_c - self.middle_c) / COLOUR_RANGE_K)
+    /// The mean of what the zones usually have to have \[°C\].
+    fn middle_c(&self) -> f64 {
+        self.usual_c.iter().sum::<f64>() / self.usual_c.len().max(1) as f64
     }
 
     fn draw_plan(&self, canvas: &mut Canvas, step: &BuildingFrame, share: f64) {
         let [left, top, right, bottom] = PLAN_PX;
-        let outdoors = self.colour(step.ambient_c);
+        let outdoors = deviation_colour(step.ambient_c - self.middle_c());
         let ring = [[left, top], [right, top], [right, bottom], [left, bottom]];
         canvas.fill_rounded(&ring, 10.0, Ink::veiled(outdoors, 0.45));
         let inside = |zone: usize| {
@@ -89,9 +90,11 @@ impl<'a> BuildingPictures<'a> {
         };
         for room in 0..step.zones.len() {
             let temperature_c = inside(room);
-            self.rooms.draw(canvas, room, self.colour(temperature_c), temperature_c, step.zones[room].heat_kw);
+            let colour = zone_colour(&step.zones[room], temperature_c, self.usual_c[room]);
+            self.rooms.draw(canvas, room, colour, temperature_c, step.zones[room].heat_kw);
         }
-        let words = format!("outdoors {:.1} °C", step.ambient_c);
+        self.rooms.draw_floor_names(canvas, DARK_WORDS);
+        let words = format!("outdoors {} °C", one_decimal(step.ambient_c));
         canvas.text([0.5 * (left + right), bottom - 11.0], Align::Middle, SMALL_PX, &words, DARK_WORDS);
         self.draw_scale(canvas);
     }
@@ -104,10 +107,11 @@ impl<'a> BuildingPictures<'a> {
             let x = left + wide * f64::from(part) / 46.0;
             canvas.block([x, top], [x + wide / 46.0, top + 14.0], temperature_colour(share));
         }
-        let word = |c: f64| format!("{c:.0} °C");
         let y = top + 7.0;
-        canvas.text([left - 8.0, y], Align::Right, SMALL_PX, &word(self.middle_c - COLOUR_RANGE_K), DARK_WORDS);
-        canvas.text([left + wide + 8.0, y], Align::Left, SMALL_PX, &word(self.middle_c + COLOUR_RANGE_K), DARK_WORDS);
+        canvas.text([left - 8.0, y], Align::Right, SMALL_PX, &format!("−{COLOUR_RANGE_K:.0} K"), DARK_WORDS);
+        canvas.text([left + wide + 8.0, y], Align::Left, SMALL_PX, &format!("+{COLOUR_RANGE_K:.0} K"), DARK_WORDS);
+        let words = "from what is wanted; while nothing is, from its mean";
+        canvas.text([left + 0.5 * wide, top + 24.0], Align::Middle, SMALL_PX, words, DARK_WORDS);
     }
 
     fn draw_outdoors(&self, canvas: &mut Canvas, steps: &[&BuildingFrame], hour: f64) {
@@ -227,7 +231,8 @@ mod tests {
             let (x, y) = ((0.5 * (left + right)) as usize, (top + 8.0) as usize);
             let found = [0, 1, 2].map(|part| pixels[3 * (WIDTH_PX as usize * y + x) + part]);
             let now_c = zone.temperature_c + at.fract() * (zone.next_c - zone.temperature_c);
-            assert_eq!(found, pictures.colour(now_c), "room {index}");
+            let expected = zone_colour(zone, now_c, pictures.usual_c[index]);
+            assert_eq!(found, expected, "room {index}");
         }
         assert_eq!(pixels.len(), 3 * 720 * 440);
     }
@@ -237,5 +242,18 @@ mod tests {
         let name = "lane-change/front-nice";
         let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
         assert!(BuildingPictures::of(&recorded).is_none());
+    }
+
+    /// In winter, too, a room has the colour of its deviation from what is wanted: not every room is as blue as can be.
+    #[test]
+    fn a_room_near_what_is_wanted_is_grey_in_winter() {
+        let name = "building/office-and-flat";
+        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let pictures = BuildingPictures::of(&recorded).expect("a building");
+        let zones = pictures.days.iter().flat_map(|(_, steps)| steps).flat_map(|step| step.zones.iter().enumerate());
+        let colours: Vec<Colour> =
+            zones.map(|(index, zone)| zone_colour(zone, zone.temperature_c, pictures.usual_c[index])).collect();
+        let coldest = colours.iter().filter(|colour| **colour == temperature_colour(-1.0)).count();
+        assert!(3 * coldest < colours.len(), "{coldest} of {}", colours.len());
     }
 }

@@ -1,15 +1,16 @@
 //! The words under a picture: who asks whom, what the other answers, and what happened last.
 
 use interplay_planners::PassingOrder;
+use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame, Level};
 
 use super::scene::DrivingRun;
-use crate::answer::{answer, is_new};
 use crate::contact::numbers;
+use crate::passing_words::{is_event_said, is_said};
 
 /// How long a collision stays in the caption, and any other event \[s\] at 1/10 scale.
 const COLLISION_SHOWN_S: f64 = 3.0;
-const EVENT_SHOWN_S: f64 = 2.5;
+const EVENT_SHOWN_S: f64 = 1.2;
 /// How long the place of a contact is marked \[s\] at 1/10 scale.
 const CONTACT_SHOWN_S: f64 = 0.35;
 
@@ -24,6 +25,14 @@ pub struct Caption {
     pub alarms: bool,
 }
 
+impl Caption {
+    /// The vehicles of whom it speaks, by their numbers.
+    pub fn names(&self, scenario: &Scenario) -> Vec<usize> {
+        let words = || [&self.first, &self.second].into_iter().flat_map(|line| line.split([' ', ',']));
+        words().filter_map(|word| scenario.index_of(word)).collect()
+    }
+}
+
 /// The caption at a time.
 pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
     let ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
@@ -33,7 +42,10 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
         run.frames.iter().copied().filter(shown).collect::<Vec<&Frame>>()
     };
     let hit = past(COLLISION_SHOWN_S).into_iter().flat_map(|frame| &frame.collisions).find(|hit| hit.time_s <= time_s);
-    let second = past(EVENT_SHOWN_S).into_iter().rev().find_map(|frame| news(run, frame)).unwrap_or_default();
+    // What happened to the ego last, and only without that what happened to anybody else.
+    let recent = past(EVENT_SHOWN_S);
+    let last = |is_of: &dyn Fn(bool) -> bool| recent.iter().rev().find_map(|frame| news(run, frame, is_of));
+    let second = last(&|is_ego| is_ego).or_else(|| last(&|is_ego| !is_ego)).unwrap_or_default();
     if let Some(hit) = hit {
         let [one, other] = &hit.between;
         return Caption { first: format!("{one} and {other} collide"), second, alarms: true };
@@ -56,40 +68,43 @@ fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
     let ego = run.scenario.ego_index();
     let mut vehicles: Vec<usize> = (0..frame.vehicles.len()).collect();
     vehicles.sort_by_key(|index| *index != ego);
-    let (vehicle, proposal) = vehicles.into_iter().find_map(|index| {
-        let vehicle = &frame.vehicles[index];
-        vehicle.plan.proposal.as_ref().map(|proposal| (vehicle, proposal))
-    })?;
-    let (name, to) = (&vehicle.name, &proposal.to);
-    let Some(share) = proposal.acceptance else {
-        return Some(format!("{name} expects {to} to take the dotted way"));
-    };
-    let asks = format!("{name} asks {to} to take the dotted way");
-    if is_new(&vehicle.plan, to) {
-        return Some(asks);
-    }
-    Some(format!("{asks} – {to} {} ({:.0} %)", answer(share), 100.0 * share))
+    let requests = run.requests(frame);
+    let asks = |vehicle: usize| requests.sentence(frame, vehicle).map(|sentence| (vehicle, sentence));
+    let (vehicle, sentence) = vehicles.into_iter().find_map(asks)?;
+    Some(format!("{} {}", frame.vehicles[vehicle].name, sentence))
 }
 
 /// How the ego passes the others by its plan.
 fn intends(run: &DrivingRun, frame: &Frame) -> Option<String> {
-    let ego = &frame.vehicles[run.scenario.ego_index()];
-    let orders: Vec<String> = ego.plan.passing_orders.iter().map(PassingOrder::sentence).collect();
+    let index = run.scenario.ego_index();
+    let ego = &frame.vehicles[index];
+    let said = ego.plan.passing_orders.iter().filter(|order| is_said(run.scenario, index, order));
+    let orders: Vec<String> = said.map(PassingOrder::sentence).collect();
     (!orders.is_empty()).then(|| format!("{} {}", ego.name, orders.join(", ")))
 }
 
-/// What happened in a tick: alarms before warnings before notes, the ego's first.
-fn news(run: &DrivingRun, frame: &Frame) -> Option<String> {
+/// What happened in a tick to the ego or to others: warnings before notes.
+fn news(run: &DrivingRun, frame: &Frame, is_of: &dyn Fn(bool) -> bool) -> Option<String> {
     let ego = run.scenario.ego().map(|ego| ego.name.as_str());
     let of_level = |level: Level| {
-        // "nobody left to ask" is no news about anybody.
-        let is_news = |event: &&Event| event.level == level && !event.text.starts_with("nobody");
-        let mut events: Vec<&Event> = frame.events.iter().filter(is_news).collect();
-        events.sort_by_key(|event| Some(event.vehicle.as_str()) != ego);
-        events.first().map(|event| format!("{} {}", event.vehicle, event.text))
+        // "nobody left to ask" is no news about anybody, and whom the ego asks is in the first line.
+        let is_news = |event: &&Event| {
+            let is_wanted = event.level == level && is_of(Some(event.vehicle.as_str()) == ego);
+            let is_known = ["nobody ", "asks "].iter().any(|begin| event.text.starts_with(begin));
+            is_wanted && !is_known && is_event_said(run.scenario, frame, event)
+        };
+        frame.events.iter().find(is_news).map(|event| format!("{} {}", event.vehicle, plain(&event.text)))
     };
     // Collisions have the first line.
     of_level(Level::Warning).or_else(|| of_level(Level::Note))
+}
+
+/// Words without what stands in brackets: there planners give reasons in the terms of their optimisers.
+fn plain(words: &str) -> String {
+    match (words.find(" ("), words.rfind(')')) {
+        (Some(from), Some(to)) if from < to => format!("{}{}", &words[..from], &words[to + 1..]),
+        _ => words.to_owned(),
+    }
 }
 
 #[cfg(test)]
@@ -124,5 +139,15 @@ mod tests {
         assert!(alarms > 5 && alarms < captions.len());
         let said = captions.iter().find(|caption| caption.alarms).expect("a collision");
         assert!(said.first.contains("ego") && said.first.contains("crossing"), "{}", said.first);
+    }
+
+    /// Captions speak plain English: no residuals, and no sides where roads turn.
+    #[test]
+    fn captions_are_for_people() {
+        let words = |name: &str| captions(name).into_iter().flat_map(|caption| [caption.first, caption.second]);
+        assert!(words("left-turn/nice").any(|words| words == "ego finds no proposal"));
+        assert!(words("left-turn/nice").all(|words| !words.contains("residual") && !words.contains("iterations")));
+        assert!(words("roundabout/nice").all(|words| !words.contains("right of") && !words.contains("left of")));
+        assert_eq!(plain("no plan (infeasible: (6.2) is); brakes"), "no plan; brakes");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::canvas::{Align, Canvas, LineEnd};
 use crate::palette::Colour;
+use crate::wanted_temperature::one_decimal;
 
 const WORDS: Colour = [0x2A, 0x2C, 0x30];
 const GRID: Colour = [0xDD, 0xDD, 0xDA];
@@ -44,7 +45,7 @@ impl Chart {
         for value in self.up {
             let [_, y] = self.pixel([0.0, value]);
             canvas.line(&[[left, y], [right, y]], 1.0, LineEnd::Flat, GRID);
-            canvas.text([left - 6.0, y], Align::Right, SIZE_PX, &format!("{value:.1}"), WORDS);
+            canvas.text([left - 6.0, y], Align::Right, SIZE_PX, &one_decimal(value), WORDS);
         }
     }
 

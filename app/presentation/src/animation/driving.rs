@@ -1,16 +1,21 @@
 //! Pictures of vehicles: the road with everybody on it, and a bar of words below.
 
+use interplay_planners::{Body, State};
+
 use super::camera::{CameraView, WIDTH_PX, car_m, views};
 use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::caption::{Caption, caption, contacts};
+use super::edge;
 use super::letters::{cut, width_of};
 use super::pictures::{Pictures, Rgb};
+use super::ribbon;
 use super::road;
 use super::scene::{DrivingRun, SeenVehicle};
 use super::timing::{Moment, PICTURE_S, moments};
 use super::title::{BAR, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, draw_title};
 use super::vehicle;
 use crate::contact::{contact_place, star};
+use crate::edge_mark::edge_marks;
 use crate::extent::extent;
 use crate::figures::RecordedRun;
 use crate::palette::{ASPHALT, BRAKE_LIGHT, Colour, FLASH, GRASS, INDICATOR, VERMILLION};
@@ -18,18 +23,15 @@ use crate::road_shapes::RoadShapes;
 
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
 const ALARM: Colour = [0xFF, 0x6B, 0x5B];
-/// Opacity of the band of a plan.
-const PLAN_OPACITY: f64 = 0.42;
+/// A plan that leads less far from the vehicle's middle than this many of its lengths, which is one length ahead of its front, is
+/// not drawn: whoever stands or creeps has a plan that is a knot.
+const MIN_RIBBON_RATIO: f64 = 1.5;
 /// Height of a line of words below the view \[px\].
 const LINE_PX: f64 = 22.0;
 /// Size of small words \[px\].
 const LABEL_PX: f64 = 14.0;
 /// Width of the line of what a vehicle may do instead \[px\].
 const BRANCH_PX: f64 = 2.5;
-
-/// What the marks on the road are, and where somebody's plans branch.
-const KEY: &str = "band: plan   dots: what it asks for";
-const KEY_WITH_BRANCHES: &str = "band: plan   lines: what it may do instead   dots: what it asks for";
 
 /// Pictures of a run with vehicles.
 pub struct DrivingPictures<'a> {
@@ -40,23 +42,21 @@ pub struct DrivingPictures<'a> {
     /// Rows of the legend: index of a vehicle, its words, and where they begin.
     legend: Vec<Vec<(usize, String, f64)>>,
     /// What the marks on the road are.
-    key: &'static str,
+    key: String,
 }
 
 impl<'a> DrivingPictures<'a> {
     /// The pictures of a run; none of a run without vehicles.
     pub fn of(recorded: &'a RecordedRun) -> Option<DrivingPictures<'a>> {
         let run = DrivingRun::of(recorded)?;
-        let time_ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
-        let moments = moments(&recorded.report, run.scenario.ego_index(), run.end_s(), time_ratio);
+        let moments = moments(&recorded.report, &run.times());
         let views = views(&run, &moments);
         let bounds = views.iter().map(CameraView::bounds_m).reduce(|[a, b], [c, d]| {
             [[0, 1].map(|axis| a[axis].min(c[axis])), [0, 1].map(|axis| b[axis].max(d[axis]))]
         })?;
         let road = RoadShapes::of(run.scenario, bounds);
         let legend = legend(&run);
-        let branches = run.frames.iter().any(|frame| frame.vehicles.iter().any(|one| !one.plan.branches.is_empty()));
-        let key = if branches { KEY_WITH_BRANCHES } else { KEY };
+        let key = key(&run, &moments);
         Some(DrivingPictures { run, moments, views, road, legend, key })
     }
 
@@ -64,13 +64,22 @@ impl<'a> DrivingPictures<'a> {
         LINE_PX * (2.0 + self.legend.len() as f64) + 14.0
     }
 
-    fn draw_view(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle], time_s: f64) {
+    fn draw_view(
+        &self,
+        canvas: &mut Canvas,
+        view: &CameraView,
+        seen: &[SeenVehicle],
+        time_s: f64,
+        spoken_of: &[usize],
+    ) {
         road::draw(&self.road, canvas, view);
         let lane_px = self.run.scenario.road.lane_width_m() * view.px_per_m;
         for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen) {
-            let plan: Vec<[f64; 2]> = seen.plan.iter().map(|point| view.place(*point)).collect();
-            let width = (0.55 * vehicle.body.width_m * view.px_per_m).min(0.3 * lane_px);
-            canvas.line(&plan, width, LineEnd::Round, Ink::veiled(seen.plan_colour, PLAN_OPACITY));
+            if is_ribbon(&seen.plan, &vehicle.body) {
+                let plan: Vec<[f64; 2]> = seen.plan.iter().map(|point| view.place(*point)).collect();
+                let width = (0.55 * vehicle.body.width_m * view.px_per_m).min(0.3 * lane_px);
+                ribbon::draw(canvas, &plan, width, seen.plan_colour);
+            }
         }
         for (colour, seen) in self.run.colours.iter().zip(seen) {
             for branch in &seen.branches {
@@ -89,7 +98,8 @@ impl<'a> DrivingPictures<'a> {
             vehicle::draw(canvas, view, vehicle, seen, self.run.colours[index]);
         }
         self.draw_contacts(canvas, view, seen, time_s);
-        self.draw_names(canvas, view, seen);
+        let taken = self.draw_edge_marks(canvas, view, seen, spoken_of);
+        self.draw_names(canvas, view, taken);
     }
 
     /// A star where two vehicles touch, for a while after they began to.
@@ -105,15 +115,33 @@ impl<'a> DrivingPictures<'a> {
         }
     }
 
-    /// Names beside the vehicles, each where it covers neither a vehicle nor another name.
-    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, seen: &[SeenVehicle]) {
-        let boxes = |vehicle: usize| {
-            let corners =
-                self.run.scenario.vehicles[vehicle].body.corners(&seen[vehicle].state).map(|corner| view.place(corner));
-            let [[left, top], [right, bottom]] = extent(corners);
-            [left, top, right, bottom]
-        };
-        let mut taken: Vec<[f64; 4]> = (0..seen.len()).map(boxes).collect();
+    /// Marks at the edge for those who are spoken of and out of view. Returns the rectangles of their words and of all vehicles.
+    fn draw_edge_marks(
+        &self,
+        canvas: &mut Canvas,
+        view: &CameraView,
+        seen: &[SeenVehicle],
+        spoken_of: &[usize],
+    ) -> Vec<[f64; 4]> {
+        let states: Vec<State> = seen.iter().map(|seen| seen.state).collect();
+        let mut taken: Vec<[f64; 4]> = (0..seen.len()).map(|index| self.bounds_px(view, seen, index)).collect();
+        for mark in edge_marks(self.run.scenario, view, &states, spoken_of) {
+            let words = edge::draw(canvas, view, &mark, self.run.colours[mark.vehicle], &taken);
+            taken.push(words);
+        }
+        taken
+    }
+
+    /// Left, top, right and bottom of a vehicle \[px\].
+    fn bounds_px(&self, view: &CameraView, seen: &[SeenVehicle], vehicle: usize) -> [f64; 4] {
+        let corners = self.run.scenario.vehicles[vehicle].body.corners(&seen[vehicle].state);
+        let [[left, top], [right, bottom]] = extent(corners.map(|corner| view.place(corner)));
+        [left, top, right, bottom]
+    }
+
+    /// Names beside the vehicles, each where it covers neither a vehicle nor another name, nor other `taken` rectangles, of which the
+    /// first are those of the vehicles.
+    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, mut taken: Vec<[f64; 4]>) {
         for (index, vehicle) in self.run.scenario.vehicles.iter().enumerate() {
             let [left, top, right, bottom] = taken[index];
             let (wide, high) = (width_of(&vehicle.name, LABEL_PX) + 10.0, LABEL_PX + 4.0);
@@ -145,7 +173,7 @@ impl<'a> DrivingPictures<'a> {
         let speed = match moment.rate {
             1.0 => String::new(),
             rate if rate < 1.0 => format!("slow motion 1/{:.0}", 1.0 / rate),
-            rate => format!("{rate:.0}× speed"),
+            rate => format!("{rate}× speed"),
         };
         let clock_left = WIDTH_PX - MARGIN_PX - 66.0;
         let longest = clock_left - 2.0 * MARGIN_PX - width_of("slow motion 1/4", LABEL_PX);
@@ -161,9 +189,9 @@ impl<'a> DrivingPictures<'a> {
         let longest = WIDTH_PX - 2.0 * MARGIN_PX;
         let ink = if words.alarms { ALARM } else { WORDS };
         canvas.text([MARGIN_PX, line(0.0)], Align::Left, TEXT_PX, &cut(&words.first, TEXT_PX, longest), ink);
-        let longest = longest - width_of(self.key, LABEL_PX) - 2.0 * MARGIN_PX;
+        let longest = longest - width_of(&self.key, LABEL_PX) - 2.0 * MARGIN_PX;
         canvas.text([MARGIN_PX, line(1.0)], Align::Left, LABEL_PX, &cut(&words.second, LABEL_PX, longest), QUIET_WORDS);
-        canvas.text([WIDTH_PX - MARGIN_PX, line(1.0)], Align::Right, LABEL_PX, self.key, QUIET_WORDS);
+        canvas.text([WIDTH_PX - MARGIN_PX, line(1.0)], Align::Right, LABEL_PX, &self.key, QUIET_WORDS);
         for (row, entries) in self.legend.iter().enumerate() {
             let y = line(2.0 + row as f64);
             for (index, words, left) in entries {
@@ -190,20 +218,50 @@ impl Pictures for DrivingPictures<'_> {
         let (moment, view) = (&self.moments[index], &self.views[index]);
         let seen = self.run.seen(moment.time_s, index as f64 * PICTURE_S);
         let mut ground = Canvas::new([WIDTH_PX as u32, view.size_px[1] as u32], GRASS)?;
-        self.draw_view(&mut ground, view, &seen, moment.time_s);
+        let words = caption(&self.run, moment.time_s);
+        let mut spoken_of = self.run.partners(moment.time_s);
+        spoken_of.extend(
+            words.names(self.run.scenario).into_iter().filter(|index| !spoken_of.contains(index)).collect::<Vec<_>>(),
+        );
+        self.draw_view(&mut ground, view, &seen, moment.time_s, &spoken_of);
         let mut canvas = Canvas::new(self.size(), BAR)?;
         canvas.put(&ground, TITLE_PX as u32);
         self.draw_title(&mut canvas, moment);
-        self.draw_words(&mut canvas, TITLE_PX + view.size_px[1], &caption(&self.run, moment.time_s), &seen);
+        self.draw_words(&mut canvas, TITLE_PX + view.size_px[1], &words, &seen);
         Some(canvas.into_rgb())
     }
 
     fn exact_colours(&self) -> Vec<Colour> {
         // What is small or seldom seen would otherwise be mixed with its neighbours.
-        let plan = |colour: &Colour| Ink::veiled(*colour, PLAN_OPACITY).over(ASPHALT);
+        let plan = |colour: &Colour| ribbon::ink(*colour).over(ASPHALT);
         let rare = [BRAKE_LIGHT, INDICATOR, vehicle::brake_glow().over(ASPHALT), BAR, WORDS, ALARM];
         self.run.colours.iter().copied().chain(rare).chain(self.run.colours.iter().map(plan)).collect()
     }
+}
+
+/// What the marks on the road are, as far as a film has them.
+fn key(run: &DrivingRun, moments: &[Moment]) -> String {
+    let seen: Vec<SeenVehicle> = moments.iter().flat_map(|moment| run.seen(moment.time_s, 0.0)).collect();
+    let is_ribbon = |(index, seen): (usize, &SeenVehicle)| {
+        is_ribbon(&seen.plan, &run.scenario.vehicles[index % run.scenario.vehicles.len()].body)
+    };
+    [
+        (seen.iter().enumerate().any(is_ribbon), "band: plan"),
+        (seen.iter().any(|seen| !seen.branches.is_empty()), "lines: what it may do instead"),
+        (seen.iter().any(|seen| !seen.proposal.is_empty()), "dots: what it asks for"),
+    ]
+    .into_iter()
+    .filter(|(is_drawn, _)| *is_drawn)
+    .map(|(_, words)| words)
+    .collect::<Vec<_>>()
+    .join("   ")
+}
+
+/// Whether a plan leads far enough to be drawn: that of a vehicle that stands is a knot.
+fn is_ribbon(plan: &[[f64; 2]], body: &Body) -> bool {
+    let Some([x, y]) = plan.first() else { return false };
+    let least_m = MIN_RIBBON_RATIO * (body.front_m + body.rear_m);
+    plan.iter().any(|point| libm::hypot(point[0] - x, point[1] - y) > least_m)
 }
 
 /// Rows of names and drivers that fit side by side.
@@ -256,5 +314,33 @@ impl DrivingPictures<'_> {
             .filter(|(place, _)| inside(place))
             .map(|([x, y], colour)| ([x, y + TITLE_PX], colour))
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::*;
+
+    /// What a film does not draw is not explained: a game has no proposals, and a negotiator's film has dots.
+    #[test]
+    fn the_legend_has_what_is_drawn() {
+        let key = |name: &str| {
+            let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+            DrivingPictures::of(&recorded).expect("vehicles").key
+        };
+        assert_eq!(key("roundabout/nice"), "band: plan");
+        assert_eq!(key("intersection/nice"), "band: plan   dots: what it asks for");
+        assert_eq!(key("ramp-merge/contingency"), "band: plan   lines: what it may do instead");
+    }
+
+    #[test]
+    fn whoever_stands_has_no_ribbon() {
+        let body = Body::default();
+        let length_m = body.front_m + body.rear_m;
+        let knot: Vec<[f64; 2]> = [0.0, 0.4, 0.8].map(|share| [share * length_m, 0.2 * share * length_m]).to_vec();
+        assert!(!is_ribbon(&knot, &body) && !is_ribbon(&[], &body));
+        assert!(is_ribbon(&[[0.0, 0.0], [2.0 * length_m, 0.0]], &body));
     }
 }

@@ -4,7 +4,8 @@
 //! recorded run -> moments, views, scenes -> pictures -> palette and changes -> GIF, WebP, PNG, MP4
 //! ```
 //!
-//! A run with vehicles is a top view that follows the interaction; a run of a building alone is its floor plan over the day.
+//! A run with vehicles is a top view that follows the interaction; a building is its floor plan over the
+//! day; a run with both shows one after the other.
 //! Pictures are functions of the recorded run and their number, so they are drawn side by side, and the same run gives the
 //! same bytes. Only this folder names `tiny-skia`, `ab_glyph`, `gif` and `image-webp`.
 
@@ -14,14 +15,17 @@ mod canvas;
 mod caption;
 mod chart;
 mod driving;
+mod edge;
 mod encode;
 mod error;
 mod format;
 mod letters;
 mod pictures;
+mod ribbon;
 mod road;
 mod rooms;
 mod scene;
+mod sequence;
 #[cfg(test)]
 mod tests;
 mod timing;
@@ -37,6 +41,7 @@ use building::BuildingPictures;
 use driving::DrivingPictures;
 use encode::Film;
 use pictures::Pictures;
+use sequence::PictureSequence;
 
 use crate::figures::RecordedRun;
 
@@ -70,11 +75,12 @@ impl AnimationFile {
 /// # Errors
 /// [`AnimationError::Nothing`] of a run with neither vehicles nor rooms, and what goes wrong in the encoder.
 pub fn encoded(recorded: &RecordedRun, format: AnimationFormat) -> Result<Vec<u8>, AnimationError> {
-    if let Some(pictures) = DrivingPictures::of(recorded) {
-        return encode(&pictures, format);
+    match (DrivingPictures::of(recorded), BuildingPictures::of(recorded)) {
+        (Some(road), Some(rooms)) => encode(&PictureSequence::new(&road, &rooms), format),
+        (Some(road), None) => encode(&road, format),
+        (None, Some(rooms)) => encode(&rooms, format),
+        (None, None) => Err(AnimationError::Nothing),
     }
-    let pictures = BuildingPictures::of(recorded).ok_or(AnimationError::Nothing)?;
-    encode(&pictures, format)
 }
 
 fn encode(pictures: &dyn Pictures, format: AnimationFormat) -> Result<Vec<u8>, AnimationError> {

@@ -8,6 +8,8 @@ use crate::road_shapes::RoadShapes;
 
 const VERGE: Colour = [0xCD, 0xD3, 0xB8];
 const KERB: Colour = [0x9A, 0x9C, 0x9A];
+/// How far the asphalt reaches beyond the edges, in lane widths.
+const SHOULDER_LANES: f64 = 0.05;
 /// Widths of verge and kerb, of a line, of a stop line and of an arrow, in lane widths.
 const VERGE_LANES: f64 = 0.34;
 const KERB_LANES: f64 = 0.07;
@@ -20,14 +22,14 @@ pub fn draw(shapes: &RoadShapes, canvas: &mut Canvas, view: &CameraView) {
     let lane_px = shapes.lane_m * view.px_per_m;
     let place = |line: &WorldLine| line.iter().map(|point| view.place(*point)).collect::<Vec<_>>();
     let surfaces: Vec<Vec<[f64; 2]>> = shapes.surfaces.iter().map(place).collect();
-    for (colour, beyond) in [(VERGE, VERGE_LANES), (KERB, KERB_LANES)] {
+    for (colour, beyond) in [(VERGE, VERGE_LANES), (KERB, SHOULDER_LANES + KERB_LANES)] {
         surfaces.iter().for_each(|ring| canvas.outline(ring, 2.0 * beyond * lane_px, colour));
     }
     for ring in &surfaces {
         canvas.fill(ring, ASPHALT);
     }
-    // Closes the hairlines between lanes that touch.
-    surfaces.iter().for_each(|ring| canvas.outline(ring, 0.8, ASPHALT));
+    // Closes the hairlines between lanes that touch, and the small holes between lanes of a junction.
+    surfaces.iter().for_each(|ring| canvas.outline(ring, 2.0 * SHOULDER_LANES * lane_px, ASPHALT));
     let width = (LINE_LANES * lane_px).max(1.3);
     for (lines, width) in
         [(&shapes.edges, width), (&shapes.dashes, width), (&shapes.stop_lines, STOP_LINE_LANES * lane_px)]

@@ -5,6 +5,7 @@ use interplay_scenarios::FloorPlan;
 use super::canvas::{Align, Canvas};
 use super::letters::cut;
 use crate::palette::Colour;
+use crate::wanted_temperature::one_decimal;
 
 const WALL: Colour = [0x2F, 0x32, 0x36];
 const WORDS: Colour = [0xFF, 0xFF, 0xFF];
@@ -13,7 +14,10 @@ const NUMBERED_PX: f64 = 34.0;
 const NAMED_PX: f64 = 90.0;
 /// Space around the building and between floors \[px\].
 const AROUND_PX: f64 = 30.0;
-const BETWEEN_PX: f64 = 12.0;
+const BETWEEN_PX: f64 = 18.0;
+/// Size of the name of a floor, and its distance above the floor \[px\].
+const FLOOR_NAME_PX: f64 = 12.0;
+const ABOVE_FLOOR_PX: f64 = 8.0;
 
 /// The rooms of a building.
 pub struct Rooms {
@@ -60,6 +64,18 @@ impl Rooms {
         [left, top, left + self.side, top + self.side]
     }
 
+    /// Draws the names of the floors above them, where there are several.
+    pub fn draw_floor_names(&self, canvas: &mut Canvas, ink: Colour) {
+        let FloorPlan { columns, rows, floors } = self.plan;
+        for floor in 0..if floors > 1 { floors } else { 0 } {
+            let [left, top, ..] = self.place(floor * rows * columns);
+            let middle = [left + 0.5 * self.side * columns as f64, top - ABOVE_FLOOR_PX];
+            let words = format!("floor {}", floor + 1);
+            let wide = self.side * columns as f64 + BETWEEN_PX;
+            canvas.text(middle, Align::Middle, FLOOR_NAME_PX, &cut(&words, FLOOR_NAME_PX, wide), ink);
+        }
+    }
+
     /// Draws a room with its name and temperature, as far as there is space; below them what heats or cools it \[kW\].
     pub fn draw(&self, canvas: &mut Canvas, room: usize, colour: Colour, temperature_c: f64, heat_kw: f64) {
         let [left, top, right, bottom] = self.place(room);
@@ -71,12 +87,12 @@ impl Rooms {
             return;
         }
         if self.side < NAMED_PX {
-            canvas.text(middle, Align::Middle, 12.0, &format!("{temperature_c:.1}"), WORDS);
+            canvas.text(middle, Align::Middle, 12.0, &one_decimal(temperature_c), WORDS);
             return;
         }
         let name = cut(&self.names[room], 14.0, self.side - 10.0);
         canvas.text([middle[0], middle[1] - 24.0], Align::Middle, 14.0, &name, WORDS);
-        canvas.text(middle, Align::Middle, 20.0, &format!("{temperature_c:.1} °C"), WORDS);
+        canvas.text(middle, Align::Middle, 20.0, &format!("{} °C", one_decimal(temperature_c)), WORDS);
         let does = if heat_kw < 0.0 { "cools" } else { "heats" };
         let words = if heat_kw.abs() < 0.005 { "off".to_owned() } else { format!("{does} {:.2} kW", heat_kw.abs()) };
         canvas.text([middle[0], middle[1] + 24.0], Align::Middle, 13.0, &words, WORDS);

@@ -4,12 +4,18 @@ use interplay_planners::State;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 
+use super::timing::RunTimes;
+use crate::answer::Requests;
+use crate::camera::{car_m, partners};
 use crate::figures::RecordedRun;
 use crate::palette::{Colour, VERMILLION, vehicle_colours};
 use crate::signals::{Turn, is_braking, turn, wrapped};
 
 /// How long an indicator is lit and dark \[s\], in the picture's time.
 const BLINK_S: f64 = 0.32;
+
+/// Who is further away than this has nothing to do with the ego any more, in lengths of a car.
+const NEAR_CARS: f64 = 30.0;
 
 /// A vehicle at a moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +48,8 @@ pub struct DrivingRun<'a> {
     pub colours: Vec<Colour>,
     /// Its ticks with vehicles.
     pub frames: Vec<&'a Frame>,
+    /// What was asked until each tick.
+    requests: Vec<Requests>,
     /// Where every vehicle ended, and when \[s\].
     end: (f64, Vec<State>),
 }
@@ -55,7 +63,18 @@ impl<'a> DrivingRun<'a> {
         let colours = vehicle_colours(scenario).into_iter().map(|colour| colour.rgb).collect();
         let end = recorded.report.vehicles.iter().map(|vehicle| vehicle.last).collect();
         let end = (last.time_s + scenario.step_s, end);
-        Some(DrivingRun { scenario, colours, frames, end })
+        let asked = |requests: &mut Requests, frame: &&Frame| {
+            requests.tick(scenario, frame);
+            Some(requests.clone())
+        };
+        let requests = frames.iter().scan(Requests::default(), asked).collect();
+        Some(DrivingRun { scenario, colours, frames, requests, end })
+    }
+
+    /// What bounds the time that is shown.
+    pub fn times(&self) -> RunTimes {
+        let time_ratio = self.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
+        RunTimes { ego: self.scenario.ego_index(), end_s: self.end_s(), settled_s: self.settled_s(), time_ratio }
     }
 
     /// When it ends \[s\].
@@ -66,6 +85,42 @@ impl<'a> DrivingRun<'a> {
     /// The last tick that began at a time or before it.
     pub fn frame(&self, time_s: f64) -> &'a Frame {
         self.frames[self.tick(time_s)]
+    }
+
+    /// When the ego has passed everybody with whom it dealt: no order is open, and none of those who are near comes nearer.
+    /// None if it deals with nobody, or to the end \[s\].
+    pub fn settled_s(&self) -> Option<f64> {
+        let ego = self.scenario.ego_index();
+        let near_m = NEAR_CARS * car_m(self.scenario);
+        let distance_m = |frame: &Frame, other: usize| {
+            let [a, b] = [ego, other].map(|index| frame.vehicles[index].state.position());
+            libm::hypot(a[0] - b[0], a[1] - b[1])
+        };
+        let mut known: Vec<usize> = Vec::new();
+        let mut last = None;
+        for (tick, pair) in self.frames.windows(2).enumerate() {
+            let partners = partners(self.scenario, &pair[0].vehicles[ego]);
+            let is_open = !pair[0].vehicles[ego].plan.passing_orders.is_empty();
+            known.extend(partners);
+            let comes = |other: &usize| {
+                let [before_m, after_m] = [pair[0], pair[1]].map(|frame| distance_m(frame, *other));
+                after_m < before_m && after_m < near_m
+            };
+            if is_open || known.iter().any(comes) {
+                last = Some(tick + 1);
+            }
+        }
+        last.filter(|tick| tick + 1 < self.frames.len()).map(|tick| self.frames[tick].time_s)
+    }
+
+    /// What was asked until a tick.
+    pub fn requests(&self, frame: &Frame) -> &Requests {
+        &self.requests[self.tick(frame.time_s)]
+    }
+
+    /// With whom the ego deals at a time.
+    pub fn partners(&self, time_s: f64) -> Vec<usize> {
+        partners(self.scenario, &self.frame(time_s).vehicles[self.scenario.ego_index()])
     }
 
     /// The index of that tick.

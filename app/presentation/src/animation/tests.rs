@@ -4,11 +4,12 @@ use std::io::Cursor;
 
 use interplay_scenarios::load;
 
+use super::building::BuildingPictures;
 use super::driving::DrivingPictures;
 use super::pictures::Pictures;
 use super::{AnimationFormat, encoded};
 use crate::figures::RecordedRun;
-use crate::palette::{BLUE, Colour, ORANGE};
+use crate::palette::{ASPHALT, BLUE, Colour, ORANGE};
 
 fn recorded(name: &str) -> RecordedRun {
     let mut scenario = load(name, &[]).expect("embedded");
@@ -127,4 +128,16 @@ fn a_vehicle_is_where_it_drives() {
             assert_eq!(found, colour, "picture {index} at {x}, {y}");
         }
     }
+}
+
+/// A run with vehicles and a building shows both: the road first, the rooms at the end.
+#[test]
+fn a_run_with_a_building_beside_the_road_shows_both() {
+    let recorded = recorded("mixed/garage");
+    let road = DrivingPictures::of(&recorded).expect("vehicles");
+    let rooms = BuildingPictures::of(&recorded).expect("a building");
+    let (_, shown) = decoded_gif(&encoded(&recorded, AnimationFormat::Gif).expect("a GIF"));
+    assert_eq!(shown.len(), road.count() + rooms.count());
+    assert!(count(&shown[0], BLUE.rgb) > 200 && count(&shown[0], ASPHALT) > 1000);
+    assert!(count(&shown[shown.len() - 1], ASPHALT) < 100);
 }

@@ -12,8 +12,10 @@ const AFTER_GOALS_S: f64 = 0.8;
 const AFTER_EGO_S: f64 = 1.2;
 /// How long it is shown after the last collision \[s\], at 1/10 scale.
 const AFTER_COLLISION_S: f64 = 2.5;
+/// How long it is shown after the last order is settled \[s\]: from then on nobody has anything to do with the ego.
+const AFTER_ORDERS_S: f64 = 2.0;
 /// The longest that a run is shown before it is sped up \[s\].
-const LONGEST_S: f64 = 12.0;
+const LONGEST_S: f64 = 8.5;
 /// How fast time passes around a contact.
 const SLOW_RATE: f64 = 0.25;
 /// Before and after a contact, for how long time is slow \[s\], at 1/10 scale.
@@ -28,13 +30,23 @@ pub struct Moment {
     pub rate: f64,
 }
 
-/// The moments of a run until `end_s` with the ego at index `ego`, whose times are those of 1/10 scale times `time_ratio`.
-pub fn moments(report: &Report, ego: usize, end_s: f64, time_ratio: f64) -> Vec<Moment> {
-    let end_s = last_s(report, ego, end_s, time_ratio);
-    let mut usual_rate = 1.0;
-    while end_s / usual_rate > LONGEST_S {
-        usual_rate *= 2.0;
-    }
+/// What bounds the time that is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunTimes {
+    /// Index of the ego.
+    pub ego: usize,
+    /// When the run ends \[s\].
+    pub end_s: f64,
+    /// When the ego has passed everybody with whom it dealt \[s\]; none if it deals with nobody, or to the end.
+    pub settled_s: Option<f64>,
+    /// What times at 1/10 scale are multiplied with.
+    pub time_ratio: f64,
+}
+
+/// The moments of a run.
+pub fn moments(report: &Report, times: &RunTimes) -> Vec<Moment> {
+    let (end_s, time_ratio) = (last_s(report, times), times.time_ratio);
+    let usual_rate = usual_rate(end_s);
     let is_slow = |time_s: f64| {
         let [before_s, after_s] = SLOW_S.map(|part| part * time_ratio);
         report.collisions.iter().any(|hit| (hit.time_s - before_s..hit.time_s + after_s).contains(&time_s))
@@ -50,8 +62,21 @@ pub fn moments(report: &Report, ego: usize, end_s: f64, time_ratio: f64) -> Vec<
     moments
 }
 
+/// The least of 1, 1.5, 2, 3, 4, 6, 8 and so on with which a time is not shown for too long.
+fn usual_rate(end_s: f64) -> f64 {
+    let mut rate = 1.0;
+    while end_s / rate > LONGEST_S {
+        if end_s / (1.5 * rate) <= LONGEST_S {
+            return 1.5 * rate;
+        }
+        rate *= 2.0;
+    }
+    rate
+}
+
 /// When a picture of a run ends: a while after everything has happened, or with the run.
-fn last_s(report: &Report, ego: usize, end_s: f64, time_ratio: f64) -> f64 {
+fn last_s(report: &Report, times: &RunTimes) -> f64 {
+    let RunTimes { ego, end_s, settled_s, time_ratio } = *times;
     let collided = report.collisions.iter().map(|hit| hit.time_s + AFTER_COLLISION_S * time_ratio).reduce(f64::max);
     let tasks = report.vehicles.iter().filter(|vehicle| vehicle.has_task);
     let all: Option<Vec<f64>> = tasks.map(|vehicle| vehicle.completed_s).collect();
@@ -61,6 +86,8 @@ fn last_s(report: &Report, ego: usize, end_s: f64, time_ratio: f64) -> f64 {
         (Some(all_s), Some(ego_s)) => Some(all_s.min(ego_s)),
         (all_s, ego_s) => ego_s.or(all_s),
     };
+    let settled = settled_s.map(|at| at + AFTER_ORDERS_S);
+    let reached = reached.into_iter().chain(settled).reduce(f64::min);
     let everything = match (reached, collided) {
         (Some(reached), Some(collided)) => Some(reached.max(collided)),
         (reached, collided) => reached.or(collided),
@@ -79,10 +106,14 @@ mod tests {
         run(name, &load(name, &[]).expect("embedded"), Vec::new()).expect("a run")
     }
 
+    fn times(end_s: f64, settled_s: Option<f64>) -> RunTimes {
+        RunTimes { ego: 0, end_s, settled_s, time_ratio: 1.0 }
+    }
+
     #[test]
     fn time_passes_slowly_around_a_contact() {
         let report = report("crash/side-impact");
-        let moments = moments(&report, 0, 8.0, 1.0);
+        let moments = moments(&report, &times(8.0, None));
         let hit_s = report.collisions[0].time_s;
         let steps: Vec<[f64; 2]> = moments.windows(2).map(|pair| [pair[0].time_s, pair[1].time_s]).collect();
         assert!(steps.iter().all(|[from, to]| to > from));
@@ -98,11 +129,14 @@ mod tests {
         let last = |moments: Vec<Moment>| moments.last().expect("some").time_s;
         let goals_s: Vec<f64> = report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s).collect();
         let expected_s = (goals_s[0] + AFTER_EGO_S).min(goals_s[1] + AFTER_GOALS_S);
-        assert!((last(moments(&report, 0, 7.0, 1.0)) - expected_s).abs() < 1e-9);
+        assert!((last(moments(&report, &times(7.0, None))) - expected_s).abs() < 1e-9);
         let unfinished = Report { vehicles: Vec::new(), ..report };
-        assert_eq!(last(moments(&unfinished, 0, 7.0, 1.0)), 7.0);
-        let long = moments(&unfinished, 0, 40.0, 1.0);
-        assert_eq!(long[0].rate, 4.0);
+        assert_eq!(last(moments(&unfinished, &times(7.0, None))), 7.0);
+        assert_eq!(last(moments(&unfinished, &times(7.0, Some(1.5)))), 1.5 + AFTER_ORDERS_S);
+        assert_eq!(last(moments(&unfinished, &times(7.0, Some(6.5)))), 7.0, "not after the run");
+        let long = moments(&unfinished, &times(40.0, None));
+        assert_eq!([8.0, 12.0, 16.0, 25.0, 40.0].map(usual_rate), [1.0, 1.5, 2.0, 3.0, 6.0]);
+        assert_eq!(long[0].rate, 6.0);
         assert!(long.len() as f64 * PICTURE_S < LONGEST_S);
     }
 }

@@ -138,6 +138,7 @@ fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
             for end in [-1.0, 1.0] {
                 let at = placed.shared([end * (1.0 - 0.8 * deep), side * 0.92]);
                 canvas.disc(at, placed.px(0.3 * placed.body.width_m), Ink::veiled(INDICATOR, 0.45));
+                canvas.disc(at, placed.px(0.19 * placed.body.width_m), TYRE);
                 canvas.disc(at, placed.px(0.15 * placed.body.width_m), INDICATOR);
             }
         }

@@ -26,6 +26,7 @@ use super::re_sdk_types::components::{Radius, ViewCoordinates};
 use super::timelines::{SIM_TIME, TICK};
 use crate::camera::{self, CameraMoment, CameraView, ViewFormat};
 use crate::contact::{contact_place, numbers, star};
+use crate::edge_mark::edge_marks;
 use crate::extent::extent;
 use crate::palette::{FLASH, VERMILLION};
 
@@ -45,6 +46,8 @@ const TOP_WIDTH_PX: f64 = 800.0;
 const TOP_HEIGHTS_PX: [f64; 2] = [236.0, 340.0];
 /// Least and greatest length of a car \[px\].
 const CAR_PX: [f64; 2] = [42.0, 104.0];
+/// Least length of a car while somebody further away is spoken of \[px\].
+const LEAST_CAR_PX: f64 = 22.0;
 /// Distance of a camera from what it sees from above, by the width of what it sees: of the picture that follows the
 /// interaction, and of that of the whole road. From further away the viewer cannot tell heights apart.
 const HEIGHT_RATIO: f64 = 6.0;
@@ -115,6 +118,7 @@ impl Cameras {
             height_px: [height_px; 2],
             straight_height_px: [height_px; 2],
             car_px: CAR_PX,
+            least_car_px: LEAST_CAR_PX,
             step_s: scenario.step_s / time_ratio,
         };
         if !scenario.vehicles.is_empty() {
@@ -164,7 +168,7 @@ impl Cameras {
             self.contacts.extend(place.map(|place_m| Contact { time_s: hit.time_s, between, place_m }));
         }
         self.seen_m = Some(extent(states.iter().map(State::position).chain(self.seen_m.into_iter().flatten())));
-        let moment = CameraMoment { states, partner: camera::partner(scenario, ego), close_up: None };
+        let moment = CameraMoment { states, partners: camera::partners(scenario, ego), close_up: None };
         let tick = i64::try_from(frame.tick).unwrap_or(i64::MAX);
         self.ticks.push(CameraTick { tick, time_s: frame.time_s, moment });
     }
@@ -260,7 +264,12 @@ impl Cameras {
             words.push(String::new());
         }
         paths.push(format!("{TOP}/collision"));
-        let labels = labels::placed(&boxes, &words, view.size_px, &mut self.sides);
+        let mut labels = labels::placed(&boxes, &words, view.size_px, &mut self.sides);
+        for mark in edge_marks(scenario, view, &tick.moment.states, &tick.moment.partners) {
+            words[mark.vehicle] = format!("{} {}", mark.words, mark.arrow());
+            let taken: Vec<Rectangle> = boxes.iter().copied().chain(labels.iter().flatten().copied()).collect();
+            labels[mark.vehicle] = labels::at_edge(mark.at, &words[mark.vehicle], view.size_px, &taken);
+        }
         for ((path, words), label) in paths.into_iter().zip(words).zip(labels) {
             // The last one is seldom there, and then says so only while there are contacts at all.
             if label.is_some() || !words.is_empty() || !self.contacts.is_empty() {

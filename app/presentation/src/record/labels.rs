@@ -34,7 +34,7 @@ pub fn placed(
     for (index, (vehicle, words)) in vehicles.iter().zip(words).enumerate() {
         let [left, top, right, bottom] = *vehicle;
         let is_seen = right > 0.0 && left < size_px[0] && bottom > 0.0 && top < size_px[1];
-        let candidates = candidates(*vehicle, LETTER_PX * words.chars().count() as f64 + EDGES_PX);
+        let candidates = candidates(*vehicle, width_px(words));
         let is_free = |[l, t, r, b]: &Rectangle| {
             let inside = *l >= 0.0 && *t >= 0.0 && *r <= size_px[0] && *b <= size_px[1];
             inside && !taken.iter().any(|other| *l < other[2] && other[0] < *r && *t < other[3] && other[1] < *b)
@@ -48,6 +48,26 @@ pub fn placed(
         labels.push(found.map(|side| candidates[side]));
     }
     labels
+}
+
+/// The label of a vehicle out of view, at a place on the edge or as near to it as there is space along the edge.
+pub fn at_edge([x, y]: [f64; 2], words: &str, [width, height]: [f64; 2], taken: &[Rectangle]) -> Option<Rectangle> {
+    let half = [0.5 * width_px(words), 0.5 * HEIGHT_PX];
+    let beside_edge = x < half[0] || x > width - half[0];
+    let [step_x, step_y] = if beside_edge { [0.0, HEIGHT_PX] } else { [2.0 * half[0], 0.0] };
+    let candidate = |steps: f64| {
+        let x = (x + steps * step_x).clamp(half[0], (width - half[0]).max(half[0]));
+        let y = (y + steps * step_y).clamp(half[1], (height - half[1]).max(half[1]));
+        [x - half[0], y - half[1], x + half[0], y + half[1]]
+    };
+    let is_free = |[l, t, r, b]: &Rectangle| {
+        !taken.iter().any(|other| *l < other[2] && other[0] < *r && *t < other[3] && other[1] < *b)
+    };
+    [0.0, 1.0, -1.0, 2.0, -2.0].map(candidate).into_iter().find(is_free)
+}
+
+fn width_px(words: &str) -> f64 {
+    LETTER_PX * words.chars().count() as f64 + EDGES_PX
 }
 
 /// Places around a vehicle, the best first: above, below, to the right, to the left, and at its corners.
@@ -88,5 +108,14 @@ mod tests {
         let label = placed(&[[100.0, 100.0, 160.0, 130.0]], &words, [800.0, 300.0], &mut sides)[0].expect("space");
         assert!(label[1] > 130.0 && sides == [1], "below, as before");
         assert_eq!(placed(&[[-90.0, 100.0, -30.0, 130.0]], &words, [800.0, 300.0], &mut sides), [None]);
+    }
+    #[test]
+    fn a_label_at_the_edge_keeps_off_what_is_there() {
+        let size_px = [800.0, 300.0];
+        let alone = at_edge([788.0, 150.0], "oncoming, 84 m", size_px, &[]).expect("space");
+        assert!(alone[2] <= 800.0 && alone[1] < 150.0 && alone[3] > 150.0, "{alone:?}");
+        let beside = at_edge([788.0, 150.0], "oncoming, 84 m", size_px, &[alone]).expect("space");
+        assert!(!overlap(&alone, &beside), "{beside:?}");
+        assert_eq!(at_edge([788.0, 150.0], "oncoming", size_px, &[[0.0, 0.0, 800.0, 300.0]]), None);
     }
 }

@@ -14,7 +14,7 @@ use interplay_scenarios::{Branch, Scenario};
 use super::blueprint::{LayoutNode, View};
 use super::cameras::{self, Cameras};
 use super::palette::opaque;
-use super::panels::{about, events, status};
+use super::panels::{about, events, reasons, status};
 use super::planner_panels;
 use super::plots::{self, Plots};
 use super::time_plot::{TimePlot, ranged};
@@ -124,6 +124,9 @@ fn numbers(scenario: &Scenario, plots: &Plots) -> Vec<LayoutNode> {
     ] {
         let plot = TimePlot::new(scenario.duration_s, title, vec![format!("/plots/{folder}/**")]);
         panels.push(plot.with_legend(longest_name(scenario), THIRD_WIDTH));
+    }
+    if plots.has(plots::REASONS) {
+        panels.push(reasons());
     }
     panels
 }

@@ -12,6 +12,7 @@
 //! plots/{speed,acceleration,steering,planner-ms}/<name>
 //! plots/<kind of planner>/<diagnostic>[/<name>]       as letters, digits, `-`; the name if several have that planner
 //! plots/gap                                           the ego's distance to the nearest footprint
+//! plots/reasons                                       why optimisers found nothing
 //! status, log, about                                  what each driver does; events; what the recording shows
 //! building/…                                          see `building/mod.rs`
 //! ```
@@ -190,7 +191,7 @@ impl Recorder {
         self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
         self.vehicles.tick(&self.stream, &self.scenario, frame)?;
         self.status.tick(&self.stream, &self.scenario, &self.vehicle_colours, frame)?;
-        self.plots.tick(&self.stream, frame)?;
+        self.plots.tick(&self.stream, &self.scenario, frame)?;
         if let (Some(building_layer), Some(frame)) = (&mut self.building_layer, &frame.building) {
             building_layer.step(&self.stream, frame)?;
         }

@@ -21,10 +21,19 @@ pub fn status() -> LayoutNode {
 
 /// What happened, in words. The texts begin with their time, which the viewer's own column would cut off.
 pub fn events() -> LayoutNode {
+    log("What happens", plots::LOG)
+}
+
+/// Why optimisers found nothing, in their own terms.
+pub fn reasons() -> LayoutNode {
+    log("Why optimisers found nothing", plots::REASONS)
+}
+
+fn log(title: &str, path: &str) -> LayoutNode {
     let hidden = |timeline: &str| TimelineColumn { visible: false.into(), timeline: timeline.into() };
     let columns = TextLogColumns::new()
         .with_timeline_columns([SIM_TIME, TICK].map(hidden))
         .with_text_log_columns([TextLogColumn { visible: true.into(), kind: TextLogColumnKind::Body }]);
-    let view = View::new("TextLog", "What happens", vec![format!("/{}", plots::LOG)]);
+    let view = View::new("TextLog", title, vec![format!("/{path}")]);
     LayoutNode::View(view.with("TextLogColumns", columns))
 }

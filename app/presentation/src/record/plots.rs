@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use interplay_planners::Diagnostic;
 use interplay_planners::diagnostic::{DiagnosticQuantity, Explanation};
+use interplay_planners::{Diagnostic, PlanEventKind};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Level, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
@@ -12,9 +12,12 @@ use super::palette::{self, FAILURE, NEUTRAL, NamedColour};
 use super::planner_panels::{place, slug};
 use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
 use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
+use crate::passing_words::is_event_said;
 
 /// The events of all vehicles.
 pub const LOG: &str = "log";
+/// Why optimisers found nothing, in their own terms.
+pub const REASONS: &str = "plots/reasons";
 /// Smallest distance of the ego to another vehicle.
 pub const GAP: &str = "plots/gap";
 /// What is plotted for every vehicle: the folder below `plots`, and the number.
@@ -128,7 +131,7 @@ impl Plots {
     ///
     /// # Errors
     /// If Rerun refuses a component.
-    pub fn tick(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+    pub fn tick(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
         for vehicle in &frame.vehicles {
             let speed_mps = vehicle.state.speed_mps;
             let [low, high] = self.speeds_mps.unwrap_or([speed_mps; 2]);
@@ -144,7 +147,8 @@ impl Plots {
             stream.log(GAP, &Scalars::single(gap))?;
         }
         self.reasons(stream, frame)?;
-        self.events(stream, frame)
+        self.reasons_in_words(stream, frame)?;
+        self.events(stream, scenario, frame)
     }
 
     fn reasons(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
@@ -164,8 +168,8 @@ impl Plots {
         Ok(())
     }
 
-    fn events(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
-        for event in &frame.events {
+    fn events(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
+        for event in frame.events.iter().filter(|event| is_event_said(scenario, frame, event)) {
             self.log_text(stream, event.level, &said(frame, &event.vehicle, &event.text))?;
         }
         for vehicle in &frame.vehicles {
@@ -179,6 +183,20 @@ impl Plots {
             };
             if !is_logged {
                 self.log_text(stream, Level::Warning, &said(frame, &vehicle.name, fallback))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Logs why optimisers found nothing, in their own terms: for the tab of the planners, not for everybody.
+    fn reasons_in_words(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
+        for vehicle in &frame.vehicles {
+            for event in &vehicle.plan.events {
+                if let PlanEventKind::NoProposal(reason) | PlanEventKind::Retreat(reason) = &event.kind {
+                    let text = said(frame, &vehicle.name, &format!("{}: {reason}", event.text));
+                    self.seen.insert(REASONS.to_owned(), String::new());
+                    stream.log(REASONS, &TextLog::new(text).with_level(TextLogLevel::INFO))?;
+                }
             }
         }
         Ok(())

@@ -10,7 +10,8 @@ use rerun::{RecordingStream, RecordingStreamResult};
 use super::palette::NamedColour;
 use super::re_sdk_types::archetypes::TextDocument;
 use super::re_sdk_types::components::MediaType;
-use crate::answer::{answer, is_new};
+use crate::answer::Requests;
+use crate::passing_words::is_said;
 use crate::signals::is_braking;
 
 /// Where the lines are.
@@ -22,7 +23,10 @@ const KEEPS_MPS2: f64 = 0.05;
 
 /// The lines of all drivers, which are logged when they change.
 #[derive(Default)]
-pub struct StatusLines(String);
+pub struct StatusLines {
+    last: String,
+    requests: Requests,
+}
 
 impl StatusLines {
     /// Logs the lines of a tick.
@@ -39,16 +43,19 @@ impl StatusLines {
         if frame.vehicles.is_empty() {
             return Ok(());
         }
+        self.requests.tick(scenario, frame);
         let mut text = String::new();
-        for ((vehicle, now), colour) in scenario.vehicles.iter().zip(&frame.vehicles).zip(vehicle_colours) {
-            let (name, wants, does) = (&vehicle.name, wants(scenario, vehicle), does(scenario, vehicle, now));
+        for (index, (vehicle, colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate() {
+            let asks = self.requests.sentence(frame, index);
+            let (name, wants, does) =
+                (&vehicle.name, wants(scenario, vehicle), does(scenario, index, &frame.vehicles[index], asks));
             let _ = writeln!(text, "**{name}** ({}) wants {wants}: {does}.\n", colour.word);
         }
-        if self.0 == text {
+        if self.last == text {
             return Ok(());
         }
         stream.log(STATUS, &TextDocument::new(text.as_str()).with_media_type(MediaType::MARKDOWN))?;
-        self.0 = text;
+        self.last = text;
         Ok(())
     }
 }
@@ -65,8 +72,9 @@ fn wants(scenario: &Scenario, vehicle: &Vehicle) -> String {
     }
 }
 
-/// What a vehicle does, and because of whom.
-fn does(scenario: &Scenario, vehicle: &Vehicle, now: &VehicleFrame) -> String {
+/// What a vehicle does, and because of whom; `asks` says for what it asks whom.
+fn does(scenario: &Scenario, index: usize, now: &VehicleFrame, asks: Option<String>) -> String {
+    let vehicle = &scenario.vehicles[index];
     match now.origin {
         Origin::Planned => {}
         Origin::Crashed => return "has collided and brakes until it stands".to_owned(),
@@ -77,9 +85,10 @@ fn does(scenario: &Scenario, vehicle: &Vehicle, now: &VehicleFrame) -> String {
     let wanted_mps = vehicle.target(&scenario.road).speed_mps;
     let stands = now.state.speed_mps.abs() < STANDS_SHARE * wanted_mps;
     let brakes = is_braking(now.input.acceleration_mps2);
-    let mut parts: Vec<String> = asks(now).into_iter().collect();
-    let orders = &now.plan.passing_orders;
-    parts.extend(grouped(orders, |order| verb(order, stands, brakes)));
+    let mut parts: Vec<String> = asks.into_iter().collect();
+    let orders: Vec<&PassingOrder> =
+        now.plan.passing_orders.iter().filter(|order| is_said(scenario, index, order)).collect();
+    parts.extend(grouped(&orders, |order| verb(order, stands, brakes)));
     let speed = match now.input.acceleration_mps2 {
         _ if stands => "stands",
         _ if brakes => "brakes",
@@ -91,17 +100,6 @@ fn does(scenario: &Scenario, vehicle: &Vehicle, now: &VehicleFrame) -> String {
         parts.push(speed.to_owned());
     }
     parts.join("; ")
-}
-
-/// Whom a vehicle asks for the dotted motion, and the answer.
-fn asks(now: &VehicleFrame) -> Option<String> {
-    let proposal = now.plan.proposal.as_ref()?;
-    let to = &proposal.to;
-    Some(match proposal.acceptance {
-        None => format!("expects {to} to take the dotted way"),
-        Some(_) if is_new(&now.plan, to) => format!("asks {to} to take the dotted way"),
-        Some(share) => format!("asks {to} to take the dotted way: it {} ({:.0} %)", answer(share), 100.0 * share),
-    })
 }
 
 /// What a vehicle does with respect to another one.
@@ -117,7 +115,7 @@ fn verb(order: &PassingOrder, stands: bool, brakes: bool) -> &'static str {
 }
 
 /// Orders with the same verb as one part of a sentence.
-fn grouped(orders: &[PassingOrder], verb: impl Fn(&PassingOrder) -> &'static str) -> Vec<String> {
+fn grouped(orders: &[&PassingOrder], verb: impl Fn(&PassingOrder) -> &'static str) -> Vec<String> {
     let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
     for order in orders {
         let verb = verb(order);
@@ -144,7 +142,9 @@ mod tests {
         let scenario = load("lane-change/front-nice", &[]).expect("embedded");
         let state = State { speed_mps, ..State::default() };
         let input = Input { acceleration_mps2, ..Input::default() };
-        does(&scenario, &scenario.vehicles[0], &VehicleFrame { state, input, plan, origin, ..Default::default() })
+        let now = VehicleFrame { state, input, plan, origin, ..Default::default() };
+        let frame = Frame { vehicles: vec![now.clone()], ..Frame::default() };
+        does(&scenario, 0, &now, Requests::default().sentence(&frame, 0))
     }
 
     #[test]
@@ -169,7 +169,7 @@ mod tests {
         };
         assert_eq!(
             said(1.0, -0.3, asks(Some(0.85)), Origin::Planned),
-            "asks front to take the dotted way: it accepts (85 %); goes ahead of front; brakes"
+            "asks front to take the dotted way – front accepts (85 %); goes ahead of front; brakes"
         );
         assert!(said(1.0, 0.0, asks(None), Origin::Planned).starts_with("expects front to take the dotted way; "));
     }

@@ -7,7 +7,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 use super::super::palette::NEUTRAL;
 use super::super::re_sdk_types::archetypes::{Image, Points2D};
 use super::super::re_sdk_types::components::Radius;
-use crate::palette::{COLOUR_RANGE_K, temperature_colour};
+use crate::wanted_temperature::{deviation_colour, one_decimal, zone_colour};
 
 /// Width of a room, from wall to wall.
 const ROOM_PX: usize = 24;
@@ -25,7 +25,7 @@ const MAX_LABELLED_ROOMS: usize = 144;
 /// How the floor plan is drawn.
 pub struct FloorPlanLayer {
     rooms: FloorPlan,
-    /// The temperature of each zone that is neither cold nor warm \[°C\].
+    /// The temperature of each zone that is neither cold nor warm while none is wanted \[°C\].
     middles_c: Vec<f64>,
 }
 
@@ -57,11 +57,13 @@ impl FloorPlanLayer {
         stream.log("building/plan/rooms", &Image::from_rgb24(pixels, [width as u32, height as u32]))?;
         let few = names.len() <= MAX_NAMED_ROOMS;
         let words = |(name, zone): (&String, &ZoneFrame)| match zone.reference_c {
-            Some(wanted_c) if few => format!("{name}\n{:.1} °C\nwanted {wanted_c:.1}", zone.temperature_c),
-            None if few => format!("{name}\n{:.1} °C", zone.temperature_c),
-            _ => format!("{:.1}", zone.temperature_c),
+            Some(wanted_c) if few => {
+                format!("{name}\n{} °C\nwanted {}", one_decimal(zone.temperature_c), one_decimal(wanted_c))
+            }
+            None if few => format!("{name}\n{} °C", one_decimal(zone.temperature_c)),
+            _ => one_decimal(zone.temperature_c),
         };
-        let outdoors = format!("outdoors {:.1} °C", frame.ambient_c);
+        let outdoors = format!("outdoors {} °C", one_decimal(frame.ambient_c));
         let labelled = if names.len() <= MAX_LABELLED_ROOMS { names.len() } else { 0 };
         let labels =
             names.iter().zip(&frame.zones).take(labelled).map(words).chain([outdoors]).chain(self.floor_names());
@@ -128,11 +130,12 @@ impl FloorPlanLayer {
     /// Red, green and blue of every picture element, row by row.
     fn pixels(&self, frame: &BuildingFrame, [width, height]: [usize; 2]) -> Vec<u8> {
         let middle_c = self.middles_c.iter().sum::<f64>() / self.middles_c.len().max(1) as f64;
-        let outdoors = colour(frame.ambient_c, middle_c).map(|part| part / 2);
+        let outdoors = deviation_colour(frame.ambient_c - middle_c).map(|part| part / 2);
         let mut pixels: Vec<u8> = std::iter::repeat_n(outdoors, width * height).flatten().collect();
         for (index, zone) in frame.zones.iter().enumerate() {
             let [left, top] = self.corner(index);
-            let colour = colour(zone.temperature_c, self.middles_c.get(index).copied().unwrap_or(middle_c));
+            let usual_c = self.middles_c.get(index).copied().unwrap_or(middle_c);
+            let colour = zone_colour(zone, zone.temperature_c, usual_c);
             for row in top..top + ROOM_PX {
                 let first = 3 * (row * width + left);
                 pixels[first..first + 3 * ROOM_PX].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&colour));
@@ -140,11 +143,6 @@ impl FloorPlanLayer {
         }
         pixels
     }
-}
-
-/// The colour of a temperature, by its distance from the wanted one.
-fn colour(temperature_c: f64, middle_c: f64) -> [u8; 3] {
-    temperature_colour((temperature_c - middle_c) / COLOUR_RANGE_K)
 }
 
 #[cfg(test)]

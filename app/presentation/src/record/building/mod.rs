@@ -29,6 +29,8 @@ use floor_plan::FloorPlanLayer;
 use interplay_simulation::frame::BuildingFrame;
 use series::ZonePlots;
 
+use crate::wanted_temperature::usual_wanted_c;
+
 /// The timeline of days, from 1.
 pub const ITERATION: &str = "iteration";
 
@@ -67,7 +69,7 @@ impl BuildingLayer {
         let groups = groups(names.len(), building.floor_plan().columns);
         let setpoints = scenario.setpoints.clone().unwrap_or_default();
         series::begin_groups(stream, &names, &groups)?;
-        let plan = FloorPlanLayer::begin(stream, building.floor_plan(), wanted_c(scenario, &names))?;
+        let plan = FloorPlanLayer::begin(stream, building.floor_plan(), usual_wanted_c(scenario, &names))?;
         let series = ZonePlots::begin(stream, &names, &shown, network.limits(), setpoints.band_k)?;
         let duration_s = building.step_s * (scenario.days() * building.steps_per_day()) as f64;
         let plans = DesignPlots::begin(stream, &names, &shown, scenario.controller().plans())?;
@@ -144,22 +146,6 @@ impl TemperatureRanges {
     fn outdoors(&self) -> Option<[f64; 2]> {
         self.outdoors_c.filter(|_| self.are_final)
     }
-}
-
-/// The temperature that each zone usually has to have while people are there \[°C\].
-fn wanted_c(scenario: &Scenario, names: &[String]) -> Vec<f64> {
-    let mean_c = |values: &mut dyn Iterator<Item = f64>| {
-        let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
-        (count > 0).then(|| sum / f64::from(count))
-    };
-    let setpoints = scenario.setpoints.clone().unwrap_or_default();
-    let of_all = |zone: usize| setpoints.occupied_c.get(zone.min(setpoints.occupied_c.len().saturating_sub(1)));
-    let of_zone = |(zone, name): (usize, &String)| {
-        let own = scenario.schedules.iter().filter(|schedule| schedule.zones.contains(name));
-        let scheduled = mean_c(&mut own.flat_map(|schedule| &schedule.periods).map(|period| period.wanted_c));
-        scheduled.or_else(|| of_all(zone).copied()).unwrap_or_default()
-    };
-    names.iter().enumerate().map(of_zone).collect()
 }
 
 /// The zones of which everything is recorded: all of a few, otherwise four from the first to the last.

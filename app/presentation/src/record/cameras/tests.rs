@@ -39,7 +39,7 @@ fn the_ego_is_seen_and_labels_cover_no_vehicle() {
             let [width, height] = view.size_px;
             assert!(left > 0.0 && top > 0.0 && right < width && bottom < height, "{name}: {:?}", boxes[0]);
             let car_px = camera::car_m(&scenario) * view.px_per_m;
-            assert!(car_px > 0.8 * CAR_PX[0] && car_px < 1.01 * CAR_PX[1], "{name}: {car_px}");
+            assert!(car_px > 0.99 * LEAST_CAR_PX && car_px < 1.01 * CAR_PX[1], "{name}: {car_px}");
             let words: Vec<String> = scenario.vehicles.iter().map(|one| format!("{} 1.0 m/s", one.name)).collect();
             let labels = labels::placed(&boxes, &words, view.size_px, &mut cameras.sides);
             let labels: Vec<Rectangle> = labels.into_iter().flatten().collect();
@@ -49,6 +49,33 @@ fn the_ego_is_seen_and_labels_cover_no_vehicle() {
             shown += labels.len();
         }
         assert!(shown >= views.len(), "{name}: {shown} labels in {} views", views.len());
+    }
+}
+
+/// With whom the ego deals is seen, too, from the first tick on, unless it is further away than the widest view.
+#[test]
+fn partners_are_seen_with_the_ego() {
+    for name in
+        ["roundabout/nice", "t-junction/bayesian-nice", "all-way-stop/four", "left-turn/nice", "narrow-passage/nice"]
+    {
+        let (scenario, cameras, views) = filmed(name);
+        let ego = scenario.ego_index();
+        let (mut seen, mut near, mut marked) = (0, 0, 0);
+        for (tick, view) in cameras.ticks.iter().zip(&views) {
+            let CameraMoment { states, partners, .. } = &tick.moment;
+            let Some(partner) = partners.first() else { continue };
+            let apart = [0, 1].map(|axis| (states[*partner].position()[axis] - states[ego].position()[axis]).abs());
+            let most_m = view.size_px.map(|pixels| (pixels / LEAST_CAR_PX - 2.0) * camera::car_m(&scenario));
+            if (0..2).all(|axis| apart[axis] < most_m[axis]) {
+                let [x, y] = view.place(states[*partner].position());
+                let inside = (0.0..view.size_px[0]).contains(&x) && (0.0..view.size_px[1]).contains(&y);
+                (seen, near) = (seen + usize::from(inside), near + 1);
+            } else {
+                marked += edge_marks(&scenario, view, states, partners).len();
+            }
+        }
+        assert!(near > 5 && seen as f64 >= 0.9 * near as f64, "{name}: {seen} of {near}");
+        assert_eq!(marked > 0, name == "narrow-passage/nice", "{name}: {marked}");
     }
 }
 

@@ -1,0 +1,180 @@
+//! What the camera shows at a moment: the ego, those with whom it deals, and those near enough to be seen with them.
+
+use interplay_planners::State;
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::VehicleFrame;
+
+use crate::body_style::scale;
+use crate::extent::extent;
+
+/// Length of a car of 1/10 scale \[m\].
+const CAR_M: f64 = 0.4;
+/// Space between the vehicles and the edge of the view, in lengths of a car.
+const MARGIN_CARS: f64 = 1.3;
+/// The same where two are shown close.
+const CLOSE_MARGIN_CARS: f64 = 0.4;
+/// How far ahead of each vehicle the view reaches, in its motion at 1/10 scale \[s\].
+const LOOK_AHEAD_S: f64 = 0.35;
+/// A vehicle that is further away than this many widths of the largest view does not draw the camera.
+const NEAR_WIDTHS: f64 = 2.5;
+/// Around an ego that is alone, this share of the largest view is shown.
+const ALONE_RATIO: f64 = 0.7;
+/// Space between whoever must be seen and the edge of the view, in lengths of a car.
+pub const LEAST_MARGIN_CARS: f64 = 0.35;
+
+/// Least and greatest coordinates \[m\].
+pub type Extent = [[f64; 2]; 2];
+
+/// What the camera must know of a moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraMoment {
+    /// Every vehicle, in the scenario's order.
+    pub states: Vec<State>,
+    /// With whom the ego deals: whom it asks first, then those to whom its order is open.
+    pub partners: Vec<usize>,
+    /// Two vehicles that the camera shows alone, as large as it can.
+    pub close_up: Option<[usize; 2]>,
+}
+
+/// The largest extents that are shown \[m\].
+pub struct Largest {
+    /// Of those who are near anyway.
+    pub usual_m: [f64; 2],
+    /// With somebody who is spoken of.
+    pub spoken_of_m: [f64; 2],
+}
+
+/// Length of a car of the scenario's scale \[m\].
+pub fn car_m(scenario: &Scenario) -> f64 {
+    CAR_M * scenario.ego().map_or(1.0, |ego| scale(&ego.body))
+}
+
+/// With whom a vehicle deals: whom it asks first, then those to whom its order is open.
+pub fn partners(scenario: &Scenario, vehicle: &VehicleFrame) -> Vec<usize> {
+    let asked = vehicle.plan.proposal.iter().map(|proposal| &proposal.to);
+    let mut partners = Vec::new();
+    for name in asked.chain(vehicle.plan.passing_orders.iter().map(|order| &order.of)) {
+        if let Some(index) = scenario.index_of(name).filter(|index| !partners.contains(index)) {
+            partners.push(index);
+        }
+    }
+    partners
+}
+
+/// The same moments, where each also has the partners of the moments that are less than `reach` away from it.
+pub fn keeping_partners(moments: &[CameraMoment], reach: f64) -> Vec<CameraMoment> {
+    let reach = reach as usize;
+    let kept = |(index, moment): (usize, &CameraMoment)| {
+        let mut kept = moment.clone();
+        let near = &moments[index.saturating_sub(reach)..(index + reach + 1).min(moments.len())];
+        for partner in near.iter().flat_map(|moment| &moment.partners) {
+            if !kept.partners.contains(partner) {
+                kept.partners.push(*partner);
+            }
+        }
+        kept
+    };
+    moments.iter().enumerate().map(kept).collect()
+}
+
+/// Least and greatest coordinates of some vehicles and of where they will be soon, with a margin in lengths of a car \[m\].
+fn extent_of(
+    scenario: &Scenario,
+    states: &[State],
+    indices: &[usize],
+    (margin_cars, look_ahead_s): (f64, f64),
+) -> Extent {
+    let of = |index: &usize| {
+        let (vehicle, state) = (&scenario.vehicles[*index], &states[*index]);
+        let ahead_m = look_ahead_s * vehicle.body.time_ratio() * state.speed_mps;
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        let soon = [state.x_m + ahead_m * cos, state.y_m + ahead_m * sin];
+        vehicle.body.corners(state).into_iter().chain([soon])
+    };
+    let margin_m = margin_cars * car_m(scenario);
+    let [low, high] = extent(indices.iter().flat_map(of));
+    [low.map(|part| part - margin_m), high.map(|part| part + margin_m)]
+}
+
+fn fits([low, high]: &Extent, largest_m: [f64; 2]) -> bool {
+    (0..2).all(|axis| high[axis] - low[axis] <= largest_m[axis])
+}
+
+/// Least and greatest coordinates of the ego and of those near it, with a margin, within the largest extent \[m\].
+pub fn shown_extent(scenario: &Scenario, moment: &CameraMoment, largest: &Largest) -> Extent {
+    let CameraMoment { states, partners, close_up } = moment;
+    if let Some(pair) = close_up {
+        return extent_of(scenario, states, pair, (CLOSE_MARGIN_CARS, LOOK_AHEAD_S));
+    }
+    let ego = scenario.ego_index();
+    let usual = |kept: &[usize]| extent_of(scenario, states, kept, (MARGIN_CARS, LOOK_AHEAD_S));
+    let (mut kept, mut shown) = (vec![ego], usual(&[ego]));
+    for partner in partners {
+        kept.push(*partner);
+        let narrow = || extent_of(scenario, states, &kept, (LEAST_MARGIN_CARS, 0.0));
+        match [usual(&kept), narrow()].into_iter().find(|extent| fits(extent, largest.spoken_of_m)) {
+            Some(extent) => shown = extent,
+            None => drop(kept.pop()),
+        }
+    }
+    let away_m = |index: usize| distance_m(&states[index], &states[ego]);
+    let mut others: Vec<usize> = (0..states.len()).filter(|index| !kept.contains(index)).collect();
+    let rank = |index: &usize| partners.iter().position(|partner| partner == index).unwrap_or(partners.len());
+    others.sort_by(|a, b| rank(a).cmp(&rank(b)).then(away_m(*a).total_cmp(&away_m(*b))));
+    let next = others.first().copied();
+    // Whoever is not spoken of is seen where that does not make the others smaller.
+    let most_m = [0, 1].map(|axis| largest.usual_m[axis].max(shown[1][axis] - shown[0][axis]));
+    for other in others {
+        kept.push(other);
+        match Some(usual(&kept)).filter(|extent| fits(extent, most_m)) {
+            Some(extent) => shown = extent,
+            None => drop(kept.pop()),
+        }
+    }
+    if kept.len() > 1 {
+        return shown;
+    }
+    // Nobody fits: as much as there is space for of the way to the one who comes next.
+    let largest_m = if partners.is_empty() { largest.usual_m } else { largest.spoken_of_m };
+    let is_coming = |next: usize| {
+        let is_near = away_m(next) < NEAR_WIDTHS * largest_m[0];
+        partners.contains(&next) || is_near && are_closing([&states[ego], &states[next]])
+    };
+    if let Some(next) = next.filter(|next| is_coming(*next)) {
+        shown = toward(shown, states[next].position(), largest_m);
+    }
+    with_space(shown, largest.usual_m.map(|most_m| ALONE_RATIO * most_m))
+}
+
+/// As much of the way from an extent to a place as there is space for.
+fn toward([mut low, mut high]: Extent, place_m: [f64; 2], largest_m: [f64; 2]) -> Extent {
+    for axis in 0..2 {
+        if place_m[axis] < low[axis] {
+            low[axis] = place_m[axis].max(high[axis] - largest_m[axis]);
+        } else {
+            high[axis] = high[axis].max(place_m[axis].min(low[axis] + largest_m[axis]));
+        }
+    }
+    [low, high]
+}
+
+/// An extent that is at least so large, around the same middle.
+fn with_space([low, high]: Extent, least_m: [f64; 2]) -> Extent {
+    let half_m = [0, 1].map(|axis| 0.5 * (least_m[axis] - (high[axis] - low[axis])).max(0.0));
+    [[0, 1].map(|axis| low[axis] - half_m[axis]), [0, 1].map(|axis| high[axis] + half_m[axis])]
+}
+
+fn distance_m(one: &State, other: &State) -> f64 {
+    libm::hypot(one.x_m - other.x_m, one.y_m - other.y_m)
+}
+
+/// Whether two vehicles come closer to each other.
+fn are_closing([one, other]: [&State; 2]) -> bool {
+    let velocity = |state: &State| {
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        [state.speed_mps * cos, state.speed_mps * sin]
+    };
+    let (one_mps, other_mps) = (velocity(one), velocity(other));
+    let [x, y] = [other.x_m - one.x_m, other.y_m - one.y_m];
+    x * (other_mps[0] - one_mps[0]) + y * (other_mps[1] - one_mps[1]) < 0.0
+}

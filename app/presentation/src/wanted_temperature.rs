@@ -1,0 +1,75 @@
+//! Which temperatures are neither cold nor warm: those that are wanted.
+
+use interplay_scenarios::Scenario;
+use interplay_simulation::frame::ZoneFrame;
+
+use crate::palette::{COLOUR_RANGE_K, Colour, temperature_colour};
+
+/// The temperature that each zone usually has to have while people are there \[°C\].
+pub fn usual_wanted_c(scenario: &Scenario, names: &[String]) -> Vec<f64> {
+    let mean_c = |values: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
+        (count > 0).then(|| sum / f64::from(count))
+    };
+    let setpoints = scenario.setpoints.clone().unwrap_or_default();
+    let of_all = |zone: usize| setpoints.occupied_c.get(zone.min(setpoints.occupied_c.len().saturating_sub(1)));
+    let of_zone = |(zone, name): (usize, &String)| {
+        let own = scenario.schedules.iter().filter(|schedule| schedule.zones.contains(name));
+        let scheduled = mean_c(&mut own.flat_map(|schedule| &schedule.periods).map(|period| period.wanted_c));
+        scheduled.or_else(|| of_all(zone).copied()).unwrap_or_default()
+    };
+    names.iter().enumerate().map(of_zone).collect()
+}
+
+/// The colour of a zone, by its deviation from what is wanted now, or where nothing is, from what it usually has to have.
+pub fn zone_colour(zone: &ZoneFrame, temperature_c: f64, usual_c: f64) -> Colour {
+    deviation_colour(temperature_c - zone.reference_c.unwrap_or(usual_c))
+}
+
+/// The colour of a deviation from the wanted temperature \[K\].
+pub fn deviation_colour(deviation_k: f64) -> Colour {
+    temperature_colour(deviation_k / COLOUR_RANGE_K)
+}
+
+/// A number with one decimal and, where it is negative, a minus sign and not a hyphen.
+pub fn one_decimal(value: f64) -> String {
+    let rounded = (10.0 * value).round() / 10.0;
+    let sign = if rounded < 0.0 { "−" } else { "" };
+    format!("{sign}{:.1}", rounded.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::load;
+
+    use super::*;
+
+    #[test]
+    fn hours_of_a_zone_say_what_it_usually_has_to_have() {
+        let names = ["office", "flat"].map(str::to_owned);
+        let scenario = load("building/office-and-flat", &[]).expect("embedded");
+        let usual_c = usual_wanted_c(&scenario, &names);
+        assert_eq!(usual_c[0], 21.0);
+        assert!((20.0..=21.0).contains(&usual_c[1]), "{usual_c:?}");
+    }
+
+    #[test]
+    fn colours_follow_what_is_wanted_now() {
+        let zone = |reference_c| ZoneFrame {
+            temperature_c: 21.0,
+            next_c: 21.0,
+            reference_c,
+            band_k: None,
+            requested_kw: 0.0,
+            heat_kw: 0.0,
+            gains_kw: 0.0,
+        };
+        assert_eq!(zone_colour(&zone(Some(21.0)), 21.0, 25.0), deviation_colour(0.0));
+        assert_eq!(zone_colour(&zone(None), 21.0, 25.0), deviation_colour(-4.0));
+    }
+
+    #[test]
+    fn negative_numbers_have_a_minus_sign() {
+        assert_eq!([-1.84, -0.04, 0.0, 3.06].map(one_decimal), ["−1.8", "0.0", "0.0", "3.1"]);
+    }
+}
