@@ -207,7 +207,7 @@ fn a_building_is_recorded() {
     let outcome = interplay(&folder, &["run", "building/four-room-ilc", "--set", "iterations=3"]);
     let said = &outcome.stderr;
     assert!(said.starts_with("recorded to recordings/building/four-room-ilc.rrd; to open it: "), "{said}");
-    assert!(said.ends_with("interplay view recordings/building/four-room-ilc.rrd\n"), "{said}");
+    assert!(said.ends_with(" view recordings/building/four-room-ilc.rrd\n"), "{said}");
     let bytes = fs::read(folder.join("recordings/building/four-room-ilc.rrd")).expect("there is a recording");
     for piece in ["/building/plan/rooms", "/building/zone/4/temperature", "/building/iteration/cost", "iteration"] {
         assert!(bytes.windows(piece.len()).any(|window| window == piece.as_bytes()), "{piece}");

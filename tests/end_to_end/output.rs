@@ -81,7 +81,7 @@ fn results_go_to_stdout_and_the_rest_to_stderr() {
     assert!(outcome.stdout.contains("FAIL completes.ego: want "), "{}", outcome.stdout);
     let (place, command) = outcome.stderr.split_once("; to open it: ").expect("two parts");
     // The program is called as the shell would find it.
-    assert_eq!((place, command.ends_with("interplay view my.rrd\n")), ("recorded to my.rrd", true), "{command}");
+    assert_eq!((place, command.ends_with(" view my.rrd\n")), ("recorded to my.rrd", true), "{command}");
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn a_recording_is_made_where_the_scenario_s_name_says() {
     let folder = scratch("default-recording");
     let said = short(&folder, &[]);
     assert!(said.starts_with("recorded to recordings/lane-change/front-tough.rrd; to open it: "), "{said}");
-    assert!(said.ends_with("interplay view recordings/lane-change/front-tough.rrd\n"), "{said}");
+    assert!(said.ends_with(" view recordings/lane-change/front-tough.rrd\n"), "{said}");
     let place = "recordings/lane-change/front-tough.rrd";
     assert_eq!(contents(&folder), ["recordings", "recordings/lane-change", place]);
     assert!(is_recording(&folder.join(place)));

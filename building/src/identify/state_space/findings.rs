@@ -8,8 +8,8 @@ use super::heat_balance;
 use super::likelihood::{Filtered, Observations, filter};
 use super::network_run::{FreeRunErrors, NetworkRun};
 use super::profile::{Estimated, Profiler};
-use super::quantities::{Precision, QuantityKind, logarithm};
-use super::selection::{Choice, Fit};
+use super::quantities::{Precision, QuantityKind};
+use super::selection::Choice;
 use super::trust::{QuantityEvidence, ZoneEvidence, judge};
 use crate::identify::IdentifyError;
 use crate::identify::diagnostics::{Confidence, ParameterVerdict, Whiteness, whiteness};
@@ -139,7 +139,7 @@ impl StateSpaceFindings<'_> {
         let estimated = profiler.estimated(kind, zone)?;
         let evidence = QuantityEvidence {
             balance: self.balance(kind, zone, filtered),
-            larger: self.choice.larger.as_ref().and_then(|larger| self.by(larger, kind, zone)),
+            larger: profiler.of_larger((kind, zone)).map(|(value, _)| libm::exp(value)),
         };
         let verdict = judge(&name, &estimated, zone_evidence, &evidence);
         let mut checks = Vec::new();
@@ -181,10 +181,6 @@ impl StateSpaceFindings<'_> {
     }
 
     /// A quantity by another fit.
-    fn by(&self, fit: &Fit, kind: QuantityKind, zone: usize) -> Option<f64> {
-        logarithm(self.telemetry, &fit.structure, (kind, zone), &fit.maximum.theta).map(|(value, _)| libm::exp(value))
-    }
-
     fn errors(&self, run: &NetworkRun<'_>, filtered: &Filtered, segments: &[Range<usize>]) -> Errors {
         let p = self.all.widths.0;
         let one_step = |zone: usize| {

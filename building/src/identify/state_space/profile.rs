@@ -24,6 +24,8 @@ const NEAR: f64 = 0.05;
 const LEAST_GAIN_OF_TRIAL: f64 = 1e-2;
 const MOST_TRIALS: usize = 6;
 const STEPS_A_TRIAL: usize = 12;
+/// Largest standard error of ln f with which a model knows f.
+const KNOWN_LOG_ERROR: f64 = 0.25;
 /// Beyond this factor of the estimate, an interval is called unbounded.
 const MOST_LOG_RATIO: f64 = 4.6;
 
@@ -81,7 +83,7 @@ impl Profiler<'_> {
         if !log_error.is_finite() {
             return Some(Estimated { value, log_error, interval: (None, None) });
         }
-        let rival = self.rival((kind, zone), log_value, log_error);
+        let rival = self.rival((kind, zone), log_value);
         let reach = STANDARD_ERRORS_OF_95_PERCENT * log_error;
         let distance = |sign: f64| -> Option<f64> {
             let own = match WORTH_A_PROFILE.contains(&log_error) {
@@ -100,13 +102,17 @@ impl Profiler<'_> {
         })
     }
 
-    /// What the next larger model says of a quantity, if there is one.
-    fn rival(&self, quantity: (QuantityKind, usize), log_value: f64, log_error: f64) -> Option<Rival> {
+    /// ln f and its standard error by the next larger model, if there is one that knows the quantity: what it does not know it
+    /// cannot dispute.
+    pub fn of_larger(&self, quantity: (QuantityKind, usize)) -> Option<(f64, f64)> {
         let (larger, precision) = self.larger.as_ref()?;
-        let theta = &larger.maximum.theta;
-        let (other, gradient) = logarithm(self.telemetry, &larger.structure, quantity, theta)?;
-        let error = precision.standard_error(&gradient);
-        let error = if error.is_finite() { error } else { log_error };
+        let (value, gradient) = logarithm(self.telemetry, &larger.structure, quantity, &larger.maximum.theta)?;
+        Some((value, precision.standard_error(&gradient))).filter(|(_, error)| *error <= KNOWN_LOG_ERROR)
+    }
+
+    fn rival(&self, quantity: (QuantityKind, usize), log_value: f64) -> Option<Rival> {
+        let (larger, _) = self.larger.as_ref()?;
+        let (other, error) = self.of_larger(quantity)?;
         let criterion = |fit: &Fit| fit.maximum.evaluation.log_likelihood - fit.structure.parameters.len() as f64;
         Some(Rival::new(criterion(larger) - criterion(self.fit), other - log_value, error))
     }

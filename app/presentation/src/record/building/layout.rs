@@ -50,7 +50,7 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     let outdoors =
         plot(&ranged("Outdoors", building_layer.ranges.outdoors(), "°C"), vec!["/building/outdoors/**".to_owned()]);
     let heat = plot("Heat (negative cools) [kW]", inputs(building_layer));
-    let cost = plot("Cost of each day, by the controller's own count", vec!["/building/iteration/**".to_owned()]);
+    let cost = plot("Cost of each day", vec!["/building/iteration/**".to_owned()]);
     let mut below = vec![
         (1.0, outdoors.with_legend(letters(&["forecast"]), QUARTER_WIDTH)),
         (1.0, heat.with_legend(letters(&names).max(letters(&["limit, heating"])), QUARTER_WIDTH)),
