@@ -19,6 +19,7 @@ mod palette;
 mod passing_words;
 pub mod plot;
 pub mod record;
+mod rectangle;
 pub mod report;
 mod road_shapes;
 pub mod shell;

@@ -1,4 +1,7 @@
-//! Words as a POSIX shell reads them.
+//! Words as a POSIX shell reads them, and programs as it finds them.
+
+use std::env;
+use std::path::PathBuf;
 
 /// One line that a shell splits into exactly these words.
 pub fn line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
@@ -13,6 +16,13 @@ fn quoted(word: &str) -> String {
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
     }
+}
+
+/// Whether a program of that name is in a folder of the path.
+pub fn is_on_path(program: &str) -> bool {
+    let is_program = |file: PathBuf| file.is_file() || file.with_extension("exe").is_file();
+    let folders = env::var_os("PATH").unwrap_or_default();
+    env::split_paths(&folders).any(|folder| is_program(folder.join(program)))
 }
 
 #[cfg(test)]

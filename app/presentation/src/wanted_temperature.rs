@@ -21,6 +21,11 @@ pub fn usual_wanted_c(scenario: &Scenario, names: &[String]) -> Vec<f64> {
     names.iter().enumerate().map(of_zone).collect()
 }
 
+/// The mean of what the zones usually have to have \[°C\].
+pub fn middle_c(usual_c: &[f64]) -> f64 {
+    usual_c.iter().sum::<f64>() / usual_c.len().max(1) as f64
+}
+
 /// The colour of a zone, by its deviation from what is wanted now, or where nothing is, from what it usually has to have.
 pub fn zone_colour(zone: &ZoneFrame, temperature_c: f64, usual_c: f64) -> Colour {
     deviation_colour(temperature_c - zone.reference_c.unwrap_or(usual_c))

@@ -10,7 +10,7 @@ use super::rooms::Rooms;
 use super::title::{BAR, TITLE_PX, WORDS, draw_title};
 use crate::figures::RecordedRun;
 use crate::palette::{BLUE, COLOUR_RANGE_K, Colour, ORANGE, temperature_colour};
-use crate::wanted_temperature::{deviation_colour, one_decimal, usual_wanted_c, zone_colour};
+use crate::wanted_temperature::{deviation_colour, middle_c, one_decimal, usual_wanted_c, zone_colour};
 
 const PAPER: Colour = [0xF7, 0xF7, 0xF4];
 const DARK_WORDS: Colour = [0x2A, 0x2C, 0x30];
@@ -74,14 +74,9 @@ impl<'a> BuildingPictures<'a> {
         (day, HOURS * (index - day * PICTURES_A_DAY) as f64 / PICTURES_A_DAY as f64)
     }
 
-    /// The mean of what the zones usually have to have \[°C\].
-    fn middle_c(&self) -> f64 {
-        self.usual_c.iter().sum::<f64>() / self.usual_c.len().max(1) as f64
-    }
-
     fn draw_plan(&self, canvas: &mut Canvas, step: &BuildingFrame, share: f64) {
         let [left, top, right, bottom] = PLAN_PX;
-        let outdoors = deviation_colour(step.ambient_c - self.middle_c());
+        let outdoors = deviation_colour(step.ambient_c - middle_c(&self.usual_c));
         let ring = [[left, top], [right, top], [right, bottom], [left, bottom]];
         canvas.fill_rounded(&ring, 10.0, Ink::veiled(outdoors, 0.45));
         let inside = |zone: usize| {

@@ -6,6 +6,7 @@ use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pi
 
 use super::letters::{self, Word};
 use crate::palette::Colour;
+use crate::rectangle::rounded_corners;
 
 /// Largest magnitude of a place that is drawn \[px\]: the rasteriser's numbers have 16 bits before the point.
 const MAX_PLACE_PX: f64 = 30_000.0;
@@ -205,22 +206,15 @@ fn path(points: &[[f64; 2]], closed: bool) -> Option<Path> {
 
 /// A polygon whose corners are arcs; an arc takes at most half of an edge.
 fn rounded(ring: &[[f64; 2]], radius: f64) -> Option<Path> {
-    let count = ring.len();
     let mut builder = PathBuilder::new();
-    for index in 0..count {
-        let [before, here, after] = [index + count - 1, index, index + 1].map(|corner| ring[corner % count]);
-        let toward = |to: [f64; 2]| {
-            let length = libm::hypot(to[0] - here[0], to[1] - here[1]).max(1e-9);
-            let share = (radius / length).min(0.5);
-            [0, 1].map(|axis| (here[axis] + share * (to[axis] - here[axis])) as f32)
-        };
-        let ([x, y], [end_x, end_y]) = (toward(before), toward(after));
+    for (index, corner) in rounded_corners(ring, radius).enumerate() {
+        let [[x, y], [here_x, here_y], [end_x, end_y]] = corner.map(|point| point.map(|part| part as f32));
         if index == 0 {
             builder.move_to(x, y)
         } else {
             builder.line_to(x, y)
         }
-        builder.quad_to(here[0] as f32, here[1] as f32, end_x, end_y);
+        builder.quad_to(here_x, here_y, end_x, end_y);
     }
     builder.close();
     builder.finish()

@@ -16,9 +16,9 @@ use super::title::{BAR, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, draw_title};
 use super::vehicle;
 use crate::contact::{contact_place, star};
 use crate::edge_mark::edge_marks;
-use crate::extent::extent;
 use crate::figures::RecordedRun;
 use crate::palette::{ASPHALT, BRAKE_LIGHT, Colour, FLASH, GRASS, INDICATOR, VERMILLION};
+use crate::rectangle::{Rectangle, overlap, rectangle_around};
 use crate::road_shapes::RoadShapes;
 
 const QUIET_WORDS: Colour = [0xB4, 0xB8, 0xBE];
@@ -122,9 +122,9 @@ impl<'a> DrivingPictures<'a> {
         view: &CameraView,
         seen: &[SeenVehicle],
         spoken_of: &[usize],
-    ) -> Vec<[f64; 4]> {
+    ) -> Vec<Rectangle> {
         let states: Vec<State> = seen.iter().map(|seen| seen.state).collect();
-        let mut taken: Vec<[f64; 4]> = (0..seen.len()).map(|index| self.bounds_px(view, seen, index)).collect();
+        let mut taken: Vec<Rectangle> = (0..seen.len()).map(|index| self.bounds_px(view, seen, index)).collect();
         for mark in edge_marks(self.run.scenario, view, &states, spoken_of) {
             let words = edge::draw(canvas, view, &mark, self.run.colours[mark.vehicle], &taken);
             taken.push(words);
@@ -133,15 +133,14 @@ impl<'a> DrivingPictures<'a> {
     }
 
     /// Left, top, right and bottom of a vehicle \[px\].
-    fn bounds_px(&self, view: &CameraView, seen: &[SeenVehicle], vehicle: usize) -> [f64; 4] {
+    fn bounds_px(&self, view: &CameraView, seen: &[SeenVehicle], vehicle: usize) -> Rectangle {
         let corners = self.run.scenario.vehicles[vehicle].body.corners(&seen[vehicle].state);
-        let [[left, top], [right, bottom]] = extent(corners.map(|corner| view.place(corner)));
-        [left, top, right, bottom]
+        rectangle_around(corners.map(|corner| view.place(corner)))
     }
 
     /// Names beside the vehicles, each where it covers neither a vehicle nor another name, nor other `taken` rectangles, of which the
     /// first are those of the vehicles.
-    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, mut taken: Vec<[f64; 4]>) {
+    fn draw_names(&self, canvas: &mut Canvas, view: &CameraView, mut taken: Vec<Rectangle>) {
         for (index, vehicle) in self.run.scenario.vehicles.iter().enumerate() {
             let [left, top, right, bottom] = taken[index];
             let (wide, high) = (width_of(&vehicle.name, LABEL_PX) + 10.0, LABEL_PX + 4.0);
@@ -157,7 +156,7 @@ impl<'a> DrivingPictures<'a> {
             let is_free = |middle: &&[f64; 2]| {
                 let [l, t, r, b] = label(**middle);
                 let inside = l >= 2.0 && t >= 2.0 && r <= WIDTH_PX - 2.0 && b <= view.size_px[1] - 2.0;
-                inside && !taken.iter().any(|other| l < other[2] && other[0] < r && t < other[3] && other[1] < b)
+                inside && !taken.iter().any(|other| overlap([l, t, r, b], *other))
             };
             let Some(middle) = middles.iter().find(is_free).filter(|_| is_seen) else { continue };
             let place = label(*middle);

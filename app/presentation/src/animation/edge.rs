@@ -6,6 +6,7 @@ use super::letters::width_of;
 use super::title::{BAR, WORDS};
 use crate::edge_mark::EdgeMark;
 use crate::palette::Colour;
+use crate::rectangle::{Rectangle, overlap};
 
 /// Length of an arrow and size of its words \[px\].
 const ARROW_PX: f64 = 16.0;
@@ -15,7 +16,7 @@ const BETWEEN_PX: f64 = 6.0;
 
 /// Draws a mark in the colour of its vehicle, its words off what is `taken` where there is space. Returns left, top, right and
 /// bottom of the words \[px\].
-pub fn draw(canvas: &mut Canvas, view: &CameraView, mark: &EdgeMark, colour: Colour, taken: &[[f64; 4]]) -> [f64; 4] {
+pub fn draw(canvas: &mut Canvas, view: &CameraView, mark: &EdgeMark, colour: Colour, taken: &[Rectangle]) -> Rectangle {
     let [dx, dy] = mark.toward;
     let point = |ahead: f64, left: f64| [mark.at[0] + ahead * dx - left * dy, mark.at[1] + ahead * dy + left * dx];
     let arrow = |half: f64| [point(half, 0.0), point(-half, 0.85 * half), point(-half, -0.85 * half)];
@@ -32,9 +33,7 @@ pub fn draw(canvas: &mut Canvas, view: &CameraView, mark: &EdgeMark, colour: Col
         let [x, y] = [inside(0), inside(1)];
         [x - 0.5 * wide, y - 0.5 * high, x + 0.5 * wide, y + 0.5 * high]
     };
-    let is_free = |[l, t, r, b]: &[f64; 4]| {
-        !taken.iter().any(|other| *l < other[2] && other[0] < *r && *t < other[3] && other[1] < *b)
-    };
+    let is_free = |place: &Rectangle| !taken.iter().any(|other| overlap(*place, *other));
     let places = [0.0, -1.0, 1.0, -2.0, 2.0].map(place);
     let [l, t, r, b] = places.into_iter().find(is_free).unwrap_or(places[0]);
     canvas.fill_rounded(&[[l, t], [r, t], [r, b], [l, b]], 5.0, Ink::veiled(BAR, 0.82));

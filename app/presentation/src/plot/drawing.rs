@@ -11,6 +11,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::figure::{Drawn, FONT, Figure, PlotError, make_folder, register, save, svg};
 use super::style::{BLACK, Colour, Dash, LineStyle};
+use crate::rectangle::overlap;
 
 /// Size of text on ticks and bodies.
 pub const SMALL_TEXT_PX: f64 = 22.0;
@@ -147,11 +148,6 @@ impl Drawing {
         make_folder(folder)?;
         save(folder, name, self)
     }
-}
-
-/// Whether two boxes have a point in common.
-fn overlap([left, top, right, bottom]: [f64; 4], [l, t, r, b]: [f64; 4]) -> bool {
-    left < r && l < right && top < b && t < bottom
 }
 
 /// The words of a mark and what they cover: left, top, right, bottom.

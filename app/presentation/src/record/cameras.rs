@@ -18,7 +18,7 @@ use interplay_simulation::frame::Frame;
 use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::car;
-use super::labels::{self, Rectangle};
+use super::labels;
 use super::mesh::Mesh;
 use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{Clear, Pinhole, Points2D, Transform3D};
@@ -29,6 +29,7 @@ use crate::contact::{contact_place, numbers, star};
 use crate::edge_mark::edge_marks;
 use crate::extent::extent;
 use crate::palette::{FLASH, VERMILLION};
+use crate::rectangle::{Rectangle, rectangle_around};
 
 /// The camera from above, the one from the side, and the one that sees the whole road.
 pub const TOP: &str = "world/camera/top";
@@ -248,7 +249,7 @@ impl Cameras {
         let vehicles = scenario.vehicles.iter().zip(&tick.moment.states);
         let mut boxes: Vec<Rectangle> = vehicles
             .clone()
-            .map(|(vehicle, state)| labels::bounds(vehicle.body.corners(state).map(|corner| view.place(corner))))
+            .map(|(vehicle, state)| rectangle_around(vehicle.body.corners(state).map(|corner| view.place(corner))))
             .collect();
         let mut words: Vec<String> =
             vehicles.map(|(vehicle, state)| format!("{} {:.1} m/s", vehicle.name, state.speed_mps.abs())).collect();

@@ -2,7 +2,7 @@
 //!
 //! Places are pixels of the view, y downwards.
 
-use crate::extent::extent;
+use crate::rectangle::{Rectangle, overlap};
 
 /// Width of a letter and of the edges of a label, and its height \[px\].
 const LETTER_PX: f64 = 7.3;
@@ -10,15 +10,6 @@ const EDGES_PX: f64 = 14.0;
 const HEIGHT_PX: f64 = 25.0;
 /// Distance between a vehicle and its label \[px\].
 const DISTANCE_PX: f64 = 4.0;
-
-/// A rectangle: left, top, right, bottom \[px\].
-pub type Rectangle = [f64; 4];
-
-/// The rectangle around some points.
-pub fn bounds(points: impl IntoIterator<Item = [f64; 2]>) -> Rectangle {
-    let [[left, top], [right, bottom]] = extent(points);
-    [left, top, right, bottom]
-}
 
 /// The label of each vehicle as a rectangle; none where there is no space or the vehicle is out of view.
 ///
@@ -35,9 +26,10 @@ pub fn placed(
         let [left, top, right, bottom] = *vehicle;
         let is_seen = right > 0.0 && left < size_px[0] && bottom > 0.0 && top < size_px[1];
         let candidates = candidates(*vehicle, width_px(words));
-        let is_free = |[l, t, r, b]: &Rectangle| {
-            let inside = *l >= 0.0 && *t >= 0.0 && *r <= size_px[0] && *b <= size_px[1];
-            inside && !taken.iter().any(|other| *l < other[2] && other[0] < *r && *t < other[3] && other[1] < *b)
+        let is_free = |place: &Rectangle| {
+            let [l, t, r, b] = *place;
+            let inside = l >= 0.0 && t >= 0.0 && r <= size_px[0] && b <= size_px[1];
+            inside && !taken.iter().any(|other| overlap(*place, *other))
         };
         let order = [sides[index]].into_iter().chain(0..candidates.len());
         let found = order.into_iter().find(|side| is_free(&candidates[*side])).filter(|_| is_seen);
@@ -60,9 +52,7 @@ pub fn at_edge([x, y]: [f64; 2], words: &str, [width, height]: [f64; 2], taken: 
         let y = (y + steps * step_y).clamp(half[1], (height - half[1]).max(half[1]));
         [x - half[0], y - half[1], x + half[0], y + half[1]]
     };
-    let is_free = |[l, t, r, b]: &Rectangle| {
-        !taken.iter().any(|other| *l < other[2] && other[0] < *r && *t < other[3] && other[1] < *b)
-    };
+    let is_free = |place: &Rectangle| !taken.iter().any(|other| overlap(*place, *other));
     [0.0, 1.0, -1.0, 2.0, -2.0].map(candidate).into_iter().find(is_free)
 }
 
@@ -84,10 +74,6 @@ fn candidates([left, top, right, bottom]: Rectangle, width_px: f64) -> [Rectangl
 mod tests {
     use super::*;
 
-    fn overlap(a: &Rectangle, b: &Rectangle) -> bool {
-        a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
-    }
-
     #[test]
     fn labels_cover_neither_vehicles_nor_each_other() {
         let vehicles = [[100.0, 100.0, 160.0, 130.0], [110.0, 135.0, 170.0, 165.0], [165.0, 100.0, 225.0, 130.0]];
@@ -96,8 +82,8 @@ mod tests {
         let labels = placed(&vehicles, &words, [800.0, 300.0], &mut sides);
         let labels: Vec<Rectangle> = labels.into_iter().map(|label| label.expect("there is space")).collect();
         for (index, label) in labels.iter().enumerate() {
-            assert!(vehicles.iter().all(|vehicle| !overlap(label, vehicle)), "{label:?}");
-            assert!(labels[..index].iter().all(|other| !overlap(label, other)), "{label:?}");
+            assert!(vehicles.iter().all(|vehicle| !overlap(*label, *vehicle)), "{label:?}");
+            assert!(labels[..index].iter().all(|other| !overlap(*label, *other)), "{label:?}");
         }
     }
 
@@ -115,7 +101,7 @@ mod tests {
         let alone = at_edge([788.0, 150.0], "oncoming, 84 m", size_px, &[]).expect("space");
         assert!(alone[2] <= 800.0 && alone[1] < 150.0 && alone[3] > 150.0, "{alone:?}");
         let beside = at_edge([788.0, 150.0], "oncoming, 84 m", size_px, &[alone]).expect("space");
-        assert!(!overlap(&alone, &beside), "{beside:?}");
+        assert!(!overlap(alone, beside), "{beside:?}");
         assert_eq!(at_edge([788.0, 150.0], "oncoming", size_px, &[[0.0, 0.0, 800.0, 300.0]]), None);
     }
 }

@@ -1,21 +1,15 @@
 //! MP4, by the program `ffmpeg`.
 
-use std::env;
 use std::io::{self, Read, Write};
-use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use crate::animation::pictures::Pictures;
 use crate::animation::timing::{LAST_PICTURE_S, PICTURE_S};
+use crate::shell::is_on_path;
 
 /// Whether there is an `ffmpeg` on the path.
 pub fn has_ffmpeg() -> bool {
-    let folders = env::var_os("PATH").unwrap_or_default();
-    env::split_paths(&folders).any(|folder| is_program(folder.join("ffmpeg")))
-}
-
-fn is_program(path: PathBuf) -> bool {
-    path.is_file() || path.with_extension("exe").is_file()
+    is_on_path("ffmpeg")
 }
 
 /// Pictures as MP4.

@@ -5,6 +5,7 @@ use super::super::style::{BLACK, Colour, Dash, LineStyle, PAPER};
 use super::data::distance;
 use crate::body_shape::{BodyPaint, BodyPart, body_parts};
 use crate::body_style::BodyStyle;
+use crate::rectangle::rounded_corners;
 
 /// Points of a rounded corner.
 const CORNER_POINTS: usize = 5;
@@ -36,16 +37,9 @@ pub(super) fn draw(drawing: &mut Drawing, corners: [[f64; 2]; 4], style: BodySty
     }
 }
 
-/// A polygon whose corners are curves of some points; a curve takes at most half of an edge.
+/// A polygon whose corners are curves of some points.
 fn rounded(ring: &[[f64; 2]], radius: f64) -> Vec<[f64; 2]> {
-    let count = ring.len();
-    let corner = |index: usize| {
-        let [before, here, after] = [index + count - 1, index, index + 1].map(|corner| ring[corner % count]);
-        let toward = |to: [f64; 2]| {
-            let share = (radius / distance(here, to).max(1e-9)).min(0.5);
-            [0, 1].map(|axis| here[axis] + share * (to[axis] - here[axis]))
-        };
-        let (start, end) = (toward(before), toward(after));
+    let curve = |[start, here, end]: [[f64; 2]; 3]| {
         (0..CORNER_POINTS).map(move |point| {
             let t = point as f64 / (CORNER_POINTS - 1) as f64;
             [0, 1].map(|axis| {
@@ -54,7 +48,7 @@ fn rounded(ring: &[[f64; 2]], radius: f64) -> Vec<[f64; 2]> {
             })
         })
     };
-    (0..count).flat_map(corner).collect()
+    rounded_corners(ring, radius).flat_map(curve).collect()
 }
 
 /// Black or white, whichever is better read on a colour.

@@ -7,7 +7,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 use super::super::palette::NEUTRAL;
 use super::super::re_sdk_types::archetypes::{Image, Points2D};
 use super::super::re_sdk_types::components::Radius;
-use crate::wanted_temperature::{deviation_colour, one_decimal, zone_colour};
+use crate::wanted_temperature::{deviation_colour, middle_c, one_decimal, zone_colour};
 
 /// Width of a room, from wall to wall.
 const ROOM_PX: usize = 24;
@@ -129,7 +129,7 @@ impl FloorPlanLayer {
 
     /// Red, green and blue of every picture element, row by row.
     fn pixels(&self, frame: &BuildingFrame, [width, height]: [usize; 2]) -> Vec<u8> {
-        let middle_c = self.middles_c.iter().sum::<f64>() / self.middles_c.len().max(1) as f64;
+        let middle_c = middle_c(&self.middles_c);
         let outdoors = deviation_colour(frame.ambient_c - middle_c).map(|part| part / 2);
         let mut pixels: Vec<u8> = std::iter::repeat_n(outdoors, width * height).flatten().collect();
         for (index, zone) in frame.zones.iter().enumerate() {

@@ -34,7 +34,7 @@ fn the_ego_is_seen_and_labels_cover_no_vehicle() {
             let vehicles = scenario.vehicles.iter().zip(&tick.moment.states);
             let place = |corner: [f64; 2]| view.place(corner);
             let boxes: Vec<Rectangle> =
-                vehicles.map(|(one, state)| labels::bounds(one.body.corners(state).map(place))).collect();
+                vehicles.map(|(one, state)| rectangle_around(one.body.corners(state).map(place))).collect();
             let [left, top, right, bottom] = boxes[scenario.ego_index()];
             let [width, height] = view.size_px;
             assert!(left > 0.0 && top > 0.0 && right < width && bottom < height, "{name}: {:?}", boxes[0]);
