@@ -13,6 +13,7 @@ mod edge_mark;
 mod extent;
 pub mod figures;
 mod font;
+mod lane_change;
 mod network_lines;
 pub mod page;
 mod palette;

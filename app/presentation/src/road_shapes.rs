@@ -57,7 +57,7 @@ impl RoadShapes {
         let road = &scenario.road;
         let mut shapes = RoadShapes { lane_m: road.lane_width_m(), ..RoadShapes::default() };
         if let Some(network) = &scenario.network {
-            shapes.add_network(network);
+            shapes.add_network(network, bounds_m);
         } else if let Some(curved) = CurvedRoad::new(road) {
             let along = |corner: [f64; 2]| scenario.main_route().along(corner);
             let [from_m, to_m] = range(corners(bounds_m).map(along), 4.0 * shapes.lane_m);
@@ -82,13 +82,13 @@ impl RoadShapes {
         shapes
     }
 
-    fn add_network(&mut self, network: &RoadNetwork) {
+    fn add_network(&mut self, network: &RoadNetwork, bounds_m: [[f64; 2]; 2]) {
         let lines = NetworkLines::new(network);
         let ring = |[right, left]: &[WorldLine; 2]| right.iter().chain(left.iter().rev()).copied().collect();
         self.surfaces.extend(lines.surfaces().iter().map(ring));
         self.edges = lines.edges();
         for (lane, edges) in network.lanes().iter().zip(lines.surfaces()) {
-            self.add_ways_out(network, lane, edges);
+            self.add_ways_out(network, lane, edges, bounds_m);
         }
         self.dashes = lines.dashes(DASH_LANES * self.lane_m);
         self.stop_lines = lines.stop_lines();
@@ -104,8 +104,14 @@ impl RoadShapes {
         }
     }
 
-    /// Goes on beyond the ends of the network, where vehicles go on too.
-    fn add_ways_out(&mut self, network: &RoadNetwork, lane: &Lane, [right, left]: &[WorldLine; 2]) {
+    /// Goes on beyond the ends of the network, where vehicles go on too, at least as far as the bounds.
+    fn add_ways_out(
+        &mut self,
+        network: &RoadNetwork,
+        lane: &Lane,
+        [right, left]: &[WorldLine; 2],
+        bounds_m: [[f64; 2]; 2],
+    ) {
         let has_before = network.lanes().iter().any(|other| other.successors.contains(&lane.name));
         let end_m = lane.centre.length_m();
         for (is_open, at_m) in [(lane.successors.is_empty(), end_m), (!has_before, 0.0)] {
@@ -119,7 +125,10 @@ impl RoadShapes {
                 continue;
             }
             let sign = if at_m > 0.0 { 1.0 } else { -1.0 };
-            let direction = Axes::along(direction(lane, at_m)).vector([sign * WAY_OUT_LANES * self.lane_m, 0.0]);
+            let axes = Axes::along(direction(lane, at_m));
+            let beyond_m = |corner: [f64; 2]| sign * (axes.components(corner)[0] - axes.components(reached)[0]);
+            let length_m = corners(bounds_m).map(beyond_m).into_iter().fold(WAY_OUT_LANES * self.lane_m, f64::max);
+            let direction = axes.vector([sign * length_m, 0.0]);
             let [near_right, near_left] = [right, left].map(|edge| if at_m > 0.0 { edge.last() } else { edge.first() });
             let (Some(&near_right), Some(&near_left)) = (near_right, near_left) else { continue };
             let far = |[x, y]: [f64; 2]| [x + direction[0], y + direction[1]];

@@ -1,14 +1,14 @@
 //! What vehicles signal: brake lights and indicators.
 
+use interplay_planners::Route;
 use interplay_planners::road::network::RouteLeg;
-use interplay_planners::{Route, State};
-use interplay_scenarios::Scenario;
+use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::VehicleFrame;
+
+use crate::lane_change::lane_change;
 
 /// A vehicle brakes visibly if its acceleration is below this \[m/s²\].
 const BRAKING_MPS2: f64 = -0.1;
-/// A plan that leads further sideways than this is a change of lane, in lane widths.
-const LANE_CHANGE_LANES: f64 = 0.5;
 /// How much a way turns away from the lane before it, where there is a choice, to be indicated \[rad\].
 const TURN_RAD: f64 = 0.6;
 /// How far ahead a turn is indicated, in lane widths.
@@ -29,16 +29,11 @@ pub fn is_braking(acceleration_mps2: f64) -> bool {
 }
 
 /// To which side a plan leads: into another lane, or on a network around a corner.
-pub fn turn(scenario: &Scenario, route: &Route, vehicle: &VehicleFrame) -> Option<Turn> {
-    let states = &vehicle.plan.trajectory.states;
-    let (first, last) = (&vehicle.state, states.last()?);
-    let side = |amount: f64| if amount > 0.0 { Turn::Left } else { Turn::Right };
-    let across = |state: &State| route.locate(state.position(), None).across_m;
-    let sideways_m = across(last) - across(first);
-    if sideways_m.abs() > LANE_CHANGE_LANES * scenario.road.lane_width_m() {
-        return Some(side(sideways_m));
-    }
-    turned_rad(scenario, route, route.along(first.position())).map(side)
+pub fn turn(scenario: &Scenario, vehicle: &Vehicle, seen: &VehicleFrame) -> Option<Turn> {
+    let to_another_lane = lane_change(scenario, vehicle, &seen.plan.trajectory.states);
+    let along_m = vehicle.route.along(seen.state.position());
+    let leftward = to_another_lane.or_else(|| turned_rad(scenario, &vehicle.route, along_m))?;
+    Some(if leftward > 0.0 { Turn::Left } else { Turn::Right })
 }
 
 /// How much the way of a vehicle turns at the next lane from which several lead on, if that is near \[rad\].

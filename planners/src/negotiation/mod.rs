@@ -195,7 +195,7 @@ impl Negotiation {
         let refused = self.settings.safety_filter && !self.filter.admits(scene, optimum, retreat);
         if refused {
             plan.trajectory = retreat.trajectory(0);
-            plan.events.push(PlanEvent::note("safety filter: conservative input"));
+            plan.events.push(PlanEvent::note("the safety filter drives the cautious input instead of the plan's"));
         }
         plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused))));
     }

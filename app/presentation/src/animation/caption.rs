@@ -51,7 +51,9 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
         return Caption { first: format!("{one} and {other} collide"), second, alarms: true };
     }
     let first = asks(run, frame).or_else(|| intends(run, frame)).unwrap_or_default();
-    let second = if second == first { String::new() } else { second };
+    // What the first line says already is no news.
+    let said = second.split_once(' ').is_some_and(|(name, does)| first.starts_with(name) && first.contains(does));
+    let second = if said { String::new() } else { second };
     Caption { first, second, alarms: false }
 }
 

@@ -135,28 +135,27 @@ impl<'a> DrivingRun<'a> {
         let next_s = self.frames.get(tick + 1).map_or(self.end.0, |frame| frame.time_s);
         let share = ((time_s - frame.time_s) / (next_s - frame.time_s).max(1e-9)).clamp(0.0, 1.0);
         let blinks = ((shown_s / BLINK_S) as usize).is_multiple_of(2);
-        let seen =
-            |(index, vehicle): (usize, &VehicleFrame)| {
-                let state = self.state(index, tick, share);
-                let turn = turn(self.scenario, &self.scenario.vehicles[index].route, vehicle);
-                let failed = vehicle.origin != Origin::Planned;
-                SeenVehicle {
-                    state,
-                    steering_rad: vehicle.input.steering_rad,
-                    brakes: is_braking(vehicle.input.acceleration_mps2) && state.speed_mps > 1e-3,
-                    turn,
-                    blinks,
-                    plan: rest(&vehicle.plan.trajectory.states, &state),
-                    plan_colour: if failed { VERMILLION.rgb } else { self.colours[index] },
-                    branches: {
-                        let branches = vehicle.plan.branches.iter();
-                        branches.map(|branch| rest(&branch.trajectory.states, &state)).collect()
-                    },
-                    proposal: vehicle.plan.proposal.as_ref().map_or_else(Vec::new, |proposal| {
-                        proposal.trajectory.states.iter().map(State::position).collect()
-                    }),
-                }
-            };
+        let seen = |(index, vehicle): (usize, &VehicleFrame)| {
+            let state = self.state(index, tick, share);
+            let turn = turn(self.scenario, &self.scenario.vehicles[index], vehicle);
+            let failed = vehicle.origin != Origin::Planned;
+            SeenVehicle {
+                state,
+                steering_rad: vehicle.input.steering_rad,
+                brakes: is_braking(vehicle.input.acceleration_mps2) && state.speed_mps > 1e-3,
+                turn,
+                blinks,
+                plan: rest(&vehicle.plan.trajectory.states, &state),
+                plan_colour: if failed { VERMILLION.rgb } else { self.colours[index] },
+                branches: {
+                    let branches = vehicle.plan.branches.iter();
+                    branches.map(|branch| rest(&branch.trajectory.states, &state)).collect()
+                },
+                proposal: self.requests[tick]
+                    .proposal(frame, index)
+                    .map_or_else(Vec::new, |proposal| proposal.trajectory.states.iter().map(State::position).collect()),
+            }
+        };
         frame.vehicles.iter().enumerate().map(seen).collect()
     }
 
@@ -245,7 +244,8 @@ mod tests {
         assert!(lit > 10 && dark > 10, "{lit} {dark}");
     }
 
-    /// On the ring nobody indicates before the exit, there to the right; a left turn at a crossing is indicated to the left.
+    /// On the ring nobody indicates before the exit, there to the right; a left turn at a crossing is indicated to the left, as
+    /// is the way from the ramp to the road; whoever overtakes indicates to the left, and later to the right.
     #[test]
     fn turns_are_indicated_where_there_is_a_choice() {
         let turns = |name: &str| {
@@ -259,6 +259,8 @@ mod tests {
         };
         assert_eq!(turns("roundabout/nice"), [Turn::Right]);
         assert_eq!(turns("left-turn/nice"), [Turn::Left]);
+        assert_eq!(turns("on-ramp/five"), [Turn::Left]);
+        assert_eq!(turns("overtaking/oncoming"), [Turn::Left, Turn::Right]);
     }
 
     /// The ego of this scenario changes to the lane on its left, and indicates before it is there.

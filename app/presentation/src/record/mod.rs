@@ -63,6 +63,7 @@ use status::StatusLines;
 pub use timelines::{SIM_TIME, TICK};
 use vehicles::VehicleLayer;
 
+use crate::answer::Requests;
 use crate::network_lines::expected_bounds_m;
 
 use interplay_simulation::frame::Frame;
@@ -104,6 +105,7 @@ pub struct Recorder {
     vehicles: VehicleLayer,
     cameras: Cameras,
     status: StatusLines,
+    requests: Requests,
     plots: Plots,
     building_layer: Option<BuildingLayer>,
     /// What a reader types to get the run again.
@@ -152,7 +154,7 @@ impl Recorder {
         let cameras = Cameras::begin(&stream, scenario, &vehicle_colours, (has_strip, bounds_m))?;
         let plots = Plots::begin(&stream, scenario, &vehicle_colours)?;
         let building_layer = BuildingLayer::begin(&stream, scenario)?;
-        let (scenario, status) = (scenario.clone(), StatusLines::default());
+        let (scenario, status, requests) = (scenario.clone(), StatusLines::default(), Requests::default());
         Ok(Recorder {
             stream,
             output,
@@ -161,6 +163,7 @@ impl Recorder {
             vehicles,
             cameras,
             status,
+            requests,
             plots,
             building_layer,
             command: None,
@@ -189,8 +192,9 @@ impl Recorder {
     pub fn tick(&mut self, frame: &Frame) -> Result<(), RecordError> {
         self.stream.set_duration_secs(SIM_TIME, frame.time_s);
         self.stream.set_time_sequence(TICK, i64::try_from(frame.tick).unwrap_or(i64::MAX));
-        self.vehicles.tick(&self.stream, &self.scenario, frame)?;
-        self.status.tick(&self.stream, &self.scenario, &self.vehicle_colours, frame)?;
+        self.requests.tick(&self.scenario, frame);
+        self.vehicles.tick(&self.stream, &self.scenario, frame, &self.requests)?;
+        self.status.tick(&self.stream, (&self.scenario, &self.vehicle_colours), frame, &self.requests)?;
         self.plots.tick(&self.stream, &self.scenario, frame)?;
         if let (Some(building_layer), Some(frame)) = (&mut self.building_layer, &frame.building) {
             building_layer.step(&self.stream, frame)?;

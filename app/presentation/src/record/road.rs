@@ -17,6 +17,9 @@ const LINES_LANES: f64 = 0.005;
 const SHOULDER_LANES: f64 = 0.08;
 /// How far the road goes on beyond the vehicles, in lane widths.
 const BEYOND_LANES: f64 = 40.0;
+/// Width of the lines where vehicles stop or yield, in lane widths. They are surfaces: a line of the viewer has round ends, which
+/// would close the spaces between dashes.
+const STOP_LINE_LANES: f64 = 0.11;
 /// Length of the pieces of a line, in lane widths, and most of them between two points.
 const PIECE_LANES: f64 = 2.0;
 const MAX_PIECES: f64 = 2000.0;
@@ -45,11 +48,14 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
         arrow.heads.iter().for_each(|head| surface.add_polygon(head, height_m, ARROW));
         arrows.extend(arrow.bends.into_iter().chain([arrow.stem]));
     }
+    for line in shapes.stop_lines.iter().flat_map(|line| line.windows(2)) {
+        let half_m = 0.5 * STOP_LINE_LANES * shapes.lane_m;
+        surface.add_polygon(&strip([line[0], line[1]], half_m, 0.0), height_m, PAINT);
+    }
     stream.log_static("world/road/surface", &surface.to_component())?;
     for (part, lines, points, colour) in [
         ("edges", &shapes.edges, 1.1, PAINT),
         ("markings", &shapes.dashes, 0.8, PAINT),
-        ("stop-lines", &shapes.stop_lines, 2.0, PAINT),
         ("arrows", &arrows, 1.4, ARROW),
     ] {
         if !lines.is_empty() {
@@ -64,18 +70,21 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
 fn add_shoulder(mesh: &mut Mesh, ring: &[[f64; 2]], shapes: &RoadShapes) {
     let half_m = SHOULDER_LANES * shapes.lane_m;
     for index in 0..ring.len() {
-        let [from, to] = [ring[index], ring[(index + 1) % ring.len()]];
-        let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
-        if length > 0.0 {
-            let along = [0, 1].map(|axis| half_m * (to[axis] - from[axis]) / length);
-            let across = [-along[1], along[0]];
-            let at = |point: [f64; 2], ahead: f64, left: f64| {
-                [0, 1].map(|axis| point[axis] + ahead * along[axis] + left * across[axis])
-            };
-            let strip = [at(from, -0.5, -1.0), at(to, 0.5, -1.0), at(to, 0.5, 1.0), at(from, -0.5, 1.0)];
-            mesh.add_polygon(&strip, 0.5 * GROUND_LANES * shapes.lane_m, ASPHALT);
+        let ends = [ring[index], ring[(index + 1) % ring.len()]];
+        if ends[0] != ends[1] {
+            mesh.add_polygon(&strip(ends, half_m, 0.5 * half_m), 0.5 * GROUND_LANES * shapes.lane_m, ASPHALT);
         }
     }
+}
+
+/// The rectangle along a straight line, by half of its width and how far it reaches beyond the ends \[m\].
+fn strip([from, to]: [[f64; 2]; 2], half_m: f64, beyond_m: f64) -> [[f64; 2]; 4] {
+    let delta = [0, 1].map(|axis| to[axis] - from[axis]);
+    let along = delta.map(|part| part / libm::hypot(delta[0], delta[1]));
+    let at = |point: [f64; 2], ahead_m: f64, left_m: f64| {
+        [point[0] + ahead_m * along[0] - left_m * along[1], point[1] + ahead_m * along[1] + left_m * along[0]]
+    };
+    [at(from, -beyond_m, -half_m), at(to, beyond_m, -half_m), at(to, beyond_m, half_m), at(from, -beyond_m, half_m)]
 }
 
 /// The same line with points that are not further apart than a distance \[m\]: between points far from and near to a camera

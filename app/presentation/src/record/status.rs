@@ -25,7 +25,6 @@ const KEEPS_MPS2: f64 = 0.05;
 #[derive(Default)]
 pub struct StatusLines {
     last: String,
-    requests: Requests,
 }
 
 impl StatusLines {
@@ -36,17 +35,16 @@ impl StatusLines {
     pub fn tick(
         &mut self,
         stream: &RecordingStream,
-        scenario: &Scenario,
-        vehicle_colours: &[NamedColour],
+        (scenario, vehicle_colours): (&Scenario, &[NamedColour]),
         frame: &Frame,
+        requests: &Requests,
     ) -> RecordingStreamResult<()> {
         if frame.vehicles.is_empty() {
             return Ok(());
         }
-        self.requests.tick(scenario, frame);
         let mut text = String::new();
         for (index, (vehicle, colour)) in scenario.vehicles.iter().zip(vehicle_colours).enumerate() {
-            let asks = self.requests.sentence(frame, index);
+            let asks = requests.sentence(frame, index);
             let (name, wants, does) =
                 (&vehicle.name, wants(scenario, vehicle), does(scenario, index, &frame.vehicles[index], asks));
             let _ = writeln!(text, "**{name}** ({}) wants {wants}: {does}.\n", colour.word);

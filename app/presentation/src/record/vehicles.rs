@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use interplay_planners::{Body, Route, State, Trajectory};
+use interplay_planners::{Body, Proposal, Route, State, Trajectory};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
@@ -12,6 +12,7 @@ use super::palette::{FAILURE, NEUTRAL, NamedColour, opaque};
 use super::re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use super::re_sdk_types::components::Radius;
 use super::road::turn;
+use crate::answer::Requests;
 use crate::palette::{BRAKE_LIGHT, INDICATOR};
 use crate::signals::{Turn, is_braking, turn as indicated};
 
@@ -93,10 +94,16 @@ impl VehicleLayer {
     ///
     /// # Errors
     /// If Rerun refuses a component.
-    pub fn tick(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
+    pub fn tick(
+        &mut self,
+        stream: &RecordingStream,
+        scenario: &Scenario,
+        frame: &Frame,
+        requests: &Requests,
+    ) -> RecordingStreamResult<()> {
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
-            drawn.log_tick(stream, vehicle)?;
-            drawn.log_lights(stream, scenario, vehicle)?;
+            drawn.log_tick(stream, vehicle, requests.proposal(frame, index))?;
+            drawn.log_lights(stream, vehicle, indicated(scenario, &scenario.vehicles[index], vehicle))?;
             if index != self.ego {
                 let heading_rad = drawn.route.locate(vehicle.state.position(), None).heading_rad;
                 let place = pose(&State { heading_rad, ..vehicle.state });
@@ -138,7 +145,12 @@ impl DrawnVehicle {
         Ok(())
     }
 
-    fn log_tick(&mut self, stream: &RecordingStream, vehicle: &VehicleFrame) -> RecordingStreamResult<()> {
+    fn log_tick(
+        &mut self,
+        stream: &RecordingStream,
+        vehicle: &VehicleFrame,
+        asks: Option<&Proposal>,
+    ) -> RecordingStreamResult<()> {
         let state = &vehicle.state;
         stream.log(self.at("body"), &pose(state))?;
         if let Some(last) = self.last.replace(*state) {
@@ -149,7 +161,6 @@ impl DrawnVehicle {
         let plan = strips([points(&vehicle.plan.trajectory, self.z(PLAN_WIDTHS))]).with_colors([plan_colour.solid()]);
         stream.log(self.at("plan"), &plan)?;
         stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction, self.z(PREDICTION_WIDTHS))))?;
-        let asks = vehicle.plan.proposal.as_ref();
         if asks.is_some() || self.asks {
             self.asks = asks.is_some();
             let dots = asks.map(|proposal| points(&proposal.trajectory, self.z(PROPOSAL_WIDTHS)));
@@ -169,8 +180,8 @@ impl DrawnVehicle {
     fn log_lights(
         &mut self,
         stream: &RecordingStream,
-        scenario: &Scenario,
         vehicle: &VehicleFrame,
+        turns: Option<Turn>,
     ) -> RecordingStreamResult<()> {
         let lights = |places: Option<[[f64; 3]; 2]>| {
             let places = places.into_iter().flatten().map(|place| place.map(|part| part as f32));
@@ -182,7 +193,6 @@ impl DrawnVehicle {
             let places = brakes.then(|| car::brake_lights(&self.body));
             stream.log(self.at("body/brake-lights"), &lights(places))?;
         }
-        let turns = indicated(scenario, &self.route, vehicle);
         if turns != self.turns {
             self.turns = turns;
             let places = turns.map(|turn| car::indicators(&self.body, turn == Turn::Left));
