@@ -55,17 +55,27 @@ pub(crate) fn parse(document: &Arc<Document>, text: &str) -> Result<TomlNode, Ve
     Err(faults.collect())
 }
 
-/// The fault of a header such as `[vehicle]` that stands twice: a list wants two brackets. All other errors follow from it.
+/// The fault of a header such as `[vehicle]` that stands twice, or beside `[[vehicle]]`: a list wants two brackets. All other
+/// errors follow from it.
 fn single_brackets(document: &Arc<Document>, text: &str, span: std::ops::Range<usize>) -> Option<Fault> {
     let start = text.get(..span.start)?.rfind('\n').map_or(0, |end| end + 1);
     let line = text[start..].lines().next()?.trim_end();
-    let name = line.strip_prefix('[')?.strip_suffix(']').filter(|name| !name.starts_with('['))?;
-    let is_again = text.lines().filter(|other| other.trim_end() == line).count() > 1;
-    let place = Place::new(document, start..start + line.len());
-    let message = format!("`{line}` stands here for the second time");
-    is_again.then(|| {
-        Fault::at(&place, "two brackets?", message).help(format!("of each one of several, write `[[{name}]]`"))
-    })
+    let name = line.strip_prefix('[')?.strip_suffix(']')?;
+    let name = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')).unwrap_or(name);
+    let (single, double) = (format!("[{name}]"), format!("[[{name}]]"));
+    let mut singles = text.split_inclusive('\n').scan(0, |from, line| {
+        let begins = std::mem::replace(from, *from + line.len());
+        Some((begins, line.trim_end()))
+    });
+    let is_of_list = text.lines().any(|line| line.trim_end() == double);
+    let (begins, _) = singles.by_ref().filter(|(_, line)| *line == single).nth(usize::from(!is_of_list))?;
+    let message = if is_of_list {
+        format!("`{single}` stands here beside `{double}`")
+    } else {
+        format!("`{single}` stands here for the second time")
+    };
+    let place = Place::new(document, begins..begins + single.len());
+    Some(Fault::at(&place, "two brackets?", message).help(format!("of each one of several, write `{double}`")))
 }
 
 /// Parses a single value that is written at `offset` in the document; `None` if it is not TOML.

@@ -72,3 +72,17 @@ fn scaled_numbers_are_short_in_messages() {
     let digits = |word: &str| word.chars().filter(char::is_ascii_digit).count();
     assert!(said.split_whitespace().all(|word| digits(word) <= 6), "{said}");
 }
+
+/// One bracket where a list wants two: at the header with one, whichever comes first.
+#[test]
+fn one_bracket_instead_of_two_is_told_so() {
+    for (vehicles, line, message) in [
+        ("[vehicle]\nname = 'a'\n[vehicle]\nname = 'b'\n", 5, "`[vehicle]` stands here for the second time"),
+        ("[vehicle]\nname = 'a'\n[[vehicle]]\nname = 'b'\n", 3, "`[vehicle]` stands here beside `[[vehicle]]`"),
+        ("[[vehicle]]\nname = 'a'\n[vehicle]\nname = 'b'\n", 5, "`[vehicle]` stands here beside `[[vehicle]]`"),
+    ] {
+        let fault = only(&format!("title = 'a'\nshows = 'b'\n{vehicles}"), &[]);
+        assert_eq!((fault.message(), fault.line_and_column()), (message, Some((line, 1))));
+        assert_eq!(hint(&fault), "of each one of several, write `[[vehicle]]`");
+    }
+}

@@ -10,7 +10,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::figure::{Drawn, FONT, Figure, PlotError, make_folder, register, save, svg};
-use super::style::{BLACK, Colour, Dash, LineStyle};
+use super::style::{BLACK, Colour, Dash, LineStyle, PAPER};
 use crate::rectangle::overlap;
 
 /// Size of text on ticks and bodies.
@@ -19,6 +19,8 @@ pub const SMALL_TEXT_PX: f64 = 22.0;
 pub const MEDIUM_TEXT_PX: f64 = 24.0;
 /// Size of titles.
 pub const LARGE_TEXT_PX: f64 = 29.0;
+/// Opacity of the paper behind words that may lie on anything.
+const PATCH_OPACITY: f64 = 0.8;
 /// Smallest cosine of the angle by which a line turns at a point without being split there. At sharper corners Plotters would
 /// draw spikes on wide lines.
 const MIN_UNSPLIT_TURN_COS: f64 = 0.7;
@@ -89,13 +91,19 @@ impl Drawing {
         self.marks.push(Mark::Text { at, words: words.into(), size, colour, side });
     }
 
-    /// Removes the last mark if its words lie on words before it.
-    pub(super) fn take_back_words_on_others(&mut self) {
-        let Some((last, before)) = self.marks.split_last() else { return };
-        let Some((_, covered)) = text_box(last) else { return };
-        if before.iter().filter_map(text_box).any(|(_, others)| overlap(covered, others)) {
-            self.marks.pop();
+    /// Small words where no other words are, otherwise nothing; on a patch of paper if they are to be read on any ground.
+    pub(super) fn text_where_free(&mut self, at: [f64; 2], side: Side, words: &str, colour: Colour, on_patch: bool) {
+        let mark = Mark::Text { at, words: words.to_owned(), size: SMALL_TEXT_PX, colour, side };
+        let Some((_, covered)) = text_box(&mark) else { return };
+        if self.marks.iter().filter_map(text_box).any(|(_, others)| overlap(covered, others)) {
+            return;
         }
+        if on_patch {
+            let [left, top, right, bottom] = covered;
+            let ring = vec![[left, top], [right, top], [right, bottom], [left, bottom]];
+            self.fill(ring, PAPER, PATCH_OPACITY);
+        }
+        self.marks.push(mark);
     }
 
     /// Words that cannot be read: they lie on other words, or beyond the edge. Text is a little lower than its line.

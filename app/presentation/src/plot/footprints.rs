@@ -25,8 +25,9 @@ mod tests {
     use super::*;
     use crate::body_style::BodyStyle;
     use crate::extent::extent;
+    use crate::palette::{ASPHALT, PAINT};
     use crate::plot::drawing::Mark;
-    use crate::plot::style::{BLUE, Colour, Dash, GREY, ORANGE, SURFACE};
+    use crate::plot::style::{BLUE, Colour, Dash, ORANGE};
 
     fn car(label: &str, colour: Colour) -> FootprintVehicle {
         FootprintVehicle { label: label.to_owned(), colour, style: BodyStyle::Car }
@@ -63,6 +64,21 @@ mod tests {
         }
     }
 
+    /// The same where the second car drives on a road that crosses.
+    fn crossing(length_m: f64) -> FootprintPlot {
+        let mut footprints = drive(length_m);
+        footprints.roads.push(Strip {
+            heading_rad: std::f64::consts::FRAC_PI_2,
+            edges_m: [-3.5, 3.5],
+            ..Strip::default()
+        });
+        footprints
+            .snapshots
+            .iter_mut()
+            .for_each(|snapshot| snapshot.bodies[1] = snapshot.bodies[1].map(|[x, y]| [-y, x]));
+        footprints
+    }
+
     /// However long the drive, every footprint of every snapshot is seen, large enough, and its number can be read.
     #[test]
     fn short_and_long_drives_show_every_footprint() {
@@ -80,21 +96,36 @@ mod tests {
     /// Where roads cross, all snapshots are in one plan, as large in x as in y.
     #[test]
     fn a_crossing_is_drawn_to_scale() {
-        let mut footprints = drive(20.0);
-        footprints.roads.push(Strip {
-            heading_rad: std::f64::consts::FRAC_PI_2,
-            edges_m: [-3.5, 3.5],
-            ..Strip::default()
-        });
-        footprints
-            .snapshots
-            .iter_mut()
-            .for_each(|snapshot| snapshot.bodies[1] = snapshot.bodies[1].map(|[x, y]| [-y, x]));
+        let footprints = crossing(40.0);
         let drawing = footprints.drawing();
         let sizes = bodies_px(&drawing);
         assert_eq!(drawing.illegible(), Vec::<String>::new());
         assert_eq!(sizes.len(), 16);
         assert!(sizes.iter().all(|[length, width]| (length / width - 2.25).abs() < 1e-9), "{sizes:?}");
+    }
+
+    /// A car that has hardly moved has one footprint for several, with the numbers of all; whatever is left of the others does
+    /// not lie on one another.
+    #[test]
+    fn footprints_of_one_car_do_not_pile_up() {
+        for (length_m, kept, words) in [(20.0, 4, "1–2"), (10.0, 2, "1–4"), (0.0, 1, "1–8")] {
+            let drawing = crossing(length_m).drawing();
+            assert_eq!(bodies_px(&drawing).len(), 2 * kept, "{length_m} m");
+            assert!(drawing.words().contains(&words), "{length_m} m: {:?}", drawing.words());
+            assert_eq!(drawing.illegible(), Vec::<String>::new());
+        }
+    }
+
+    /// Where straight roads cross there are no lines: the corners are on the edges of both.
+    #[test]
+    fn the_corners_of_a_crossing_are_on_the_edges_of_both_roads() {
+        let road = |heading_rad: f64, edges_m: [f64; 2]| Strip { heading_rad, edges_m, ..Strip::default() };
+        let (main, cross) = (road(0.0, [0.0, 7.0]), road(std::f64::consts::FRAC_PI_2, [-3.5, 3.5]));
+        let corners = cross.crossing(&main).expect("they cross");
+        for (corner, expected) in corners.iter().zip([[3.5, 0.0], [3.5, 7.0], [-3.5, 7.0], [-3.5, 0.0]]) {
+            assert!(corner.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{corners:?}");
+        }
+        assert_eq!(main.crossing(&road(0.0, [8.0, 9.0])), None);
     }
 
     /// Numbers that would lie on others are left out, but not the first and the last.
@@ -126,7 +157,7 @@ mod tests {
         assert_eq!(footprints.roads[0].right_edge([14.0, 30.0]), [[14.0, 2.75], [16.0, 3.5], [30.0, 3.5]]);
         let drawing = footprints.drawing();
         let lines = |points: usize| {
-            let is_edge = move |mark: &&Mark| matches!(mark, Mark::Line { points: line, style } if line.len() == points && style.dash == Dash::Solid && style.colour == GREY);
+            let is_edge = move |mark: &&Mark| matches!(mark, Mark::Line { points: line, style } if line.len() == points && style.dash == Dash::Solid && style.colour == PAINT);
             drawing.marks.iter().filter(is_edge).count()
         };
         assert_eq!(lines(5), 8, "a tapered edge a strip");
@@ -150,7 +181,7 @@ mod tests {
         let footprints = FootprintPlot { roads: Vec::new(), curves: vec![curve], ..drive(10.0) };
         let drawing = footprints.drawing();
         assert_eq!(drawing.illegible(), Vec::<String>::new());
-        let is_surface = |mark: &&Mark| matches!(mark, Mark::Fill { colour, .. } if *colour == SURFACE);
+        let is_surface = |mark: &&Mark| matches!(mark, Mark::Fill { colour, .. } if *colour == ASPHALT);
         assert_eq!(drawing.marks.iter().filter(is_surface).count(), 1);
         let [low, high] = footprints.bounds();
         assert_eq!((low, high), ([-2.2, 0.75], [24.3, 6.25]), "the part without vehicles is cut away");

@@ -19,11 +19,14 @@ use super::planner_panels;
 use super::plots::{self, Plots};
 use super::time_plot::{TimePlot, ranged};
 use super::timelines::{SIM_TIME, TICK};
+use crate::camera::car_m;
 use crate::palette::GRASS;
 
 /// Widths of the plots in a window 1280 points wide: on the first tab, and of three in a row.
 const FIRST_WIDTH: f64 = 300.0;
 const THIRD_WIDTH: f64 = 390.0;
+/// Gaps are drawn at least up to this, in lengths of a car.
+const SHOWN_GAP_CARS: f64 = 5.0;
 /// The colour behind the scene, where the ground ends.
 const SKY: [u8; 3] = [0xC9, 0xDC, 0xEA];
 /// A picture of the whole road that is lower than this share of its width is a strip below the picture from above.
@@ -98,9 +101,13 @@ fn speeds(scenario: &Scenario, plots: &Plots) -> LayoutNode {
 
 fn gap(scenario: &Scenario, plots: &Plots) -> LayoutNode {
     let contents = if plots.has(plots::GAP) { vec![format!("/{}", plots::GAP)] } else { Vec::new() };
-    let title =
-        plots.smallest_gap_m().map_or("Gap [m]".to_owned(), |gap_m| format!("Gap of the ego, least {gap_m:.2} m"));
-    TimePlot::new(scenario.duration_s, &title, contents).alone()
+    let Some(least_m) = plots.smallest_gap_m() else {
+        return TimePlot::new(scenario.duration_s, "Gap [m]", contents).alone();
+    };
+    // How far away somebody is who is far away would flatten the curve where it matters.
+    let most_m = (SHOWN_GAP_CARS * car_m(scenario)).max(2.0 * least_m);
+    let title = format!("Gap of the ego, least {least_m:.2} m");
+    TimePlot::new(scenario.duration_s, &title, contents).between([0.0_f64.min(least_m), most_m]).alone()
 }
 
 /// What goes on in the planners, what they apply, and how long they take.

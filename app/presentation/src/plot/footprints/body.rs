@@ -57,38 +57,36 @@ fn readable_on([red, green, blue]: Colour) -> Colour {
     if bright > 125.0 { BLACK } else { PAPER }
 }
 
-/// Writes words to the right or the left of a footprint; where it lies, below or above it.
+/// Writes words, where there is room for them, to the right or the left of a footprint; where it lies, below or above it.
 pub(super) fn number_beside(drawing: &mut Drawing, corners: [[f64; 2]; 4], right: bool, words: &str) {
     let middle = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0;
     let end =
         |axis: usize, sign: f64| corners.iter().map(|corner| sign * corner[axis]).fold(f64::NEG_INFINITY, f64::max);
     let lies = (corners[0][0] - corners[2][0]).abs() > (corners[0][1] - corners[2][1]).abs();
     match (lies, right) {
-        (true, true) => {
-            drawing.text([middle(0), end(1, 1.0) + 0.5 * SMALL_TEXT_PX], Side::Middle, SMALL_TEXT_PX, words)
-        }
-        (true, false) => {
-            drawing.text([middle(0), -end(1, -1.0) - 0.45 * SMALL_TEXT_PX], Side::Middle, SMALL_TEXT_PX, words)
-        }
-        (false, true) => drawing.text([end(0, 1.0) + 4.0, middle(1)], Side::Left, SMALL_TEXT_PX, words),
-        (false, false) => drawing.text([-end(0, -1.0) - 4.0, middle(1)], Side::Right, SMALL_TEXT_PX, words),
+        (true, true) => write(drawing, [middle(0), end(1, 1.0) + 0.6 * SMALL_TEXT_PX], Side::Middle, words),
+        (true, false) => write(drawing, [middle(0), -end(1, -1.0) - 0.55 * SMALL_TEXT_PX], Side::Middle, words),
+        (false, true) => write(drawing, [end(0, 1.0) + 6.0, middle(1)], Side::Left, words),
+        (false, false) => write(drawing, [-end(0, -1.0) - 6.0, middle(1)], Side::Right, words),
     }
 }
 
-/// Writes words onto a footprint if they fit, otherwise above it.
+fn write(drawing: &mut Drawing, at: [f64; 2], side: Side, words: &str) {
+    drawing.text_where_free(at, side, words, BLACK, true);
+}
+
+/// Writes words, where there is room for them, onto a footprint of a colour if they fit, otherwise above it.
 pub(super) fn number(drawing: &mut Drawing, corners: [[f64; 2]; 4], colour: Colour, words: &str) {
     let middle = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0;
     let (length, width) = (distance(corners[0], corners[2]), distance(corners[0], corners[1]));
     let lies = (corners[0][0] - corners[2][0]).abs() > (corners[0][1] - corners[2][1]).abs();
     let [across, upwards] = if lies { [length, width] } else { [width, length] };
     let fits = width_of(words, SMALL_TEXT_PX) < 0.85 * across && 0.8 * SMALL_TEXT_PX < upwards;
-    let above = corners.iter().map(|corner| corner[1]).fold(f64::INFINITY, f64::min) - 0.45 * SMALL_TEXT_PX;
-    let beside = corners.iter().map(|corner| corner[0]).fold(f64::NEG_INFINITY, f64::max) + 4.0;
+    let above = corners.iter().map(|corner| corner[1]).fold(f64::INFINITY, f64::min) - 0.55 * SMALL_TEXT_PX;
+    let beside = corners.iter().map(|corner| corner[0]).fold(f64::NEG_INFINITY, f64::max) + 6.0;
     match (fits, lies) {
-        (true, _) => {
-            drawing.coloured_text([middle(0), middle(1)], Side::Middle, SMALL_TEXT_PX, words, readable_on(colour))
-        }
-        (false, true) => drawing.text([middle(0), above], Side::Middle, SMALL_TEXT_PX, words),
-        (false, false) => drawing.text([beside, middle(1)], Side::Left, SMALL_TEXT_PX, words),
+        (true, _) => drawing.text_where_free([middle(0), middle(1)], Side::Middle, words, readable_on(colour), false),
+        (false, true) => write(drawing, [middle(0), above], Side::Middle, words),
+        (false, false) => write(drawing, [beside, middle(1)], Side::Left, words),
     }
 }

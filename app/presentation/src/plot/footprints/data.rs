@@ -13,6 +13,8 @@ pub(super) const MARGIN_PX: f64 = 30.0;
 pub(super) const TITLE_HEIGHT_PX: f64 = 48.0;
 /// Smallest distance of two points of a path: closer points are rounded to whole pixels and make the line ragged.
 const MIN_PATH_SPACING_PX: f64 = 16.0;
+/// Roads cross if the sine of the angle between them is larger than this.
+const LEAST_CROSSING_SIN: f64 = 1e-3;
 /// The path of the ego, as the source draws it.
 pub(super) const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 
@@ -65,6 +67,19 @@ impl Strip {
                 before + (along_m - before_m) / (after_m - before_m) * (after - before)
             }
         }
+    }
+
+    /// The corners of the area that is also on another straight road, where lines end; none beside it.
+    pub(super) fn crossing(&self, other: &Strip) -> Option<[[f64; 2]; 4]> {
+        let ([sin, cos], [other_sin, other_cos]) = (sin_cos(self.heading_rad), sin_cos(other.heading_rad));
+        let across = cos * other_sin - sin * other_cos;
+        // A corner is where y cos − x sin is the lateral coordinate of an edge of both.
+        let corner = |edge_m: f64, other_m: f64| {
+            [other_cos * edge_m - cos * other_m, other_sin * edge_m - sin * other_m].map(|part| part / across)
+        };
+        let ([right, left], [other_right, other_left]) = (self.edges_m, other.edges_m);
+        let pairs = [(right, other_right), (right, other_left), (left, other_left), (left, other_right)];
+        (across.abs() > LEAST_CROSSING_SIN).then(|| pairs.map(|(edge_m, other_m)| corner(edge_m, other_m)))
     }
 
     /// The area between the outermost edges that is not road, between two places along the road.
@@ -144,6 +159,11 @@ pub(super) fn spaced(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
         }
     }
     pixels
+}
+
+fn sin_cos(angle_rad: f64) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(angle_rad);
+    [sin, cos]
 }
 
 /// The distance of two points.

@@ -2,9 +2,11 @@
 
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
-use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER, SURFACE};
+use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER};
 use super::body;
 use super::data::{CurvedStrip, FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, distance, spaced};
+use crate::extent::extent;
+use crate::palette::{ASPHALT, PAINT};
 
 /// Space at the left of the plan, for the tick labels of the y axis.
 const LEFT_MARGIN_PX: f64 = 92.0;
@@ -14,22 +16,40 @@ const TICK_LABEL_HEIGHT_PX: f64 = 34.0;
 const X_LABEL_HEIGHT_PX: f64 = 38.0;
 /// Largest height of the plan.
 const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
-/// Footprints that follow each other closer than this share of their length get one number together.
-const SHARED_NUMBER_DISTANCE_RATIO: f64 = 0.45;
-
 /// How far the plan reaches beyond all footprints, as a multiple of the longest one.
 const ROAD_AROUND_BODIES_RATIO: f64 = 1.5;
 
-/// The background for which the colour of numbers is chosen: earlier footprints are pale.
-const NUMBER_BACKGROUND: Colour = PAPER;
+/// How much of the colour of its vehicle the first footprint has, and the last: the asphalt shines through.
+const OPACITIES: [f64; 2] = [0.55, 0.95];
 
-/// Footprints of a vehicle that share a number.
-struct NumberGroup {
+/// A footprint that stands for a vehicle until it has left it.
+struct PlanFootprint {
     who: usize,
-    /// The first and the last snapshot.
+    /// The first and the last snapshot for which it stands.
     snapshots: [usize; 2],
-    /// Whether it has the first footprint of the vehicle or the last.
+    /// Whether it is the first footprint of the vehicle or the last.
     is_end: bool,
+    body: [[f64; 2]; 4],
+}
+
+impl PlanFootprint {
+    fn words(&self) -> String {
+        match self.snapshots {
+            [first, last] if first == last => format!("{}", first + 1),
+            [first, last] => format!("{}–{}", first + 1, last + 1),
+        }
+    }
+}
+
+/// Whether two bodies have a point in common: no side of either separates them.
+fn touch(a: &[[f64; 2]; 4], b: &[[f64; 2]; 4]) -> bool {
+    let separates = |body: &[[f64; 2]; 4], [from, to]: [usize; 2]| {
+        let axis = [0, 1].map(|part| body[to][part] - body[from][part]);
+        let span = |body: &[[f64; 2]; 4]| extent(body.iter().map(|[x, y]| [axis[0] * x + axis[1] * y, 0.0]));
+        let ([[low, _], [high, _]], [[others_low, _], [others_high, _]]) = (span(a), span(b));
+        high < others_low || others_high < low
+    };
+    ![a, b].iter().any(|body| [[0, 1], [0, 2]].into_iter().any(|side| separates(body, side)))
 }
 
 /// Whether a point lies in a body.
@@ -39,6 +59,12 @@ fn contains([front_right, front_left, rear_right, rear_left]: &[[f64; 2]; 4], po
         let ([x, y], [next_x, next_y]) = (*ring[i], *ring[(i + 1) % 4]);
         (next_x - x) * (point[1] - y) - (next_y - y) * (point[0] - x) >= 0.0
     })
+}
+
+/// A colour that lets the asphalt shine through.
+fn on_asphalt(colour: Colour, opacity: f64) -> Colour {
+    let mixed = |part: usize| opacity * f64::from(colour[part]) + (1.0 - opacity) * f64::from(ASPHALT[part]);
+    [0, 1, 2].map(|part| mixed(part) as u8)
 }
 
 /// From metres to pixels.
@@ -81,10 +107,15 @@ impl FootprintPlot {
         let mut drawing = Drawing::new(WIDTH_PX, head + upwards + TICK_LABEL_HEIGHT_PX + X_LABEL_HEIGHT_PX + 8.0);
         drawing.text([MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
         legend.draw(&mut drawing, [MARGIN_PX, TITLE_HEIGHT_PX], WIDTH_PX - 2.0 * MARGIN_PX);
-        let words = format!("footprint 1 at 0 s, then one every {steps:.1} s");
+        let words = format!("footprint 1 at 0 s, then one every {steps:.1} s; one stands for several until it is left");
         drawing.text([MARGIN_PX, head - 66.0], Side::Left, MEDIUM_TEXT_PX, words);
         self.roads.iter().for_each(|road| map.draw_road(&mut drawing, road));
         self.roads.iter().for_each(|road| map.draw_lines(&mut drawing, road));
+        for (index, road) in self.roads.iter().enumerate() {
+            self.roads[..index].iter().filter_map(|other| road.crossing(other)).for_each(|ring| {
+                drawing.fill(ring.map(|corner| map.place(corner)).to_vec(), ASPHALT, 1.0);
+            });
+        }
         self.curves.iter().for_each(|road| map.draw_curve(&mut drawing, road));
         map.draw_axes(&mut drawing);
         drawing.line(self.path_pixels(f64::INFINITY, |point| map.place(point)), PATH);
@@ -94,45 +125,41 @@ impl FootprintPlot {
 
     fn draw_footprints(&self, drawing: &mut Drawing, map: &Map) {
         let last = self.snapshots.len().saturating_sub(1).max(1) as f64;
-        for (index, snapshot) in self.snapshots.iter().enumerate() {
-            for (body, vehicle) in snapshot.bodies.iter().zip(&self.vehicles) {
-                let corners = body.map(|corner| map.place(corner));
-                body::draw(drawing, corners, vehicle.style, vehicle.colour, 0.45 + 0.5 * index as f64 / last);
-            }
+        let opacity = |index: usize| OPACITIES[0] + (OPACITIES[1] - OPACITIES[0]) * index as f64 / last;
+        let mut footprints: Vec<PlanFootprint> = (0..self.vehicles.len()).flat_map(|who| self.kept(who)).collect();
+        footprints.sort_by_key(|footprint| (footprint.snapshots[0], footprint.who));
+        for PlanFootprint { who, snapshots, body, .. } in &footprints {
+            let (corners, vehicle) = (body.map(|corner| map.place(corner)), &self.vehicles[*who]);
+            body::draw(drawing, corners, vehicle.style, vehicle.colour, opacity(snapshots[0]));
         }
-        let mut groups: Vec<NumberGroup> = (0..self.vehicles.len()).flat_map(|who| self.number_groups(who)).collect();
         // Where there is no room for all numbers, the first and the last of each vehicle have it.
-        groups.sort_by_key(|group| !group.is_end);
-        for NumberGroup { who, snapshots, .. } in groups {
-            let words = match snapshots {
-                [first, last] if first == last => format!("{}", first + 1),
-                [first, last] => format!("{}–{}", first + 1, last + 1),
-            };
-            let body = self.snapshots[snapshots[1]].bodies[who];
-            let (corners, mates) = (body.map(|corner| map.place(corner)), self.mates(who));
-            match mates.iter().position(|&mate| mate == who) {
+        footprints.sort_by_key(|footprint| !footprint.is_end);
+        for footprint in &footprints {
+            let PlanFootprint { who, snapshots, body, .. } = footprint;
+            let (words, corners, mates) = (footprint.words(), body.map(|corner| map.place(corner)), self.mates(*who));
+            match mates.iter().position(|mate| mate == who) {
                 Some(place) if mates.len() > 1 => body::number_beside(drawing, corners, place % 2 == 0, &words),
-                _ if self.is_crossed(who, &body) => body::number_beside(drawing, corners, true, &words),
-                _ => body::number(drawing, corners, NUMBER_BACKGROUND, &words),
+                _ if self.is_crossed(*who, body) => body::number_beside(drawing, corners, true, &words),
+                _ => {
+                    let ground = on_asphalt(self.vehicles[*who].colour, opacity(snapshots[0]));
+                    body::number(drawing, corners, ground, &words);
+                }
             }
-            drawing.take_back_words_on_others();
         }
     }
 
-    /// The footprints of a vehicle that get a number: those close to one another share one.
-    fn number_groups(&self, who: usize) -> Vec<NumberGroup> {
+    /// The footprints of a vehicle without those that would lie on the one before.
+    fn kept(&self, who: usize) -> Vec<PlanFootprint> {
         let bodies: Vec<_> = self.snapshots.iter().filter_map(|snapshot| snapshot.bodies.get(who)).collect();
-        let near = |pair: &[&[[f64; 2]; 4]]| {
-            distance(pair[0][0], pair[1][0]) < SHARED_NUMBER_DISTANCE_RATIO * self.longest_m()
-        };
-        let mut groups = Vec::new();
+        let mut kept = Vec::new();
         let mut first = 0;
         while first < bodies.len() {
-            let last = first + bodies[first..].windows(2).take_while(|pair| near(pair)).count();
-            groups.push(NumberGroup { who, snapshots: [first, last], is_end: first == 0 || last + 1 == bodies.len() });
+            let last = first + bodies[first + 1..].iter().take_while(|body| touch(bodies[first], body)).count();
+            let is_end = first == 0 || last + 1 == bodies.len();
+            kept.push(PlanFootprint { who, snapshots: [first, last], is_end, body: *bodies[first] });
             first = last + 1;
         }
-        groups
+        kept
     }
 
     /// Whether the middle of a footprint lies on one of another vehicle, at whatever time.
@@ -175,7 +202,7 @@ impl Map {
 
     fn draw_road(&self, drawing: &mut Drawing, road: &Strip) {
         let surface = self.band(road, road.edges_m);
-        drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
+        drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), ASPHALT, 1.0);
         if !road.tapered_edge_m.is_empty() {
             let ring = clipped(&road.shoulder([self.low_m[0], self.high_m[0]]), self.low_m, self.high_m);
             drawing.fill(ring.into_iter().map(|point| self.place(point)).collect(), PAPER, 1.0);
@@ -183,7 +210,7 @@ impl Map {
     }
 
     fn draw_lines(&self, drawing: &mut Drawing, road: &Strip) {
-        let style = |dash| LineStyle { width: 1, ..LineStyle::new(GREY, dash) };
+        let style = |dash| LineStyle { width: 2, ..LineStyle::new(PAINT, dash) };
         let is_tapered = !road.tapered_edge_m.is_empty();
         if is_tapered {
             let edge = road.right_edge([self.low_m[0], self.high_m[0]]);
@@ -202,14 +229,14 @@ impl Map {
         for [right, left] in &road.surfaces_m {
             let ring: Vec<[f64; 2]> = right.iter().chain(left.iter().rev()).copied().collect();
             let surface = clipped(&ring, self.low_m, self.high_m);
-            drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), SURFACE, 1.0);
+            drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), ASPHALT, 1.0);
         }
         let edges = road.edges_m.iter().map(|edge| (edge, Dash::Solid));
         let dividers = road.dividers_m.iter().map(|divider| (divider, Dash::Long));
         for (line, dash) in edges.chain(dividers) {
             for visible in line.split(|point| !self.shows(*point)).filter(|visible| visible.len() > 1) {
                 let points = spaced(visible.iter().map(|point| self.place(*point)));
-                drawing.line(points, LineStyle { width: 1, ..LineStyle::new(GREY, dash) });
+                drawing.line(points, LineStyle { width: 2, ..LineStyle::new(PAINT, dash) });
             }
         }
     }

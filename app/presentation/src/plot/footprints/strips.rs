@@ -2,9 +2,10 @@
 
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
-use super::super::style::{Dash, GREY, LineStyle, PAPER, SURFACE};
+use super::super::style::{Dash, GREY, LineStyle, PAPER};
 use super::body;
 use super::data::{FootprintPlot, MARGIN_PX, PATH, TITLE_HEIGHT_PX, WIDTH_PX};
+use crate::palette::{ASPHALT, PAINT};
 
 /// Space at the left of each strip, for the number and the time of its snapshot.
 const LEFT_MARGIN_PX: f64 = 150.0;
@@ -106,7 +107,7 @@ impl FootprintPlot {
         };
         let start_m = window.start_m + shift_m;
         let span_m = [start_m, start_m + window.length_m];
-        drawing.block([LEFT_MARGIN_PX, top], [WIDTH_PX - MARGIN_PX, bottom], SURFACE);
+        drawing.block([LEFT_MARGIN_PX, top], [WIDTH_PX - MARGIN_PX, bottom], ASPHALT);
         for road in &self.roads {
             if !road.tapered_edge_m.is_empty() {
                 drawing.fill(road.shoulder(span_m).into_iter().map(place).collect(), PAPER, 1.0);
@@ -115,11 +116,11 @@ impl FootprintPlot {
                 let y = place([0.0, lateral_m])[1];
                 drawing.line(
                     vec![[LEFT_MARGIN_PX, y], [WIDTH_PX - MARGIN_PX, y]],
-                    LineStyle::new(GREY, Dash::Long).thin(),
+                    LineStyle::new(PAINT, Dash::Long).thin(),
                 );
             }
         }
-        let edge = LineStyle::new(GREY, Dash::Solid).thin();
+        let edge = LineStyle::new(PAINT, Dash::Solid).thin();
         drawing.line(vec![[LEFT_MARGIN_PX, top], [WIDTH_PX - MARGIN_PX, top]], edge);
         for road in &self.roads {
             drawing.line(road.right_edge(span_m).into_iter().map(place).collect(), edge);
