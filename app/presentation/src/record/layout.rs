@@ -25,7 +25,7 @@ use crate::palette::GRASS;
 /// Widths of the plots in a window 1280 points wide: on the first tab, and of three in a row.
 const FIRST_WIDTH: f64 = 300.0;
 const THIRD_WIDTH: f64 = 390.0;
-/// Gaps are drawn at least up to this, in lengths of a car.
+/// Gaps are drawn up to this, in lengths of a car.
 const SHOWN_GAP_CARS: f64 = 5.0;
 /// The colour behind the scene, where the ground ends.
 const SKY: [u8; 3] = [0xC9, 0xDC, 0xEA];
@@ -101,13 +101,13 @@ fn speeds(scenario: &Scenario, plots: &Plots) -> LayoutNode {
 
 fn gap(scenario: &Scenario, plots: &Plots) -> LayoutNode {
     let contents = if plots.has(plots::GAP) { vec![format!("/{}", plots::GAP)] } else { Vec::new() };
-    let Some(least_m) = plots.smallest_gap_m() else {
+    let Some([least_m, greatest_m]) = plots.gaps_m() else {
         return TimePlot::new(scenario.duration_s, "Gap [m]", contents).alone();
     };
     // How far away somebody is who is far away would flatten the curve where it matters.
-    let most_m = (SHOWN_GAP_CARS * car_m(scenario)).max(2.0 * least_m);
+    let most_m = (SHOWN_GAP_CARS * car_m(scenario)).max(2.0 * least_m).min(greatest_m);
     let title = format!("Gap of the ego, least {least_m:.2} m");
-    TimePlot::new(scenario.duration_s, &title, contents).between([0.0_f64.min(least_m), most_m]).alone()
+    TimePlot::new(scenario.duration_s, &title, contents).around([least_m, most_m]).alone()
 }
 
 /// What goes on in the planners, what they apply, and how long they take.

@@ -46,8 +46,8 @@ pub struct Plots {
     seen: BTreeMap<String, String>,
     /// Least and greatest speed so far \[m/s\].
     speeds_mps: Option<[f64; 2]>,
-    /// Smallest gap of the ego so far \[m\].
-    smallest_gap_m: Option<f64>,
+    /// Smallest and largest gap of the ego so far \[m\].
+    gaps_m: Option<[f64; 2]>,
     /// Whether the run is over, so that these are final.
     is_over: bool,
 }
@@ -80,7 +80,7 @@ impl Plots {
             planners.push(PlannerPaths { folder, end, explanation: vehicle.driver.explanation() });
         }
         style(stream, GAP, "gap", NEUTRAL.solid(), false)?;
-        Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None, smallest_gap_m: None, is_over: false })
+        Ok(Plots { planners, seen: BTreeMap::new(), speeds_mps: None, gaps_m: None, is_over: false })
     }
 
     /// Whether there is anything at a path that not every run has.
@@ -98,9 +98,9 @@ impl Plots {
         self.is_over = true;
     }
 
-    /// Smallest gap of the ego in a run that is over \[m\].
-    pub fn smallest_gap_m(&self) -> Option<f64> {
-        self.smallest_gap_m.filter(|_| self.is_over)
+    /// Smallest and largest gap of the ego in a run that is over \[m\].
+    pub fn gaps_m(&self) -> Option<[f64; 2]> {
+        self.gaps_m.filter(|_| self.is_over)
     }
 
     /// The recorded numbers of these quantities, of one kind of planner or of all.
@@ -143,7 +143,8 @@ impl Plots {
         if let Some(gap) = frame.gap_m {
             self.seen.insert(GAP.to_owned(), String::new());
             let least_m = frame.smallest_gap_m.unwrap_or(gap).min(gap);
-            self.smallest_gap_m = Some(self.smallest_gap_m.map_or(least_m, |known| known.min(least_m)));
+            let [low, high] = self.gaps_m.unwrap_or([least_m, gap]);
+            self.gaps_m = Some([low.min(least_m), high.max(gap)]);
             stream.log(GAP, &Scalars::single(gap))?;
         }
         self.reasons(stream, frame)?;
