@@ -71,7 +71,7 @@ pub(crate) const HEAD: [FixedColumn; 8] = [
 ];
 
 /// Columns after those of what varies.
-pub(crate) const TAIL: [FixedColumn; 53] = [
+pub(crate) const TAIL: [FixedColumn; 54] = [
     column!("error", Text, |row: &SweepRow| row.error.clone()),
     column!("digest", Text, |row| result(row, |of| of.digest.clone())),
     column!("simulated_s", Number, |row| result(row, |of| of.simulated_s)),
@@ -107,6 +107,7 @@ pub(crate) const TAIL: [FixedColumn; 53] = [
     column!("min_speed_mps", Number, |row| traffic(row, |of| of.min_speed_mps)),
     column!("max_speed_mps", Number, |row| traffic(row, |of| of.max_speed_mps)),
     column!("off_road_m", Number, |row| traffic(row, |of| of.off_road_m)),
+    column!("leaves_road", Flag, |row| traffic(row, |of| of.leaves_road)),
     column!("speeding_mps", Number, |row| traffic(row, |of| of.speeding_mps).flatten()),
     column!("others_peak_braking_mps2", Number, |row| traffic(row, |of| of.others_peak_braking_mps2).flatten()),
     column!("others_hard_braking", Flag, |row| traffic(row, |of| of.others_hard_braking)),

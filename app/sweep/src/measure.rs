@@ -16,6 +16,8 @@ use crate::version::program_version;
 
 /// The share of a vehicle's strongest braking from which on it brakes hard.
 const HARD_BRAKING_SHARE: f64 = 0.75;
+/// A vehicle leaves the road if a corner of it comes this far beyond an edge, in widths of its body: 5 cm of a car.
+const OFF_ROAD_WIDTHS: f64 = 0.03;
 
 /// Makes a run and its row. A run that cannot be finished, or that panics, has a row with the reason.
 pub(crate) fn measured_run(key: RunKey, point: &SweepPoint, scenario: &Scenario) -> SweepRow {
@@ -108,6 +110,7 @@ fn traffic(scenario: &Scenario, report: &Report, ego: &VehicleReport, contact_by
         min_speed_mps: ego.min_speed_mps,
         max_speed_mps: ego.max_speed_mps,
         off_road_m: ego.off_road_m,
+        leaves_road: scenario.ego().is_some_and(|vehicle| ego.off_road_m > OFF_ROAD_WIDTHS * vehicle.body.width_m),
         speeding_mps: ego.speeding_mps,
         others_peak_braking_mps2: others().map(|vehicle| vehicle.peak_braking_mps2).max_by(f64::total_cmp),
         others_hard_braking: others().any(|vehicle| braking_share(scenario, vehicle) >= HARD_BRAKING_SHARE),

@@ -126,6 +126,9 @@ pub struct TrafficResult {
     pub max_speed_mps: f64,
     /// Largest distance of a corner of the ego beyond an edge of its road \[m\].
     pub off_road_m: f64,
+    /// Whether that is more than 3 % of the width of its body: 5 cm of a car.
+    #[serde(default)]
+    pub leaves_road: bool,
     /// Largest speed of the ego above the limit of its lane \[m/s\]; none without limits.
     pub speeding_mps: Option<f64>,
     /// Largest deceleration of any other vehicle \[m/s²\].

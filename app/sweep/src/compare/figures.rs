@@ -74,6 +74,8 @@ pub struct PlannerFigures {
     pub hard_braking: Share,
     /// Runs in which another vehicle did.
     pub others_hard_braking: Share,
+    /// Runs in which the ego left the road: by more than 3 % of its width.
+    pub off_road: Share,
     /// Smallest distance of the ego to another \[m\].
     pub gap_m: Option<Quantiles>,
     /// Shortest time to collision \[s\].
@@ -228,6 +230,7 @@ fn figures_of(planner: &str, records: &[&RunRecord], stream: u64) -> PlannerFigu
         touched: count(|record| record.has_any_contact),
         hard_braking: Share::of(&finished, |record| record.brakes_hard),
         others_hard_braking: Share::of(&finished, |record| record.others_brake_hard),
+        off_road: Share::of(&finished, |record| record.leaves_road),
         gap_m: Quantiles::of(numbers(|record| record.gap_m)),
         time_to_collision_s: Quantiles::of(numbers(|record| record.time_to_collision_s)),
         plans_failed: finished.iter().map(|record| record.plans_failed).sum(),

@@ -9,7 +9,7 @@ use crate::sweep::RUNS_FILE;
 use crate::table::{RowTable, TableColumn};
 
 /// The columns that are read.
-const COLUMNS: [&str; 31] = [
+const COLUMNS: [&str; 32] = [
     "version",
     "scenario",
     "family",
@@ -36,6 +36,7 @@ const COLUMNS: [&str; 31] = [
     "order_kept",
     "hard_braking",
     "others_hard_braking",
+    "leaves_road",
     "energy_kwh",
     "electricity_kwh",
     "bill",
@@ -79,6 +80,8 @@ pub(super) struct RunRecord {
     pub brakes_hard: Option<bool>,
     /// Whether any other vehicle brakes hard.
     pub others_brake_hard: Option<bool>,
+    /// Whether the ego leaves the road.
+    pub leaves_road: Option<bool>,
     pub building: Option<BuildingRecord>,
 }
 
@@ -177,6 +180,7 @@ impl Records {
             is_order_kept: newer.order_kept.get(row).copied().flatten(),
             brakes_hard: newer.hard_braking.get(row).copied().flatten(),
             others_brake_hard: newer.others_hard_braking.get(row).copied().flatten(),
+            leaves_road: newer.leaves_road.get(row).copied().flatten(),
             building: newer.building(row),
         });
         let all = all.collect();
@@ -191,6 +195,7 @@ struct NewerColumns<'a> {
     order_kept: &'a [Option<bool>],
     hard_braking: &'a [Option<bool>],
     others_hard_braking: &'a [Option<bool>],
+    leaves_road: &'a [Option<bool>],
     energy_kwh: &'a [Option<f64>],
     discomfort_k_h: &'a [Option<f64>],
     electricity_kwh: &'a [Option<f64>],
@@ -207,6 +212,7 @@ impl<'a> NewerColumns<'a> {
             order_kept: flags("order_kept"),
             hard_braking: flags("hard_braking"),
             others_hard_braking: flags("others_hard_braking"),
+            leaves_road: flags("leaves_road"),
             energy_kwh: numbers("energy_kwh"),
             discomfort_k_h: numbers("discomfort_k_h"),
             electricity_kwh: numbers("electricity_kwh"),

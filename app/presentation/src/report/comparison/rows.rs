@@ -12,7 +12,7 @@ pub(super) type TextRows = (Vec<String>, Vec<Vec<String>>);
 type RowColumn<T> = (&'static str, fn(&T) -> String);
 
 /// The columns of what vehicles did.
-const TRAFFIC: [RowColumn<PlannerFigures>; 13] = [
+const TRAFFIC: [RowColumn<PlannerFigures>; 14] = [
     ("planner", |one| one.planner.clone()),
     ("runs", |one| runs(one)),
     ("success % (95 %)", |one| with_interval(&one.success)),
@@ -23,6 +23,7 @@ const TRAFFIC: [RowColumn<PlannerFigures>; 13] = [
     ("stuck", |one| one.deadlocks.to_string()),
     ("contacts: ego (by ego), any", |one| format!("{} ({}), {}", one.contacts, one.contacts_by_ego, one.touched)),
     ("brakes hard %: ego (95 %), others", |one| hard_braking(one)),
+    ("off road %", |one| if one.off_road.of == 0 { nothing() } else { percent(one.off_road.share()) }),
     ("gap m: least, 5 %, median", |one| gap(one)),
     ("time to collision s: 5 %, median", |one| time_to_collision(one)),
     ("plan ms: median, 99 %", |one| plan_times(one)),
