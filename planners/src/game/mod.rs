@@ -127,11 +127,7 @@ impl Game {
         let diagnostics = self.diagnostics(scene, round.as_ref(), expressed.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
-        let events = choice
-            .event("plays the persuasion game with", "to play the persuasion game with")
-            .into_iter()
-            .chain(event)
-            .collect();
+        let events = choice.event("plays the game with", "to play with").into_iter().chain(event).collect();
         let (problem, statistics) = (Some(Box::new(problem)), optimum.statistics);
         Ok(Plan { trajectory, diagnostics, events, problem, statistics, ..Plan::default() })
     }

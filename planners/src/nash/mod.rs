@@ -99,7 +99,7 @@ impl Nash {
         diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         let gain = equilibrium.largest_gain();
         let event = (!equilibrium.is_certified())
-            .then(|| PlanEvent::note(format!("no equilibrium: a player gains {gain:.1e} by leaving")));
+            .then(|| PlanEvent::note(format!("finds no equilibrium: a player gains {gain:.1e} by leaving")));
         Plan {
             trajectory: optimum.trajectory(0),
             proposal,

@@ -188,14 +188,14 @@ impl Negotiation {
     /// Replaces the plan by the retreat where the filter demands it.
     fn filter(&mut self, scene: &Scene, retreat: &Result<Solved, PlanError>, optimum: &Optimum, plan: &mut Plan) {
         let Ok(Solved { optimum: retreat, .. }) = retreat else {
-            plan.events.push(PlanEvent::note("no conservative plan to retreat to"));
+            plan.events.push(PlanEvent::note("has no cautious plan to retreat to"));
             return;
         };
         plan.statistics.add(&retreat.statistics);
         let refused = self.settings.safety_filter && !self.filter.admits(scene, optimum, retreat);
         if refused {
             plan.trajectory = retreat.trajectory(0);
-            plan.events.push(PlanEvent::note("the safety filter drives the cautious input instead of the plan's"));
+            plan.events.push(PlanEvent::note("drives cautiously: its safety filter asks for it"));
         }
         plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused))));
     }

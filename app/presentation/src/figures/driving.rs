@@ -7,9 +7,11 @@ use interplay_simulation::frame::Frame;
 use super::recorded_run::RecordedRun;
 use crate::body_style::BodyStyle;
 use crate::curved_road::CurvedRoad;
+use crate::extent::extent;
 use crate::network_lines::NetworkLines;
 use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
 use crate::plot::{Curve, CurvedStrip, FootprintPlot, FootprintSnapshot, FootprintVehicle, Panel, Panels, Strip};
+use crate::road_shapes::RoadShapes;
 
 /// How many snapshots a picture of footprints has: in strips, and on one map.
 const SNAPSHOT_COUNTS: [usize; 2] = [8, 12];
@@ -82,7 +84,10 @@ fn count_in_one_plan(recorded: &RecordedRun, end: usize) -> usize {
 
 /// The last tick that a picture of footprints shows.
 fn end_tick(recorded: &RecordedRun) -> usize {
-    let completed = recorded.report.vehicles.iter().filter_map(|vehicle| vehicle.completed_s);
+    // On a network the others drive far away while the last of them comes to its goal.
+    let is_shown = |index: usize| recorded.scenario.network.is_none() || index == recorded.scenario.ego_index();
+    let vehicles = recorded.report.vehicles.iter().enumerate().filter(|(index, _)| is_shown(*index));
+    let completed = vehicles.filter_map(|(_, vehicle)| vehicle.completed_s);
     let step_s = recorded.scenario.step_s;
     let last = (completed.fold(0.0, f64::max) + TIME_AFTER_GOALS_S) / step_s;
     let whole = recorded.report.vehicles.get(recorded.scenario.ego_index()).is_none_or(|ego| ego.completed_s.is_none());
@@ -137,9 +142,11 @@ fn strip(road: &Road, vehicle: &Vehicle) -> Option<Strip> {
 fn curves(recorded: &RecordedRun) -> Vec<CurvedStrip> {
     let road = &recorded.scenario.road;
     if let Some(network) = &recorded.scenario.network {
-        let lines = NetworkLines::new(network);
-        let edges_m = lines.edges().into_iter().chain(lines.stop_lines()).collect();
-        return vec![CurvedStrip { surfaces_m: lines.surfaces().to_vec(), edges_m, dividers_m: lines.dividers() }];
+        let states = recorded.frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| vehicle.state.position());
+        let shapes = RoadShapes::of(&recorded.scenario, extent(states));
+        let edges_m = [shapes.edges, shapes.stop_lines].concat();
+        let dividers_m = NetworkLines::new(network).dividers();
+        return vec![CurvedStrip { surfaces_m: shapes.surfaces, edges_m, dividers_m }];
     }
     let Some(curved) = CurvedRoad::new(road) else { return Vec::new() };
     let route = recorded.scenario.main_route();
@@ -155,7 +162,7 @@ fn curves(recorded: &RecordedRun) -> Vec<CurvedStrip> {
     let range_m = [from_m - beyond_m, to_m + beyond_m];
     let edges_m = curved.edges(range_m);
     vec![CurvedStrip {
-        surfaces_m: vec![edges_m.clone()],
+        surfaces_m: vec![edges_m[0].iter().chain(edges_m[1].iter().rev()).copied().collect()],
         edges_m: edges_m.to_vec(),
         dividers_m: curved.dividers(range_m),
     }]

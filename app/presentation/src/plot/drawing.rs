@@ -20,7 +20,9 @@ pub const MEDIUM_TEXT_PX: f64 = 24.0;
 /// Size of titles.
 pub const LARGE_TEXT_PX: f64 = 29.0;
 /// Opacity of the paper behind words that may lie on anything.
-const PATCH_OPACITY: f64 = 0.8;
+const PATCH_OPACITY: f64 = 0.9;
+/// How far it reaches beyond the words at their sides.
+const PATCH_MARGIN_PX: f64 = 4.0;
 /// Smallest cosine of the angle by which a line turns at a point without being split there. At sharper corners Plotters would
 /// draw spikes on wide lines.
 const MIN_UNSPLIT_TURN_COS: f64 = 0.7;
@@ -99,9 +101,10 @@ impl Drawing {
             return;
         }
         if on_patch {
-            let [left, top, right, bottom] = covered;
-            let ring = vec![[left, top], [right, top], [right, bottom], [left, bottom]];
-            self.fill(ring, PAPER, PATCH_OPACITY);
+            // Letters are higher than the box that must stay free of others.
+            let [left, right] = [covered[0] - PATCH_MARGIN_PX, covered[2] + PATCH_MARGIN_PX];
+            let [top, bottom] = [at[1] - 0.5 * SMALL_TEXT_PX, at[1] + 0.55 * SMALL_TEXT_PX];
+            self.fill(vec![[left, top], [right, top], [right, bottom], [left, bottom]], PAPER, PATCH_OPACITY);
         }
         self.marks.push(mark);
     }

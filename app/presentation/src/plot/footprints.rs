@@ -174,7 +174,7 @@ mod tests {
             (0..=30).map(move |i| [radius * at(i).0, 40.0 - radius * at(i).1]).collect::<Vec<_>>()
         };
         let curve = CurvedStrip {
-            surfaces_m: vec![[arc(38.0), arc(31.0)]],
+            surfaces_m: vec![arc(38.0).into_iter().chain(arc(31.0).into_iter().rev()).collect()],
             edges_m: vec![arc(38.0), arc(31.0)],
             dividers_m: vec![arc(34.5)],
         };

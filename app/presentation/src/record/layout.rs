@@ -59,7 +59,7 @@ fn interaction(scenario: &Scenario, plots: &Plots, cameras: &Cameras) -> LayoutN
         LayoutNode::Row(vec![(1.72, LayoutNode::View(from_above)), (1.0, beside)])
     };
     // A legend of many names is high.
-    let speeds_share = 1.15 + 0.3 * scenario.vehicles.len().saturating_sub(3) as f32;
+    let speeds_share = 1.15 + 0.7 * scenario.vehicles.len().saturating_sub(3) as f32;
     let gap = (1.0, gap(scenario, plots));
     let mut words = vec![(1.0, LayoutNode::Column(vec![(speeds_share, speeds(scenario, plots)), gap]))];
     if !plots.has(plots::GAP) {
@@ -67,7 +67,7 @@ fn interaction(scenario: &Scenario, plots: &Plots, cameras: &Cameras) -> LayoutN
     }
     words.push((1.25, status()));
     if plots.has(plots::LOG) {
-        words.push((1.1, events()));
+        words.push((1.2, events(plots::LOG)));
     }
     words.push((1.1, about()));
     LayoutNode::Column(vec![(1.4, views), (1.0, LayoutNode::Row(words))])

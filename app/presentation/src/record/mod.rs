@@ -238,10 +238,11 @@ impl Recorder {
     /// Sends the layout: a tab for each clock, and for what is only looked up.
     fn arrange(&self) -> Result<(), RecordError> {
         let has_vehicles = !self.scenario.vehicles.is_empty();
-        let words = match has_vehicles {
-            true => building::TextPanels::Elsewhere,
-            false if self.plots.has(plots::LOG) => building::TextPanels::AboutAndEvents,
-            false => building::TextPanels::About,
+        let words = match (has_vehicles, self.plots.has(plots::BUILDING_LOG)) {
+            (true, true) => building::TextPanels::Events,
+            (true, false) => building::TextPanels::Elsewhere,
+            (false, true) => building::TextPanels::AboutAndEvents,
+            (false, false) => building::TextPanels::About,
         };
         let mut tabs = Vec::new();
         if has_vehicles {

@@ -20,8 +20,8 @@ pub fn status() -> LayoutNode {
 }
 
 /// What happened, in words. The texts begin with their time, which the viewer's own column would cut off.
-pub fn events() -> LayoutNode {
-    log("What happens", plots::LOG)
+pub fn events(path: &str) -> LayoutNode {
+    log("What happens", path)
 }
 
 /// Why optimisers found nothing, in their own terms.

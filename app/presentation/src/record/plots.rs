@@ -16,6 +16,8 @@ use crate::passing_words::is_event_said;
 
 /// The events of all vehicles.
 pub const LOG: &str = "log";
+/// The same of a building and its controller, which have another clock.
+pub const BUILDING_LOG: &str = "building/log";
 /// Why optimisers found nothing, in their own terms.
 pub const REASONS: &str = "plots/reasons";
 /// Smallest distance of the ego to another vehicle.
@@ -171,7 +173,8 @@ impl Plots {
 
     fn events(&mut self, stream: &RecordingStream, scenario: &Scenario, frame: &Frame) -> RecordingStreamResult<()> {
         for event in frame.events.iter().filter(|event| is_event_said(scenario, frame, event)) {
-            self.log_text(stream, event.level, &said(frame, &event.vehicle, &event.text))?;
+            let path = if is_vehicle(frame, &event.vehicle) { LOG } else { BUILDING_LOG };
+            self.log_text(stream, path, event.level, &said(frame, &event.vehicle, &event.text))?;
         }
         for vehicle in &frame.vehicles {
             let is_logged =
@@ -183,7 +186,7 @@ impl Plots {
                 Origin::Evading => "no plan: evading",
             };
             if !is_logged {
-                self.log_text(stream, Level::Warning, &said(frame, &vehicle.name, fallback))?;
+                self.log_text(stream, LOG, Level::Warning, &said(frame, &vehicle.name, fallback))?;
             }
         }
         Ok(())
@@ -203,25 +206,34 @@ impl Plots {
         Ok(())
     }
 
-    fn log_text(&mut self, stream: &RecordingStream, level: Level, text: &str) -> RecordingStreamResult<()> {
+    fn log_text(
+        &mut self,
+        stream: &RecordingStream,
+        path: &str,
+        level: Level,
+        text: &str,
+    ) -> RecordingStreamResult<()> {
         let (level, colour) = match level {
             Level::Note => (TextLogLevel::INFO, NEUTRAL),
             Level::Warning => (TextLogLevel::WARN, FAILURE),
             Level::Alarm => (TextLogLevel::ERROR, FAILURE),
         };
-        self.seen.insert(LOG.to_owned(), String::new());
-        stream.log(LOG, &TextLog::new(text).with_level(level).with_color(colour.solid()))
+        self.seen.insert(path.to_owned(), String::new());
+        stream.log(path, &TextLog::new(text).with_level(level).with_color(colour.solid()))
     }
 }
 
 /// What happened to a vehicle, or to the building or its controller, after its time; some texts begin with it.
 fn said(frame: &Frame, who: &str, what: &str) -> String {
-    let is_vehicle = frame.vehicles.iter().any(|vehicle| vehicle.name == who);
-    match (is_vehicle, what.starts_with("day ")) {
+    match (is_vehicle(frame, who), what.starts_with("day ")) {
         (true, _) => format!("{:.1} s   {who}: {what}", frame.time_s),
         (false, true) => what.to_owned(),
         (false, false) => format!("{}   {who}: {what}", clock(frame.time_s)),
     }
+}
+
+fn is_vehicle(frame: &Frame, who: &str) -> bool {
+    frame.vehicles.iter().any(|vehicle| vehicle.name == who)
 }
 
 /// A time as a day from 1 and a time of the day.

@@ -82,18 +82,26 @@ impl Strip {
         (across.abs() > LEAST_CROSSING_SIN).then(|| pairs.map(|(edge_m, other_m)| corner(edge_m, other_m)))
     }
 
-    /// The area between the outermost edges that is not road, between two places along the road.
-    pub(super) fn shoulder(&self, span_m: [f64; 2]) -> Vec<[f64; 2]> {
-        let straight = [span_m[1], span_m[0]].map(|along_m| [along_m, self.edges_m[0]]);
-        self.right_edge(span_m).into_iter().chain(straight).collect()
+    /// The same road with edges further out.
+    pub(super) fn wider(&self, by_m: f64) -> Strip {
+        Strip { edges_m: [self.edges_m[0] - by_m, self.edges_m[1] + by_m], ..self.clone() }
+    }
+
+    /// The area between the outermost edges that is not road, between two places along the road; it leaves free a margin beside
+    /// the edge, and reaches as far beyond the outermost one.
+    pub(super) fn shoulder(&self, span_m: [f64; 2], margin_m: f64) -> Vec<[f64; 2]> {
+        let lowest_m = self.edges_m[0] - margin_m;
+        let straight = [span_m[1], span_m[0]].map(|along_m| [along_m, lowest_m]);
+        let edge = self.right_edge(span_m).into_iter().map(|[along_m, edge_m]| [along_m, edge_m - margin_m]);
+        edge.chain(straight).collect()
     }
 }
 
 /// A road that turns or a network of lanes, in the frame of the picture \[m\].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurvedStrip {
-    /// Its surfaces, each between a right and a left edge.
-    pub surfaces_m: Vec<[Vec<[f64; 2]>; 2]>,
+    /// Closed polygons that together cover it.
+    pub surfaces_m: Vec<Vec<[f64; 2]>>,
     /// Its edges.
     pub edges_m: Vec<Vec<[f64; 2]>>,
     /// The lines between its lanes.

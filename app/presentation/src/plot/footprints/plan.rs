@@ -19,6 +19,9 @@ const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
 /// How far the plan reaches beyond all footprints, as a multiple of the longest one.
 const ROAD_AROUND_BODIES_RATIO: f64 = 1.5;
 
+/// How far the asphalt reaches beyond the lines at the edges.
+const SHOULDER_PX: f64 = 4.0;
+
 /// How much of the colour of its vehicle the first footprint has, and the last: the asphalt shines through.
 const OPACITIES: [f64; 2] = [0.55, 0.95];
 
@@ -107,12 +110,15 @@ impl FootprintPlot {
         let mut drawing = Drawing::new(WIDTH_PX, head + upwards + TICK_LABEL_HEIGHT_PX + X_LABEL_HEIGHT_PX + 8.0);
         drawing.text([MARGIN_PX, 0.5 * TITLE_HEIGHT_PX], Side::Left, LARGE_TEXT_PX, self.title.as_str());
         legend.draw(&mut drawing, [MARGIN_PX, TITLE_HEIGHT_PX], WIDTH_PX - 2.0 * MARGIN_PX);
-        let words = format!("footprint 1 at 0 s, then one every {steps:.1} s; one stands for several until it is left");
+        let words =
+            format!("footprint 1 at 0 s, then one every {steps:.1} s; a car that has hardly moved has one for several");
         drawing.text([MARGIN_PX, head - 66.0], Side::Left, MEDIUM_TEXT_PX, words);
         self.roads.iter().for_each(|road| map.draw_road(&mut drawing, road));
         self.roads.iter().for_each(|road| map.draw_lines(&mut drawing, road));
         for (index, road) in self.roads.iter().enumerate() {
-            self.roads[..index].iter().filter_map(|other| road.crossing(other)).for_each(|ring| {
+            let road = road.wider(SHOULDER_PX / map.scale);
+            let others = self.roads[..index].iter().map(|other| other.wider(SHOULDER_PX / map.scale));
+            others.filter_map(|other| road.crossing(&other)).for_each(|ring| {
                 drawing.fill(ring.map(|corner| map.place(corner)).to_vec(), ASPHALT, 1.0);
             });
         }
@@ -201,10 +207,12 @@ impl Map {
     }
 
     fn draw_road(&self, drawing: &mut Drawing, road: &Strip) {
-        let surface = self.band(road, road.edges_m);
+        let shoulder_m = SHOULDER_PX / self.scale;
+        let surface = self.band(road, road.wider(shoulder_m).edges_m);
         drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), ASPHALT, 1.0);
         if !road.tapered_edge_m.is_empty() {
-            let ring = clipped(&road.shoulder([self.low_m[0], self.high_m[0]]), self.low_m, self.high_m);
+            let outside = road.shoulder([self.low_m[0], self.high_m[0]], shoulder_m);
+            let ring = clipped(&outside, self.low_m, self.high_m);
             drawing.fill(ring.into_iter().map(|point| self.place(point)).collect(), PAPER, 1.0);
         }
     }
@@ -226,10 +234,12 @@ impl Map {
     }
 
     fn draw_curve(&self, drawing: &mut Drawing, road: &CurvedStrip) {
-        for [right, left] in &road.surfaces_m {
-            let ring: Vec<[f64; 2]> = right.iter().chain(left.iter().rev()).copied().collect();
-            let surface = clipped(&ring, self.low_m, self.high_m);
-            drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), ASPHALT, 1.0);
+        for ring in &road.surfaces_m {
+            let surface = clipped(ring, self.low_m, self.high_m);
+            let surface: Vec<[f64; 2]> = surface.into_iter().map(|point| self.place(point)).collect();
+            let outline = surface.iter().chain(&surface[..surface.len().min(1)]).copied().collect();
+            drawing.line(outline, LineStyle { width: 2 * SHOULDER_PX as u32, ..LineStyle::new(ASPHALT, Dash::Solid) });
+            drawing.fill(surface, ASPHALT, 1.0);
         }
         let edges = road.edges_m.iter().map(|edge| (edge, Dash::Solid));
         let dividers = road.dividers_m.iter().map(|divider| (divider, Dash::Long));

@@ -11,6 +11,8 @@ use crate::palette::{ASPHALT, PAINT};
 const LEFT_MARGIN_PX: f64 = 150.0;
 /// Space between two strips.
 const STRIP_SPACING_PX: f64 = 16.0;
+/// How far the asphalt reaches beyond the lines at the edges.
+const SHOULDER_PX: f64 = 4.0;
 /// Height of the tick labels of the x axis.
 const TICK_LABEL_HEIGHT_PX: f64 = 36.0;
 /// Height of the line with the name of the x axis.
@@ -107,10 +109,11 @@ impl FootprintPlot {
         };
         let start_m = window.start_m + shift_m;
         let span_m = [start_m, start_m + window.length_m];
-        drawing.block([LEFT_MARGIN_PX, top], [WIDTH_PX - MARGIN_PX, bottom], ASPHALT);
+        drawing.block([LEFT_MARGIN_PX, top - SHOULDER_PX], [WIDTH_PX - MARGIN_PX, bottom + SHOULDER_PX], ASPHALT);
         for road in &self.roads {
             if !road.tapered_edge_m.is_empty() {
-                drawing.fill(road.shoulder(span_m).into_iter().map(place).collect(), PAPER, 1.0);
+                let margin_m = SHOULDER_PX / window.scale;
+                drawing.fill(road.shoulder(span_m, margin_m).into_iter().map(place).collect(), PAPER, 1.0);
             }
             for &lateral_m in &road.dividers_m {
                 let y = place([0.0, lateral_m])[1];

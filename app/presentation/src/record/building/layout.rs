@@ -3,6 +3,7 @@
 use super::super::blueprint::{LayoutNode, View};
 use super::super::layout::rows;
 use super::super::panels::{about, events};
+use super::super::plots;
 use super::super::re_sdk_types::blueprint::archetypes::{PlotLegend, VisualBounds2D};
 use super::super::re_sdk_types::blueprint::components::VisualBounds2D as ViewBounds;
 use super::super::re_sdk_types::datatypes::Range2D;
@@ -19,8 +20,10 @@ const HALF_WIDTH: f64 = 600.0;
 /// The words that belong to a recording of a building. Beside vehicles their layout has them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextPanels {
-    /// Elsewhere.
+    /// Elsewhere; nothing has happened.
     Elsewhere,
+    /// What happened; the rest is elsewhere.
+    Events,
     /// What this is; nothing has happened.
     About,
     /// What this is, and what happened.
@@ -58,9 +61,10 @@ fn overview(building_layer: &BuildingLayer, words: TextPanels) -> LayoutNode {
     ];
     match words {
         TextPanels::Elsewhere => {}
+        TextPanels::Events => below.push((1.0, events(plots::BUILDING_LOG))),
         TextPanels::About => below.push((1.2, about())),
         TextPanels::AboutAndEvents => {
-            below.push((1.7, LayoutNode::Column(vec![(1.3, about()), (1.0, events())])));
+            below.push((1.7, LayoutNode::Column(vec![(1.3, about()), (1.0, events(plots::BUILDING_LOG))])));
         }
     }
     let above = LayoutNode::Row(vec![(1.0, floor(building_layer)), (1.9, temperatures(building_layer))]);
