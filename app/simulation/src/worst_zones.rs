@@ -2,6 +2,7 @@
 
 use interplay_building::comfort::Targets;
 use interplay_building::control::DayRecord;
+use interplay_building::day::ZoneFigures;
 use interplay_building::network::PowerLimits;
 
 /// The zones with the largest share in each key figure of a day; none where the figure is 0.
@@ -13,6 +14,10 @@ pub struct WorstZones {
     pub discomfort: Option<usize>,
     /// The most heat in and out.
     pub energy: Option<usize>,
+    /// The most electricity.
+    pub electricity: Option<usize>,
+    /// The dearest electricity.
+    pub energy_cost: Option<usize>,
     /// The largest excess of a requested input over its limit.
     pub input_violation: Option<usize>,
 }
@@ -36,10 +41,14 @@ impl WorstZones {
             let requested_kw = record.requested_kw.iter().skip(zone).step_by(zones);
             requested_kw.map(|kw| limits.excess_kw(zone, *kw)).fold(0.0, f64::max)
         };
+        // Which zone has the most does not depend on the length of a step.
+        let figures = ZoneFigures::of_all(record, targets, 3600.0);
         WorstZones {
             tracking: largest(&|zone| errors_k(zone).map(|error_k| error_k * error_k).sum()),
             discomfort: largest(&beyond_k),
             energy: largest(&heat_kw),
+            electricity: largest(&|zone| figures[zone].electricity_kwh),
+            energy_cost: largest(&|zone| figures[zone].energy_cost.unwrap_or(0.0)),
             input_violation: largest(&excess_kw),
         }
     }

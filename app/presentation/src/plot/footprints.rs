@@ -4,6 +4,7 @@
 //! in one lane would cover one another otherwise. Where roads cross or turn, all snapshots are in one plan ([`FootprintPlot::plan`]).
 
 mod body;
+mod clipping;
 mod data;
 mod plan;
 mod strips;

@@ -82,8 +82,18 @@ fn upper_bounds(expect: &BuildingExpect) -> [Bound; 10] {
             |zones| zones.discomfort,
         ),
         ("energy_kwh_at_most", expect.energy_kwh_at_most, |day, _| Some(day.figures.energy_kwh), |zones| zones.energy),
-        ("electricity_kwh_at_most", expect.electricity_kwh_at_most, |day, _| Some(day.figures.electricity_kwh), none),
-        ("energy_cost_at_most", expect.energy_cost_at_most, |day, _| day.figures.energy_cost, none),
+        (
+            "electricity_kwh_at_most",
+            expect.electricity_kwh_at_most,
+            |day, _| Some(day.figures.electricity_kwh),
+            |zones| zones.electricity,
+        ),
+        (
+            "energy_cost_at_most",
+            expect.energy_cost_at_most,
+            |day, _| day.figures.energy_cost,
+            |zones| zones.energy_cost,
+        ),
         (
             "input_violation_kw_at_most",
             expect.input_violation_kw_at_most,

@@ -161,10 +161,19 @@ impl FootprintPlot {
 /// Points of a line, with no two closer than a line can show.
 pub(super) fn spaced(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut pixels: Vec<[f64; 2]> = Vec::new();
+    let mut end = None;
     for pixel in points {
+        end = Some(pixel);
         if pixels.last().is_none_or(|last| distance(*last, pixel) >= MIN_PATH_SPACING_PX) {
             pixels.push(pixel);
         }
+    }
+    // It ends where the line ends.
+    if let Some(end) = end.filter(|end| pixels.last() != Some(end)) {
+        if pixels.len() > 1 {
+            pixels.pop();
+        }
+        pixels.push(end);
     }
     pixels
 }

@@ -4,6 +4,7 @@ use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
 use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER};
 use super::body;
+use super::clipping::{clipped, clipped_line};
 use super::data::{CurvedStrip, FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, distance, spaced};
 use crate::extent::extent;
 use crate::palette::{ASPHALT, PAINT};
@@ -244,16 +245,11 @@ impl Map {
         let edges = road.edges_m.iter().map(|edge| (edge, Dash::Solid));
         let dividers = road.dividers_m.iter().map(|divider| (divider, Dash::Long));
         for (line, dash) in edges.chain(dividers) {
-            for visible in line.split(|point| !self.shows(*point)).filter(|visible| visible.len() > 1) {
+            for visible in clipped_line(line, self.low_m, self.high_m) {
                 let points = spaced(visible.iter().map(|point| self.place(*point)));
                 drawing.line(points, LineStyle { width: 2, ..LineStyle::new(PAINT, dash) });
             }
         }
-    }
-
-    /// Whether a point is in the visible part.
-    fn shows(&self, point: [f64; 2]) -> bool {
-        [0, 1].iter().all(|&axis| (self.low_m[axis]..=self.high_m[axis]).contains(&point[axis]))
     }
 
     fn draw_axes(&self, drawing: &mut Drawing) {
@@ -277,45 +273,5 @@ impl Map {
             MEDIUM_TEXT_PX,
             "x [m]",
         );
-    }
-}
-
-/// The part of a polygon within a rectangle (Sutherland and Hodgman).
-fn clipped(ring: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> Vec<[f64; 2]> {
-    let mut ring = ring.to_vec();
-    for (axis, bound, sign) in [(0, low[0], 1.0), (0, high[0], -1.0), (1, low[1], 1.0), (1, high[1], -1.0)] {
-        let depth = |point: [f64; 2]| sign * (point[axis] - bound);
-        let mut kept = Vec::new();
-        for (index, &point) in ring.iter().enumerate() {
-            let before = ring[(index + ring.len() - 1) % ring.len()];
-            if (depth(before) < 0.0) != (depth(point) < 0.0) {
-                let share = depth(before) / (depth(before) - depth(point));
-                kept.push([0, 1].map(|i| before[i] + share * (point[i] - before[i])));
-            }
-            if depth(point) >= 0.0 {
-                kept.push(point);
-            }
-        }
-        ring = kept;
-    }
-    ring
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_outside_is_cut_away() {
-        let diamond = [[0.0, -2.0], [2.0, 0.0], [0.0, 2.0], [-2.0, 0.0]];
-        let inside = clipped(&diamond, [-1.0, -1.0], [1.0, 1.0]);
-        let area: f64 = (0..inside.len())
-            .map(|i| {
-                let ([x, y], [next_x, next_y]) = (inside[i], inside[(i + 1) % inside.len()]);
-                0.5 * (x * next_y - next_x * y)
-            })
-            .sum();
-        assert!((area - 4.0).abs() < 1e-12, "the diamond covers the whole square: {area}");
-        assert!(clipped(&diamond, [3.0, 3.0], [4.0, 4.0]).is_empty());
     }
 }
