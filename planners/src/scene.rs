@@ -100,11 +100,26 @@ impl Agent {
     /// The highest permitted speed at an arc length of its route, braking comfortably for lower limits and curves ahead; none
     /// without limits \[m/s\].
     pub(crate) fn permitted_speed_mps(&self, along_m: f64) -> Option<f64> {
-        let braking_mps2 = COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs();
+        let braking_mps2 = self.comfortable_braking_mps2();
         let permitted_mps = self.route.permitted_speed_mps(along_m, braking_mps2);
         let lateral_mps2 = self.limits.lateral_acceleration_max_mps2.map(|most| COMFORTABLE_LATERAL_SHARE * most);
         let in_curves_mps = lateral_mps2.and_then(|most| self.route.curve_speed_mps(along_m, most, braking_mps2));
         permitted_mps.into_iter().chain(in_curves_mps).min_by(f64::total_cmp)
+    }
+
+    /// The largest acceleration of a step at an arc length of its route after which it is not faster than permitted where it then
+    /// is; none without limits \[m/s²\].
+    ///
+    /// At a speed `v` above the permitted `v_p` it is at least `−b (v/v_p)²`, with the comfortable braking `b` that `v_p` is made of.
+    pub(crate) fn permitted_acceleration_mps2(&self, along_m: f64, speed_mps: f64, step_s: f64) -> Option<f64> {
+        let permitted_mps = self.permitted_speed_mps(along_m + speed_mps * step_s)?;
+        let excess = (speed_mps / permitted_mps).max(1.0);
+        Some(((permitted_mps - speed_mps) / step_s).max(-self.comfortable_braking_mps2() * excess * excess))
+    }
+
+    /// With what it brakes for a speed limit \[m/s²\].
+    fn comfortable_braking_mps2(&self) -> f64 {
+        COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs()
     }
 
     /// The largest steering angles at `t = 0…N−1`, at the speeds that it is expected to have; empty where they do not depend on

@@ -1,18 +1,41 @@
 //! Steering and acceleration without an optimiser: along a road, at a lateral position.
 
-use crate::vehicle::{Bicycle, SteeringGeometry};
+use crate::vehicle::{Bicycle, SteeringGeometry, slip_on_curve_rad};
 use crate::{Agent, Input, Scene, State, Trajectory};
 
 /// The steering angle that leads to a lateral position on the agent's road \[rad\].
 pub(crate) fn steer(agent: &Agent, state: &State, lateral_m: f64) -> f64 {
-    let geometry = SteeringGeometry {
+    let at = agent.route.locate(state.position(), None);
+    at.steer(&geometry(agent, state), state, lateral_m)
+}
+
+/// The same angle for a whole step of a vehicle on a curved road.
+///
+/// In a step of the length `h` the mass centre moves along a chord ([`Bicycle`]), which has the direction of the road in its middle,
+/// at `s + h/2`. A vehicle points where the middle of its rear axle goes, so that its heading is that direction less the slip angle
+/// of the curvature a length `L_r` before. In the step it turns by what this changes until the next step.
+pub(crate) fn steer_over_step(agent: &Agent, state: &State, lateral_m: f64, step_s: f64) -> f64 {
+    let (centre, at) = (&agent.route.centre, agent.route.locate(state.position(), None));
+    let (rear_axle_m, step_m) = (agent.body.rear_axle_m, (step_s * state.speed_mps).max(MIN_STEP_M));
+    let wanted_rad = |along_m: f64| {
+        let slip_rad = slip_on_curve_rad(rear_axle_m, centre.at(along_m - rear_axle_m).curvature_1pm);
+        centre.at(along_m).heading_rad - slip_rad
+    };
+    let [now_rad, next_rad] = [0.5, 1.5].map(|steps| wanted_rad(at.along_m + steps * step_m));
+    let (heading_error_rad, curvature_1pm) = (state.heading_rad - now_rad, (next_rad - now_rad) / step_m);
+    geometry(agent, state).correct(at.across_m - lateral_m, heading_error_rad, state.speed_mps, curvature_1pm)
+}
+
+/// Curvatures are compared over at least this distance \[m\].
+const MIN_STEP_M: f64 = 1e-3;
+
+fn geometry(agent: &Agent, state: &State) -> SteeringGeometry {
+    SteeringGeometry {
         rear_axle_m: agent.body.rear_axle_m,
         wheelbase_m: agent.body.wheelbase_m(),
         steering_max_rad: agent.limits.steering_max_at_rad(&agent.body, state.speed_mps),
         time_ratio: agent.body.time_ratio(),
-    };
-    let at = agent.route.locate(state.position(), None);
-    at.steer(&geometry, state, lateral_m)
+    }
 }
 
 /// The acceleration nearest to a wanted one that keeps acceleration and speed within their limits \[m/s²\].

@@ -14,6 +14,7 @@ use interplay_planners::State;
 use crate::budget;
 use crate::error::{Fault, Place, quoted};
 use crate::lane_reference::LaneReference;
+use crate::narrowest_lane::{NarrowestLane, narrowest_lane};
 use crate::readable::readable;
 use crate::road::{Branch, Road};
 use crate::scenario::{Scenario, Vehicle};
@@ -91,7 +92,8 @@ impl Checker<'_> {
             if let Some(speed) = speed.filter(|speed| !inside.contains(speed)).map(readable) {
                 let message = format!("`vehicle.{name}.{table}.speed_mps` ({speed}) is outside the vehicle's limits");
                 let help = format!(
-                    "its speed may be from {slowest} to {fastest}: `speed_min_mps` and `speed_max_mps` in its `limits`"
+                    "its speed may be from {slowest} to {fastest}: `speed_min_mps` and `speed_max_mps` in its `limits`, which \
+                     follow from its `class`, or the file's `scale`, where nothing is said of them"
                 );
                 self.refuse(&format!("{path}.{table}.speed_mps"), "outside the limits", message, &help);
             }
@@ -99,13 +101,25 @@ impl Checker<'_> {
     }
 
     fn width(&mut self, index: usize, vehicle: &Vehicle) {
-        let (width_m, lane_m) = (vehicle.body.width_m, self.scenario.road.lane_width_m());
-        if width_m > lane_m {
-            let [width_m, lane_m] = [width_m, lane_m].map(readable);
-            let message = format!("vehicle {} is {width_m} m wide, but a lane only {lane_m} m", quoted(&vehicle.name));
-            let help = "widen `road.lane_width_m`, or state the `class` and `scale` that both are of";
-            self.refuse(&format!("vehicle.{index}.body.width_m"), "wider than its lane", message, help);
+        let NarrowestLane { width_m: lane_m, place, key } = narrowest_lane(self.scenario, vehicle);
+        if vehicle.body.width_m <= lane_m {
+            return;
         }
+        let [width_m, lane_m] = [vehicle.body.width_m, lane_m].map(readable);
+        let name = quoted(&vehicle.name);
+        let message = match place {
+            None => format!("vehicle {name} is {width_m} m wide, but a lane only {lane_m} m"),
+            Some((lane, along_m)) => format!(
+                "vehicle {name} is {width_m} m wide, but lane {} on its route only {lane_m} m, {} m along it",
+                quoted(&lane),
+                readable(along_m)
+            ),
+        };
+        let help = format!("widen `road.{key}`, or state the `class` and `scale` that both are of");
+        let place = self.place(&format!("vehicle.{index}.body.width_m"));
+        let fault = Fault::at(place, "wider than its lane", message).help(help);
+        let stated = self.tree.at(&format!("road.{key}"));
+        self.faults.push(stated.into_iter().fold(fault, |fault, width| fault.also(&width.place, "this width")));
     }
 
     fn goal(&mut self, index: usize, vehicle: &Vehicle) {

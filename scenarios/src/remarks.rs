@@ -5,10 +5,13 @@
 
 use interplay_planners::{Body, Driver, SafetyEllipse};
 
+use crate::classes::VehicleClass;
 use crate::degrees;
 use crate::error::{Fault, quoted};
+use crate::narrowest_lane::{NarrowestLane, narrowest_lane};
 use crate::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::scenario::{Scenario, Vehicle};
+use crate::swept_width;
 use crate::tree::TomlNode;
 
 /// The widest lane, as a multiple of the width of a vehicle without a class \[-\]: a car of 1.8 m on a road of 6 m.
@@ -32,6 +35,7 @@ pub(crate) fn of(scenario: &Scenario, tree: &TomlNode) -> ScenarioRemarks {
         faults.extend(proportion(scenario, vehicle).map(|said| remark("body", "out of proportion", said)));
         faults.extend(off_lane(scenario, vehicle).map(|said| remark("start", "off its lane", said)));
         faults.extend(askew(vehicle).map(|said| remark("start", "at an angle", said)));
+        faults.extend(swept_width::remark(scenario, vehicle).map(|said| remark("class", "needs more room", said)));
         faults.extend(short_horizon(scenario, vehicle).map(|said| remark("goal.speed_mps", "cannot stop", said)));
     }
     ScenarioRemarks(faults.into_iter().map(ScenarioRemark).collect())
@@ -78,18 +82,26 @@ fn corner(ellipse: &SafetyEllipse, [length_m, width_m]: [f64; 2]) -> f64 {
 
 /// Whether a body is of another size than its lane. One that does not fit at all is an error.
 fn proportion(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
-    let (lane_m, width_m, name) = (scenario.road.lane_width_m(), vehicle.body.width_m, quoted(&vehicle.name));
-    if vehicle.class.is_none() && lane_m > MAX_LANE_PER_BODY * width_m {
+    let NarrowestLane { width_m: lane_m, key, .. } = narrowest_lane(scenario, vehicle);
+    let (width_m, name) = (vehicle.body.width_m, quoted(&vehicle.name));
+    // Other classes are those of real roads: a bicycle is much narrower than its lane.
+    let may_be_another_size = matches!(vehicle.class, None | Some(VehicleClass::ScaleCar));
+    if may_be_another_size && lane_m > MAX_LANE_PER_BODY * width_m {
         let message = format!(
             "vehicle {name} is {width_m} m wide, on lanes of {lane_m} m, {} times its width",
             (lane_m / width_m).round()
         );
-        return Some((message, "for real cars state `scale = \"full\"`, or the `class` of the vehicle".to_owned()));
+        let help = if vehicle.class.is_some() {
+            "for a real car state `class = \"car\"`"
+        } else {
+            "for real cars state `scale = \"full\"`, or the `class` of the vehicle"
+        };
+        return Some((message, help.to_owned()));
     }
     let most_m = MAX_BODY_PER_LANE * lane_m;
     (width_m > most_m).then(|| {
         let message = format!("vehicle {name} is {width_m} m wide and nearly fills its lane of {lane_m} m");
-        (message, format!("up to {} m leaves it room to steer; `road.lane_width_m` widens the lane", down(most_m)))
+        (message, format!("up to {} m leaves it room to steer; `road.{key}` widens the lane", down(most_m)))
     })
 }
 
@@ -130,14 +142,14 @@ fn askew(vehicle: &Vehicle) -> Option<(String, String)> {
     })
 }
 
-/// Whether plans end before the vehicle could stop from the speed that it wants.
+/// Whether plans end before the vehicle could stop from its speed at the start, or from the one that it wants.
 fn short_horizon(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
     let horizon_s = scenario.step_s * scenario.horizon_steps as f64;
-    let wanted_mps = vehicle.goal.speed_mps.unwrap_or(vehicle.start.speed_mps);
-    let stop_s = wanted_mps / -vehicle.limits.acceleration_min_mps2;
+    let fastest_mps = vehicle.goal.speed_mps.unwrap_or(0.0).max(vehicle.start.speed_mps);
+    let stop_s = fastest_mps / -vehicle.limits.acceleration_min_mps2;
     (horizon_s < stop_s).then(|| {
         let message = format!(
-            "plans reach {} s ahead, but vehicle {} needs {} s to stop from {wanted_mps} m/s",
+            "plans reach {} s ahead, but vehicle {} needs {} s to stop from {fastest_mps} m/s",
             down(horizon_s),
             quoted(&vehicle.name),
             up(stop_s)

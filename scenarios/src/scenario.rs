@@ -53,7 +53,8 @@ pub struct Scenario {
     pub figure: Option<String>,
     /// The size of everything: `"tenth"` for 1/10 scale cars, `"full"` for real ones, or a ratio of lengths to 1/10 scale. What
     /// the file does not state is scaled by it, by Froude's law: lengths by `λ`, times and speeds by `√λ`, accelerations by
-    /// 1. By default the size of the vehicles' classes; without them 1/10 scale.
+    /// 1. By default the size of the vehicles' classes. Where no vehicle states a class or a body, lanes at least 2 m wide mean full
+    /// size; networks of lanes do unless all their lanes begin narrower than 1 m. Otherwise it is 1/10 scale.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "vehicles"), example = &"full")]
     pub scale: Option<ScenarioScale>,
@@ -253,7 +254,8 @@ pub struct Vehicle {
     #[schemars(extend("pattern" = name::pattern()), example = &"ego")]
     pub name: String,
     /// What sort of vehicle it is: the default of `body`, `limits` and `safety`, and the size to which the defaults of its
-    /// weights and of its driver's settings are scaled. By default a car of the scenario's `scale`.
+    /// weights and of its driver's settings are scaled. By default a car of the scenario's `scale`, which the width of the lanes
+    /// may say.
     #[serde(default)]
     #[schemars(example = &"car")]
     pub class: Option<VehicleClass>,

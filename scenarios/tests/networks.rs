@@ -72,6 +72,7 @@ fn every_way_through_a_short_form_can_be_driven() {
     assert_drivable("kind = 'roundabout'\narms = 6\nradius_m = 18", "arm-5-in", 36);
     assert_drivable("kind = 'roundabout'\nlane_count = 2\nradius_m = 20", "east-in-1", 64);
     assert_drivable("kind = 't-junction'", "south-in", 6);
+    assert_drivable("kind = 't-junction'\nturning_lanes = true", "east-in-1", 8);
     assert_drivable("kind = 'crossing'", "north-in", 12);
     assert_drivable("kind = 'crossing'\nturning_lanes = true", "west-in-1", 18);
     assert_drivable("kind = 'all-way-stop'", "north-in", 12);
@@ -170,6 +171,21 @@ fn short_forms_say_who_goes_first_and_who_may_change() {
     assert!(
         network("kind = 'on-ramp'", "main-0").lane("main-0").is_some_and(|lane| !lane.may_change_to("acceleration"))
     );
+}
+
+/// A T-junction has one turning lane: from the east, where the minor road is to the left.
+#[test]
+fn the_turning_lane_of_a_t_junction_leads_into_the_minor_road() {
+    let network = network("kind = 't-junction'\nturning_lanes = true", "east-in-1");
+    let leads_to = |lane: &str| network.lane(lane).expect("it is there").successors.clone();
+    assert_eq!(leads_to("east-in-1"), ["east-to-south"]);
+    assert_eq!(leads_to("east-in-0"), ["east-to-west"]);
+    assert_eq!(leads_to("west-in"), ["west-to-east", "west-to-south"]);
+    assert!(network.lane("west-in-1").is_none());
+    // Its lanes lie opposite each other, with an island as wide as the turning lane.
+    let at = |lane: &str| network.lane(lane).expect("it is there").centre.at(0.0).position[1];
+    assert_eq!(["east-in-0", "east-in-1", "east-out", "west-in", "west-out"].map(at), [3.5, 0.0, -3.5, -3.5, 3.5]);
+    assert_eq!(network.lane("west-in").and_then(|lane| lane.left.clone()), None);
 }
 
 /// Pieces end where they would end without smooth curves between them, so that lanes can be laid out by hand.

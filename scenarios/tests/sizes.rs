@@ -109,9 +109,15 @@ fn each_remark_names_its_place_and_what_would_work() {
     for (between, more, expected) in [
         (
             "[road]\nkind = 'lanes'\nlane_width_m = 3.5",
-            "start.speed_mps = 1",
-            "vehicle `car` is 0.19 m wide, on lanes of 3.5 m, 18 times its width (size.toml:6); \
+            "start.speed_mps = 1\nbody.front_m = 0.21",
+            "vehicle `car` is 0.19 m wide, on lanes of 3.5 m, 18 times its width (size.toml:11); \
              for real cars state `scale = \"full\"`, or the `class` of the vehicle",
+        ),
+        (
+            "[road]\nkind = 'lanes'\nlane_width_m = 3.5",
+            "start.speed_mps = 1\nclass = 'scale-car'",
+            "vehicle `car` is 0.19 m wide, on lanes of 3.5 m, 18 times its width (size.toml:6); \
+             for a real car state `class = \"car\"`",
         ),
         (
             "scale = 'full'",
@@ -143,6 +149,12 @@ fn each_remark_names_its_place_and_what_would_work() {
              `horizon_steps = 16` works, or a `step_s` of 0.5",
         ),
         (
+            "scale = 'full'\nhorizon_steps = 10",
+            "start.speed_mps = 32\ngoal.speed_mps = 10",
+            "plans reach 3.16 s ahead, but vehicle `car` needs 5 s to stop from 32 m/s (size.toml:10); \
+             `horizon_steps = 16` works, or a `step_s` of 0.5",
+        ),
+        (
             "scale = 'full'",
             "limits.steering_max_rad = 0.5",
             "`steering_max_rad` is in radians, which the next version will refuse (size.toml:9); write \
@@ -160,6 +172,112 @@ fn a_vehicle_that_is_wider_than_its_lane_is_an_error() {
     let error = from_text("size.toml", &text, &[]).expect_err("it does not fit");
     let said: Vec<&str> = error.faults().iter().map(|fault| fault.message()).collect();
     assert!(said.contains(&"vehicle `car` is 1.8 m wide, but a lane only 0.5 m"), "{said:?}");
+}
+
+/// A car on a road, in the lane of this name.
+fn on_road(road: &str, start: &str, more: &str) -> String {
+    format!(
+        "{HEAD}[road]\n{road}\n[[vehicle]]\nname = 'car'\nstart = {{ lane = {start}, along_m = 10, speed_mps = 3 }}\n{more}"
+    )
+}
+
+/// Where neither a scale nor a class nor a body is stated, the width of the lanes says the size.
+#[test]
+fn the_width_of_lanes_chooses_the_size() {
+    let size = |road: &str, start: &str, more: &str| {
+        let scenario = loaded(&on_road(road, start, more), &[]);
+        assert_eq!(remarks(&scenario), Vec::<String>::new(), "{road}");
+        (scenario.vehicles[0].body.width_m, scenario.step_s)
+    };
+    let (full, tenth) = ((1.8, 0.1 * 10.0_f64.sqrt()), (0.19, 0.1));
+    assert_eq!(size("kind = 'lanes'\nlane_width_m = 3.5", "0", "goal.speed_mps = 25"), full);
+    assert_eq!(size("kind = 'lanes'\nlane_width_m = 2", "0", "class = 'bicycle'").1, full.1);
+    let curve = "kind = 'curve'\nlane_width_m = 3.5\npieces = [{ straight_m = 60 }, { turn_deg = 45, radius_m = 60 }]";
+    assert_eq!(size(curve, "0", ""), full);
+    assert_eq!(size("kind = 't-junction'", "'west-in'", "goal.lane = 'east-out'"), full);
+    let network = |width_m: &str| {
+        format!("kind = 'network'\n[[road.lane]]\nname = 'a'\npoints = [[0, 0], [90, 0]]\nwidth_m = {width_m}")
+    };
+    assert_eq!(size(&network("3.5"), "'a'", ""), full);
+    let slow = |text: String| text.replace("speed_mps = 3", "speed_mps = 1");
+    let scenario = loaded(&slow(on_road(&network("0.37"), "'a'", "")), &[]);
+    assert_eq!((scenario.vehicles[0].body.width_m, scenario.step_s), tenth);
+    let small = "kind = 't-junction'\nlane_width_m = 0.37";
+    let text = slow(on_road(small, "'west-in'", "goal.lane = 'east-out'")).replace("along_m = 10", "along_m = 1");
+    let scenario = loaded(&text, &[]);
+    assert_eq!((scenario.vehicles[0].body.width_m, scenario.step_s), tenth);
+}
+
+/// What is stated goes before the width of the lanes.
+#[test]
+fn a_scale_a_class_or_a_body_goes_before_the_width_of_lanes() {
+    let wide = "[road]\nkind = 'lanes'\nlane_width_m = 3.5";
+    for (between, more) in [
+        (format!("scale = 'tenth'\n{wide}"), ""),
+        (wide.to_owned(), "class = 'scale-car'"),
+        (wide.to_owned(), "body.front_m = 0.21"),
+        (format!("[defaults.body]\nfront_m = 0.21\n{wide}"), ""),
+    ] {
+        let scenario = with_car(&between, &format!("start.speed_mps = 1\n{more}"));
+        assert_eq!((scenario.vehicles[0].body.width_m, scenario.step_s), (0.19, 0.1), "{between} {more}");
+    }
+}
+
+#[test]
+fn a_speed_out_of_limits_names_scale_and_class() {
+    let text = format!("{HEAD}{}", car("goal.speed_mps = 25"));
+    let error = from_text("size.toml", &text, &[]).expect_err("too fast");
+    let help = error.faults()[0].hint().expect("a remedy");
+    assert!(help.contains("from 0 to 1.5") && help.contains("`class`") && help.contains("`scale`"), "{help}");
+}
+
+/// The narrowest lane of the way counts, from the start on, and no other.
+#[test]
+fn a_lane_that_is_narrower_than_the_car_is_found_on_its_way() {
+    let first = |text: &str| {
+        let error = from_text("size.toml", text, &[]).expect_err(text);
+        let fault = &error.faults()[0];
+        (fault.message().to_owned(), fault.hint().unwrap_or_default().to_owned())
+    };
+    let network = |more: &str| {
+        let waist = "width_m = [[0, 3.5], [50, 1.5], [100, 3.5]]";
+        format!("kind = 'network'\n[[road.lane]]\nname = 'a'\npoints = [[0, 0], [100, 0]]\n{waist}\n{more}")
+    };
+    let (message, help) = first(&on_road(&network(""), "'a'", ""));
+    assert_eq!(message, "vehicle `car` is 1.8 m wide, but lane `a` on its route only 1.5 m, 50 m along it");
+    assert!(help.contains("`road.lane.0.width_m`"), "{help}");
+    let behind = on_road(&network(""), "'a'", "").replace("along_m = 10", "along_m = 70");
+    assert_eq!(remarks(&loaded(&behind, &[])), Vec::<String>::new(), "the narrow place is behind it");
+    let (message, help) = first(&on_road("kind = 'narrow-passage'\npassage_width_m = 1.5", "'east-in'", ""));
+    assert_eq!(message, "vehicle `car` is 1.8 m wide, but lane `east-in` on its route only 1.5 m, 100 m along it");
+    assert!(help.contains("`road.passage_width_m`"), "{help}");
+    let beside = "kind = 'network'\n[[road.lane]]\nname = 'cycles'\npoints = [[0, 0], [90, 0]]\nwidth_m = 1.5\n\
+        [[road.lane]]\nname = 'a'\npoints = [[0, 9], [90, 9]]\nwidth_m = 3.5";
+    assert_eq!(remarks(&loaded(&on_road(beside, "'a'", ""), &[])), Vec::<String>::new());
+    let full = "kind = 'network'\n[[road.lane]]\nname = 'a'\npoints = [[0, 0], [90, 0]]\nwidth_m = 1.9";
+    let said = remarks(&loaded(&on_road(full, "'a'", ""), &[]));
+    assert!(
+        said[0].contains("nearly fills its lane of 1.9 m") && said[0].contains("`road.lane.0.width_m`"),
+        "{said:?}"
+    );
+}
+
+/// A lorry covers more of these turns than they have, a car does not.
+#[test]
+fn a_turn_without_room_for_a_body_is_remarked_on() {
+    for (road, from, to) in [
+        ("t-junction", "west-in", "south-out"),
+        ("crossing", "west-in", "south-out"),
+        ("roundabout", "west-in", "east-out"),
+    ] {
+        let said = |class: &str| {
+            let more = format!("class = '{class}'\ngoal.lane = '{to}'");
+            remarks(&loaded(&on_road(&format!("kind = '{road}'"), &format!("'{from}'"), &more), &[]))
+        };
+        assert_eq!(said("car"), Vec::<String>::new(), "{road}");
+        let lorry = said("truck");
+        assert!(lorry[0].contains("vehicle `car` covers a width of") && lorry[0].contains("size.toml:8"), "{lorry:?}");
+    }
 }
 
 #[test]

@@ -72,8 +72,8 @@ fn lanes() {
     );
     case(
         "kink",
-        ("x_m = 60.0, y_m = 0.0, heading_deg = 0.0", "x_m = 60.0, y_m = 0.0, heading_deg = 30.0"),
-        &["bad.toml:13:15", "30 degrees", "`heading_deg = 0`"],
+        ("x_m = 60.0, y_m = 0.0, heading_deg = 0.0", "x_m = 60.0, y_m = 0.0, heading_deg = 40.0"),
+        &["bad.toml:13:15", "40 degrees", "`heading_deg = 0`"],
     );
     case("unknown_successor", ("[\"bend\"]", "[\"bent\"]"), &["bad.toml:13:15", "names lane `bent`", "`bend`?"]);
     case("successor_twice", ("[\"bend\"]", "[\"bend\", \"bend\"]"), &["bad.toml:13:23", "twice"]);
@@ -84,6 +84,26 @@ fn lanes() {
         "wrong_direction",
         ("left = \"left\"", "left = { lane = \"left\", oncoming = true }"),
         &["bad.toml:12:8", "does not run in the direction", "leave `oncoming` out"],
+    );
+    case(
+        "neighbour_across",
+        ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 3.5], [60.0, -3.5]]"),
+        &["bad.toml:12:8", "lane `left` crosses lane `right`", "merge"],
+    );
+    case(
+        "neighbour_on_the_lane",
+        ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 2.0], [60.0, 2.0]]"),
+        &["bad.toml:12:8", "lane `left` overlaps lane `right` by 1.25 m"],
+    );
+    case(
+        "neighbour_apart",
+        ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 6.5], [60.0, 6.5]]"),
+        &["bad.toml:12:8", "3 m away from the edge of lane `right`"],
+    );
+    case(
+        "meets_itself",
+        ("{ turn_deg = -90.0, radius_m = 8.0 }", "{ turn_deg = -360.0, radius_m = 20.0 }"),
+        &["bad.toml:24:10", "lane `bend` comes back onto itself: after"],
     );
     case("zero_width", ("width_m = 3.5", "width_m = 0.0"), &["bad.toml:11:11", "at least 0.001"]);
     case(

@@ -14,7 +14,7 @@ pub use settings::{Mobil, Settings};
 
 use crate::relation::Relation;
 use crate::right_of_way::ArrivalMemory;
-use crate::steering::{admissible, roll_out, steer};
+use crate::steering::{admissible, roll_out, steer, steer_over_step};
 use crate::{Input, Plan, PlanError, PlanEvent, Scene};
 use car_following::Leader;
 use diagnostics::{GAP, INCENTIVE, LANE};
@@ -24,15 +24,16 @@ use lanes::{Lanes, leader};
 #[derive(Clone, Debug)]
 pub struct Idm {
     settings: Settings,
-    /// The lane it drives in or changes to.
-    lane: Option<usize>,
+    /// Lateral position on its route of the centre of the lane it drives in or changes to \[m\]. On a network, lanes beside the
+    /// route come and go, and with them the number of a lane.
+    lane_centre_m: Option<f64>,
     arrivals: ArrivalMemory,
 }
 
 impl Idm {
     /// A driver who has not chosen a lane yet.
     pub fn new(settings: Settings) -> Self {
-        Idm { settings, lane: None, arrivals: ArrivalMemory::default() }
+        Idm { settings, lane_centre_m: None, arrivals: ArrivalMemory::default() }
     }
 
     /// Chooses a lane and plans the next moves.
@@ -44,13 +45,12 @@ impl Idm {
         let scene = &along_the_road(self.settings.prediction.applied_to(scene).into_owned());
         let lanes = Lanes::of_road(scene, &self.settings.mobil);
         let nearest_lane = lanes.at(scene.ego.route.across(scene.ego.state.position()));
-        // On a network the lanes beside the route, by which its lane is counted, come and go.
         let is_near = |lane: &usize| !scene.ego.route.is_in_network() || lane.abs_diff(nearest_lane) <= 1;
-        let now = self.lane.filter(is_near).unwrap_or(nearest_lane);
+        let now = self.lane_centre_m.map(|centre_m| lanes.at(centre_m)).filter(is_near).unwrap_or(nearest_lane);
         let choice = mobil::choose(scene, &self.settings, now);
-        self.lane = Some(choice.lane);
         let (own, wanted) = (&scene.ego, scene.goal.target.speed_mps);
         let lateral = lanes.centre_m(choice.lane);
+        self.lane_centre_m = Some(lateral);
         let trajectory = roll_out(scene, |t, state| {
             // In the lane that it leaves it minds the vehicle ahead until it is out of it.
             let [left, taken] = [now, choice.lane].map(|lane| leader(scene, &lanes, lane, state, t));
@@ -62,9 +62,16 @@ impl Idm {
             let permitted_mps = along_m.and_then(|along_m| own.permitted_speed_mps(along_m));
             let wanted_mps = permitted_mps.map_or(wanted, |permitted_mps| permitted_mps.min(wanted));
             let acceleration = self.settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+            // On a free road the model brakes too weakly for a limit ahead.
+            let highest_mps2 =
+                along_m.and_then(|along_m| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s));
+            let acceleration = highest_mps2.map_or(acceleration, |highest_mps2| acceleration.min(highest_mps2));
             Input {
                 acceleration_mps2: admissible(own, state, acceleration, scene.step_s),
-                steering_rad: steer(own, state, lateral),
+                steering_rad: match along_m {
+                    None => steer(own, state, lateral),
+                    Some(_) => steer_over_step(own, state, lateral, scene.step_s),
+                },
             }
         });
         let ahead = leader(scene, &lanes, choice.lane, &own.state, 0);

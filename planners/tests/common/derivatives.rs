@@ -53,7 +53,7 @@ fn close(what: &str, numeric: f64, analytic: f64, tolerance: f64) {
 }
 
 /// The step problem at an iterate, with the exact Hessian or the Gauss-Newton one.
-fn model(problem: &Problem, iterate: &Iterate, exact: bool) -> StageQp {
+pub fn model(problem: &Problem, iterate: &Iterate, exact: bool) -> StageQp {
     let mut step = StepProblem::default();
     step.linearize(problem, iterate);
     if !exact {

@@ -11,8 +11,8 @@ use crate::schema::{self, SchemaNode};
 const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_jitter"];
 
 /// Writes the defaults of a scenario's size into it: of the scenario where it states a `scale` or the `class` of a vehicle, and
-/// of each vehicle. A scenario that states none of them has the defaults of 1/10 scale cars and is left as it is, but for
-/// the lanes of IDM drivers. What is no table of the format is left too.
+/// of each vehicle. Where neither is stated, the width of the lanes says the size. A scenario of 1/10 scale is left as it is, but
+/// for the lanes of IDM drivers. What is no table of the format is left too.
 pub(crate) fn expand(scenario: &mut Json) {
     let Some(root) = scenario.as_object_mut() else { return };
     root.remove("defaults");
@@ -55,18 +55,40 @@ fn is_network(root: &Map<String, Json>) -> bool {
     root.get("road").and_then(read::<Road>).is_some_and(|road| road.is_network())
 }
 
-/// The stated scale, or else that of the largest class, or else that of a network of lanes; none where nothing is said of it.
+/// The stated scale, or else that of the largest class, or else that of the road; none where nothing is said of it.
 fn size(root: &Map<String, Json>) -> Option<Size> {
     if let Some(stated) = root.get("scale").and_then(read::<ScenarioScale>) {
         return Some(Size { scale: stated.ratio(), is_full: stated == ScenarioScale::Named(NamedScale::Full) });
     }
     let vehicles = root.get("vehicle").and_then(Json::as_array).into_iter().flatten();
     let scales = vehicles.filter_map(|vehicle| read::<VehicleClass>(vehicle.get("class")?).map(VehicleClass::scale));
-    let of_road = || is_network(root).then_some(FULL_SCALE);
+    let of_road = || root.get("road").and_then(read::<Road>).and_then(|road| scale_of_road(&road, states_a_body(root)));
     scales
         .max_by(f64::total_cmp)
         .or_else(of_road)
         .map(|scale| Size { scale, is_full: scale > VehicleClass::ScaleCar.scale() })
+}
+
+/// Lanes at least this wide are those of real cars \[m\].
+const MIN_FULL_SIZE_LANE_M: f64 = 2.0;
+/// Lanes of a network that are all narrower than this are not those of real cars \[m\].
+const MAX_SCALED_LANE_M: f64 = 1.0;
+
+/// The scale that a road says: networks of lanes are those of real cars, parallel lanes those of 1/10 scale cars, unless their
+/// width says otherwise. Where a vehicle states its `body`, the width says nothing. None for parallel lanes of 1/10 scale cars.
+fn scale_of_road(road: &Road, states_a_body: bool) -> Option<f64> {
+    let widest_m = road.widest_lane_m();
+    match (road.is_network(), states_a_body) {
+        (true, false) if widest_m < MAX_SCALED_LANE_M => Some(VehicleClass::ScaleCar.scale()),
+        (true, _) => Some(FULL_SCALE),
+        (false, false) if widest_m >= MIN_FULL_SIZE_LANE_M => Some(FULL_SCALE),
+        (false, _) => None,
+    }
+}
+
+fn states_a_body(root: &Map<String, Json>) -> bool {
+    let mut vehicles = root.get("vehicle").and_then(Json::as_array).into_iter().flatten();
+    vehicles.any(|vehicle| vehicle.get("body").is_some())
 }
 
 fn read<T: serde::de::DeserializeOwned>(value: &Json) -> Option<T> {

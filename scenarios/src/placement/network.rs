@@ -104,7 +104,28 @@ impl Describer<'_> {
                 at(format!("{of} is named as its own neighbour")).help("name the lane beside it")
             }
             LaneFault::Gap { .. } | LaneFault::Kink { .. } => self.not_touching(error),
-            LaneFault::WrongDirection { other } => {
+            LaneFault::MeetsItself { first_m, again_m } => at(format!(
+                "{of} comes back onto itself: after {} m it is where it was after {} m",
+                to_centimetres(*again_m),
+                to_centimetres(*first_m)
+            ))
+            .help("let it turn less, or end beside itself; it may cross itself at a large angle"),
+            LaneFault::NoName | LaneFault::NoEnds => at(format!("{of} is none: {fault}")),
+            LaneFault::WrongDirection { other }
+            | LaneFault::ChangesSides { other, .. }
+            | LaneFault::NotSideBySide { other, .. }
+            | LaneFault::WrongSide { other } => self.beside(error, other),
+        }
+    }
+
+    /// A neighbour that is not where a lane says, by its name.
+    fn beside(&self, error: &RoadNetworkError, other: &str) -> Fault {
+        let RoadNetworkError { lane, index, fault, .. } = error;
+        let of = format!("lane {}", quoted(lane));
+        let (key, label) = (self.key(error), label(fault));
+        let at = |message: String| self.at(*index, &key, label, message);
+        match fault {
+            LaneFault::WrongDirection { .. } => {
                 let is_oncoming = self.lanes.get(*index).is_some_and(|lane| says_oncoming(lane, other));
                 at(format!("lane `{other}` beside {of} does not run in the direction that is said of it")).help(
                     if is_oncoming {
@@ -114,10 +135,35 @@ impl Describer<'_> {
                     },
                 )
             }
-            LaneFault::WrongSide { other } => at(format!("lane `{other}` is not on this side of {of}"))
+            LaneFault::ChangesSides { along_m, .. } => {
+                at(format!("lane `{other}` crosses {of}, {} m along it", to_centimetres(*along_m)))
+                    .help("neighbours lie side by side or merge; lanes that cross are no neighbours")
+            }
+            LaneFault::NotSideBySide { along_m, space_m, .. } => {
+                self.not_side_by_side(*index, (other, *along_m, *space_m), error)
+            }
+            _ => at(format!("lane `{other}` is not on this side of {of}"))
                 .help("`left` and `right` are as who drives on the lane sees them"),
-            other @ (LaneFault::NoName | LaneFault::NoEnds) => at(format!("{of} is none: {other}")),
         }
+    }
+
+    /// A neighbour that overlaps a lane, or lies apart from it.
+    fn not_side_by_side(
+        &self,
+        index: usize,
+        (other, along_m, space_m): (&str, f64, f64),
+        error: &RoadNetworkError,
+    ) -> Fault {
+        let (of, along_m, wide_m) = (quoted(&error.lane), to_centimetres(along_m), to_centimetres(space_m.abs()));
+        let message = if space_m < 0.0 {
+            format!("lane `{other}` overlaps lane {of} by {wide_m} m where they overlap least, {along_m} m along it")
+        } else {
+            format!(
+                "lane `{other}` is {wide_m} m away from the edge of lane {of} where they are nearest, {along_m} m along it"
+            )
+        };
+        let help = "the middles of neighbours are half of both widths apart; lanes elsewhere are no neighbours";
+        self.at(index, &self.key(error), label(&error.fault), message).help(help)
     }
 
     /// A successor that does not begin where the lane ends, or not in its direction.
@@ -150,6 +196,12 @@ impl Describer<'_> {
         self.at(*index, &self.key(error), label(fault), message).help(help)
     }
 
+    /// The key that states the line of a lane.
+    fn line_key(&self, index: usize) -> &'static str {
+        let stated = if let Road::Network(network) = self.road { network.lanes.get(index) } else { None };
+        if stated.is_some_and(|lane| lane.pieces.is_empty()) { "points" } else { "pieces" }
+    }
+
     /// The key of the lane that is wrong, as files call it.
     fn key(&self, error: &RoadNetworkError) -> String {
         let successor = |other: &String| {
@@ -166,7 +218,7 @@ impl Describer<'_> {
                 | LaneFault::Kink { other, .. },
             ) => successor(other),
             ("width", _) => "width_m".to_owned(),
-            ("centre", _) => "pieces".to_owned(),
+            ("centre", _) => self.line_key(error.index).to_owned(),
             (field, _) => field.to_owned(),
         }
     }
@@ -193,5 +245,8 @@ fn label(fault: &LaneFault) -> &'static str {
         LaneFault::Kink { .. } => "begins in another direction",
         LaneFault::WrongDirection { .. } => "in the other direction",
         LaneFault::WrongSide { .. } => "on the other side",
+        LaneFault::MeetsItself { .. } => "meets itself",
+        LaneFault::ChangesSides { .. } => "crosses it",
+        LaneFault::NotSideBySide { .. } => "not beside it",
     }
 }

@@ -225,6 +225,28 @@ impl Road {
         }
     }
 
+    /// The key of the road that states the width of a lane, or of the narrowest lanes.
+    pub(crate) fn width_key(&self, lane: &str) -> String {
+        match self {
+            Road::Network(network) => {
+                let number = network.lanes.iter().position(|stated| stated.name == lane);
+                number.map_or_else(|| "lane".to_owned(), |number| format!("lane.{number}.width_m"))
+            }
+            Road::NarrowPassage(passage) if passage.passage_width_m < passage.lane_width_m => {
+                "passage_width_m".to_owned()
+            }
+            _ => "lane_width_m".to_owned(),
+        }
+    }
+
+    /// Width of the widest lane where it begins \[m\].
+    pub(crate) fn widest_lane_m(&self) -> f64 {
+        match self {
+            Road::Network(network) => network.lanes.iter().map(|lane| lane.width_m.first_m()).fold(0.0, f64::max),
+            _ => self.lane_width_m(),
+        }
+    }
+
     /// Width of all parallel lanes together, of each road; on a network, of one lane \[m\].
     pub fn width_m(&self) -> f64 {
         self.parallel_lanes().map_or(1.0, |lanes| lanes.count as f64) * self.lane_width_m()

@@ -94,6 +94,32 @@ pub enum LaneFault {
         /// The neighbour.
         other: String,
     },
+    /// The lane comes back onto itself.
+    #[error("after {again_m:.2} m it is where it was after {first_m:.2} m")]
+    MeetsItself {
+        /// Where it is first \[m\].
+        first_m: f64,
+        /// Where it is again \[m\].
+        again_m: f64,
+    },
+    /// A neighbour changes to the other side.
+    #[error("its neighbour `{other}` is on the other side of it {along_m:.2} m along it")]
+    ChangesSides {
+        /// The neighbour.
+        other: String,
+        /// Where along the lane \[m\].
+        along_m: f64,
+    },
+    /// A neighbour lies nowhere side by side with the lane.
+    #[error("its neighbour `{other}` is nowhere beside it: {space_m:.2} m are between both at {along_m:.2} m")]
+    NotSideBySide {
+        /// The neighbour.
+        other: String,
+        /// Where along the lane they come nearest to lying side by side \[m\].
+        along_m: f64,
+        /// Width of the strip between both there, negative where they overlap \[m\].
+        space_m: f64,
+    },
     /// A neighbour is not on the side that is said of it.
     #[error("its neighbour `{other}` is not on this side of it")]
     WrongSide {

@@ -10,12 +10,14 @@ mod edges;
 mod error;
 mod lane;
 mod locating;
+mod neighbours;
 mod road_network;
 mod route;
 mod route_conflict;
 mod route_set;
 mod routing;
 mod search;
+mod self_overlap;
 mod strip;
 
 #[cfg(test)]

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::error::{LaneFault, RoadNetworkError};
-use super::lane::{Lane, LaneNeighbour, NeighbourRelation};
+use super::lane::Lane;
+use super::neighbours::is_beside;
+use super::self_overlap::self_overlap_m;
 
 /// Lanes that exist, touch and do not cross themselves.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,8 +20,8 @@ pub struct RoadNetwork {
 const MAX_GAP_RATIO: f64 = 0.1;
 
 /// Most by which the heading changes where a lane touches its successor \[rad\]: in maps of real roads, lanes that fork begin
-/// with headings up to 10° apart.
-const MAX_KINK_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
+/// with headings up to 28° apart. A route joins them by a curve, which must not be too tight for its vehicle.
+const MAX_KINK_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 
 /// How many places of a lane are checked between two knots of its centre line.
 const CHECKS_PER_KNOT: usize = 4;
@@ -30,11 +32,12 @@ impl RoadNetwork {
     /// # Errors
     /// The first fault that is found, in the order of the lanes, with the lane and the field:
     /// - `name`: empty, or used twice,
-    /// - `centre`: without ends,
+    /// - `centre`: without ends, or the lane comes back onto itself in about the same or the opposite direction,
     /// - `width`: not positive and finite everywhere, or so large that an edge crosses itself (`|κ| w/2 ≥ 1`),
     /// - `speed_limit_mps`: not positive and finite,
-    /// - `successors`: unknown, named twice, more than a tenth of the width away, or turned by more than 10°,
-    /// - `left`, `right`: unknown, the lane itself, in the wrong direction, or on the wrong side.
+    /// - `successors`: unknown, named twice, more than a tenth of the width away, or turned by more than 30°,
+    /// - `left`, `right`: unknown, the lane itself, in the wrong direction, on the wrong side anywhere, or nowhere side by side with
+    ///   the lane: more than a quarter of its width on it, or more than half of its width away.
     pub fn new(lanes: Vec<Lane>) -> Result<RoadNetwork, RoadNetworkError> {
         let mut numbers = BTreeMap::new();
         for (index, lane) in lanes.iter().enumerate() {
@@ -100,7 +103,8 @@ impl RoadNetwork {
         if !is_positive(narrowest_m) {
             return Err(("width", LaneFault::NotPositive { value: narrowest_m, along_m: length_m }));
         }
-        Ok(())
+        let meeting_m = self_overlap_m(lane);
+        meeting_m.map_or(Ok(()), |[first_m, again_m]| Err(("centre", LaneFault::MeetsItself { first_m, again_m })))
     }
 
     fn check_beside_others(&self, lane: &Lane) -> Result<(), (&'static str, LaneFault)> {
@@ -143,34 +147,6 @@ fn touches(lane: &Lane, successor: &Lane) -> Option<LaneFault> {
     let turn_rad = turn_rad(end.heading_rad, begin.heading_rad).abs();
     let (turn_deg, most_deg) = (turn_rad.to_degrees(), MAX_KINK_RAD.to_degrees());
     (turn_rad > MAX_KINK_RAD).then_some(LaneFault::Kink { other, turn_deg, most_deg })
-}
-
-/// What keeps a lane from being the neighbour of another one on a side: 1 for the left, −1 for the right.
-///
-/// Lanes may be of different length: both are compared where the middle of one lies beside the other, if it does.
-fn is_beside(lane: &Lane, neighbour: &LaneNeighbour, other: &Lane, side: f64) -> Option<LaneFault> {
-    let middles = [(0.5 * lane.centre.length_m(), None), (0.0, Some(0.5 * other.centre.length_m()))];
-    for (own_m, other_m) in middles {
-        let own_m =
-            other_m.map_or(own_m, |other_m| lane.centre.project(other.centre.at(other_m).position, None).along_m);
-        let own = lane.centre.at(own_m);
-        let there = other.centre.project(own.position, None);
-        let is_along = |lane: &Lane, along_m: f64| (0.0..=lane.centre.length_m()).contains(&along_m);
-        if !(is_along(lane, own_m) && is_along(other, there.along_m)) {
-            continue;
-        }
-        let cos = libm::cos(there.heading_rad - own.heading_rad);
-        let is_same = neighbour.relation == NeighbourRelation::SameDirection;
-        if is_same != (cos > 0.0) {
-            return Some(LaneFault::WrongDirection { other: other.name.clone() });
-        }
-        let across_m = lane.centre.project(other.centre.at(there.along_m).position, Some(own_m)).across_m;
-        // Neighbours may share an edge, and merge: what counts is that they are not on the other side.
-        if side * across_m < -MAX_GAP_RATIO * lane.width.value(own_m) {
-            return Some(LaneFault::WrongSide { other: other.name.clone() });
-        }
-    }
-    None
 }
 
 /// The difference of two headings between −π and π \[rad\].

@@ -84,7 +84,7 @@ fn a_fault_names_its_lane_and_field() {
     let (lane, field, gap) = fault(vec![first(), straight("second", [10.0, 1.0], 0.0, 10.0)]);
     assert_eq!((lane.as_str(), field), ("first", "successors"));
     assert_eq!(gap, LaneFault::Gap { other: "second".into(), gap_m: 1.0, most_m: 0.1 * 3.5 });
-    assert!(matches!(fault(vec![first(), straight("second", [10.0, 0.0], 0.2, 10.0)]).2, LaneFault::Kink { .. }));
+    assert!(matches!(fault(vec![first(), straight("second", [10.0, 0.0], 0.6, 10.0)]).2, LaneFault::Kink { .. }));
     let twice = followed_by(first(), &["second", "second"]);
     assert_eq!(fault(vec![twice, second()]).2, LaneFault::NamedTwice { other: "second".into() });
     assert_eq!(fault(vec![Lane { centre: CentreLine::straight(0.0), ..second() }]).2, LaneFault::NoEnds);
@@ -97,6 +97,37 @@ fn a_fault_names_its_lane_and_field() {
     let tight = Lane { centre: CentreLine::from_pieces([0.0; 2], 0.0, &arc).expect("an arc"), ..second() };
     let (_, field, crossing) = fault(vec![tight]);
     assert!(field == "width" && matches!(crossing, LaneFault::EdgesCross { .. }), "{crossing:?}");
+}
+
+/// A lane that turns by some angle on a circle of 20 m.
+fn turning(turn_deg: f64) -> Lane {
+    let radius_m = 20.0;
+    let ahead = Piece::Straight { length_m: 50.0 };
+    let turn = Piece::Arc { length_m: turn_deg.to_radians() * radius_m, curvature_1pm: 1.0 / radius_m };
+    let pieces = smooth(&[ahead, turn, ahead], 5.0).expect("long enough");
+    Lane::new("turning", CentreLine::from_pieces([0.0; 2], 0.0, &pieces).expect("pieces"), 3.5)
+}
+
+/// After a full turn the lane is where it was; after three quarters of one it crosses itself, and after half of one lies beside
+/// itself.
+#[test]
+fn a_lane_does_not_come_back_onto_itself() {
+    for turn_deg in [90.0, 180.0, 270.0, 300.0] {
+        assert!(RoadNetwork::new(vec![turning(turn_deg)]).is_ok(), "{turn_deg}");
+    }
+    let (_, field, fault) = fault(vec![turning(360.0)]);
+    let LaneFault::MeetsItself { first_m, again_m } = fault else { panic!("{fault:?}") };
+    assert_eq!(field, "centre");
+    // The straight parts lie on each other: a place before the circle, and the same after it.
+    assert!((again_m - first_m - 2.0 * PI * 20.0).abs() < 5.0, "{first_m} {again_m}");
+    let ahead = Piece::Straight { length_m: 30.0 };
+    let pieces = smooth(&[ahead, Piece::Arc { length_m: 2.2 * PI, curvature_1pm: 1.0 / 2.2 }, ahead], 2.0);
+    let hairpin = CentreLine::from_pieces([0.0; 2], 0.0, &pieces.expect("long enough")).expect("pieces");
+    assert!(RoadNetwork::new(vec![Lane::new("back", hairpin, 3.5)]).is_ok(), "both directions lie beside each other");
+    // A ring of one lane that is its own successor.
+    let ring = CentreLine::from_pieces([0.0; 2], 0.0, &[Piece::Arc { length_m: 40.0 * PI, curvature_1pm: 0.05 }]);
+    let ring = followed_by(Lane::new("ring", ring.expect("an arc"), 3.5), &["ring"]);
+    assert!(RoadNetwork::new(vec![ring]).is_ok());
 }
 
 #[test]
@@ -112,6 +143,22 @@ fn neighbours_lie_on_their_side_and_run_in_their_direction() {
     assert_eq!(refused(vec![right("other"), other([50.0, 3.5], PI)]), direction);
     let side = LaneFault::WrongSide { other: "other".into() };
     assert_eq!(refused(vec![right("other"), other([0.0, -3.5], 0.0)]), side);
+    // Merging at its end, beside a median and with a little overlap it is a neighbour; across, apart and on the lane it is none.
+    let towards = |from_m: f64, to_m: f64| {
+        let slope_rad = libm::asin((to_m - from_m) / 50.0);
+        vec![right("other"), other([0.0, from_m], slope_rad)]
+    };
+    for [from_m, to_m] in [[3.5, 0.0], [0.0, 3.5], [3.5, 7.5], [5.0, 5.0], [2.8, 2.8]] {
+        assert!(RoadNetwork::new(towards(from_m, to_m)).is_ok(), "{from_m} to {to_m}");
+    }
+    assert!(matches!(refused(towards(3.5, -3.5)), LaneFault::ChangesSides { along_m, .. } if along_m > 25.0));
+    let not_beside = |from_m: f64, to_m: f64| match refused(towards(from_m, to_m)) {
+        LaneFault::NotSideBySide { space_m, .. } => space_m,
+        fault => panic!("{fault:?}"),
+    };
+    assert!((not_beside(2.0, 2.0) + 1.5).abs() < 1e-9);
+    assert!((not_beside(6.5, 6.5) - 3.0).abs() < 1e-9);
+    assert!(not_beside(6.5, 20.0) > 2.9);
     let mut oncoming = right("other");
     oncoming.left.as_mut().expect("a neighbour").relation = NeighbourRelation::Oncoming;
     assert!(RoadNetwork::new(vec![oncoming, other([50.0, 3.5], PI)]).is_ok());

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use interplay_planners::road::network::{Lane, NeighbourRelation, RightOfWay};
+use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation, RightOfWay};
 
 use super::super::fault::{RoadFault, to_centimetres};
 use super::connector::{Connector, LanePose, connector, tangent_ratio};
@@ -23,13 +23,24 @@ pub(super) struct Arm {
     pub compass: Compass,
     /// Who goes first at the end of its lanes.
     pub right_of_way: RightOfWay,
-    /// Whether a lane of its own leads to the left.
-    pub has_turning_lane: bool,
+    /// What lies between its directions.
+    pub median: Median,
+}
+
+/// What lies between the directions of an arm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Median {
+    /// Nothing.
+    None,
+    /// A lane that leads to the left.
+    TurningLane,
+    /// A strip of a lane's width on which nobody drives, opposite a turning lane.
+    Island,
 }
 
 /// Arms that meet, and their sizes.
 pub(super) struct Arms<'a> {
-    /// They are in the order of [`Compass`], and opposite arms are equal.
+    /// They are in the order of [`Compass`], and opposite arms are equally wide.
     pub arms: &'a [Arm],
     /// How far they reach from the middle of the junction \[m\].
     pub arm_length_m: f64,
@@ -87,16 +98,21 @@ fn axis(compass: Compass) -> [f64; 2] {
 impl Arm {
     /// An arm with one lane in each direction.
     pub fn new(compass: Compass, right_of_way: RightOfWay) -> Arm {
-        Arm { compass, right_of_way, has_turning_lane: false }
+        Arm { compass, right_of_way, median: Median::None }
     }
 
     fn lanes_in(&self) -> usize {
-        if self.has_turning_lane { 2 } else { 1 }
+        if self.median == Median::TurningLane { 2 } else { 1 }
     }
 
     /// Distance of the outer lanes from the middle of the arm, in lane widths.
     fn outer_lanes(&self) -> f64 {
-        if self.has_turning_lane { 1.0 } else { 0.5 }
+        if self.median == Median::None { 0.5 } else { 1.0 }
+    }
+
+    /// The lane beside another one in the opposite direction; none across an island.
+    fn oncoming(&self, lane: &str) -> Option<LaneNeighbour> {
+        if self.median == Median::Island { None } else { beside(lane, NeighbourRelation::Oncoming, false) }
     }
 
     fn name_in(&self, number: usize) -> String {
@@ -182,7 +198,7 @@ impl Arms<'_> {
             lanes.push(Lane {
                 successors: self.connected(arm, number).map(|to| connector_name(arm, to)).collect(),
                 left: if is_last {
-                    beside(&arm.name_out(), NeighbourRelation::Oncoming, false)
+                    arm.oncoming(&arm.name_out())
                 } else {
                     beside(&arm.name_in(number + 1), NeighbourRelation::SameDirection, true)
                 },
@@ -196,7 +212,7 @@ impl Arms<'_> {
         let begin = self.leaving(arm)?;
         let centre = straight(begin.position, begin.heading_rad, length_m)?;
         lanes.push(Lane {
-            left: beside(&arm.name_in(count - 1), NeighbourRelation::Oncoming, false),
+            left: arm.oncoming(&arm.name_in(count - 1)),
             ..lane(&arm.name_out(), centre, self.lane_width_m, self.speed_limit_mps)
         });
         Ok(())
@@ -209,7 +225,7 @@ impl Arms<'_> {
             // Who comes in drives against the direction of the arm.
             to_x * y - to_y * x > 0.5
         };
-        let is_served = move |to: &Arm| !from.has_turning_lane || to_left(to) == (number == 1);
+        let is_served = move |to: &Arm| from.median != Median::TurningLane || to_left(to) == (number == 1);
         self.arms.iter().filter(move |to| to.compass != from.compass && is_served(to))
     }
 

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::super::fault::RoadFault;
-use super::arms::{Arm, Arms, Compass};
+use super::arms::{Arm, Arms, Compass, Median};
 use super::t_junction::MinorRoadRule;
 
 /// Two roads with a lane in each direction that cross at the origin; the main one runs from west to east. Lanes are called
@@ -53,7 +53,8 @@ impl Crossing {
     pub(crate) fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
         let arm = |compass: Compass| match compass {
             Compass::East | Compass::West => {
-                Arm { has_turning_lane: self.turning_lanes, ..Arm::new(compass, RightOfWay::Priority) }
+                let median = if self.turning_lanes { Median::TurningLane } else { Median::None };
+                Arm { median, ..Arm::new(compass, RightOfWay::Priority) }
             }
             Compass::North | Compass::South => Arm::new(compass, self.minor.into()),
         };

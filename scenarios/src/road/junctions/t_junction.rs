@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::super::fault::RoadFault;
-use super::arms::{Arm, Arms, Compass};
+use super::arms::{Arm, Arms, Compass, Median};
 
 /// A main road from west to east, with a lane in each direction, and a minor one that joins it from the south at the origin.
 /// Lanes are called `west-in`, `west-out` and so on, connectors `west-to-south`.
@@ -24,6 +24,9 @@ pub struct TJunction {
     /// Smallest radius of turns to the right, in the middle of the lane \[m\].
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub turn_radius_m: f64,
+    /// Whether the main road has a lane of its own for turns to the left into the minor one, `east-in-1`; `east-in-0` then leads
+    /// straight on. To the west of the junction, an island of the same width lies between both directions.
+    pub turning_lanes: bool,
     /// What who comes on the minor road must do.
     pub right_of_way: MinorRoadRule,
 }
@@ -55,6 +58,7 @@ impl Default for TJunction {
             lane_width_m: 3.5,
             speed_limit_mps: 13.9,
             turn_radius_m: 8.0,
+            turning_lanes: false,
             right_of_way: MinorRoadRule::default(),
         }
     }
@@ -66,7 +70,10 @@ impl TJunction {
     /// # Errors
     /// For sizes that leave no room for the lanes.
     pub(crate) fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
-        let main = [Compass::East, Compass::West].map(|compass| Arm::new(compass, RightOfWay::Priority));
+        // Only who comes from the east turns to the left.
+        let medians = if self.turning_lanes { [Median::TurningLane, Median::Island] } else { [Median::None; 2] };
+        let main = [(Compass::East, medians[0]), (Compass::West, medians[1])]
+            .map(|(compass, median)| Arm { median, ..Arm::new(compass, RightOfWay::Priority) });
         let arms = [main[0], main[1], Arm::new(Compass::South, self.right_of_way.into())];
         let TJunction { arm_length_m, lane_width_m, speed_limit_mps, turn_radius_m, .. } = *self;
         Arms { arms: &arms, arm_length_m, lane_width_m, speed_limit_mps, turn_radius_m }.lanes()
