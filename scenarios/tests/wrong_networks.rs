@@ -92,8 +92,8 @@ fn lanes() {
     );
     case(
         "neighbour_on_the_lane",
-        ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 2.0], [60.0, 2.0]]"),
-        &["bad.toml:12:8", "lane `left` overlaps lane `right` by 1.25 m"],
+        ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 1.5], [60.0, 1.5]]"),
+        &["bad.toml:12:8", "lane `left` overlaps lane `right` by 1.75 m"],
     );
     case(
         "neighbour_apart",

@@ -7,7 +7,7 @@ use super::lane::{Lane, LaneNeighbour, NeighbourRelation};
 const MAX_CROSSED_RATIO: f64 = 0.1;
 
 /// Where two lanes come nearest to lying side by side, they overlap by at most this share of the narrower one's width.
-const MAX_OVERLAP_RATIO: f64 = 0.25;
+const MAX_OVERLAP_RATIO: f64 = 0.4;
 
 /// There, the strip between them is at most as wide as this share of it.
 const MAX_SPACE_RATIO: f64 = 0.5;

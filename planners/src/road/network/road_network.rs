@@ -37,7 +37,7 @@ impl RoadNetwork {
     /// - `speed_limit_mps`: not positive and finite,
     /// - `successors`: unknown, named twice, more than a tenth of the width away, or turned by more than 30°,
     /// - `left`, `right`: unknown, the lane itself, in the wrong direction, on the wrong side anywhere, or nowhere side by side with
-    ///   the lane: more than a quarter of its width on it, or more than half of its width away.
+    ///   the lane: more than two fifths of its width on it, or more than half of its width away.
     pub fn new(lanes: Vec<Lane>) -> Result<RoadNetwork, RoadNetworkError> {
         let mut numbers = BTreeMap::new();
         for (index, lane) in lanes.iter().enumerate() {
