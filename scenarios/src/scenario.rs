@@ -52,8 +52,8 @@ pub struct Scenario {
     #[schemars(example = &"6.1")]
     pub figure: Option<String>,
     /// The size of everything: `"tenth"` for 1/10 scale cars, `"full"` for real ones, or a ratio of lengths to 1/10 scale. What
-    /// the file does not state is scaled by it, by Froude's law: lengths by `λ`, times and speeds by `√λ`, accelerations by
-    /// 1. By default the size of the vehicles' classes. Where no vehicle states a class or a body, lanes at least 2 m wide mean full
+    /// the file does not state is scaled by it, by Froude's law: lengths by `λ`, times and speeds by `√λ`, and accelerations
+    /// stay. By default the size of the vehicles' classes. Where no vehicle states a class or a body, lanes at least 2 m wide mean full
     /// size; networks of lanes do unless all their lanes begin narrower than 1 m. Otherwise it is 1/10 scale.
     #[serde(default)]
     #[schemars(extend("x-concerns" = "vehicles"), example = &"full")]

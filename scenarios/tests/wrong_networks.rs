@@ -85,6 +85,34 @@ fn lanes() {
         ("left = \"left\"", "left = { lane = \"left\", oncoming = true }"),
         &["bad.toml:12:8", "does not run in the direction", "leave `oncoming` out"],
     );
+    case("zero_width", ("width_m = 3.5", "width_m = 0.0"), &["bad.toml:11:11", "at least 0.001"]);
+    case(
+        "width_of_zero_at_the_end",
+        ("[60.0, 3.0]]", "[60.0, 0.0]]"),
+        &["bad.toml:18:31", "the width 0 m", "at least 0.001 m"],
+    );
+    case("width_backwards", ("[60.0, 3.0]]", "[0.0, 3.0]]"), &["bad.toml:18:11", "increasing distances"]);
+    case("edges_cross", ("radius_m = 8.0", "radius_m = 1.5"), &["bad.toml:24:64", "inner edge", "more than 1.75 m"]);
+    let sharp = ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 3.5], [3.0, 3.5], [3.0, 6.5], [0.0, 6.5]]\ntolerance_m = 0.0");
+    case("points_too_tight", sharp, &["bad.toml:19:11", "edge crosses itself", "less than"]);
+    case("same_name", ("name = \"bend\"", "name = \"left\""), &["two lanes are called `left`", "the first"]);
+    case("loop", ("right_of_way", "successors = [\"bend\"]\nright_of_way"), &["bad.toml:26:15", "does not touch"]);
+    case("no_line", ("start = { x_m = 0.0, y_m = 0.0, heading_deg = 0.0 }\n", ""), &["has no start", "or `points`"]);
+    case("one_point", ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 3.5]]"), &["bad.toml:17:10", "has one point"]);
+    case("same_points", ("[60.0, 3.5]]", "[60.0, 3.5], [60.0, 3.5]]"), &["bad.toml:17:10", "no line"]);
+    case("no_turn", ("turn_deg = -90.0", "turn_deg = 0.0"), &["bad.toml:24:46", "turns by 0"]);
+    case("wrong_type", ("width_m = 3.5", "width_m = \"wide\""), &["must be a number or a list, not"]);
+    case("unknown_word", ("\"yield\"", "\"give-way\""), &["bad.toml:26:16", "`all-way-stop`"]);
+    insta::assert_snapshot!("lanes", errors.0);
+}
+
+/// Neighbours that are not beside each other, and a lane that is beside itself.
+#[test]
+fn lanes_in_each_others_way() {
+    let mut errors = Catalogue::default();
+    let mut case = |name: &str, change: (&str, &str), fragments: &[&str]| {
+        refuse(&mut errors, GOOD, name, change, fragments);
+    };
     case(
         "neighbour_across",
         ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 3.5], [60.0, -3.5]]"),
@@ -105,25 +133,7 @@ fn lanes() {
         ("{ turn_deg = -90.0, radius_m = 8.0 }", "{ turn_deg = -360.0, radius_m = 20.0 }"),
         &["bad.toml:24:10", "lane `bend` comes back onto itself: after"],
     );
-    case("zero_width", ("width_m = 3.5", "width_m = 0.0"), &["bad.toml:11:11", "at least 0.001"]);
-    case(
-        "width_of_zero_at_the_end",
-        ("[60.0, 3.0]]", "[60.0, 0.0]]"),
-        &["bad.toml:18:31", "the width 0 m", "at least 0.001 m"],
-    );
-    case("width_backwards", ("[60.0, 3.0]]", "[0.0, 3.0]]"), &["bad.toml:18:11", "increasing distances"]);
-    case("edges_cross", ("radius_m = 8.0", "radius_m = 1.5"), &["bad.toml:24:64", "inner edge", "more than 1.75 m"]);
-    let sharp = ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 3.5], [3.0, 3.5], [3.0, 6.5], [0.0, 6.5]]\ntolerance_m = 0.0");
-    case("points_too_tight", sharp, &["bad.toml:19:11", "edge crosses itself", "less than"]);
-    case("same_name", ("name = \"bend\"", "name = \"left\""), &["two lanes are called `left`", "the first"]);
-    case("loop", ("right_of_way", "successors = [\"bend\"]\nright_of_way"), &["bad.toml:26:15", "does not touch"]);
-    case("no_line", ("start = { x_m = 0.0, y_m = 0.0, heading_deg = 0.0 }\n", ""), &["has no start", "or `points`"]);
-    case("one_point", ("[[0.0, 3.5], [60.0, 3.5]]", "[[0.0, 3.5]]"), &["bad.toml:17:10", "has one point"]);
-    case("same_points", ("[60.0, 3.5]]", "[60.0, 3.5], [60.0, 3.5]]"), &["bad.toml:17:10", "no line"]);
-    case("no_turn", ("turn_deg = -90.0", "turn_deg = 0.0"), &["bad.toml:24:46", "turns by 0"]);
-    case("wrong_type", ("width_m = 3.5", "width_m = \"wide\""), &["must be a number or a list, not"]);
-    case("unknown_word", ("\"yield\"", "\"give-way\""), &["bad.toml:26:16", "`all-way-stop`"]);
-    insta::assert_snapshot!("lanes", errors.0);
+    insta::assert_snapshot!("lanes_in_each_others_way", errors.0);
 }
 
 /// A ring without an exit.
