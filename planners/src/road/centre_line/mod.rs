@@ -12,6 +12,7 @@
 //! continuously differentiable. The knots are so dense that the speed `v = |p′|` differs from 1 by less than `1e-8`.
 //! Projections and derivatives include `v`: they are exact for the polynomials, whatever their speed is.
 
+mod chord;
 mod error;
 mod fit;
 mod gauss_legendre;

@@ -62,6 +62,17 @@ pub struct RoadExpansion {
     pub curvature_1pm: f64,
 }
 
+/// The lateral coordinate `n` of a position, expanded to second order over `(x, y)`: a part of [`RoadExpansion`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::road) struct AcrossExpansion {
+    /// `n` \[m\].
+    pub across_m: f64,
+    /// First derivatives over (x, y).
+    pub gradient: [f64; 2],
+    /// Second derivatives over (xx, xy, yy) \[1/m\].
+    pub hessian: [f64; 3],
+}
+
 /// Most steps of a search. Halley's method needs 1 to 4; the rest is for bisection.
 const MAX_STEPS: usize = 64;
 
@@ -99,67 +110,106 @@ impl RoadExpansion {
     }
 }
 
+/// One step of a search, from a point of the curve towards the point nearest to a position.
+#[derive(Clone, Copy)]
+struct SearchStep {
+    /// `g = (p − position)·p′`.
+    slope: f64,
+    /// `g′`.
+    bend: f64,
+    /// How far to go along the curve \[m\].
+    length_m: f64,
+}
+
+impl SearchStep {
+    /// The step of Halley's method `−g g′/(g′² − ½ g g″)`, or of steepest descent where the distance is not convex.
+    #[inline(always)]
+    fn from(point: &CurvePoint, position: [f64; 2]) -> SearchStep {
+        let [place, first, second, third] = point.jet;
+        let apart = [place[0] - position[0], place[1] - position[1]];
+        let slope = dot(apart, first);
+        let square = dot(first, first);
+        let bend = square + dot(apart, second);
+        let twist = 3.0 * dot(first, second) + dot(apart, third);
+        let halley = bend * bend - 0.5 * slope * twist;
+        let mut length_m = if bend > MIN_CONVEXITY * square && halley > 0.5 * bend * bend {
+            -slope * bend / halley
+        } else {
+            -slope / square
+        };
+        let reach_squared = MAX_STEP_RATIO * MAX_STEP_RATIO * dot(apart, apart);
+        if length_m * length_m > reach_squared {
+            length_m = reach_squared.sqrt().copysign(length_m);
+        }
+        if bend <= 0.0 {
+            // Beyond the centre of curvature the distance may have a maximum here, which the search must leave.
+            let least_m = LEAST_STEP_RATIO * dot(apart, apart).sqrt();
+            length_m = length_m.abs().max(least_m).copysign(-slope);
+        }
+        SearchStep { slope, bend, length_m }
+    }
+
+    fn is_last(&self) -> bool {
+        self.length_m.abs() < LAST_STEP_M
+    }
+}
+
 impl Curve {
     /// The point nearest to a position among those that a descent from an arc length reaches.
-    ///
-    /// Finds a zero of `g(s) = (p(s) − position)·p′(s)` at which `g` increases, by Halley's method
-    /// `s − g g′/(g′² − ½ g g″)` between the places where `g` was found negative and positive.
     fn descend(&self, position: [f64; 2], from_m: f64) -> (f64, CurvePoint<'_>) {
+        let point = self.point(from_m);
+        self.descend_on(position, from_m, point, SearchStep::from(&point, position))
+    }
+
+    /// The same from a point whose step is known.
+    ///
+    /// Finds a zero of `g(s) = (p(s) − position)·p′(s)` at which `g` increases, by Halley's method between the places where `g`
+    /// was found negative and positive.
+    fn descend_on<'a>(
+        &'a self,
+        position: [f64; 2],
+        from_m: f64,
+        from: CurvePoint<'a>,
+        first: SearchStep,
+    ) -> (f64, CurvePoint<'a>) {
         let (mut along_m, mut low_m, mut high_m) = (from_m, f64::NEG_INFINITY, f64::INFINITY);
-        let mut point = self.point(along_m);
+        let (mut point, mut step) = (from, first);
         for _ in 0..MAX_STEPS {
-            let [place, first, second, third] = point.jet;
-            let apart = [place[0] - position[0], place[1] - position[1]];
-            let slope = dot(apart, first);
-            let square = dot(first, first);
-            let bend = square + dot(apart, second);
-            let twist = 3.0 * dot(first, second) + dot(apart, third);
-            if slope < 0.0 {
+            if step.slope < 0.0 {
                 low_m = along_m;
-            } else if slope > 0.0 {
+            } else if step.slope > 0.0 {
                 high_m = along_m;
-            } else if bend > 0.0 {
+            } else if step.bend > 0.0 {
                 break;
             }
-            let halley = bend * bend - 0.5 * slope * twist;
-            let mut step_m = if bend > MIN_CONVEXITY * square && halley > 0.5 * bend * bend {
-                -slope * bend / halley
-            } else {
-                -slope / square
-            };
-            let reach_squared = MAX_STEP_RATIO * MAX_STEP_RATIO * dot(apart, apart);
-            if step_m * step_m > reach_squared {
-                step_m = reach_squared.sqrt().copysign(step_m);
+            if step.is_last() {
+                return (along_m + step.length_m, point.moved(step.length_m));
             }
-            if bend <= 0.0 {
-                // Beyond the centre of curvature the distance may have a maximum here, which the search must leave.
-                let least_m = LEAST_STEP_RATIO * dot(apart, apart).sqrt();
-                step_m = step_m.abs().max(least_m).copysign(-slope);
-            }
-            if step_m.abs() < LAST_STEP_M {
-                return (along_m + step_m, point.moved(step_m));
-            }
-            let mut next_m = along_m + step_m;
+            let mut next_m = along_m + step.length_m;
             if next_m <= low_m || next_m >= high_m {
                 next_m = 0.5 * (low_m + high_m);
             }
             along_m = next_m;
             point = self.point_near(along_m, &point);
+            step = SearchStep::from(&point, position);
         }
         (along_m, point)
     }
 
     /// The point nearest to a position, by descents from every segment that may hold it.
     fn nearest(&self, position: [f64; 2]) -> (f64, CurvePoint<'_>) {
-        let chords: Vec<[f64; 2]> = (0..self.segments.len()).map(|index| self.chord(index, position)).collect();
-        let nearest = chords.iter().min_by(|a, b| a[0].total_cmp(&b[0])).map_or(0.0, |chord| chord[1]);
-        let mut best = self.descend(position, nearest);
+        let mut best = self.descend(position, self.nearest_chord_m(position));
         let mut best_m = distance(best.1.jet[0], position);
-        for (segment, [distance_m, from_m]) in self.segments.iter().zip(&chords) {
+        for (segment, chord) in self.segments.iter().zip(&self.chords) {
+            let sag_m = MAX_SAG_RATIO * segment.length_m;
+            if chord.is_beyond(best_m + sag_m, position) {
+                continue;
+            }
+            let [distance_m, share] = chord.nearest(position);
             // A descent from the best place would only be repeated.
             let is_known = (segment.from_m..=segment.end_m()).contains(&best.0);
-            if !is_known && distance_m - MAX_SAG_RATIO * segment.length_m < best_m {
-                let other = self.descend(position, *from_m);
+            if !is_known && distance_m - sag_m < best_m {
+                let other = self.descend(position, segment.from_m + share * segment.length_m);
                 let other_m = distance(other.1.jet[0], position);
                 if other_m < best_m && (0.0..=self.length_m).contains(&other.0) {
                     (best, best_m) = (other, other_m);
@@ -169,24 +219,87 @@ impl Curve {
         best
     }
 
-    /// The distance of a position from the chord of a segment, and the arc length of the point of the chord there \[m\].
-    fn chord(&self, index: usize, [x, y]: [f64; 2]) -> [f64; 2] {
-        let segment = &self.segments[index];
-        let start = segment.start();
-        let end = self.segments.get(index + 1).map_or_else(|| segment.knot(segment.length_m)[0], |next| next.start());
-        let (chord, apart) = ([end[0] - start[0], end[1] - start[1]], [x - start[0], y - start[1]]);
-        let square = chord[0] * chord[0] + chord[1] * chord[1];
-        let share = ((chord[0] * apart[0] + chord[1] * apart[1]) / square).clamp(0.0, 1.0);
-        let foot = [start[0] + share * chord[0], start[1] + share * chord[1]];
-        [distance(foot, [x, y]), segment.from_m + share * segment.length_m]
+    /// The arc length of the point of the chords that is nearest to a position; the first of equally near ones \[m\].
+    fn nearest_chord_m(&self, position: [f64; 2]) -> f64 {
+        let (mut nearby, mut least) = (0, f64::INFINITY);
+        for (index, chord) in self.chords.iter().enumerate() {
+            let square = chord.squared_to_middle(position);
+            if square < least {
+                (nearby, least) = (index, square);
+            }
+        }
+        let bound_m = self.chords[nearby].nearest(position)[0];
+        let mut best = [f64::INFINITY, 0.0];
+        for (segment, chord) in self.segments.iter().zip(&self.chords) {
+            if !chord.is_beyond(bound_m, position) {
+                let [distance_m, share] = chord.nearest(position);
+                if distance_m < best[0] {
+                    best = [distance_m, segment.from_m + share * segment.length_m];
+                }
+            }
+        }
+        best[1]
     }
 
-    #[inline]
-    fn foot(&self, position: [f64; 2], near_m: Option<f64>) -> (f64, CurvePoint<'_>) {
-        match near_m {
-            Some(near_m) if near_m.is_finite() => self.descend(position, near_m),
-            _ => self.nearest(position),
+    /// Road coordinates of a position, searched from `near_m` on or on the whole curve.
+    ///
+    /// Where the first step of the search is the last one, as from a place that an expansion has led to, nothing passes through
+    /// memory.
+    #[inline(always)]
+    fn locate<R: RoadReading>(&self, position: [f64; 2], near_m: Option<f64>) -> R {
+        let Some(near_m) = near_m.filter(|near_m| near_m.is_finite()) else {
+            return self.locate_anywhere(position);
+        };
+        let point = self.point(near_m);
+        let step = SearchStep::from(&point, position);
+        if step.slope != 0.0 && step.is_last() {
+            return R::at(position, near_m + step.length_m, &point.moved(step.length_m));
         }
+        self.locate_from(position, near_m, (point, step))
+    }
+
+    #[inline(never)]
+    fn locate_from<'a, R: RoadReading>(
+        &'a self,
+        position: [f64; 2],
+        near_m: f64,
+        (point, step): (CurvePoint<'a>, SearchStep),
+    ) -> R {
+        let (along_m, point) = self.descend_on(position, near_m, point, step);
+        R::at(position, along_m, &point)
+    }
+
+    #[inline(never)]
+    fn locate_anywhere<R: RoadReading>(&self, position: [f64; 2]) -> R {
+        let (along_m, point) = self.nearest(position);
+        R::at(position, along_m, &point)
+    }
+}
+
+/// Road coordinates that are read off the nearest point of a curve.
+trait RoadReading {
+    /// Those of a position whose nearest point lies at an arc length.
+    fn at(position: [f64; 2], along_m: f64, point: &CurvePoint) -> Self;
+}
+
+impl RoadReading for RoadPoint {
+    #[inline(always)]
+    fn at(position: [f64; 2], along_m: f64, point: &CurvePoint) -> RoadPoint {
+        let [place, first, ..] = point.jet;
+        let apart = [position[0] - place[0], position[1] - place[1]];
+        RoadPoint {
+            along_m,
+            across_m: cross(first, apart) * point.inverse_speed(),
+            heading_rad: point.heading_rad(),
+            curvature_1pm: point.curvature_1pm(),
+        }
+    }
+}
+
+impl RoadReading for AcrossExpansion {
+    #[inline(always)]
+    fn at(position: [f64; 2], _along_m: f64, point: &CurvePoint) -> AcrossExpansion {
+        Foot::of(position, point).across()
     }
 }
 
@@ -222,21 +335,13 @@ impl CentreLine {
             }
             Shape::Curve(curve) => curve,
         };
-        let (along_m, point) = curve.foot(position, near_m);
-        let [place, first, ..] = point.jet;
-        let apart = [position[0] - place[0], position[1] - place[1]];
-        RoadPoint {
-            along_m,
-            across_m: cross(first, apart) * point.inverse_speed(),
-            heading_rad: point.heading_rad(),
-            curvature_1pm: point.curvature_1pm(),
-        }
+        curve.locate(position, near_m)
     }
 
     /// Like [`CentreLine::project`], with the derivatives over the position that [`RoadExpansion`] states.
     ///
     /// The third derivative of the line is continuous between knots only, and so is the second derivative of `s`.
-    #[inline]
+    #[inline(always)]
     pub fn expand(&self, position: [f64; 2], near_m: Option<f64>) -> RoadExpansion {
         match &self.0 {
             Shape::Straight { heading_rad, cos, sin } => {
@@ -250,10 +355,21 @@ impl CentreLine {
                     ..RoadExpansion::default()
                 }
             }
-            Shape::Curve(curve) => {
-                let (along_m, point) = curve.foot(position, near_m);
-                expansion(position, along_m, &point)
+            Shape::Curve(curve) => curve.locate(position, near_m),
+        }
+    }
+}
+
+impl CentreLine {
+    /// The lateral part of [`CentreLine::expand`].
+    #[inline(always)]
+    pub(in crate::road) fn expand_across(&self, position: [f64; 2], near_m: Option<f64>) -> AcrossExpansion {
+        match &self.0 {
+            Shape::Straight { cos, sin, .. } => {
+                let [_, across_m] = straight_coordinates(*cos, *sin, position);
+                AcrossExpansion { across_m, gradient: [-sin, *cos], hessian: [0.0; 3] }
             }
+            Shape::Curve(curve) => curve.locate(position, near_m),
         }
     }
 }
@@ -263,38 +379,75 @@ fn straight_coordinates(cos: f64, sin: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     [cos * x + sin * y, -sin * x + cos * y]
 }
 
-#[inline]
-fn expansion(position: [f64; 2], along_m: f64, point: &CurvePoint) -> RoadExpansion {
-    let [place, first, second, third] = point.jet;
-    let slowness = point.inverse_speed();
-    let speed = dot(first, first) * slowness;
-    let tangent = first.map(|component| component * slowness);
-    let normal = [-tangent[1], tangent[0]];
-    let across_m = dot(normal, [position[0] - place[0], position[1] - place[1]]);
-    let speed_slope = dot(tangent, second);
-    let square = slowness * slowness;
-    let curvature = cross(tangent, second) * square;
-    let curvature_slope = cross(tangent, third) * square - 3.0 * curvature * speed_slope * slowness;
-    let inverse_stretch = 1.0 / (1.0 - curvature * across_m).max(RoadExpansion::MIN_STRETCH);
-    let shrink = inverse_stretch * slowness;
-    let tangents = [tangent[0] * tangent[0], tangent[0] * tangent[1], tangent[1] * tangent[1]];
-    let across_bend = -curvature * inverse_stretch;
-    let mixed = curvature * inverse_stretch * shrink;
-    let along_bend = (curvature_slope * across_m * inverse_stretch - speed_slope * slowness) * (shrink * shrink);
-    RoadExpansion {
-        along_m,
-        along_gradient: tangent.map(|component| component * shrink),
-        along_hessian: [
-            2.0 * mixed * normal[0] * tangent[0] + along_bend * tangents[0],
-            mixed * (normal[0] * tangent[1] + normal[1] * tangent[0]) + along_bend * tangents[1],
-            2.0 * mixed * normal[1] * tangent[1] + along_bend * tangents[2],
-        ],
-        across_m,
-        across_gradient: normal,
-        across_hessian: tangents.map(|entry| across_bend * entry),
-        heading_rad: point.heading_rad(),
-        heading_slope_radpm: curvature * speed,
-        heading_bend_radpm2: curvature_slope * speed + curvature * speed_slope,
-        curvature_1pm: curvature,
+/// What the road coordinates of a position and their derivatives share.
+struct Foot {
+    tangent: [f64; 2],
+    normal: [f64; 2],
+    /// `1/v`.
+    slowness: f64,
+    across_m: f64,
+    curvature: f64,
+    /// `1/q`.
+    inverse_stretch: f64,
+}
+
+impl Foot {
+    #[inline(always)]
+    fn of(position: [f64; 2], point: &CurvePoint) -> Foot {
+        let [place, first, second, _] = point.jet;
+        let slowness = point.inverse_speed();
+        let tangent = first.map(|component| component * slowness);
+        let normal = [-tangent[1], tangent[0]];
+        let across_m = dot(normal, [position[0] - place[0], position[1] - place[1]]);
+        let curvature = cross(tangent, second) * (slowness * slowness);
+        let inverse_stretch = 1.0 / (1.0 - curvature * across_m).max(RoadExpansion::MIN_STRETCH);
+        Foot { tangent, normal, slowness, across_m, curvature, inverse_stretch }
+    }
+
+    /// The entries of `t tᵀ`.
+    #[inline(always)]
+    fn tangents(&self) -> [f64; 3] {
+        let [x, y] = self.tangent;
+        [x * x, x * y, y * y]
+    }
+
+    #[inline(always)]
+    fn across(&self) -> AcrossExpansion {
+        let bend = -self.curvature * self.inverse_stretch;
+        let hessian = self.tangents().map(|entry| bend * entry);
+        AcrossExpansion { across_m: self.across_m, gradient: self.normal, hessian }
+    }
+}
+
+impl RoadReading for RoadExpansion {
+    #[inline(always)]
+    fn at(position: [f64; 2], along_m: f64, point: &CurvePoint) -> RoadExpansion {
+        let [_, first, second, third] = point.jet;
+        let foot = Foot::of(position, point);
+        let Foot { tangent, normal, slowness, across_m, curvature, inverse_stretch } = foot;
+        let speed = dot(first, first) * slowness;
+        let speed_slope = dot(tangent, second);
+        let curvature_slope = cross(tangent, third) * (slowness * slowness) - 3.0 * curvature * speed_slope * slowness;
+        let shrink = inverse_stretch * slowness;
+        let tangents = foot.tangents();
+        let mixed = curvature * inverse_stretch * shrink;
+        let along_bend = (curvature_slope * across_m * inverse_stretch - speed_slope * slowness) * (shrink * shrink);
+        let AcrossExpansion { gradient: across_gradient, hessian: across_hessian, .. } = foot.across();
+        RoadExpansion {
+            along_m,
+            along_gradient: tangent.map(|component| component * shrink),
+            along_hessian: [
+                2.0 * mixed * normal[0] * tangent[0] + along_bend * tangents[0],
+                mixed * (normal[0] * tangent[1] + normal[1] * tangent[0]) + along_bend * tangents[1],
+                2.0 * mixed * normal[1] * tangent[1] + along_bend * tangents[2],
+            ],
+            across_m,
+            across_gradient,
+            across_hessian,
+            heading_rad: point.heading_rad(),
+            heading_slope_radpm: curvature * speed,
+            heading_bend_radpm2: curvature_slope * speed + curvature * speed_slope,
+            curvature_1pm: curvature,
+        }
     }
 }
