@@ -70,13 +70,20 @@ impl Corridor {
     /// How far each of the four corners is inside its edge (eq. 6.7 in the road's frame): the two right corners from
     /// the right edge, the two left ones from the left edge, in the order of [`Body::local_corners`]; negative outside \[m\].
     pub fn clearances(&self, body: &Body, state: &State) -> [PoseExpansion; 4] {
+        let mut clearances = [PoseExpansion::default(); 4];
+        self.write_clearances(body, state, &mut clearances);
+        clearances
+    }
+
+    /// Writes the same to `rows`.
+    #[inline]
+    pub(super) fn write_clearances(&self, body: &Body, state: &State, rows: &mut [PoseExpansion]) {
         let (sin_road, cos_road) = libm::sincos(self.heading_rad);
         let (sin, cos) = libm::sincos(state.heading_rad - self.heading_rad);
         let [x, y] = state.position();
         let (along, lateral) = (cos_road * x + sin_road * y, -sin_road * x + cos_road * y);
         let [edge, edge_slope, edge_bend] = self.right_edge(along + body.front_m);
-        let mut clearances = [PoseExpansion::default(); 4];
-        for (clearance, [ahead, left]) in clearances.iter_mut().zip(body.local_corners()) {
+        for (clearance, [ahead, left]) in rows.iter_mut().zip(body.local_corners()) {
             let corner = lateral + ahead * sin + left * cos;
             let turn = ahead * cos - left * sin;
             let bend = -(ahead * sin + left * cos);
@@ -101,7 +108,6 @@ impl Corridor {
                 }
             };
         }
-        clearances
     }
 
     /// Whether the whole footprint is on the road, to within `tolerance_m`.

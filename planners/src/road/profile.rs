@@ -175,6 +175,14 @@ impl Profile {
         }
     }
 
+    /// The value everywhere, if it is the same.
+    pub(super) fn as_constant(&self) -> Option<f64> {
+        match &self.0 {
+            Form::Constant(value) => Some(*value),
+            _ => None,
+        }
+    }
+
     /// The end of a lane, for an edge that moves there.
     pub fn end(&self) -> Option<LaneEnd> {
         match &self.0 {

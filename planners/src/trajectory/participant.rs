@@ -54,11 +54,13 @@ impl Participant {
             .collect()
     }
 
-    /// Road coordinates of the states of a motion at `t = 1…N`; none on a straight route.
-    pub(super) fn locate(&self, states: &[State], places: &mut Vec<RoadExpansion>) {
+    /// The states that inputs lead to (`N + 1`, the first its start), and their road coordinates at `t = 1…N`; none of these on a
+    /// straight route.
+    pub(super) fn roll_out(&self, inputs: &[Input], states: &mut Vec<State>, places: &mut Vec<RoadExpansion>) {
+        places.clear();
         match &self.route_start {
-            Some(start) => start.locate_all(states, places),
-            None => places.clear(),
+            Some(start) => start.roll_out(&self.model, &self.start, inputs, states, places),
+            None => self.model.roll_out(&self.start, inputs, states),
         }
     }
 

@@ -34,8 +34,7 @@ impl Problem {
         iterate.states.resize_with(self.participants.len(), Vec::new);
         iterate.places.resize_with(self.participants.len(), Vec::new);
         for (i, participant) in self.participants.iter().enumerate() {
-            participant.model.roll_out(&participant.start, &iterate.inputs[i], &mut iterate.states[i]);
-            participant.locate(&iterate.states[i], &mut iterate.places[i]);
+            participant.roll_out(&iterate.inputs[i], &mut iterate.states[i], &mut iterate.places[i]);
         }
     }
 

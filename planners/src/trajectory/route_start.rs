@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::road::centre_line::RoadExpansion;
-use crate::{Route, State};
+use crate::{Bicycle, Input, Route, State};
 
 /// A curved route, and where a vehicle starts beside it.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,18 +21,32 @@ impl RouteStart {
         route.straight().is_none().then(|| RouteStart { route: Arc::clone(route), at: at() })
     }
 
-    /// Road coordinates at `t = 1…N` of a motion whose first state is the start.
-    pub(super) fn locate_all(&self, states: &[State], places: &mut Vec<RoadExpansion>) {
-        places.clear();
-        let mut before = self.at;
-        for pair in states.windows(2) {
-            before = self.after(&before, &pair[0], &pair[1]);
-            places.push(before);
+    /// The states that inputs lead to, from the start on, and the road coordinates of all but the first.
+    ///
+    /// State by state: a processor finds the place of one state while it computes the next.
+    pub(super) fn roll_out(
+        &self,
+        model: &Bicycle,
+        start: &State,
+        inputs: &[Input],
+        states: &mut Vec<State>,
+        places: &mut Vec<RoadExpansion>,
+    ) {
+        states.clear();
+        states.push(*start);
+        let (mut state, mut place) = (*start, self.at);
+        for input in inputs {
+            let next = model.step(&state, input);
+            place = self.after(&place, &state, &next);
+            state = next;
+            states.push(state);
+            places.push(place);
         }
     }
 
     /// Road coordinates of a state that follows another, whose place is known. The search begins where the expansion of that place
     /// leads, which a motion misses by the third power of what it moves; so it stays on its branch of the line.
+    #[inline(always)]
     pub(super) fn after(&self, before: &RoadExpansion, from: &State, to: &State) -> RoadExpansion {
         let ([x0, y0], [x1, y1]) = (from.position(), to.position());
         let near_m = before.along_after_m([x1 - x0, y1 - y0]);

@@ -2,6 +2,7 @@
 
 use super::error::CentreLineError;
 use super::line::CentreLine;
+use super::plane::distance;
 use super::reparametrisation::segments;
 use super::spline;
 
@@ -90,9 +91,4 @@ fn distinct(points: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, CentreLineError> {
         return Err(CentreLineError::TooFewPoints);
     }
     Ok(kept)
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let apart = [a[0] - b[0], a[1] - b[1]];
-    (apart[0] * apart[0] + apart[1] * apart[1]).sqrt()
 }

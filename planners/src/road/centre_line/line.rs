@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::chord::Chord;
 use super::segment::{Jet, Segment};
 
 /// A plane curve of which position, heading and curvature are continuous, by arc length.
@@ -48,6 +49,8 @@ pub(super) struct Curve {
     pub segments: Vec<Segment>,
     /// Arc length of all segments \[m\].
     pub length_m: f64,
+    /// The chord of each segment.
+    pub chords: Vec<Chord>,
     /// For the begin of each of equally long sections, and for the end of the line: the number of the segment there.
     sections: Vec<u32>,
     sections_per_m: f64,
@@ -67,7 +70,7 @@ impl CurvePoint<'_> {
     }
 
     /// The place a small distance along the curve, by Taylor's series.
-    #[inline]
+    #[inline(always)]
     pub fn moved(self, by_m: f64) -> Self {
         let [place, first, second, third] = self.jet;
         let jet = [
@@ -110,11 +113,14 @@ impl Curve {
         let begins = (0..=count).map(|section| section as f64 / sections_per_m);
         let number = |along_m: f64| segments.partition_point(|segment| segment.from_m <= along_m).saturating_sub(1);
         let sections = begins.map(|along_m| number(along_m) as u32).collect();
-        Some(Curve { segments, length_m: from_m, sections, sections_per_m })
+        let starts = segments.iter().map(Segment::start);
+        let last = segments.last().map(|last| last.knot(last.length_m)[0]);
+        let chords = starts.clone().zip(starts.skip(1).chain(last)).map(|(from, to)| Chord::new(from, to)).collect();
+        Some(Curve { segments, length_m: from_m, chords, sections, sections_per_m })
     }
 
     /// The segment that holds an arc length between 0 and the length; at a knot, up to rounding, one of both.
-    #[inline]
+    #[inline(always)]
     fn segment(&self, along_m: f64) -> &Segment {
         let section = ((along_m * self.sections_per_m) as usize).min(self.sections.len() - 2);
         let (first, last) = (self.sections[section] as usize, self.sections[section + 1] as usize);
@@ -131,7 +137,7 @@ impl Curve {
     }
 
     /// The curve at an arc length, straight beyond its ends.
-    #[inline]
+    #[inline(always)]
     pub fn point(&self, along_m: f64) -> CurvePoint<'_> {
         let [first, last] = self.ends();
         if along_m < 0.0 {

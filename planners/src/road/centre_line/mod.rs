@@ -12,16 +12,20 @@
 //! continuously differentiable. The knots are so dense that the speed `v = |p′|` differs from 1 by less than `1e-8`.
 //! Projections and derivatives include `v`: they are exact for the polynomials, whatever their speed is.
 
+mod chord;
 mod error;
 mod fit;
 mod gauss_legendre;
 mod joining;
 mod line;
 mod line_polynomial;
+mod nearest;
 mod pieces;
+mod plane;
 mod polynomials;
 mod projection;
 mod reparametrisation;
+mod road_point;
 mod segment;
 mod smoothing;
 mod spline;
@@ -34,5 +38,5 @@ pub use joining::{JoinedLine, LineSection};
 pub use line::{CentreLine, LinePoint};
 pub use line_polynomial::LinePolynomial;
 pub use pieces::{Piece, smooth};
-pub use projection::{RoadExpansion, RoadPoint};
+pub use road_point::{RoadExpansion, RoadPoint};
 pub use smoothing::smooth_points;

@@ -15,10 +15,8 @@ pub(super) struct Segment {
     pub from_m: f64,
     /// Arc length between the knots \[m\].
     pub length_m: f64,
-    /// Coefficients of x, from the constant to `u⁵`.
-    x: [f64; 6],
-    /// Coefficients of y.
-    y: [f64; 6],
+    /// Coefficients of (x, y), from the constant to `u⁵`: side by side, so that a processor evaluates both at once.
+    coefficients: [[f64; 2]; 6],
     /// Cosine and sine of the heading in the middle.
     middle: [f64; 2],
     /// Heading in the middle, continued from segment to segment without jumps of a full turn \[rad\].
@@ -33,7 +31,7 @@ impl Segment {
     ///
     /// Its heading is the one in the middle, in `(−π, π]`, until [`Segment::placed`] continues it.
     pub fn new(length_m: f64, from: Knot, to: Knot) -> Segment {
-        let [x, y] = [0, 1].map(|axis| {
+        let polynomials = [0, 1].map(|axis| {
             let (h, start, end) = (length_m, from.map(|value| value[axis]), to.map(|value| value[axis]));
             let place = end[0] - start[0] - h * (start[1] + 0.5 * h * start[2]);
             let slope = h * (end[1] - start[1] - h * start[2]);
@@ -47,17 +45,20 @@ impl Segment {
                 (6.0 * place - 3.0 * slope + 0.5 * bend) / (h * h * h * h * h),
             ]
         });
-        Segment { from_m: 0.0, length_m, x, y, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
+        let [x, y] = polynomials;
+        Segment::of(&LinePolynomial { length_m, x, y })
     }
 
     /// The segment of a polynomial, at arc length 0.
     pub fn of(&LinePolynomial { length_m, x, y }: &LinePolynomial) -> Segment {
-        Segment { from_m: 0.0, length_m, x, y, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
+        let coefficients = std::array::from_fn(|power| [x[power], y[power]]);
+        Segment { from_m: 0.0, length_m, coefficients, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
     }
 
     /// Its polynomial.
     pub fn polynomial(&self) -> LinePolynomial {
-        LinePolynomial { length_m: self.length_m, x: self.x, y: self.y }
+        let [x, y] = [0, 1].map(|axis| self.coefficients.map(|pair| pair[axis]));
+        LinePolynomial { length_m: self.length_m, x, y }
     }
 
     fn with_middle(self) -> Segment {
@@ -79,11 +80,21 @@ impl Segment {
         self.from_m + self.length_m
     }
 
-    /// Position and derivatives at the distance `u` from the first knot.
-    #[inline]
+    /// Position and derivatives at the distance `u` from the first knot; in pairs of terms (Estrin), which a processor evaluates
+    /// side by side.
+    #[inline(always)]
     pub fn jet(&self, u: f64) -> Jet {
-        let (x, y) = (derivatives(&self.x, u), derivatives(&self.y, u));
-        std::array::from_fn(|order| [x[order], y[order]])
+        let c = &self.coefficients;
+        let (square, fourth) = (u * u, u * u * (u * u));
+        let both = |polynomial: &dyn Fn(usize) -> f64| [polynomial(0), polynomial(1)];
+        [
+            both(&|i| (c[0][i] + c[1][i] * u) + (c[2][i] + c[3][i] * u) * square + (c[4][i] + c[5][i] * u) * fourth),
+            both(&|i| {
+                (c[1][i] + 2.0 * c[2][i] * u) + (3.0 * c[3][i] + 4.0 * c[4][i] * u) * square + 5.0 * c[5][i] * fourth
+            }),
+            both(&|i| (2.0 * c[2][i] + 6.0 * c[3][i] * u) + (12.0 * c[4][i] + 20.0 * c[5][i] * u) * square),
+            both(&|i| (6.0 * c[3][i] + 24.0 * c[4][i] * u) + 60.0 * c[5][i] * square),
+        ]
     }
 
     /// Position, first and second derivative at the distance `u` from the first knot.
@@ -94,11 +105,11 @@ impl Segment {
 
     /// Where the first knot is.
     pub fn start(&self) -> [f64; 2] {
-        [self.x[0], self.y[0]]
+        self.coefficients[0]
     }
 
     /// Heading of a tangent of this segment \[rad\].
-    #[inline]
+    #[inline(always)]
     pub fn heading_rad(&self, [x, y]: [f64; 2]) -> f64 {
         let [cos, sin] = self.middle;
         self.middle_heading_rad + small_arctangent((cos * y - sin * x) / (cos * x + sin * y))
@@ -116,20 +127,8 @@ impl Segment {
     }
 }
 
-/// A polynomial of degree 5 and its first three derivatives; in pairs (Estrin), which a processor evaluates side by side.
-#[inline]
-fn derivatives(c: &[f64; 6], u: f64) -> [f64; 4] {
-    let (square, fourth) = (u * u, u * u * (u * u));
-    [
-        (c[0] + c[1] * u) + (c[2] + c[3] * u) * square + (c[4] + c[5] * u) * fourth,
-        (c[1] + 2.0 * c[2] * u) + (3.0 * c[3] + 4.0 * c[4] * u) * square + 5.0 * c[5] * fourth,
-        (2.0 * c[2] + 6.0 * c[3] * u) + (12.0 * c[4] + 20.0 * c[5] * u) * square,
-        (6.0 * c[3] + 24.0 * c[4] * u) + 60.0 * c[5] * square,
-    ]
-}
-
 /// The arctangent of a number below 0.1 in magnitude: its series up to the power 15, of which the rest is below `1e-17`.
-#[inline]
+#[inline(always)]
 fn small_arctangent(z: f64) -> f64 {
     let second = z * z;
     let (fourth, eighth) = (second * second, second * second * (second * second));

@@ -19,6 +19,23 @@ struct Corner {
     least_m: f64,
 }
 
+impl Corner {
+    /// The row `sign · h` of this corner, from `h` and its derivatives over the corner's position.
+    #[inline(always)]
+    fn row(&self, sign: f64, value: f64, gradient: [f64; 2], [xx, xy, yy]: [f64; 3]) -> PoseExpansion {
+        let arm = self.arm;
+        let turn = [-arm[1], arm[0]];
+        let mixed = [xx * turn[0] + xy * turn[1], xy * turn[0] + yy * turn[1]];
+        let round = mixed[0] * turn[0] + mixed[1] * turn[1] - gradient[0] * arm[0] - gradient[1] * arm[1];
+        let about = gradient[0] * turn[0] + gradient[1] * turn[1];
+        PoseExpansion {
+            value: sign * value,
+            gradient: [gradient[0], gradient[1], about].map(|slope| sign * slope),
+            hessian: [xx, xy, mixed[0], yy, mixed[1], round].map(|bend| sign * bend),
+        }
+    }
+}
+
 /// What the corners of a body beside a road share.
 struct Frame {
     /// Sine and cosine of the body's heading.
@@ -129,24 +146,26 @@ impl Route {
     /// ∂/∂θ = ∇h·c_θ,      ∂²/∂p∂θ = ∇²h c_θ,    ∂²/∂θ² = c_θᵀ ∇²h c_θ + ∇h·c_θθ
     /// ```
     pub fn clearances(&self, body: &Body, state: &State, at: &RoadPoint) -> [PoseExpansion; 4] {
-        self.clearances_exact_below(f64::INFINITY, body, state, at)
+        let mut rows = [PoseExpansion::default(); 4];
+        self.write_clearances(f64::INFINITY, body, state, at, &mut rows);
+        rows
     }
 
-    /// The same, where on a curved road a corner that is certainly farther than `exact_m` inside its edge has the row of a
-    /// straight road along the tangent beside the mass centre \[m\]: a lower bound of its distance, above `exact_m`, with the
-    /// derivatives of that straight road. They need no projection of the corner.
-    pub(crate) fn clearances_exact_below(
+    /// Writes the same to `rows`, where on a curved road a corner that is certainly farther than `exact_m` inside its edge has the
+    /// row of a straight road along the tangent beside the mass centre \[m\]: a lower bound of its distance, above `exact_m`, with
+    /// the derivatives of that straight road. They need no projection of the corner.
+    pub(crate) fn write_clearances(
         &self,
         exact_m: f64,
         body: &Body,
         state: &State,
         at: &RoadPoint,
-    ) -> [PoseExpansion; 4] {
+        rows: &mut [PoseExpansion],
+    ) {
         if let Some(corridor) = self.straight() {
-            return corridor.clearances(body, state);
+            return corridor.write_clearances(body, state, rows);
         }
         let frame = self.frame(body, state, at);
-        let mut rows = [PoseExpansion::default(); 4];
         for (row, local) in rows.iter_mut().zip(body.local_corners()) {
             let corner = frame.corner(local, state);
             *row = if corner.least_m > exact_m {
@@ -155,36 +174,29 @@ impl Route {
                 self.clearance(&corner, at.along_beside_m(corner.arm_in_road))
             };
         }
-        rows
     }
 
     /// How far a corner is inside its edge.
     fn clearance(&self, corner: &Corner, near_m: f64) -> PoseExpansion {
         let (edge, sign) = if corner.is_right { (&self.right, 1.0) } else { (&self.left, -1.0) };
-        let arm = corner.arm;
-        let turn = [-arm[1], arm[0]];
+        if let Some(value) = edge.as_constant() {
+            let at = self.centre.expand_across(corner.position, Some(near_m));
+            return corner.row(sign, at.across_m - value, at.gradient, at.hessian);
+        }
         let at = self.centre.expand(corner.position, Some(near_m));
         let [value, slope, bend] = edge.at(at.along_m);
-        let gradient: [f64; 2] = std::array::from_fn(|i| at.across_gradient[i] - slope * at.along_gradient[i]);
+        let gradient = std::array::from_fn(|i| at.across_gradient[i] - slope * at.along_gradient[i]);
         let [sx, sy] = at.along_gradient;
         let squares = [sx * sx, sx * sy, sy * sy];
-        let [xx, xy, yy]: [f64; 3] =
-            std::array::from_fn(|i| at.across_hessian[i] - slope * at.along_hessian[i] - bend * squares[i]);
-        let mixed = [xx * turn[0] + xy * turn[1], xy * turn[0] + yy * turn[1]];
-        let round = mixed[0] * turn[0] + mixed[1] * turn[1] - gradient[0] * arm[0] - gradient[1] * arm[1];
-        let about = gradient[0] * turn[0] + gradient[1] * turn[1];
-        PoseExpansion {
-            value: sign * (at.across_m - value),
-            gradient: [gradient[0], gradient[1], about].map(|slope| sign * slope),
-            hessian: [xx, xy, mixed[0], yy, mixed[1], round].map(|bend| sign * bend),
-        }
+        let hessian = std::array::from_fn(|i| at.across_hessian[i] - slope * at.along_hessian[i] - bend * squares[i]);
+        corner.row(sign, at.across_m - value, gradient, hessian)
     }
 
     /// The values of [`Route::clearances`]; where one is positive, a positive lower bound may stand in its place. So most corners
     /// need no projection of their own.
     pub fn clearance_bounds(&self, body: &Body, state: &State, at: &RoadPoint) -> [f64; 4] {
-        if self.straight().is_some() {
-            return self.clearances(body, state, at).map(|corner| corner.value);
+        if let Some(corridor) = self.straight() {
+            return corridor.clearances(body, state).map(|corner| corner.value);
         }
         if let Some([right_m, left_m]) = self.inside_both_m(body, state, at) {
             return body.local_corners().map(|[_, left]| if left < 0.0 { right_m } else { left_m });

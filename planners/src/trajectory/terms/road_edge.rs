@@ -63,12 +63,7 @@ impl RowTerm for RoadEdge {
     fn expand(&self, stage: usize, iterate: &Iterate, rows: &mut [PoseExpansion]) {
         let state = &iterate.states[self.vehicle][stage + 1];
         let exact_m = EXACT_WIDTHS * self.body.width_m;
-        rows.copy_from_slice(&self.route.clearances_exact_below(
-            exact_m,
-            &self.body,
-            state,
-            &self.place(stage, iterate),
-        ));
+        self.route.write_clearances(exact_m, &self.body, state, &self.place(stage, iterate), rows);
     }
 
     fn evaluate(&self, stage: usize, iterate: &Iterate, _room: &mut [PoseExpansion], values: &mut [f64]) {

@@ -1,0 +1,69 @@
+//! The straight line between the ends of a segment, for the search of the segment that is nearest to a position.
+
+/// A chord, with what is needed to tell how near it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Chord {
+    /// Where it begins \[m\].
+    from: [f64; 2],
+    /// From its begin to its end \[m\].
+    to_end: [f64; 2],
+    /// The square of its length \[m²\].
+    square: f64,
+    /// Its middle \[m\].
+    middle: [f64; 2],
+    /// Half of its length \[m\].
+    half_m: f64,
+}
+
+/// A chord counts as beyond a distance only by more than this share: far more than rounding.
+const MARGIN_RATIO: f64 = 1e-6;
+
+impl Chord {
+    pub fn new(from: [f64; 2], to: [f64; 2]) -> Chord {
+        let to_end = [to[0] - from[0], to[1] - from[1]];
+        let square = to_end[0] * to_end[0] + to_end[1] * to_end[1];
+        let middle = [from[0] + 0.5 * to_end[0], from[1] + 0.5 * to_end[1]];
+        Chord { from, to_end, square, middle, half_m: 0.5 * square.sqrt() }
+    }
+
+    /// The distance of a position from the chord \[m\], and which share of the chord lies before its nearest point.
+    pub fn nearest(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let Chord { from, to_end, square, .. } = *self;
+        let apart = [x - from[0], y - from[1]];
+        let share = ((to_end[0] * apart[0] + to_end[1] * apart[1]) / square).clamp(0.0, 1.0);
+        let foot = [from[0] + share * to_end[0], from[1] + share * to_end[1]];
+        let missed = [foot[0] - x, foot[1] - y];
+        [(missed[0] * missed[0] + missed[1] * missed[1]).sqrt(), share]
+    }
+
+    /// The square of the distance of a position from the middle \[m²\].
+    pub fn squared_to_middle(&self, [x, y]: [f64; 2]) -> f64 {
+        let apart = [x - self.middle[0], y - self.middle[1]];
+        apart[0] * apart[0] + apart[1] * apart[1]
+    }
+
+    /// Whether every point of the chord is farther from a position than `distance_m`, certainly.
+    pub fn is_beyond(&self, distance_m: f64, position: [f64; 2]) -> bool {
+        let reach_m = (1.0 + MARGIN_RATIO) * (distance_m + self.half_m);
+        self.squared_to_middle(position) > reach_m * reach_m
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A chord of 5 m: beside it, beyond its end, and what is certainly farther than a distance.
+    #[test]
+    fn the_nearest_point_of_a_chord_lies_between_its_ends() {
+        let chord = Chord::new([1.0, 2.0], [4.0, 6.0]);
+        let close = |[distance_m, share]: [f64; 2], expected: [f64; 2]| {
+            (distance_m - expected[0]).abs() < 1e-12 && (share - expected[1]).abs() < 1e-12
+        };
+        // Two metres to the left of its middle, and three metres beyond its end.
+        let (beside, ahead) = ([2.5 - 1.6, 4.0 + 1.2], [4.0 + 1.8, 6.0 + 2.4]);
+        assert!(close(chord.nearest(beside), [2.0, 0.5]) && close(chord.nearest(ahead), [3.0, 1.0]));
+        assert!(!chord.is_beyond(3.0, ahead) && chord.is_beyond(2.99, ahead));
+        assert!(!chord.is_beyond(2.0, beside), "its circle reaches farther than the chord");
+    }
+}
