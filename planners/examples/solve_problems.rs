@@ -10,7 +10,8 @@
 //! - `robust`, `structured`, `sparse`: one descent from the guess alone, each with its own solver of step problems,
 //! - `resumed`: one descent of `robust` that begins with the recorded warm start,
 //! - `planner`: the same, then a comparison of the classes of motion. It is finished at once: each problem has an optimiser of its
-//!   own, whereas in closed loop a comparison may rest for a few plans or take several.
+//!   own, whereas in closed loop a comparison may rest for a few plans or take several,
+//! - `global`: the same with the global search (`passing_orders = "global"`).
 //!
 //! Every problem is solved `REPEATS` times for the median time. A descent begins at the recorded guess, or at the inputs that
 //! `STARTS.json` holds by the problem's id; the cost of that beginning is printed too.
@@ -69,6 +70,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let problems = recorded::load(kind)?;
     let outcomes = match solver.as_str() {
         "planner" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind)),
+        "global" => {
+            solve_all(&problems, &starts, repeats, recorded::optimiser(kind).searching(PassingOrderSearch::Global))
+        }
         "resumed" => {
             solve_all(&problems, &starts, repeats, recorded::optimiser(kind).searching(PassingOrderSearch::Off))
         }
@@ -85,9 +89,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default()).searching(PassingOrderSearch::Off))
         }
         other => {
-            return Err(
-                format!("no solver is called {other}: planner, resumed, robust, structured and sparse are").into()
-            );
+            return Err(format!(
+                "no solver is called {other}: planner, global, resumed, robust, structured and sparse are"
+            )
+            .into());
         }
     };
     writeln!(std::io::stdout(), "{}", serde_json::to_string(&outcomes)?)?;

@@ -160,7 +160,7 @@ def table(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--solver", default="planner", choices=["planner", "resumed", "robust", "structured", "sparse"])
+    parser.add_argument("--solver", default="planner", choices=["planner", "global", "resumed", "robust", "structured", "sparse"])
     parser.add_argument("--kind", action="append", choices=KINDS + CURVED_KINDS)
     parser.add_argument("--curved", action="store_true", help="the problems on curved roads")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "tests/peers/compare_ipopt.json")
