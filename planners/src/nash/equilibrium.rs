@@ -13,13 +13,17 @@
 //! which both players of a constraint have the same multiplier (Rosen's normalised equilibria). Other weights of the players, as
 //! `1/Z_i` in the costs, give the other ones.
 //!
+//! Where the descent of the sum does not end, along the edge of an ellipse between two vehicles that both turn, the players plan anew
+//! in turn from where it has come to, each against the plans of the others, until nobody gains (`best_replies.rs`).
+//!
 //! A local optimum of the sum is an equilibrium against small deviations. Whether it is one against all, the certificate says: each
 //! player's own problem is solved anew, from the equilibrium and in the other classes of motion. A player who gains leaves, and
 //! the joint descent goes on from there; since the potential falls each time, this ends.
 
+use super::best_replies::best_replies;
 use super::prioritised::prioritised;
 use crate::Input;
-use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, StageSolver};
+use crate::trajectory::{DescentError, Iterate, Optimiser, Optimum, Problem, StageSolver, Statistics};
 
 /// Most that a player may gain by leaving an equilibrium.
 pub const TOLERATED_GAIN: f64 = 1e-4;
@@ -36,6 +40,8 @@ pub struct Equilibrium {
     pub gains: Vec<f64>,
     /// How often a player who gained left before.
     pub departures: usize,
+    /// Whether replies settled here, since the descent of the joint problem did not end.
+    pub by_replies: bool,
 }
 
 impl Equilibrium {
@@ -51,10 +57,13 @@ impl Equilibrium {
 }
 
 /// A deviation of one player.
-struct Deviation {
-    player: usize,
-    gain: f64,
-    inputs: Vec<Input>,
+pub(super) struct Deviation {
+    /// Who.
+    pub player: usize,
+    /// What it gains.
+    pub gain: f64,
+    /// Its inputs.
+    pub inputs: Vec<Input>,
 }
 
 /// Finds an equilibrium of the players of a joint problem from a guess (per player, inputs); from an empty one, by letting the players
@@ -73,7 +82,8 @@ pub fn equilibrium<S: StageSolver>(
     guess: &[Vec<Input>],
 ) -> Result<Equilibrium, DescentError> {
     let first = guess.is_empty().then(|| prioritised(replies, problem));
-    let mut optimum = joint.optimise(problem, first.as_deref().unwrap_or(guess))?;
+    let guess = first.as_deref().unwrap_or(guess);
+    let (mut optimum, by_replies) = joint_optimum(joint, replies, problem, guess)?;
     let mut departures = 0;
     loop {
         let deviations = deviations(replies, problem, &optimum);
@@ -88,7 +98,7 @@ pub fn equilibrium<S: StageSolver>(
         };
         let Some(mut next) = next else {
             let gains = deviations.into_iter().map(|deviation| deviation.gain).collect();
-            return Ok(Equilibrium { optimum, gains, departures });
+            return Ok(Equilibrium { optimum, gains, departures, by_replies });
         };
         next.statistics.add(&optimum.statistics);
         optimum = next;
@@ -96,16 +106,51 @@ pub fn equilibrium<S: StageSolver>(
     }
 }
 
+/// The optimum of the joint problem; where its descent does not end, the motions at which replies settle, from what it has come to or
+/// from the guess, and whether they did.
+fn joint_optimum<S: StageSolver>(
+    joint: &mut Optimiser<S>,
+    replies: &mut Optimiser<S>,
+    problem: &Problem,
+    guess: &[Vec<Input>],
+) -> Result<(Optimum, bool), DescentError> {
+    let outcome = joint.optimise(problem, guess);
+    let reached = match &outcome {
+        Ok(optimum) if optimum.statistics.unfinished == 0 => return outcome.map(|optimum| (optimum, false)),
+        Ok(optimum) => Some(optimum),
+        Err(DescentError::NotConverged(reached)) => Some(reached.as_ref()),
+        Err(_) => None,
+    };
+    let nearby = reached.and_then(|reached| best_replies(replies, problem, &reached.iterate.inputs));
+    match nearby.or_else(|| best_replies(replies, problem, guess)) {
+        Some(settled) => Ok((settled, true)),
+        None => outcome.map(|optimum| (optimum, false)),
+    }
+}
+
 /// The best deviation of each player that a solution of its own problem finds; of no gain where there is none.
 fn deviations<S: StageSolver>(replies: &mut Optimiser<S>, problem: &Problem, optimum: &Optimum) -> Vec<Deviation> {
-    let iterate = &optimum.iterate;
-    let deviation = |player: usize| {
+    let players = 0..problem.participants.len();
+    players.map(|player| Deviation::of(replies, problem, &optimum.iterate, player).0).collect()
+}
+
+impl Deviation {
+    /// The best one of a player that a solution of its own problem finds, and how that was found; the player's own motion where there
+    /// is none.
+    pub(super) fn of<S: StageSolver>(
+        replies: &mut Optimiser<S>,
+        problem: &Problem,
+        iterate: &Iterate,
+        player: usize,
+    ) -> (Deviation, Option<Statistics>) {
         let alone = problem.alone(player, iterate);
         let kept = vec![iterate.inputs[player].clone()];
         let cost = alone.cost_of(&kept);
-        let reply = replies.optimise(&alone, &kept).ok();
-        let inputs = reply.as_ref().map_or(&kept[0], |reply| &reply.iterate.inputs[0]).clone();
-        Deviation { player, gain: reply.map_or(0.0, |reply| (cost - reply.cost.total).max(0.0)), inputs }
-    };
-    (0..problem.participants.len()).map(deviation).collect()
+        let Ok(mut reply) = replies.optimise(&alone, &kept) else {
+            let inputs = iterate.inputs[player].clone();
+            return (Deviation { player, gain: 0.0, inputs }, None);
+        };
+        let inputs = std::mem::take(&mut reply.iterate.inputs[0]);
+        (Deviation { player, gain: (cost - reply.cost.total).max(0.0), inputs }, Some(reply.statistics))
+    }
 }

@@ -5,6 +5,7 @@
 //! the ego supposes that they want to stay where their predicted motions lead, at the highest speed at which it saw them.
 //! Whoever does not play is an obstacle on its predicted way.
 
+mod best_replies;
 pub mod diagnostics;
 mod equilibrium;
 mod players;
@@ -35,12 +36,23 @@ pub struct Nash {
     last: Vec<(String, Trajectory)>,
 }
 
+/// Most [work](crate::trajectory::Statistics::work) of a descent of the joint problem. One that takes more goes to and fro, and replies
+/// settle sooner.
+const JOINT_WORK_LIMIT: usize = 1000;
+
+/// What solves the joint problem of a game.
+pub fn joint_optimiser(passing_orders: PassingOrderSearch) -> Optimiser<Robust> {
+    let mut joint = Optimiser::resuming(Robust::default()).searching(passing_orders);
+    joint.tolerances.work_limit = JOINT_WORK_LIMIT;
+    joint
+}
+
 impl Nash {
     /// A planner that has not seen anybody yet.
     pub fn new(settings: Settings) -> Self {
         Nash {
             settings,
-            joint: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
+            joint: joint_optimiser(settings.passing_orders),
             // The comparison of the joint problem looks into the other classes of motion.
             replies: Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off),
             seen: SeenSpeeds::default(),

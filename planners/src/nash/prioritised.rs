@@ -1,13 +1,24 @@
 //! A first guess of an equilibrium: the players plan one after the other, each around the plans of those before it.
 
 use crate::Input;
-use crate::trajectory::{Iterate, Optimiser, Problem, StageSolver, Term};
+use crate::trajectory::{Iterate, Optimiser, Problem, StageSolver, Term, Tolerances};
+
+/// A guess need not be optimal: the tolerance of its descents.
+const GUESS_TOLERANCE: f64 = 1e-3;
 
 /// Per player, inputs that keep all apart where they can.
 ///
 /// First everybody plans as if alone. Of two whose plans lead into one another, the one that is ahead of the other there has priority;
 /// the player with priority over most plans first. Where no two do, the plans alone are the guess. A player whose problem has no solution keeps to its plan alone.
 pub(super) fn prioritised<S: StageSolver>(optimiser: &mut Optimiser<S>, joint: &Problem) -> Vec<Vec<Input>> {
+    let exact = optimiser.tolerances;
+    optimiser.tolerances = Tolerances { residual: GUESS_TOLERANCE, decrease: GUESS_TOLERANCE, ..exact };
+    let inputs = plans(optimiser, joint);
+    optimiser.tolerances = exact;
+    inputs
+}
+
+fn plans<S: StageSolver>(optimiser: &mut Optimiser<S>, joint: &Problem) -> Vec<Vec<Input>> {
     let players = joint.participants.len();
     let mut inputs: Vec<Vec<Input>> = vec![Vec::new(); players];
     for player in 0..players {
