@@ -46,7 +46,7 @@ pub(crate) struct PlanFlags {
 }
 
 impl PlanFlags {
-    /// The plan; none if no flag makes one.
+    /// The plan, in which each line names its flags; none if no flag makes one.
     pub fn text(&self) -> Option<String> {
         if self.scenario.is_empty() {
             return None;
@@ -60,32 +60,45 @@ impl PlanFlags {
     fn write(&self, text: &mut String) -> std::fmt::Result {
         let all = |words: &[String]| -> Vec<String> { words.iter().map(|word| quoted(word)).collect() };
         if self.counterfactuals {
-            writeln!(text, "counterfactuals = true")?;
+            writeln!(text, "counterfactuals = true # --counterfactuals")?;
         }
         let is_compared = self.counterfactuals || !self.arms.is_empty();
         let as_written = if !is_compared { None } else { Some(quoted("as-written")) };
         let arms = self.arms.iter().map(|arm| arm_of(arm));
         let planners = as_written.into_iter().chain(all(&self.planner)).chain(arms).collect();
-        for (key, entries) in [("scenario", all(&self.scenario)), ("planner", planners), ("style", all(&self.style))] {
+        let lists = [("scenario", all(&self.scenario)), ("planner", planners), ("style", all(&self.style))];
+        for (key, entries) in lists {
+            let flag = if key == "planner" { self.planner_flags() } else { format!("--{key}") };
             if !entries.is_empty() {
-                writeln!(text, "{key} = [{}]", entries.join(", "))?;
+                writeln!(text, "{key} = [{}] # {flag}", entries.join(", "))?;
             }
         }
-        if let Some(samples) = self.samples.or(self.starts) {
-            writeln!(text, "samples = {samples}")?;
+        if let Some(samples) = self.samples {
+            writeln!(text, "samples = {samples} # --samples")?;
         }
-        if self.starts.is_some() {
-            writeln!(text, "jitter = {{ position_m = 0.1, speed_mps = 0.1 }}")?;
+        if let Some(starts) = self.starts {
+            writeln!(text, "samples = {starts} # --starts")?;
+            writeln!(text, "jitter = {{ position_m = 0.1, speed_mps = 0.1 }} # --starts")?;
         }
         for (table, assignments) in [("set", &self.sets), ("vary", &self.vary)] {
             if !assignments.is_empty() {
                 writeln!(text, "\n[{table}]")?;
             }
             for assignment in assignments {
-                writeln!(text, "{}", entry_of(assignment))?;
+                writeln!(text, "{} # --{table}", entry_of(assignment))?;
             }
         }
         Ok(())
+    }
+
+    /// The flags of which the planners of the plan are made.
+    fn planner_flags(&self) -> String {
+        let given = [
+            ("--planner", !self.planner.is_empty()),
+            ("--arm", !self.arms.is_empty()),
+            ("--counterfactuals", self.counterfactuals),
+        ];
+        given.into_iter().filter_map(|(flag, is_given)| is_given.then_some(flag)).collect::<Vec<_>>().join(" ")
     }
 }
 
@@ -141,6 +154,11 @@ mod tests {
         let flags = Alone::try_parse_from(words.into_iter().chain(more)).expect("sound").flags;
         let plan = SweepPlan::from_text("the flags", &flags.text().expect("a plan"), Path::new("")).expect("sound");
         assert_eq!(plan.run_count(), 10);
+        let text = flags.text().expect("a plan");
+        assert!(text.contains("planner = [\"idm\", \"conservative\"] # --planner\n"), "{text}");
+        assert!(text.contains("samples = 5 # --starts\n"), "{text}");
+        let unnamed: Vec<&str> = text.lines().filter(|line| line.contains('=') && !line.contains("# --")).collect();
+        assert!(unnamed.is_empty(), "{unnamed:?}");
         assert_eq!(plan.names(), [vec!["intersection/nice"], vec!["tough"], vec!["idm", "conservative"]]);
         assert_eq!(plan.inputs(), [("vehicle.ego.start.speed_mps".to_owned(), true)]);
         let arm = "vehicle.ego.driver.settled_steps=29; vehicle.ego.driver.gamma=0.5";
