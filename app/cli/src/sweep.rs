@@ -186,7 +186,10 @@ fn runs(count: u64) -> String {
 /// What a plan stands for.
 fn counted(plan: &SweepPlan) -> String {
     let [scenarios, styles, planners] = plan.names();
-    let listed = |what: &str, names: &[&str]| format!("{} {what}: {}\n", names.len(), names.join(", "));
+    let listed = |what: &str, names: &[&str]| {
+        let plural = if names.len() == 1 { "" } else { "s" };
+        format!("{} {what}{plural}: {}\n", names.len(), names.join(", "))
+    };
     let varied: Vec<String> = plan.inputs().into_iter().map(|(path, _)| path).collect();
     let varied = if varied.is_empty() { String::new() } else { format!("varied: {}\n", varied.join(", ")) };
     let counterfactuals = match plan.counterfactual_count() {
@@ -197,9 +200,9 @@ fn counted(plan: &SweepPlan) -> String {
         "{}: {}\n{}{}{}{counterfactuals}{varied}",
         plan.title(),
         runs(plan.run_count()),
-        listed("scenarios", &scenarios),
-        listed("styles", &styles),
-        listed("planners", &planners)
+        listed("scenario", &scenarios),
+        listed("style", &styles),
+        listed("planner", &planners)
     )
 }
 
