@@ -288,7 +288,7 @@ fn drawn_values_that_break_a_scenario_are_named_once() {
     let difference = (named.parse::<f64>().expect("a number") - value).abs();
     assert!(difference <= 5e-6 * value.abs(), "{overlap}");
     assert!(rest.starts_with(&format!(", sample {}: ", refused[0].sample)), "{overlap}");
-    assert!(overlap.ends_with(&format!("; so it is in {} runs", refused.len())), "{overlap}");
+    assert!(overlap.ends_with(&format!("; {} runs have this error", refused.len())), "{overlap}");
     assert_eq!(error.faults()[0].line_and_column(), Some((5, 21)));
 }
 
@@ -307,6 +307,25 @@ fn jitter_that_breaks_a_scenario_is_named_with_seed_and_sample() {
         let [seed, sample] = [seed, sample].map(|number| number.parse::<u64>().expect("a number"));
         assert_eq!(seed, 10 + sample);
     }
+}
+
+/// A counterfactual with a seed of its own would be the same run in every sample.
+#[test]
+fn a_counterfactual_that_sets_the_seed_is_no_planner_of_a_plan() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let scenario = "extends = 'intersection/nice'\n[[counterfactual]]\nname = 'seeded'\nset = { seed = 4 }\n\
+                    expect = { order = ['ego', 'turning'] }\n";
+    std::fs::write(folder.path().join("own.toml"), scenario).expect("a scratch file");
+    let read = |more: &str| {
+        let text = format!("scenario = ['own.toml']\nsamples = 3\n{more}");
+        SweepPlan::from_text("plan.toml", &text, folder.path())
+    };
+    let sound = read("");
+    assert!(sound.is_ok(), "{:?}", sound.err().map(|error| error.faults().to_vec()));
+    let error = read("counterfactuals = true\n").err().expect("refused");
+    let fault = &error.faults()[0];
+    assert!(fault.message().contains("`seeded` that sets the seed"), "{}", fault.message());
+    assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((3, 19))));
 }
 
 /// Another number of samples changes no place, and is found however the plan writes its own.

@@ -121,6 +121,7 @@ fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) ->
     plan.scenarios = named.into_iter().map(read).collect::<Result<_, _>>()?;
     refuse_too_many(plan.count(), file.max_runs, tree)?;
     refuse_equal_names(&plan, tree)?;
+    refuse_seeded_counterfactuals(&plan, tree)?;
     refuse(plan.idle_deadlines())?;
     refuse(plan.check_extremes())?;
     Ok(plan)
@@ -194,6 +195,20 @@ fn refuse_equal_names(plan: &SweepPlan, tree: &TomlNode) -> Result<(), Vec<Fault
     let message = format!("{} has a counterfactual {}, which a planner is called, too", quoted(scenario), quoted(name));
     let place = tree.at("counterfactuals").map_or(&tree.place, |node| &node.place);
     Err(vec![Fault::at(place, "could not be told apart", message).help("give the planner another `name`")])
+}
+
+/// The seed of a run follows from its sample, and a counterfactual that sets its own would be one run in all of them.
+fn refuse_seeded_counterfactuals(plan: &SweepPlan, tree: &TomlNode) -> Result<(), Vec<Fault>> {
+    let is_seeded = |arm: &&Arm| arm.settings().iter().any(|(path, _)| path.written() == "seed");
+    let seeded = plan.scenarios.iter().find_map(|scenario| {
+        let counterfactual = scenario.counterfactuals.iter().find(is_seeded)?;
+        Some((&scenario.named.name, &counterfactual.name))
+    });
+    let Some((scenario, name)) = seeded else { return Ok(()) };
+    let message = format!("{} has a counterfactual {} that sets the seed", quoted(scenario), quoted(name));
+    let place = tree.at("counterfactuals").map_or(&tree.place, |node| &node.place);
+    let help = "the seed of a run follows from its sample; `interplay run` runs this counterfactual as it is";
+    Err(vec![Fault::at(place, "one run in all samples", message).help(help)])
 }
 
 fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(), Vec<Fault>> {

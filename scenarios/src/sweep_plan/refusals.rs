@@ -61,7 +61,7 @@ impl SweepPlan {
             let Some(fault) = faults.iter().find(|fault| self.key_of(fault) == *key) else { continue };
             let blamed = self.blamed(&place, &faults, fault);
             found.push(if count.runs > 1 {
-                blamed.ending(&format!("; so it is in {} runs", count.runs))
+                blamed.ending(&format!("; {} runs have this error", count.runs))
             } else {
                 blamed
             });
