@@ -164,6 +164,20 @@ const WRONG: &[(&str, usize, usize, &str)] = &[
         35,
         "with `vehicle.front.start.x_m = -0.35`",
     ),
+    // Of two changes that do not fit together it is the one that varies, or else the one that the fault is about.
+    (
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.x_m = 0.1 }\n[vary]\nvehicle.ego.start.y_m = [0.185, 0.5]\n",
+        4,
+        33,
+        "with `vehicle.ego.start.y_m = 0.5`",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nplanner = [{ name = 'x', set = { duration_s = 1.5 } }]\n[set]\n\
+         'expect.completes.ego.after_s' = 2.0\n",
+        4,
+        34,
+        "is not before the end of the run",
+    ),
     // Misspelt distributions.
     (
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { unifrom = [1.0, 1.2] }\n",

@@ -35,11 +35,12 @@ impl SweepPlan {
         self.located(fault, place, &assignments, culprit, None)
     }
 
-    /// The last change without which the scenario of the run is sound; or else without which it has the other faults only; or
-    /// else the first with which it has the fault.
+    /// A change without which the scenario of the run is sound; or else without which it has the other faults only; or else the
+    /// first with which it has the fault.
     ///
-    /// What comes before the last one is sound without it. Of a value that varies, the one of the first run will also do: a plan
-    /// whose first run has a fault is not run at all.
+    /// Of several it is one that varies, if any does, since other values of it are sound; of these the one where the fault is
+    /// located, or else the last, since all before it are sound without it. In place of a value that varies, that of the first run
+    /// will also do: a plan whose first run has a fault is not run at all.
     fn culprit(
         &self,
         place: &Indices,
@@ -68,8 +69,12 @@ impl SweepPlan {
             (0..assignments.len())
                 .find(|index| messages(self.assembled(place, &assignments[..=*index])).contains(fault.message()))
         };
-        let is_sound = left.iter().rposition(BTreeSet::is_empty);
-        is_sound.or_else(|| left.iter().rposition(has_others_only)).or_else(begins)
+        let chosen = |is_cause: &dyn Fn(&BTreeSet<String>) -> bool| {
+            let is_there = |index: usize| fault.place().is_some_and(|place| assignments[index].is_written_at(place));
+            let causes = (0..left.len()).filter(|index| is_cause(&left[*index]));
+            causes.max_by_key(|index| (assignments[*index].is_varied, is_there(*index), *index))
+        };
+        chosen(&BTreeSet::is_empty).or_else(|| chosen(&has_others_only)).or_else(begins)
     }
 
     /// A fault at the culprit, unless it already is within what is written of it.

@@ -43,15 +43,14 @@ impl SweepPlan {
 
     /// What an arm sets although it varies in every run of the arm: what varies is laid over it.
     fn overridden(&self, arm: &Arm) -> Vec<Fault> {
-        let covers = |factors: &'_ [Factor], leaf: &str| factors.iter().find(|factor| factor.covers(leaf)).cloned();
         let by_all_styles = |leaf: &str| {
-            let all: Option<Vec<Factor>> = self.styles.iter().map(|style| covers(&style.factors, leaf)).collect();
-            all.and_then(|all| all.into_iter().next())
+            let all: Option<Vec<&Factor>> = self.styles.iter().map(|style| covering(&style.factors, leaf)).collect();
+            all.and_then(|all| all.first().copied())
         };
         let is_style = self.styles.iter().any(|style| std::ptr::eq(style, arm));
         let by = |leaf: &str| {
-            let own = if is_style { covers(&arm.factors, leaf) } else { by_all_styles(leaf) };
-            covers(&self.changes.factors, leaf).or(own)
+            let own = if is_style { covering(&arm.factors, leaf) } else { by_all_styles(leaf) };
+            covering(&self.changes.factors, leaf).or(own)
         };
         let kind = arm.kind().map(|kind| (EGO_KIND.to_owned(), kind.place.clone()));
         let set = arm.settings().iter().flat_map(|(path, value)| {
@@ -101,6 +100,11 @@ impl SweepPlan {
         });
         idle.collect()
     }
+}
+
+/// What varies all that is there at a path.
+fn covering<'a>(factors: &'a [Factor], path: &str) -> Option<&'a Factor> {
+    factors.iter().find(|factor| factor.covers(path))
 }
 
 /// What an arm sets and varies: each path, and where it is written.
