@@ -324,7 +324,7 @@ fn what_is_wrong_is_said_before_anything_is_run_or_written() {
             "scenario = ['lane-change/front-nice']\nsamples = 50\n[vary]\nvehicle.front.start.x_m = \
              { normal = { mean = -0.35, sd = 2.0 } }\n",
             &["--dry-run"],
-            "8 runs have this error",
+            "8 runs have",
         ),
         (PLAN, &["--samples", "-1"], "write a whole number of at least 1"),
         (PLAN, &["--jobs", "0"], "write a whole number of at least 1"),
