@@ -102,6 +102,13 @@ impl Place {
         Place { document: Arc::clone(document), span }
     }
 
+    /// Whether the other place is in this one.
+    pub fn holds(&self, other: &Place) -> bool {
+        let (own, other_span) = (&self.span, &other.span);
+        let is_within = own.start <= other_span.start && other_span.end <= own.end;
+        is_within && self.document.has_same_text(&other.document)
+    }
+
     /// The span to underline: within the text, on one line, not too long.
     fn underlined(&self) -> SourceSpan {
         let text = &self.document.text;
@@ -161,6 +168,16 @@ impl Fault {
     /// The same fault, with where it shows in front.
     pub(crate) fn within(self, whole: &str) -> Fault {
         Fault { message: format!("{whole}: {}", self.message), ..self }
+    }
+
+    /// The same fault, with more words behind.
+    pub(crate) fn ending(self, more: &str) -> Fault {
+        Fault { message: format!("{}{more}", self.message), ..self }
+    }
+
+    /// Where it is written, if some text is to blame.
+    pub(crate) fn place(&self) -> Option<&Place> {
+        self.place.as_ref()
     }
 
     /// What would work, if something is known.

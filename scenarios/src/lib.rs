@@ -103,7 +103,7 @@ pub use schema::{controller_kinds, driver_kinds, schema};
 pub use source::Source;
 pub use standard_changes::{StandardChange, standard_changes};
 pub use start_jitter::StartJitter;
-pub use sweep_plan::{SweepPlan, SweepPoint, embedded_plans};
+pub use sweep_plan::{RunRefusals, SweepPlan, SweepPoint, embedded_plans};
 pub use timetable::TimetableError;
 pub use vehicle_defaults::{GoalDefaults, VehicleDefaults};
 pub use weather::{EpwFile, Synthetic, WeatherConfig};

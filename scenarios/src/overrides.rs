@@ -152,11 +152,27 @@ impl SettingPath {
         words.join(".")
     }
 
+    /// What the schema says of what is at its end, if it knows.
+    pub fn schema(&self) -> Option<SchemaNode> {
+        self.0
+            .iter()
+            .try_fold(schema::complete(), |schema, step| schema.entries().or_else(|| schema.property(&step.word)))
+    }
+
+    /// Where its words are written.
+    pub fn places(&self) -> impl Iterator<Item = &Place> {
+        self.0.iter().map(|step| &step.place)
+    }
+
     /// Lays a value over a scenario at the end of the path.
     pub fn lay(&self, root: &mut Table, value: &TomlNode) -> Result<(), Fault> {
         let is_list = |step: &Step| step.word == "vehicle";
         if !(self.0.first().is_some_and(is_list) && self.0.get(1).is_some_and(|step| step.word == OTHER_VEHICLES)) {
             return lay(Some(schema::complete()), root, (&self.0, 0), value.clone());
+        }
+        if !has_vehicles(root) {
+            let message = format!("the scenario has no vehicles, so {} changes nothing", quoted(&self.written()));
+            return Err(Fault::at(&self.0[1].place, "no vehicle here", message));
         }
         for name in other_names(root) {
             let mut steps = self.0.clone();

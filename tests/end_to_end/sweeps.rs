@@ -278,6 +278,33 @@ fn two_sweeps_of_one_version_do_not_differ() {
     assert_eq!(figures["unpaired"], serde_json::json!([0, 0]));
 }
 
+/// What flags cannot say names the flag.
+#[test]
+fn wrong_flags_are_refused_by_their_names() {
+    let folder = scratch("sweep-wrong-flags");
+    for (arguments, words) in [
+        (&["--set", "seed=4", "--starts", "3"][..], &["follows from", "\"seed\" = 4 # --set"][..]),
+        (&["--arm", "seed=4"], &["follows from", "# --arm"]),
+        (&["--set", "duration_s=0.5"], &["is not before the end of the run", "\"duration_s\" = 0.5 # --set"]),
+        (&["--set", "duration_s=3", "--set", "duration_s = 4"], &["`--set` states `duration_s` twice"]),
+        (&["--arm", "duration_s=3; duration_s=4"], &["states `duration_s` twice"]),
+        (
+            &["--vary", "duration_s=[8, 9]", "--set", "duration_s=8"],
+            &["is set here, and varies", "# --set", "# --vary"],
+        ),
+        (&["--arm", ""], &["--arm", "write PATH=VALUE"]),
+        (&["--set", "duration_s"], &["--set", "write PATH=VALUE"]),
+        (&["--starts", "-3"], &["--starts", "write a whole number of at least 1"]),
+    ] {
+        let refused = interplay(&folder, &[&["sweep", "--scenario", "lane-change/front-nice"], arguments].concat());
+        assert_eq!(refused.code, Some(2), "{arguments:?}: {refused:?}");
+        for word in words {
+            assert!(refused.stderr.contains(word), "{arguments:?}: {}", refused.stderr);
+        }
+        assert!(contents(&folder).is_empty(), "{arguments:?}");
+    }
+}
+
 #[test]
 fn what_is_wrong_is_said_before_anything_is_run_or_written() {
     let folder = scratch("sweep-wrong");
@@ -292,6 +319,19 @@ fn what_is_wrong_is_said_before_anything_is_run_or_written() {
             &[],
             "overlap at the start",
         ),
+        // A dry run checks what a run would.
+        (
+            "scenario = ['lane-change/front-nice']\nsamples = 50\n[vary]\nvehicle.front.start.x_m = \
+             { normal = { mean = -0.35, sd = 2.0 } }\n",
+            &["--dry-run"],
+            "8 runs have",
+        ),
+        (PLAN, &["--samples", "-1"], "write a whole number of at least 1"),
+        (PLAN, &["--jobs", "0"], "write a whole number of at least 1"),
+        (PLAN, &["--out", "plan.toml"], "`plan.toml` is a file"),
+        (PLAN, &["--out", "plan.toml/rows", "--dry-run"], "`plan.toml` is a file"),
+        // Another number of samples moves no line.
+        ("scenario = ['lane-change/front-nice']\nsample = 3\n", &["--samples", "2"], "plan.toml:2:1"),
         (PLAN, &["--shard", "9/8"], "there is no shard 9 of 8"),
         (PLAN, &["--shards", "8"], "JOB_COMPLETION_INDEX"),
         (PLAN, &["--planner", "idm"], "cannot be used with"),
@@ -300,6 +340,7 @@ fn what_is_wrong_is_said_before_anything_is_run_or_written() {
         let refused = interplay(&folder, &[&["sweep", "plan.toml"], arguments].concat());
         assert_eq!(refused.code, Some(2), "{text}: {refused:?}");
         assert!(refused.stderr.contains(words), "{text}: {}", refused.stderr);
+        assert!(refused.stderr.matches("overlap at the start").count() <= 1, "said once: {}", refused.stderr);
         assert_eq!(contents(&folder), ["plan.toml"], "{text}");
     }
     fs::create_dir(folder.join("mine")).expect("a folder");

@@ -26,6 +26,7 @@ mod schema;
 mod suite;
 mod sweep;
 mod threads;
+mod values;
 mod view;
 mod watch;
 mod why;

@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use clap::Args;
 
+use crate::values;
+
 /// Flags that make a plan.
 #[derive(Debug, Default, Args)]
 pub(crate) struct PlanFlags {
@@ -16,7 +18,7 @@ pub(crate) struct PlanFlags {
     planner: Vec<String>,
 
     /// Changes to compare with the scenario as it is written; may be repeated
-    #[arg(long = "arm", value_name = "PATH=VALUE[; PATH=VALUE]...", requires = "scenario")]
+    #[arg(long = "arm", value_name = "PATH=VALUE[; PATH=VALUE]...", value_parser = values::assignments, requires = "scenario")]
     arms: Vec<String>,
 
     /// Compare each scenario with its own counterfactuals, too
@@ -28,20 +30,21 @@ pub(crate) struct PlanFlags {
     style: Vec<String>,
 
     /// Let a value vary, such as vehicle.front.start.speed_mps='{ uniform = [1.0, 1.5] }'; may be repeated
-    #[arg(long, value_name = "PATH=VALUES", requires = "scenario")]
+    #[arg(long, value_name = "PATH=VALUES", value_parser = values::assignment, requires = "scenario")]
     vary: Vec<String>,
 
     /// Change one value in all runs; may be repeated
-    #[arg(long = "set", value_name = "PATH=VALUE", requires = "scenario")]
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = values::assignment, requires = "scenario")]
     sets: Vec<String>,
 
     /// How many samples of what varies there are; with a plan, instead of the plan's own
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = values::count, allow_negative_numbers = true)]
     pub samples: Option<u64>,
 
     /// How many starts there are: samples in each of which every vehicle starts up to 0.1 m further ahead or behind and up to 0.1
     /// m/s faster or slower, at 1/10 scale
-    #[arg(long, value_name = "N", requires = "scenario", conflicts_with = "samples")]
+    #[arg(long, value_name = "N", value_parser = values::count, allow_negative_numbers = true)]
+    #[arg(requires = "scenario", conflicts_with = "samples")]
     starts: Option<u64>,
 }
 
@@ -55,6 +58,20 @@ impl PlanFlags {
         // Writing to a String cannot fail.
         let _ = self.write(&mut text);
         Some(text)
+    }
+
+    /// Checks what a plan could not say.
+    ///
+    /// # Errors
+    /// The flag that states a path twice.
+    pub fn check(&self) -> Result<(), String> {
+        let all = |flag, changes: &[String]| {
+            let path = values::stated_twice(changes.iter().map(String::as_str));
+            path.map(|path| format!("`{flag}` states `{path}` twice; state it once"))
+        };
+        let arms = || self.arms.iter().find_map(|arm| Some((arm, values::stated_twice(values::changes_of(arm))?)));
+        let in_arm = || arms().map(|(arm, path)| format!("`--arm '{arm}'` states `{path}` twice; state it once"));
+        all("--set", &self.sets).or_else(|| all("--vary", &self.vary)).or_else(in_arm).map_or(Ok(()), Err)
     }
 
     fn write(&self, text: &mut String) -> std::fmt::Result {
@@ -104,8 +121,7 @@ impl PlanFlags {
 
 /// A planner that differs from the scenario's own by changes, and is called after them.
 fn arm_of(arm: &str) -> String {
-    let changes: Vec<String> =
-        arm.split(';').map(str::trim).filter(|change| !change.is_empty()).map(entry_of).collect();
+    let changes: Vec<String> = values::changes_of(arm).map(entry_of).collect();
     format!("{{ name = {}, set = {{ {} }} }}", quoted(arm.trim()), changes.join(", "))
 }
 

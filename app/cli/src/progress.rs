@@ -1,6 +1,12 @@
 //! How far a long command has come, for whoever sits in front of it.
 
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
 use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::output::print_error;
 
 /// A line on stderr that is written over and over; nothing if stderr is no terminal.
 pub(crate) struct Progress(ProgressBar);
@@ -37,6 +43,48 @@ impl Progress {
     }
 }
 
+/// How far a check has come, told once it has taken a second: a line that is written once and, on a terminal, one that counts.
+pub(crate) struct CheckProgress {
+    began: Instant,
+    runs: u64,
+    checked: AtomicU64,
+    bar: OnceLock<ProgressBar>,
+}
+
+/// How long a check may take without a word.
+const SILENCE: Duration = Duration::from_secs(1);
+
+impl CheckProgress {
+    /// Nothing of so many runs is checked yet.
+    pub fn of(runs: u64) -> CheckProgress {
+        CheckProgress { began: Instant::now(), runs, checked: AtomicU64::new(0), bar: OnceLock::new() }
+    }
+
+    /// One more is checked; may be called from any thread.
+    pub fn advance(&self) {
+        let checked = 1 + self.checked.fetch_add(1, Ordering::Relaxed);
+        if self.began.elapsed() < SILENCE || checked == self.runs {
+            return;
+        }
+        let bar = self.bar.get_or_init(|| {
+            print_error(&format!("checking {} runs", self.runs));
+            let bar = ProgressBar::new(self.runs);
+            if let Ok(style) = style_with_time_left() {
+                bar.set_style(style);
+            }
+            bar
+        });
+        bar.set_position(checked);
+    }
+
+    /// Leaves an empty line.
+    pub fn clear(&self) {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
 fn style() -> Result<ProgressStyle, indicatif::style::TemplateError> {
     Ok(ProgressStyle::with_template("[{bar:30}] {pos} of {len} runs")?.progress_chars("##-"))
 }
@@ -55,5 +103,18 @@ mod tests {
         let progress = Progress::of(4);
         (0..3).for_each(|_| progress.advance());
         assert_eq!((progress.0.position(), progress.0.length()), (3, Some(4)));
+    }
+
+    #[test]
+    fn a_check_is_told_of_when_it_takes_longer_than_a_second() {
+        let quick = CheckProgress::of(3);
+        quick.advance();
+        assert!(quick.bar.get().is_none());
+        let Some(began) = Instant::now().checked_sub(2 * SILENCE) else { return };
+        let slow = CheckProgress { began, ..CheckProgress::of(3) };
+        slow.advance();
+        slow.advance();
+        assert_eq!(slow.bar.get().map(ProgressBar::position), Some(2));
+        slow.clear();
     }
 }

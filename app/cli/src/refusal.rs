@@ -9,7 +9,7 @@ use crate::output::{print_error, print_load_error};
 pub(crate) fn gave_up(error: SweepError) -> ExitStatus {
     let ending = if error.is_bad_input() { ExitStatus::BadInput } else { ExitStatus::Unfinished };
     match error {
-        SweepError::Refused(refusals) => refusals.into_iter().for_each(print_load_error),
+        SweepError::Refused(refusal) => print_load_error(*refusal),
         other => print_error(&other.to_string()),
     }
     ending

@@ -19,6 +19,7 @@ use crate::files::{self, ScenarioArgument, destroyed};
 use crate::output::{json, print, print_error, print_load_error};
 use crate::progress::Progress;
 use crate::threads::pool;
+use crate::values;
 
 /// Run many scenarios side by side and say which of them do what they should.
 #[derive(Debug, Args)]
@@ -33,7 +34,7 @@ pub(crate) struct Suite {
     paths: Vec<String>,
 
     /// How many run at a time [default: one for each core]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = values::jobs, allow_negative_numbers = true)]
     jobs: Option<NonZeroUsize>,
 
     /// Also write the results as JUnit XML, which build servers show

@@ -8,15 +8,17 @@ use clap::{Args, Subcommand, ValueEnum};
 use interplay_presentation::record::{OpenRecording, Recorder, Sink};
 use interplay_scenarios::{LoadError, Scenario, SweepPlan, embedded_plans};
 use interplay_simulation::run::run;
-use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome, SweepRow, merge, sweep};
+use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome, SweepRow, check, merge, sweep};
+use rayon::ThreadPool;
 
 use crate::compare::after_sweep;
 use crate::exit_status::ExitStatus;
 use crate::output::{print_error, print_load_error, printed};
 use crate::plan_flags::PlanFlags;
-use crate::progress::Progress;
+use crate::progress::{CheckProgress, Progress};
 use crate::refusal::gave_up;
 use crate::threads::pool;
+use crate::values;
 
 /// Run a plan of many runs, a row each: scenarios, times drivers, times values that vary, times planners.
 #[derive(Debug, Args)]
@@ -50,19 +52,19 @@ pub(crate) struct Sweep {
     shard: Option<Shard>,
 
     /// Make one of N parts: the one that the task of a scheduler stands for (Slurm, Kubernetes or HyperQueue)
-    #[arg(long, value_name = "N", conflicts_with = "shard")]
+    #[arg(long, value_name = "N", value_parser = values::parts, allow_negative_numbers = true, conflicts_with = "shard")]
     shards: Option<std::num::NonZeroU32>,
 
     /// Which runs are recorded
     #[arg(long, value_name = "WHICH", value_enum, default_value_t = Keep::None)]
     keep: Keep,
 
-    /// Check the plan and say how many runs it stands for, and run none
+    /// Check the plan with all that it draws, say how many runs it stands for, and run none
     #[arg(long)]
     dry_run: bool,
 
     /// How many run at a time [default: one for each core]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = values::jobs, allow_negative_numbers = true)]
     jobs: Option<NonZeroUsize>,
 }
 
@@ -111,6 +113,10 @@ impl Sweep {
                 return ExitStatus::BadInput;
             }
         };
+        if let Err(message) = self.flags.check() {
+            print_error(&message);
+            return ExitStatus::BadInput;
+        }
         let plan = match self.plan() {
             Ok(plan) => plan,
             Err(error) => {
@@ -118,10 +124,13 @@ impl Sweep {
                 return ExitStatus::BadInput;
             }
         };
-        if self.dry_run {
-            return printed(&counted(&plan));
-        }
         let folder = self.folder();
+        if self.dry_run {
+            return match self.check(&plan, shard, &folder) {
+                Ok(()) => printed(&counted(&plan)),
+                Err(error) => gave_up(error),
+            };
+        }
         match self.run(&plan, shard, &folder) {
             Ok(outcome) => said(&outcome, shard, &folder),
             Err(error) => gave_up(error),
@@ -152,16 +161,31 @@ impl Sweep {
         self.out.clone().unwrap_or_else(|| Path::new("sweeps").join(&*stem))
     }
 
+    fn pool(&self, plan: &SweepPlan) -> Result<ThreadPool, SweepError> {
+        let pool = pool(self.jobs, usize::try_from(plan.run_count()).unwrap_or(usize::MAX));
+        pool.map_err(|error| SweepError::Input(error.to_string()))
+    }
+
+    /// Checks every run and makes none.
+    fn check(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<(), SweepError> {
+        let checks = CheckProgress::of(plan.run_count());
+        let outcome = self.pool(plan)?.install(|| check(plan, shard, folder, &|| checks.advance()));
+        checks.clear();
+        outcome
+    }
+
     fn run(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<SweepOutcome, SweepError> {
-        let pool = pool(self.jobs, usize::try_from(plan.run_count()).unwrap_or(usize::MAX))
-            .map_err(|error| SweepError::Input(error.to_string()))?;
+        let pool = self.pool(plan)?;
+        let checks = CheckProgress::of(plan.run_count());
         let progress: OnceLock<Progress> = OnceLock::new();
         let keep = |row: &SweepRow, scenario: &Scenario| record(folder, row, scenario);
         let options = SweepOptions {
             folder,
             shard,
             keep: (self.keep == Keep::Failures).then_some(&keep),
+            checked: &|| checks.advance(),
             begin: &|to_make, there| {
+                checks.clear();
                 print_error(&format!("{} to make, {there} made before", runs(to_make)));
                 progress.get_or_init(|| Progress::with_time_left(to_make as usize));
             },
@@ -172,6 +196,7 @@ impl Sweep {
             },
         };
         let outcome = pool.install(|| sweep(plan, &options));
+        checks.clear();
         if let Some(progress) = progress.into_inner() {
             progress.clear();
         }

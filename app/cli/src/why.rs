@@ -13,6 +13,7 @@ use crate::files::short_name;
 use crate::output::{json, print, print_error, print_load_error};
 use crate::progress::Progress;
 use crate::threads::pool;
+use crate::values;
 
 /// Find out what the outcome of a drive depends on: run it again with one thing changed at a time.
 #[derive(Debug, Args)]
@@ -31,7 +32,7 @@ pub(crate) struct Why {
     sets: Vec<String>,
 
     /// How many run at a time [default: one for each core]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = values::jobs, allow_negative_numbers = true)]
     jobs: Option<NonZeroUsize>,
 
     /// Print the results as one JSON document

@@ -43,8 +43,14 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Wall time of a sweep on one thread, and the sum of that of its runs \[s\].
 fn by_sweep(plan: &SweepPlan) -> Result<(f64, f64), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
-    let options =
-        SweepOptions { folder: folder.path(), shard: Shard::WHOLE, keep: None, begin: &|_, _| {}, advance: &|| {} };
+    let options = SweepOptions {
+        folder: folder.path(),
+        shard: Shard::WHOLE,
+        keep: None,
+        checked: &|| {},
+        begin: &|_, _| {},
+        advance: &|| {},
+    };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let began = Instant::now();
     pool.install(|| sweep(plan, &options))?;

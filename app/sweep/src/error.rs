@@ -11,8 +11,8 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum SweepError {
     /// Runs of the plan are refused; nothing was run.
-    #[error("{} runs of the plan cannot be run", .0.len())]
-    Refused(Vec<LoadError>),
+    #[error("{0}")]
+    Refused(Box<LoadError>),
     /// A file cannot be read or written.
     #[error("cannot {what} `{}`: {reason}", path.display())]
     File {

@@ -27,6 +27,6 @@ pub use key::RunKey;
 pub use merge::{MergedSweep, merge};
 pub use row::SweepRow;
 pub use shard::{Shard, ShardError};
-pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, sweep};
+pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, check, sweep};
 pub use table::{RowTable, TableColumn};
 pub use version::program_version;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use interplay_scenarios::{LoadError, Scenario, SweepPlan};
+use interplay_scenarios::{RunRefusals, Scenario, SweepPlan};
 use rayon::prelude::*;
 
 use crate::column::ColumnKind;
@@ -24,8 +24,6 @@ pub(crate) const PLAN_FILE: &str = "plan.toml";
 /// What a file of rows says about the whole: the plan's digest, and which shard it is.
 pub(crate) const PLAN_NOTE: &str = "interplay.plan";
 pub(crate) const SHARD_NOTE: &str = "interplay.shard";
-/// How many refused runs are told about.
-const MAX_REFUSALS: usize = 3;
 
 /// Keeps a recording of a run that is worth looking at. Called from several threads.
 pub type KeepRecording<'a> = &'a (dyn Fn(&SweepRow, &Scenario) -> Result<(), String> + Sync);
@@ -38,6 +36,8 @@ pub struct SweepOptions<'a> {
     pub shard: Shard,
     /// What to do with a run that failed.
     pub keep: Option<KeepRecording<'a>>,
+    /// Called after each run that is checked, from several threads.
+    pub checked: &'a (dyn Fn() + Sync),
     /// Called when the plan is checked, with how many runs are to be made and how many are there.
     pub begin: &'a (dyn Fn(u64, u64) + Sync),
     /// Called after each run, from several threads.
@@ -79,15 +79,16 @@ pub(crate) fn plan_digest(plan: &SweepPlan) -> String {
 /// Runs that are refused, before any is made; files that cannot be read or written.
 pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcome, SweepError> {
     let (folder, shard) = (options.folder, options.shard);
+    refuse_file_in_the_way(folder)?;
     let known = if folder.exists() { JournalIndex::read(folder)? } else { JournalIndex::empty() };
-    let part = Part::of(plan, shard, &known)?;
+    let part = Part::of(plan, shard, &known, options.checked)?;
     drop(known);
     make_folder(folder, plan)?;
     let journal = Mutex::new(Journal::open(&path_of(folder, shard))?);
     (options.begin)(part.to_make.len() as u64, part.there);
     part.to_make.par_iter().with_max_len(1).try_for_each(|index| {
         let point = plan.point(*index);
-        let scenario = plan.scenario(&point).map_err(|error| SweepError::Refused(vec![error]))?;
+        let scenario = plan.scenario(&point).map_err(|error| SweepError::Refused(Box::new(error)))?;
         let row = measured_run(RunKey::of(plan, &point), &point, &scenario);
         if let Some(keep) = options.keep.filter(|_| row.is_failure()) {
             keep(&row, &scenario).map_err(SweepError::Recording)?;
@@ -103,6 +104,27 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     Ok(SweepOutcome { table, rows, made: part.to_make.len() as u64, unfinished })
 }
 
+/// Checks the runs of a shard as [`sweep`] does before it makes the first, all as if none were there; `checked` is called after
+/// each, from several threads.
+///
+/// # Errors
+/// Runs that are refused, or a folder that cannot be made.
+pub fn check(plan: &SweepPlan, shard: Shard, folder: &Path, checked: &(dyn Fn() + Sync)) -> Result<(), SweepError> {
+    refuse_file_in_the_way(folder)?;
+    Part::of(plan, shard, &JournalIndex::empty(), checked).map(|_| ())
+}
+
+/// A folder cannot be made in place of a file or below it.
+fn refuse_file_in_the_way(folder: &Path) -> Result<(), SweepError> {
+    match folder.ancestors().find(|above| above.exists()) {
+        Some(above) if !above.is_dir() => Err(SweepError::Input(format!(
+            "`{}` is a file, and the rows of a sweep need a folder; choose another with `--out`",
+            above.display()
+        ))),
+        Some(_) | None => Ok(()),
+    }
+}
+
 /// The runs of a shard.
 struct Part {
     /// The keys and numbers of all its runs, sorted.
@@ -115,34 +137,38 @@ struct Part {
 
 impl Part {
     /// Finds the runs of a shard, and checks those that have no row.
-    fn of(plan: &SweepPlan, shard: Shard, known: &JournalIndex) -> Result<Part, SweepError> {
-        type Checked = (RunKey, u64);
-        let check = |index: u64| -> Option<Result<Checked, LoadError>> {
+    fn of(
+        plan: &SweepPlan,
+        shard: Shard,
+        known: &JournalIndex,
+        checked: &(dyn Fn() + Sync),
+    ) -> Result<Part, SweepError> {
+        let refusals = Mutex::new(RunRefusals::default());
+        let check = |index: u64| -> Option<(RunKey, u64)> {
             let point = plan.point(index);
             let key = RunKey::of(plan, &point);
             if !shard.holds(key) {
                 return None;
             }
-            if known.holds(key) {
-                return Some(Ok((key, index)));
+            if !known.holds(key)
+                && let Err(refusal) = plan.check(&point)
+            {
+                let mut all = refusals.lock().unwrap_or_else(PoisonError::into_inner);
+                *all = std::mem::take(&mut *all).and(refusal);
             }
-            Some(plan.scenario(&point).map(|_| (key, index)))
+            Some((key, index))
         };
-        let refusals = Mutex::new(Vec::new());
-        let is_refused = |refusals: &Mutex<Vec<LoadError>>| {
-            refusals.lock().unwrap_or_else(PoisonError::into_inner).len() >= MAX_REFUSALS
-        };
-        let checked: Vec<Checked> = (0..plan.run_count())
+        let checked: Vec<(RunKey, u64)> = (0..plan.run_count())
             .into_par_iter()
-            .take_any_while(|_| !is_refused(&refusals))
-            .filter_map(check)
-            .filter_map(|outcome| {
-                outcome.map_err(|error| refusals.lock().unwrap_or_else(PoisonError::into_inner).push(error)).ok()
+            .filter_map(|index| {
+                let found = check(index);
+                checked();
+                found
             })
             .collect();
         let refusals = refusals.into_inner().unwrap_or_else(PoisonError::into_inner);
         if !refusals.is_empty() {
-            return Err(SweepError::Refused(refusals));
+            return Err(SweepError::Refused(Box::new(plan.refusal(&refusals))));
         }
         // Runs of one key are one run: arms that change the same, or a list that states a value twice.
         let mut seen = HashSet::new();

@@ -3,9 +3,10 @@
 use interplay_building::nearest::suggestion;
 use interplay_planners::human::Style;
 
+use super::assignment::{Assignment, path_of};
 use super::factor::{DrawSettings, Factor, factors};
-use crate::error::{Fault, Place, quoted};
-use crate::overrides::{SettingPath, lay_planner, settings_of};
+use crate::error::{Fault, quoted};
+use crate::overrides::{SettingPath, settings_of};
 use crate::schema::driver_kinds;
 use crate::tree::{Table, TomlEntry, TomlNode, TomlValue};
 
@@ -91,16 +92,20 @@ impl Arm {
         Ok(Arm { name, kind: None, changes, factors })
     }
 
-    /// Lays its changes over a scenario.
-    pub fn lay(&self, root: &mut Table) -> Result<(), Fault> {
-        if let Some(kind) = &self.kind {
-            if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list()) {
-                let message = "the scenario has no vehicles, so a planner has nothing to drive";
-                return Err(Fault::at(&kind.place, "no vehicle to drive", message));
-            }
-            lay_planner(root, kind.clone())?;
-        }
-        self.changes.iter().try_for_each(|(path, value)| path.lay(root, value))
+    /// The settings that it changes.
+    pub fn settings(&self) -> &[(SettingPath, TomlNode)] {
+        &self.changes
+    }
+
+    /// The kind of driver of the ego, if it is changed.
+    pub fn kind(&self) -> Option<&TomlNode> {
+        self.kind.as_ref()
+    }
+
+    /// What it changes: who drives the ego, then its settings.
+    pub fn assignments(&self) -> impl Iterator<Item = Assignment<'_>> {
+        let kind = self.kind.iter().map(Assignment::driver);
+        kind.chain(self.changes.iter().map(|(path, value)| Assignment::setting(path, value)))
     }
 
     /// Its changes, in words of which no two arms that differ have the same.
@@ -109,9 +114,4 @@ impl Arm {
         let changes = self.changes.iter().map(|(path, value)| format!("{}={}", path.written(), value.to_json()));
         kind.chain(changes).collect::<Vec<_>>().join("\n")
     }
-}
-
-/// A path whose words are all written at one place.
-pub(super) fn path_of(path: &str, place: &Place) -> Result<SettingPath, Fault> {
-    path.split('.').try_fold(SettingPath::root(), |before, word| before.join(word, place))
 }

@@ -1,9 +1,11 @@
 //! A path whose value varies, and the values that it takes.
 
 use interplay_building::control::uncertainty::normal_quantile;
+use interplay_building::nearest::nearest;
 
 use super::draw::UnitDraws;
-use crate::error::{Fault, Place};
+use super::settings_below::{is_within, leaves};
+use crate::error::{Fault, Place, quoted};
 use crate::overrides::SettingPath;
 use crate::plan_file::Sampling;
 use crate::tree::{Table, TomlNode, TomlValue, kind_of};
@@ -76,7 +78,10 @@ fn collect(
         };
         match &entry.node.value {
             TomlValue::Table(table) if !table.keys().any(|key| DISTRIBUTIONS.contains(&key.as_str())) => {
-                collect(&path, table, settings, found, faults);
+                match misspelt(&path, table) {
+                    Some(fault) => faults.push(fault),
+                    None => collect(&path, table, settings, found, faults),
+                }
             }
             _ => match values_of(&entry.node) {
                 Ok(values) => {
@@ -88,6 +93,23 @@ fn collect(
             },
         }
     }
+}
+
+/// The refusal of a table that can only be meant as a distribution: it stands for a setting below which there is none, or its
+/// first key is all but the name of one.
+fn misspelt(path: &SettingPath, table: &Table) -> Option<Fault> {
+    let (key, entry) =
+        table.iter().find(|(key, _)| nearest(key, DISTRIBUTIONS).is_some()).or_else(|| table.iter().next())?;
+    let property = path.schema();
+    let is_value =
+        property.is_some_and(|schema| matches!(schema.type_name(), Some("number" | "integer" | "boolean" | "string")));
+    let is_close = nearest(key, DISTRIBUTIONS).is_some_and(|near| key.len().abs_diff(near.len()) <= 2);
+    if !is_value && (!is_close || property.is_none_or(|schema| schema.property(key).is_some())) {
+        return None;
+    }
+    let message = format!("{} is no distribution of the values of {}", quoted(key), quoted(&path.written()));
+    let near = nearest(key, DISTRIBUTIONS).map(|near| format!("did you mean `{near}`? "));
+    Some(Fault::at(&entry.key, "unknown", message).help(format!("{}{EXAMPLE}", near.unwrap_or_default())))
 }
 
 fn values_of(node: &TomlNode) -> Result<Values, Fault> {
@@ -201,6 +223,29 @@ impl Factor {
         match &self.values {
             Values::List(items) => items.iter().all(|item| number(item).is_some()),
             _ => true,
+        }
+    }
+
+    /// Where the last word of its path is written.
+    pub fn key(&self) -> &Place {
+        self.path.places().last().unwrap_or(&self.place)
+    }
+
+    /// The values of a list.
+    pub fn listed(&self) -> &[TomlNode] {
+        match &self.values {
+            Values::List(items) => items,
+            _ => &[],
+        }
+    }
+
+    /// Whether each of its values states the setting at a path, or all that is there.
+    pub fn covers(&self, setting: &str) -> bool {
+        let path = self.path.written();
+        let states = |value: &TomlNode| leaves(&path, value).iter().any(|leaf| is_within(leaf, setting));
+        match &self.values {
+            Values::List(items) => items.iter().all(states),
+            _ => is_within(&path, setting),
         }
     }
 

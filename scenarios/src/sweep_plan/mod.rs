@@ -10,11 +10,18 @@
 //! values.
 
 mod arm;
+mod assignment;
+mod blame;
+mod conflicts;
 mod draw;
 mod factor;
 mod names;
 mod plan;
 mod read;
+mod refusals;
+mod samples;
+mod settings_below;
 
 pub use plan::{SweepPlan, SweepPoint};
 pub use read::embedded_plans;
+pub use refusals::RunRefusals;

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use serde_json::Value as Json;
 
-use super::arm::{Arm, path_of};
+use super::arm::Arm;
+use super::assignment::{Assignment, path_of};
 use super::factor::Factor;
 use super::names::NamedScenario;
-use crate::error::{Fault, LoadError, Place};
+use crate::error::{Fault, Place};
 use crate::load::assemble_on;
 use crate::placement::KnownRoads;
 use crate::plan_file::Sampling;
@@ -30,6 +31,8 @@ pub struct SweepPlan {
     pub(super) seed: u64,
     /// Where a key that no line states is blamed.
     pub(super) place: Place,
+    /// Where the random change of the starts is stated, if it is.
+    pub(super) jitter_place: Option<Place>,
     /// What its scenarios have in common of their roads.
     pub(super) known_roads: KnownRoads,
 }
@@ -65,19 +68,19 @@ pub struct SweepPoint {
     pub seed: u64,
     /// What varies, and its value.
     pub inputs: Vec<(String, Json)>,
-    place: Indices,
+    pub(super) place: Indices,
 }
 
 /// The parts of a plan that make a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Indices {
-    scenario: usize,
-    style: usize,
-    planner: usize,
+pub(super) struct Indices {
+    pub scenario: usize,
+    pub style: usize,
+    pub planner: usize,
     /// The combination on the grid.
-    cell: u64,
+    pub cell: u64,
     /// The sample within it.
-    draw: u64,
+    pub draw: u64,
 }
 
 impl SweepPlan {
@@ -112,11 +115,11 @@ impl SweepPlan {
     }
 
     /// How many planners there are in a scenario: those of the plan, then the scenario's counterfactuals.
-    fn planner_count(&self, scenario: usize) -> u64 {
+    pub(super) fn planner_count(&self, scenario: usize) -> u64 {
         (self.planners.len() + self.scenarios[scenario].counterfactuals.len()) as u64
     }
 
-    fn planner(&self, place: &Indices) -> &Arm {
+    pub(super) fn planner(&self, place: &Indices) -> &Arm {
         let own = || &self.scenarios[place.scenario].counterfactuals[place.planner - self.planners.len()];
         self.planners.get(place.planner).unwrap_or_else(own)
     }
@@ -157,7 +160,7 @@ impl SweepPlan {
         self.cells(style)?.checked_mul(self.samples)
     }
 
-    fn factors(&self, style: usize) -> impl Iterator<Item = &Factor> {
+    pub(super) fn factors(&self, style: usize) -> impl Iterator<Item = &Factor> {
         self.changes.factors.iter().chain(&self.styles[style].factors)
     }
 
@@ -199,7 +202,7 @@ impl SweepPlan {
     }
 
     /// The values of all factors in a run.
-    fn values(&self, place: &Indices) -> impl Iterator<Item = (&Factor, TomlNode)> {
+    pub(super) fn values(&self, place: &Indices) -> impl Iterator<Item = (&Factor, TomlNode)> {
         let (mut cell, draw, is_grid) = (place.cell, place.draw, self.sampling == Sampling::Grid);
         self.factors(place.style).map(move |factor| {
             let value = match factor.count().filter(|_| is_grid) {
@@ -230,89 +233,40 @@ impl SweepPlan {
         format!("{jitter}{arms}\n;\n{}\n;\nseed={}", inputs.join("\n"), point.seed)
     }
 
-    /// The scenario of a run.
-    ///
-    /// # Errors
-    /// What is wrong with it, located in the plan or in the scenario.
-    pub fn scenario(&self, point: &SweepPoint) -> Result<Scenario, LoadError> {
-        self.assembled(&point.place, None).map_err(|faults| LoadError::of_plan(&self.name, faults))
+    /// What the plan changes of the scenario in a run, in the order in which it is laid over it: the random change of the starts,
+    /// what is set in all runs, the style, the planner, and what varies; `instead`, if stated, is the value of one of the factors.
+    pub(super) fn assignments(&self, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Vec<Assignment<'_>> {
+        let jitter = self.jitter_place.as_ref().zip(self.scenarios[place.scenario].jitter);
+        let jitter = jitter.into_iter().flat_map(|(written, jitter)| Assignment::of_jitter(jitter, written));
+        let arms = [&self.changes, &self.styles[place.style], self.planner(place)];
+        let varied = self.values(place).enumerate().map(|(index, (factor, value))| {
+            let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value.clone());
+            Assignment::varied(&factor.path, other.unwrap_or(value))
+        });
+        jitter.chain(arms.into_iter().flat_map(Arm::assignments)).chain(varied).collect()
     }
 
-    /// The scenario of a run, with another value for one of the factors.
-    fn assembled(&self, place: &Indices, instead: Option<(usize, TomlNode)>) -> Result<Scenario, Vec<Fault>> {
-        let planned = &self.scenarios[place.scenario];
-        let mut tree = planned.tree.clone();
-        let in_run = |fault: Fault| self.in_run(fault, place, instead.as_ref());
+    /// The scenario of a run with these changes and its seed.
+    pub(super) fn assembled<'a>(
+        &self,
+        place: &Indices,
+        assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
+    ) -> Result<Scenario, Vec<Fault>> {
+        let mut tree = self.scenarios[place.scenario].tree.clone();
         if let TomlValue::Table(root) = &mut tree.value {
-            self.lay(root, place, instead.as_ref()).map_err(|fault| vec![in_run(fault)])?;
+            self.lay(root, place, assignments).map_err(|fault| vec![fault])?;
         }
-        assemble_on(&tree, &self.known_roads).map_err(|faults| faults.into_iter().map(in_run).collect())
+        assemble_on(&tree, &self.known_roads)
     }
 
-    fn lay(&self, root: &mut Table, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Result<(), Fault> {
-        let at = |value: TomlValue| TomlNode { place: self.place.clone(), value };
-        if let Some(jitter) = self.scenarios[place.scenario].jitter {
-            for (key, value) in [("position_m", jitter.position_m), ("speed_mps", jitter.speed_mps)] {
-                path_of(&format!("start_jitter.{key}"), &self.place)?.lay(root, &at(TomlValue::Float(value)))?;
-            }
-        }
+    fn lay<'a>(
+        &self,
+        root: &mut Table,
+        place: &Indices,
+        assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
+    ) -> Result<(), Fault> {
         let seed = TomlValue::Integer(i128::from(self.seed + place.draw));
-        path_of("seed", &self.place)?.lay(root, &at(seed))?;
-        self.changes.lay(root)?;
-        self.styles[place.style].lay(root)?;
-        self.planner(place).lay(root)?;
-        for (index, (factor, value)) in self.values(place).enumerate() {
-            let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value);
-            factor.path.lay(root, other.unwrap_or(&value))?;
-        }
-        Ok(())
-    }
-
-    /// The same fault, with the run in which it shows. What is wrong with a scenario once values vary is blamed on these values.
-    fn in_run(&self, fault: Fault, place: &Indices, instead: Option<&(usize, TomlNode)>) -> Fault {
-        let scenario = &self.scenarios[place.scenario].named.name;
-        let (style, planner) = (&self.styles[place.style].name, &self.planner(place).name);
-        let run = format!("in the runs of `{scenario}` with the style `{style}` and the planner `{planner}`");
-        let values: Vec<String> = self
-            .values(place)
-            .enumerate()
-            .map(|(index, (factor, value))| {
-                let other = instead.filter(|(other, _)| *other == index).map(|(_, value)| value);
-                format!("`{} = {}`", factor.path.written(), other.unwrap_or(&value).to_json())
-            })
-            .collect();
-        let varied = instead.map_or(0, |(index, _)| *index);
-        match self.factors(place.style).nth(varied) {
-            Some(factor) if fault.file() != Some(&self.name) => {
-                fault.moved_to(&factor.place).within(&format!("{run}, at {}", values.join(", ")))
-            }
-            _ => fault.within(&run),
-        }
-    }
-
-    /// What is wrong with the plan's arms and with the values at the ends of what can be drawn. It stops at the first
-    /// combination of scenario, style and planner in which something is.
-    pub(super) fn check_extremes(&self) -> Vec<Fault> {
-        for scenario in 0..self.scenarios.len() {
-            for style in 0..self.styles.len() {
-                for planner in 0..self.planner_count(scenario) as usize {
-                    let place = Indices { scenario, style, planner, cell: 0, draw: 0 };
-                    let mut faults = self.assembled(&place, None).err().unwrap_or_default();
-                    if faults.is_empty() {
-                        let extremes = self.factors(style).enumerate().flat_map(|(index, factor)| {
-                            factor.extremes(MAX_LISTED).into_iter().map(move |value| (index, value))
-                        });
-                        faults.extend(extremes.filter_map(|one| self.assembled(&place, Some(one)).err()).flatten());
-                    }
-                    if !faults.is_empty() {
-                        return faults;
-                    }
-                }
-            }
-        }
-        Vec::new()
+        path_of("seed", &self.place)?.lay(root, &TomlNode { place: self.place.clone(), value: seed })?;
+        assignments.into_iter().try_for_each(|assignment| assignment.lay(root))
     }
 }
-
-/// How many values of a list are checked as extremes; every value that is run is checked besides.
-const MAX_LISTED: usize = 100;

@@ -11,6 +11,7 @@ use super::arm::Arm;
 use super::factor::{DrawSettings, factors};
 use super::names::{NamedScenario, find};
 use super::plan::{PlannedScenario, SweepPlan};
+use super::samples;
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::load;
 use crate::overrides::settings_of;
@@ -50,7 +51,7 @@ impl SweepPlan {
     /// Whatever is wrong with it, each error located.
     pub fn load(name_or_path: &str, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
         if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == name_or_path) {
-            return SweepPlan::from_text(name, &with_samples(text, samples), Path::new(""));
+            return SweepPlan::with_samples(name, text, Path::new(""), samples);
         }
         let refused = |fault: Fault| LoadError::of_plan(name_or_path, vec![fault]);
         let path = Path::new(name_or_path);
@@ -63,7 +64,7 @@ impl SweepPlan {
             ))));
         }
         let (_, text) = Source::File(path.to_owned()).read(0).map_err(refused)?;
-        SweepPlan::from_text(name_or_path, &with_samples(&text, samples), path.parent().unwrap_or(Path::new("")))
+        SweepPlan::with_samples(name_or_path, &text, path.parent().unwrap_or(Path::new("")), samples)
     }
 
     /// The plan of a text that errors call `name`; paths in it are relative to `folder`.
@@ -71,20 +72,18 @@ impl SweepPlan {
     /// # Errors
     /// As [`SweepPlan::load`].
     pub fn from_text(name: &str, text: &str, folder: &Path) -> Result<SweepPlan, LoadError> {
+        SweepPlan::with_samples(name, text, folder, None)
+    }
+
+    fn with_samples(name: &str, text: &str, folder: &Path, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
         let document = Document::new(name, text, 0);
         let place = Place::new(&document, 0..0);
-        let plan = tree::parse(&document, text).and_then(|tree| read(name, text, place, &tree, folder));
+        let plan = tree::parse(&document, text).and_then(|mut tree| {
+            let replaced = samples.map(|samples| samples::replace(&mut tree, text, samples));
+            read(name, replaced.as_deref().unwrap_or(text), place, &tree, folder)
+        });
         plan.map_err(|faults| LoadError::of_plan(name, faults))
     }
-}
-
-/// The text of a plan with another number of samples: its own line for that, if there is one, becomes a comment. The new line
-/// comes first, since at the end it would belong to a table.
-fn with_samples(text: &str, samples: Option<u64>) -> String {
-    let Some(samples) = samples else { return text.to_owned() };
-    let own = |line: &str| line.split_once('=').is_some_and(|(key, _)| key.trim() == "samples");
-    let lines = text.lines().map(|line| if own(line) { format!("# {line}\n") } else { format!("{line}\n") });
-    std::iter::once(format!("samples = {samples}\n")).chain(lines).collect()
 }
 
 fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) -> Result<SweepPlan, Vec<Fault>> {
@@ -111,16 +110,25 @@ fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) ->
         samples: file.samples,
         seed: file.seed,
         place,
+        jitter_place: tree.at("jitter").map(|node| node.place.clone()),
         known_roads: KnownRoads::default(),
     };
+    refuse(plan.conflicts())?;
     let named = scenarios(tree, folder)?;
     refuse_too_many(plan.count_for(named.len()), file.max_runs, tree)?;
-    let read = |named| planned(named, file.jitter, file.counterfactuals);
+    let jitter = file.jitter.zip(tree.at("jitter").map(|node| &node.place));
+    let read = |named| planned(named, jitter, file.counterfactuals);
     plan.scenarios = named.into_iter().map(read).collect::<Result<_, _>>()?;
     refuse_too_many(plan.count(), file.max_runs, tree)?;
     refuse_equal_names(&plan, tree)?;
-    let faults = plan.check_extremes();
-    if faults.is_empty() { Ok(plan) } else { Err(faults) }
+    refuse_seeded_counterfactuals(&plan, tree)?;
+    refuse(plan.idle_deadlines())?;
+    refuse(plan.check_extremes())?;
+    Ok(plan)
+}
+
+fn refuse(faults: Vec<Fault>) -> Result<(), Vec<Fault>> {
+    if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
 /// The entries of a list of arms; without any, everything as written.
@@ -189,6 +197,20 @@ fn refuse_equal_names(plan: &SweepPlan, tree: &TomlNode) -> Result<(), Vec<Fault
     Err(vec![Fault::at(place, "could not be told apart", message).help("give the planner another `name`")])
 }
 
+/// The seed of a run follows from its sample, and a counterfactual that sets its own would be one run in all of them.
+fn refuse_seeded_counterfactuals(plan: &SweepPlan, tree: &TomlNode) -> Result<(), Vec<Fault>> {
+    let is_seeded = |arm: &&Arm| arm.settings().iter().any(|(path, _)| path.written() == "seed");
+    let seeded = plan.scenarios.iter().find_map(|scenario| {
+        let counterfactual = scenario.counterfactuals.iter().find(is_seeded)?;
+        Some((&scenario.named.name, &counterfactual.name))
+    });
+    let Some((scenario, name)) = seeded else { return Ok(()) };
+    let message = format!("{} has a counterfactual {} that sets the seed", quoted(scenario), quoted(name));
+    let place = tree.at("counterfactuals").map_or(&tree.place, |node| &node.place);
+    let help = "the seed of a run follows from its sample; `interplay run` runs this counterfactual as it is";
+    Err(vec![Fault::at(place, "one run in all samples", message).help(help)])
+}
+
 fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(), Vec<Fault>> {
     if count.is_some_and(|count| count <= most) {
         return Ok(());
@@ -203,7 +225,7 @@ fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(),
 /// Reads a scenario and what it extends. Its counterfactuals are a part of a plan that asks for them.
 fn planned(
     named: NamedScenario,
-    jitter: Option<StartJitter>,
+    jitter: Option<(StartJitter, &Place)>,
     with_counterfactuals: bool,
 ) -> Result<PlannedScenario, Vec<Fault>> {
     let mut tree = load::tree(&named.source).map_err(|error| error.faults().to_vec())?;
@@ -212,13 +234,17 @@ fn planned(
         root.remove("counterfactual");
     }
     let scenario = load::assemble(&tree)?;
+    if let Some((_, place)) = jitter.filter(|_| scenario.vehicles.is_empty()) {
+        let message = format!("{} has no vehicles, so `jitter` has no start to change", quoted(&named.name));
+        return Err(vec![Fault::at(place, "no vehicle starts", message)]);
+    }
     let scale = scenario.vehicles.first().map_or(1.0, |vehicle| vehicle.body.scale);
     let scaled = |jitter: StartJitter| StartJitter {
         position_m: jitter.position_m * scale,
         speed_mps: jitter.speed_mps * scale.sqrt(),
     };
     let canonical = format!("{}{}", tree.to_json(), weather(&scenario));
-    Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(scaled), counterfactuals })
+    Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(|(jitter, _)| scaled(jitter)), counterfactuals })
 }
 
 /// The counterfactuals of a scenario as planners.

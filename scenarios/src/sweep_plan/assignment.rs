@@ -1,0 +1,90 @@
+//! One change that a plan makes to a scenario.
+
+use std::borrow::Cow;
+
+use crate::error::{Fault, Place};
+use crate::overrides::{SettingPath, lay_planner};
+use crate::start_jitter::StartJitter;
+use crate::tree::{Table, TomlNode, TomlValue};
+
+/// A setting of a scenario, or the driver of its ego, and the value that a plan gives it.
+#[derive(Clone)]
+pub(super) struct Assignment<'a> {
+    /// The path; none for the kind of driver of the ego.
+    path: Option<Cow<'a, SettingPath>>,
+    value: Cow<'a, TomlNode>,
+    /// Whether the value differs from run to run.
+    pub is_varied: bool,
+}
+
+impl<'a> Assignment<'a> {
+    /// The kind of driver of the ego.
+    pub fn driver(kind: &'a TomlNode) -> Assignment<'a> {
+        Assignment { path: None, value: Cow::Borrowed(kind), is_varied: false }
+    }
+
+    /// A setting that all runs of an arm have.
+    pub fn setting(path: &'a SettingPath, value: &'a TomlNode) -> Assignment<'a> {
+        Assignment { path: Some(Cow::Borrowed(path)), value: Cow::Borrowed(value), is_varied: false }
+    }
+
+    /// A setting that varies, with its value in one run.
+    pub fn varied(path: &'a SettingPath, value: TomlNode) -> Assignment<'a> {
+        Assignment { path: Some(Cow::Borrowed(path)), value: Cow::Owned(value), is_varied: true }
+    }
+
+    /// The random change of the starts, stated at a place.
+    pub fn of_jitter(jitter: StartJitter, place: &Place) -> Vec<Assignment<'a>> {
+        let amounts = [("start_jitter.position_m", jitter.position_m), ("start_jitter.speed_mps", jitter.speed_mps)];
+        let assignment = |(path, amount)| {
+            let value = TomlNode { place: place.clone(), value: TomlValue::Float(amount) };
+            let path = path_of(path, place).ok()?;
+            Some(Assignment { path: Some(Cow::Owned(path)), value: Cow::Owned(value), is_varied: false })
+        };
+        amounts.into_iter().filter_map(assignment).collect()
+    }
+
+    /// Lays the value over a scenario.
+    pub fn lay(&self, root: &mut Table) -> Result<(), Fault> {
+        let Some(path) = &self.path else {
+            if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list()) {
+                let message = "the scenario has no vehicles, so a planner has nothing to drive";
+                return Err(Fault::at(&self.value.place, "no vehicle to drive", message));
+            }
+            return lay_planner(root, self.value.clone().into_owned());
+        };
+        path.lay(root, &self.value)
+    }
+
+    /// Where the value is written.
+    pub fn place(&self) -> &Place {
+        &self.value.place
+    }
+
+    /// Whether the path or the value is written at a place.
+    pub fn is_written_at(&self, place: &Place) -> bool {
+        let words = self.path.iter().flat_map(|path| path.places());
+        words.chain([&self.value.place]).any(|own| own.holds(place))
+    }
+
+    /// The assignment as it would be written, numbers to six digits.
+    pub fn written(&self) -> String {
+        let path = self.path.as_ref().map_or_else(|| "planner".to_owned(), |path| path.written());
+        let value = match self.value.value {
+            TomlValue::Float(number) => rounded(number),
+            _ => self.value.to_json().to_string(),
+        };
+        format!("`{path} = {value}`")
+    }
+}
+
+/// A number to six digits, as short as it can be written.
+fn rounded(number: f64) -> String {
+    let short: f64 = format!("{number:.5e}").parse().unwrap_or(number);
+    serde_json::Value::from(short).to_string()
+}
+
+/// A path whose words are all written at one place.
+pub(super) fn path_of(path: &str, place: &Place) -> Result<SettingPath, Fault> {
+    path.split('.').try_fold(SettingPath::root(), |before, word| before.join(word, place))
+}

@@ -1,0 +1,374 @@
+//! What is said of wrong plans of many runs, and where.
+
+use std::path::Path;
+
+use interplay_scenarios::{LoadError, SweepPlan};
+
+fn read(text: &str) -> Result<SweepPlan, LoadError> {
+    SweepPlan::from_text("plan.toml", text, Path::new(""))
+}
+
+fn sound(text: &str) -> SweepPlan {
+    read(text).unwrap_or_else(|error| panic!("{text}: {:?}", error.faults()))
+}
+
+/// Each wrong plan, with the line and column of the error and what it says.
+const WRONG: &[(&str, usize, usize, &str)] = &[
+    ("planner = ['idm']\n", 1, 1, "`scenario` is missing"),
+    ("scenario = []\n", 1, 12, "must have at least 1"),
+    ("scenario = ['lane-chnge']\n", 1, 13, "no scenario, no family and no file `lane-chnge`"),
+    ("scenario = ['lane-change', 'lane-change/front-nice']\n", 1, 28, "in the plan twice"),
+    ("scenario = ['lane-change/front-nice']\nsample = 3\n", 2, 1, "unknown key `sample`"),
+    ("scenario = ['lane-change/front-nice']\nsamples = 0\n", 2, 11, "must be at least 1"),
+    ("scenario = ['lane-change/front-nice']\nplanner = ['imd']\n", 2, 12, "cannot be `imd`"),
+    ("scenario = ['lane-change/front-nice']\nplanner = ['idm', 'idm']\n", 2, 19, "two entries `idm`"),
+    ("scenario = ['lane-change/front-nice']\nstyle = ['tuff']\n", 2, 10, "no style and no kind of driver"),
+    (
+        "scenario = ['intersection/nice']\nplanner = [{ name = 'A conservative ego crosses second', kind = 'idm' }]\n\
+         counterfactuals = true\n",
+        3,
+        19,
+        "which a planner is called, too",
+    ),
+    ("scenario = ['building/tower']\nplanner = ['idm']\n", 2, 12, "no vehicles"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.sped_mps = [1.0]\n",
+        3,
+        21,
+        "unknown key `sped_mps`",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.fron.start.speed_mps = [1.0]\n",
+        3,
+        9,
+        "there is no `fron`",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = []\n", 3, 33, "must not be empty"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = 1.0\n",
+        3,
+        33,
+        "no list and no distribution",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [2, 1] }\n", 3, 26, "is empty"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [2.0, 1.0], count = 3 }\n",
+        3,
+        24,
+        "is empty",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1.0, 2.0] }\n", 3, 24, "needs a `count`"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1, 2], step = 0 }\n",
+        3,
+        24,
+        "`step` apart",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { range = [1.0, 2.0], count = 0 }\n",
+        3,
+        44,
+        "`count` must be",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { normal = { mean = 1.0, sd = 0.0 } }\n",
+        3,
+        25,
+        "above 0",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { normal = { mean = 1.0 } }\n",
+        3,
+        25,
+        "`mean` and `sd`",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { log_uniform = [0.0, 1.0] }\n", 3, 30, "above 0"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [1.0, 2.0], sd = 1 }\n",
+        3,
+        38,
+        "does not belong",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nduration_s = { uniform = [-1.0, 2.0] }\n",
+        3,
+        14,
+        "must be at least 0.001",
+    ),
+    ("scenario = ['lane-change/front-nice']\n[vary]\nseed = [1, 2]\n", 3, 1, "follows from its sample"),
+    ("scenario = ['lane-change/front-nice']\nsamples = 1000000000000\n", 2, 11, "1000000000000 runs"),
+    (
+        "scenario = ['lane-change/front-nice']\nsamples = 9223372036854775807\nplanner = ['idm', 'game', 'human']\n",
+        2,
+        11,
+        "more runs than can be counted",
+    ),
+    ("scenario = ['lane-change/front-nice']\nsamples = 2\nmax_runs = 1\n", 2, 11, "2 runs, and at most 1"),
+    // A value that the file accepts and the scenario does not: the vehicles would overlap.
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.x_m = { uniform = [-1.65, -0.3] }\n",
+        3,
+        21,
+        "overlap at the start",
+    ),
+    // One seed for all runs would make one run of all samples.
+    ("scenario = ['lane-change/front-nice']\nset = { seed = 4 }\nsamples = 3\n", 2, 9, "follows from its sample"),
+    (
+        "scenario = ['lane-change/front-nice']\n[[style]]\nname = 'x'\nset = { seed = 4 }\n",
+        4,
+        9,
+        "follows from its sample",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nplanner = [{ name = 'x', set = { 'seed' = 4 } }]\n",
+        2,
+        35,
+        "follows from its sample",
+    ),
+    ("scenario = ['lane-change/front-nice']\nset = { real_time.plan_budget_ms = 5 }\n", 2, 9, "counted by the clock"),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nreal_time.plan_budget_ms = [5, 9]\n",
+        3,
+        11,
+        "counted by the clock",
+    ),
+    // What a set value breaks is blamed on it, with and without values that vary.
+    (
+        "scenario = ['lane-change/front-nice']\nset = { duration_s = 0.5 }\n",
+        2,
+        22,
+        "is not before the end of the run at 0.5 s",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nset = { duration_s = 0.5 }\n[vary]\nvehicle.front.start.speed_mps = [1.0, 1.1]\n",
+        2,
+        22,
+        "is not before the end of the run at 0.5 s",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nset = { step_s = 0.1 }\n[[style]]\nname = 'short'\nset = { duration_s = 0.5 }\n",
+        5,
+        22,
+        "with the style `short`",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nplanner = [{ name = 'short', kind = 'idm', set = { duration_s = 0.5 } }]\n",
+        2,
+        65,
+        "with the style `as-written` and the planner `short`",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.y_m = 0.3 }\n[vary]\n\
+         vehicle.rear.start.speed_mps = [1.0, 1.1]\nvehicle.front.start.x_m = [-1.65, -0.35]\n",
+        5,
+        35,
+        "with `vehicle.front.start.x_m = -0.35`",
+    ),
+    // Of two changes that do not fit together it is the one that varies, or else the one that the fault is about.
+    (
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.x_m = 0.1 }\n[vary]\nvehicle.ego.start.y_m = [0.185, 0.5]\n",
+        4,
+        33,
+        "with `vehicle.ego.start.y_m = 0.5`",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nplanner = [{ name = 'x', set = { duration_s = 1.5 } }]\n[set]\n\
+         'expect.completes.ego.after_s' = 2.0\n",
+        4,
+        34,
+        "is not before the end of the run",
+    ),
+    // Misspelt distributions.
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { unifrom = [1.0, 1.2] }\n",
+        3,
+        35,
+        "`unifrom` is no distribution",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = { mean = 1.0, sd = 0.1 }\n",
+        3,
+        35,
+        "`mean` is no distribution",
+    ),
+    (
+        "scenario = ['intersection/nice']\n[vary]\n'vehicle.*.driver.safety_weight' = { lognormal = [1.0, 1.2] }\n",
+        3,
+        38,
+        "`lognormal` is no distribution",
+    ),
+    // What concerns vehicles, of a building.
+    ("scenario = ['building/tower']\nstyle = ['nice']\n", 2, 10, "no vehicles"),
+    ("scenario = ['building/tower']\nset = { 'vehicle.*.driver.kind' = 'idm' }\n", 2, 18, "no vehicles"),
+    (
+        "scenario = ['building/tower']\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
+        2,
+        10,
+        "`building/tower` has no vehicles, so `jitter`",
+    ),
+    // What is stated twice.
+    (
+        "scenario = ['lane-change/front-nice']\nset = { horizon_steps = 20 }\n[vary]\nhorizon_steps = [20, 25]\n",
+        2,
+        9,
+        "is set here, and varies",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nplanner = ['as-written', 'idm']\n[vary]\nvehicle.ego.driver.kind = ['game', 'human']\n",
+        2,
+        26,
+        "is set here, and varies",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nstyle = ['nice']\n[vary]\nvehicle.'*'.driver.style = ['nice', 'tough']\n",
+        2,
+        10,
+        "is set here, and varies",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[[style]]\nname = 'x'\nvary = { horizon_steps = [20, 25] }\n[vary]\nhorizon_steps = [20, 25]\n",
+        4,
+        10,
+        "varies in all runs and with this style",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\njitter = { position_m = 0.1, speed_mps = 0.1 }\nset = { start_jitter = { position_m = 0.2 } }\n",
+        3,
+        9,
+        "`start_jitter` is laid over it",
+    ),
+];
+
+#[test]
+fn wrong_plans_are_refused_where_they_are_wrong() {
+    let mut wrong = Vec::new();
+    for (text, line, column, words) in WRONG {
+        match read(text).err().map(|error| error.faults()[0].clone()) {
+            None => wrong.push(format!("accepted: {text}")),
+            Some(fault) => {
+                let is_there = (fault.file(), fault.line_and_column()) == (Some("plan.toml"), Some((*line, *column)));
+                if !is_there || !fault.message().contains(words) {
+                    let found = (fault.file(), fault.line_and_column(), fault.message());
+                    wrong.push(format!("{text}{found:?} and not {:?}", (line, column, words)));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// What is not a fault: values that others replace in a part of the runs only, and a deadline that is enforced.
+#[test]
+fn plans_may_set_what_some_of_their_runs_change() {
+    for text in [
+        "scenario = ['lane-change/front-nice']\nset = { horizon_steps = 20 }\n[[style]]\nname = 'a'\n[[style]]\nname = 'b'\n\
+         vary = { horizon_steps = [25, 30] }\n",
+        "scenario = ['lane-change/front-nice']\nset = { real_time.plan_budget_ms = 10 }\nplanner = ['as-written', { name = 'late', \
+         set = { real_time.deadline = 'enforced' } }]\n",
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start = { heading_rad = 0.0 } }\n[vary]\n\
+         vehicle.front.start.speed_mps = [1.0, 1.1]\n",
+        "scenario = ['lane-change/front-nice']\nseed = 4\nsamples = 3\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
+    ] {
+        sound(text);
+    }
+}
+
+/// What is wrong with the runs of a plan that can be read.
+fn refusal(plan: &SweepPlan) -> LoadError {
+    let points = (0..plan.run_count()).rev().map(|index| plan.point(index));
+    let refused = points.filter_map(|point| plan.check(&point).err());
+    plan.refusal(&refused.reduce(|all, one| all.and(one)).expect("some are refused"))
+}
+
+/// Each fault is said once, with the first run that has it and how many do.
+#[test]
+fn drawn_values_that_break_a_scenario_are_named_once() {
+    let plan = sound(
+        "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'human']\nsamples = 50\n[vary]\n\
+         vehicle.front.start.x_m = { normal = { mean = -0.35, sd = 2.0 } }\n",
+    );
+    let error = refusal(&plan);
+    let overlaps = |error: &LoadError| -> Vec<String> {
+        let messages = error.faults().iter().map(|fault| fault.message().to_owned());
+        messages.filter(|message| message.contains("`front` and `rear` overlap")).collect()
+    };
+    let [overlap] = &overlaps(&error)[..] else { panic!("{:?}", error.faults()) };
+    let points: Vec<_> = (0..plan.run_count()).map(|index| plan.point(index)).collect();
+    let refused: Vec<_> =
+        points.iter().filter(|point| plan.scenario(point).is_err_and(|error| !overlaps(&error).is_empty())).collect();
+    let value = refused[0].inputs[0].1.as_f64().expect("a number");
+    let (_, named) = overlap.split_once("`vehicle.front.start.x_m = ").expect("the value");
+    let (named, rest) = named.split_once('`').expect("a number");
+    let difference = (named.parse::<f64>().expect("a number") - value).abs();
+    assert!(difference <= 5e-6 * value.abs(), "{overlap}");
+    assert!(rest.starts_with(&format!(", sample {}: ", refused[0].sample)), "{overlap}");
+    assert!(overlap.ends_with(&format!("; {} runs have this error", refused.len())), "{overlap}");
+    assert_eq!(error.faults()[0].line_and_column(), Some((5, 21)));
+}
+
+/// A start that is moved onto another vehicle is blamed on the plan's own change of the starts.
+#[test]
+fn jitter_that_breaks_a_scenario_is_named_with_seed_and_sample() {
+    let plan = sound(
+        "scenario = ['lane-change/front-nice']\nseed = 10\njitter = { position_m = 5.0, speed_mps = 0.1 }\nsamples = 200\n\
+         set = { horizon_steps = 20 }\n[vary]\nvehicle.ego.start.speed_mps = { uniform = [1.0, 1.1] }\n",
+    );
+    for fault in refusal(&plan).faults() {
+        assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((3, 10))), "{}", fault.message());
+        let (_, named) = fault.message().split_once("`seed = ").expect("the seed");
+        let (seed, rest) = named.split_once("`, sample ").expect("the sample");
+        let (sample, _) = rest.split_once(": ").expect("a number");
+        let [seed, sample] = [seed, sample].map(|number| number.parse::<u64>().expect("a number"));
+        assert_eq!(seed, 10 + sample);
+    }
+}
+
+/// A counterfactual with a seed of its own would be the same run in every sample.
+#[test]
+fn a_counterfactual_that_sets_the_seed_is_no_planner_of_a_plan() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let scenario = "extends = 'intersection/nice'\n[[counterfactual]]\nname = 'seeded'\nset = { seed = 4 }\n\
+                    expect = { order = ['ego', 'turning'] }\n";
+    std::fs::write(folder.path().join("own.toml"), scenario).expect("a scratch file");
+    let read = |more: &str| {
+        let text = format!("scenario = ['own.toml']\nsamples = 3\n{more}");
+        SweepPlan::from_text("plan.toml", &text, folder.path())
+    };
+    let sound = read("");
+    assert!(sound.is_ok(), "{:?}", sound.err().map(|error| error.faults().to_vec()));
+    let error = read("counterfactuals = true\n").err().expect("refused");
+    let fault = &error.faults()[0];
+    assert!(fault.message().contains("`seeded` that sets the seed"), "{}", fault.message());
+    assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((3, 19))));
+}
+
+/// Another number of samples changes no place, and is found however the plan writes its own.
+#[test]
+fn another_number_of_samples_changes_only_this_number() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let path = folder.path().join("plan.toml");
+    let name = path.to_str().expect("a path");
+    let load = |text: &str, samples| {
+        std::fs::write(&path, text).expect("a scratch file");
+        SweepPlan::load(name, Some(samples))
+    };
+    for (text, said) in [
+        (
+            "scenario = ['intersection/nice']\n\"samples\" = 0x3 # ours\n",
+            "scenario = ['intersection/nice']\n\"samples\" = 7 # ours\n",
+        ),
+        (
+            "title = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']",
+            "samples = 7 # --samples\ntitle = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']",
+        ),
+    ] {
+        let plan = load(text, 7).unwrap_or_else(|error| panic!("{text}: {:?}", error.faults()));
+        assert_eq!((plan.run_count(), plan.text()), (7, said));
+        assert_eq!(read(plan.text()).map(|plan| plan.run_count()).ok(), Some(7));
+    }
+    let refused = |text: &str, samples| load(text, samples).err().expect("wrong").faults()[0].clone();
+    let fault = refused("scenario = ['intersection/nice']\nplanner = ['imd']\n", 7);
+    assert_eq!((fault.file(), fault.line_and_column()), (Some(name), Some((2, 12))));
+    let fault = refused("scenario = ['intersection/nice']\nsamples = 1\n", 5_000_000);
+    assert_eq!((fault.file(), fault.line_and_column()), (Some("--samples"), Some((1, 1))));
+}
