@@ -1,5 +1,7 @@
 //! What a thermal network may have beyond the measured temperatures of its zones.
 
+use crate::identify::settings::HiddenTemperature;
+
 /// A hidden node that a model has beyond the measured one; all zones to which it can apply have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum HiddenNode {
@@ -20,7 +22,25 @@ pub(super) enum Extension {
     Sun(HiddenNode),
 }
 
+impl HiddenNode {
+    /// Which kind of hidden temperature it has.
+    pub fn kind(self) -> HiddenTemperature {
+        match self {
+            Self::Wall(_) => HiddenTemperature::Wall,
+            Self::Interior => HiddenTemperature::Interior,
+            Self::Heater => HiddenTemperature::Heater,
+        }
+    }
+}
+
 impl Extension {
+    /// The hidden node that it is, or that it gives sun to.
+    pub fn hidden(self) -> HiddenNode {
+        match self {
+            Self::Node(hidden) | Self::Sun(hidden) => hidden,
+        }
+    }
+
     /// The hidden node, if it is one.
     pub fn node(&self) -> Option<HiddenNode> {
         match self {

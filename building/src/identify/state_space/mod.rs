@@ -61,7 +61,7 @@ pub(super) fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Re
     if rows < wanted {
         return Err(IdentifyError::TooFewRows { rows, parameters, wanted });
     }
-    let choice = selection::choose(telemetry, &train, settings.most_states).ok_or(IdentifyError::NotFinite)?;
+    let choice = selection::choose(telemetry, &train, settings).ok_or(IdentifyError::NotFinite)?;
     StateSpaceFindings { telemetry, settings, split: &split, train: &train, all: &all, choice: &choice }
         .identification()
 }

@@ -14,6 +14,7 @@ use super::starts::Guess;
 use super::structure::Structure;
 use crate::identify::diagnostics::survival;
 use crate::identify::report::ModelRow;
+use crate::identify::settings::IdentifySettings;
 use crate::identify::telemetry::Telemetry;
 
 /// Level of the likelihood-ratio test.
@@ -44,8 +45,13 @@ pub(super) struct Choice {
     pub table: Vec<ModelRow>,
 }
 
-/// Chooses among models with at most `most_states` states a zone; `None` where no start has a likelihood.
-pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_states: usize) -> Option<Choice> {
+/// Chooses among models with the kinds of hidden temperatures and the most states a zone of `settings`; `None` where no start has a
+/// likelihood.
+pub(super) fn choose(
+    telemetry: &Telemetry,
+    observations: &Observations,
+    settings: &IdentifySettings,
+) -> Option<Choice> {
     let guess = Guess::new(telemetry);
     let smallest = Structure::new(telemetry, &[]);
     let starts = guess.of_smallest(telemetry, &smallest);
@@ -54,7 +60,8 @@ pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_st
     let mut chosen_row = 0;
     let mut known = vec![chosen.clone()];
     loop {
-        let left = chosen.structure.candidates(telemetry);
+        let mut left = chosen.structure.candidates(telemetry);
+        left.retain(|extension| settings.hidden.contains(&extension.hidden().kind()));
         let larger: Vec<Option<Fit>> =
             left.par_iter().map(|&added| extended(telemetry, &guess, (&chosen, &known), added, observations)).collect();
         let mut tried: Vec<(usize, Fit)> = Vec::new();
@@ -64,7 +71,7 @@ pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_st
         }
         known.extend(tried.iter().map(|(_, fit)| fit.clone()));
         let by_criterion = |a: &&(usize, Fit), b: &&(usize, Fit)| criterion(&a.1).total_cmp(&criterion(&b.1));
-        let is_allowed = |fit: &&(usize, Fit)| fit.1.structure.order() <= most_states;
+        let is_allowed = |fit: &&(usize, Fit)| fit.1.structure.order() <= settings.most_states;
         let best = tried.iter().filter(is_allowed).max_by(by_criterion);
         match best.filter(|(index, _)| table[*index].gain.is_some_and(|(_, p_value)| p_value < LEVEL)) {
             Some((index, best)) => (chosen, chosen_row) = (best.clone(), *index),
