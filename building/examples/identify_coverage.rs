@@ -7,7 +7,7 @@
 //!
 //! The first argument is the number of houses of each kind; the second one, if there is one, the number of the first house
 //! (0), and the third one the only kind. A fourth kind is heated and mild all the time alike, so that its data say next to
-//! nothing of the capacity. The houses are simulated in steps of six seconds; telemetry is sampled every 5 to 60 minutes.
+//! nothing of the capacity. In two more kinds 30 to 100 % of the sun fall on the wall, or on the interior mass. The houses are simulated in steps of six seconds; telemetry is sampled every 5 to 60 minutes.
 
 #![allow(clippy::print_stdout, reason = "this is a program: its results go to standard output")]
 
@@ -31,6 +31,10 @@ enum Kind {
     WallAndInterior,
     /// As `Wall`, but heated by a constant power in weather that does not change.
     Silent,
+    /// As `Wall`, with sun on the wall.
+    SunnyWall,
+    /// As `WallAndInterior`, with sun on the interior mass.
+    SunnyInterior,
 }
 
 /// True parameters [kJ/K], [kW/K], [m²].
@@ -43,6 +47,8 @@ struct House {
     outer: f64,
     interior_conductance: f64,
     aperture: f64,
+    /// Share of the sun that falls on the wall or the interior mass.
+    on_mass: f64,
     step_s: f64,
     days: usize,
 }
@@ -58,8 +64,10 @@ impl House {
         let step_s = STEPS_S[(random.uniform(0.0, 5.0) as usize).min(4)];
         let (air, wall, interior) = match kind {
             Kind::Air => (total, 0.0, 0.0),
-            Kind::Wall | Kind::Silent => (inside * total, (1.0 - inside) * total, 0.0),
-            Kind::WallAndInterior => (0.5 * inside * total, 0.6 * total, (0.4 - 0.5 * inside) * total),
+            Kind::Wall | Kind::Silent | Kind::SunnyWall => (inside * total, (1.0 - inside) * total, 0.0),
+            Kind::WallAndInterior | Kind::SunnyInterior => {
+                (0.5 * inside * total, 0.6 * total, (0.4 - 0.5 * inside) * total)
+            }
         };
         Self {
             kind,
@@ -70,6 +78,10 @@ impl House {
             outer: ua / (1.0 - share),
             interior_conductance: ua * random.uniform(4.0, 10.0),
             aperture: 10.0 * ua * random.uniform(0.5, 1.5),
+            on_mass: match kind {
+                Kind::SunnyWall | Kind::SunnyInterior => random.uniform(0.3, 1.0),
+                _ => 0.0,
+            },
             step_s,
             days: 14,
         }
@@ -77,6 +89,15 @@ impl House {
 
     fn ua(&self) -> f64 {
         self.inner * self.outer / (self.inner + self.outer)
+    }
+
+    /// What reaches the air of the sun in a steady state, as an aperture.
+    fn effective_aperture(&self) -> f64 {
+        let lost = match self.kind {
+            Kind::SunnyWall => self.on_mass * self.outer / (self.inner + self.outer),
+            _ => 0.0,
+        };
+        self.aperture * (1.0 - lost)
     }
 
     fn capacity(&self) -> f64 {
@@ -162,9 +183,10 @@ impl House {
             let sun = sun_kw[row] + part * (sun_kw[next] - sun_kw[row]);
             // White heat of `disturbance_kw` in hourly means.
             let noise = random.normal(0.0, disturbance_kw * libm::sqrt(60.0));
-            let gains = heat_kw[row] + self.aperture * sun + noise;
+            let on_mass = self.on_mass * self.aperture * sun;
+            let gains = heat_kw[row] + (self.aperture * sun - on_mass) + noise;
             for _ in 0..SUBSTEPS {
-                [air, wall, interior] = self.next([air, wall, interior], gains, outdoor);
+                [air, wall, interior] = self.next([air, wall, interior], (gains, on_mass), outdoor);
             }
         }
         measured
@@ -173,18 +195,19 @@ impl House {
 
 impl House {
     /// Temperatures of air, wall and interior mass after a part of a minute, by Euler's method.
-    fn next(&self, [air, wall, interior]: [f64; 3], gains_kw: f64, outdoor: f64) -> [f64; 3] {
+    fn next(&self, [air, wall, interior]: [f64; 3], (gains_kw, on_mass_kw): (f64, f64), outdoor: f64) -> [f64; 3] {
         let step_s = 60.0 / f64::from(SUBSTEPS);
         let to_wall = match self.kind {
             Kind::Air => self.ua() * (air - outdoor),
             _ => self.inner * (air - wall),
         };
         let to_interior = if self.interior > 0.0 { self.interior_conductance * (air - interior) } else { 0.0 };
+        let (on_wall_kw, on_interior_kw) = if self.interior > 0.0 { (0.0, on_mass_kw) } else { (on_mass_kw, 0.0) };
         let change = |heat_kw: f64, capacity: f64| if capacity > 0.0 { step_s * heat_kw / capacity } else { 0.0 };
         [
             air + change(gains_kw - to_wall - to_interior, self.air),
-            wall + change(to_wall - self.outer * (wall - outdoor), self.wall),
-            interior + change(to_interior, self.interior),
+            wall + change(to_wall + on_wall_kw - self.outer * (wall - outdoor), self.wall),
+            interior + change(to_interior + on_interior_kw, self.interior),
         ]
     }
 }
@@ -197,14 +220,18 @@ struct Outcome {
     interval: (Option<f64>, Option<f64>),
     confidence: Confidence,
     states: usize,
+    /// Whether the chosen model has sun on a mass.
+    sunlit: bool,
 }
 
 fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
-    let states = report.models.iter().find(|model| model.chosen).map_or(0, |model| model.states);
+    let chosen = report.models.iter().find(|model| model.chosen);
+    let states = chosen.map_or(0, |model| model.states);
+    let sunlit = chosen.is_some_and(|model| model.model.contains("sun on"));
     let truths = [
         ("heat capacity", house.capacity()),
         ("conductance to outdoor", house.ua()),
-        ("aperture to the sun", house.aperture),
+        ("aperture to the sun", house.effective_aperture()),
     ];
     truths
         .into_iter()
@@ -217,6 +244,7 @@ fn outcomes(house: &House, report: &IdentificationReport) -> Vec<Outcome> {
                 interval: found.interval,
                 confidence: found.verdict.confidence,
                 states,
+                sunlit,
             })
         })
         .collect()
@@ -231,6 +259,8 @@ fn main() {
         (2, Kind::Wall, "two states"),
         (3, Kind::WallAndInterior, "three states"),
         (4, Kind::Silent, "two states, silent"),
+        (5, Kind::SunnyWall, "two states, sun on the wall"),
+        (6, Kind::SunnyInterior, "three states, sun on the interior mass"),
     ] {
         if only.as_deref().is_some_and(|only| only != name) {
             continue;
@@ -261,7 +291,8 @@ fn print_kind(name: &str, found: &[Outcome]) {
     let houses = found.iter().filter(|outcome| outcome.quantity == "heat capacity");
     let states: Vec<usize> =
         (1..=3).map(|states| houses.clone().filter(|house| house.states == states).count()).collect();
-    println!("{name}: {} houses; 1, 2, 3 states chosen {states:?}", houses.count());
+    let sunlit = houses.clone().filter(|house| house.sunlit).count();
+    println!("{name}: {} houses; 1, 2, 3 states chosen {states:?}, sun on a mass in {sunlit}", houses.count());
     for quantity in ["heat capacity", "conductance to outdoor", "aperture to the sun"] {
         let of: Vec<&Outcome> = found.iter().filter(|outcome| outcome.quantity == quantity).collect();
         let bounded: Vec<&&Outcome> =

@@ -114,11 +114,13 @@ fn walls_that_store_heat_belong_to_a_zone() {
     let walls = [
         Wall::new("a", "b", 40.0).with_capacity_kj_per_k(900.0),
         Wall::new("b", "c", 60.0),
-        Wall::new("a", AMBIENT, 30.0).with_capacity_kj_per_k(1500.0),
+        Wall { solar_aperture_m2: 2.0, ..Wall::new("a", AMBIENT, 30.0).with_capacity_kj_per_k(1500.0) },
         Wall::new("c", AMBIENT, 35.0),
     ];
     let model = Model::euler(&Network::new(&zones, &walls).expect("valid"), 900.0).expect("stable");
-    let day = Disturbance { ambient_c: vec![31.0; STEPS], gains_kw: vec![0.3; 3 * STEPS] };
+    // The sun falls on the wall of zone a.
+    let gains_kw = [0.3, 0.3, 0.3, 0.0, 0.8].repeat(STEPS);
+    let day = Disturbance { ambient_c: vec![31.0; STEPS], gains_kw };
     let targets = chapter_5(vec![23.0], 3);
     let settings = DistributedSettings { compare: true, ..DistributedSettings::default() };
     let (_, exchange) = exchange(settings, &model, &targets, &day);

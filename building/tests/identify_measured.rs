@@ -60,8 +60,9 @@ fn the_heated_house_has_its_conductance_and_capacity() {
     let report = report(&mapping, "inputPRBS1.csv", &table);
     let conductance = quantity(&report, 0, "conductance to outdoor").value.expect("determined");
     assert!((conductance - 0.18).abs() < 0.02, "{conductance}");
-    let capacity = quantity(&report, 0, "heat capacity").value.expect("determined");
-    assert!((capacity / 14_000.0 - 1.0).abs() < 0.15, "{capacity}");
+    // Six days do not say how much of the sun falls on the inner mass, nor therefore how heavy that is.
+    let (low, high) = quantity(&report, 0, "heat capacity").interval;
+    assert!(low.is_some_and(|low| low < 14_000.0) && high.is_some_and(|high| high > 14_000.0), "{low:?} {high:?}");
     let free_run_k = report.zones[0].train.free_run.errors_k[0].1.expect("runs");
     assert!(free_run_k < 0.8, "{free_run_k}");
 }

@@ -1,5 +1,6 @@
 //! Zones and walls: what they become, what is refused, what is remarked upon.
 
+use interplay_building::discretise::Model;
 use interplay_building::network::{AMBIENT, Network, NetworkError, Part, PowerLimits, Remark, Wall, Zone};
 
 fn zones(names: &[&str]) -> Vec<Zone> {
@@ -146,5 +147,26 @@ fn zones_and_walls_are_read_with_units_in_the_names() {
     assert_eq!(network.capacities_kj_per_k(), [1000.0, 800.0, 400.0]);
     assert_eq!(*network.limits(), PowerLimits::symmetric(&[2.0, 3.0]));
     assert_eq!(network.solar_gains_kw(500.0), [0.0, 1.0]);
+    assert_eq!(network.gain_count(), 2);
     assert!(toml::from_str::<Zone>("name = 'a'\nlimit = 2.0").is_err(), "a key without its unit is unknown");
+}
+
+#[test]
+fn sun_falls_on_walls_that_store_heat_and_on_no_others() {
+    let massless = Wall { solar_aperture_m2: 1.5, ..Wall::new("a", AMBIENT, 8.0) };
+    let wall = Wall { mass_position: Some(0.25), ..massless.clone() }.with_capacity_kj_per_k(500.0);
+    let error = Network::new(&zones(&["a"]), std::slice::from_ref(&massless)).expect_err("no heat is stored");
+    assert_eq!(place(&error), (Some(Part::Wall(0)), "solar_aperture_m2".to_owned()));
+    let network = Network::new(&zones(&["a"]), std::slice::from_ref(&wall)).expect("valid");
+    assert_eq!((network.gain_count(), network.solar_gains_kw(400.0)), (2, vec![0.0, 0.6]));
+    // In a steady state no heat passes between wall and room, and 0.6 kW leave through three quarters of 8 K/kW.
+    let mut nodes_c = vec![10.0; 2];
+    let model = Model::exact(&network, 900.0).expect("a step");
+    for _ in 0..10_000 {
+        let before_c = nodes_c.clone();
+        let balance = model.step_balanced(&mut nodes_c, &[0.0], 10.0, &network.solar_gains_kw(400.0));
+        assert!((balance.heat_in_kwh - 0.15).abs() < 1e-12);
+        assert!((balance.lost_kwh + balance.stored_kwh - balance.heat_in_kwh).abs() < 1e-9, "{before_c:?}");
+    }
+    assert!(nodes_c.iter().all(|node_c| (node_c - 13.6).abs() < 1e-9), "{nodes_c:?}");
 }

@@ -173,3 +173,41 @@ fn what_cannot_be_planned_is_refused() {
     let error = optimum(&large, &vec![25.0; network.node_count()], &targets, &day, None).expect_err("too large");
     assert!(matches!(error, ControlError::TooLarge { .. }), "{error}");
 }
+
+/// Sun on a wall does what some heat of the zones would do, G⁻¹ of the temperatures that it makes; designs that know either are
+/// one and the same.
+#[test]
+fn sun_on_a_wall_is_known_to_the_optimum_like_the_heat_of_zones_that_does_the_same() {
+    let zones = ["a", "b"].map(Zone::named).to_vec();
+    let network = |solar_aperture_m2: f64| {
+        let floor = Wall::new("a", AMBIENT, 30.0).with_capacity_kj_per_k(1500.0);
+        let inner = Wall::new("a", "b", 40.0);
+        let walls = [inner, Wall { solar_aperture_m2, ..floor }, Wall::new("b", AMBIENT, 35.0)];
+        Network::new(&zones, &walls).expect("valid")
+    };
+    let (sunny, dark) = (network(3.0), network(0.0));
+    let sunny_lifted = Lifted::new(&Model::exact(&sunny, STEP_S).expect("a step"), STEPS);
+    let dark_lifted = Lifted::new(&Model::exact(&dark, STEP_S).expect("a step"), STEPS);
+    let sun = |t: usize| if (16..34).contains(&t) { 500.0 } else { 0.0 };
+    let ambient_c = vec![5.0; STEPS];
+    let day = Disturbance {
+        ambient_c: ambient_c.clone(),
+        gains_kw: (0..STEPS).flat_map(|t| sunny.solar_gains_kw(sun(t))).collect(),
+    };
+    let initial_c = [18.0, 17.0, 12.0];
+    let dark_c = dark_lifted.free_response(&initial_c, &ambient_c, &vec![0.0; 2 * STEPS]);
+    let sunny_c = sunny_lifted.free_response(&initial_c, &ambient_c, &day.gains_kw);
+    let warmer_k: Vec<f64> = sunny_c.iter().zip(&dark_c).map(|(sunny, dark)| sunny - dark).collect();
+    assert!(warmer_k[2 * 34] > 1.0, "the sun warms: {}", warmer_k[2 * 34]);
+    assert_eq!(warmer_k[..2 * 16], [0.0; 2 * 16]);
+    let equivalent = Disturbance { ambient_c, gains_kw: dark_lifted.solve(&warmer_k) };
+    let setpoints = Setpoints { occupied_c: vec![21.0], ..Setpoints::default() };
+    let targets = targets(&setpoints, 2);
+    let penalty = Some(BandPenalty { linear: 50.0, quadratic: 50.0 });
+    let one = optimum(&sunny_lifted, &initial_c, &targets, &day, penalty).expect("solvable");
+    let other = optimum(&dark_lifted, &initial_c, &targets, &equivalent, penalty).expect("solvable");
+    assert_close(one.cost, other.cost, 1e-7);
+    assert!(one.heat_kw.iter().zip(&other.heat_kw).all(|(one, other)| (one - other).abs() < 1e-4));
+    // A day without the wall's part is no day of this building.
+    assert!(optimum(&sunny_lifted, &initial_c, &targets, &equivalent, penalty).is_err());
+}

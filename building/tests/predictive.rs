@@ -19,10 +19,11 @@ const STEP_S: f64 = 1800.0;
 const STEPS: usize = 48;
 const ZONES: usize = 2;
 
-/// Two rooms with a heavy outer wall each.
+/// Two rooms with a heavy outer wall each, which the sun falls on.
 fn building() -> Model {
     let zones = ["a", "b"].map(Zone::named);
-    let outer = |zone: &str| Wall { capacity_kj_per_k: Some(2000.0), ..Wall::new(zone, AMBIENT, 60.0) };
+    let outer =
+        |zone: &str| Wall { capacity_kj_per_k: Some(2000.0), solar_aperture_m2: 1.0, ..Wall::new(zone, AMBIENT, 60.0) };
     Model::exact(&Network::new(&zones, &[Wall::new("a", "b", 40.0), outer("a"), outer("b")]).expect("valid"), STEP_S)
         .expect("valid")
 }
@@ -37,7 +38,9 @@ fn day(more_kw: f64) -> Disturbance {
     let gain = |t: usize| if (16..38).contains(&t) { 0.3 } else { 0.0 };
     Disturbance {
         ambient_c: (0..STEPS).map(|t| 27.0 - 5.0 * hour(t).cos()).collect(),
-        gains_kw: (0..STEPS).flat_map(|t| [gain(t) + more_kw, 0.5 * gain(t) + more_kw]).collect(),
+        gains_kw: (0..STEPS)
+            .flat_map(|t| [gain(t) + more_kw, 0.5 * gain(t) + more_kw, gain(t), 0.2 * gain(t)])
+            .collect(),
     }
 }
 

@@ -43,6 +43,37 @@ fn house(test: &str) -> PathBuf {
     folder
 }
 
+/// The same folder with the sun of two clear and two dull days in turn on the wall, 1.5 m² of it.
+fn sunny_house(test: &str) -> PathBuf {
+    let folder = scratch(test);
+    let zone = Zone { capacity_kj_per_k: 0.15 * CAPACITY, ..Zone::named("house") };
+    let wall = Wall::new("house", AMBIENT, 1.0 / CONDUCTANCE).with_capacity_kj_per_k(0.85 * CAPACITY);
+    let wall = Wall { mass_position: Some(0.25), solar_aperture_m2: 1.5, ..wall };
+    let network = Network::new(&[zone], &[wall]).expect("sound");
+    let model = Model::exact(&network, STEP_S).expect("sound");
+    let mut random = Random::new(4, 9);
+    let (mut state, mut on) = (vec![20.0, 16.0], false);
+    let mut table = String::from("time,in,out,heat,sun\n");
+    for row in 0..14 * 96 {
+        let hour = f64::from(row) * STEP_S / 3600.0;
+        on ^= random.chance(STEP_S / 3600.0 / 3.0);
+        let outdoor = 5.0 + 4.0 * (hour * std::f64::consts::TAU / 24.0).sin() + 3.0 * (hour * 0.061).sin();
+        let height = ((hour % 24.0 - 7.0) * std::f64::consts::PI / 10.0).sin();
+        let clear = if hour % 96.0 < 48.0 { 700.0 } else { 100.0 };
+        let sun = if (7.0..17.0).contains(&(hour % 24.0)) { (clear * height).max(0.0) } else { 0.0 };
+        let heat = if on { 5.0 } else { 0.3 };
+        let inside = state[0] + random.normal(0.0, 0.03);
+        table.push_str(&format!("{},{inside:.4},{outdoor:.6},{heat},{sun:.3}\n", f64::from(row) * STEP_S));
+        let mut gains_kw = network.solar_gains_kw(sun);
+        gains_kw[0] += random.normal(0.0, 0.05);
+        model.step(&mut state, &[heat], outdoor, &gains_kw);
+    }
+    let solar = "solar = { column = 'sun', unit = 'w-per-m2', hold = 'zero-order' }\n";
+    fs::write(folder.join("house.csv"), table).expect("written");
+    fs::write(folder.join("house.toml"), format!("{MAPPING}{solar}")).expect("written");
+    folder
+}
+
 /// A scenario as a table.
 fn written(path: &Path) -> toml::Table {
     fs::read_to_string(path).expect("written").parse().expect("TOML")
@@ -91,4 +122,20 @@ fn no_file_is_overwritten_and_what_is_not_known_is_not_written() {
     assert_eq!(outcome.code, Some(2), "{outcome:?}");
     assert!(outcome.stdout.contains("not identifiable"), "what was found says why: {}", outcome.stdout);
     assert!(outcome.stderr.contains("no scale") && !folder.join("found.toml").exists(), "{}", outcome.stderr);
+}
+
+/// The sun is a key of the wall in the file, and a run with the file knows it.
+#[test]
+fn sun_on_a_wall_comes_back_as_sun_on_a_wall() {
+    let folder = sunny_house("identify-sun");
+    let outcome = interplay(&folder, &["identify", "house.csv", "--scenario", "found.toml"]);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(outcome.stdout.contains("sun on the wall to outdoor"), "{}", outcome.stdout);
+    let wall = &written(&folder.join("found.toml"))["building"]["wall"][0];
+    let aperture_m2 = wall["solar_aperture_m2"].as_float().expect("a number");
+    assert!((aperture_m2 / 1.5 - 1.0).abs() < 0.2, "{aperture_m2}");
+    let run =
+        ["run", "found.toml", "--no-record", "--set", "iterations=2", "--set", "controller={ kind = \"centralised\" }"];
+    let outcome = interplay(&folder, &run);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
 }

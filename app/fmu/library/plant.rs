@@ -1,11 +1,11 @@
 //! The network in its discrete form, with its weather: what the file `plant.txt` holds, and a step of it.
 //!
 //! ```text
-//! T(t+1) = A T(t) + B (u(t) + w(t)) + b T₀(t)                                      (eq. 2.16)
+//! T(t+1) = A T(t) + B (w(t) + u(t)) + b T₀(t)                                      (eq. 2.16)
 //! ```
 //!
 //! `T` are the temperatures of the nodes (zones, then walls that store heat), `u` the heat of the equipment, `w` that of people,
-//! sun and machines, and `T₀` the outdoor temperature.
+//! sun and machines (of the zones, and of the walls where the sun falls on one), and `T₀` the outdoor temperature.
 
 /// The first line of the file.
 pub const HEADER: &str = "interplay-plant 1";
@@ -20,16 +20,18 @@ pub struct DiscretePlant {
     /// How many zones there are.
     pub zones: usize,
     nodes: usize,
+    /// How many nodes get heat of people, sun or machines, zones first.
+    gained: usize,
     initial_c: Vec<f64>,
     /// A, row by row.
     state: Vec<f64>,
-    /// B, nodes by zones, row by row \[K/kW\].
+    /// B, nodes by nodes that get heat, row by row \[K/kW\].
     gain: Vec<f64>,
     /// b, one number per node.
     outdoor: Vec<f64>,
     /// T₀ of each step \[°C\].
     ambient_c: Vec<f64>,
-    /// w, stacked: entry t·n + i is zone i in step t \[kW\].
+    /// w, stacked: entry t·m + i is node i of the m that get any, in step t \[kW\].
     gains_kw: Vec<f64>,
     /// Temperatures of the nodes \[°C\].
     pub nodes_c: Vec<f64>,
@@ -82,12 +84,13 @@ impl DiscretePlant {
         let guid = words.next("guid")?.to_owned();
         words.expect("step_s")?;
         let step_s = words.number("step_s")?;
-        let (nodes, zones, steps) = (words.count("nodes")?, words.count("zones")?, words.count("steps")?);
-        let sizes = [nodes.checked_mul(nodes), nodes.checked_mul(zones), steps.checked_mul(zones)];
+        let (nodes, zones, gained) = (words.count("nodes")?, words.count("zones")?, words.count("gained")?);
+        let steps = words.count("steps")?;
+        let sizes = [nodes.checked_mul(nodes), nodes.checked_mul(gained), steps.checked_mul(gained)];
         let [Some(state_size), Some(gain_size), Some(gains_size)] = sizes else {
             return Err("the sizes are too large".to_owned());
         };
-        if step_s <= 0.0 || zones == 0 || zones > nodes || steps == 0 {
+        if step_s <= 0.0 || zones == 0 || zones > gained || gained > nodes || steps == 0 {
             return Err("there is no step, or no zone".to_owned());
         }
         let initial_c = words.numbers("initial_c", nodes)?;
@@ -96,6 +99,7 @@ impl DiscretePlant {
             step_s,
             zones,
             nodes,
+            gained,
             nodes_c: initial_c.clone(),
             initial_c,
             state: words.numbers("state", state_size)?,
@@ -125,10 +129,10 @@ impl DiscretePlant {
         self.ambient_c[self.step.min(self.steps() - 1)]
     }
 
-    /// w of the step that comes, or of the last one, one number per zone \[kW\].
+    /// w of the step that comes, or of the last one, one number per node that gets any, zones first \[kW\].
     pub fn gains_kw(&self) -> &[f64] {
         let step = self.step.min(self.steps() - 1);
-        &self.gains_kw[step * self.zones..(step + 1) * self.zones]
+        &self.gains_kw[step * self.gained..(step + 1) * self.gained]
     }
 
     /// Moves on by a step.
@@ -140,7 +144,8 @@ impl DiscretePlant {
             let end_s = self.step_s * self.steps() as f64;
             return Err(format!("the weather in the FMU ends at {end_s} s"));
         }
-        let net_kw: Vec<f64> = self.heat_kw.iter().zip(self.gains_kw()).map(|(heat, gains)| heat + gains).collect();
+        let mut net_kw = self.gains_kw().to_vec();
+        net_kw.iter_mut().zip(&self.heat_kw).for_each(|(net_kw, heat_kw)| *net_kw += heat_kw);
         let ambient_c = self.ambient_c();
         let row = |matrix: &[f64], node: usize, vector: &[f64]| -> f64 {
             let width = vector.len();

@@ -10,7 +10,7 @@ use interplay_building::discretise::Model;
 pub(crate) struct OutsideSeries {
     /// T₀ \[°C\].
     pub ambient_c: Vec<f64>,
-    /// w, one number per step and zone \[kW\].
+    /// w, one number per step and node that gets any \[kW\].
     pub gains_kw: Vec<f64>,
 }
 
@@ -31,11 +31,12 @@ impl OutsideSeries {
 pub(crate) fn plant(model: &Model, initial_c: f64, outside: &OutsideSeries) -> String {
     let network = model.network();
     let (nodes, zones) = (network.node_count(), network.zone_count());
-    let (state, gain) = (model.state_matrix(), model.gain_matrix());
+    let (state, gain) = (model.state_matrix(), model.disturbance_matrix());
     let mut text = String::new();
     row(&mut text, "step_s", [model.step_s()]);
     row(&mut text, "nodes", [nodes]);
     row(&mut text, "zones", [zones]);
+    row(&mut text, "gained", [network.gain_count()]);
     row(&mut text, "steps", [outside.ambient_c.len()]);
     row(&mut text, "initial_c", vec![initial_c; nodes]);
     row(&mut text, "state", state.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<f64>>()));

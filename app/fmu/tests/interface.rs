@@ -15,11 +15,11 @@ use interplay_building::network::{Network, Wall, Zone};
 const GUID: &str = "{0-0}";
 const ERROR: c_int = 3;
 
-/// Two zones and a wall that stores heat.
+/// Two zones and a wall that stores heat and gets sun.
 fn model() -> Model {
     let zones = [Zone::named("office"), Zone::named("store")];
     let walls = [
-        Wall::new("office", "store", 40.0).with_capacity_kj_per_k(900.0),
+        Wall { solar_aperture_m2: 1.0, ..Wall::new("office", "store", 40.0).with_capacity_kj_per_k(900.0) },
         Wall::new("office", "ambient", 30.0),
         Wall::new("store", "ambient", 60.0),
     ];
@@ -30,8 +30,8 @@ fn ambient_c(step: usize) -> f64 {
     10.0 + 5.0 * (step as f64).sin()
 }
 
-fn gains_kw(step: usize) -> [f64; 2] {
-    [0.1 * (step % 5) as f64, 0.03]
+fn gains_kw(step: usize) -> [f64; 3] {
+    [0.1 * (step % 5) as f64, 0.03, 0.2 * (step % 3) as f64]
 }
 
 fn line<T: ToString>(word: &str, numbers: impl IntoIterator<Item = T>) -> String {
@@ -44,10 +44,10 @@ fn resources(model: &Model, steps: usize) -> String {
     let nodes = model.network().node_count();
     let flat = |matrix: by_columns::Rows| matrix.into_iter().flatten().collect::<Vec<f64>>();
     [
-        format!("interplay-plant 1\nguid {GUID}\nstep_s 1800\nnodes {nodes}\nzones 2\nsteps {steps}\n"),
+        format!("interplay-plant 1\nguid {GUID}\nstep_s 1800\nnodes {nodes}\nzones 2\ngained 3\nsteps {steps}\n"),
         line("initial_c", vec![20.0; nodes]),
         line("state", flat(by_columns::rows(nodes, nodes, |unit| model.state_product(unit)))),
-        line("gain", flat(by_columns::rows(nodes, 2, |unit| model.gain_product(unit)))),
+        line("gain", flat(by_columns::rows(nodes, 3, |unit| model.gain_product(unit)))),
         line("outdoor", model.gain_product(model.network().ambient_kw_per_k())),
         line("ambient_c", (0..steps).map(ambient_c)),
         line("gains_kw", (0..steps).flat_map(gains_kw)),
@@ -191,6 +191,8 @@ fn spoilt_resources_are_refused() {
         sound.replace("nodes 3", "nodes 18446744073709551615"),
         sound.replace("nodes 3", "nodes 4294967295"),
         sound.replace("zones 2", "zones 0"),
+        sound.replace("gained 3", "gained 1"),
+        sound.replace("gained 3", "gained 4"),
         sound.replace("steps 3", "steps 0"),
         sound.replace("step_s 1800", "step_s -1"),
         sound.replace("initial_c 20", "initial_c NaN"),

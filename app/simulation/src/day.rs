@@ -111,10 +111,10 @@ impl DayAheadErrors {
 
 /// Temperatures of the zones that a model predicts for a day with this heat under the forecast \[°C\], stacked.
 fn predicted_c(today: &Day, believed: &Model, heat_kw: &[f64]) -> Vec<f64> {
-    let zones = believed.network().zone_count();
+    let (zones, gained) = (believed.network().zone_count(), believed.network().gain_count());
     let mut nodes_c = today.initial_c.clone();
     let mut predicted_c = Vec::with_capacity(heat_kw.len());
-    let inputs = heat_kw.chunks_exact(zones).zip(today.forecast.gains_kw.chunks_exact(zones));
+    let inputs = heat_kw.chunks_exact(zones).zip(today.forecast.gains_kw.chunks_exact(gained));
     for ((heat_kw, gains_kw), ambient_c) in inputs.zip(&today.forecast.ambient_c) {
         believed.step(&mut nodes_c, heat_kw, *ambient_c, gains_kw);
         predicted_c.extend_from_slice(&nodes_c[..zones]);

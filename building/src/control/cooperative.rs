@@ -152,7 +152,7 @@ impl LearningLaw {
         for t in 0..lifted.steps() {
             let input: Vec<f64> =
                 (0..n).map(|i| if t == 0 { 0.0 } else { gain_kw_per_k * out[(t - 1) * n + i] }).collect();
-            model.step(&mut state, &input, 0.0, &vec![0.0; n]);
+            model.step_by_heat(&mut state, &input);
             out.extend((0..n).map(|i| left[t * n + i] - state[i]));
         }
         out

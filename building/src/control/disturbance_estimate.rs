@@ -92,9 +92,9 @@ impl DisturbanceEstimator {
         self.today = None;
         ControlError::check_finite("the temperatures at midnight", day_ahead.initial_c)?;
         day_ahead.forecast.check_finite()?;
-        let (steps, size) = (self.lifted.steps(), self.lifted.size());
-        let undisturbed_c = self.lifted.free_response(day_ahead.initial_c, &vec![0.0; steps], &vec![0.0; size]);
         let forecast = day_ahead.forecast;
+        let (zero_c, zero_kw) = (vec![0.0; forecast.ambient_c.len()], vec![0.0; forecast.gains_kw.len()]);
+        let undisturbed_c = self.lifted.free_response(day_ahead.initial_c, &zero_c, &zero_kw);
         let forecast_c = self.lifted.free_response(day_ahead.initial_c, &forecast.ambient_c, &forecast.gains_kw);
         let expected_c = match (self.prediction, &self.measured_kw) {
             (DisturbancePrediction::Yesterday, Some(measured_kw)) => {

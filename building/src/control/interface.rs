@@ -3,13 +3,15 @@
 use super::design::Design;
 use super::error::ControlError;
 use crate::comfort::Targets;
+use crate::network::Network;
 
 /// What acts on a building besides its equipment, over the steps of a day.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disturbance {
     /// Outdoor temperature \[°C\], one per step.
     pub ambient_c: Vec<f64>,
-    /// Heat from people, sun and machines \[kW\], stacked time-major: entry t·n + i is zone i in step t.
+    /// Heat from people, sun and machines \[kW\], stacked time-major: entry t·m + i is node i in step t, of the m nodes that get
+    /// any ([`Network::gain_count`]): the zones, and the walls where the sun falls on one.
     pub gains_kw: Vec<f64>,
 }
 
@@ -66,10 +68,10 @@ impl Observation<'_> {
 }
 
 impl Disturbance {
-    /// Refuses a disturbance whose lengths do not fit the targets.
-    pub(crate) fn check(&self, targets: &Targets) -> Result<(), ControlError> {
+    /// Refuses a disturbance whose lengths do not fit the targets and the network.
+    pub(crate) fn check(&self, targets: &Targets, network: &Network) -> Result<(), ControlError> {
         ControlError::check_length("the outdoor temperature", self.ambient_c.len(), targets.steps())?;
-        ControlError::check_length("the heat gains", self.gains_kw.len(), targets.reference_c.len())
+        ControlError::check_length("the heat gains", self.gains_kw.len(), targets.steps() * network.gain_count())
     }
 
     /// Refuses a disturbance with a number that is not finite.

@@ -166,7 +166,7 @@ impl Control for Learning {
     fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
         let targets = day_ahead.targets;
         ControlError::check_length("the day", targets.reference_c.len(), self.lifted.size())?;
-        day_ahead.forecast.check(targets)?;
+        day_ahead.forecast.check(targets, self.lifted.model().network())?;
         self.wanted = (targets.reference_c.iter().zip(&targets.error_weight))
             .map(|(&reference_c, &weight)| (weight > 0.0).then_some(reference_c))
             .collect();

@@ -61,7 +61,7 @@ pub fn optimum(
     let nodes = lifted.model().network().node_count();
     ControlError::check_length("the targets", targets.reference_c.len(), lifted.size())?;
     ControlError::check_length("the temperatures at midnight", initial_c.len(), nodes)?;
-    disturbance.check(targets)?;
+    disturbance.check(targets, lifted.model().network())?;
     let free_c = lifted.free_response(initial_c, &disturbance.ambient_c, &disturbance.gains_kw);
     plan(lifted, &free_c, targets, penalty, &ConstraintTightening::default())
 }

@@ -2,6 +2,7 @@
 
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
 use super::{Control, ControlError, DayAhead, DayOptimum, DayRecord, Design, Observation};
+use crate::network::Network;
 
 /// Planned inputs, and the temperatures that are expected under them.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,10 +89,10 @@ impl PlanHistory {
 }
 
 /// Refuses series of another building or day.
-fn check_shapes(day_ahead: &DayAhead<'_>, nodes: usize, size: usize) -> Result<(), ControlError> {
+fn check_shapes(day_ahead: &DayAhead<'_>, network: &Network, size: usize) -> Result<(), ControlError> {
     ControlError::check_length("the day", day_ahead.targets.reference_c.len(), size)?;
-    ControlError::check_length("the temperatures at midnight", day_ahead.initial_c.len(), nodes)?;
-    day_ahead.forecast.check(day_ahead.targets)
+    ControlError::check_length("the temperatures at midnight", day_ahead.initial_c.len(), network.node_count())?;
+    day_ahead.forecast.check(day_ahead.targets, network)
 }
 
 /// A design that plans each day from the estimated disturbance, and follows the plan with feedback.
@@ -118,7 +119,7 @@ pub(super) trait PlanningDesign {
 impl<L: PlanningDesign> Control for L {
     fn start_of_day(&mut self, day_ahead: &DayAhead<'_>) -> Result<(), ControlError> {
         let lifted = self.parts().0.lifted();
-        check_shapes(day_ahead, lifted.model().network().node_count(), lifted.size())?;
+        check_shapes(day_ahead, lifted.model().network(), lifted.size())?;
         let outcome = self.plan(day_ahead);
         self.parts().1.start_day(outcome);
         Ok(())

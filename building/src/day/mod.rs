@@ -106,10 +106,10 @@ impl Day {
         Heat { requested_kw, applied_kw }
     }
 
-    /// Heat from people, sun and machines in step `step`, one number per zone \[kW\].
+    /// Heat from people, sun and machines in step `step`, one number for each node that gets any, zones first \[kW\].
     pub fn gains_kw(&self, plant: &Model, step: usize) -> &[f64] {
-        let zones = plant.network().zone_count();
-        &self.actual.gains_kw[step * zones..(step + 1) * zones]
+        let count = plant.network().gain_count();
+        &self.actual.gains_kw[step * count..(step + 1) * count]
     }
 
     /// Moves the temperatures of the nodes on by step `step`, and records it.
@@ -154,8 +154,8 @@ pub fn run_day(
     let network = plant.network();
     ControlError::check_length("the temperatures at midnight", temperatures_c.len(), network.node_count())?;
     ControlError::check_length("a row of targets", targets.zones, network.zone_count())?;
-    forecast.check(targets)?;
-    actual.check(targets)?;
+    forecast.check(targets, network)?;
+    actual.check(targets, network)?;
     let mut day = Day::new(temperatures_c.to_vec(), forecast.clone(), actual.clone());
     day.plan(controller, targets)?;
     for step in 0..targets.steps() {

@@ -44,11 +44,16 @@ impl Surroundings {
         }
     }
 
-    /// Adds the solar gains of the steps from `start_s` on to stacked gains.
-    fn with_sun(&self, mut gains_kw: Vec<f64>, model: &Model, steps: usize, start_s: f64) -> Vec<f64> {
+    /// The solar gains of the steps from `start_s` on, and the stacked gains of the zones.
+    fn with_sun(&self, zone_gains_kw: Vec<f64>, model: &Model, steps: usize, start_s: f64) -> Vec<f64> {
+        let network = model.network();
         let sun = self.weather.sun_steps_w_per_m2(start_s, model.step_s(), steps);
-        let solar_kw = sun.iter().flat_map(|sun_w_per_m2| model.network().solar_gains_kw(*sun_w_per_m2));
-        gains_kw.iter_mut().zip(solar_kw).for_each(|(gain_kw, solar_kw)| *gain_kw += solar_kw);
+        let mut gains_kw: Vec<f64> =
+            sun.iter().flat_map(|sun_w_per_m2| network.solar_gains_kw(*sun_w_per_m2)).collect();
+        let rows = gains_kw.chunks_exact_mut(network.gain_count());
+        for (row_kw, zones_kw) in rows.zip(zone_gains_kw.chunks_exact(network.zone_count())) {
+            row_kw.iter_mut().zip(zones_kw).for_each(|(gain_kw, zone_kw)| *gain_kw += zone_kw);
+        }
         gains_kw
     }
 }

@@ -178,14 +178,23 @@ impl Model {
 
     /// Moves the temperatures by one step.
     ///
-    /// `temperatures_c` has one number per node (zones first); `heat_kw` from equipment (negative when cooling) and
-    /// `gains_kw` from people, sun and machines have one per zone. Inputs are held for the step.
+    /// `temperatures_c` has one number per node (zones first), `heat_kw` from equipment (negative when cooling) one per zone, and
+    /// `gains_kw` from people, sun and machines one for each of the first [`Network::gain_count`] nodes. Inputs are held for the
+    /// step.
     ///
     /// # Panics
     /// When a slice has another length.
     pub fn step(&self, temperatures_c: &mut [f64], heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) {
         let net_kw = self.network.net_heat_kw(temperatures_c, heat_kw, ambient_c, gains_kw);
         self.advance(temperatures_c, &net_kw);
+    }
+
+    /// Like [`Model::step`] at 0 °C outdoors and without gains: what heat from equipment alone does.
+    ///
+    /// # Panics
+    /// When a slice has another length.
+    pub fn step_by_heat(&self, temperatures_c: &mut [f64], heat_kw: &[f64]) {
+        self.step(temperatures_c, heat_kw, 0.0, &vec![0.0; self.network.gain_count()]);
     }
 
     /// Like [`Model::step`], and says where the heat went.
@@ -255,9 +264,15 @@ impl Model {
         self.columns(self.network.node_count(), |unit| self.state_product(unit))
     }
 
-    /// B, nodes by zones \[K/kW\] (eq. 2.16). The columns of wall nodes are left out: nothing heats a wall directly.
+    /// B, nodes by zones \[K/kW\] (eq. 2.16). The columns of wall nodes are left out: no equipment heats a wall.
     pub fn gain_matrix(&self) -> DMatrix<f64> {
         self.columns(self.network.zone_count(), |unit| self.gain_product(unit))
+    }
+
+    /// B with a column for each node that gets heat of people, machines or sun \[K/kW\] ([`Network::gain_count`]). The first
+    /// columns are those of the zones.
+    pub fn disturbance_matrix(&self) -> DMatrix<f64> {
+        self.columns(self.network.gain_count(), |unit| self.gain_product(unit))
     }
 
     fn columns(&self, count: usize, product: impl Fn(&[f64]) -> Vec<f64>) -> DMatrix<f64> {

@@ -43,7 +43,7 @@ pub use report::{
     CrossCheck, ErrorReport, FreeRunReport, Identification, IdentificationReport, ModelRow, Quantity, ResidualReport,
     WallReport, ZoneReport, ZoneSeries,
 };
-pub use settings::{Estimator, IdentifySettings};
+pub use settings::{Estimator, HiddenTemperature, IdentifySettings};
 pub use smoothing::local_linear;
 pub use telemetry::{
     AirFlowUnit, Boundary, BoundaryColumns, ComputedColumn, DecimalSign, Gaps, HeatColumns, Hold, IrradianceUnit,

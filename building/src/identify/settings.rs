@@ -16,6 +16,10 @@ pub struct IdentifySettings {
     /// The most temperatures that `state-space` gives a zone: the measured one, and hidden ones of walls, furniture or heater.
     #[schemars(range(min = 1, max = 3))]
     pub most_states: usize,
+    /// Which kinds of hidden temperatures `state-space` tries. Leave out those that the building has not: a heater without mass, such
+    /// as a fan heater, has no temperature.
+    #[schemars(example = vec!["wall", "interior"])]
+    pub hidden: Vec<HiddenTemperature>,
     /// Bandwidth of the kernel smoother \[h\]; only `semiparametric` uses it. Wider ones let slow disturbances bias the
     /// conductances, narrower ones leave only sensor noise.
     #[schemars(range(max = 168.0))]
@@ -42,6 +46,7 @@ impl Default for IdentifySettings {
         Self {
             method: Estimator::StateSpace,
             most_states: 3,
+            hidden: vec![HiddenTemperature::Wall, HiddenTemperature::Interior, HiddenTemperature::Heater],
             bandwidth_h: 1.25,
             discretisation: discretise::Discretisation::Exact,
             autoregressive_order: 2,
@@ -66,6 +71,18 @@ pub enum Estimator {
     /// furniture with a temperature of their own, as ordinary buildings have.
     #[default]
     StateSpace,
+}
+
+/// A kind of hidden temperature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum HiddenTemperature {
+    /// Of the mass in a wall to a boundary.
+    Wall,
+    /// Of a mass that exchanges heat with the air alone: furniture, floors, inner walls.
+    Interior,
+    /// Of the heater, through which the heat comes.
+    Heater,
 }
 
 impl IdentifySettings {

@@ -60,7 +60,8 @@ impl Lifted {
 
     /// T_free: temperatures without equipment \[°C\], stacked.
     ///
-    /// `initial_c` has one number per node, `ambient_c` one per step, and `gains_kw` is stacked.
+    /// `initial_c` has one number per node, `ambient_c` one per step, and `gains_kw` is stacked, one number for each step and each
+    /// node that gets any.
     ///
     /// # Panics
     /// When a slice has another length.
@@ -75,13 +76,14 @@ impl Lifted {
     pub fn response(&self, initial_c: &[f64], heat_kw: &[f64], ambient_c: &[f64], gains_kw: &[f64]) -> Vec<f64> {
         assert_eq!(ambient_c.len(), self.steps, "one outdoor temperature per step");
         self.check(heat_kw);
-        self.check(gains_kw);
-        let n = self.zones();
+        let (n, gained) = (self.zones(), self.model.network().gain_count());
+        assert_eq!(gains_kw.len(), self.steps * gained, "stacked: one gain per step and node that gets any");
         let mut temperatures_c = initial_c.to_vec();
         let mut stacked = Vec::with_capacity(self.size());
         for (t, &ambient_c) in ambient_c.iter().enumerate() {
             let zones = t * n..(t + 1) * n;
-            self.model.step(&mut temperatures_c, &heat_kw[zones.clone()], ambient_c, &gains_kw[zones]);
+            let gains_kw = &gains_kw[t * gained..(t + 1) * gained];
+            self.model.step(&mut temperatures_c, &heat_kw[zones], ambient_c, gains_kw);
             stacked.extend_from_slice(&temperatures_c[..n]);
         }
         stacked

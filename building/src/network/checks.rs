@@ -51,7 +51,10 @@ pub(super) fn check_walls(zones: &[Zone], walls: &[Wall]) -> Result<Vec<[Option<
         let called = wall_name(index, &walls[index]);
         NetworkError::Setting { part: Part::Wall(index), called, error }
     })?;
-    Ok(ends)
+    match walls.iter().position(|wall| wall.solar_aperture_m2 > 0.0 && wall.capacity_kj_per_k.is_none()) {
+        Some(wall) => Err(NetworkError::SunWithoutMass { wall, called: wall_name(wall, &walls[wall]) }),
+        None => Ok(ends),
+    }
 }
 
 /// A wall in words, by its position from zero.

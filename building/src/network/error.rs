@@ -59,6 +59,14 @@ pub enum NetworkError {
         /// The name of the zone or `ambient`.
         name: String,
     },
+    /// The sun falls on a wall that stores no heat.
+    #[error("{called} gets sun and stores no heat: state its `capacity_kj_per_k`, or give the aperture to a zone")]
+    SunWithoutMass {
+        /// Position of the wall, from zero.
+        wall: usize,
+        /// The wall, in words.
+        called: String,
+    },
     /// A setting of a zone or a wall is out of range.
     #[error("{called}: {error}")]
     Setting {
@@ -80,7 +88,9 @@ impl NetworkError {
         match self {
             Self::NoZones | Self::Believed(_) => None,
             Self::BadName { zone, .. } | Self::DuplicateZone { zone, .. } => Some(Part::Zone(*zone)),
-            Self::UnknownZone { wall, .. } | Self::SamePlace { wall, .. } => Some(Part::Wall(*wall)),
+            Self::UnknownZone { wall, .. } | Self::SamePlace { wall, .. } | Self::SunWithoutMass { wall, .. } => {
+                Some(Part::Wall(*wall))
+            }
             Self::Setting { part, .. } => Some(*part),
         }
     }
@@ -91,6 +101,7 @@ impl NetworkError {
             Self::NoZones => None,
             Self::BadName { .. } | Self::DuplicateZone { .. } => Some("name".into()),
             Self::UnknownZone { .. } | Self::SamePlace { .. } => Some("between".into()),
+            Self::SunWithoutMass { .. } => Some("solar_aperture_m2".into()),
             Self::Setting { error, .. } | Self::Believed(error) => Some(error.key.clone()),
         }
     }

@@ -9,7 +9,7 @@
 //! C dT/dt   = −L T + k T₀ + u + w                                             (eq. 2.15)
 //! ```
 //!
-//! with heat from equipment u and from people, sun and machines w \[kW\], outdoor temperature T₀, kᵢ = 1/R₀ᵢ, and L the
+//! with heat from equipment u (zones only) and from people, sun and machines w \[kW\] (sun also on walls that store heat), outdoor temperature T₀, kᵢ = 1/R₀ᵢ, and L the
 //! conductance Laplacian of the graph plus diag(k). The source prints −L as R_T and calls it a resistance matrix; it is a
 //! matrix of conductances \[kW/K\] whose rows sum to −kᵢ. L is symmetric and positive semidefinite, so every network is
 //! stable, and all its modes are real.
@@ -49,6 +49,7 @@ pub struct Network {
     zone_count: usize,
     capacities_kj_per_k: Vec<f64>,
     limits: PowerLimits,
+    /// Of each node.
     solar_apertures_m2: Vec<f64>,
     links: Vec<Link>,
     ambient_kw_per_k: Vec<f64>,
@@ -101,6 +102,7 @@ impl Network {
         self.names.push(checks::wall_name(number, wall));
         self.capacities_kj_per_k.push(capacity_kj_per_k);
         self.ambient_kw_per_k.push(0.0);
+        self.solar_apertures_m2.push(wall.solar_aperture_m2);
         let sides = match wall.mass_position {
             None => [2.0, 2.0],
             Some(position) => [1.0 / position, 1.0 / (1.0 - position)],
@@ -148,9 +150,17 @@ impl Network {
         &self.limits
     }
 
-    /// Heat that the sun brings into each zone \[kW\], for a global radiation on a horizontal plane \[W/m²\].
+    /// How many nodes get heat of people, machines or sun: the zones, or all nodes where the sun falls on a wall that stores heat.
+    pub fn gain_count(&self) -> usize {
+        let on_walls = self.solar_apertures_m2[self.zone_count..].iter().any(|aperture_m2| *aperture_m2 > 0.0);
+        if on_walls { self.node_count() } else { self.zone_count }
+    }
+
+    /// Heat that the sun brings into each of the first [`Network::gain_count`] nodes \[kW\], for a global radiation on a
+    /// horizontal plane \[W/m²\].
     pub fn solar_gains_kw(&self, sun_w_per_m2: f64) -> Vec<f64> {
-        self.solar_apertures_m2.iter().map(|aperture_m2| aperture_m2 * sun_w_per_m2 / 1000.0).collect()
+        let apertures_m2 = &self.solar_apertures_m2[..self.gain_count()];
+        apertures_m2.iter().map(|aperture_m2| aperture_m2 * sun_w_per_m2 / 1000.0).collect()
     }
 
     /// Conductances between nodes, in the order of the walls.
@@ -197,19 +207,23 @@ impl Network {
 
     /// Heat flowing into each node, k (T₀ − T) + … + u + w \[kW\]: the right-hand side of eq. 2.15.
     ///
-    /// `temperatures_c` has one number per node; `heat_kw` (equipment) and `gains_kw` (people, sun, machines) one per zone.
+    /// `temperatures_c` has one number per node, `heat_kw` (equipment) one per zone, and `gains_kw` (people, sun, machines) one
+    /// for each of the first [`Network::gain_count`] nodes.
     ///
     /// # Panics
     /// When a slice has another length.
     pub fn net_heat_kw(&self, temperatures_c: &[f64], heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) -> Vec<f64> {
         assert_eq!(heat_kw.len(), self.zone_count, "one heat input per zone");
-        assert_eq!(gains_kw.len(), self.zone_count, "one gain per zone");
+        assert_eq!(gains_kw.len(), self.gain_count(), "one gain per zone, or per node where the sun falls on walls");
         let mut net_kw = self.conduct(temperatures_c);
         for (net_kw, k) in net_kw.iter_mut().zip(&self.ambient_kw_per_k) {
             *net_kw = k * ambient_c - *net_kw;
         }
         for (zone, (heat_kw, gains_kw)) in heat_kw.iter().zip(gains_kw).enumerate() {
             net_kw[zone] += heat_kw + gains_kw;
+        }
+        for (net_kw, gain_kw) in net_kw.iter_mut().zip(gains_kw).skip(self.zone_count) {
+            *net_kw += gain_kw;
         }
         net_kw
     }

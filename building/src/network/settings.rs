@@ -29,7 +29,8 @@ pub struct Zone {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0), example = 1.5)]
     pub cooling_limit_kw: Option<f64>,
-    /// Area of the horizontal opening that would let in as much sun as the zone's windows do \[m²\].
+    /// Area of the horizontal opening that would let in as much sun as warms the zone's air at once \[m²\]. Sun on a wall that
+    /// stores heat has a key of its own, in the wall.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub solar_aperture_m2: f64,
@@ -80,12 +81,23 @@ pub struct Wall {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.000000001, max = 0.999999999), extend("x-unit" = "dimensionless"), example = 0.3)]
     pub mass_position: Option<f64>,
+    /// Area of the horizontal opening that would let in as much sun as falls on the stored heat of the wall \[m²\]: on floors
+    /// and inner surfaces through windows, and on outer surfaces. Only a wall with `capacity_kj_per_k` can have it.
+    #[serde(default)]
+    #[schemars(range(min = 0.0), example = 1.5)]
+    pub solar_aperture_m2: f64,
 }
 
 impl Wall {
     /// A wall that stores no heat.
     pub fn new(one: impl Into<String>, other: impl Into<String>, resistance_k_per_kw: f64) -> Self {
-        Self { between: [one.into(), other.into()], resistance_k_per_kw, capacity_kj_per_k: None, mass_position: None }
+        Self {
+            between: [one.into(), other.into()],
+            resistance_k_per_kw,
+            capacity_kj_per_k: None,
+            mass_position: None,
+            solar_aperture_m2: 0.0,
+        }
     }
 
     /// The same wall with a heat capacity.

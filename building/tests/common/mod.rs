@@ -16,7 +16,7 @@ fn wall(zones: usize) -> impl Strategy<Value = Wall> {
     (0..zones, 1..=zones, 5.0..200.0, proptest::option::weighted(0.3, 50.0..2000.0)).prop_map(
         move |(one, shift, resistance_k_per_kw, capacity_kj_per_k)| {
             let other = (one + shift) % (zones + 1);
-            Wall { between: [place(one), place(other)], resistance_k_per_kw, capacity_kj_per_k, mass_position: None }
+            Wall { capacity_kj_per_k, ..Wall::new(place(one), place(other), resistance_k_per_kw) }
         },
     )
 }

@@ -67,9 +67,11 @@ shift_h = 0.0
 meeting_probability = 0.0
 noise_kw = 0.0
 """
+# With slow masses the matrix inequality allows gains whose heat alternates from step to step on a house that is not quite the
+# model; the linear certificate, for positive systems, does not.
 CONTROLLERS = {
-    "iterative": "{ kind = 'iterative' }",
-    "iterative, without learning": "{ kind = 'iterative', learning_rate = 0.0 }",
+    "iterative": "{ kind = 'iterative', stability = 'linear' }",
+    "iterative, without learning": "{ kind = 'iterative', stability = 'linear', learning_rate = 0.0 }",
     "concurrent": "{ kind = 'concurrent' }",
     "concurrent, without learning": "{ kind = 'concurrent', learning_rate = 0.0 }",
     "model predictive": "{ kind = 'model-predictive' }",
@@ -201,10 +203,10 @@ def main():
     learned_k = winter(binary, folder)
     falls = all(after < before for before, after in zip(costs["iterative"], costs["iterative"][1:]))
     learns = all(costs[name][-1] < costs[f"{name}, without learning"][-1] for name in ("iterative", "concurrent"))
-    predicts = max(learned_k["north"]) <= 0.5
+    predicts = max(learned_k["north"] + learned_k["south"]) <= 0.5
     print(f"\nthe cost of the iterative design falls on each of the equal days: {falls}")
     print(f"at the end learning costs less than none: {learns}")
-    print(f"with a window to the north the day-ahead error is at most 0.5 K at all six times: {predicts}")
+    print(f"the day-ahead error is at most 0.5 K at all six times, with the window to the north and to the south: {predicts}")
     sys.exit(0 if falls and learns and predicts else 1)
 
 

@@ -35,8 +35,8 @@ heat = [
 solar = { column = "sun_w_per_m2", unit = "w-per-m2", hold = "zero-order" }
 
 [identify]
-# Two temperatures: a third one hardly predicts better, and a network cannot hold that of a heater.
-most_states = 2
+# The radiator has no mass.
+hidden = ["wall", "interior"]
 """
 
 

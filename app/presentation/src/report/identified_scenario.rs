@@ -58,6 +58,9 @@ fn write_scenario(
         if let Some(position) = wall.mass_position {
             writeln!(text, "mass_position = {position:?}")?;
         }
+        if wall.solar_aperture_m2 > 0.0 {
+            writeln!(text, "solar_aperture_m2 = {:?}", wall.solar_aperture_m2)?;
+        }
         writeln!(text)?;
     }
     writeln!(text, "[weather]\nkind = \"synthetic\"")?;

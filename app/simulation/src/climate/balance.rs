@@ -24,13 +24,15 @@ pub fn balance(
     for (node, temperature) in &nodes {
         temperatures_c[node.index] = temperature.0;
     }
-    let (mut applied_kw, mut requested_kw, mut gains_kw) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
+    let (day, step) = building.date();
+    let (mut applied_kw, mut requested_kw) = (vec![0.0; count], vec![0.0; count]);
+    // With the sun on walls, which are no zones.
+    let mut gains_kw = building.today.gains_kw(&building.model, step).to_vec();
     for (node, equipment, gains) in &zones {
         applied_kw[node.index] = equipment.heat_kw;
         requested_kw[node.index] = equipment.requested_kw;
         gains_kw[node.index] = gains.0;
     }
-    let (day, step) = building.date();
     let ambient_c = building.today.actual.ambient_c[step];
     let before_c = temperatures_c[..count].to_vec();
     let heat = Heat { requested_kw, applied_kw };

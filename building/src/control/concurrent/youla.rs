@@ -139,6 +139,6 @@ impl StateSpace {
 
     /// Moves on, with the feedback that was applied \[kW\].
     pub fn advance(&mut self, applied_kw: &[f64]) {
-        self.model.step(&mut self.state, applied_kw, 0.0, &vec![0.0; applied_kw.len()]);
+        self.model.step_by_heat(&mut self.state, applied_kw);
     }
 }

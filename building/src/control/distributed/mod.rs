@@ -112,7 +112,7 @@ fn gain_limits_kw_per_k(lifted: &Lifted) -> Vec<f64> {
 /// bias is in it.
 fn driving_kw(lifted: &Lifted, day_ahead: &DayAhead<'_>, free_c: &[f64]) -> Vec<f64> {
     let network = lifted.model().network();
-    let (n, nodes) = (lifted.zones(), network.node_count());
+    let (n, nodes, gained) = (lifted.zones(), network.node_count(), network.gain_count());
     let forecast = day_ahead.forecast;
     let forecast_c = lifted.free_response(day_ahead.initial_c, &forecast.ambient_c, &forecast.gains_kw);
     let more_c: Vec<f64> = free_c.iter().zip(&forecast_c).map(|(all, forecast)| all - forecast).collect();
@@ -120,8 +120,8 @@ fn driving_kw(lifted: &Lifted, day_ahead: &DayAhead<'_>, free_c: &[f64]) -> Vec<
     let mut driving_kw = Vec::with_capacity(nodes * lifted.steps());
     for (t, ambient_c) in forecast.ambient_c.iter().enumerate() {
         driving_kw.extend(network.ambient_kw_per_k().iter().enumerate().map(|(node, k)| {
-            let gains_kw = if node < n { forecast.gains_kw[t * n + node] + more_kw[t * n + node] } else { 0.0 };
-            k * ambient_c + gains_kw
+            let gain_kw = if node < gained { forecast.gains_kw[t * gained + node] } else { 0.0 };
+            k * ambient_c + if node < n { gain_kw + more_kw[t * n + node] } else { gain_kw }
         }));
     }
     driving_kw

@@ -104,7 +104,6 @@ pub fn static_feedback(lifted: &Lifted, gain: &DMatrix<f64>, factor: &DMatrix<f6
     let q = factor.ncols();
     let mut response =
         Response { temperatures_k: DMatrix::zeros(lifted.size(), q), inputs_kw: DMatrix::zeros(lifted.size(), q) };
-    let calm = vec![0.0; n];
     for column in 0..q {
         let mut state = vec![0.0; nodes];
         for t in 0..lifted.steps() {
@@ -115,7 +114,7 @@ pub fn static_feedback(lifted: &Lifted, gain: &DMatrix<f64>, factor: &DMatrix<f6
                 }
             }
             let net: Vec<f64> = (0..n).map(|i| input[i] + factor[(t * n + i, column)]).collect();
-            model.step(&mut state, &net, 0.0, &calm);
+            model.step_by_heat(&mut state, &net);
             for i in 0..n {
                 response.temperatures_k[(t * n + i, column)] = state[i];
                 response.inputs_kw[(t * n + i, column)] = input[i];

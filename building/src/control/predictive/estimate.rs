@@ -57,10 +57,17 @@ impl Estimate {
         }
     }
 
+    /// Forecast gains of the nodes with the heat of the zones that the forecast misses \[kW\].
+    pub fn with_missed_kw(&self, gains_kw: &[f64]) -> Vec<f64> {
+        let mut gains_kw = gains_kw.to_vec();
+        gains_kw.iter_mut().zip(&self.missed_kw).for_each(|(gain, missed)| *gain += missed);
+        gains_kw
+    }
+
     /// Predicts the temperatures at the end of a step with this heat, outdoor temperature and forecast gains. With a number that
     /// is not finite nothing is predicted: the temperatures stay until they are measured.
     pub fn predict(&mut self, heat_kw: &[f64], ambient_c: f64, gains_kw: &[f64]) {
-        let gains_kw: Vec<f64> = gains_kw.iter().zip(&self.missed_kw).map(|(gain, missed)| gain + missed).collect();
+        let gains_kw = self.with_missed_kw(gains_kw);
         if !ambient_c.is_finite() || !gains_kw.iter().all(|gain| gain.is_finite()) {
             return;
         }

@@ -83,14 +83,14 @@ impl Predictive {
     fn expected(&self, step: usize, steps: usize) -> Disturbance {
         let hours = (step..step + self.lifted.steps()).map(|t| t % steps);
         let ambient_c = hours.clone().map(|t| self.forecast.ambient_c[t]).collect();
-        let gains_kw = hours.flat_map(|t| self.gains_kw(t).iter().zip(&self.estimate.missed_kw).map(|(w, d)| w + d));
-        Disturbance { ambient_c, gains_kw: gains_kw.collect() }
+        let gains_kw = hours.flat_map(|t| self.estimate.with_missed_kw(self.gains_kw(t))).collect();
+        Disturbance { ambient_c, gains_kw }
     }
 
-    /// Forecast gains of the zones in step `t` of the day \[kW\].
+    /// Forecast gains of the nodes in step `t` of the day \[kW\].
     fn gains_kw(&self, t: usize) -> &[f64] {
-        let zones = self.lifted.zones();
-        &self.forecast.gains_kw[t * zones..(t + 1) * zones]
+        let count = self.lifted.model().network().gain_count();
+        &self.forecast.gains_kw[t * count..(t + 1) * count]
     }
 
     /// The inputs of the last plan for now; none beyond its end.
@@ -121,7 +121,7 @@ impl Control for Predictive {
         ControlError::check_length("a row of targets", day_ahead.targets.zones, self.lifted.zones())?;
         let nodes = model.network().node_count();
         ControlError::check_length("the temperatures at midnight", day_ahead.initial_c.len(), nodes)?;
-        day_ahead.forecast.check(day_ahead.targets)?;
+        day_ahead.forecast.check(day_ahead.targets, model.network())?;
         self.estimate.begin_day(day_ahead.initial_c);
         self.forecast = day_ahead.forecast.clone();
         Ok(())

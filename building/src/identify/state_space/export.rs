@@ -1,10 +1,11 @@
 //! A fitted network as zones and walls of a scenario.
 
 use super::exponential::Number;
+use super::extension::HiddenNode;
 use super::likelihood::numbers;
 use super::profile::Profiler;
 use super::quantities::QuantityKind;
-use super::structure::{HiddenNode, ParameterKind, Place};
+use super::structure::{ParameterKind, Place};
 use crate::identify::identified_network::{IdentifiedNetwork, NetworkUncertainty};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 use crate::network::{AMBIENT, Wall, Zone};
@@ -73,6 +74,10 @@ fn walls(profiler: &Profiler<'_>, theta: &[Number]) -> Vec<Wall> {
     let telemetry = profiler.telemetry;
     let structure = &profiler.fit.structure;
     let value = |kind| structure.value(theta, kind).re;
+    let aperture = |zone, hidden| {
+        let kind = ParameterKind::HiddenAperture(zone, hidden);
+        structure.index(kind).map_or(0.0, |_| value(kind))
+    };
     let mut walls = Vec::new();
     for wall in &telemetry.walls {
         let name = &telemetry.zones[wall.zone].name;
@@ -92,6 +97,7 @@ fn walls(profiler: &Profiler<'_>, theta: &[Number]) -> Vec<Wall> {
             Some(_) => Wall {
                 capacity_kj_per_k: Some(value(ParameterKind::Capacity(wall.zone, Place::Hidden(hidden)))),
                 mass_position: Some(1.0 / value(ParameterKind::Inner(wall.zone, hidden)) / resistance),
+                solar_aperture_m2: aperture(wall.zone, hidden),
                 ..plain
             },
         });
@@ -101,6 +107,7 @@ fn walls(profiler: &Profiler<'_>, theta: &[Number]) -> Vec<Wall> {
         walls.push(Wall {
             capacity_kj_per_k: Some(value(ParameterKind::Capacity(node.zone, node.place))),
             mass_position: Some(ENCLOSED),
+            solar_aperture_m2: aperture(node.zone, HiddenNode::Interior),
             ..Wall::new(&telemetry.zones[node.zone].name, AMBIENT, inner / ENCLOSED)
         });
     }

@@ -12,7 +12,7 @@ use std::ops::Range;
 use super::exponential::Number;
 use super::likelihood::{Filtered, Observations, numbers};
 use super::selection::Fit;
-use super::structure::{HOUR_S, HiddenNode, ParameterKind, Place};
+use super::structure::{HOUR_S, ParameterKind};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// With a smaller mean temperature difference \[K\], the balance says nothing of a conductance.
@@ -67,8 +67,8 @@ pub(super) fn conductance(
     };
     let gain = structure.value(&theta, ParameterKind::HeatGain(zone)).re;
     let mut known_kw = gain * input(structure.layout.heat[zone]);
-    if structure.layout.sun[zone].is_some() {
-        known_kw += structure.value(&theta, ParameterKind::Aperture(zone)).re * input(structure.layout.sun[zone]);
+    if let Some(aperture) = structure.total_aperture(&theta, zone) {
+        known_kw += aperture.re * input(structure.layout.sun[zone]);
     }
     for other in telemetry.neighbours(zone).into_iter().filter(|&other| other != neighbour) {
         known_kw += structure.total_conductance(&theta, zone, other)?.re * difference(other);
@@ -98,13 +98,7 @@ fn stored(
     let count = structure.nodes.len();
     let (mut stored_kj, mut random_kj2) = (0.0, 0.0);
     for (index, node) in structure.nodes.iter().enumerate().filter(|(_, node)| node.zone == zone) {
-        let share = match node.place {
-            Place::Hidden(hidden @ HiddenNode::Wall(boundary)) => {
-                let inner = structure.value(theta, ParameterKind::Inner(zone, hidden)).re;
-                inner / (inner + structure.value(theta, ParameterKind::Outer(zone, boundary)).re)
-            }
-            _ => 1.0,
-        };
+        let share = structure.share_to_air(theta, index).re;
         let capacity = share * structure.value(theta, ParameterKind::Capacity(zone, node.place)).re;
         let random = capacity * structure.value(theta, ParameterKind::RandomHeat(zone, node.place)).re;
         random_kj2 += random * random * duration_s / HOUR_S;

@@ -9,6 +9,7 @@
 mod armadillo_test;
 mod exponential;
 mod export;
+mod extension;
 mod findings;
 mod gains;
 mod heat_balance;
@@ -55,12 +56,12 @@ pub(super) fn identify(telemetry: &Telemetry, settings: &IdentifySettings) -> Re
     let train = observations(telemetry, &layout, &split.train)?;
     let all = observations(telemetry, &layout, &telemetry.segments)?;
     let rows: usize = train.segments.iter().map(Range::len).sum();
-    let parameters = Structure::new(telemetry, Vec::new()).parameters.len();
+    let parameters = Structure::new(telemetry, &[]).parameters.len();
     let wanted = ROWS_PER_PARAMETER * parameters;
     if rows < wanted {
         return Err(IdentifyError::TooFewRows { rows, parameters, wanted });
     }
-    let choice = selection::choose(telemetry, &train, settings.most_states).ok_or(IdentifyError::NotFinite)?;
+    let choice = selection::choose(telemetry, &train, settings).ok_or(IdentifyError::NotFinite)?;
     StateSpaceFindings { telemetry, settings, split: &split, train: &train, all: &all, choice: &choice }
         .identification()
 }

@@ -6,10 +6,11 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::exponential::{INFINITESIMAL, Number, real};
+use super::extension::HiddenNode;
 use super::likelihood::{changed, numbers};
 use super::scoring::free_parameters;
 use super::selection::Fit;
-use super::structure::{HiddenNode, ParameterKind, Place, Structure};
+use super::structure::{ParameterKind, Place, Structure};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// Directions of the scaled information with less than this share of the largest eigenvalue are not determined by the data.
@@ -34,7 +35,10 @@ pub(super) enum QuantityKind {
     Resistance(Neighbour),
     /// Between the air and a hidden node.
     InnerConductance(HiddenNode),
+    /// Of all that the sun falls on, as much as reaches the air.
     Aperture,
+    /// Of one node of a zone that the sun falls on in several places.
+    NodeAperture(Place),
     /// Capacity over all conductances \[h\].
     TimeConstant,
     /// Steady warming by one unit of a heat signal \[K\].
@@ -60,6 +64,14 @@ impl QuantityKind {
         }));
         if structure.layout.sun[zone].is_some() {
             kinds.push(Self::Aperture);
+            let is_sunlit = |place: &&Place| match place {
+                Place::Air => true,
+                Place::Hidden(hidden) => structure.sunlit.contains(hidden),
+            };
+            let sunlit: Vec<Self> = places.iter().filter(is_sunlit).map(|&place| Self::NodeAperture(place)).collect();
+            if sunlit.len() > 1 {
+                kinds.extend(sunlit);
+            }
         }
         if !neighbours.is_empty() {
             kinds.push(Self::TimeConstant);
@@ -86,7 +98,9 @@ impl QuantityKind {
                 structure.total_conductance(theta, zone, neighbour).map(|conductance| real(1.0) / conductance)
             }
             Self::InnerConductance(hidden) => of(ParameterKind::Inner(zone, hidden)),
-            Self::Aperture => of(ParameterKind::Aperture(zone)),
+            Self::Aperture => structure.total_aperture(theta, zone),
+            Self::NodeAperture(Place::Air) => of(ParameterKind::Aperture(zone)),
+            Self::NodeAperture(Place::Hidden(hidden)) => of(ParameterKind::HiddenAperture(zone, hidden)),
             Self::TimeConstant => Some(structure.total_capacity(theta, zone) / all() / super::structure::HOUR_S),
             Self::Warming => Some(structure.value(theta, ParameterKind::HeatGain(zone)) / all()),
         }
@@ -112,6 +126,7 @@ impl QuantityKind {
                 (format!("conductance between air and {}", hidden_name(telemetry, hidden)), "1/R", "kW/K")
             }
             Self::Aperture => ("aperture to the sun".into(), "A", "m²"),
+            Self::NodeAperture(place) => (format!("aperture of the {}", node(place)), "A", "m²"),
             Self::TimeConstant => ("time constant through the walls".into(), "τ", "h"),
             Self::Warming => ("warming by a steady heat signal".into(), "g", "K/unit"),
         }

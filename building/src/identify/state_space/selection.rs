@@ -1,18 +1,20 @@
 //! The choice of the order: from one state a zone upwards, as long as the likelihood-ratio test calls for more (Bacher and
 //! Madsen, *Energy and Buildings* 43, 2011).
 //!
-//! Each round tries every kind of hidden node that the model does not have yet. The best one stays if twice its gain of the
-//! log-likelihood is beyond the chi-squared limit for the parameters it adds; the level is divided by the number of kinds
-//! tried. At a boundary of the parameters, where the smaller model lies, the test keeps at least its level.
+//! Each round tries every kind of hidden node that the model does not have yet, and sun on every mass that it has. The best one
+//! by Akaike's criterion stays if twice its gain of the log-likelihood is beyond the chi-squared limit for the parameters it adds.
+//! At a boundary of the parameters, where the smaller model lies, the test keeps at least its level.
 
 use rayon::prelude::*;
 
+use super::extension::{Extension, HiddenNode};
 use super::likelihood::Observations;
 use super::scoring::{Ascent, LEAST_GAIN, Maximum};
 use super::starts::Guess;
-use super::structure::{HiddenNode, Structure, candidates};
+use super::structure::Structure;
 use crate::identify::diagnostics::survival;
 use crate::identify::report::ModelRow;
+use crate::identify::settings::IdentifySettings;
 use crate::identify::telemetry::Telemetry;
 
 /// Level of the likelihood-ratio test.
@@ -38,23 +40,28 @@ pub(super) struct Fit {
 /// The choice.
 pub(super) struct Choice {
     pub chosen: Fit,
-    /// The best model with one more hidden node, if there is one.
+    /// The best model with one more hidden node or with more sun, if there is one.
     pub larger: Option<Fit>,
     pub table: Vec<ModelRow>,
 }
 
-/// Chooses among models with at most `most_states` states a zone; `None` where no start has a likelihood.
-pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_states: usize) -> Option<Choice> {
+/// Chooses among models with the kinds of hidden temperatures and the most states a zone of `settings`; `None` where no start has a
+/// likelihood.
+pub(super) fn choose(
+    telemetry: &Telemetry,
+    observations: &Observations,
+    settings: &IdentifySettings,
+) -> Option<Choice> {
     let guess = Guess::new(telemetry);
-    let smallest = Structure::new(telemetry, Vec::new());
+    let smallest = Structure::new(telemetry, &[]);
     let starts = guess.of_smallest(telemetry, &smallest);
     let mut chosen = fit(&guess, smallest, (&starts, &[]), observations)?;
     let mut table = vec![row(telemetry, &chosen, None)];
     let mut chosen_row = 0;
     let mut known = vec![chosen.clone()];
     loop {
-        let left: Vec<HiddenNode> =
-            candidates(telemetry).into_iter().filter(|hidden| !chosen.structure.hidden.contains(hidden)).collect();
+        let mut left = chosen.structure.candidates(telemetry);
+        left.retain(|extension| settings.hidden.contains(&extension.hidden().kind()));
         let larger: Vec<Option<Fit>> =
             left.par_iter().map(|&added| extended(telemetry, &guess, (&chosen, &known), added, observations)).collect();
         let mut tried: Vec<(usize, Fit)> = Vec::new();
@@ -63,17 +70,17 @@ pub(super) fn choose(telemetry: &Telemetry, observations: &Observations, most_st
             tried.push((table.len() - 1, larger));
         }
         known.extend(tried.iter().map(|(_, fit)| fit.clone()));
-        let best = tried.iter().max_by(|a, b| likelihood(&a.1).total_cmp(&likelihood(&b.1))).cloned();
-        let Some((index, best)) = best else {
-            table[chosen_row].chosen = true;
-            return Some(Choice { chosen, larger: None, table });
-        };
-        let p_value = table[index].gain.map_or(1.0, |(_, p)| p);
-        if p_value >= LEVEL || chosen.structure.order() >= most_states {
-            table[chosen_row].chosen = true;
-            return Some(Choice { chosen, larger: Some(best), table });
+        let by_criterion = |a: &&(usize, Fit), b: &&(usize, Fit)| criterion(&a.1).total_cmp(&criterion(&b.1));
+        let is_allowed = |fit: &&(usize, Fit)| fit.1.structure.order() <= settings.most_states;
+        let best = tried.iter().filter(is_allowed).max_by(by_criterion);
+        match best.filter(|(index, _)| table[*index].gain.is_some_and(|(_, p_value)| p_value < LEVEL)) {
+            Some((index, best)) => (chosen, chosen_row) = (best.clone(), *index),
+            None => {
+                let larger = tried.iter().max_by(by_criterion).map(|(_, fit)| fit.clone());
+                table[chosen_row].chosen = true;
+                return Some(Choice { chosen, larger, table });
+            }
         }
-        (chosen, chosen_row) = (best, index);
     }
 }
 
@@ -81,22 +88,27 @@ fn likelihood(fit: &Fit) -> f64 {
     fit.maximum.evaluation.log_likelihood
 }
 
-/// The best fit of the model with one more hidden node than the chosen one. It begins near all known models that lack one of its
-/// nodes: the best optimum may be next to one that was not chosen.
+/// Half of the negative of Akaike's criterion.
+fn criterion(fit: &Fit) -> f64 {
+    likelihood(fit) - fit.structure.parameters.len() as f64
+}
+
+/// The best fit of the model with one more hidden node than the chosen one, or with more sun. It begins near all known models
+/// that lack one thing that it has: the best optimum may be next to one that was not chosen.
 fn extended(
     telemetry: &Telemetry,
     guess: &Guess,
     (chosen, known): (&Fit, &[Fit]),
-    added: HiddenNode,
+    added: Extension,
     observations: &Observations,
 ) -> Option<Fit> {
-    let mut hidden = chosen.structure.hidden.clone();
-    hidden.push(added);
-    let structure = Structure::new(telemetry, hidden.clone());
+    let mut extensions = chosen.structure.extensions();
+    extensions.push(added);
+    let structure = Structure::new(telemetry, &extensions);
     let (mut starts, mut near) = (Vec::new(), Vec::new());
     for smaller in known {
-        let lacking: Vec<HiddenNode> =
-            hidden.iter().copied().filter(|node| !smaller.structure.hidden.contains(node)).collect();
+        let has = smaller.structure.extensions();
+        let lacking: Vec<Extension> = extensions.iter().copied().filter(|it| !has.contains(it)).collect();
         if let &[added] = lacking.as_slice() {
             starts.extend(guess.of_larger(&smaller.structure, &smaller.maximum.theta, &structure, added));
             near.extend(starts.pop());
@@ -151,7 +163,7 @@ fn row(telemetry: &Telemetry, fit: &Fit, smaller: Option<&Fit>) -> ModelRow {
         (twice, if twice > 0.0 { survival(twice, added as f64) } else { 1.0 })
     });
     ModelRow {
-        model: in_words(telemetry, &fit.structure.hidden),
+        model: in_words(telemetry, &fit.structure),
         states: fit.structure.order(),
         parameters: fit.bounds.iter().filter(|(low, high)| low < high).count(),
         log_likelihood: likelihood(fit),
@@ -160,14 +172,15 @@ fn row(telemetry: &Telemetry, fit: &Fit, smaller: Option<&Fit>) -> ModelRow {
     }
 }
 
-fn in_words(telemetry: &Telemetry, hidden: &[HiddenNode]) -> String {
+fn in_words(telemetry: &Telemetry, structure: &Structure) -> String {
     let word = |hidden: &HiddenNode| match hidden {
         HiddenNode::Wall(boundary) => format!("wall to {}", telemetry.boundaries[*boundary].name),
         HiddenNode::Interior => "interior mass".to_owned(),
         HiddenNode::Heater => "heater".to_owned(),
     };
-    if hidden.is_empty() {
+    if structure.hidden.is_empty() {
         return "air alone".to_owned();
     }
-    format!("air, {}", hidden.iter().map(word).collect::<Vec<_>>().join(", "))
+    let sun = structure.sunlit.iter().map(|hidden| format!("sun on the {}", word(hidden)));
+    format!("air, {}", structure.hidden.iter().map(word).chain(sun).collect::<Vec<_>>().join(", "))
 }

@@ -1,6 +1,7 @@
 //! Where ascents begin, and within which bounds.
 
-use super::structure::{HOUR_S, HiddenNode, ParameterKind, Place, Structure};
+use super::extension::{Extension, HiddenNode};
+use super::structure::{HOUR_S, ParameterKind, Place, Structure};
 use crate::identify::telemetry::{Neighbour, Telemetry};
 
 /// Time constants of a zone with its walls that are tried \[h\].
@@ -39,6 +40,9 @@ const HEATER_SPLITS: [Split; 3] = [
     Split { air: 0.7, node: 0.3, conductance: 2.0 },
     Split { air: 0.995, node: 0.005, conductance: 60.0 },
 ];
+
+/// Shares of the sun that fall on a hidden node.
+const SUN_SHARES: [f64; 3] = [0.8, 0.4, 0.02];
 
 /// What the data suggest at first sight.
 pub(super) struct Guess {
@@ -98,7 +102,7 @@ impl Guess {
                     share
                 }
             }
-            ParameterKind::Aperture(zone) => self.aperture[zone],
+            ParameterKind::Aperture(zone) | ParameterKind::HiddenAperture(zone, _) => self.aperture[zone],
             ParameterKind::HeatGain(zone) => self.heat_gain[zone],
             ParameterKind::Sensor(zone) => 0.2 * self.change_k[zone] * libm::sqrt(telemetry.step_s / HOUR_S),
         };
@@ -122,21 +126,24 @@ impl Guess {
             ParameterKind::Direct(zone, _) | ParameterKind::Inner(zone, _) | ParameterKind::Outer(zone, _) => {
                 around(self.conductance[zone], CONDUCTANCE_RANGE)
             }
-            ParameterKind::Aperture(zone) => around(self.aperture[zone], CONDUCTANCE_RANGE),
+            ParameterKind::Aperture(zone) | ParameterKind::HiddenAperture(zone, _) => {
+                around(self.aperture[zone], CONDUCTANCE_RANGE)
+            }
             ParameterKind::HeatGain(zone) => around(self.heat_gain[zone], CONDUCTANCE_RANGE),
             ParameterKind::Sensor(_) => (libm::log(SENSOR_RANGE.0), libm::log(SENSOR_RANGE.1)),
         };
         structure.parameters.iter().map(bound).collect()
     }
 
-    /// Starts of a model with the hidden node `added`, from the estimate `theta` of the model without it.
-    pub fn of_larger(
-        &self,
-        smaller: &Structure,
-        theta: &[f64],
-        larger: &Structure,
-        added: HiddenNode,
-    ) -> Vec<Vec<f64>> {
+    /// Starts of a model with `added`, from the estimate `theta` of the model without it. The last one is nearly the smaller model.
+    pub fn of_larger(&self, smaller: &Structure, theta: &[f64], larger: &Structure, added: Extension) -> Vec<Vec<f64>> {
+        match added {
+            Extension::Node(hidden) => self.of_node(smaller, theta, larger, hidden),
+            Extension::Sun(hidden) => of_sun(smaller, theta, larger, hidden),
+        }
+    }
+
+    fn of_node(&self, smaller: &Structure, theta: &[f64], larger: &Structure, added: HiddenNode) -> Vec<Vec<f64>> {
         let splits: &[Split] = if added == HiddenNode::Heater { &HEATER_SPLITS } else { &MASS_SPLITS };
         let known = |kind: ParameterKind| smaller.index(kind).map(|index| libm::exp(theta[index]));
         let value = |split: &Split, kind: &ParameterKind| {
@@ -165,6 +172,23 @@ impl Guess {
         let start = |split: &Split| larger.parameters.iter().map(|kind| libm::log(value(split, kind))).collect();
         splits.iter().map(start).collect()
     }
+}
+
+/// Starts of a model whose sun falls on a hidden node, too: shares of the air's aperture go there.
+fn of_sun(smaller: &Structure, theta: &[f64], larger: &Structure, sunlit: HiddenNode) -> Vec<Vec<f64>> {
+    let known = |kind: ParameterKind| smaller.index(kind).map(|index| libm::exp(theta[index]));
+    let value = |share: f64, kind: &ParameterKind| match *kind {
+        ParameterKind::Aperture(zone) => {
+            let moves = if larger.node(zone, sunlit).is_some() { share } else { 0.0 };
+            (1.0 - moves) * known(*kind).unwrap_or(1.0)
+        }
+        ParameterKind::HiddenAperture(zone, hidden) if hidden == sunlit => {
+            share * known(ParameterKind::Aperture(zone)).unwrap_or(1.0)
+        }
+        kind => known(kind).unwrap_or(1.0),
+    };
+    let start = |share: &f64| larger.parameters.iter().map(|kind| libm::log(value(*share, kind))).collect();
+    SUN_SHARES.iter().map(start).collect()
 }
 
 /// All conductances out of a zone's air \[kW/K\].

@@ -8,11 +8,14 @@
 //! heater                             heat → heater(C) ─ H ─ air               in place of  heat → air
 //! ```
 //!
+//! The sun warms the air. It may also fall on a hidden mass, with an aperture of its own: on a floor, or on a wall.
+//!
 //! Every node gains random heat; its strength σ is stated as the standard deviation of temperature that it makes in one hour.
 
 use nalgebra::DMatrix;
 
 use super::exponential::{Number, exponential, real};
+use super::extension::{Extension, HiddenNode};
 use super::linear_model::{ContinuousModel, InitialState};
 use super::observations::InputLayout;
 use crate::identify::telemetry::{Neighbour, Telemetry};
@@ -22,17 +25,6 @@ pub(super) const HOUR_S: f64 = 3600.0;
 /// Variance of the first temperature of a hidden node about what it would be in a steady state \[K²\]. Chosen: heavy walls are
 /// a few kelvin away from it.
 const HIDDEN_START_VARIANCE: f64 = 9.0;
-
-/// A hidden node that a model has beyond the measured one; all zones to which it can apply have it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum HiddenNode {
-    /// Mass in the walls to a boundary.
-    Wall(usize),
-    /// Furniture, inner walls and floors.
-    Interior,
-    /// Mass between the source of heat and the air.
-    Heater,
-}
 
 /// Which node of a zone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,8 +46,10 @@ pub(super) enum ParameterKind {
     Inner(usize, HiddenNode),
     /// Conductance between the wall's mass and the boundary \[kW/K\].
     Outer(usize, usize),
-    /// Aperture of a zone \[m²\].
+    /// Aperture of a zone's air \[m²\].
     Aperture(usize),
+    /// Aperture of a hidden node of a zone \[m²\].
+    HiddenAperture(usize, HiddenNode),
     /// Heat per unit of a signal without unit \[kW\].
     HeatGain(usize),
     /// Standard deviation of a zone's sensor \[K\].
@@ -90,6 +84,8 @@ pub(super) struct Conductance {
 pub(super) struct Structure {
     /// The hidden nodes, sorted.
     pub hidden: Vec<HiddenNode>,
+    /// Those of them that the sun falls on, sorted.
+    pub sunlit: Vec<HiddenNode>,
     pub nodes: Vec<Node>,
     pub conductances: Vec<Conductance>,
     pub parameters: Vec<ParameterKind>,
@@ -98,12 +94,17 @@ pub(super) struct Structure {
 }
 
 impl Structure {
-    /// The network of the walls of the telemetry with these hidden nodes.
-    pub fn new(telemetry: &Telemetry, mut hidden: Vec<HiddenNode>) -> Self {
-        hidden.sort_unstable();
+    /// The network of the walls of the telemetry with these hidden nodes and sun on them.
+    pub fn new(telemetry: &Telemetry, extensions: &[Extension]) -> Self {
+        let of = |pick: fn(&Extension) -> Option<HiddenNode>| {
+            let mut nodes: Vec<HiddenNode> = extensions.iter().filter_map(pick).collect();
+            nodes.sort_unstable();
+            nodes
+        };
         let zones = telemetry.zones.len();
         let mut structure = Self {
-            hidden,
+            hidden: of(Extension::node),
+            sunlit: of(Extension::sun),
             nodes: (0..zones).map(|zone| Node { zone, place: Place::Air }).collect(),
             conductances: Vec::new(),
             parameters: Vec::new(),
@@ -119,6 +120,11 @@ impl Structure {
         for (zone, measured) in telemetry.zones.iter().enumerate() {
             if structure.layout.sun[zone].is_some() {
                 structure.parameter(ParameterKind::Aperture(zone));
+                for hidden in structure.sunlit.clone() {
+                    if structure.node(zone, hidden).is_some() {
+                        structure.parameter(ParameterKind::HiddenAperture(zone, hidden));
+                    }
+                }
             }
             if structure.layout.heat[zone].is_some() && !measured.power_has_unit {
                 structure.parameter(ParameterKind::HeatGain(zone));
@@ -217,6 +223,9 @@ impl Structure {
             }
             if let Some(column) = self.layout.sun[zone] {
                 inputs[(zone, column)] += self.value(theta, ParameterKind::Aperture(zone)) / capacity[zone];
+                for (node, aperture) in self.hidden_apertures(theta, zone) {
+                    inputs[(node, column)] += aperture / capacity[node];
+                }
             }
         }
         let random = |node: &Node| {
@@ -293,6 +302,52 @@ impl Structure {
         direct(ParameterKind::Direct(zone, neighbour)).or(other_way)
     }
 
+    /// The hidden nodes of a zone that the sun falls on, with their apertures \[m²\].
+    fn hidden_apertures(&self, theta: &[Number], zone: usize) -> Vec<(usize, Number)> {
+        let aperture = |hidden: &HiddenNode| {
+            let index = self.index(ParameterKind::HiddenAperture(zone, *hidden))?;
+            Some((self.node(zone, *hidden)?, exponential(theta[index])))
+        };
+        self.sunlit.iter().filter_map(aperture).collect()
+    }
+
+    /// Aperture of a zone \[m²\]: that of its air, and of its masses as much as reaches the air in a steady state.
+    pub fn total_aperture(&self, theta: &[Number], zone: usize) -> Option<Number> {
+        let of_air = exponential(theta[self.index(ParameterKind::Aperture(zone))?]);
+        let of_masses = self.hidden_apertures(theta, zone).into_iter();
+        Some(of_masses.fold(of_air, |sum, (node, aperture)| sum + aperture * self.share_to_air(theta, node)))
+    }
+
+    /// The share of steady heat into a node that leaves to the air of its zone; the rest leaves to the boundary.
+    pub fn share_to_air(&self, theta: &[Number], node: usize) -> Number {
+        let Node { zone, place } = self.nodes[node];
+        let Place::Hidden(hidden @ HiddenNode::Wall(boundary)) = place else { return real(1.0) };
+        let inner = self.value(theta, ParameterKind::Inner(zone, hidden));
+        inner / (inner + self.value(theta, ParameterKind::Outer(zone, boundary)))
+    }
+
+    /// What it has beyond the smallest model.
+    pub fn extensions(&self) -> Vec<Extension> {
+        let nodes = self.hidden.iter().map(|&hidden| Extension::Node(hidden));
+        nodes.chain(self.sunlit.iter().map(|&hidden| Extension::Sun(hidden))).collect()
+    }
+
+    /// What it may have more: hidden nodes, and sun on those masses that it has.
+    pub fn candidates(&self, telemetry: &Telemetry) -> Vec<Extension> {
+        let walls = (0..telemetry.boundaries.len()).map(HiddenNode::Wall);
+        let all = walls.chain([HiddenNode::Interior, HiddenNode::Heater]);
+        let possible = |hidden: &HiddenNode| {
+            let applies = |zone| applies(telemetry, &self.layout, zone, *hidden);
+            !self.hidden.contains(hidden) && (0..self.zones).any(applies)
+        };
+        let can_be_sunlit = |&&hidden: &&HiddenNode| {
+            let shines = |zone: usize| self.layout.sun[zone].is_some() && self.node(zone, hidden).is_some();
+            hidden != HiddenNode::Heater && !self.sunlit.contains(&hidden) && (0..self.zones).any(shines)
+        };
+        let sun = self.hidden.iter().filter(can_be_sunlit).copied().map(Extension::Sun);
+        all.filter(possible).map(Extension::Node).chain(sun).collect()
+    }
+
     /// Sum of the capacities of a zone's nodes \[kJ/K\].
     pub fn total_capacity(&self, theta: &[Number], zone: usize) -> Number {
         let of_zone = self.nodes.iter().filter(|node| node.zone == zone);
@@ -307,14 +362,4 @@ fn applies(telemetry: &Telemetry, layout: &InputLayout, zone: usize, hidden: Hid
         HiddenNode::Interior => true,
         HiddenNode::Heater => layout.heat[zone].is_some(),
     }
-}
-
-/// All kinds of hidden nodes that at least one zone can have.
-pub(super) fn candidates(telemetry: &Telemetry) -> Vec<HiddenNode> {
-    let layout = InputLayout::new(telemetry);
-    let walls = (0..telemetry.boundaries.len()).map(HiddenNode::Wall);
-    let all = walls.chain([HiddenNode::Interior, HiddenNode::Heater]);
-    let possible =
-        |hidden: &HiddenNode| (0..telemetry.zones.len()).any(|zone| applies(telemetry, &layout, zone, *hidden));
-    all.filter(possible).collect()
 }

@@ -4,14 +4,14 @@ use std::fmt::Debug;
 
 use super::error::PlantError;
 
-/// What acts on a building in one step. Everything is held for the step; lists have one number per zone.
+/// What acts on a building in one step. Everything is held for the step; lists have one number per zone, unless they say otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct StepInputs<'a> {
     /// The step, counted from the first midnight.
     pub step: usize,
     /// Heat that the equipment gives, negative when it cools \[kW\].
     pub heat_kw: &'a [f64],
-    /// Heat of people, machines and sun, as the network has it \[kW\].
+    /// Heat of people, machines and sun, as the network has it \[kW\]: of each zone, and of the walls where the sun falls on one.
     pub gains_kw: &'a [f64],
     /// Outdoor temperature \[°C\].
     pub ambient_c: f64,

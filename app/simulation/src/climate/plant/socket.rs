@@ -165,7 +165,7 @@ impl ThermalPlant for SocketPlant {
             time_s,
             heat_kw,
             people_kw: &outside.people_kw[step_of_day * zones..(step_of_day + 1) * zones],
-            gains_kw,
+            gains_kw: &gains_kw[..zones],
             ambient_c,
             sun_w_per_m2: outside.sun_w_per_m2[step_of_day],
         });
