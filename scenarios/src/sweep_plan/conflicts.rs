@@ -120,8 +120,9 @@ fn key_of<'a>(path: &'a SettingPath, value: &'a TomlNode) -> &'a Place {
 
 /// The refusal of a seed that is set.
 fn set_seed(place: &Place) -> Fault {
-    let message = "the seed of a run follows from its sample: with one for all runs, samples that differ in the seed only would be \
-        one run and count as many";
-    Fault::at(place, "cannot be set", message)
-        .help("state `samples`, and as `seed` of the plan, outside of `set`, that of the first; one run of another seed is `interplay run --seed`")
+    let message = "the seed of a run follows from its sample: with one seed for all, samples that differ in nothing else would be \
+                   the same run, counted several times";
+    let help =
+        "leave it out; a plan's own `seed` is that of its first sample, and the next samples have the seeds after it";
+    Fault::at(place, "cannot be set", message).help(help)
 }
