@@ -65,6 +65,12 @@ fn the_heated_house_has_its_conductance_and_capacity() {
     assert!(low.is_some_and(|low| low < 14_000.0) && high.is_some_and(|high| high > 14_000.0), "{low:?} {high:?}");
     let free_run_k = report.zones[0].train.free_run.errors_k[0].1.expect("runs");
     assert!(free_run_k < 0.8, "{free_run_k}");
+    // With a wall in place of the inner mass, which is a little less likely.
+    let with_wall = format!("{}\n[identify]\nhidden = [\"wall\", \"heater\"]\n", FLEXHOUSE);
+    let mapping = Mapping::parse("flexhouse.toml", &with_wall).expect("sound");
+    let report = self::report(&mapping, "inputPRBS1.csv", &table);
+    let capacity = quantity(&report, 0, "heat capacity").value.expect("determined");
+    assert!((capacity / 14_000.0 - 1.0).abs() < 0.15, "{capacity}");
 }
 
 /// Multiplying capacities, conductances, aperture and the heater's gain by one number changes nothing that is measured here, so

@@ -328,8 +328,6 @@ fn what_is_wrong_is_said_before_anything_is_run_or_written() {
         ),
         (PLAN, &["--samples", "-1"], "write a whole number of at least 1"),
         (PLAN, &["--jobs", "0"], "write a whole number of at least 1"),
-        (PLAN, &["--out", "plan.toml"], "`plan.toml` is a file"),
-        (PLAN, &["--out", "plan.toml/rows", "--dry-run"], "`plan.toml` is a file"),
         // Another number of samples moves no line.
         ("scenario = ['lane-change/front-nice']\nsample = 3\n", &["--samples", "2"], "plan.toml:2:1"),
         (PLAN, &["--shard", "9/8"], "there is no shard 9 of 8"),
@@ -342,6 +340,13 @@ fn what_is_wrong_is_said_before_anything_is_run_or_written() {
         assert!(refused.stderr.contains(words), "{text}: {}", refused.stderr);
         assert!(refused.stderr.matches("overlap at the start").count() <= 1, "said once: {}", refused.stderr);
         assert_eq!(contents(&folder), ["plan.toml"], "{text}");
+    }
+    write(PLAN);
+    for arguments in [&["--out", "plan.toml"][..], &["--out", "plan.toml/rows", "--dry-run"]] {
+        let refused = interplay(&folder, &[&["sweep", "plan.toml"], arguments].concat());
+        assert_eq!(refused.code, Some(3), "as of every output that cannot be written: {refused:?}");
+        assert!(refused.stderr.contains("`plan.toml` is a file"), "{}", refused.stderr);
+        assert_eq!(contents(&folder), ["plan.toml"], "{arguments:?}");
     }
     fs::create_dir(folder.join("mine")).expect("a folder");
     fs::write(folder.join("mine/plan.toml"), "title = 'mine'").expect("a scratch file");

@@ -49,6 +49,9 @@ pub enum SweepError {
     /// What the user gave does not fit together.
     #[error("{0}")]
     Input(String),
+    /// A file stands where the folder of the rows, or a folder above it, has to be.
+    #[error("`{}` is a file, and the rows of a sweep need a folder; choose another with `--out`", .0.display())]
+    FileInTheWay(PathBuf),
     /// A recording could not be kept.
     #[error("{0}")]
     Recording(String),

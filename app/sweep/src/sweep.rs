@@ -117,10 +117,7 @@ pub fn check(plan: &SweepPlan, shard: Shard, folder: &Path, checked: &(dyn Fn() 
 /// A folder cannot be made in place of a file or below it.
 fn refuse_file_in_the_way(folder: &Path) -> Result<(), SweepError> {
     match folder.ancestors().find(|above| above.exists()) {
-        Some(above) if !above.is_dir() => Err(SweepError::Input(format!(
-            "`{}` is a file, and the rows of a sweep need a folder; choose another with `--out`",
-            above.display()
-        ))),
+        Some(above) if !above.is_dir() => Err(SweepError::FileInTheWay(above.to_owned())),
         Some(_) | None => Ok(()),
     }
 }

@@ -1,6 +1,6 @@
 //! Equilibria by replies: each player in turn plans anew against the plans of the others, until nobody gains by it.
 
-use super::equilibrium::{Deviation, TOLERATED_GAIN};
+use super::deviation::{Deviation, TOLERATED_GAIN};
 use crate::Input;
 use crate::trajectory::{Iterate, Optimiser, Optimum, Problem, StageSolver, Statistics};
 

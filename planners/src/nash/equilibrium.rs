@@ -21,12 +21,10 @@
 //! the joint descent goes on from there; since the potential falls each time, this ends.
 
 use super::best_replies::best_replies;
+use super::deviation::{Deviation, TOLERATED_GAIN};
 use super::prioritised::prioritised;
 use crate::Input;
-use crate::trajectory::{DescentError, Iterate, Optimiser, Optimum, Problem, StageSolver, Statistics};
-
-/// Most that a player may gain by leaving an equilibrium.
-pub const TOLERATED_GAIN: f64 = 1e-4;
+use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, StageSolver};
 
 /// Most times that a player who gains leaves in search of an equilibrium.
 const MOST_DEPARTURES: usize = 6;
@@ -54,16 +52,6 @@ impl Equilibrium {
     pub fn is_certified(&self) -> bool {
         self.largest_gain() <= TOLERATED_GAIN
     }
-}
-
-/// A deviation of one player.
-pub(super) struct Deviation {
-    /// Who.
-    pub player: usize,
-    /// What it gains.
-    pub gain: f64,
-    /// Its inputs.
-    pub inputs: Vec<Input>,
 }
 
 /// Finds an equilibrium of the players of a joint problem from a guess (per player, inputs); from an empty one, by letting the players
@@ -132,25 +120,4 @@ fn joint_optimum<S: StageSolver>(
 fn deviations<S: StageSolver>(replies: &mut Optimiser<S>, problem: &Problem, optimum: &Optimum) -> Vec<Deviation> {
     let players = 0..problem.participants.len();
     players.map(|player| Deviation::of(replies, problem, &optimum.iterate, player).0).collect()
-}
-
-impl Deviation {
-    /// The best one of a player that a solution of its own problem finds, and how that was found; the player's own motion where there
-    /// is none.
-    pub(super) fn of<S: StageSolver>(
-        replies: &mut Optimiser<S>,
-        problem: &Problem,
-        iterate: &Iterate,
-        player: usize,
-    ) -> (Deviation, Option<Statistics>) {
-        let alone = problem.alone(player, iterate);
-        let kept = vec![iterate.inputs[player].clone()];
-        let cost = alone.cost_of(&kept);
-        let Ok(mut reply) = replies.optimise(&alone, &kept) else {
-            let inputs = iterate.inputs[player].clone();
-            return (Deviation { player, gain: 0.0, inputs }, None);
-        };
-        let inputs = std::mem::take(&mut reply.iterate.inputs[0]);
-        (Deviation { player, gain: (cost - reply.cost.total).max(0.0), inputs }, Some(reply.statistics))
-    }
 }

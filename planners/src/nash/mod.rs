@@ -6,13 +6,15 @@
 //! Whoever does not play is an obstacle on its predicted way.
 
 mod best_replies;
+mod deviation;
 pub mod diagnostics;
 mod equilibrium;
 mod players;
 mod prioritised;
 mod settings;
 
-pub use equilibrium::{Equilibrium, TOLERATED_GAIN, equilibrium};
+pub use deviation::TOLERATED_GAIN;
+pub use equilibrium::{Equilibrium, equilibrium};
 pub use settings::Settings;
 
 use crate::conservative;
