@@ -95,7 +95,7 @@ fn assignments(
     let is_list = schema.is_some_and(|schema| schema.entries().is_some());
     match entry.node.value {
         // A list takes entries by name, and an entry keeps what is not stated.
-        TomlValue::Table(table) if is_list || in_list => {
+        TomlValue::Table(table) if is_list || in_list || leads_to_entries(schema, &table) => {
             let mut all = Vec::new();
             for (key, entry) in table {
                 all.extend(assignments(schema, &steps, &key, entry)?);
@@ -104,6 +104,15 @@ fn assignments(
         }
         value => Ok(vec![(steps, TomlNode { place: entry.node.place, value })]),
     }
+}
+
+/// Whether a table holds, at some depth, a table in place of a list: then its keys are the names of entries, and the table is a path.
+fn leads_to_entries(schema: Option<SchemaNode>, table: &Table) -> bool {
+    table.iter().any(|(key, entry)| {
+        let below = schema.and_then(|schema| schema.property(key));
+        let is_list = below.is_some_and(|below| below.entries().is_some());
+        matches!(&entry.node.value, TomlValue::Table(inner) if is_list || leads_to_entries(below, inner))
+    })
 }
 
 /// The steps of a path that goes on with a key, in which dots separate the words.

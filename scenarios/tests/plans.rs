@@ -197,3 +197,15 @@ fn the_plans_in_the_binary_are_sound() {
     }
     assert!(embedded_plans().contains(&"quick"));
 }
+
+/// An entry of a list below a table is named as on the command line, whether the path is quoted or not.
+#[test]
+fn paths_lead_through_lists_below_tables() {
+    for path in ["building.zone.office.heating_limit_kw", "'building.zone.office.heating_limit_kw'"] {
+        let text = format!("scenario = ['building/office-and-flat']\n[set]\n{path} = 5.5\nbuilding.step_s = 900.0\n");
+        let plan = SweepPlan::from_text("plan.toml", &text, Path::new("")).expect("sound");
+        let scenario = plan.scenario(&plan.point(0)).expect("sound");
+        let text = serde_json::to_string(&scenario).expect("text");
+        assert!(text.contains("\"heating_limit_kw\":5.5"), "{path}: {}", &text[..200]);
+    }
+}

@@ -43,6 +43,13 @@ const WRONG: &[(&str, usize, usize, &str)] = &[
         9,
         "there is no `fron`",
     ),
+    // Keys of one table, stated line by line.
+    (
+        "scenario = ['lane-change/front-nice']\n[set]\nvehicle.ego.driver.kind = 'negotiation'\nvehicle.ego.driver.patience_steps = -1\n",
+        4,
+        37,
+        "must be at least 1",
+    ),
     ("scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = []\n", 3, 33, "must not be empty"),
     (
         "scenario = ['lane-change/front-nice']\n[vary]\nvehicle.front.start.speed_mps = 1.0\n",

@@ -63,8 +63,8 @@ impl<'a> Assignment<'a> {
 
     /// Whether the path or the value is written at a place.
     pub fn is_written_at(&self, place: &Place) -> bool {
-        let words = self.path.iter().flat_map(|path| path.places());
-        words.chain([&self.value.place]).any(|own| own.holds(place))
+        let mut words = self.path.iter().flat_map(|path| path.places());
+        words.any(|own| own.holds(place)) || is_within(&self.value, place)
     }
 
     /// The assignment as it would be written, numbers to six digits.
@@ -76,6 +76,19 @@ impl<'a> Assignment<'a> {
         };
         format!("`{path} = {value}`")
     }
+}
+
+/// Whether a value, or something in it, is written at a place. The place of a table whose keys are stated line by line is that of the
+/// first.
+fn is_within(value: &TomlNode, place: &Place) -> bool {
+    value.place.holds(place)
+        || match &value.value {
+            TomlValue::Table(table) => {
+                table.values().any(|entry| entry.key.holds(place) || is_within(&entry.node, place))
+            }
+            TomlValue::Array(items) => items.iter().any(|item| is_within(item, place)),
+            _ => false,
+        }
 }
 
 /// A number to six digits, as short as it can be written.
