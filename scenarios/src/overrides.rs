@@ -344,7 +344,7 @@ fn no_such_entry((steps, done): Progress<'_>, labels: &[String]) -> Fault {
     let message = format!("there is no {} in {}", quoted(&step.word), quoted(&list));
     let known: Vec<&str> = labels.iter().map(String::as_str).collect();
     let help = match known.as_slice() {
-        [] => format!("the scenario has no entries in {}", quoted(&list)),
+        [] => format!("the scenario has no entries with a name in {}", quoted(&list)),
         known => suggestion(&step.word, "there are", known),
     };
     Fault::at(&step.place, "unknown", message).help(help)
