@@ -11,7 +11,8 @@
 //! - until which tick one of the [last resorts](interplay_planners::certificate::last_resorts) would have avoided it if the others
 //!   had moved as they did (*avoidable*), which nobody knows beforehand, and
 //! - whether the same motion of the ego would have touched somebody if the others had done from that tick on what they planned at
-//!   it (*foretold*).
+//!   it (*foretold*),
+//! - and who caused it (*by the ego*): the ego if it moved towards the other at least as fast as the other towards it, as in sweeps.
 //!
 //! Words select families and planners; another seed (7 unless stated) draws others.
 
@@ -23,7 +24,7 @@ use std::io::Write;
 use common::Random;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::certificate::{last_resorts, overlap_m};
-use interplay_planners::{Driver, Scene, State, Trajectory, human};
+use interplay_planners::{Agent, Driver, Scene, State, Trajectory, human};
 
 /// Ticks of a run.
 const TICKS: usize = 60;
@@ -35,6 +36,7 @@ const FIRST_GAP_M: f64 = 0.1;
 /// Words of a verdict.
 const AVOIDABLE: &str = "avoidable";
 const FORETOLD: &str = "foretold";
+const BY_THE_EGO: &str = "by the ego";
 /// Numbers that vary, a vehicle: place, speed, and the weight of a human.
 const NUMBERS: usize = 3;
 
@@ -59,8 +61,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         words.remove(0);
     }
     let mut out = std::io::stdout();
-    writeln!(out, "| family | planner | runs | contacts | avoidable | foretold | smallest gap m |")?;
-    writeln!(out, "|---|---|---|---|---|---|---|")?;
+    writeln!(out, "| family | planner | runs | contacts | avoidable | foretold | by the ego | smallest gap m |")?;
+    writeln!(out, "|---|---|---|---|---|---|---|---|")?;
     // The styles of humans are varied here: one of the families that differ in them only.
     let names = ["lane-change/nice-nice", "ramp-merge/nice-nice", "lane-keeping/nice", "intersection/nice"];
     for (family, pose) in families().into_iter().filter(|(name, _)| names.contains(&name.as_str())) {
@@ -78,9 +80,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             };
             let (runs, nearest_m, contacts) = search(&vehicles, steps, seed);
             let counted = |word: &str| contacts.iter().filter(|contact| contact.contains(word)).count();
-            let (all, avoidable, foretold) = (contacts.len(), counted(AVOIDABLE), counted(FORETOLD));
-            let kind = ego.kind();
-            writeln!(out, "| {family} | {kind} | {runs} | {all} | {avoidable} | {foretold} | {nearest_m:.3} |")?;
+            let [avoidable, foretold, by_ego] = [AVOIDABLE, FORETOLD, BY_THE_EGO].map(counted);
+            let (kind, all) = (ego.kind(), contacts.len());
+            writeln!(
+                out,
+                "| {family} | {kind} | {runs} | {all} | {avoidable} | {foretold} | {by_ego} | {nearest_m:.3} |"
+            )?;
             contacts.iter().take(20).try_for_each(|contact| writeln!(out, "{contact}"))?;
             out.flush()?;
         }
@@ -110,7 +115,8 @@ fn search(vehicles: &dyn Fn() -> Vec<Vehicle>, steps: usize, seed: u64) -> (usiz
                 let told = if touches_as_told(&encounter, tick) { FORETOLD } else { "not as planned then" };
                 format!("{AVOIDABLE} until tick {tick}, {told}")
             });
-            contacts.push(format!("contact at tick {}, {verdict}: {numbers:?}", encounter.tick));
+            let cause = if is_by_ego(&encounter) { BY_THE_EGO } else { "by the other" };
+            contacts.push(format!("contact at tick {}, {cause}, {verdict}: {numbers:?}", encounter.tick));
         }
     }
     (runs, best_m, contacts)
@@ -159,6 +165,15 @@ fn gap_m(scene: &Scene) -> f64 {
     let ego = scene.ego.body.corners(&scene.ego.state);
     let gaps = scene.others.iter().map(|other| -overlap_m(&ego, &other.body.corners(&other.state)));
     gaps.fold(f64::INFINITY, f64::min)
+}
+
+/// Whether the ego drives into somebody at the end.
+fn is_by_ego(encounter: &Encounter) -> bool {
+    encounter.scenes.last().is_some_and(|scene| {
+        let own = scene.ego.body.corners(&scene.ego.state);
+        let touched = |other: &&Agent| overlap_m(&own, &other.body.corners(&other.state)) >= 0.0;
+        scene.others.iter().filter(touched).any(|other| scene.ego.state.drives_into(&other.state))
+    })
 }
 
 /// The last tick from which a last resort touches nobody until the contact, if the others move as they did.

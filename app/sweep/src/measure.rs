@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use interplay_scenarios::{Scenario, SweepPoint};
-use interplay_simulation::frame::{Frame, VehicleFrame};
+use interplay_simulation::frame::Frame;
 use interplay_simulation::report::{BuildingReport, Report, VehicleReport};
 use interplay_simulation::run::run;
 use interplay_simulation::watch::{WatchError, Watcher};
@@ -174,15 +174,8 @@ impl Watcher for ContactWatcher {
         };
         let is_other = |name: &str| name != ego.name && contact.between.iter().any(|one| one == name);
         let Some(other) = frame.vehicles.iter().find(|vehicle| is_other(&vehicle.name)) else { return Ok(()) };
-        let [ahead_x_m, ahead_y_m] = [other.state.x_m - ego.state.x_m, other.state.y_m - ego.state.y_m];
-        // Speeds along the line from the ego to the other, times its length; the other moves against it.
-        let along = |vehicle: &VehicleFrame| {
-            let (sin, cos) = libm::sincos(vehicle.state.heading_rad);
-            vehicle.state.speed_mps * (cos * ahead_x_m + sin * ahead_y_m)
-        };
-        let [ego_towards, other_towards] = [along(ego), -along(other)];
         let mut seen = self.seen.0.lock().unwrap_or_else(PoisonError::into_inner);
-        seen.get_or_insert(ego_towards > 0.0 && ego_towards >= other_towards);
+        seen.get_or_insert(ego.state.drives_into(&other.state));
         Ok(())
     }
 

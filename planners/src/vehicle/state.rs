@@ -43,6 +43,19 @@ impl State {
     pub fn is_finite(&self) -> bool {
         self.to_array().iter().all(|value| value.is_finite())
     }
+
+    /// Of two vehicles that touch, whether this one causes it: it moves towards the other, and at least as fast as the other
+    /// moves towards it.
+    pub fn drives_into(&self, other: &State) -> bool {
+        let [ahead_x_m, ahead_y_m] = [other.x_m - self.x_m, other.y_m - self.y_m];
+        // Speeds along the line from here to the other, times its length; the other moves against it.
+        let along = |state: &State| {
+            let (sin, cos) = libm::sincos(state.heading_rad);
+            state.speed_mps * (cos * ahead_x_m + sin * ahead_y_m)
+        };
+        let [towards, others_towards] = [along(self), -along(other)];
+        towards > 0.0 && towards >= others_towards
+    }
 }
 
 /// Input of one vehicle, `u = (a, δ)` of eq. 6.1-6.4.
