@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::bayesian::{self, Bayesian};
-use crate::belief::{self, DriverBeliefs};
+use crate::belief::{self, DriverBeliefs, Outlook};
 use crate::certificate::{refused, violations};
 use crate::conservative::{self, Conservative};
-use crate::contingency::{self, Contingency, Outlook};
+use crate::contingency::{self, Contingency};
 use crate::cooperative::{self, Cooperative};
 use crate::deadline::PlanDeadline;
 use crate::diagnostic::Explanation;
@@ -270,12 +270,9 @@ impl Planner {
             return self.plan_as_told(&sensed.scene, &Outlook::default());
         };
         let inferred = beliefs.infer(sensed);
-        let outlook = match self.method {
-            Method::Contingency(_) => {
-                Outlook { alternatives: beliefs.alternatives(sensed, &inferred.scene), delay: sensed.oldest_sighting() }
-            }
-            _ => Outlook::default(),
-        };
+        let alternatives = beliefs.alternatives(sensed, &inferred.scene);
+        let estimates = inferred.estimates.clone();
+        let outlook = Outlook { alternatives, estimates, delay: sensed.oldest_sighting() };
         let mut plan = self.plan_as_told(&inferred.scene, &outlook)?;
         plan.diagnostics.extend(inferred.diagnostics);
         plan.events.splice(0..0, inferred.events);
@@ -291,8 +288,8 @@ impl Planner {
             Method::Scripted(planner) => planner.plan(scene),
             Method::Conservative(planner) => planner.plan(scene),
             Method::Negotiation(planner) => planner.plan(scene),
-            Method::Bayesian(planner) => planner.plan(scene),
-            Method::Game(planner) => planner.plan(scene),
+            Method::Bayesian(planner) => planner.plan(scene, outlook),
+            Method::Game(planner) => planner.plan(scene, outlook),
             Method::Cooperative(planner) => planner.plan(scene),
             Method::Nash(planner) => planner.plan(scene),
             Method::Contingency(planner) => planner.plan(scene, outlook),

@@ -86,6 +86,11 @@ impl DriverEstimate {
         }
     }
 
+    /// The mean of a quantity that depends on the kind of driver.
+    pub fn mean(&self, of: impl Fn(DriverModel) -> f64) -> f64 {
+        DriverModel::ALL.into_iter().map(|model| self.probability(model) * of(model)).sum()
+    }
+
     /// The probability of a kind of driver.
     pub fn probability(&self, model: DriverModel) -> f64 {
         self.probabilities[model.index()]

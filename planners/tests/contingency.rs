@@ -3,8 +3,8 @@
 mod common;
 
 use common::world::{self, Vehicle, lane_keeping, run_inferring};
-use interplay_planners::belief::{self, Alternative, DriverBeliefs};
-use interplay_planners::contingency::{self, Outlook, diagnostics::FUTURES, futures, shared_steps};
+use interplay_planners::belief::{self, Alternative, DriverBeliefs, Outlook};
+use interplay_planners::contingency::{self, diagnostics::FUTURES, futures, shared_steps};
 use interplay_planners::human::Style;
 use interplay_planners::sensing::SensedScene;
 use interplay_planners::{Driver, Plan, Scene, conservative};
@@ -32,7 +32,7 @@ fn seen(vehicles: &[Vehicle]) -> Vec<(Scene, Outlook, Plan)> {
                 let inferred = beliefs.infer(&sensed).scene;
                 let alternatives = beliefs.alternatives(&sensed, &inferred);
                 let plan = plan.clone().expect("a plan");
-                seen.push((inferred, Outlook { alternatives, delay: 0 }, plan));
+                seen.push((inferred, Outlook { alternatives, ..Outlook::default() }, plan));
             }
             plan
         });

@@ -2,12 +2,15 @@
 //!
 //! - The variance `Σ` of the signal: the less consistent the ego's plans, the less the other can read from them (eq. 7.27).
 //! - The weight `w_1` that the other puts on its own plan: the more its plan changes, the readier it is to change it
-//!   (eq. 7.28).
+//!   (eq. 7.28). Where plans are inferred, a change may be one of the ego's mind about the driver, and errors of what it
+//!   senses; there `w_1` is its mean over the kinds of driver that the other may be, from `w_min` of a nice one to `w_max` of
+//!   a tough one.
 //!
 //! Weights over time are uniform. The source gives neither scale: `Σ = min(c α, Σ_max)`, and
 //! `w_1 = w_min + (w_max − w_min) exp(−β/β_0)`.
 
 use super::Settings;
+use crate::driver_estimate::{DriverEstimate, DriverModel};
 use crate::{Agent, Body, State, Trajectory};
 
 /// The beliefs behind a signal, updated at every step.
@@ -34,11 +37,20 @@ impl PersuasionBelief {
     }
 
     /// Updates the belief by what the other plans now; `before` is what it planned a step ago.
-    pub(super) fn observe(&mut self, other: &Agent, before: &Trajectory, settings: &Settings) {
+    pub(super) fn observe(
+        &mut self,
+        other: &Agent,
+        before: &Trajectory,
+        estimate: Option<&DriverEstimate>,
+        settings: &Settings,
+    ) {
         let expected = before.shifted();
         self.beta_m = mean_change(&other.prediction, &expected, |a, b| squared(a.position(), b.position()));
         let range = settings.w_1_max - settings.w_1_min;
-        self.w_1 = settings.w_1_min + range * libm::exp(-self.beta_m / settings.beta_0_m);
+        self.w_1 = estimate.map_or_else(
+            || settings.w_1_min + range * libm::exp(-self.beta_m / settings.beta_0_m),
+            |estimate| estimate.mean(|model| loyalty(model, settings)),
+        );
         let strayed = expected.states.first().map_or(0.0, |state| squared(state.position(), other.state.position()));
         self.deviation = self.w_1 * strayed / (other.body.scale * other.body.scale);
     }
@@ -58,6 +70,15 @@ impl PersuasionBelief {
         };
         self.alpha = mean_change(plan, &before.shifted(), |a, b| squared(normalised(a), normalised(b)));
         self.variance = (settings.variance_per_change * self.alpha).min(settings.variance_max);
+    }
+}
+
+/// The weight that a kind of driver puts on its own plan: who yields to others changes it for them.
+fn loyalty(model: DriverModel, settings: &Settings) -> f64 {
+    match model {
+        DriverModel::Nice => settings.w_1_min,
+        DriverModel::Normal => (settings.w_1_min * settings.w_1_max).sqrt(),
+        DriverModel::Tough | DriverModel::Idm | DriverModel::Unknown => settings.w_1_max,
     }
 }
 
@@ -89,7 +110,7 @@ mod tests {
     fn watched(other: &Agent) -> PersuasionBelief {
         let settings = Settings::default();
         let mut belief = PersuasionBelief::initial(&settings);
-        belief.observe(other, &at(0.0, 1.0), &settings);
+        belief.observe(other, &at(0.0, 1.0), None, &settings);
         belief
     }
 
@@ -107,6 +128,21 @@ mod tests {
         assert!(
             (one.w_1 - (settings.w_1_min + (settings.w_1_max - settings.w_1_min) / std::f64::consts::E)).abs() < 1e-9
         );
+    }
+
+    #[test]
+    fn where_plans_are_inferred_the_kind_of_driver_says_how_loyal_it_is() {
+        let settings = Settings::default();
+        let believed = |probabilities: [f64; 5]| {
+            let estimate = DriverEstimate::new("other", DriverModel::Nice, probabilities);
+            let mut belief = PersuasionBelief::initial(&settings);
+            belief.observe(&agent(0.1, 0.5), &at(0.0, 1.0), Some(&estimate), &settings);
+            belief.w_1
+        };
+        assert_eq!(believed([0.0, 0.0, 1.0, 0.0, 0.0]), settings.w_1_min);
+        assert_eq!(believed([1.0, 0.0, 0.0, 0.0, 0.0]), settings.w_1_max);
+        let half = believed([0.5, 0.0, 0.5, 0.0, 0.0]);
+        assert!((half - 0.5 * (settings.w_1_min + settings.w_1_max)).abs() < 1e-12);
     }
 
     #[test]

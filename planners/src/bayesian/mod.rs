@@ -4,8 +4,8 @@
 //! bold. At every step the planner
 //!
 //! 1. chooses whom to persuade, one vehicle after the other;
-//! 2. reads from the change of the other's plan how loyal it is to it (`belief`, eq. 7.28), and from the change of its own
-//!    how clear its signal is (eq. 7.27);
+//! 2. reads from the change of the other's plan how loyal it is to it (`belief`, eq. 7.28), or from what it believes of the
+//!    other's driver where it infers plans, and from the change of its own plan how clear its signal is (eq. 7.27);
 //! 3. prices impressions by what the other's best reply to them is worth (`value`, eq. 7.18, 7.19);
 //! 4. solves for its own trajectory only (`signal`, eq. 7.23-7.26).
 //!
@@ -23,6 +23,7 @@ pub use settings::{ReplyValue, Settings};
 pub use signal::problem;
 pub use value::attraction;
 
+use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::encounter::{PartnerChoice, PartnerSequence};
@@ -61,10 +62,10 @@ impl Bayesian {
     ///
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    pub fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
-        self.observe(&choice);
+        self.observe(&choice, outlook);
         let problem = problem(scene, choice.partner, &self.belief, &self.settings);
         let Solved { problem, optimum, event } =
             conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref())?;
@@ -80,13 +81,14 @@ impl Bayesian {
     }
 
     /// Updates the belief about the vehicle to persuade.
-    fn observe(&mut self, choice: &PartnerChoice) {
+    fn observe(&mut self, choice: &PartnerChoice, outlook: &Outlook) {
         if choice.is_new {
             self.belief = PersuasionBelief::initial(&self.settings);
             self.partner_plan = None;
         }
         if let (Some(partner), Some(before)) = (choice.partner, &self.partner_plan) {
-            self.belief.observe(partner, before, &self.settings);
+            let estimate = outlook.estimate(&partner.name);
+            self.belief.observe(partner, before, estimate, &self.settings);
         }
         self.partner_plan = choice.partner.map(|partner| partner.prediction.clone());
     }

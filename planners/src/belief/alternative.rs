@@ -1,6 +1,7 @@
-//! What a vehicle may do.
+//! What vehicles may do.
 
 use crate::Trajectory;
+use crate::driver_estimate::DriverEstimate;
 
 /// What another vehicle may do if one hypothesis about its driver is true.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,4 +12,22 @@ pub struct Alternative {
     pub probability: f64,
     /// The motion from now on.
     pub prediction: Trajectory,
+}
+
+/// What the others may do, and how old the last sighting of them is. Empty for a driver who is told the plans.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outlook {
+    /// What each of the others may do, in the order of the scene.
+    pub alternatives: Vec<Vec<Alternative>>,
+    /// What is believed of the driver of each of them, in the same order.
+    pub estimates: Vec<DriverEstimate>,
+    /// The age of the oldest sighting, in steps.
+    pub delay: usize,
+}
+
+impl Outlook {
+    /// What is believed of one of the drivers; nothing where its plan is told.
+    pub fn estimate(&self, name: &str) -> Option<&DriverEstimate> {
+        self.estimates.iter().find(|estimate| estimate.vehicle == name)
+    }
 }

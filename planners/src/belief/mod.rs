@@ -31,7 +31,7 @@ mod observed_driver;
 mod settings;
 mod wishes;
 
-pub use alternative::Alternative;
+pub use alternative::{Alternative, Outlook};
 pub use settings::{Prior, Settings, StyleOdds};
 
 use std::collections::VecDeque;

@@ -21,7 +21,7 @@ mod settings;
 pub use futures::{Future, futures, shared_steps};
 pub use settings::Settings;
 
-use crate::belief::Alternative;
+use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::trajectory::activity::Activity;
@@ -29,15 +29,6 @@ use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Optimum, Penalty, Problem, Robust, Term, Violation};
 use crate::{Diagnostic, Goal, Input, Plan, PlanBranch, PlanError, Scene, Trajectory};
 use diagnostics::{FUTURES, LIKELIEST, SHARED_STEPS};
-
-/// What another vehicle may do, and how old the last sighting of the others is.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outlook {
-    /// What each of the others may do, in the order of the scene.
-    pub alternatives: Vec<Vec<Alternative>>,
-    /// The age of the oldest sighting, in steps.
-    pub delay: usize,
-}
 
 /// A contingency planner, with its last plan.
 #[derive(Clone, Debug)]

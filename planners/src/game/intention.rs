@@ -44,9 +44,9 @@ impl Behaviour {
     }
 }
 
-/// A belief that fades: a share of the way from `probability` to ½.
-pub fn forget(probability: f64, share: f64) -> f64 {
-    (1.0 - share) * probability + share * 0.5
+/// A belief that fades: a share of the way from `probability` to what is believed of a driver who has shown nothing.
+pub fn forget(probability: f64, share: f64, usual: f64) -> f64 {
+    (1.0 - share) * probability + share * usual
 }
 
 fn logit(p: f64) -> f64 {
@@ -98,9 +98,9 @@ mod tests {
     fn beliefs_stay_in_their_bounds_and_fade() {
         let speeds = Behaviour { yielding: 0.7, passing: 1.3, deviation: 0.2 };
         let mut belief = 0.5;
-        (0..100).for_each(|_| belief = speeds.posterior(forget(belief, 0.1), 1.4));
+        (0..100).for_each(|_| belief = speeds.posterior(forget(belief, 0.1, 0.5), 1.4));
         assert_eq!(belief, MAX_INTENTION);
-        (0..100).for_each(|_| belief = speeds.posterior(forget(belief, 0.1), 1.0));
+        (0..100).for_each(|_| belief = speeds.posterior(forget(belief, 0.1, 0.5), 1.0));
         assert!((belief - 0.5).abs() < 1e-3);
     }
 }

@@ -4,7 +4,8 @@
 //!
 //! 1. chooses whom to play with, one vehicle after the other ([`meeting`] says how they meet);
 //! 2. reads both intentions from behaviour by Bayes' rule: the other's, `p̃_s|e`, and what the other must think of the
-//!    ego's, `p̃_e|s` ([`intention`], eq. 8.1-8.4);
+//!    ego's, `p̃_e|s` ([`intention`], eq. 8.1-8.4); where it infers plans, what it believes of the other's driver is where
+//!    the first begins and what it fades to;
 //! 3. plays the game whose stakes follow from ratios of these intentions ([`payoff`], Table 8.2), valued as people value
 //!    risks ([`prospect`], eq. 8.5-8.7), and takes the ego's intention `p_e` from its solution ([`equilibrium`], eq. 8.8,
 //!    8.9, or [`logit`]);
@@ -26,7 +27,9 @@ mod settings;
 
 pub use settings::{GameForm, Settings, SolutionConcept};
 
+use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::driver_estimate::{DriverEstimate, DriverModel};
 use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
@@ -66,13 +69,13 @@ struct Intentions {
 }
 
 impl Intentions {
-    /// What is believed and intended before anything has been observed.
-    fn at_first(settings: &Settings) -> Self {
+    /// What is believed and intended before anything has been observed of a driver who usually passes with this probability.
+    fn at_first(settings: &Settings, usual: f64) -> Self {
         let own = match settings.form {
             GameForm::Corrected => settings.first_intention,
             GameForm::AsPrinted => 0.5,
         };
-        Intentions { other: 0.5, seen: 0.5, own }
+        Intentions { other: usual, seen: 0.5, own }
     }
 }
 
@@ -92,7 +95,7 @@ impl Game {
             theory: TabulatedTheory::new(settings.prospect),
             optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
             partner: PartnerSequence::default(),
-            intentions: Intentions::at_first(&settings),
+            intentions: Intentions::at_first(&settings, 0.5),
             fastest_mps: [0.0; 2],
             last: None,
         }
@@ -102,18 +105,20 @@ impl Game {
     ///
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    pub fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
+        let estimate = choice.partner.and_then(|partner| outlook.estimate(&partner.name));
+        let usual = estimate.map_or(0.5, usual_intention);
         if choice.is_new {
-            self.intentions = Intentions::at_first(&self.settings);
+            self.intentions = Intentions::at_first(&self.settings, usual);
             let partner_mps = choice.partner.map_or(0.0, |partner| partner.state.speed_mps);
             self.fastest_mps = [scene.ego.state.speed_mps, partner_mps];
         }
         let meeting = choice.partner.and_then(|other| Some((other, Meeting::of(scene, other, &self.settings)?)));
         let (mut round, mut expressed) = (None, None);
         if let Some((other, meeting)) = meeting {
-            let ego_behaviour = self.watch(scene, other, &meeting);
+            let ego_behaviour = self.watch(scene, other, usual, &meeting);
             let played = self.play();
             self.intentions.own = played.solution.ego;
             expressed =
@@ -133,7 +138,7 @@ impl Game {
     }
 
     /// Renews both beliefs; returns what the next belief about the ego will be judged by.
-    fn watch(&mut self, scene: &Scene, other: &Agent, meeting: &Meeting) -> ObservedBehaviour {
+    fn watch(&mut self, scene: &Scene, other: &Agent, usual: f64, meeting: &Meeting) -> ObservedBehaviour {
         let plan = self.last.as_ref().map(Trajectory::shifted);
         let ego_mps = plan.map_or(scene.ego.state.speed_mps, |plan| MeanSpeed::of(&plan.states));
         let other_mps = MeanSpeed::of(&other.prediction.states);
@@ -143,10 +148,12 @@ impl Game {
             GameForm::AsPrinted => meeting.observations([ego_mps, other_mps], &self.settings),
         };
         let [shown, seen] = observations(self.fastest_mps);
-        let believed =
-            |before: f64, shown: &ObservedBehaviour| shown.behaviour.posterior(self.prior(before), shown.observed);
         let Intentions { other, seen: own, .. } = self.intentions;
-        let beliefs = (believed(other, &seen), believed(own, &shown));
+        let prior = forget(other, self.settings.forgetting, usual);
+        let beliefs = (
+            seen.behaviour.posterior(prior, seen.observed),
+            shown.behaviour.posterior(self.prior(own), shown.observed),
+        );
         // The next beliefs use the speeds of this step, so what is expressed now must use them too.
         let fastest_mps = std::array::from_fn(|who| self.fastest_mps[who].max(driven_mps[who]));
         let [expected, _] = observations(fastest_mps);
@@ -157,7 +164,7 @@ impl Game {
 
     /// The prior of the next belief: what is believed now, after forgetting.
     fn prior(&self, belief: f64) -> f64 {
-        forget(belief, self.settings.forgetting)
+        forget(belief, self.settings.forgetting, 0.5)
     }
 
     fn play(&self) -> Round {
@@ -240,10 +247,33 @@ impl Game {
     }
 }
 
+/// The intention that a driver is taken to have before it shows one: the probability that it is none of those who yield.
+fn usual_intention(estimate: &DriverEstimate) -> f64 {
+    let passes = |model: DriverModel| match model {
+        DriverModel::Normal | DriverModel::Nice => 0.0,
+        DriverModel::Tough | DriverModel::Idm => 1.0,
+        DriverModel::Unknown => 0.5,
+    };
+    estimate.mean(passes).clamp(MIN_INTENTION, MAX_INTENTION)
+}
+
 /// The conservative problem (eq. 8.10) with the bounds that express an intention.
 pub fn problem(scene: &Scene, expressed: Option<MeanSpeed>) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
     problem.terms.extend(expressed.iter().flat_map(|interval| interval.bounds(0)).map(Term::MeanSpeed));
     problem
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_is_taken_for_tough_is_expected_to_pass() {
+        let usual = |probabilities| usual_intention(&DriverEstimate::new("other", DriverModel::Nice, probabilities));
+        assert_eq!(usual([1.0, 0.0, 0.0, 0.0, 0.0]), MAX_INTENTION);
+        assert_eq!(usual([0.0, 0.0, 1.0, 0.0, 0.0]), MIN_INTENTION);
+        assert!((usual([0.2, 0.3, 0.3, 0.1, 0.1]) - 0.35).abs() < 1e-12);
+    }
 }
