@@ -10,8 +10,11 @@
 //! and is counted apart. What is believed a second later is compared with the truth:
 //!
 //! - with humans of a named style (tough, normal or nice, in equal shares), the kind for which the human is taken;
-//! - with humans of any weight (log-uniform from 0.2 to 100), whether the interval of the safety weight holds it. A hypothesis
-//!   stands for the weights that are nearer to it than to the next, by their ratio: below 2, from 2 to 20, and above.
+//! - with humans of any weight (log-uniform from 0.01 to 100), whether the interval of the safety weight holds it. A hypothesis
+//!   stands for the weights whose plans are nearer to its plan than to the next one's ([`SAFETY_WEIGHT_EDGES`]).
+//!
+//! The last table says where these edges are: in each scene in which the interaction begins, the weight whose plan is after a second
+//! as far from that of one hypothesis as from that of the next.
 //!
 //! Shares have Wilson's 95 % interval.
 
@@ -25,7 +28,7 @@ use common::Random;
 use common::wilson::wilson_interval;
 use common::world::{STEP_S, Vehicle, begin, intersection, lane_change, lane_keeping};
 use interplay_planners::belief::{self, Prior};
-use interplay_planners::driver_estimate::{DriverEstimate, DriverModel};
+use interplay_planners::driver_estimate::{DriverEstimate, DriverModel, SAFETY_WEIGHT_EDGES};
 use interplay_planners::human::{self, Style};
 use interplay_planners::predict::Prediction;
 use interplay_planners::{Driver, Planner, Scene, State, conservative, negotiation};
@@ -36,14 +39,20 @@ const SECOND: usize = 10;
 const TICKS: usize = 60;
 /// Plans that are further apart after a second belong to drivers who can be told apart \[m\].
 const APART_M: f64 = 0.02;
-/// The safety weights at which the likelier hypothesis changes.
-const BETWEEN: [f64; 2] = [2.0, 20.0];
+/// Plans of two hypotheses nearer than this after a second have no edge between them \[m\].
+const ALIKE_M: f64 = 0.005;
+/// Halvings of the logarithm of a weight in the search for an edge.
+const HALVINGS: usize = 12;
+/// The smallest weight at which an edge is looked for.
+const LEAST_WEIGHT: f64 = 1e-3;
 
 /// What was believed a second after the interaction began.
 struct Belief {
     family: &'static str,
     safety_weight: f64,
     estimate: DriverEstimate,
+    /// Where the edges between hypotheses are in the scene in which the interaction begins ([`edges_in`]).
+    edges: [Option<f64>; 2],
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -55,8 +64,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         writeln!(out, "prior {words}\n")?;
         let weights = |random: &mut Random| [0.0, 8.0, 50.0][(3.0 * random.unit()) as usize];
         named_styles(&mut out, &beliefs(runs, seed, prior, weights))?;
-        let weights = |random: &mut Random| 10f64.powf(random.between(0.2f64.log10(), 2.0));
-        held_weights(&mut out, &beliefs(runs, seed, prior, weights))?;
+        let weights = |random: &mut Random| 10f64.powf(random.between(-2.0, 2.0));
+        let beliefs = beliefs(runs, seed, prior, weights);
+        held_weights(&mut out, &beliefs)?;
+        edges(&mut out, &beliefs)?;
     }
     Ok(())
 }
@@ -88,16 +99,16 @@ fn meet(number: usize, random: &mut Random, prior: Prior, weight: impl Fn(&mut R
     let safety_weight = weight(random);
     let observed = if family == "lane change" { 2 } else { 1 };
     vehicles[observed].drive(human(safety_weight));
-    let estimate = believed(&vehicles, observed, prior)?;
-    Some(Belief { family, safety_weight, estimate })
+    let (estimate, edges) = believed(&vehicles, observed, prior)?;
+    Some(Belief { family, safety_weight, estimate, edges })
 }
 
 fn human(safety_weight: f64) -> Driver {
     Driver::Human(human::Settings { safety_weight: Some(safety_weight), ..human::Settings::default() })
 }
 
-/// What vehicle 0 believes of another a second after drivers can first be told apart there.
-fn believed(vehicles: &[Vehicle], observed: usize, prior: Prior) -> Option<DriverEstimate> {
+/// What vehicle 0 believes of another a second after drivers can first be told apart there, and where the edges are then.
+fn believed(vehicles: &[Vehicle], observed: usize, prior: Prior) -> Option<(DriverEstimate, [Option<f64>; 2])> {
     let settings = belief::Settings { prior, ..belief::Settings::default() };
     let (mut traffic, _) = begin(vehicles);
     let mut planners: Vec<Planner> =
@@ -106,13 +117,14 @@ fn believed(vehicles: &[Vehicle], observed: usize, prior: Prior) -> Option<Drive
     for tick in 0..TICKS {
         let decisions = traffic.drive(|index, scene| {
             if index == observed && began.is_none() && can_be_told_apart(scene) {
-                began = Some(tick);
+                began = Some((tick, edges_in(scene)));
             }
             planners[index].plan(scene)
         });
-        if began.is_some_and(|began| tick >= began + SECOND) {
+        if let Some((_, edges)) = began.filter(|(began, _)| tick >= began + SECOND) {
             let own = decisions.into_iter().find(|decision| decision.vehicle == 0)?;
-            return own.plan.beliefs.into_iter().find(|belief| belief.vehicle == vehicles[observed].agent.name);
+            let of = |belief: &DriverEstimate| belief.vehicle == vehicles[observed].agent.name;
+            return own.plan.beliefs.into_iter().find(of).map(|estimate| (estimate, edges));
         }
     }
     None
@@ -159,11 +171,12 @@ fn held_weights(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::Re
     writeln!(out, "| family | interval holds the weight | not all weights |\n|---|---|---|")?;
     for family in ["lane keeping", "intersection", "lane change", ""] {
         let of: Vec<&&Belief> = told.iter().filter(|belief| belief.family.starts_with(family)).collect();
+        let interval = |belief: &Belief| belief.estimate.safety_weight_interval;
         let holds = |belief: &&&&Belief| {
-            let [low, high] = interval(&belief.estimate);
+            let [low, high] = interval(belief);
             (low..=high).contains(&belief.safety_weight)
         };
-        let says = |belief: &&&&Belief| interval(&belief.estimate) != [0.0, f64::INFINITY];
+        let says = |belief: &&&&Belief| interval(belief) != [0.0, SAFETY_WEIGHT_EDGES[3]];
         let family = if family.is_empty() { "all" } else { family };
         let [held, said] = [of.iter().filter(holds).count(), of.iter().filter(says).count()];
         writeln!(out, "| {family} | {} | {} |", share(held, of.len()), share(said, of.len()))?;
@@ -171,10 +184,33 @@ fn held_weights(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::Re
     writeln!(out)
 }
 
-/// The weights for which the hypotheses of the interval stand.
-fn interval(estimate: &DriverEstimate) -> [f64; 2] {
-    let [low, high] = estimate.safety_weight_interval;
-    let from = BETWEEN.into_iter().filter(|edge| *edge <= low).fold(0.0, f64::max);
-    let to = BETWEEN.into_iter().filter(|edge| *edge >= high).fold(f64::INFINITY, f64::min);
-    [from, to]
+/// Where edges between hypotheses are: quartiles over all runs.
+fn edges(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::Result<()> {
+    writeln!(out, "| edge between | scenes | lower quartile | median | upper quartile |\n|---|---|---|---|---|")?;
+    for (index, between) in ["tough and normal", "normal and nice"].into_iter().enumerate() {
+        let mut found: Vec<f64> = beliefs.iter().flatten().filter_map(|belief| belief.edges[index]).collect();
+        found.sort_by(f64::total_cmp);
+        let Some(last) = found.len().checked_sub(1) else { continue };
+        let [lower, median, upper] = [0.25, 0.5, 0.75].map(|share| found[(share * last as f64) as usize]);
+        writeln!(out, "| {between} | {} | {lower:.2} | {median:.2} | {upper:.2} |", found.len())?;
+    }
+    writeln!(out)
+}
+
+/// The weights at which the planning human is after a second as far from a tough as from a normal driver, and as far from a normal as
+/// from a nice one; none where these two do the same.
+fn edges_in(scene: &Scene) -> [Option<f64>; 2] {
+    let end = |weight: f64| Some(human(weight).planner().plan(scene).ok()?.trajectory.states[SECOND].position());
+    let apart_m = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
+    [[0.0, 8.0], [8.0, 50.0]].map(|[low, high]| {
+        let [from, to] = [end(low)?, end(high)?];
+        let [mut low, mut high] = [low.max(LEAST_WEIGHT).log10(), high.log10()];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let between = end(10f64.powf(middle))?;
+            let is_near = apart_m(between, from) < apart_m(between, to);
+            [low, high] = if is_near { [middle, high] } else { [low, middle] };
+        }
+        (apart_m(from, to) > ALIKE_M).then_some(10f64.powf(0.5 * (low + high)))
+    })
 }

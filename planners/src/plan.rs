@@ -16,8 +16,8 @@ pub struct Plan {
     pub trajectory: Trajectory,
     /// What it will do instead if things go on otherwise; of plans that branch.
     pub branches: Vec<PlanBranch>,
-    /// What the planner asks of another vehicle.
-    pub proposal: Option<Proposal>,
+    /// What the planner asks of others, whom it asks first at first.
+    pub proposals: Vec<Proposal>,
     /// How it passes the other vehicles that it comes near; of plans that keep out of ellipses.
     pub passing_orders: Vec<PassingOrder>,
     /// Numbers that explain it, in a fixed order for one planner.

@@ -60,9 +60,10 @@ fn everybody_finds_the_same_solution() {
         let joint: Vec<u64> = plans.iter().map(|plan| number(plan, COST).to_bits()).collect();
         assert!(joint.windows(2).all(|pair| pair[0] == pair[1]), "{joint:?}");
         if let [a, b] = plans.as_slice() {
-            assert_eq!(a.proposal.as_ref().map(|proposal| &proposal.trajectory), Some(&b.trajectory));
-            assert_eq!(b.proposal.as_ref().map(|proposal| &proposal.trajectory), Some(&a.trajectory));
+            assert_eq!(a.proposals.first().map(|proposal| &proposal.trajectory), Some(&b.trajectory));
+            assert_eq!(b.proposals.first().map(|proposal| &proposal.trajectory), Some(&a.trajectory));
         }
+        assert!(plans.iter().all(|plan| plan.proposals.len() == count - 1));
         let own: f64 = plans.iter().map(|plan| number(plan, OWN_COST)).sum();
         assert!((own - number(&plans[0], COST)).abs() < 1e-6, "costs add up but for the pairs' penalties");
     }

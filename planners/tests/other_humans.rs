@@ -71,7 +71,8 @@ fn a_negotiator_asks_nobody_who_cannot_see_it() {
             driver.into_iter().for_each(|driver| vehicle.drive(driver));
         }
         let plans = run(vehicles, 10).plans;
-        let asked: BTreeSet<String> = plans.into_iter().filter_map(|plan| Some(plan.proposal?.to)).collect();
+        let asked: BTreeSet<String> =
+            plans.into_iter().flat_map(|plan| plan.proposals).map(|proposal| proposal.to).collect();
         asked.into_iter().collect::<Vec<_>>()
     };
     assert_eq!(asked([None, None]), ["front"]);

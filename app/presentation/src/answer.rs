@@ -21,44 +21,50 @@ fn answer(share: f64) -> &'static str {
 /// dots lie on the band of the plan, so nobody can see a difference either.
 const NOTHING_NEW_WIDTHS: f64 = 0.5;
 
-/// Of every vehicle whom it asks without a pause, and whether it has asked for anything but what was expected anyway.
+/// Of every vehicle whom it asks without a pause, and of each whether it has asked for anything but what was expected anyway.
 ///
 /// A driver who follows a proposal is expected to do what it is asked for, so the past counts, too.
 #[derive(Clone, Debug, Default)]
-pub struct Requests(Vec<Option<(String, bool)>>);
+pub struct Requests(Vec<Vec<(String, bool)>>);
 
 impl Requests {
     /// Takes note of a tick, which must be the next one.
     pub fn tick(&mut self, scenario: &Scenario, frame: &Frame) {
         let before = std::mem::take(&mut self.0);
         let now = |(index, vehicle): (usize, &VehicleFrame)| {
-            let proposal = vehicle.plan.proposal.as_ref()?;
-            let known = before.get(index).cloned().flatten().filter(|(to, _)| *to == proposal.to);
-            let asked = known.is_some_and(|(_, asked)| asked) || asks_for_more(scenario, frame, proposal);
-            Some((proposal.to.clone(), asked))
+            let proposals = vehicle.plan.proposals.iter();
+            let asked = proposals.map(|proposal| {
+                let known = before.get(index).is_some_and(|asked| asked.contains(&(proposal.to.clone(), true)));
+                (proposal.to.clone(), known || asks_for_more(scenario, frame, proposal))
+            });
+            asked.collect()
         };
         self.0 = frame.vehicles.iter().enumerate().map(now).collect();
     }
 
-    /// The motion that a vehicle asks another one for at the last tick, or expects of it; none if that is what was expected
+    /// The motions that a vehicle asks others for at the last tick, or expects of them, without those that were expected
     /// anyway.
-    pub fn proposal<'a>(&self, frame: &'a Frame, vehicle: usize) -> Option<&'a Proposal> {
-        let asks_for_nothing = self.0.get(vehicle).is_some_and(|asks| asks.as_ref().is_some_and(|(_, asked)| !asked));
-        let proposal = frame.vehicles[vehicle].plan.proposal.as_ref()?;
-        (proposal.acceptance.is_none() || !asks_for_nothing).then_some(proposal)
+    pub fn proposals<'a>(&self, frame: &'a Frame, vehicle: usize) -> impl Iterator<Item = &'a Proposal> {
+        let asks = self.0.get(vehicle);
+        let asks_for_nothing = move |to: &String| asks.is_some_and(|asks| asks.contains(&(to.clone(), false)));
+        let proposals = frame.vehicles[vehicle].plan.proposals.iter();
+        proposals.filter(move |proposal| proposal.acceptance.is_none() || !asks_for_nothing(&proposal.to))
     }
 
     /// What a vehicle asks for at the last tick and what the other answers, without the subject; none if it asks for nothing.
     pub fn sentence(&self, frame: &Frame, vehicle: usize) -> Option<String> {
-        let Proposal { to, acceptance, .. } = self.proposal(frame, vehicle)?;
-        let Some(share) = acceptance else {
-            return Some(format!("expects {to} to take the dotted way"));
-        };
-        let asks = format!("asks {to} to take the dotted way");
-        if is_new(&frame.vehicles[vehicle].plan, to) {
-            return Some(asks);
-        }
-        Some(format!("{asks} – {to} {} ({:.0} %)", answer(*share), 100.0 * share))
+        let proposals: Vec<&Proposal> = self.proposals(frame, vehicle).collect();
+        let does = if proposals.first()?.acceptance.is_some() { "asks" } else { "expects" };
+        let names: Vec<&str> = proposals.iter().map(|proposal| proposal.to.as_str()).collect();
+        let way = if names.len() == 1 { "way" } else { "ways" };
+        let asks = format!("{does} {} to take the dotted {way}", names.join(", "));
+        let plan = &frame.vehicles[vehicle].plan;
+        let answers = proposals.iter().filter(|proposal| !is_new(plan, &proposal.to)).filter_map(|proposal| {
+            let share = proposal.acceptance?;
+            Some(format!("{} {} ({:.0} %)", proposal.to, answer(share), 100.0 * share))
+        });
+        let answers = answers.collect::<Vec<_>>().join(", ");
+        Some(if answers.is_empty() { asks } else { format!("{asks} – {answers}") })
     }
 }
 

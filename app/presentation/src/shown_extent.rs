@@ -51,7 +51,7 @@ pub fn car_m(scenario: &Scenario) -> f64 {
 
 /// With whom a vehicle deals: whom it asks first, then those to whom its order is open.
 pub fn partners(scenario: &Scenario, vehicle: &VehicleFrame) -> Vec<usize> {
-    let asked = vehicle.plan.proposal.iter().map(|proposal| &proposal.to);
+    let asked = vehicle.plan.proposals.iter().map(|proposal| &proposal.to);
     let mut partners = Vec::new();
     for name in asked.chain(vehicle.plan.passing_orders.iter().map(|order| &order.of)) {
         if let Some(index) = scenario.index_of(name).filter(|index| !partners.contains(index)) {

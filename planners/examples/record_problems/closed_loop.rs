@@ -101,7 +101,7 @@ pub fn run(scenario: &Scenario, ego: &Driver, mut watch: impl FnMut(&Decision) -
                 driver: &vehicles[index].driver,
                 scene,
                 last: before.map(|plan| &plan.trajectory),
-                last_proposal: before.and_then(|plan| Some(&plan.proposal.as_ref()?.trajectory)),
+                last_proposal: before.and_then(|plan| Some(&plan.proposals.first()?.trajectory)),
                 plan: &plan,
             };
             if watched.is_ok() {

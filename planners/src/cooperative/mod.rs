@@ -98,11 +98,8 @@ impl Cooperative {
     }
 
     fn answer(&self, problem: &Problem, optimum: &Optimum, own: usize) -> Plan {
-        let mut others = self.last.iter().enumerate().filter(|(index, _)| *index != own).map(|(_, part)| part.clone());
-        let proposal = match (others.next(), others.next()) {
-            (Some((to, trajectory)), None) => Some(Proposal { to, trajectory, acceptance: None }),
-            _ => None,
-        };
+        let others = self.last.iter().enumerate().filter(|(index, _)| *index != own).map(|(_, part)| part.clone());
+        let proposals = others.map(|(to, trajectory)| Proposal { to, trajectory, acceptance: None }).collect();
         let mut diagnostics: Vec<Diagnostic> = vec![
             COOPERATING_VEHICLES.is(self.last.len() as f64),
             OWN_COST.is(problem.own_cost(own, &optimum.iterate)),
@@ -112,6 +109,6 @@ impl Cooperative {
         diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
-        Plan { trajectory, proposal, diagnostics, statistics: optimum.statistics, ..Plan::default() }
+        Plan { trajectory, proposals, diagnostics, statistics: optimum.statistics, ..Plan::default() }
     }
 }

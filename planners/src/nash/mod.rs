@@ -98,10 +98,8 @@ impl Nash {
 
     fn answer(&self, problem: Problem, equilibrium: &Equilibrium) -> Plan {
         let Equilibrium { optimum, .. } = equilibrium;
-        let proposal = match &self.last[1..] {
-            [(to, trajectory)] => Some(Proposal { to: to.clone(), trajectory: trajectory.clone(), acceptance: None }),
-            _ => None,
-        };
+        let others = self.last.iter().skip(1).cloned();
+        let proposals = others.map(|(to, trajectory)| Proposal { to, trajectory, acceptance: None }).collect();
         let mut diagnostics: Vec<Diagnostic> = vec![
             PLAYERS.is(self.last.len() as f64),
             DEVIATION_GAIN.is(equilibrium.largest_gain()),
@@ -116,7 +114,7 @@ impl Nash {
             .then(|| PlanEvent::note(format!("finds no equilibrium: a player gains {gain:.1e} by leaving")));
         Plan {
             trajectory: optimum.trajectory(0),
-            proposal,
+            proposals,
             diagnostics,
             events: event.into_iter().collect(),
             problem: Some(Box::new(problem)),

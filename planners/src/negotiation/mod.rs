@@ -3,12 +3,12 @@
 //! At every step the planner
 //!
 //! 1. makes a conservative plan (eq. 6.13), its retreat;
-//! 2. chooses whom to ask (`partner_selection`);
+//! 2. chooses whom to ask (`partner_selection`): one vehicle as in the source, or with `partners_at_most` up to three at once;
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`Acceptance`], eq. 6.19);
 //! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
 //! 5. stays nearer to what it first proposed than to its first retreat, the more the better it was received
 //!    ([`persuasion()`], eq. 6.20-6.23);
-//! 6. solves for its own plan and a proposal to the other at once (`proposal`, eq. 6.24);
+//! 6. solves for its own plan and a proposal to each other that is asked at once (`proposal`, eq. 6.24);
 //! 7. applies the first input only if a conservative plan still exists after it (`filter`).
 
 mod acceptance;
@@ -24,7 +24,7 @@ mod state;
 
 pub use acceptance::Acceptance;
 pub use persuasion::persuasion;
-pub use proposal::{optimiser, problem};
+pub use proposal::{AskedPartner, optimiser, problem};
 pub use references::References;
 pub use settings::Settings;
 
@@ -49,7 +49,8 @@ pub struct Negotiation {
     filter: Filter,
     optimiser: Optimiser<Robust>,
     selection: PartnerSelection,
-    negotiation: NegotiationState,
+    /// What is remembered of those who are asked, by name, in their order.
+    negotiations: Vec<(String, NegotiationState)>,
 }
 
 impl Negotiation {
@@ -62,11 +63,11 @@ impl Negotiation {
             filter: Filter::default(),
             optimiser: optimiser(&settings),
             selection: PartnerSelection::default(),
-            negotiation: NegotiationState::default(),
+            negotiations: Vec::new(),
         }
     }
 
-    /// Plans the next move and the next proposal.
+    /// Plans the next move and the next proposals.
     ///
     /// # Errors
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
@@ -74,15 +75,13 @@ impl Negotiation {
         let scene = &self.settings.prediction.applied_to(scene);
         let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
-        let Some(partner) = self.choose(scene, &mut events) else {
+        let partners = self.choose(scene, &mut events);
+        if partners.is_empty() {
             return Ok(Plan { events, ..conservative::answer(retreat?) });
-        };
-        let accepted = self.update_acceptance(scene, partner);
-        let persuasion = {
-            let scale = scene.ego.body.scale;
-            persuasion::next_constraint(&self.settings, &self.negotiation, accepted, scale)
-        };
-        let outcome = self.propose(scene, partner, persuasion.clone());
+        }
+        let accepted = self.update_acceptance(scene, &partners);
+        let persuasion = self.persuasion(&accepted, scene.ego.body.scale);
+        let outcome = self.propose(scene, &partners, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
             Ok(solved) => solved,
             Err(error) => {
@@ -91,8 +90,8 @@ impl Negotiation {
                 return Ok(Plan { events, ..conservative::answer(retreat?) });
             }
         };
-        self.remember(&optimum, &retreat, partner);
-        let mut plan = self.to_plan(scene, (&optimum, partner), accepted, persuasion.as_ref());
+        self.remember(&optimum, &retreat, &partners);
+        let mut plan = self.to_plan(scene, (&optimum, &partners), &accepted, persuasion.as_ref());
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
@@ -101,81 +100,117 @@ impl Negotiation {
         Ok(plan)
     }
 
-    /// Chooses the vehicle to negotiate with; notes a change as an event.
-    fn choose<'a>(&mut self, scene: &'a Scene, events: &mut Vec<PlanEvent>) -> Option<&'a Agent> {
-        let before = self.selection.current().map(str::to_owned);
-        let partner = self.selection.choose(scene, &self.settings);
-        let now = partner.map(|partner| partner.name.clone());
-        if before != now {
-            self.negotiation = NegotiationState::default();
-            events.push(partner_event(now.as_deref(), "asks", "to ask"));
+    /// Chooses the vehicles to negotiate with; notes a change as an event. What is known of a negotiation that goes on stays.
+    fn choose<'a>(&mut self, scene: &'a Scene, events: &mut Vec<PlanEvent>) -> Vec<&'a Agent> {
+        let before = self.selection.clone();
+        let partners = self.selection.choose(scene, &self.settings);
+        if partners.is_empty() && before.asks_somebody() {
+            events.push(partner_event(None, "asks", "to ask"));
         }
-        partner
-    }
-
-    /// How far the last proposal was accepted; the ego concedes accordingly. Before the first proposal it is 1.
-    fn update_acceptance(&mut self, scene: &Scene, partner: &Agent) -> f64 {
-        let accepted = self.negotiation.acceptance(self.settings.acceptance, scene, partner);
-        if let Some(accepted) = accepted {
-            if self.settings.concession {
-                self.negotiation.concession.concede(accepted, self.settings.beta, self.settings.least_weight());
+        let goes_on = partners.iter().map(|partner| before.asks(&partner.name));
+        let known = std::mem::take(&mut self.negotiations);
+        for (partner, goes_on) in partners.iter().zip(goes_on) {
+            let state = known.iter().find(|(name, _)| goes_on && *name == partner.name);
+            if !goes_on {
+                events.push(partner_event(Some(&partner.name), "asks", "to ask"));
             }
-            self.selection.record(accepted, &self.settings);
+            let state = state.map_or_else(NegotiationState::default, |(_, state)| state.clone());
+            self.negotiations.push((partner.name.clone(), state));
         }
-        accepted.unwrap_or(1.0)
+        partners
     }
 
-    /// The ego's plan and the proposal to the partner at their joint optimum.
-    fn propose(&mut self, scene: &Scene, partner: &Agent, persuasion: Option<Persuasion>) -> Result<Solved, PlanError> {
-        let problem = problem(scene, partner, self.negotiation.concession.weight(), persuasion, &self.settings);
-        let keep = self.guess(&problem, partner);
+    /// How far each of the last proposals was accepted; the ego concedes accordingly. Before the first proposal it is 1.
+    fn update_acceptance(&mut self, scene: &Scene, partners: &[&Agent]) -> Vec<f64> {
+        let (settings, selection) = (&self.settings, &mut self.selection);
+        let pairs = self.negotiations.iter_mut().zip(partners);
+        let accepted = pairs.map(|((_, negotiation), partner)| {
+            let Some(accepted) = negotiation.acceptance(settings.acceptance, scene, partner) else { return 1.0 };
+            if settings.concession {
+                negotiation.concession.concede(accepted, settings.beta, settings.least_weight());
+            }
+            selection.record(&partner.name, accepted, settings);
+            accepted
+        });
+        accepted.collect()
+    }
+
+    /// The persuasion constraint: of several negotiations, that of the vehicle which accepts least.
+    fn persuasion(&self, accepted: &[f64], scale: f64) -> Option<Persuasion> {
+        let least = accepted.iter().zip(&self.negotiations).min_by(|(a, _), (b, _)| a.total_cmp(b));
+        least.and_then(|(accepted, (_, state))| persuasion::next_constraint(&self.settings, state, *accepted, scale))
+    }
+
+    /// The ego's plan and the proposals to the partners at their joint optimum.
+    fn propose(
+        &mut self,
+        scene: &Scene,
+        partners: &[&Agent],
+        persuasion: Option<Persuasion>,
+    ) -> Result<Solved, PlanError> {
+        let pairs = partners.iter().zip(&self.negotiations);
+        let asked: Vec<AskedPartner> = pairs
+            .map(|(agent, (_, negotiation))| AskedPartner { agent, weight: negotiation.concession.weight() })
+            .collect();
+        let problem = problem(scene, &asked, persuasion, &self.settings);
+        let keep = self.guess(&problem, partners);
         let optimum = self.optimiser.optimise(&problem, &keep)?;
         Ok(Solved { problem, optimum, event: None })
     }
 
-    /// The starting guess: the plans of the last round one step later. The other may plan differently by now, so that the last
-    /// proposal costs more than the other's new plan; the cheaper of the two is taken.
-    fn guess(&self, problem: &Problem, partner: &Agent) -> Vec<Vec<Input>> {
-        let own_way = partner.prediction.inputs.clone();
-        let Some(round) = &self.negotiation.last else { return vec![Vec::new(), own_way] };
-        let cooperative = round.cooperative.later_inputs();
-        let proposed = vec![cooperative.clone(), round.proposal.later_inputs()];
-        let unasked = vec![cooperative, own_way];
+    /// The starting guess: the plans of the last round one step later. The others may plan differently by now, so that the last
+    /// proposals cost more than their new plans; the cheaper of the two is taken.
+    fn guess(&self, problem: &Problem, partners: &[&Agent]) -> Vec<Vec<Input>> {
+        let own_ways = partners.iter().map(|partner| partner.prediction.inputs.clone());
+        let rounds = self.negotiations.iter().map(|(_, negotiation)| negotiation.last.as_ref());
+        let Some(known) = rounds.clone().flatten().next() else {
+            return std::iter::once(Vec::new()).chain(own_ways).collect();
+        };
+        let cooperative = known.cooperative.later_inputs();
+        let later = rounds.zip(own_ways.clone());
+        let proposals = later.map(|(round, own_way)| round.map_or(own_way, |round| round.proposal.later_inputs()));
+        let proposed: Vec<Vec<Input>> = std::iter::once(cooperative.clone()).chain(proposals).collect();
+        let unasked: Vec<Vec<Input>> = std::iter::once(cooperative).chain(own_ways).collect();
         if problem.cost_of(&proposed) <= problem.cost_of(&unasked) { proposed } else { unasked }
     }
 
     /// Keeps what this round led to for the next one.
-    fn remember(&mut self, optimum: &Optimum, retreat: &Result<Solved, PlanError>, partner: &Agent) {
-        self.negotiation.remember(NegotiationRound {
-            cooperative: optimum.trajectory(0),
-            conservative: retreat.as_ref().ok().map(|retreat| retreat.optimum.trajectory(0)),
-            proposal: optimum.trajectory(1),
-            prediction: partner.prediction.clone(),
-        });
+    fn remember(&mut self, optimum: &Optimum, retreat: &Result<Solved, PlanError>, partners: &[&Agent]) {
+        let conservative = retreat.as_ref().ok().map(|retreat| retreat.optimum.trajectory(0));
+        for (index, ((_, negotiation), partner)) in self.negotiations.iter_mut().zip(partners).enumerate() {
+            negotiation.remember(NegotiationRound {
+                cooperative: optimum.trajectory(0),
+                conservative: conservative.clone(),
+                proposal: optimum.trajectory(index + 1),
+                prediction: partner.prediction.clone(),
+            });
+        }
     }
 
-    /// The answer of the planner for an optimum of the negotiation problem.
+    /// The answer of the planner for an optimum of the negotiation problem. Of several acceptances and weights the least is told.
     fn to_plan(
         &self,
         scene: &Scene,
-        (optimum, partner): (&Optimum, &Agent),
-        accepted: f64,
+        (optimum, partners): (&Optimum, &[&Agent]),
+        accepted: &[f64],
         persuasion: Option<&Persuasion>,
     ) -> Plan {
         let trajectory = optimum.trajectory(0);
         let active =
             persuasion.is_some_and(|persuasion| persuasion::is_active(persuasion, &trajectory, scene.ego.body.scale));
+        let proposals = partners.iter().zip(accepted).enumerate().map(|(index, (partner, accepted))| Proposal {
+            to: partner.name.clone(),
+            trajectory: optimum.trajectory(index + 1),
+            acceptance: Some(*accepted),
+        });
+        let weights = self.negotiations.iter().map(|(_, negotiation)| negotiation.concession.weight());
         Plan {
             trajectory,
             statistics: optimum.statistics,
-            proposal: Some(Proposal {
-                to: partner.name.clone(),
-                trajectory: optimum.trajectory(1),
-                acceptance: Some(accepted),
-            }),
+            proposals: proposals.collect(),
             diagnostics: vec![
-                ACCEPTANCE.is(accepted),
-                CONCESSION_WEIGHT.is(self.negotiation.concession.weight()),
+                ACCEPTANCE.is(accepted.iter().copied().fold(1.0, f64::min)),
+                CONCESSION_WEIGHT.is(weights.fold(1.0, f64::min)),
                 PERSUASION_STRENGTH.is(persuasion.map_or(0.0, |persuasion| persuasion.strength)),
                 PERSUASION_ACTIVE.is(f64::from(u8::from(active))),
                 COST.is(optimum.cost.total),

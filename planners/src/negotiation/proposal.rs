@@ -11,15 +11,22 @@
 //! `D` = (1, 1, 0.1, 0.5) on (x, y, θ, v); `Δu` in 6.14 is vehicle 1's; the other's comfort costs a little.
 //!
 //! That the other follows its prediction until `T_n` is imposed exactly: those inputs are no unknowns.
+//!
+//! With several others `j` (the source has one) there is one problem for all of them. Each has its own `w_j`, lowered by its own
+//! refusals, and the ratio of the ego's cost to each deviation is the one of a negotiation with this vehicle alone: with the
+//! least weight `w = min w_j` the ego's cost has the factor `w/Z₁` and the deviation of `j` the factor `(w/w_j)(1 − w_j)/Z₂`.
+//! The others keep apart from one another by the ego's ellipse, or by as much of it as they plan to.
 
 use super::Settings;
 use crate::scene::ellipses;
 use crate::trajectory::terms::{Comfort, Persuasion, Separation, Tracking};
 use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, RouteStart, Term};
-use crate::{Agent, Axes, Bicycle, Goal, Scene};
+use crate::{Agent, Axes, Bicycle, Goal, SafetyEllipse, Scene};
 
 /// Diagonal of `D` on (x, y, θ, v) for 1/10 scale cars.
 const DEVIATION_WEIGHTS: [f64; 4] = [1.0, 1.0, 0.1, 0.5];
+/// Those that are asked keep at least this share of the ellipse between them, however near they plan to come.
+const LEAST_DISTANCE_SHARE: f64 = 0.3;
 /// Weight of the other's changes of input.
 const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 
@@ -37,29 +44,62 @@ pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
     optimiser
 }
 
-/// The negotiation problem: participant 0 is the ego, participant 1 the `partner`; `weight` is the concession weight `w`.
-pub fn problem(
-    scene: &Scene,
-    partner: &Agent,
-    weight: f64,
-    persuasion: Option<Persuasion>,
-    settings: &Settings,
-) -> Problem {
+/// A vehicle that is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct AskedPartner<'a> {
+    /// The vehicle.
+    pub agent: &'a Agent,
+    /// The weight `w` that concession to it has left to the ego's cost.
+    pub weight: f64,
+}
+
+/// The negotiation problem: participant 0 is the ego, the others are those that are asked, in their order.
+pub fn problem(scene: &Scene, asked: &[AskedPartner], persuasion: Option<Persuasion>, settings: &Settings) -> Problem {
+    let weight = asked.iter().map(|partner| partner.weight).fold(f64::INFINITY, f64::min);
     let share = weight / settings.ego_normaliser;
     let Goal { tracking, comfort, .. } = scene.goal;
     let goal = Goal { tracking: tracking.map(|q| share * q), comfort: comfort.map(|r| share * r), ..scene.goal };
     let mut terms = scene.own_terms(0, &goal);
-    terms.extend(scene.exact_keep_outs(scene.others.iter().filter(|other| other.name != partner.name)));
-    terms.extend(partner_terms(scene, partner, (1.0 - weight) / settings.other_normaliser));
-    let ellipses = ellipses(scene.goal.safety, &partner.route, &scene.centres(&partner.prediction));
-    terms.push(Term::Separation(Separation { vehicle: 0, from: 1, ellipses, penalty: Penalty::EXACT }));
+    let is_asked = |other: &&Agent| asked.iter().any(|partner| partner.agent.name == other.name);
+    terms.extend(scene.exact_keep_outs(scene.others.iter().filter(|other| !is_asked(other))));
+    for (index, AskedPartner { agent, weight: own_weight }) in asked.iter().enumerate() {
+        let vehicle = index + 1;
+        let share = weight / own_weight * (1.0 - own_weight) / settings.other_normaliser;
+        terms.extend(partner_terms(scene, agent, vehicle, share));
+        terms.push(separation(scene, scene.goal.safety, 0, (vehicle, agent)));
+    }
+    for (index, partner) in asked.iter().enumerate() {
+        let before = asked[..index].iter().enumerate().filter(|(_, other)| other.agent.may_meet(partner.agent));
+        terms.extend(before.map(|(other, by)| {
+            let safety = planned_distance(scene, by.agent, partner.agent);
+            separation(scene, safety, other + 1, (index + 1, partner.agent))
+        }));
+    }
     terms.extend(persuasion.map(Term::Persuasion));
-    let participants = vec![scene.participant(), asked(scene, partner, settings)];
+    let partners = asked.iter().map(|partner| participant(scene, partner.agent, settings));
+    let participants = std::iter::once(scene.participant()).chain(partners).collect();
     Problem { horizon: scene.horizon, participants, shared_steps: 0, terms }
 }
 
+/// A vehicle keeps out of the ellipse around one that is asked.
+fn separation(scene: &Scene, safety: SafetyEllipse, vehicle: usize, (from, agent): (usize, &Agent)) -> Term {
+    let ellipses = ellipses(safety, &agent.route, &scene.centres(&agent.prediction));
+    Term::Separation(Separation { vehicle, from, ellipses, penalty: Penalty::EXACT })
+}
+
+/// The ego's ellipse, or as large a part of it as one vehicle plans to keep out of around another.
+fn planned_distance(scene: &Scene, vehicle: &Agent, from: &Agent) -> SafetyEllipse {
+    let centres = scene.centres(&from.prediction);
+    let ellipses = ellipses(scene.goal.safety, &from.route, &centres);
+    let places = scene.centres(&vehicle.prediction).into_iter().zip(&centres).zip(&ellipses);
+    let nearest = places.map(|((place, centre), ellipse)| ellipse.distance(place, *centre).squared);
+    let share = libm::sqrt(nearest.fold(1.0, f64::min)).max(LEAST_DISTANCE_SHARE);
+    let SafetyEllipse { along_m, across_m } = scene.goal.safety;
+    SafetyEllipse { along_m: share * along_m, across_m: share * across_m }
+}
+
 /// The partner as a participant that follows its prediction until `T_n`.
-fn asked(scene: &Scene, partner: &Agent, settings: &Settings) -> Participant {
+fn participant(scene: &Scene, partner: &Agent, settings: &Settings) -> Participant {
     let settled = settings.settled_steps.min(scene.horizon - 1);
     let inputs = &partner.prediction.inputs;
     Participant {
@@ -74,15 +114,15 @@ fn asked(scene: &Scene, partner: &Agent, settings: &Settings) -> Participant {
 }
 
 /// What the partner prefers: its own prediction.
-fn partner_terms(scene: &Scene, partner: &Agent, share: f64) -> [Term; 3] {
+fn partner_terms(scene: &Scene, partner: &Agent, vehicle: usize, share: f64) -> [Term; 3] {
     let states = &partner.prediction.states;
     let last = states.last().copied().unwrap_or(partner.state);
     let targets = (1..=scene.horizon).map(|t| states.get(t).copied().unwrap_or(last)).collect();
     let (scale, [x, y, heading, speed]) = (partner.body.scale, DEVIATION_WEIGHTS);
     let weights = [x / (scale * scale), y / (scale * scale), heading, speed / scale].map(|d| share * d);
     [
-        Term::Comfort(Comfort { vehicle: 1, weights: [OTHER_COMFORT_WEIGHT; 2] }),
-        Term::Tracking(Tracking { vehicle: 1, weights, axes: Axes::WORLD, targets }),
-        Term::RoadEdge(partner.road_edge(1)),
+        Term::Comfort(Comfort { vehicle, weights: [OTHER_COMFORT_WEIGHT; 2] }),
+        Term::Tracking(Tracking { vehicle, weights, axes: Axes::WORLD, targets }),
+        Term::RoadEdge(partner.road_edge(vehicle)),
     ]
 }

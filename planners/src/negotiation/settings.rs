@@ -29,6 +29,10 @@ pub struct Settings {
     /// A vehicle that is this far ahead in the target lane is not asked any more \[m\].
     #[schemars(range(min = 0.0))]
     pub clear_lead_m: f64,
+    /// Most vehicles that are asked at once. With 1, the source's way, they are asked one after the other, from the front of the
+    /// road to its rear.
+    #[schemars(range(min = 1, max = 3))]
+    pub partners_at_most: usize,
     /// Steps during which the other is assumed to follow the prediction, `T_n` of eq. 6.15.
     #[schemars(range(min = 1))]
     pub settled_steps: usize,
@@ -73,6 +77,7 @@ impl Default for Settings {
             epsilon: 0.01,
             patience_steps: 5,
             clear_lead_m: 0.2,
+            partners_at_most: 1,
             settled_steps: 6,
             ego_normaliser: 1.0,
             other_normaliser: 100.0,

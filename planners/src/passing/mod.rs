@@ -28,7 +28,7 @@ const RELEVANT_HALF_AXES: f64 = 3.0;
 /// The order of a plan with respect to each relevant vehicle, in the scene's order.
 pub fn passing_orders(scene: &Scene, plan: &Plan) -> Vec<PassingOrder> {
     let order = |other: &Agent| {
-        let proposal = plan.proposal.as_ref().filter(|proposal| proposal.to == other.name);
+        let proposal = plan.proposals.iter().find(|proposal| proposal.to == other.name);
         let theirs = proposal.map_or(&other.prediction, |proposal| &proposal.trajectory);
         let position = position(scene, other, &plan.trajectory.states, &theirs.states)?;
         Some(PassingOrder { of: other.name.clone(), position })
@@ -219,7 +219,7 @@ mod tests {
         let mut plan = steady(&scene, 1.0);
         assert_eq!(words(&scene, &plan), ["stays behind crossing"]);
         let waits = constant_velocity(&State { speed_mps: 0.1, ..other.state }, 30, 0.1);
-        plan.proposal = Some(Proposal { to: "crossing".to_owned(), trajectory: waits, acceptance: None });
+        plan.proposals = vec![Proposal { to: "crossing".to_owned(), trajectory: waits, acceptance: None }];
         assert_eq!(words(&scene, &plan), ["goes ahead of crossing"]);
         assert!(words(&scene, &Plan { trajectory: Trajectory::default(), ..plan }).is_empty());
     }

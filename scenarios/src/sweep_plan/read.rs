@@ -35,6 +35,7 @@ const EMBEDDED: [(&str, &str); 7] = [
     ("inferred", include_str!("../../plans/inferred.toml")),
     ("real-roads", include_str!("../../plans/real-roads.toml")),
     ("any-weight", include_str!("../../plans/any-weight.toml")),
+    ("partners", include_str!("../../plans/partners.toml")),
     ("benchmark", include_str!("../../plans/benchmark.toml")),
 ];
 

@@ -86,8 +86,11 @@ impl<'a> DrivingPictures<'a> {
                 let line: Vec<[f64; 2]> = branch.iter().map(|point| view.place(*point)).collect();
                 canvas.line(&line, BRANCH_PX, LineEnd::Round, Ink::veiled(*colour, 1.0));
             }
-            let dots: Vec<[f64; 2]> = seen.proposal.iter().map(|point| view.place(*point)).collect();
-            for dot in spaced(&dots, 11.0) {
+            let dots = seen.proposals.iter().flat_map(|proposal| {
+                let places: Vec<[f64; 2]> = proposal.iter().map(|point| view.place(*point)).collect();
+                spaced(&places, 11.0)
+            });
+            for dot in dots {
                 canvas.disc(dot, 3.6, [0xFF, 0xFF, 0xFF]);
                 canvas.disc(dot, 2.6, *colour);
             }
@@ -247,7 +250,7 @@ fn key(run: &DrivingRun, moments: &[Moment]) -> String {
     [
         (seen.iter().enumerate().any(is_ribbon), "band: plan"),
         (seen.iter().any(|seen| !seen.branches.is_empty()), "lines: what it may do instead"),
-        (seen.iter().any(|seen| !seen.proposal.is_empty()), "dots: what it asks for"),
+        (seen.iter().any(|seen| !seen.proposals.is_empty()), "dots: what it asks for"),
     ]
     .into_iter()
     .filter(|(is_drawn, _)| *is_drawn)

@@ -36,8 +36,8 @@ pub struct SeenVehicle {
     pub plan_colour: Colour,
     /// What it may do instead, of plans that branch \[m\].
     pub branches: Vec<Vec<[f64; 2]>>,
-    /// The motion that it asks another vehicle for \[m\].
-    pub proposal: Vec<[f64; 2]>,
+    /// The motions that it asks other vehicles for \[m\].
+    pub proposals: Vec<Vec<[f64; 2]>>,
 }
 
 /// All ticks of a run with vehicles.
@@ -151,9 +151,10 @@ impl<'a> DrivingRun<'a> {
                     let branches = vehicle.plan.branches.iter();
                     branches.map(|branch| rest(&branch.trajectory.states, &state)).collect()
                 },
-                proposal: self.requests[tick]
-                    .proposal(frame, index)
-                    .map_or_else(Vec::new, |proposal| proposal.trajectory.states.iter().map(State::position).collect()),
+                proposals: {
+                    let proposals = self.requests[tick].proposals(frame, index);
+                    proposals.map(|proposal| proposal.trajectory.states.iter().map(State::position).collect()).collect()
+                },
             }
         };
         frame.vehicles.iter().enumerate().map(seen).collect()

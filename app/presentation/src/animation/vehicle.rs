@@ -205,7 +205,7 @@ mod tests {
             plan: Vec::new(),
             plan_colour: [0; 3],
             branches: Vec::new(),
-            proposal: Vec::new(),
+            proposals: Vec::new(),
         }
     }
 

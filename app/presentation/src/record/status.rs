@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn a_line_says_who_is_asked_and_what_it_answers() {
         let asks = |acceptance| Plan {
-            proposal: Some(Proposal { to: "front".to_owned(), trajectory: Default::default(), acceptance }),
+            proposals: vec![Proposal { to: "front".to_owned(), trajectory: Default::default(), acceptance }],
             passing_orders: vec![order("front", PassingPosition::Ahead)],
             ..Plan::default()
         };

@@ -53,11 +53,10 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
         let asks = vehicle.driver.kind() == "negotiation" && tick < 5;
         let plan = Plan {
             trajectory: ahead.clone(),
-            proposal: asks.then(|| Proposal {
-                to: "front".to_owned(),
-                trajectory: ahead.clone(),
-                acceptance: Some(1.0),
-            }),
+            proposals: asks
+                .then(|| Proposal { to: "front".to_owned(), trajectory: ahead.clone(), acceptance: Some(1.0) })
+                .into_iter()
+                .collect(),
             diagnostics: if asks { vec![CONCESSION_WEIGHT.is(0.5)] } else { vec![COST.is(1.0)] },
             passing_orders: vec![PassingOrder { of: "rear".to_owned(), position: PassingPosition::Ahead }],
             ..Plan::default()

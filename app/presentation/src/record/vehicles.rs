@@ -102,7 +102,8 @@ impl VehicleLayer {
         requests: &Requests,
     ) -> RecordingStreamResult<()> {
         for (index, (drawn, vehicle)) in self.vehicles.iter_mut().zip(&frame.vehicles).enumerate() {
-            drawn.log_tick(stream, vehicle, requests.proposal(frame, index))?;
+            let asks: Vec<&Proposal> = requests.proposals(frame, index).collect();
+            drawn.log_tick(stream, vehicle, &asks)?;
             drawn.log_lights(stream, vehicle, indicated(scenario, &scenario.vehicles[index], vehicle))?;
             if index != self.ego {
                 let heading_rad = drawn.route.locate(vehicle.state.position(), None).heading_rad;
@@ -149,7 +150,7 @@ impl DrawnVehicle {
         &mut self,
         stream: &RecordingStream,
         vehicle: &VehicleFrame,
-        asks: Option<&Proposal>,
+        asks: &[&Proposal],
     ) -> RecordingStreamResult<()> {
         let state = &vehicle.state;
         stream.log(self.at("body"), &pose(state))?;
@@ -161,10 +162,10 @@ impl DrawnVehicle {
         let plan = strips([points(&vehicle.plan.trajectory, self.z(PLAN_WIDTHS))]).with_colors([plan_colour.solid()]);
         stream.log(self.at("plan"), &plan)?;
         stream.log(self.at("prediction"), &strips(dashes(&vehicle.prediction, self.z(PREDICTION_WIDTHS))))?;
-        if asks.is_some() || self.asks {
-            self.asks = asks.is_some();
-            let dots = asks.map(|proposal| points(&proposal.trajectory, self.z(PROPOSAL_WIDTHS)));
-            stream.log(self.at("proposal"), &Points3D::update_fields().with_positions(dots.unwrap_or_default()))?;
+        if !asks.is_empty() || self.asks {
+            self.asks = !asks.is_empty();
+            let dots = asks.iter().flat_map(|proposal| points(&proposal.trajectory, self.z(PROPOSAL_WIDTHS)));
+            stream.log(self.at("proposal"), &Points3D::update_fields().with_positions(dots))?;
         }
         let branches = &vehicle.plan.branches;
         if !branches.is_empty() || self.branches {

@@ -48,7 +48,7 @@ mod tests {
             model,
             probabilities: [0.2; 5],
             safety_weight: 20.0,
-            safety_weight_interval: [0.0, 50.0],
+            safety_weight_interval: [0.0, 100.0],
             entropy,
         }
     }

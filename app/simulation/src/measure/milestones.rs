@@ -3,7 +3,9 @@
 //!
 //! Each is logged when it begins, and again only after it has ended.
 
-use interplay_planners::Limits;
+use std::collections::BTreeMap;
+
+use interplay_planners::{Limits, Proposal};
 use interplay_scenarios::Scenario;
 
 use crate::climate::Building;
@@ -26,23 +28,22 @@ const BUILDING_SOURCE: &str = "building";
 pub struct Milestones {
     limits: Vec<Limits>,
     brakes: Vec<bool>,
-    /// Whether the last proposal of each vehicle was accepted, once that was clear.
-    accepted: Vec<Option<bool>>,
+    /// Of each vehicle, whether its last proposal to others was accepted, by their names, once that was clear.
+    accepted: Vec<BTreeMap<String, bool>>,
 }
 
 impl Milestones {
     /// Nothing logged yet.
     pub fn new(scenario: &Scenario) -> Milestones {
         let limits: Vec<Limits> = scenario.vehicles.iter().map(|vehicle| vehicle.limits).collect();
-        Milestones { brakes: vec![false; limits.len()], accepted: vec![None; limits.len()], limits }
+        Milestones { brakes: vec![false; limits.len()], accepted: vec![BTreeMap::new(); limits.len()], limits }
     }
 
     /// What begins in this tick.
     pub fn observe(&mut self, frame: &Frame) -> Vec<Event> {
         let vehicles = frame.vehicles.iter().enumerate();
         vehicles
-            .flat_map(|(index, vehicle)| [self.braking(index, vehicle), self.answer(index, vehicle)])
-            .flatten()
+            .flat_map(|(index, vehicle)| self.braking(index, vehicle).into_iter().chain(self.answers(index, vehicle)))
             .collect()
     }
 
@@ -53,28 +54,30 @@ impl Milestones {
         (self.brakes[index] && !braked).then(|| note(&vehicle.name, "brakes"))
     }
 
-    /// How the other takes a proposal. One that asks for nothing new counts as accepted and is not logged.
-    fn answer(&mut self, index: usize, vehicle: &VehicleFrame) -> Option<Event> {
-        let Some(proposal) = &vehicle.plan.proposal else {
-            self.accepted[index] = None;
-            return None;
-        };
-        let acceptance = proposal.acceptance?;
-        let now = if acceptance >= MIN_ACCEPTED_PROBABILITY {
-            true
-        } else if acceptance <= MAX_REFUSED_PROBABILITY {
-            false
-        } else {
-            return None;
-        };
-        let before = self.accepted[index].replace(now);
-        match (before, now) {
-            (None | Some(true), false) => {
-                Some(note(&proposal.to, &format!("does not do what {} proposes", vehicle.name)))
-            }
-            (Some(false), true) => Some(note(&proposal.to, &format!("does what {} proposes", vehicle.name))),
-            _ => None,
-        }
+    /// How the others take proposals.
+    fn answers(&mut self, index: usize, vehicle: &VehicleFrame) -> Vec<Event> {
+        let proposals = &vehicle.plan.proposals;
+        let known = &mut self.accepted[index];
+        known.retain(|name, _| proposals.iter().any(|proposal| proposal.to == *name));
+        proposals.iter().filter_map(|proposal| answer(known, vehicle, proposal)).collect()
+    }
+}
+
+/// How the other takes a proposal. One that asks for nothing new counts as accepted and is not logged.
+fn answer(known: &mut BTreeMap<String, bool>, vehicle: &VehicleFrame, proposal: &Proposal) -> Option<Event> {
+    let acceptance = proposal.acceptance?;
+    let now = if acceptance >= MIN_ACCEPTED_PROBABILITY {
+        true
+    } else if acceptance <= MAX_REFUSED_PROBABILITY {
+        false
+    } else {
+        return None;
+    };
+    let before = known.insert(proposal.to.clone(), now);
+    match (before, now) {
+        (None | Some(true), false) => Some(note(&proposal.to, &format!("does not do what {} proposes", vehicle.name))),
+        (Some(false), true) => Some(note(&proposal.to, &format!("does what {} proposes", vehicle.name))),
+        _ => None,
     }
 }
 
