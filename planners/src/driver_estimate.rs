@@ -5,7 +5,7 @@
 pub(crate) const SAFETY_WEIGHTS: [f64; 3] = [0.0, 8.0, 50.0];
 
 /// Between which weights each hypothesised human is the nearest: a driver with the weight 0.2 is after a second as far from
-/// where a tough driver would be as from where a normal one would be, and one with 16 is between normal and nice (medians of 1,060
+/// where a tough driver would be as from where a normal one would be, and one with 16 is between normal and nice (medians of 1,100
 /// scenes in which they can be told apart, `--example belief_calibration`). The last stands for all weights above 16.
 pub const SAFETY_WEIGHT_EDGES: [f64; 4] = [0.0, 0.2, 16.0, 100.0];
 

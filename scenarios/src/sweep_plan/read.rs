@@ -28,7 +28,7 @@ use crate::weather::WeatherConfig;
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 7] = [
+const EMBEDDED: [(&str, &str); 8] = [
     ("quick", include_str!("../../plans/quick.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
     ("contingency", include_str!("../../plans/contingency.toml")),
