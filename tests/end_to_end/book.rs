@@ -28,6 +28,8 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("interplay sweep inferred", "the same"),
     ("interplay compare starts", "of a sweep that is not run here"),
     ("interplay compare inferred", "the same"),
+    ("interplay sweep partners", "takes a quarter of an hour; the mechanism is in `sweeps`"),
+    ("interplay compare partners", "of a sweep that is not run here"),
     ("interplay compare roads", "the same"),
     ("interplay sweep contingency", "takes a quarter of an hour; the mechanism is in `sweeps`"),
     ("interplay run intersection/nice --set 'vehicle.ego.driver.passing_orders=", "a global search takes minutes"),
