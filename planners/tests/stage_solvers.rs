@@ -50,6 +50,49 @@ fn a_solution_that_is_slightly_off_is_no_optimum() {
     }
 }
 
+/// Each optimality condition is checked by itself: a solution that breaks one of them by a known amount has at least that residual.
+#[test]
+fn each_condition_that_is_broken_is_seen() {
+    const OFF: f64 = 1e-2;
+    type Broken = (&'static str, fn(&mut StageSolution), fn(&Residual) -> f64);
+    let broken: [Broken; 6] = [
+        ("a state that the dynamics do not lead to", |solution| solution.states[0][5][0] += OFF, |found| found.primal),
+        (
+            "an input of its own where it is shared",
+            |solution| solution.inputs[1][0][1] += OFF,
+            |found| found.stationarity,
+        ),
+        ("a bound that pulls", |solution| solution.bound_multipliers[0][3][0] = [-OFF; 2], |found| found.dual),
+        ("a row that pulls", |solution| solution.row_multipliers[0].fill(-OFF), |found| found.dual),
+        (
+            "bounds on both sides that push",
+            |solution| solution.bound_multipliers[0][3][1] = [OFF; 2],
+            |found| found.complementarity / FAR,
+        ),
+        (
+            "a row that pulls over a trajectory",
+            |solution| solution.trajectory_multipliers.fill(-OFF),
+            |found| found.dual,
+        ),
+    ];
+    // Of two opposite bounds on steering at least one is this far away [rad].
+    const FAR: f64 = 0.1;
+    for (what, break_it, of) in broken {
+        for seed in 0..10 {
+            let problem = if what.contains("shared") { futures(seed, 2, 5) } else { pair(seed, 1.2) };
+            let qp = step_problem(&problem, seed);
+            let mut solution = StageSolution::default();
+            Structured::default().solve(&qp, &mut solution, false).expect("solved");
+            assert!(kkt::residual(&qp, &solution).largest() < 3e-5);
+            break_it(&mut solution);
+            let residual = kkt::residual(&qp, &solution);
+            assert!(of(&residual) >= OFF - 1e-4, "{what}, seed {seed}: {residual:?}");
+            let all = [residual.stationarity, residual.primal, residual.dual, residual.complementarity];
+            assert_eq!(residual.largest(), all.into_iter().fold(0.0, f64::max), "{what}");
+        }
+    }
+}
+
 #[test]
 fn one_vehicle() {
     for seed in 0..200 {
