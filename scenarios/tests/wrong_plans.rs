@@ -244,6 +244,114 @@ const WRONG: &[(&str, usize, usize, &str)] = &[
         9,
         "`start_jitter` is laid over it",
     ),
+    // The same driver, stated by keys that exclude each other.
+    (
+        "scenario = ['lane-change/front-nice']\nstyle = ['nice', 'tough']\n[vary]\n\
+         'vehicle.*.driver.safety_weight' = { log_uniform = [0.2, 100.0] }\n",
+        2,
+        10,
+        "`vehicle.*.driver.style` is set here, and the plan varies `vehicle.*.driver.safety_weight`, which excludes it",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[[style]]\nname = 'x'\nvary = { 'vehicle.*.driver.style' = ['nice', 'tough'] }\n\
+         [vary]\n'vehicle.*.driver.safety_weight' = { log_uniform = [0.2, 100.0] }\n",
+        6,
+        19,
+        "varies here, and the style `x` varies `vehicle.*.driver.style`, which excludes it",
+    ),
+    // With one of the styles is enough: its rows would state weights that no driver has.
+    (
+        "scenario = ['lane-change/front-nice']\n[[style]]\nname = 'x'\n[[style]]\nname = 'y'\n\
+         vary = { 'vehicle.*.driver' = [{ kind = 'human' }, { kind = 'human', style = 'nice' }] }\n\
+         [vary]\n'vehicle.*.driver.safety_weight' = { log_uniform = [0.2, 100.0] }\n",
+        8,
+        19,
+        "varies here, and the style `y` varies `vehicle.*.driver.style`",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\n[vary]\n'vehicle.front.driver.safety_weight' = [0.2, 2.0]\n\
+         vehicle.front.driver.style = ['nice', 'tough']\n",
+        4,
+        22,
+        "`vehicle.front.driver.style` varies here, and the plan varies `vehicle.front.driver.safety_weight`",
+    ),
+    // What every style or every planner replaces, by a key, by `vehicle.*`, or by another kind of driver.
+    (
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.driver.style = 'tough' }\nstyle = ['nice', 'tough']\n",
+        2,
+        23,
+        "is set here, and the style `nice` sets `vehicle.*.driver.style`, which is laid over it",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nset = { 'vehicle.front.goal.speed_mps' = 1.1 }\n[[style]]\nname = 'x'\n\
+         set = { 'vehicle.*.goal.speed_mps' = 1.2 }\n",
+        2,
+        29,
+        "and the style `x` sets `vehicle.*.goal.speed_mps`, which is laid over it",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.ego.driver.settled_steps = 20 }\nplanner = ['idm', 'conservative']\n",
+        2,
+        21,
+        "the planner `idm` sets `vehicle.ego.driver.kind`, of which the kind `idm` is laid over it and does not know it",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start = { lane = 1, along_m = 2.0 } }\n[[style]]\nname = 'a'\n\
+         set = { vehicle.front.start.x_m = 0.2 }\n",
+        2,
+        23,
+        "the style `a` sets `vehicle.front.start.x_m`, which excludes it",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\njitter = { position_m = 0.1, speed_mps = 0.1 }\nset = { horizon_steps = 20 }\n\
+         planner = [{ name = 'x', set = { horizon_steps = 21 } }, { name = 'y', set = { horizon_steps = 22 } }]\n",
+        3,
+        9,
+        "the planner `x` sets `horizon_steps`, which is laid over it",
+    ),
+    // A planner's kind beside a driver that it sets.
+    (
+        "scenario = ['lane-change/front-nice']\n\
+         planner = [{ name = 'x', kind = 'conservative', set = { vehicle.ego.driver = { kind = 'idm' } } }]\n",
+        2,
+        33,
+        "`vehicle.ego.driver.kind` is set here, and the planner `x` sets `vehicle.ego.driver.kind`",
+    ),
+    // A counterfactual that changes what varies would be the scenario as it is.
+    (
+        "scenario = ['intersection/nice']\ncounterfactuals = true\n[vary]\nvehicle.ego.driver.kind = ['idm', 'game']\n",
+        4,
+        20,
+        "sets `vehicle.ego.driver.kind`, and what varies here is laid over it",
+    ),
+    // Samples in which nothing is drawn.
+    ("scenario = ['lane-change/front-nice']\nsamples = 40\n", 2, 11, "its 40 samples are the same run"),
+    (
+        "scenario = ['lane-change/front-nice']\nsamples = 40\nplanner = ['idm', 'conservative']\n[vary]\n\
+         vehicle.front.start.speed_mps = [1.0, 1.1]\n",
+        2,
+        11,
+        "its 40 samples are the same run",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nsamples = 2\njitter = { position_m = 0.0, speed_mps = 0.0 }\n",
+        2,
+        11,
+        "its 2 samples are the same run",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nsamples = 40\nstyle = [{ name = 'any', vary = { 'vehicle.*.start.speed_mps' = \
+         { uniform = [1.0, 1.1] } } }, 'tough']\n",
+        2,
+        11,
+        "with the style `tough` and the planner `as-written`: its 40 samples",
+    ),
+    (
+        "scenario = ['lane-change/front-nice']\nsamples = 40\n[vary]\nvehicle.ego.sensing.speed_sd_mps = [0.1, 0.0]\n",
+        2,
+        11,
+        "`vehicle.ego.sensing.speed_sd_mps = 0.0`: its 40 samples",
+    ),
 ];
 
 #[test]
@@ -274,6 +382,14 @@ fn plans_may_set_what_some_of_their_runs_change() {
          set = { real_time.deadline = 'enforced' } }]\n",
         "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start = { heading_rad = 0.0 } }\n[vary]\n\
          vehicle.front.start.speed_mps = [1.0, 1.1]\n",
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.ego.driver.settled_steps = 20 }\nplanner = ['negotiation', 'idm']\n",
+        "scenario = ['lane-change/front-nice']\nset = { 'vehicle.*.goal.speed_mps' = 1.1, 'vehicle.front.goal.speed_mps' = 1.2 }\n",
+        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.driver.style = 'tough' }\nstyle = ['as-written', 'nice']\n",
+        "scenario = ['lane-change/front-nice']\nsamples = 3\nset = { vehicle.ego.sensing.speed_sd_mps = 0.05 }\n",
+        "scenario = ['lane-change/front-nice']\nsamples = 3\nset = { vehicle.ego.sensing.drop_rate = 0.05 }\n",
+        "scenario = ['lane-change/front-nice']\nsamples = 3\nset = { start_jitter.speed_mps = 0.05 }\n",
+        "scenario = ['lane-change/front-nice']\nsamples = 3\nsampling = 'random'\n[vary]\nhorizon_steps = [20, 25]\n",
+        "scenario = ['building/tower']\nsamples = 3\n",
         "scenario = ['lane-change/front-nice']\nseed = 4\nsamples = 3\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
     ] {
         sound(text);
@@ -313,6 +429,25 @@ fn drawn_values_that_break_a_scenario_are_named_once() {
     assert_eq!(error.faults()[0].line_and_column(), Some((5, 21)));
 }
 
+/// What the first sample has is counted like what the others have.
+#[test]
+fn faults_of_the_first_sample_say_how_many_runs_have_them() {
+    let plan = sound(
+        "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'human']\nsamples = 3\n[vary]\nvehicle.front.start.x_m = [-1.65]\n\
+         vehicle.front.start.speed_mps = { uniform = [1.0, 1.1] }\n",
+    );
+    let error = refusal(&plan);
+    let fault = &error.faults()[0];
+    assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((5, 21))));
+    let said = [", sample 0: ", "overlap at the start", "; 6 runs have this error"];
+    assert!(said.iter().all(|words| fault.message().contains(words)), "{}", fault.message());
+    // A fault that all runs of a combination have is said when the plan is read.
+    let error = read("scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.x_m = -1.65 }\n")
+        .err()
+        .expect("refused");
+    assert!(error.faults()[0].message().contains("overlap at the start"));
+}
+
 /// A start that is moved onto another vehicle is blamed on the plan's own change of the starts.
 #[test]
 fn jitter_that_breaks_a_scenario_is_named_with_seed_and_sample() {
@@ -338,7 +473,8 @@ fn a_counterfactual_that_sets_the_seed_is_no_planner_of_a_plan() {
                     expect = { order = ['ego', 'turning'] }\n";
     std::fs::write(folder.path().join("own.toml"), scenario).expect("a scratch file");
     let read = |more: &str| {
-        let text = format!("scenario = ['own.toml']\nsamples = 3\n{more}");
+        let jitter = "{ position_m = 0.1, speed_mps = 0.1 }";
+        let text = format!("scenario = ['own.toml']\nsamples = 3\njitter = {jitter}\n{more}");
         SweepPlan::from_text("plan.toml", &text, folder.path())
     };
     let sound = read("");
@@ -346,7 +482,7 @@ fn a_counterfactual_that_sets_the_seed_is_no_planner_of_a_plan() {
     let error = read("counterfactuals = true\n").err().expect("refused");
     let fault = &error.faults()[0];
     assert!(fault.message().contains("`seeded` that sets the seed"), "{}", fault.message());
-    assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((3, 19))));
+    assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((4, 19))));
 }
 
 /// Another number of samples changes no place, and is found however the plan writes its own.
@@ -361,12 +497,12 @@ fn another_number_of_samples_changes_only_this_number() {
     };
     for (text, said) in [
         (
-            "scenario = ['intersection/nice']\n\"samples\" = 0x3 # ours\n",
-            "scenario = ['intersection/nice']\n\"samples\" = 7 # ours\n",
+            "scenario = ['intersection/nice']\n\"samples\" = 0x3 # ours\njitter = { position_m = 0.1 }\n",
+            "scenario = ['intersection/nice']\n\"samples\" = 7 # ours\njitter = { position_m = 0.1 }\n",
         ),
         (
-            "title = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']",
-            "samples = 7 # --samples\ntitle = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']",
+            "title = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']\njitter = { position_m = 0.1 }",
+            "samples = 7 # --samples\ntitle = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']\njitter = { position_m = 0.1 }",
         ),
     ] {
         let plan = load(text, 7).unwrap_or_else(|error| panic!("{text}: {:?}", error.faults()));
