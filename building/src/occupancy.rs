@@ -140,6 +140,11 @@ struct Meeting {
 }
 
 impl Occupancy {
+    /// Whether people of different seeds may differ.
+    pub fn depends_on_seed(&self) -> bool {
+        self.least_peak_kw != self.greatest_peak_kw || self.deviation != Deviation::NONE
+    }
+
     /// Returns the people of `zones` zones.
     pub fn people(&self, zones: usize, seed: u64) -> People {
         let mut random = Random::new(seed, 0);

@@ -58,8 +58,13 @@ impl Override {
 
 /// Lays the kind of driver that `node` holds over that of the ego.
 pub(crate) fn lay_planner(root: &mut Table, node: TomlNode) -> Result<(), Fault> {
-    let steps = steps_of(&["vehicle", &ego_name(root), "driver", "kind"], &node.place);
+    let SettingPath(steps) = ego_kind(root, &node.place);
     lay(Some(schema::complete()), root, (&steps, 0), node)
+}
+
+/// The path of the kind of driver of a scenario's ego, written at a place.
+pub(crate) fn ego_kind(root: &Table, place: &Place) -> SettingPath {
+    SettingPath(steps_of(&["vehicle", &ego_name(root), "driver", "kind"], place))
 }
 
 /// Lays a table over a scenario whose keys are paths as `--set` has them, or tables below one another that spell them.
@@ -142,7 +147,7 @@ fn extended(before: &[Step], key: &str, written: &Place) -> Result<Vec<Step>, Fa
 pub(crate) struct SettingPath(Vec<Step>);
 
 /// The word of a path that stands for every vehicle but the ego.
-const OTHER_VEHICLES: &str = "*";
+pub(crate) const OTHER_VEHICLES: &str = "*";
 
 impl SettingPath {
     /// No step yet.
@@ -163,9 +168,7 @@ impl SettingPath {
 
     /// What the schema says of what is at its end, if it knows.
     pub fn schema(&self) -> Option<SchemaNode> {
-        self.0
-            .iter()
-            .try_fold(schema::complete(), |schema, step| schema.entries().or_else(|| schema.property(&step.word)))
+        schema_at(self.0.iter().map(|step| step.word.as_str()))
     }
 
     /// Where its words are written.
@@ -175,21 +178,38 @@ impl SettingPath {
 
     /// Lays a value over a scenario at the end of the path.
     pub fn lay(&self, root: &mut Table, value: &TomlNode) -> Result<(), Fault> {
-        let is_list = |step: &Step| step.word == "vehicle";
-        if !(self.0.first().is_some_and(is_list) && self.0.get(1).is_some_and(|step| step.word == OTHER_VEHICLES)) {
-            return lay(Some(schema::complete()), root, (&self.0, 0), value.clone());
-        }
-        if !has_vehicles(root) {
+        if self.is_of_others() && !has_vehicles(root) {
             let message = format!("the scenario has no vehicles, so {} changes nothing", quoted(&self.written()));
             return Err(Fault::at(&self.0[1].place, "no vehicle here", message));
         }
-        for name in other_names(root) {
+        let mut paths = self.in_scenario(root).into_iter();
+        paths.try_for_each(|path| lay(Some(schema::complete()), root, (&path.0, 0), value.clone()))
+    }
+
+    /// The paths that it stands for in a scenario: one for each vehicle but the ego if it has a `*`, otherwise itself.
+    pub fn in_scenario(&self, root: &Table) -> Vec<SettingPath> {
+        if !self.is_of_others() {
+            return vec![self.clone()];
+        }
+        let of = |name: String| {
             let mut steps = self.0.clone();
             steps[1].word = name;
-            lay(Some(schema::complete()), root, (&steps, 0), value.clone())?;
-        }
-        Ok(())
+            SettingPath(steps)
+        };
+        other_names(root).into_iter().map(of).collect()
     }
+
+    /// Whether it is of every vehicle but the ego.
+    pub fn is_of_others(&self) -> bool {
+        let word = |index: usize| self.0.get(index).map(|step: &Step| step.word.as_str());
+        (word(0), word(1)) == (Some("vehicle"), Some(OTHER_VEHICLES))
+    }
+}
+
+/// What the schema says of what is at the end of a path, if it knows.
+pub(crate) fn schema_at<'a>(words: impl IntoIterator<Item = &'a str>) -> Option<SchemaNode> {
+    let mut words = words.into_iter();
+    words.try_fold(schema::complete(), |schema, word| schema.entries().or_else(|| schema.property(word)))
 }
 
 /// The paths and values of a table such as [`lay_paths`] takes.

@@ -1,11 +1,10 @@
 //! Reads the table of prices of a scenario, when the scenario is loaded: whatever is wrong with it is said then, with its line.
 
-use std::path::Path;
-
 use interplay_building::energy::Tariff;
 
 use crate::error::{Fault, quoted};
 use crate::regular_file::read_regular;
+use crate::stated_path::{base_in_words, path_beside};
 use crate::text_line::line_of;
 use crate::tree::TomlNode;
 
@@ -23,13 +22,11 @@ const HEADER: &str = "hour,price_per_kwh";
 pub(crate) fn attach(tariff: &mut Tariff, tree: &TomlNode) -> Result<(), Fault> {
     let Some(file) = &tariff.file else { return Ok(()) };
     let place = tree.place_of("tariff.file");
-    let beside = Path::new(&place.document.name).parent().unwrap_or(Path::new(""));
-    // A flag is no file: what it names is relative to the current folder, and so is the flag's parent.
-    let path = beside.join(file);
+    let path = path_beside(place, file);
     let title = path.display().to_string();
     let refused = |reason: String| {
         let message = format!("cannot read {}: {reason}", quoted(&title));
-        Fault::at(place, "this file", message).help("the path is relative to the scenario file")
+        Fault::at(place, "this file", message).help(base_in_words(place))
     };
     let bytes = read_regular(&path, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;
     let bytes = bytes.ok_or_else(|| refused("it is larger than 16 MiB, and no table of prices is".to_owned()))?;

@@ -37,7 +37,8 @@ pub struct Synthetic {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EpwFile {
-    /// The file, relative to the scenario file; or the name of one in the binary: `tropical-july.epw`.
+    /// The file, relative to the scenario or plan that states it, and in a flag to the current folder; or the name of one in the
+    /// binary: `tropical-july.epw`.
     #[schemars(example = &"tropical-july.epw")]
     pub file: String,
     /// The month in which the first day lies; without month and day, the first day of the file.

@@ -1,6 +1,5 @@
 //! Reads the weather file of a scenario, when the scenario is loaded: whatever is wrong with it is said then, with its line.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use interplay_building::nearest::suggestion;
@@ -9,6 +8,7 @@ use interplay_building::weather::Epw;
 use crate::building::DAY_S;
 use crate::error::{Fault, Place, quoted};
 use crate::regular_file::read_regular;
+use crate::stated_path::{base_in_words, path_beside};
 use crate::text_line::line_of;
 use crate::tree::TomlNode;
 use crate::weather::EpwFile;
@@ -51,16 +51,11 @@ fn read(file: &str, place: &Place) -> Result<(String, String), Fault> {
     if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == file) {
         return Ok(((*name).to_owned(), (*text).to_owned()));
     }
-    let beside = Path::new(&place.document.name).parent().unwrap_or(Path::new(""));
-    // A flag is no file: what it names is relative to the current folder, and so is the flag's parent.
-    let path: PathBuf = beside.join(file);
+    let path = path_beside(place, file);
     let title = path.display().to_string();
     let refused = |reason: String| {
         let names: Vec<&str> = EMBEDDED.iter().map(|(name, _)| *name).collect();
-        let help = format!(
-            "the path is relative to the scenario file; {}",
-            suggestion(file, "in the binary there are", &names)
-        );
+        let help = format!("{}; {}", base_in_words(place), suggestion(file, "in the binary there are", &names));
         Fault::at(place, "this file", format!("cannot read {}: {reason}", quoted(&title))).help(help)
     };
     let bytes = read_regular(&path, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;

@@ -165,7 +165,8 @@ fn jitter_is_scaled_to_the_vehicles() {
 #[test]
 fn runs_on_a_known_road_are_those_of_the_scenario_itself() {
     let plan = sound(
-        "scenario = ['roundabout', 't-junction', 'narrow-passage', 'left-turn', 'on-ramp', 'all-way-stop', 'overtaking']\nsamples = 2\n",
+        "scenario = ['roundabout', 't-junction', 'narrow-passage', 'left-turn', 'on-ramp', 'all-way-stop', 'overtaking']\nsamples = 2\n\
+         jitter = { position_m = 0.1, speed_mps = 0.1 }\n",
     );
     let points = points(&plan);
     for point in points.iter().chain(&points) {

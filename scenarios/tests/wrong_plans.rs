@@ -264,22 +264,6 @@ fn wrong_plans_are_refused_where_they_are_wrong() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// What is not a fault: values that others replace in a part of the runs only, and a deadline that is enforced.
-#[test]
-fn plans_may_set_what_some_of_their_runs_change() {
-    for text in [
-        "scenario = ['lane-change/front-nice']\nset = { horizon_steps = 20 }\n[[style]]\nname = 'a'\n[[style]]\nname = 'b'\n\
-         vary = { horizon_steps = [25, 30] }\n",
-        "scenario = ['lane-change/front-nice']\nset = { real_time.plan_budget_ms = 10 }\nplanner = ['as-written', { name = 'late', \
-         set = { real_time.deadline = 'enforced' } }]\n",
-        "scenario = ['lane-change/front-nice']\nset = { vehicle.front.start = { heading_rad = 0.0 } }\n[vary]\n\
-         vehicle.front.start.speed_mps = [1.0, 1.1]\n",
-        "scenario = ['lane-change/front-nice']\nseed = 4\nsamples = 3\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
-    ] {
-        sound(text);
-    }
-}
-
 /// What is wrong with the runs of a plan that can be read.
 fn refusal(plan: &SweepPlan) -> LoadError {
     let points = (0..plan.run_count()).rev().map(|index| plan.point(index));
@@ -313,6 +297,25 @@ fn drawn_values_that_break_a_scenario_are_named_once() {
     assert_eq!(error.faults()[0].line_and_column(), Some((5, 21)));
 }
 
+/// What the first sample has is counted like what the others have.
+#[test]
+fn faults_of_the_first_sample_say_how_many_runs_have_them() {
+    let plan = sound(
+        "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'human']\nsamples = 3\n[vary]\nvehicle.front.start.x_m = [-1.65]\n\
+         vehicle.front.start.speed_mps = { uniform = [1.0, 1.1] }\n",
+    );
+    let error = refusal(&plan);
+    let fault = &error.faults()[0];
+    assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((5, 21))));
+    let said = [", sample 0: ", "overlap at the start", "; 6 runs have this error"];
+    assert!(said.iter().all(|words| fault.message().contains(words)), "{}", fault.message());
+    // A fault that all runs of a combination have is said when the plan is read.
+    let error = read("scenario = ['lane-change/front-nice']\nset = { vehicle.front.start.x_m = -1.65 }\n")
+        .err()
+        .expect("refused");
+    assert!(error.faults()[0].message().contains("overlap at the start"));
+}
+
 /// A start that is moved onto another vehicle is blamed on the plan's own change of the starts.
 #[test]
 fn jitter_that_breaks_a_scenario_is_named_with_seed_and_sample() {
@@ -338,7 +341,8 @@ fn a_counterfactual_that_sets_the_seed_is_no_planner_of_a_plan() {
                     expect = { order = ['ego', 'turning'] }\n";
     std::fs::write(folder.path().join("own.toml"), scenario).expect("a scratch file");
     let read = |more: &str| {
-        let text = format!("scenario = ['own.toml']\nsamples = 3\n{more}");
+        let jitter = "{ position_m = 0.1, speed_mps = 0.1 }";
+        let text = format!("scenario = ['own.toml']\nsamples = 3\njitter = {jitter}\n{more}");
         SweepPlan::from_text("plan.toml", &text, folder.path())
     };
     let sound = read("");
@@ -346,7 +350,7 @@ fn a_counterfactual_that_sets_the_seed_is_no_planner_of_a_plan() {
     let error = read("counterfactuals = true\n").err().expect("refused");
     let fault = &error.faults()[0];
     assert!(fault.message().contains("`seeded` that sets the seed"), "{}", fault.message());
-    assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((3, 19))));
+    assert_eq!((fault.file(), fault.line_and_column()), (Some("plan.toml"), Some((4, 19))));
 }
 
 /// Another number of samples changes no place, and is found however the plan writes its own.
@@ -361,12 +365,12 @@ fn another_number_of_samples_changes_only_this_number() {
     };
     for (text, said) in [
         (
-            "scenario = ['intersection/nice']\n\"samples\" = 0x3 # ours\n",
-            "scenario = ['intersection/nice']\n\"samples\" = 7 # ours\n",
+            "scenario = ['intersection/nice']\n\"samples\" = 0x3 # ours\njitter = { position_m = 0.1 }\n",
+            "scenario = ['intersection/nice']\n\"samples\" = 7 # ours\njitter = { position_m = 0.1 }\n",
         ),
         (
-            "title = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']",
-            "samples = 7 # --samples\ntitle = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']",
+            "title = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']\njitter = { position_m = 0.1 }",
+            "samples = 7 # --samples\ntitle = \"\"\"\nsamples = 2\n\"\"\"\nscenario = ['intersection/nice']\njitter = { position_m = 0.1 }",
         ),
     ] {
         let plan = load(text, 7).unwrap_or_else(|error| panic!("{text}: {:?}", error.faults()));

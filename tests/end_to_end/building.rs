@@ -292,7 +292,7 @@ fn weather_files_are_read_beside_the_scenario_and_refused_at_their_line() {
     refused(&run(""), &["my.epw", "EPW"]);
     fs::remove_file(folder.join("weather/my.epw")).expect("it was there");
     let missing = interplay(&folder, &["run", "my.toml", "--no-record"]);
-    refused(&missing, &["my.toml:32:8", "cannot read `weather/my.epw`", "relative to the scenario file"]);
+    refused(&missing, &["my.toml:32:8", "cannot read `weather/my.epw`", "relative to the current folder"]);
     let long = interplay(&folder, &["run", "building/epw-weather", "--set", "iterations=40", "--no-record"]);
     refused(&long, &["covers 24 days", "`iterations`"]);
     let day = interplay(&folder, &["run", "building/epw-weather", "--set", "weather.day=40", "--no-record"]);

@@ -51,6 +51,7 @@ mod replay;
 mod sample_telemetry;
 mod similarity;
 mod suite;
+mod sweep_plans;
 mod sweeps;
 mod traffic;
 mod unharmed;

@@ -27,7 +27,7 @@ shows = "A short run"
 duration_s = 0.3
 vehicle = [{ name = "ego", start = { x_m = 0.0, y_m = 0.2, speed_mps = 1.0 } }]
 """
-PLAN = 'scenario = ["mine.toml"]\nsamples = 2\n'
+PLAN = 'scenario = ["mine.toml"]\nsamples = 2\njitter = { position_m = 0.1, speed_mps = 0.1 }\n'
 INPUTS = {"mine.toml": SCENARIO, "plan.toml": PLAN}
 # A file of this content stands there before the command, where it may be replaced.
 OLD = "old"

@@ -28,7 +28,7 @@ use crate::values;
     Examples:\n  \
     interplay sweep                                        (a small one, well below a minute)\n  \
     interplay sweep my-plan.toml --out results --keep failures\n  \
-    interplay sweep --scenario intersection/nice --planner negotiation --planner idm --samples 20\n  \
+    interplay sweep --scenario intersection/nice --planner negotiation --planner idm --starts 20\n  \
     interplay sweep my-plan.toml --out results --shard 3/8\n  \
     interplay sweep merge results"
 )]

@@ -26,8 +26,8 @@ pub struct Tariff {
         extend("x-unit" = "currency/kWh")
     )]
     pub prices_per_kwh: Vec<f64>,
-    /// A table of the prices as comma-separated values, relative to the scenario file: a header `hour,price_per_kwh`, and a row
-    /// an hour from the first midnight on, counted from 0.
+    /// A table of the prices as comma-separated values: a header `hour,price_per_kwh`, and a row an hour from the first midnight
+    /// on, counted from 0. The path is relative to the scenario or plan that states it, and in a flag to the current folder.
     #[schemars(example = &"prices.csv", extend("x-excludes" = ["prices_per_kwh"]))]
     pub file: Option<String>,
     /// The prices of the file, once it was read \[currency/kWh\].

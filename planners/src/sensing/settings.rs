@@ -54,7 +54,7 @@ impl Default for Settings {
 
 impl Settings {
     /// Whether measurements have no errors.
-    pub(super) fn is_exact(&self) -> bool {
+    pub fn is_exact(&self) -> bool {
         self.position_sd_m == 0.0 && self.speed_sd_mps == 0.0 && self.heading_sd_rad == 0.0
     }
 }

@@ -67,6 +67,11 @@ impl<'a> Assignment<'a> {
         words.any(|own| own.holds(place)) || is_within(&self.value, place)
     }
 
+    /// Whether the format has a setting at the path.
+    pub fn has_known_path(&self) -> bool {
+        self.path.as_ref().is_none_or(|path| path.schema().is_some())
+    }
+
     /// The assignment as it would be written, numbers to six digits.
     pub fn written(&self) -> String {
         let path = self.path.as_ref().map_or_else(|| "planner".to_owned(), |path| path.written());

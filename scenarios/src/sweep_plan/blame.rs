@@ -28,6 +28,21 @@ impl SweepPlan {
         self.located(fault, place, &assignments, culprit, Some(place.cell * self.samples + place.draw))
     }
 
+    /// The same, unless the change differs from run to run; a path that leads nowhere does so in all runs.
+    pub(super) fn blamed_on_what_is_fixed(&self, place: &Indices, faults: &[Fault], fault: &Fault) -> Option<Fault> {
+        let assignments = self.assignments(place, None);
+        let culprit = self.culprit(place, &assignments, faults, fault);
+        let is_laid = self.laid(place, &assignments).is_ok();
+        let differs = |one: &Assignment<'_>| (one.is_varied && is_laid && one.has_known_path()) || self.is_jitter(one);
+        (!culprit.is_some_and(|index| differs(&assignments[index])))
+            .then(|| self.located(fault, place, &assignments, culprit, None))
+    }
+
+    /// Whether a change is the plan's own random change of the starts.
+    fn is_jitter(&self, assignment: &Assignment<'_>) -> bool {
+        self.jitter_place.as_ref().is_some_and(|jitter| assignment.is_written_at(jitter))
+    }
+
     /// A fault of a run that is as sound as it is written, but for another value of one of its factors.
     pub(super) fn blamed_on_value(&self, place: &Indices, instead: &(usize, TomlNode), fault: &Fault) -> Fault {
         let assignments = self.assignments(place, Some(instead));
@@ -92,7 +107,7 @@ impl SweepPlan {
         let Some(culprit) = culprit.map(|index| &assignments[index]) else { return fault.clone().within(&run) };
         let is_there = fault.place().is_some_and(|place| culprit.is_written_at(place));
         let fault = if is_there { fault.clone() } else { fault.clone().moved_to(culprit.place()) };
-        let is_jitter = self.jitter_place.as_ref().is_some_and(|jitter| culprit.is_written_at(jitter));
+        let is_jitter = self.is_jitter(culprit);
         if !culprit.is_varied && !is_jitter {
             return fault.within(&run);
         }

@@ -1,17 +1,14 @@
-//! Changes of a plan that would have no effect, or would make its samples one.
+//! What is wrong with the changes of a plan whatever its scenarios are.
 
 use super::arm::Arm;
-use super::factor::Factor;
 use super::plan::SweepPlan;
-use super::settings_below::{is_within, leaves};
+use super::settings_below::is_within;
 use crate::error::{Fault, Place};
 use crate::overrides::SettingPath;
 use crate::tree::TomlNode;
 
-/// The path of the ego's kind of driver, which a planner states.
-const EGO_KIND: &str = "vehicle.ego.driver.kind";
 /// What stands beside a change without effect.
-const NO_EFFECT: &str = "without effect";
+pub(super) const NO_EFFECT: &str = "without effect";
 
 impl SweepPlan {
     /// What is wrong with the plan whatever its scenarios are.
@@ -23,7 +20,6 @@ impl SweepPlan {
             return seeds;
         }
         let mut faults = self.varied_twice();
-        faults.extend(arms().flat_map(|arm| self.overridden(arm)));
         faults.extend(self.jitter_twice());
         faults
     }
@@ -39,30 +35,6 @@ impl SweepPlan {
             Some(fault.also(everywhere.key(), "varies here").help("leave one of both out"))
         });
         again.collect()
-    }
-
-    /// What an arm sets although it varies in every run of the arm: what varies is laid over it.
-    fn overridden(&self, arm: &Arm) -> Vec<Fault> {
-        let by_all_styles = |leaf: &str| {
-            let all: Option<Vec<&Factor>> = self.styles.iter().map(|style| covering(&style.factors, leaf)).collect();
-            all.and_then(|all| all.first().copied())
-        };
-        let is_style = self.styles.iter().any(|style| std::ptr::eq(style, arm));
-        let by = |leaf: &str| {
-            let own = if is_style { covering(&arm.factors, leaf) } else { by_all_styles(leaf) };
-            covering(&self.changes.factors, leaf).or(own)
-        };
-        let kind = arm.kind().map(|kind| (EGO_KIND.to_owned(), kind.place.clone()));
-        let set = arm.settings().iter().flat_map(|(path, value)| {
-            leaves(&path.written(), value).into_iter().map(|leaf| (leaf, key_of(path, value).clone()))
-        });
-        let overridden = kind.into_iter().chain(set).filter_map(|(leaf, place)| {
-            let factor = by(&leaf)?;
-            let message = format!("`{leaf}` is set here, and varies: what varies is laid over it");
-            let fault = Fault::at(&place, NO_EFFECT, message);
-            Some(fault.also(factor.key(), "varies here").help("leave one of both out"))
-        });
-        overridden.collect()
     }
 
     /// What states the random change of the starts in all runs beside the plan's own.
@@ -102,11 +74,6 @@ impl SweepPlan {
     }
 }
 
-/// What varies all that is there at a path.
-fn covering<'a>(factors: &'a [Factor], path: &str) -> Option<&'a Factor> {
-    factors.iter().find(|factor| factor.covers(path))
-}
-
 /// What an arm sets and varies: each path, and where it is written.
 fn changed(arm: &Arm) -> impl Iterator<Item = (String, &Place)> {
     let set = arm.settings().iter().map(|(path, value)| (path.written(), key_of(path, value)));
@@ -114,7 +81,7 @@ fn changed(arm: &Arm) -> impl Iterator<Item = (String, &Place)> {
 }
 
 /// Where the last word of a path is written.
-fn key_of<'a>(path: &'a SettingPath, value: &'a TomlNode) -> &'a Place {
+pub(super) fn key_of<'a>(path: &'a SettingPath, value: &'a TomlNode) -> &'a Place {
     path.places().last().unwrap_or(&value.place)
 }
 

@@ -4,7 +4,6 @@ use interplay_building::control::uncertainty::normal_quantile;
 use interplay_building::nearest::nearest;
 
 use super::draw::UnitDraws;
-use super::settings_below::{is_within, leaves};
 use crate::error::{Fault, Place, quoted};
 use crate::overrides::SettingPath;
 use crate::plan_file::Sampling;
@@ -236,16 +235,6 @@ impl Factor {
         match &self.values {
             Values::List(items) => items,
             _ => &[],
-        }
-    }
-
-    /// Whether each of its values states the setting at a path, or all that is there.
-    pub fn covers(&self, setting: &str) -> bool {
-        let path = self.path.written();
-        let states = |value: &TomlNode| leaves(&path, value).iter().any(|leaf| is_within(leaf, setting));
-        match &self.values {
-            Values::List(items) => items.iter().all(states),
-            _ => is_within(&path, setting),
         }
     }
 

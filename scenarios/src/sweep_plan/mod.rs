@@ -14,6 +14,7 @@ mod assignment;
 mod blame;
 mod conflicts;
 mod draw;
+mod equal_samples;
 mod factor;
 mod names;
 mod plan;
@@ -21,6 +22,7 @@ mod read;
 mod refusals;
 mod samples;
 mod settings_below;
+mod without_effect;
 
 pub use plan::{SweepPlan, SweepPoint};
 pub use read::embedded_plans;

@@ -28,6 +28,8 @@ pub struct SweepPlan {
     pub(super) changes: Arm,
     pub(super) sampling: Sampling,
     pub(super) samples: u64,
+    /// Where their number is stated, if it is.
+    pub(super) samples_place: Option<Place>,
     pub(super) seed: u64,
     /// Where a key that no line states is blamed.
     pub(super) place: Place,
@@ -252,11 +254,21 @@ impl SweepPlan {
         place: &Indices,
         assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
     ) -> Result<Scenario, Vec<Fault>> {
+        let tree = self.laid(place, assignments).map_err(|fault| vec![fault])?;
+        assemble_on(&tree, &self.known_roads)
+    }
+
+    /// The same, unchecked.
+    pub(super) fn laid<'a>(
+        &self,
+        place: &Indices,
+        assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
+    ) -> Result<TomlNode, Fault> {
         let mut tree = self.scenarios[place.scenario].tree.clone();
         if let TomlValue::Table(root) = &mut tree.value {
-            self.lay(root, place, assignments).map_err(|fault| vec![fault])?;
+            self.lay(root, place, assignments)?;
         }
-        assemble_on(&tree, &self.known_roads)
+        Ok(tree)
     }
 
     fn lay<'a>(

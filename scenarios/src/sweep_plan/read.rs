@@ -109,6 +109,7 @@ fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) ->
         changes: changes(tree, settings)?,
         sampling: file.sampling,
         samples: file.samples,
+        samples_place: tree.at("samples").map(|node| node.place.clone()),
         seed: file.seed,
         place,
         jitter_place: tree.at("jitter").map(|node| node.place.clone()),
@@ -124,6 +125,7 @@ fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) ->
     refuse_equal_names(&plan, tree)?;
     refuse_seeded_counterfactuals(&plan, tree)?;
     refuse(plan.idle_deadlines())?;
+    refuse(plan.without_effect())?;
     refuse(plan.check_extremes())?;
     Ok(plan)
 }

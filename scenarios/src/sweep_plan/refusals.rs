@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::assignment::Assignment;
 use super::plan::{Indices, SweepPlan, SweepPoint};
 use crate::error::{Fault, LoadError};
 
@@ -69,8 +70,11 @@ impl SweepPlan {
         LoadError::of_plan(&self.name, found)
     }
 
-    /// What is wrong with the plan's arms and with the values at the ends of what can be drawn. It stops at the first
-    /// combination of scenario, style and planner in which something is.
+    /// What is wrong with the plan's arms, with the values at the ends of what can be drawn, and with the number of samples. It
+    /// stops at the first combination of scenario, style and planner in which something is.
+    ///
+    /// What is owed to a value that differs from run to run, or to the change of the starts, and shows in the first run, is left to
+    /// the check of all runs, which counts those that have it.
     pub(super) fn check_extremes(&self) -> Vec<Fault> {
         for scenario in 0..self.scenarios.len() {
             for style in 0..self.styles.len() {
@@ -87,17 +91,35 @@ impl SweepPlan {
 
     /// The same of one combination, each fault once.
     fn extremes_of(&self, place: &Indices) -> Vec<Fault> {
-        if let Err(faults) = self.assembled(place, &self.assignments(place, None)) {
-            return faults.iter().map(|fault| self.blamed(place, &faults, fault)).collect();
+        match self.assembled(place, &self.assignments(place, None)) {
+            Err(faults) => {
+                return faults.iter().filter_map(|fault| self.blamed_on_what_is_fixed(place, &faults, fault)).collect();
+            }
+            Ok(scenario) => {
+                if let Some(fault) = self.equal_samples(place, None, &scenario) {
+                    return vec![fault];
+                }
+            }
         }
         let mut found: BTreeMap<FaultKey, Fault> = BTreeMap::new();
         for (index, factor) in self.factors(place.style).enumerate() {
             for value in factor.extremes(MAX_LISTED) {
                 let instead = (index, value);
-                let outcome = self.assembled(place, &self.assignments(place, Some(&instead)));
-                for fault in outcome.err().into_iter().flatten() {
-                    let blamed = self.blamed_on_value(place, &instead, &fault);
-                    found.entry((blamed.line_and_column(), without_numbers(fault.message()))).or_insert(blamed);
+                let mut refused = |blamed: Fault, message: &str| {
+                    found.entry((blamed.line_and_column(), without_numbers(message))).or_insert(blamed);
+                };
+                match self.assembled(place, &self.assignments(place, Some(&instead))) {
+                    Ok(scenario) => {
+                        let value = Assignment::varied(&factor.path, instead.1.clone());
+                        if let Some(fault) = self.equal_samples(place, Some(&value), &scenario) {
+                            refused(fault, "");
+                        }
+                    }
+                    Err(faults) => {
+                        for fault in &faults {
+                            refused(self.blamed_on_value(place, &instead, fault), fault.message());
+                        }
+                    }
                 }
             }
         }
