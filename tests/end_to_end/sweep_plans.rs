@@ -76,6 +76,33 @@ fn paths_of_weather_are_relative_to_what_states_them() {
     }
 }
 
+/// A run is made anew when what it reads of a file is another than before, be the file stated by a scenario or by a plan.
+#[test]
+fn another_file_of_the_same_name_is_another_run() {
+    let folder = scratch("sweep-named-files");
+    let weather = include_str!("../../scenarios/weather/tropical-july.epw");
+    let prices = |price: f64| {
+        let rows: String = (0..24).map(|hour| format!("{hour},{price}\n")).collect();
+        format!("hour,price_per_kwh\n{rows}")
+    };
+    let plan = "scenario = ['building/epw-weather']\nset = { iterations = 1, weather = { kind = 'epw', file = 'w.epw' }, tariff = { file = 'p.csv' } }\n";
+    fs::write(folder.join("plan.toml"), plan).expect("a scratch file");
+    fs::write(folder.join("w.epw"), weather).expect("a scratch file");
+    fs::write(folder.join("p.csv"), prices(0.2)).expect("a scratch file");
+    let sweep = || {
+        let swept = interplay(&folder, &["sweep", "plan.toml", "--out", "rows"]);
+        assert_eq!(swept.code, Some(0), "{swept:?}");
+        swept.stderr
+    };
+    assert!(sweep().contains("1 run to make, 0 made before"), "the first time");
+    assert!(sweep().contains("0 runs to make, 1 made before"), "nothing has changed");
+    fs::write(folder.join("p.csv"), prices(0.3)).expect("a scratch file");
+    assert!(sweep().contains("1 run to make"), "other prices");
+    let warmer = weather.replacen(",27.0,", ",29.0,", 1);
+    fs::write(folder.join("w.epw"), warmer).expect("a scratch file");
+    assert!(sweep().contains("1 run to make"), "other weather");
+}
+
 #[test]
 fn faults_of_the_first_sample_are_counted_and_flags_are_blamed_for_their_samples() {
     let folder = scratch("sweep-first-sample");

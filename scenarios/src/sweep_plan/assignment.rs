@@ -56,6 +56,12 @@ impl<'a> Assignment<'a> {
         path.lay(root, &self.value)
     }
 
+    /// Whether the setting is one of these or stands below one, by the first key of its path.
+    pub fn is_below(&self, first_keys: &[&str]) -> bool {
+        let written = self.path.as_ref().map(|path| path.written()).unwrap_or_default();
+        first_keys.iter().any(|key| written.split('.').next() == Some(key))
+    }
+
     /// Where the value is written.
     pub fn place(&self) -> &Place {
         &self.value.place

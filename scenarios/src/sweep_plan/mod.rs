@@ -16,6 +16,7 @@ mod conflicts;
 mod draw;
 mod equal_samples;
 mod factor;
+mod named_files;
 mod names;
 mod plan;
 mod read;

@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 use super::arm::Arm;
 use super::assignment::{Assignment, path_of};
 use super::factor::Factor;
+use super::named_files;
 use super::names::NamedScenario;
 use crate::error::{Fault, Place};
 use crate::load::assemble_on;
@@ -232,7 +233,17 @@ impl SweepPlan {
         let arms = [&self.changes, &self.styles[place.style], self.planner(place)];
         let arms = arms.map(Arm::canonical).join("\n;\n");
         let inputs: Vec<String> = point.inputs.iter().map(|(path, value)| format!("{path}={value}")).collect();
-        format!("{jitter}{arms}\n;\n{}\n;\nseed={}", inputs.join("\n"), point.seed)
+        let files = self.named_files(place);
+        format!("{jitter}{arms}\n;\n{}\n;\nseed={}\n;\n{files}", inputs.join("\n"), point.seed)
+    }
+
+    /// What the files say that a run names because of the plan; nothing where the plan changes none of them.
+    fn named_files(&self, place: &Indices) -> String {
+        let assignments = self.assignments(place, None);
+        if !assignments.iter().any(|assignment| assignment.is_below(&named_files::SETTINGS)) {
+            return String::new();
+        }
+        self.assembled(place, &assignments).map_or_else(|_| String::new(), |scenario| named_files::contents(&scenario))
     }
 
     /// What the plan changes of the scenario in a run, in the order in which it is laid over it: the random change of the starts,

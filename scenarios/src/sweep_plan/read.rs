@@ -9,6 +9,7 @@ use serde_json::Value as Json;
 
 use super::arm::Arm;
 use super::factor::{DrawSettings, factors};
+use super::named_files;
 use super::names::{NamedScenario, find};
 use super::plan::{PlannedScenario, SweepPlan};
 use super::samples;
@@ -17,13 +18,11 @@ use crate::load;
 use crate::overrides::settings_of;
 use crate::placement::KnownRoads;
 use crate::plan_file::PlanFile;
-use crate::scenario::Scenario;
 use crate::schema::{self, SchemaNode};
 use crate::schema_check::check_file;
 use crate::source::Source;
 use crate::start_jitter::StartJitter;
 use crate::tree::{self, TomlNode, TomlValue};
-use crate::weather::WeatherConfig;
 
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema::generated::<PlanFile>);
 
@@ -246,7 +245,7 @@ fn planned(
         position_m: jitter.position_m * scale,
         speed_mps: jitter.speed_mps * scale.sqrt(),
     };
-    let canonical = format!("{}{}", tree.to_json(), weather(&scenario));
+    let canonical = format!("{}{}", tree.to_json(), named_files::contents(&scenario));
     Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(|(jitter, _)| scaled(jitter)), counterfactuals })
 }
 
@@ -261,12 +260,4 @@ fn counterfactuals(tree: &TomlNode) -> Result<Vec<Arm>, Vec<Fault>> {
         return Ok(Vec::new());
     };
     stated.iter().filter_map(TomlNode::table).map(Arm::counterfactual).collect()
-}
-
-/// What a weather file says, which the tree of the scenario only names.
-fn weather(scenario: &Scenario) -> String {
-    match &scenario.weather {
-        Some(WeatherConfig::Epw(file)) => format!("{file:?}"),
-        Some(WeatherConfig::Synthetic(_)) | None => String::new(),
-    }
 }
