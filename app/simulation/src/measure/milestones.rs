@@ -151,18 +151,18 @@ fn listed(names: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use interplay_planners::{Input, Plan, Proposal, Trajectory};
+    use interplay_planners::{Input, Plan, Trajectory};
     use interplay_scenarios::load;
 
     use super::*;
 
     fn tick(acceleration_mps2: f64, acceptance: Option<f64>) -> Frame {
         let proposal = |_| Proposal { to: "front".to_owned(), trajectory: Trajectory::default(), acceptance };
-        let proposal = acceptance.map(proposal);
+        let proposals = acceptance.map(proposal).into_iter().collect();
         let vehicle = VehicleFrame {
             name: "ego".to_owned(),
             input: Input { acceleration_mps2, steering_rad: 0.0 },
-            plan: Plan { proposal, ..Plan::default() },
+            plan: Plan { proposals, ..Plan::default() },
             ..VehicleFrame::default()
         };
         Frame { vehicles: vec![vehicle], ..Frame::default() }
@@ -188,6 +188,29 @@ mod tests {
         assert_eq!(said, [(2, refused.to_owned()), (5, accepted.to_owned())]);
         let again = logged(&[tick(0.0, Some(0.1)), tick(0.0, None), tick(0.0, Some(0.9)), tick(0.0, Some(0.1))]);
         assert_eq!(again.len(), 2, "{again:?}");
+    }
+
+    /// Each of several vehicles that are asked answers for itself.
+    #[test]
+    fn several_answers_are_logged_apart() {
+        let asked = |of: [(&str, f64); 2]| {
+            let mut frame = tick(0.0, None);
+            let proposal = |(to, acceptance): (&str, f64)| Proposal {
+                to: to.to_owned(),
+                trajectory: Trajectory::default(),
+                acceptance: Some(acceptance),
+            };
+            frame.vehicles[0].plan.proposals = of.map(proposal).to_vec();
+            frame
+        };
+        let said = logged(&[asked([("front", 1.0), ("rear", 0.0)]), asked([("front", 0.1), ("rear", 0.9)])]);
+        let does_not = "does not do what ego proposes";
+        let expected = [
+            (0, format!("rear {does_not}")),
+            (1, format!("front {does_not}")),
+            (1, "rear does what ego proposes".to_owned()),
+        ];
+        assert_eq!(said, expected);
     }
 
     #[test]
