@@ -270,13 +270,16 @@ impl Planner {
             return self.plan_as_told(&sensed.scene, &Outlook::default());
         };
         let inferred = beliefs.infer(sensed);
-        let alternatives = beliefs.alternatives(sensed, &inferred.scene);
-        let estimates = inferred.estimates.clone();
-        let outlook = Outlook { alternatives, estimates, delay: sensed.oldest_sighting() };
+        let branches = matches!(self.method, Method::Contingency(_));
+        let outlook = Outlook {
+            alternatives: if branches { beliefs.alternatives(sensed, &inferred.scene) } else { Vec::new() },
+            estimates: inferred.estimates,
+            delay: sensed.oldest_sighting(),
+        };
         let mut plan = self.plan_as_told(&inferred.scene, &outlook)?;
         plan.diagnostics.extend(inferred.diagnostics);
         plan.events.splice(0..0, inferred.events);
-        plan.beliefs = inferred.estimates;
+        plan.beliefs = outlook.estimates;
         Ok(plan)
     }
 

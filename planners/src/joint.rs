@@ -1,7 +1,6 @@
 //! The trajectory problem of several deciding vehicles, each with its own goal (eq. 6.6-6.12).
 
-use crate::scene::ellipses;
-use crate::trajectory::terms::{KeepOut, Separation};
+use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Penalty, Problem, Term};
 use crate::{Agent, Goal, Scene};
 
@@ -37,9 +36,12 @@ pub fn problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
     for i in 0..vehicles.len() {
         for j in 0..i {
             let ([first, second], mutual) = ([j, i], is_mutual(&vehicles[i], &vehicles[j]));
-            terms.push(separation(scene, vehicles, first, second));
+            let separation = |vehicle: usize, from: usize| {
+                scene.separation(vehicles[vehicle].goal.safety, vehicle, (from, &vehicles[from].agent))
+            };
+            terms.push(separation(first, second));
             if !mutual {
-                terms.push(separation(scene, vehicles, second, first));
+                terms.push(separation(second, first));
             }
         }
     }
@@ -49,10 +51,4 @@ pub fn problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
 /// Whether the safety ellipses of two vehicles are equal.
 fn is_mutual(a: &JointVehicle, b: &JointVehicle) -> bool {
     a.goal.safety == b.goal.safety && a.agent.route == b.agent.route
-}
-
-fn separation(scene: &Scene, vehicles: &[JointVehicle], vehicle: usize, from: usize) -> Term {
-    let Agent { route, prediction, .. } = &vehicles[from].agent;
-    let ellipses = ellipses(vehicles[vehicle].goal.safety, route, &scene.centres(prediction));
-    Term::Separation(Separation { vehicle, from, ellipses, penalty: Penalty::EXACT })
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::road::centre_line::RoadPoint;
-use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, StopLine, Tracking};
+use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, Separation, StopLine, Tracking};
 use crate::trajectory::{Participant, Penalty, RouteStart, Term};
 use crate::vehicle::Bicycle;
 use crate::vehicle::{OrientedEllipse, slip_on_curve_rad};
@@ -234,6 +234,13 @@ impl Scene {
     pub fn keep_out(&self, prediction: &Trajectory, route: &Route, penalty: Penalty) -> KeepOut {
         let centres = self.centres(prediction);
         KeepOut { vehicle: 0, ellipses: ellipses(self.goal.safety, route, &centres), centres, penalty }
+    }
+
+    /// Vehicle number `vehicle` of a joint problem keeps out of ellipses of the size `safety` around vehicle number `from`, each
+    /// along the road where that one is predicted.
+    pub fn separation(&self, safety: SafetyEllipse, vehicle: usize, (from, agent): (usize, &Agent)) -> Term {
+        let ellipses = ellipses(safety, &agent.route, &self.centres(&agent.prediction));
+        Term::Separation(Separation { vehicle, from, ellipses, penalty: Penalty::EXACT })
     }
 
     /// The ellipses around the predictions of others that must not be entered, each along its road (eq. 6.13).

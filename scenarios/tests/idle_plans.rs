@@ -1,15 +1,10 @@
 //! Plans whose changes undo each other, or whose samples are one run.
 
-use std::path::Path;
-
-use interplay_scenarios::{LoadError, SweepPlan};
-
-fn read(text: &str) -> Result<SweepPlan, LoadError> {
-    SweepPlan::from_text("plan.toml", text, Path::new(""))
-}
+#[path = "common/plans.rs"]
+mod plans;
 
 /// Each wrong plan, with the line and column of the error and what it says.
-const WRONG: &[(&str, usize, usize, &str)] = &[
+const WRONG: &[plans::WrongPlan] = &[
     // The same driver, stated by keys that exclude each other.
     (
         "scenario = ['lane-change/front-nice']\nstyle = ['nice', 'tough']\n[vary]\n\
@@ -122,19 +117,7 @@ const WRONG: &[(&str, usize, usize, &str)] = &[
 
 #[test]
 fn changes_and_samples_without_effect_are_refused_where_they_are_written() {
-    let mut wrong = Vec::new();
-    for (text, line, column, words) in WRONG {
-        match read(text).err().map(|error| error.faults()[0].clone()) {
-            None => wrong.push(format!("accepted: {text}")),
-            Some(fault) => {
-                let is_there = (fault.file(), fault.line_and_column()) == (Some("plan.toml"), Some((*line, *column)));
-                if !is_there || !fault.message().contains(words) {
-                    wrong.push(format!("{text}{:?}: {}", fault.line_and_column(), fault.message()));
-                }
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    plans::all_are_refused(WRONG);
 }
 
 /// What has an effect in some run, and samples for which something is drawn.
@@ -157,7 +140,7 @@ fn changes_and_samples_with_an_effect_are_accepted() {
          vehicle.front.start.speed_mps = [1.0, 1.1]\n",
         "scenario = ['lane-change/front-nice']\nseed = 4\nsamples = 3\njitter = { position_m = 0.1, speed_mps = 0.1 }\n",
     ] {
-        let plan = read(text);
+        let plan = plans::read(text);
         assert!(plan.is_ok(), "{text}: {:?}", plan.err().map(|error| error.faults().to_vec()));
     }
 }

@@ -1,19 +1,17 @@
 //! What is said of wrong plans of many runs, and where.
 
-use std::path::Path;
+#[path = "common/plans.rs"]
+mod plans;
 
 use interplay_scenarios::{LoadError, SweepPlan};
-
-fn read(text: &str) -> Result<SweepPlan, LoadError> {
-    SweepPlan::from_text("plan.toml", text, Path::new(""))
-}
+use plans::read;
 
 fn sound(text: &str) -> SweepPlan {
     read(text).unwrap_or_else(|error| panic!("{text}: {:?}", error.faults()))
 }
 
 /// Each wrong plan, with the line and column of the error and what it says.
-const WRONG: &[(&str, usize, usize, &str)] = &[
+const WRONG: &[plans::WrongPlan] = &[
     ("planner = ['idm']\n", 1, 1, "`scenario` is missing"),
     ("scenario = []\n", 1, 12, "must have at least 1"),
     ("scenario = ['lane-chnge']\n", 1, 13, "no scenario, no family and no file `lane-chnge`"),
@@ -248,20 +246,7 @@ const WRONG: &[(&str, usize, usize, &str)] = &[
 
 #[test]
 fn wrong_plans_are_refused_where_they_are_wrong() {
-    let mut wrong = Vec::new();
-    for (text, line, column, words) in WRONG {
-        match read(text).err().map(|error| error.faults()[0].clone()) {
-            None => wrong.push(format!("accepted: {text}")),
-            Some(fault) => {
-                let is_there = (fault.file(), fault.line_and_column()) == (Some("plan.toml"), Some((*line, *column)));
-                if !is_there || !fault.message().contains(words) {
-                    let found = (fault.file(), fault.line_and_column(), fault.message());
-                    wrong.push(format!("{text}{found:?} and not {:?}", (line, column, words)));
-                }
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    plans::all_are_refused(WRONG);
 }
 
 /// What is wrong with the runs of a plan that can be read.

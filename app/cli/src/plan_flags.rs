@@ -1,6 +1,7 @@
 //! A small plan from flags, as the text of a plan file.
 
 use std::fmt::Write;
+use std::num::NonZeroU64;
 
 use clap::Args;
 
@@ -38,14 +39,14 @@ pub(crate) struct PlanFlags {
     sets: Vec<String>,
 
     /// How many samples of what varies there are; with a plan, instead of the plan's own
-    #[arg(long, value_name = "N", value_parser = values::count, allow_negative_numbers = true)]
-    pub samples: Option<u64>,
+    #[arg(long, value_name = "N", value_parser = values::count::<NonZeroU64>, allow_negative_numbers = true)]
+    pub samples: Option<NonZeroU64>,
 
     /// How many starts there are: samples in each of which every vehicle starts up to 0.1 m further ahead or behind and up to 0.1
     /// m/s faster or slower, at 1/10 scale
-    #[arg(long, value_name = "N", value_parser = values::count, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = values::count::<NonZeroU64>, allow_negative_numbers = true)]
     #[arg(requires = "scenario", conflicts_with = "samples")]
-    starts: Option<u64>,
+    starts: Option<NonZeroU64>,
 }
 
 impl PlanFlags {

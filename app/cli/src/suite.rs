@@ -34,7 +34,7 @@ pub(crate) struct Suite {
     paths: Vec<String>,
 
     /// How many run at a time [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = values::jobs, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = values::count::<NonZeroUsize>, allow_negative_numbers = true)]
     jobs: Option<NonZeroUsize>,
 
     /// Also write the results as JUnit XML, which build servers show

@@ -1,6 +1,6 @@
 //! `interplay sweep`
 
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -52,8 +52,8 @@ pub(crate) struct Sweep {
     shard: Option<Shard>,
 
     /// Make one of N parts: the one that the task of a scheduler stands for (Slurm, Kubernetes or HyperQueue)
-    #[arg(long, value_name = "N", value_parser = values::parts, allow_negative_numbers = true, conflicts_with = "shard")]
-    shards: Option<std::num::NonZeroU32>,
+    #[arg(long, value_name = "N", value_parser = values::count::<NonZeroU32>, allow_negative_numbers = true, conflicts_with = "shard")]
+    shards: Option<NonZeroU32>,
 
     /// Which runs are recorded
     #[arg(long, value_name = "WHICH", value_enum, default_value_t = Keep::None)]
@@ -64,7 +64,7 @@ pub(crate) struct Sweep {
     dry_run: bool,
 
     /// How many run at a time [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = values::jobs, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = values::count::<NonZeroUsize>, allow_negative_numbers = true)]
     jobs: Option<NonZeroUsize>,
 }
 
@@ -151,7 +151,7 @@ impl Sweep {
     fn plan(&self) -> Result<SweepPlan, LoadError> {
         match self.flags.text() {
             Some(text) => SweepPlan::from_text("the flags", &text, Path::new("")),
-            None => SweepPlan::load(&self.plan, self.flags.samples),
+            None => SweepPlan::load(&self.plan, self.flags.samples.map(NonZeroU64::get)),
         }
     }
 

@@ -1,32 +1,13 @@
 //! Values of flags, with words for those that cannot be.
 
-use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
+use std::str::FromStr;
 
-/// What a number of things must be.
-const COUNT: &str = "write a whole number of at least 1";
-
-/// How many of something there are.
+/// How many of something there are; `N` is a type of [`NonZero`](std::num::NonZero).
 ///
 /// # Errors
 /// What would work, if the text is no whole number of at least 1.
-pub(crate) fn count(text: &str) -> Result<u64, String> {
-    text.parse().map(NonZeroU64::get).map_err(|_| COUNT.to_owned())
-}
-
-/// How many run at a time.
-///
-/// # Errors
-/// As [`count`].
-pub(crate) fn jobs(text: &str) -> Result<NonZeroUsize, String> {
-    text.parse().map_err(|_| COUNT.to_owned())
-}
-
-/// How many parts there are.
-///
-/// # Errors
-/// As [`count`].
-pub(crate) fn parts(text: &str) -> Result<NonZeroU32, String> {
-    text.parse().map_err(|_| COUNT.to_owned())
+pub(crate) fn count<N: FromStr>(text: &str) -> Result<N, String> {
+    text.parse().map_err(|_| "write a whole number of at least 1".to_owned())
 }
 
 /// A change, such as `vehicle.ego.goal.speed_mps=1.2`.
@@ -67,13 +48,15 @@ pub(crate) fn stated_twice<'a>(changes: impl Iterator<Item = &'a str>) -> Option
 
 #[cfg(test)]
 mod tests {
+    use std::num::NonZeroU64;
+
     use super::*;
 
     #[test]
     fn numbers_and_changes_are_read() {
-        assert_eq!(count("7"), Ok(7));
+        assert_eq!(count::<NonZeroU64>("7").map(NonZeroU64::get), Ok(7));
         for wrong in ["0", "-1", "many", "1.5", ""] {
-            assert!(count(wrong).is_err() && jobs(wrong).is_err() && parts(wrong).is_err(), "{wrong}");
+            assert!(count::<NonZeroU64>(wrong).is_err(), "{wrong}");
         }
         assert!(assignment("a.b=1").is_ok() && assignments("a=1; b=[1, 2];").is_ok());
         for wrong in ["", ";", "a", "=1", "a=1; b"] {

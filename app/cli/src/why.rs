@@ -32,7 +32,7 @@ pub(crate) struct Why {
     sets: Vec<String>,
 
     /// How many run at a time [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = values::jobs, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = values::count::<NonZeroUsize>, allow_negative_numbers = true)]
     jobs: Option<NonZeroUsize>,
 
     /// Print the results as one JSON document

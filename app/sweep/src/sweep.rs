@@ -86,10 +86,10 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     make_folder(folder, plan)?;
     let journal = Mutex::new(Journal::open(&path_of(folder, shard))?);
     (options.begin)(part.to_make.len() as u64, part.there);
-    part.to_make.par_iter().with_max_len(1).try_for_each(|index| {
+    part.to_make.par_iter().with_max_len(1).try_for_each(|(key, index)| {
         let point = plan.point(*index);
         let scenario = plan.scenario(&point).map_err(|error| SweepError::Refused(Box::new(error)))?;
-        let row = measured_run(RunKey::of(plan, &point), &point, &scenario);
+        let row = measured_run(*key, &point, &scenario);
         if let Some(keep) = options.keep.filter(|_| row.is_failure()) {
             keep(&row, &scenario).map_err(SweepError::Recording)?;
         }
@@ -126,8 +126,8 @@ fn refuse_file_in_the_way(folder: &Path) -> Result<(), SweepError> {
 struct Part {
     /// The keys and numbers of all its runs, sorted.
     runs: Vec<(RunKey, u64)>,
-    /// The numbers of the runs that have no row.
-    to_make: Vec<u64>,
+    /// Those of them that have no row.
+    to_make: Vec<(RunKey, u64)>,
     /// How many have one.
     there: u64,
 }
@@ -170,7 +170,7 @@ impl Part {
         // Runs of one key are one run: arms that change the same, or a list that states a value twice.
         let mut seen = HashSet::new();
         let first = checked.iter().filter(|(key, _)| seen.insert(*key));
-        let to_make: Vec<u64> = first.filter(|(key, _)| !known.holds(*key)).map(|(_, index)| *index).collect();
+        let to_make: Vec<(RunKey, u64)> = first.filter(|(key, _)| !known.holds(*key)).copied().collect();
         let there = (seen.len() - to_make.len()) as u64;
         let mut runs = checked;
         runs.sort_unstable();

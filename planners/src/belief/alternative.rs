@@ -17,7 +17,7 @@ pub struct Alternative {
 /// What the others may do, and how old the last sighting of them is. Empty for a driver who is told the plans.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outlook {
-    /// What each of the others may do, in the order of the scene.
+    /// What each of the others may do, in the order of the scene; empty for a planner whose plans do not branch.
     pub alternatives: Vec<Vec<Alternative>>,
     /// What is believed of the driver of each of them, in the same order.
     pub estimates: Vec<DriverEstimate>,

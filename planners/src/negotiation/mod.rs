@@ -102,20 +102,18 @@ impl Negotiation {
 
     /// Chooses the vehicles to negotiate with; notes a change as an event. What is known of a negotiation that goes on stays.
     fn choose<'a>(&mut self, scene: &'a Scene, events: &mut Vec<PlanEvent>) -> Vec<&'a Agent> {
-        let before = self.selection.clone();
         let partners = self.selection.choose(scene, &self.settings);
-        if partners.is_empty() && before.asks_somebody() {
+        let mut before = std::mem::take(&mut self.negotiations);
+        if partners.is_empty() && !before.is_empty() {
             events.push(partner_event(None, "asks", "to ask"));
         }
-        let goes_on = partners.iter().map(|partner| before.asks(&partner.name));
-        let known = std::mem::take(&mut self.negotiations);
-        for (partner, goes_on) in partners.iter().zip(goes_on) {
-            let state = known.iter().find(|(name, _)| goes_on && *name == partner.name);
-            if !goes_on {
+        for partner in &partners {
+            let goes_on = before.iter().position(|(name, _)| *name == partner.name);
+            if goes_on.is_none() {
                 events.push(partner_event(Some(&partner.name), "asks", "to ask"));
             }
-            let state = state.map_or_else(NegotiationState::default, |(_, state)| state.clone());
-            self.negotiations.push((partner.name.clone(), state));
+            let begun = || (partner.name.clone(), NegotiationState::default());
+            self.negotiations.push(goes_on.map_or_else(begun, |place| before.swap_remove(place)));
         }
         partners
     }

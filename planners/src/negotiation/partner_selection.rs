@@ -32,16 +32,6 @@ struct AskedVehicle {
 }
 
 impl PartnerSelection {
-    /// Whether a vehicle was asked a step ago.
-    pub(super) fn asks(&self, name: &str) -> bool {
-        self.asked.iter().any(|asked| asked.name == name)
-    }
-
-    /// Whether anybody was asked a step ago.
-    pub(super) fn asks_somebody(&self) -> bool {
-        !self.asked.is_empty()
-    }
-
     /// The vehicles to ask now, from the front to the rear.
     pub(super) fn choose<'a>(&mut self, scene: &'a Scene, settings: &Settings) -> Vec<&'a Agent> {
         if self.order.is_empty() {

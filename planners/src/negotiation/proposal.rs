@@ -18,8 +18,7 @@
 //! The others keep apart from one another by the ego's ellipse, or by as much of it as they plan to.
 
 use super::Settings;
-use crate::scene::ellipses;
-use crate::trajectory::terms::{Comfort, Persuasion, Separation, Tracking};
+use crate::trajectory::terms::{Comfort, Persuasion, Tracking};
 use crate::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, RouteStart, Term};
 use crate::{Agent, Axes, Bicycle, Goal, SafetyEllipse, Scene};
 
@@ -66,13 +65,13 @@ pub fn problem(scene: &Scene, asked: &[AskedPartner], persuasion: Option<Persuas
         let vehicle = index + 1;
         let share = weight / own_weight * (1.0 - own_weight) / settings.other_normaliser;
         terms.extend(partner_terms(scene, agent, vehicle, share));
-        terms.push(separation(scene, scene.goal.safety, 0, (vehicle, agent)));
+        terms.push(scene.separation(scene.goal.safety, 0, (vehicle, agent)));
     }
     for (index, partner) in asked.iter().enumerate() {
         let before = asked[..index].iter().enumerate().filter(|(_, other)| other.agent.may_meet(partner.agent));
         terms.extend(before.map(|(other, by)| {
             let safety = planned_distance(scene, by.agent, partner.agent);
-            separation(scene, safety, other + 1, (index + 1, partner.agent))
+            scene.separation(safety, other + 1, (index + 1, partner.agent))
         }));
     }
     terms.extend(persuasion.map(Term::Persuasion));
@@ -81,19 +80,10 @@ pub fn problem(scene: &Scene, asked: &[AskedPartner], persuasion: Option<Persuas
     Problem { horizon: scene.horizon, participants, shared_steps: 0, terms }
 }
 
-/// A vehicle keeps out of the ellipse around one that is asked.
-fn separation(scene: &Scene, safety: SafetyEllipse, vehicle: usize, (from, agent): (usize, &Agent)) -> Term {
-    let ellipses = ellipses(safety, &agent.route, &scene.centres(&agent.prediction));
-    Term::Separation(Separation { vehicle, from, ellipses, penalty: Penalty::EXACT })
-}
-
 /// The ego's ellipse, or as large a part of it as one vehicle plans to keep out of around another.
 fn planned_distance(scene: &Scene, vehicle: &Agent, from: &Agent) -> SafetyEllipse {
-    let centres = scene.centres(&from.prediction);
-    let ellipses = ellipses(scene.goal.safety, &from.route, &centres);
-    let places = scene.centres(&vehicle.prediction).into_iter().zip(&centres).zip(&ellipses);
-    let nearest = places.map(|((place, centre), ellipse)| ellipse.distance(place, *centre).squared);
-    let share = libm::sqrt(nearest.fold(1.0, f64::min)).max(LEAST_DISTANCE_SHARE);
+    let nearest = scene.keep_out(&from.prediction, &from.route, Penalty::EXACT).nearest(&vehicle.prediction.states);
+    let share = libm::sqrt(nearest.min(1.0)).max(LEAST_DISTANCE_SHARE);
     let SafetyEllipse { along_m, across_m } = scene.goal.safety;
     SafetyEllipse { along_m: share * along_m, across_m: share * across_m }
 }

@@ -28,9 +28,14 @@ pub struct KeepOut {
 impl KeepOut {
     /// How near a motion comes: the largest `1 − d²` over `t = 1…N`, negative outside. `states` begin at `t = 0`.
     pub fn intrusion(&self, states: &[State]) -> f64 {
+        1.0 - self.nearest(states)
+    }
+
+    /// The least `d²` of a motion over `t = 1…N`; infinite where it has no states there. `states` begin at `t = 0`.
+    pub fn nearest(&self, states: &[State]) -> f64 {
         let places = states.iter().skip(1).zip(&self.centres).zip(&self.ellipses);
         let distances = places.map(|((state, centre), ellipse)| ellipse.distance(state.position(), *centre).squared);
-        1.0 - distances.fold(f64::INFINITY, f64::min)
+        distances.fold(f64::INFINITY, f64::min)
     }
 }
 
