@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use interplay_files::WholeFile;
-use parquet::basic::{Compression, ZstdLevel};
+use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
@@ -16,9 +16,6 @@ use super::{ROWS_PER_GROUP, TableColumn, TableSchema, column_type};
 use crate::column::{Cell, HEAD, TAIL, TIMINGS, input};
 use crate::error::SweepError;
 use crate::row::SweepRow;
-
-/// How hard a file is compressed: the library's own default.
-const ZSTD_LEVEL: i32 = 3;
 
 /// A table that is being written. It appears at its place when it is whole.
 pub(crate) struct TableWriter<'a> {
@@ -37,11 +34,11 @@ impl<'a> TableWriter<'a> {
         let types = schema.iter().map(|(name, kind)| column_type(name, *kind)).collect::<Result<Vec<TypePtr>, _>>();
         let root = types.and_then(|types| Type::group_type_builder("run").with_fields(types).build());
         let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone())).collect();
-        let zstd = ZstdLevel::try_new(ZSTD_LEVEL).map_err(&failed)?;
-        // Nothing in the file depends on when or where it is written.
+        // Nothing in the file depends on when or where it is written. LZ4 of this kind asks for memory as all of Rust does, so
+        // that a process which gets none ends with exit code 3; the C library of zstd makes its binding panic.
         let properties = WriterProperties::builder()
             .set_created_by(concat!("interplay ", env!("CARGO_PKG_VERSION")).to_owned())
-            .set_compression(Compression::ZSTD(zstd))
+            .set_compression(Compression::LZ4_RAW)
             .set_key_value_metadata(Some(about));
         let root = Arc::new(root.map_err(&failed)?);
         let writer = SerializedFileWriter::new(file, root, Arc::new(properties.build())).map_err(&failed)?;
