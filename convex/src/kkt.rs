@@ -102,3 +102,46 @@ fn worst(form: &StandardForm, residual: impl Fn(Cone, Range<usize>) -> f64) -> f
 fn scale(parts: &[&[f64]]) -> f64 {
     parts.iter().fold(1.0, |scale, part| magnitude(part).max(scale))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Program;
+
+    /// min 2x² − 100x subject to 3x + y ≤ 30 and x ≤ 400.
+    fn form() -> StandardForm {
+        let mut program = Program::new();
+        let variables = program.variables("x and y", 2);
+        let (x, y) = (variables.at(0), variables.at(1));
+        program.quadratic(x, x, 4.0);
+        program.linear(x, -100.0);
+        let rows = program.at_most("rows");
+        program.row(rows, [(x, 3.0), (y, 1.0)], 30.0);
+        program.row(rows, [(x, 1.0)], 400.0);
+        StandardForm::new(&program).expect("a sound program")
+    }
+
+    /// Every term and every scale, by hand.
+    #[test]
+    fn residuals_have_the_scale_of_their_terms() {
+        let OptimalityCheck { residuals, slack, objective } = of(&form(), &[10.0, 5.0], &[-8.0, 20.0]);
+        assert_eq!((slack, objective), (vec![-5.0, 390.0], 200.0 - 1000.0));
+        // Px = (40, 0), q = (−100, 0), Aᵀz = (−4, −8).
+        assert_eq!(residuals.stationarity, 64.0 / 100.0);
+        assert_eq!(residuals.primal, 5.0 / 400.0);
+        assert_eq!(residuals.dual, 8.0 / 20.0);
+        // The objectives are −800 and 200 + bᵀz = 7960.
+        assert_eq!(residuals.complementarity, 390.0 * 20.0 / 7960.0);
+        assert_eq!(residuals.largest(), 390.0 * 20.0 / 7960.0);
+    }
+
+    #[test]
+    fn certificates_are_scaled_to_a_gain_of_one() {
+        // bᵀz = −60, Aᵀz = (−6, −2), and z is outside of its cone by 2.
+        assert_eq!(infeasibility(&form(), &[-2.0, 0.0]), 6.0 / 60.0);
+        // qᵀx = −200, Px = (8, 0), −Ax = (−6, −2).
+        assert_eq!(unboundedness(&form(), &[2.0, 0.0]), 8.0 / 200.0);
+        assert_eq!([infeasibility(&form(), &[0.0; 2]), unboundedness(&form(), &[0.0; 2])], [f64::INFINITY; 2]);
+        assert_eq!(infeasibility(&form(), &[2.0, 0.0]), f64::INFINITY, "it gains nothing");
+    }
+}

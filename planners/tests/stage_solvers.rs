@@ -55,7 +55,7 @@ fn a_solution_that_is_slightly_off_is_no_optimum() {
 fn each_condition_that_is_broken_is_seen() {
     const OFF: f64 = 1e-2;
     type Broken = (&'static str, fn(&mut StageSolution), fn(&Residual) -> f64);
-    let broken: [Broken; 6] = [
+    let broken: [Broken; 11] = [
         ("a state that the dynamics do not lead to", |solution| solution.states[0][5][0] += OFF, |found| found.primal),
         (
             "an input of its own where it is shared",
@@ -68,6 +68,31 @@ fn each_condition_that_is_broken_is_seen() {
             "bounds on both sides that push",
             |solution| solution.bound_multipliers[0][3][1] = [OFF; 2],
             |found| found.complementarity / FAR,
+        ),
+        (
+            "a bound at the first stage that pulls",
+            |solution| solution.bound_multipliers[0][0][0] = [-OFF; 2],
+            |found| found.dual,
+        ),
+        (
+            "an acceleration that is pushed",
+            |solution| solution.bound_multipliers[0][3][0][0] += OFF,
+            |found| found.stationarity,
+        ),
+        (
+            "a steering that is pushed",
+            |solution| solution.bound_multipliers[0][3][1][1] += OFF,
+            |found| found.stationarity,
+        ),
+        (
+            "a first input that is pushed",
+            |solution| solution.bound_multipliers[0][0][0][0] += OFF,
+            |found| found.stationarity,
+        ),
+        (
+            "an input that is shared and pushed a little in each future",
+            |solution| (0..2).for_each(|future| solution.bound_multipliers[future][0][0][0] += 0.5 * OFF),
+            |found| found.stationarity,
         ),
         (
             "a row that pulls over a trajectory",
@@ -90,6 +115,20 @@ fn each_condition_that_is_broken_is_seen() {
             let all = [residual.stationarity, residual.primal, residual.dual, residual.complementarity];
             assert_eq!(residual.largest(), all.into_iter().fold(0.0, f64::max), "{what}");
         }
+    }
+}
+
+/// Damping belongs to the problem: its solution is none of the problem without.
+#[test]
+fn damping_is_part_of_the_conditions() {
+    for seed in 0..10 {
+        let mut qp = step_problem(&pair(seed, 1.2), seed);
+        qp.damping = 3.0;
+        let mut solution = StageSolution::default();
+        Structured::default().solve(&qp, &mut solution, false).expect("solved");
+        assert!(kkt::residual(&qp, &solution).largest() < 3e-5, "seed {seed}");
+        qp.damping = 0.0;
+        assert!(kkt::residual(&qp, &solution).stationarity > 1e-3, "seed {seed}");
     }
 }
 

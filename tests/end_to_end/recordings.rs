@@ -5,6 +5,8 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
 
+use interplay_scenarios::load;
+
 use crate::command::{command, contents, interplay, scratch};
 
 const SHORT: [&str; 4] = ["run", "lane-change/front-tough", "--set", "duration_s=1"];
@@ -101,5 +103,19 @@ fn recordings_are_small() {
         interplay(&folder, &["run", name, "--record", "size.rrd"]);
         let bytes = fs::metadata(folder.join("size.rrd")).expect("there is a recording").len();
         assert!(bytes > 100_000 && bytes < most_bytes, "{name}: {bytes} bytes");
+    }
+}
+
+/// Budgets are judged by what `check` states. Zones with plots of their own make more than those of a large building.
+#[test]
+fn recordings_are_about_as_large_as_stated() {
+    let folder = scratch("recording-stated");
+    let names =
+        ["lane-change/front-nice", "building/four-room-pid", "building/distributed-sixteen", "building/hundred-zones"];
+    for name in names {
+        interplay(&folder, &["run", name, "--record", "size.rrd"]);
+        let mb = fs::metadata(folder.join("size.rrd")).expect("there is a recording").len() as f64 / 1e6;
+        let stated_mb = load(name, &[]).expect("authored").cost().recorded_mb;
+        assert!(mb < 1.5 * stated_mb && mb > stated_mb / 2.5, "{name}: {mb} MB, stated are {stated_mb} MB");
     }
 }

@@ -16,6 +16,8 @@ import json
 import pathlib
 import random
 import re
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -27,7 +29,8 @@ import targets
 
 CORPUS = pathlib.Path(__file__).resolve().parent / "corpus"
 MOST_CORPUS_BYTES, MOST_INPUT_BYTES = 25_000, 8_000
-TIMEOUT_S = 120
+# A hang takes this much time of a processor, or this much time at all: the machine may have other work.
+PROCESSOR_LIMIT_S, TIMEOUT_S = 120, 1200
 STATED = re.compile(r"in about ([\d.]+) MB")
 # Telemetry can be good enough for a report and not for a network; only `--scenario` asks for one.
 NO_NETWORK = "there is no network to write as a scenario"
@@ -48,10 +51,13 @@ class Outcome:
 
 def execute(binary: str, folder: pathlib.Path, words: list[str]) -> tuple[str, str]:
     """How a command ended, and what it said."""
+    bounded = ["prlimit", f"--cpu={PROCESSOR_LIMIT_S}", binary] if shutil.which("prlimit") else [binary]
     try:
-        done = subprocess.run([binary, *words], cwd=folder, capture_output=True, timeout=TIMEOUT_S)
+        done = subprocess.run([*bounded, *words], cwd=folder, capture_output=True, timeout=TIMEOUT_S)
     except subprocess.TimeoutExpired:
         return "hang", f"no end in {TIMEOUT_S} s"
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return "hang", f"no end in {PROCESSOR_LIMIT_S} s of a processor"
     said = (done.stdout + done.stderr).decode("utf-8", "replace")
     return str(done.returncode) if done.returncode in (0, 1, 2, 3) else f"crash {done.returncode}", said
 

@@ -13,6 +13,12 @@ const BYTES_PER_STAGE: f64 = 30.0;
 /// What each step of a building adds, and each zone in it \[bytes\].
 const BYTES_PER_BUILDING_STEP: f64 = 500.0;
 const BYTES_PER_ZONE_STEP: f64 = 20.0;
+/// In buildings of up to this many zones each zone has plots of its own, in larger ones four zones.
+const MAX_PLOTTED_ZONES: usize = 16;
+const PLOTTED_ZONES_OF_MANY: usize = 4;
+/// What the plots of a zone add, and each step in them \[bytes\].
+const BYTES_PER_PLOTTED_ZONE: f64 = 50e3;
+const BYTES_PER_PLOTTED_ZONE_STEP: f64 = 150.0;
 
 /// What a run will make: counts are exact, operations and bytes are estimates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,7 +53,8 @@ impl RunCost {
         let bytes = EMPTY_RECORDING_BYTES
             + (plans as f64) * scenario.horizon_steps as f64 * BYTES_PER_STAGE
             + building_steps as f64 * BYTES_PER_BUILDING_STEP
-            + zone_steps as f64 * BYTES_PER_ZONE_STEP;
+            + zone_steps as f64 * BYTES_PER_ZONE_STEP
+            + plots_bytes(zones, building_steps);
         RunCost {
             plans,
             steps: ticks.saturating_mul(sub_steps).saturating_mul(bodies_and_pairs).saturating_add(zone_steps),
@@ -66,6 +73,12 @@ impl RunCost {
             ..self
         }
     }
+}
+
+/// What plots of single zones add to a recording \[bytes\].
+fn plots_bytes(zones: usize, building_steps: u64) -> f64 {
+    let plotted = if zones <= MAX_PLOTTED_ZONES { zones } else { PLOTTED_ZONES_OF_MANY };
+    plotted as f64 * (BYTES_PER_PLOTTED_ZONE + building_steps as f64 * BYTES_PER_PLOTTED_ZONE_STEP)
 }
 
 impl Scenario {

@@ -86,3 +86,60 @@ impl Completion {
         reached
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use interplay_scenarios::{Scenario, load};
+
+    use super::*;
+
+    fn at(route: &Route, along_m: f64, across_m: f64) -> State {
+        let [x_m, y_m] = route.position(along_m, across_m);
+        State { x_m, y_m, ..State::default() }
+    }
+
+    fn ego(scenario: &Scenario) -> &Vehicle {
+        scenario.vehicles.iter().find(|vehicle| vehicle.name == "ego").expect("an ego")
+    }
+
+    /// Whether a vehicle completes its task in a state; the first time counts, and none other.
+    fn reaches(vehicle: &Vehicle, road: &Road, state: &State) -> bool {
+        let mut completion = Completion::new(vehicle, road);
+        assert!(completion.has_task());
+        let reached = completion.observe(state, 3.0);
+        assert_eq!(completion.completed_s, reached.then_some(3.0));
+        assert!(!completion.observe(state, 4.0), "it is reached once");
+        assert_eq!(completion.completed_s, reached.then_some(3.0));
+        reached
+    }
+
+    #[test]
+    fn a_lane_is_reached_within_a_share_of_its_width() {
+        let scenario = load("lane-change/front-nice", &[]).expect("authored");
+        let (ego, road) = (ego(&scenario), &scenario.road);
+        let wanted_m = ego.route.across(ego.target(road).position());
+        let beside = |widths: f64| at(&ego.route, 2.0, wanted_m + widths * road.lane_width_m());
+        assert!([-0.149, 0.149].into_iter().all(|widths| reaches(ego, road, &beside(widths))));
+        assert!(![-0.151, 0.151].into_iter().any(|widths| reaches(ego, road, &beside(widths))));
+        let mut there = ego.clone();
+        there.start = beside(0.0);
+        let mut nothing = Completion::new(&there, road);
+        assert!(!nothing.has_task() && !nothing.observe(&beside(0.0), 1.0) && !nothing.crosses());
+        assert_eq!(nothing.completed_s, None);
+        assert!((nothing.along_m(beside(0.0).position()) - 2.0).abs() < 1e-9);
+    }
+
+    /// The rear bumper counts: of the other road, and of the last lane of a route.
+    #[test]
+    fn a_place_is_left_behind_with_the_whole_body() {
+        for (name, crosses) in [("intersection/nice", true), ("roundabout/nice", false)] {
+            let scenario = load(name, &[]).expect("authored");
+            let (ego, road) = (ego(&scenario), &scenario.road);
+            let last_m = ego.route.legs.last().map(|leg| leg.from_m);
+            let place_m = road.conflict_zone_m(ego.road).map(|[_, end_m]| end_m).or(last_m).expect("a place");
+            let behind = |by_m: f64| at(&ego.route, place_m + ego.body.rear_m + by_m, 0.0);
+            assert!(reaches(ego, road, &behind(0.02)) && !reaches(ego, road, &behind(-0.02)), "{name}");
+            assert_eq!(Completion::new(ego, road).crosses(), crosses, "{name}");
+        }
+    }
+}

@@ -169,7 +169,10 @@ mod tests {
     }
 
     fn logged(frames: &[Frame]) -> Vec<(usize, String)> {
-        let mut milestones = Milestones::new(&load("lane-change/front-nice", &[]).expect("authored"));
+        logged_of(Milestones::new(&load("lane-change/front-nice", &[]).expect("authored")), frames)
+    }
+
+    fn logged_of(mut milestones: Milestones, frames: &[Frame]) -> Vec<(usize, String)> {
         let frames = frames.iter().enumerate();
         let events = frames.flat_map(|(at, frame)| milestones.observe(frame).into_iter().map(move |event| (at, event)));
         events.map(|(at, event)| (at, format!("{} {}", event.vehicle, event.text))).collect()
@@ -179,6 +182,11 @@ mod tests {
     fn braking_is_logged_once_until_it_has_ended() {
         let said = logged(&[0.0, -0.5, -0.3, -0.6, 0.0, -0.3, -0.41].map(|a| tick(a, None)));
         assert_eq!(said, [(1, "ego brakes".to_owned()), (6, "ego brakes".to_owned())]);
+        // What counts is the share of the hardest braking that the vehicle is capable of.
+        let mut milestones = Milestones::new(&load("lane-change/front-nice", &[]).expect("authored"));
+        milestones.limits[0].acceleration_min_mps2 = -4.0;
+        let said = logged_of(milestones, &[-1.2, -2.4].map(|a| tick(a, None)));
+        assert_eq!(said, [(1, "ego brakes".to_owned())]);
     }
 
     #[test]

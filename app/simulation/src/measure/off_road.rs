@@ -70,6 +70,28 @@ mod tests {
         }
     }
 
+    /// Corners turn with the vehicle, on a road in any direction: with its centre on an edge a front or rear corner is beyond it.
+    #[test]
+    fn corners_are_those_of_the_body() {
+        let scenario = load("intersection/nice", &[]).expect("authored");
+        for vehicle in &scenario.vehicles {
+            let (route, body) = (&vehicle.route, vehicle.body);
+            let [right_m, left_m] = [route.right.value(0.5), route.left.value(0.5)];
+            let front = [(left_m, 0.5), (right_m, -0.5)].map(|(across_m, turn_rad)| (across_m, turn_rad, body.front_m));
+            let rear = [(left_m, -2.5), (right_m, 2.5)].map(|(across_m, turn_rad)| (across_m, turn_rad, body.rear_m));
+            for (across_m, turn_rad, reach_m) in front.into_iter().chain(rear) {
+                let [x_m, y_m] = route.position(0.5, across_m);
+                let heading_rad = route.heading_at([x_m, y_m]) + turn_rad;
+                let mut off_road = OffRoad::new(route, body);
+                off_road.observe(&State { x_m, y_m, heading_rad, speed_mps: 0.0 }, 0.5, 1.0);
+                let (sin, cos) = libm::sincos(turn_rad.abs());
+                let wanted_m = reach_m * sin + 0.5 * body.width_m * cos.abs();
+                let found_m = off_road.peak.value;
+                assert!((found_m - wanted_m).abs() < 1e-9, "{}: {found_m} and {wanted_m}", vehicle.name);
+            }
+        }
+    }
+
     /// Where lane 0 has ended, who stands in it is off the road, and who is before its end is not.
     #[test]
     fn the_end_of_a_ramp_is_an_edge() {

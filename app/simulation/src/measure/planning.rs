@@ -53,3 +53,30 @@ impl Planning {
         sorted.get((share * last as f64).round() as usize).copied().unwrap_or(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tick(plan_ms: f64, origin: Origin, unfinished: usize) -> VehicleFrame {
+        let mut frame = VehicleFrame { plan_ms, origin, ..VehicleFrame::default() };
+        frame.plan.statistics.unfinished = unfinished;
+        frame
+    }
+
+    #[test]
+    fn plans_are_counted_by_what_became_of_them() {
+        let mut planning = Planning::new(Some(2.0));
+        assert_eq!((planning.count(), planning.quantile_ms(0.5)), (0, 0.0));
+        let times_ms = [5.0, 1.0, 2.0, 3.0, 4.0];
+        for (at, plan_ms) in times_ms.into_iter().enumerate() {
+            let origin = [Origin::Continued, Origin::Braking].get(at).copied().unwrap_or_default();
+            planning.observe(&tick(plan_ms, origin, at));
+        }
+        planning.observe(&tick(100.0, Origin::Crashed, 1));
+        assert_eq!((planning.count(), planning.failed, planning.unfinished, planning.violating), (5, 2, 10, 0));
+        assert_eq!(planning.over_budget(), Some(3));
+        assert_eq!([0.0, 0.5, 0.75, 1.0].map(|share| planning.quantile_ms(share)), [1.0, 3.0, 4.0, 5.0]);
+        assert_eq!(Planning::new(None).over_budget(), None);
+    }
+}

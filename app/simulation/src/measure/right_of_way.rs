@@ -133,6 +133,15 @@ mod tests {
         assert_eq!(other_first, passage("crossing", "ego", 0.725, Some(1.5)));
     }
 
+    /// Within a tick of half a second the time of entering is found by the share of the way.
+    #[test]
+    fn times_are_those_within_a_tick() {
+        let scenario = load("intersection/nice", &[]).expect("authored");
+        let mut passages = Passages::new(&scenario, &[-0.495, -0.5]);
+        passages.observe(&[-0.295, -0.5], [3.0, 3.5]);
+        assert_eq!(passages.passages(), passage("ego", "crossing", 3.25, None));
+    }
+
     #[test]
     fn who_never_enters_has_let_the_other_go() {
         assert_eq!(crossing(&[[-2.0, -0.5], [-1.0, -0.1], [-0.6, 0.9]]), passage("crossing", "ego", 0.725, None));

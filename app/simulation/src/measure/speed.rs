@@ -21,3 +21,17 @@ impl SpeedRange {
         self.max_mps = self.max_mps.max(speed_mps);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slowest_and_fastest_are_kept() {
+        let mut range = SpeedRange::new(2.0);
+        for speed_mps in [3.0, 1.0, 2.5] {
+            range.observe(speed_mps);
+        }
+        assert_eq!([range.min_mps, range.max_mps], [1.0, 3.0]);
+    }
+}

@@ -58,6 +58,12 @@ mod tests {
     }
 
     #[test]
+    fn a_road_need_not_have_limits() {
+        let scenario = interplay_scenarios::load("lane-change/front-nice", &[]).expect("authored");
+        assert!(!Speeding::new(&scenario.vehicles[0].route).has_limits());
+    }
+
+    #[test]
     fn each_lane_has_its_own_limit() {
         let mut speeding = Speeding::new(&route());
         assert!(speeding.has_limits());

@@ -81,7 +81,7 @@ mod tests {
         let state = |x_m, y_m, speed_mps| State { x_m, y_m, heading_rad: 0.0, speed_mps };
         // Closing speed and distance of bumpers of ego and front: 1 s, 0.5 s, 2 s, and parting.
         for (time_s, ahead_m, speed_mps) in [(0.0, 1.0, 1.0), (1.0, 1.0, 2.0), (2.0, 2.0, 1.0), (3.0, 0.1, -1.0)] {
-            let states = [state(0.0, 0.2, 1.0 + speed_mps), state(ahead_m + 0.4, 0.2, 1.0), state(-3.0, 0.55, 1.0)];
+            let states = [state(5.0, 0.2, 1.0 + speed_mps), state(ahead_m + 5.4, 0.2, 1.0), state(2.0, 0.55, 1.0)];
             let vehicles = scenario.vehicles.iter().zip(states);
             let vehicles = vehicles.map(|(vehicle, state)| VehicleFrame {
                 name: vehicle.name.clone(),
