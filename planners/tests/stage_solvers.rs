@@ -55,7 +55,7 @@ fn a_solution_that_is_slightly_off_is_no_optimum() {
 fn each_condition_that_is_broken_is_seen() {
     const OFF: f64 = 1e-2;
     type Broken = (&'static str, fn(&mut StageSolution), fn(&Residual) -> f64);
-    let broken: [Broken; 11] = [
+    let broken: [Broken; 12] = [
         ("a state that the dynamics do not lead to", |solution| solution.states[0][5][0] += OFF, |found| found.primal),
         (
             "an input of its own where it is shared",
@@ -92,6 +92,11 @@ fn each_condition_that_is_broken_is_seen() {
         (
             "an input that is shared and pushed a little in each future",
             |solution| (0..2).for_each(|future| solution.bound_multipliers[future][0][0][0] += 0.5 * OFF),
+            |found| found.stationarity,
+        ),
+        (
+            "a steering that is shared and pushed a little in each future",
+            |solution| (0..2).for_each(|future| solution.bound_multipliers[future][0][1][1] += 0.5 * OFF),
             |found| found.stationarity,
         ),
         (

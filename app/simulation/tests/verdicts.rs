@@ -1,5 +1,6 @@
 //! Expectations hold up to their bound and not beyond it, and say what they were judged by.
 
+use interplay_building::day::ZoneFigures;
 use interplay_scenarios::{Override, load};
 use interplay_simulation::report::{Expectation, Report};
 use interplay_simulation::run::run;
@@ -138,7 +139,8 @@ fn bounds_of_a_zone() {
     let plain = report(BUILDING, &changes).building.expect("a building");
     let zone = &plain.zone_figures[1];
     let days = &zone.iterations[1..];
-    let figures: [(&str, fn(&interplay_building::day::ZoneFigures) -> f64); 3] = [
+    type Figure = (&'static str, fn(&ZoneFigures) -> f64);
+    let figures: [Figure; 3] = [
         ("tracking_rmse_c_at_most", |day| day.tracking_rmse_c),
         ("discomfort_k_h_at_most", |day| day.discomfort_k_h),
         ("energy_kwh_at_most", |day| day.energy_kwh),
