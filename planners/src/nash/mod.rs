@@ -11,6 +11,7 @@ pub mod diagnostics;
 mod equilibrium;
 mod players;
 mod prioritised;
+mod refusals;
 mod settings;
 
 pub use deviation::TOLERATED_GAIN;
@@ -26,6 +27,7 @@ use crate::trajectory::{Optimiser, Problem, Robust, Violation};
 use crate::{Diagnostic, Input, Plan, PlanError, PlanEvent, Proposal, Scene, Trajectory};
 use diagnostics::{DEVIATION_GAIN, EGO_COST, PLAYERS};
 use players::{SeenSpeeds, players};
+use refusals::Refusals;
 
 /// A player of the general-sum game, with its last equilibrium.
 #[derive(Clone, Debug)]
@@ -34,6 +36,7 @@ pub struct Nash {
     joint: Optimiser<Robust>,
     replies: Optimiser<Robust>,
     seen: SeenSpeeds,
+    refusals: Refusals,
     /// The last trajectory of each player, with its name; the ego is the first.
     last: Vec<(String, Trajectory)>,
 }
@@ -58,6 +61,7 @@ impl Nash {
             // The comparison of the joint problem looks into the other classes of motion.
             replies: Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off),
             seen: SeenSpeeds::default(),
+            refusals: Refusals::default(),
             last: Vec::new(),
         }
     }
@@ -69,7 +73,9 @@ impl Nash {
     pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         self.seen.look(scene);
-        let players = players(scene, &self.seen, &self.settings);
+        self.refusals.look(scene, &self.last, self.settings.patience_steps);
+        let plays = |name: &str| self.refusals.plays(name, self.settings.patience_steps);
+        let players = players(scene, &self.seen, &self.settings, plays);
         let problem = problem(scene, &players);
         let guess = self.guess(&players);
         match equilibrium(&mut self.joint, &mut self.replies, &problem, &guess) {

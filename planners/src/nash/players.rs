@@ -27,14 +27,20 @@ impl SeenSpeeds {
     }
 }
 
-/// The ego, and the nearest others with which something is left to settle, sorted by name.
-pub(super) fn players(scene: &Scene, seen: &SeenSpeeds, settings: &Settings) -> Vec<JointVehicle> {
+/// The ego, and the nearest others that play and with which something is left to settle, sorted by name.
+pub(super) fn players(
+    scene: &Scene,
+    seen: &SeenSpeeds,
+    settings: &Settings,
+    plays: impl Fn(&str) -> bool,
+) -> Vec<JointVehicle> {
     let distance_m = |other: &Agent| {
         let ([x, y], [ego_x, ego_y]) = (other.state.position(), scene.ego.state.position());
         libm::hypot(x - ego_x, y - ego_y)
     };
-    let plays = |other: &&Agent| other.can_be_asked && !is_settled(scene, other, settings.clear_lead_m);
-    let mut others: Vec<&Agent> = scene.others.iter().filter(plays).collect();
+    let is_player =
+        |other: &&Agent| other.can_be_asked && plays(&other.name) && !is_settled(scene, other, settings.clear_lead_m);
+    let mut others: Vec<&Agent> = scene.others.iter().filter(is_player).collect();
     others.sort_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
     others.truncate(settings.players_at_most - 1);
     others.sort_by(|a, b| a.name.cmp(&b.name));

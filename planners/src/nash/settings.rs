@@ -18,6 +18,10 @@ pub struct Settings {
     /// predicted ways of all others.
     #[schemars(range(min = 2, max = 4))]
     pub players_at_most: usize,
+    /// A vehicle that does nothing of what is expected of it for this many steps in a row does not play any more: it is an obstacle on
+    /// its predicted way.
+    #[schemars(range(min = 1), extend("x-mechanism" = { "refusals": 1_000_000 }))]
+    pub patience_steps: usize,
     /// A vehicle that is this far ahead in the target lane does not play \[m\].
     #[schemars(range(min = 0.0))]
     pub clear_lead_m: f64,
@@ -34,6 +38,7 @@ impl Default for Settings {
         Settings {
             other_normaliser: 1.0,
             players_at_most: 4,
+            patience_steps: 5,
             clear_lead_m: 0.2,
             prediction: Prediction::ConstantVelocity,
             passing_orders: PassingOrderSearch::Classes,
