@@ -33,7 +33,7 @@ MOST_CORPUS_BYTES, MOST_INPUT_BYTES = 25_000, 8_000
 PROCESSOR_LIMIT_S, TIMEOUT_S = 120, 1200
 STATED = re.compile(r"in about ([\d.]+) MB")
 # Telemetry can be good enough for a report and not for a network; only `--scenario` asks for one.
-NO_NETWORK = "there is no network to write as a scenario"
+NO_NETWORK = "no scenario is written"
 MOST_TRIALS, MOST_SHRINKING_S = 60, 20.0
 
 
