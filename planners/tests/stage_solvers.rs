@@ -50,64 +50,57 @@ fn a_solution_that_is_slightly_off_is_no_optimum() {
     }
 }
 
+/// By how much a condition is broken.
+const OFF: f64 = 1e-2;
+/// Of two opposite bounds on steering at least one is this far away \[rad\].
+const FAR: f64 = 0.1;
+
+/// What is wrong, how it is brought about, and the residual that must show it.
+type Broken = (&'static str, fn(&mut StageSolution), fn(&Residual) -> f64);
+
+const BROKEN: [Broken; 12] = [
+    ("a state that the dynamics do not lead to", |solution| solution.states[0][5][0] += OFF, |found| found.primal),
+    ("an input of its own where it is shared", |solution| solution.inputs[1][0][1] += OFF, |found| found.stationarity),
+    ("a bound that pulls", |solution| solution.bound_multipliers[0][3][0] = [-OFF; 2], |found| found.dual),
+    ("a row that pulls", |solution| solution.row_multipliers[0].fill(-OFF), |found| found.dual),
+    (
+        "bounds on both sides that push",
+        |solution| solution.bound_multipliers[0][3][1] = [OFF; 2],
+        |found| found.complementarity / FAR,
+    ),
+    (
+        "a bound at the first stage that pulls",
+        |solution| solution.bound_multipliers[0][0][0] = [-OFF; 2],
+        |found| found.dual,
+    ),
+    (
+        "an acceleration that is pushed",
+        |solution| solution.bound_multipliers[0][3][0][0] += OFF,
+        |found| found.stationarity,
+    ),
+    ("a steering that is pushed", |solution| solution.bound_multipliers[0][3][1][1] += OFF, |found| found.stationarity),
+    (
+        "a first input that is pushed",
+        |solution| solution.bound_multipliers[0][0][0][0] += OFF,
+        |found| found.stationarity,
+    ),
+    (
+        "an input that is shared and pushed a little in each future",
+        |solution| (0..2).for_each(|future| solution.bound_multipliers[future][0][0][0] += 0.5 * OFF),
+        |found| found.stationarity,
+    ),
+    (
+        "a steering that is shared and pushed a little in each future",
+        |solution| (0..2).for_each(|future| solution.bound_multipliers[future][0][1][1] += 0.5 * OFF),
+        |found| found.stationarity,
+    ),
+    ("a row that pulls over a trajectory", |solution| solution.trajectory_multipliers.fill(-OFF), |found| found.dual),
+];
+
 /// Each optimality condition is checked by itself: a solution that breaks one of them by a known amount has at least that residual.
 #[test]
 fn each_condition_that_is_broken_is_seen() {
-    const OFF: f64 = 1e-2;
-    type Broken = (&'static str, fn(&mut StageSolution), fn(&Residual) -> f64);
-    let broken: [Broken; 12] = [
-        ("a state that the dynamics do not lead to", |solution| solution.states[0][5][0] += OFF, |found| found.primal),
-        (
-            "an input of its own where it is shared",
-            |solution| solution.inputs[1][0][1] += OFF,
-            |found| found.stationarity,
-        ),
-        ("a bound that pulls", |solution| solution.bound_multipliers[0][3][0] = [-OFF; 2], |found| found.dual),
-        ("a row that pulls", |solution| solution.row_multipliers[0].fill(-OFF), |found| found.dual),
-        (
-            "bounds on both sides that push",
-            |solution| solution.bound_multipliers[0][3][1] = [OFF; 2],
-            |found| found.complementarity / FAR,
-        ),
-        (
-            "a bound at the first stage that pulls",
-            |solution| solution.bound_multipliers[0][0][0] = [-OFF; 2],
-            |found| found.dual,
-        ),
-        (
-            "an acceleration that is pushed",
-            |solution| solution.bound_multipliers[0][3][0][0] += OFF,
-            |found| found.stationarity,
-        ),
-        (
-            "a steering that is pushed",
-            |solution| solution.bound_multipliers[0][3][1][1] += OFF,
-            |found| found.stationarity,
-        ),
-        (
-            "a first input that is pushed",
-            |solution| solution.bound_multipliers[0][0][0][0] += OFF,
-            |found| found.stationarity,
-        ),
-        (
-            "an input that is shared and pushed a little in each future",
-            |solution| (0..2).for_each(|future| solution.bound_multipliers[future][0][0][0] += 0.5 * OFF),
-            |found| found.stationarity,
-        ),
-        (
-            "a steering that is shared and pushed a little in each future",
-            |solution| (0..2).for_each(|future| solution.bound_multipliers[future][0][1][1] += 0.5 * OFF),
-            |found| found.stationarity,
-        ),
-        (
-            "a row that pulls over a trajectory",
-            |solution| solution.trajectory_multipliers.fill(-OFF),
-            |found| found.dual,
-        ),
-    ];
-    // Of two opposite bounds on steering at least one is this far away [rad].
-    const FAR: f64 = 0.1;
-    for (what, break_it, of) in broken {
+    for (what, break_it, of) in BROKEN {
         for seed in 0..10 {
             let problem = if what.contains("shared") { futures(seed, 2, 5) } else { pair(seed, 1.2) };
             let qp = step_problem(&problem, seed);
