@@ -24,7 +24,7 @@ use std::io::Write;
 use common::Random;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::certificate::{last_resorts, overlap_m};
-use interplay_planners::{Agent, Driver, Scene, State, Trajectory, human};
+use interplay_planners::{Agent, Driver, Scene, State, Trajectory, contingency, human, nash};
 
 /// Ticks of a run.
 const TICKS: usize = 60;
@@ -66,7 +66,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The styles of humans are varied here: one of the families that differ in them only.
     let names = ["lane-change/nice-nice", "ramp-merge/nice-nice", "lane-keeping/nice", "intersection/nice"];
     for (family, pose) in families().into_iter().filter(|(name, _)| names.contains(&name.as_str())) {
-        for ego in egos() {
+        for ego in egos()
+            .into_iter()
+            .chain([Driver::Nash(nash::Settings::default()), Driver::Contingency(contingency::Settings::default())])
+        {
             let name = format!("{family}/{}", ego.kind());
             if !words.iter().all(|word| name.contains(word)) {
                 continue;

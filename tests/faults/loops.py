@@ -3,7 +3,8 @@
 the n-th allocation of memory fails, for the first ones and others spread over the command.
 
 After a fault the exit code is 3, every file is the old one or whole, and nothing else is there. After a kill every file is
-the old one or whole, and the same command works. The standard output is a file, too, whose faults count. `--short` takes every
+the old one or whole, and the same command works. Where the C library itself ends a process for want of memory, which no program can
+prevent, files are as after a kill. The standard output is a file, too, whose faults count. `--short` takes every
 seventh n from the tenth on, and a tenth of the allocations. Prints a table as Markdown; exits with 1 if anything did not hold. Needs Linux on x86-64 and a C
 compiler; says so where it skips.
 
@@ -16,6 +17,7 @@ import os
 import pathlib
 import platform
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -70,6 +72,11 @@ def is_whole(path: pathlib.Path, reference: pathlib.Path, killed: bool) -> bool:
             return all(json.loads(line) is not None for line in lines if line)
         case _:
             return content == wanted
+
+
+def is_ended_by_c_library(outcome: subprocess.CompletedProcess) -> bool:
+    """Whether glibc had no memory for its own list of what a thread has to clean up: it ends the process then."""
+    return outcome.returncode == -signal.SIGABRT and outcome.stderr.startswith("Fatal glibc error: failed to register TLS destructor")
 
 
 def files(folder: pathlib.Path) -> dict[str, pathlib.Path]:
@@ -158,8 +165,9 @@ class Loop:
                 if again.returncode not in again_codes:
                     self.broken.append(f"{at}: afterwards exit code {again.returncode}: {again.stderr[-300:]}")
 
-    def exhaust(self, title: str, most: int) -> tuple[int, int]:
-        """Lets allocations fail, each in a run of its own; returns how many, and how many runs did without and ended well."""
+    def exhaust(self, title: str, most: int) -> tuple[int, int, int]:
+        """Lets allocations fail, each in a run of its own; returns how many, how many runs did without and ended well, and how many
+        the C library ended."""
         words, old = COMMANDS[title]
         reference, folder, counted = self.base / "reference", self.base / "work", self.base / "allocations"
         shim = {"LD_PRELOAD": str(self.tools["malloc"]), "ALLOCATIONS": str(counted)}
@@ -168,7 +176,7 @@ class Loop:
         if sound.returncode != 0:
             sys.exit(f"{title} does not work with counted allocations: {sound.stderr}")
         count = int(counted.read_text())
-        first, done = min(most // 2, count), 0
+        first, done, ended = min(most // 2, count), 0, 0
         spread = [first + 1 + (count - first - 1) * at // (most - first) for at in range(most - first)]
         for n in [*range(1, first + 1), *spread]:
             prepare(folder, old, reference)
@@ -179,10 +187,12 @@ class Loop:
                 done += 1
                 missing = set(files(reference)) - set(files(folder))
                 self.broken.extend(f"{at}: exit code 0 without {name}" for name in sorted(missing))
+            elif is_ended_by_c_library(outcome):
+                ended += 1
             elif outcome.returncode != 3:
                 self.broken.append(f"{at}: exit code {outcome.returncode}: {outcome.stderr[-300:]}")
-            self.check(at, folder, reference, old, False)
-        return most, done
+            self.check(at, folder, reference, old, is_ended_by_c_library(outcome))
+        return most, done, ended
 
 
 def main() -> int:
@@ -205,12 +215,12 @@ def main() -> int:
         malloc = base / "failing_malloc.so"
         subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-Wall", "-o", str(malloc), str(HERE / "failing_malloc.c")], check=True)
         loop = Loop({"inject": inject, "malloc": malloc}, pathlib.Path(stated.binary).resolve(), base, stated.short)
-        print("| command | faults | kills | left behind after a fault | after a kill | failed allocations | done without |\n|---|---|---|---|---|---|---|")
+        print("| command | faults | kills | left behind after a fault | after a kill | failed allocations | done without | ended by the C library |\n|---|---|---|---|---|---|---|---|")
         allocations = max(1, stated.allocations // 10) if stated.short else stated.allocations
         for title in stated.commands or COMMANDS:
             failed, killed = loop.run(title, "fail"), loop.run(title, "kill")
             exhausted = loop.exhaust(title, allocations)
-            print(f"| `{title}` | {failed[0]} | {killed[0]} | {failed[1]} | {killed[1]} | {exhausted[0]} | {exhausted[1]} |", flush=True)
+            print(f"| `{title}` | {failed[0]} | {killed[0]} | {failed[1]} | {killed[1]} | {exhausted[0]} | {exhausted[1]} | {exhausted[2]} |", flush=True)
     for line in loop.broken:
         print(line, file=sys.stderr)
     print(f"{len(loop.broken)} faults of the program", file=sys.stderr)
