@@ -1,0 +1,69 @@
+//! The names under which reports list expectations.
+
+use std::collections::BTreeSet;
+
+use interplay_scenarios::Expect;
+
+/// The names of the expectations in TOML.
+fn names(text: &str) -> BTreeSet<String> {
+    toml::from_str::<Expect>(text).unwrap().names()
+}
+
+#[test]
+fn each_key_that_is_present_has_one_name() {
+    let text = r#"
+        no_collision = true
+        order = ["ego", "front"]
+        min_gap_m = 0.1
+        completes = [{ vehicle = "ego", before_s = 6.0 }, { vehicle = "front" }]
+        speed = [{ vehicle = "ego", min_below_mps = 0.8, max_above_mps = 1.0 }]
+        comfort = [{ vehicle = "front", braking_at_most_mps2 = 1.5 }]
+        yields = [{ vehicle = "ego", to = "human" }]
+        building = { after_iterations = 2, energy_kwh_at_most = 32.0 }
+        zone = [{ zone = "office", discomfort_k_h_at_most = 1.0, energy_kwh_at_most = 3.0 }]
+    "#;
+    let wanted = [
+        "building.energy_kwh_at_most",
+        "comfort.front.braking_at_most_mps2",
+        "completes.ego",
+        "completes.front",
+        "min_gap_m",
+        "no_collision",
+        "order",
+        "speed.ego.max_above_mps",
+        "speed.ego.min_below_mps",
+        "yields.ego.to.human",
+        "zone.office.discomfort_k_h_at_most",
+        "zone.office.energy_kwh_at_most",
+    ];
+    assert_eq!(names(text), wanted.map(str::to_owned).into());
+}
+
+#[test]
+fn what_is_absent_has_no_name() {
+    assert_eq!(names(""), BTreeSet::new());
+    assert_eq!(names("building = { after_iterations = 2 }"), BTreeSet::new());
+}
+
+#[test]
+fn bounds_carry_their_own_keys() {
+    let text = r#"
+        comfort = [{ vehicle = "ego", acceleration_at_most_mps2 = 1.0, braking_at_most_mps2 = 2.0, jerk_at_most_mps3 = 3.0 }]
+        zone = [{ zone = "office", tracking_rmse_c_at_most = 1.0, energy_kwh_at_most = 3.0, energy_cost_at_most = 4.0 }]
+    "#;
+    let expect: Expect = toml::from_str(text).unwrap();
+    let comfort = [
+        ("acceleration_at_most_mps2", Some(1.0)),
+        ("braking_at_most_mps2", Some(2.0)),
+        ("jerk_at_most_mps3", Some(3.0)),
+        ("lateral_acceleration_at_most_mps2", None),
+    ];
+    assert_eq!(expect.comfort[0].bounds(), comfort);
+    let zone = [
+        ("tracking_rmse_c_at_most", Some(1.0)),
+        ("discomfort_k_h_at_most", None),
+        ("energy_kwh_at_most", Some(3.0)),
+        ("energy_cost_at_most", Some(4.0)),
+    ];
+    assert_eq!(expect.zones[0].bounds(), zone);
+}
