@@ -4,13 +4,15 @@ use std::collections::BTreeSet;
 
 use interplay_scenarios::Expect;
 
+type Outcome = Result<(), toml::de::Error>;
+
 /// The names of the expectations in TOML.
-fn names(text: &str) -> BTreeSet<String> {
-    toml::from_str::<Expect>(text).unwrap().names()
+fn names(text: &str) -> Result<BTreeSet<String>, toml::de::Error> {
+    Ok(toml::from_str::<Expect>(text)?.names())
 }
 
 #[test]
-fn each_key_that_is_present_has_one_name() {
+fn each_key_that_is_present_has_one_name() -> Outcome {
     let text = r#"
         no_collision = true
         order = ["ego", "front"]
@@ -36,22 +38,24 @@ fn each_key_that_is_present_has_one_name() {
         "zone.office.discomfort_k_h_at_most",
         "zone.office.energy_kwh_at_most",
     ];
-    assert_eq!(names(text), wanted.map(str::to_owned).into());
+    assert_eq!(names(text)?, wanted.map(str::to_owned).into());
+    Ok(())
 }
 
 #[test]
-fn what_is_absent_has_no_name() {
-    assert_eq!(names(""), BTreeSet::new());
-    assert_eq!(names("building = { after_iterations = 2 }"), BTreeSet::new());
+fn what_is_absent_has_no_name() -> Outcome {
+    assert_eq!(names("")?, BTreeSet::new());
+    assert_eq!(names("building = { after_iterations = 2 }")?, BTreeSet::new());
+    Ok(())
 }
 
 #[test]
-fn bounds_carry_their_own_keys() {
+fn bounds_carry_their_own_keys() -> Outcome {
     let text = r#"
         comfort = [{ vehicle = "ego", acceleration_at_most_mps2 = 1.0, braking_at_most_mps2 = 2.0, jerk_at_most_mps3 = 3.0 }]
         zone = [{ zone = "office", tracking_rmse_c_at_most = 1.0, energy_kwh_at_most = 3.0, energy_cost_at_most = 4.0 }]
     "#;
-    let expect: Expect = toml::from_str(text).unwrap();
+    let expect: Expect = toml::from_str(text)?;
     let comfort = [
         ("acceleration_at_most_mps2", Some(1.0)),
         ("braking_at_most_mps2", Some(2.0)),
@@ -66,4 +70,5 @@ fn bounds_carry_their_own_keys() {
         ("energy_cost_at_most", Some(4.0)),
     ];
     assert_eq!(expect.zones[0].bounds(), zone);
+    Ok(())
 }
