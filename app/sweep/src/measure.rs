@@ -183,3 +183,6 @@ impl Watcher for ContactWatcher {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;
