@@ -130,6 +130,23 @@ fn damping_is_part_of_the_conditions() {
     }
 }
 
+/// The curvature of the dynamics pushes the steering, and nothing else: a bound that pushes back as much makes up for it.
+#[test]
+fn curvature_pushes_the_steering() {
+    for seed in 0..10 {
+        let mut qp = step_problem(&pair(seed, 1.2), seed);
+        let mut solution = StageSolution::default();
+        Structured::default().solve(&qp, &mut solution, false).expect("solved");
+        let steering_rad = |k: &usize| solution.inputs[0][*k][1];
+        let sharpest = (0..qp.horizon).max_by(|a, b| steering_rad(a).abs().total_cmp(&steering_rad(b).abs()));
+        let k = sharpest.expect("it has steps");
+        qp.vehicles[0].curvatures[k].steering_steering = OFF / steering_rad(&k);
+        assert!((kkt::residual(&qp, &solution).stationarity - OFF).abs() < 1e-4, "seed {seed}");
+        solution.bound_multipliers[0][k][1][0] += OFF;
+        assert!(kkt::residual(&qp, &solution).stationarity < 3e-5, "seed {seed}");
+    }
+}
+
 #[test]
 fn one_vehicle() {
     for seed in 0..200 {
