@@ -184,9 +184,10 @@ fn the_place_on_a_network_counts_those_who_went_first() -> Outcome {
         first_s: 1.0,
         second_s: None,
     };
-    report.right_of_way = [["a", "ego"], ["b", "ego"], ["ego", "c"], ["a", "b"]].map(passage).to_vec();
+    report.right_of_way =
+        [["a", "ego"], ["b", "ego"], ["ego", "c"], ["ego", "d"], ["ego", "e"], ["a", "b"]].map(passage).to_vec();
     let row = measured(&scenario, &report)?;
-    assert_eq!((row.ego_place, row.ego_yields, row.others_yield), (3, 2, 1));
+    assert_eq!((row.ego_place, row.ego_yields, row.others_yield), (3, 2, 3));
     Ok(())
 }
 
