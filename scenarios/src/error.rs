@@ -8,6 +8,8 @@ use std::{fmt, ops::Range, sync::Arc};
 use miette::{Diagnostic, LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use thiserror::Error;
 
+use crate::plain_text::is_plain;
+
 /// Excerpts longer than this are cut around the error \[bytes\].
 const MAX_EXCERPT_BYTES: usize = 2000;
 /// How much of a long line is shown before the error \[bytes\].
@@ -61,10 +63,11 @@ impl Document {
 /// Control characters could play tricks on a terminal; a dot of the same length takes their place.
 fn masked(character: char) -> char {
     match character {
-        '\n' | '\t' | '\r' => character,
-        _ if !character.is_control() => character,
+        '\r' => character,
+        _ if is_plain(character) => character,
         _ if character.len_utf8() == 1 => '.',
-        _ => '·',
+        _ if character.len_utf8() == 2 => '·',
+        _ => char::REPLACEMENT_CHARACTER,
     }
 }
 

@@ -3,12 +3,15 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::load;
+use crate::overrides::Override;
 use crate::source::Source;
-use crate::tree;
+use crate::stated_path::path_beside;
+use crate::tree::{self, TomlNode, TomlValue};
 
-/// The scenario file and those that it extends, as far as they can be read: what to look at to see whether it has changed.
-/// Scenarios in the binary never change and are not among them.
-pub fn files(name_or_path: &str) -> Vec<PathBuf> {
+/// The files of which a scenario is made, as far as they can be read: its own, those that it extends, and those that any of them or
+/// of `overrides` names, such as its weather. Scenarios in the binary never change and are not among them.
+pub fn files(name_or_path: &str, overrides: &[Override]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut next = Source::find(name_or_path).ok();
     while let Some(source @ Source::File(path)) = &next {
@@ -18,7 +21,29 @@ pub fn files(name_or_path: &str) -> Vec<PathBuf> {
         found.push(path.clone());
         next = parent(source);
     }
+    let Ok(mut tree) = load::tree(name_or_path) else { return found };
+    if let TomlValue::Table(root) = &mut tree.value {
+        // One that is wrong is refused when the scenario is loaded.
+        overrides.iter().for_each(|change| drop(change.apply(root)));
+    }
+    add_named(&tree, &mut found);
     found
+}
+
+/// Adds the files that a tree names, wherever it does.
+fn add_named(node: &TomlNode, found: &mut Vec<PathBuf>) {
+    match &node.value {
+        TomlValue::Table(table) => {
+            for (key, entry) in table {
+                match entry.node.text().filter(|_| key == "file" || key.ends_with(".file")) {
+                    Some(file) => found.push(path_beside(&entry.node.place, file)),
+                    None => add_named(&entry.node, found),
+                }
+            }
+        }
+        TomlValue::Array(items) => items.iter().for_each(|item| add_named(item, found)),
+        _ => {}
+    }
 }
 
 /// What a file extends, if it can be read that far.

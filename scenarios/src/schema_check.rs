@@ -12,6 +12,7 @@ use serde_json::Value as Json;
 
 use crate::error::{Fault, Place, quoted};
 use crate::name;
+use crate::plain_text::is_plain;
 use crate::schema::{self, SchemaNode, quantity_of, unit_of};
 use crate::tree::{Table, TomlNode, TomlValue, kind_of};
 
@@ -209,6 +210,10 @@ impl Checker {
     }
 
     fn text(&mut self, node: &TomlNode, text: &str, schema: SchemaNode, path: &Path) {
+        if let Some(character) = text.chars().find(|character| !is_plain(*character)) {
+            let message = format!("{} has the control character U+{:04X}", quoted(&path.0), u32::from(character));
+            return self.refuse(&node.place, "not plain", message, "a terminal would obey it; write plain text");
+        }
         if schema.keyword("minLength").is_some() && text.trim().is_empty() {
             let message = format!("{} must not be empty", quoted(&path.0));
             self.refuse(&node.place, "empty", message, "");

@@ -15,7 +15,15 @@ fn scenario(title: &str) -> String {
 #[test]
 fn a_result_that_cannot_be_written_is_exit_code_3() {
     let folder = scratch("full-disk");
-    for words in [&["list"][..], &["schema"], &["check", "lane-change/front-nice"], &["run", "--no-record", "--json"]] {
+    for words in [
+        &["list"][..],
+        &["--help"],
+        &["run", "--help"],
+        &["--version"],
+        &["schema"],
+        &["check", "lane-change/front-nice"],
+        &["run", "--no-record", "--json"],
+    ] {
         let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("the device");
         let output = command(&folder, words).stdout(Stdio::from(full)).output().expect("runs");
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -40,6 +48,78 @@ fn no_output_takes_the_place_of_the_scenario() {
         assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
         assert!(outcome.stderr.contains("would overwrite"), "{words:?}: {}", outcome.stderr);
         assert_eq!(fs::read_to_string(folder.join("mine.toml")).expect("there"), text, "{words:?}");
+    }
+}
+
+/// The weather of a scenario is as much its input as its file, whoever names it.
+#[test]
+fn no_output_takes_the_place_of_the_weather() {
+    let folder = scratch("overwritten-weather");
+    let weather = include_str!("../../scenarios/weather/tropical-july.epw");
+    let names = |file: &str| {
+        format!("extends = 'building/epw-weather'\niterations = 1\n[weather]\nkind = 'epw'\nfile = '{file}'\n")
+    };
+    for (file, text) in [("w.epw", weather), ("v.epw", weather), ("house.toml", &names("w.epw"))] {
+        fs::write(folder.join(file), text).expect("writes");
+    }
+    let cases: [&[&str]; 4] = [
+        &["run", "house.toml", "--record", "w.epw"],
+        &["run", "house.toml", "--set", "weather.file='v.epw'", "--record", "v.epw"],
+        &["suite", "house.toml", "--junit", "w.epw"],
+        &["export-fmu", "house.toml", "--out", "w.epw"],
+    ];
+    for words in cases {
+        let outcome = interplay(&folder, words);
+        assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains("overwr"), "{words:?}: {}", outcome.stderr);
+        for file in ["w.epw", "v.epw"] {
+            assert_eq!(fs::read_to_string(folder.join(file)).expect("there"), weather, "{words:?}");
+        }
+    }
+}
+
+#[test]
+fn no_output_takes_the_place_of_another() {
+    let folder = scratch("twice-the-same-name");
+    fs::write(folder.join("mine.toml"), scenario("Mine")).expect("writes");
+    for words in [["--record", "page/index.html"], ["--animate", "page/picture.gif"]] {
+        let outcome = interplay(&folder, &[&["run", "mine.toml", "--report", "page"], &words[..]].concat());
+        assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains("cannot both be"), "{words:?}: {}", outcome.stderr);
+        assert!(!folder.join("page").exists(), "{words:?}");
+    }
+}
+
+/// A comparison reads the rows of a sweep, and must not write its page over them, or over anything that is no page.
+#[test]
+fn no_comparison_takes_the_place_of_rows() {
+    let folder = scratch("overwritten-rows");
+    fs::create_dir(folder.join("rows")).expect("makes");
+    for file in ["rows/runs.parquet", "rows/comparison.html"] {
+        fs::write(folder.join(file), "somebody's").expect("writes");
+    }
+    for words in [&["compare", "rows", "--page", "rows/runs.parquet"][..], &["compare", "rows"]] {
+        let outcome = interplay(&folder, words);
+        assert_eq!(outcome.code, Some(2), "{words:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains("is no page of Interplay's"), "{words:?}: {}", outcome.stderr);
+        for file in ["rows/runs.parquet", "rows/comparison.html"] {
+            assert_eq!(fs::read_to_string(folder.join(file)).expect("there"), "somebody's", "{words:?}");
+        }
+    }
+}
+
+/// Titles, names of counterfactuals and the like are shown on terminals.
+#[test]
+fn a_title_that_a_terminal_would_obey_is_refused() {
+    let folder = scratch("obeyed-titles");
+    for (written, code) in
+        [("\\u001b[31mred", "U+001B"), ("\\u0007", "U+0007"), ("\\u009b31m", "U+009B"), ("\\u202egnp", "U+202E")]
+    {
+        fs::write(folder.join("mine.toml"), scenario(written)).expect("writes");
+        let outcome = interplay(&folder, &["check", "mine.toml"]);
+        assert_eq!(outcome.code, Some(2), "{written}: {}", outcome.stderr);
+        let said = format!("`title` has the control character {code}");
+        assert!(outcome.stderr.contains(&said) && outcome.stderr.contains("mine.toml:2:9"), "{}", outcome.stderr);
     }
 }
 

@@ -59,14 +59,16 @@ enum By {
 
 impl Compare {
     pub(crate) fn execute(self) -> ExitStatus {
+        if let Some(page) = self.page_path().filter(|page| Page::is_taken(page)) {
+            print_error(&format!("`{}` is no page of Interplay's; choose another name for --page", page.display()));
+            return ExitStatus::BadInput;
+        }
         let by = if self.by == By::Family { GroupBy::Family } else { GroupBy::Scenario };
         match &self.second {
             None => match compare(&self.first, self.baseline.as_deref(), by) {
                 Ok(figures) => {
                     let page = |title: &str| report::comparison_page(title, &figures).map_err(CommandError::from);
-                    let default = self.first.is_dir().then(|| self.first.join("comparison.html"));
-                    let target = self.page.clone().or(default.filter(|_| !self.json));
-                    self.show(|| json("the figures", &figures), || report::comparison(&figures), page, target)
+                    self.show(|| json("the figures", &figures), || report::comparison(&figures), page)
                 }
                 Err(error) => gave_up(error),
             },
@@ -74,11 +76,17 @@ impl Compare {
                 Ok(figures) => {
                     let page = |title: &str| Ok(report::version_comparison_page(title, &figures));
                     let text = || report::version_comparison(&figures);
-                    self.show(|| json("the figures", &figures), text, page, self.page.clone())
+                    self.show(|| json("the figures", &figures), text, page)
                 }
                 Err(error) => gave_up(error),
             },
         }
+    }
+
+    /// Where the page goes, if anywhere.
+    fn page_path(&self) -> Option<PathBuf> {
+        let has_place = !self.json && self.second.is_none() && self.first.is_dir();
+        self.page.clone().or_else(|| has_place.then(|| self.first.join("comparison.html")))
     }
 
     /// Prints the figures and writes their page.
@@ -87,12 +95,11 @@ impl Compare {
         as_json: impl Fn() -> Result<String, CommandError>,
         text: impl Fn() -> String,
         page: impl Fn(&str) -> Result<Page, CommandError>,
-        target: Option<PathBuf>,
     ) -> ExitStatus {
         let shown = if self.json { as_json() } else { Ok(text()) };
         let shown = shown.and_then(|text| {
             print(&text)?;
-            let Some(target) = target else { return Ok(()) };
+            let Some(target) = self.page_path() else { return Ok(()) };
             let title = match &self.second {
                 None => format!("Comparison of {}", self.first.display()),
                 Some(second) => format!("Comparison of {} and {}", self.first.display(), second.display()),

@@ -41,8 +41,7 @@ pub(crate) struct ExportFmu {
 
 impl ExportFmu {
     pub(crate) fn execute(self) -> ExitStatus {
-        let sets: Vec<Override> = self.sets.iter().cloned().map(Override::Set).collect();
-        let scenario = match load(&self.scenario, &sets) {
+        let scenario = match load(&self.scenario, &self.overrides()) {
             Ok(scenario) => scenario,
             Err(error) => {
                 print_load_error(error);
@@ -69,11 +68,15 @@ impl ExportFmu {
         ExitStatus::Well
     }
 
+    fn overrides(&self) -> Vec<Override> {
+        self.sets.iter().cloned().map(Override::Set).collect()
+    }
+
     /// Why a file must not be written: it would take the place of an input or of the other file.
     fn refused_output(&self) -> Option<String> {
         let outputs = [Some(self.out.as_path()), self.reference.as_deref()];
         for path in outputs.into_iter().flatten() {
-            if let Some(path) = destroyed(path, [self.scenario.as_str()].into_iter()) {
+            if let Some(path) = destroyed(path, [self.scenario.as_str()].into_iter(), &self.overrides()) {
                 let path = path.display();
                 return Some(format!(
                     "`{path}` would be overwritten, of which the scenario is made; choose another name"

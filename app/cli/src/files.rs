@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use interplay_scenarios::{embedded, files_below};
+use interplay_scenarios::{Override, embedded, files_below};
 use thiserror::Error;
 
 /// A scenario to be loaded.
@@ -49,11 +49,15 @@ pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError>
     found.into_iter().map(named).collect()
 }
 
-/// The file of a scenario, or one that it extends, that writing to `output` would destroy.
-pub(crate) fn destroyed<'a>(output: &Path, mut scenarios: impl Iterator<Item = &'a str>) -> Option<PathBuf> {
+/// A file of which one of the scenarios is made, changed by `overrides`, that writing to `output` would destroy.
+pub(crate) fn destroyed<'a>(
+    output: &Path,
+    mut scenarios: impl Iterator<Item = &'a str>,
+    overrides: &[Override],
+) -> Option<PathBuf> {
     let output = output.canonicalize().ok()?;
     let is_output = |path: &PathBuf| path.canonicalize().is_ok_and(|path| path == output);
-    scenarios.find_map(|scenario| interplay_scenarios::files(scenario).into_iter().find(is_output))
+    scenarios.find_map(|scenario| interplay_scenarios::files(scenario, overrides).into_iter().find(is_output))
 }
 
 /// Whether two paths, of files that need not exist, name the same file.
@@ -64,6 +68,13 @@ pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
         path.canonicalize().unwrap_or_else(|_| folder.join(path.file_name().unwrap_or_default()))
     };
     place(one) == place(other)
+}
+
+/// Whether a path is in the folder of a page and has the name of a file of it: the page itself or one of its pictures.
+pub(crate) fn is_page_file(folder: &Path, path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default();
+    let is_of_page = name == "index.html" || name.to_string_lossy().starts_with("picture");
+    is_of_page && is_same_file(&folder.join(name), path)
 }
 
 /// What a run is called: an authored scenario by its name, a file by its own name, without folders and extension.

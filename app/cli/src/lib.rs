@@ -31,6 +31,7 @@ mod view;
 mod watch;
 mod why;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -66,7 +67,11 @@ enum Command {
 
 /// Reads the arguments and does what they say.
 pub fn main() -> ExitCode {
-    let interplay = Interplay::parse();
+    let interplay = match Interplay::try_parse() {
+        Ok(interplay) => interplay,
+        Err(said) if said.use_stderr() => said.exit(),
+        Err(asked) => return output::ended(asked.print().and_then(|()| std::io::stdout().flush())).into(),
+    };
     let ending = match interplay.command {
         None => run::Run::default().execute(),
         Some(Command::Run(command)) => command.execute(),

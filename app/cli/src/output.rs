@@ -1,8 +1,9 @@
 //! What commands say: results on stdout, everything else on stderr.
 
 use std::borrow::Cow;
-use std::io::{ErrorKind, Write};
+use std::io::{self, ErrorKind, Write};
 
+use interplay_scenarios::is_plain;
 use serde::Serialize;
 
 use crate::error::CommandError;
@@ -13,8 +14,13 @@ use crate::exit_status::ExitStatus;
 /// # Errors
 /// [`CommandError::Output`] if the result is not where it should be, such as on a full disk.
 pub(crate) fn print(text: &str) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
+    let mut out = io::stdout().lock();
+    delivered(out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()))
+}
+
+/// A reader that has gone away is no error.
+fn delivered(written: io::Result<()>) -> Result<(), CommandError> {
+    match written {
         Err(reason) if reason.kind() != ErrorKind::BrokenPipe => Err(CommandError::Output(reason)),
         _ => Ok(()),
     }
@@ -22,7 +28,16 @@ pub(crate) fn print(text: &str) -> Result<(), CommandError> {
 
 /// Prints a result, or says why it could not.
 pub(crate) fn printed(text: &str) -> ExitStatus {
-    match print(text) {
+    ending(print(text))
+}
+
+/// How a command ends that only shows something on the standard output.
+pub(crate) fn ended(written: io::Result<()>) -> ExitStatus {
+    ending(delivered(written))
+}
+
+fn ending(shown: Result<(), CommandError>) -> ExitStatus {
+    match shown {
         Ok(()) => ExitStatus::Well,
         Err(error) => {
             print_error(&error.to_string());
@@ -33,15 +48,14 @@ pub(crate) fn printed(text: &str) -> ExitStatus {
 
 /// Says what went wrong.
 pub(crate) fn print_error(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{}", harmless(text));
+    let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
 }
 
 /// A text without what makes a terminal do anything but show it in colours: a title or a cell of a table may hold anything.
 ///
-/// Line ends, tabs and sequences that choose a colour stay; any other control character becomes its escape, such as `\u{7}`.
+/// Line ends, tabs and sequences that choose a colour stay; any other character that is not plain becomes its escape, such as `\u{7}`.
 fn harmless(text: &str) -> Cow<'_, str> {
-    let is_shown = |letter: char| !letter.is_control() || letter == '\n' || letter == '\t';
-    if text.chars().all(is_shown) {
+    if text.chars().all(is_plain) {
         return Cow::Borrowed(text);
     }
     let mut shown = String::with_capacity(text.len());
@@ -49,7 +63,7 @@ fn harmless(text: &str) -> Cow<'_, str> {
     while let Some(letter) = rest.chars().next() {
         let length = colour_length(rest).unwrap_or(letter.len_utf8());
         let (part, after) = rest.split_at(length);
-        if length > letter.len_utf8() || is_shown(letter) {
+        if length > letter.len_utf8() || is_plain(letter) {
             shown.push_str(part);
         } else {
             shown.extend(letter.escape_unicode());
@@ -89,6 +103,7 @@ mod tests {
         assert_eq!(harmless("\u{1b}[1;31mred\u{1b}[0m"), "\u{1b}[1;31mred\u{1b}[0m");
         assert_eq!(harmless("\u{1b}]0;title\u{7}"), "\\u{1b}]0;title\\u{7}");
         assert_eq!(harmless("\u{1b}[2Jgone\r"), "\\u{1b}[2Jgone\\u{d}");
+        assert_eq!(harmless("a\u{202e}b"), "a\\u{202e}b");
         assert_eq!(harmless("\u{9b}31m\u{1b}[31"), "\\u{9b}31m\\u{1b}[31");
     }
 

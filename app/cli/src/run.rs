@@ -1,6 +1,6 @@
 //! `interplay run`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use interplay_presentation::animation::AnimationFile;
@@ -17,7 +17,7 @@ use thiserror::Error;
 
 use crate::error::CommandError;
 use crate::exit_status::ExitStatus;
-use crate::files::{destroyed, is_same_file, short_name};
+use crate::files::{destroyed, is_page_file, is_same_file, short_name};
 use crate::output::{json, print, print_error, print_load_error};
 use crate::program::this_program;
 use crate::watch::WatchedFiles;
@@ -153,13 +153,22 @@ impl Run {
     fn refused_output(&self, name: &str) -> Option<String> {
         let (recording, animation) = (self.recording(name), self.animate.as_ref().map(AnimationFile::path));
         let outputs = [("recording", recording.as_deref()), ("animation", animation)];
-        for (what, path) in outputs.into_iter().filter_map(|(what, path)| Some((what, path?))) {
-            if let Some(path) = destroyed(path, [self.scenario()].into_iter()) {
+        for (what, path) in outputs.iter().filter_map(|(what, path)| Some((what, (*path)?))) {
+            if let Some(path) = destroyed(path, [self.scenario()].into_iter(), &self.overrides()) {
                 let path = path.display();
                 return Some(format!(
                     "the {what} would overwrite `{path}`, of which the scenario is made; choose another name for it"
                 ));
             }
+        }
+        let is_of_page = |path: &Path| self.report.as_deref().is_some_and(|folder| is_page_file(folder, path));
+        if let Some((what, path)) =
+            outputs.iter().find_map(|(what, path)| Some((what, path.filter(|path| is_of_page(path))?)))
+        {
+            let path = path.display();
+            return Some(format!(
+                "the {what} and a file of the page cannot both be `{path}`; choose another name for the {what}"
+            ));
         }
         if let (Some(recording), Some(animation)) = (&recording, animation)
             && is_same_file(recording, animation)

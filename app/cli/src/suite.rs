@@ -104,7 +104,7 @@ impl Suite {
     /// The scenario that writing to a file would destroy.
     fn destroyed_by(&self, output: &Path) -> Option<PathBuf> {
         let found = self.find(&mut true);
-        destroyed(output, found.iter().map(|found| found.scenario.as_str()))
+        destroyed(output, found.iter().map(|found| found.scenario.as_str()), &[])
     }
 
     fn find(&self, sound: &mut bool) -> Vec<ScenarioArgument> {

@@ -17,13 +17,13 @@ pub(crate) struct WatchedFiles {
 }
 
 impl WatchedFiles {
-    /// Looks at a scenario and all that it extends.
+    /// Looks at a scenario and all of which it is made.
     pub fn look(scenario: &str) -> WatchedFiles {
         let state = |path: &PathBuf| {
             let found = std::fs::metadata(path).ok()?;
             Some((found.modified().ok()?, found.len()))
         };
-        let seen = files(scenario).into_iter().map(|path| (path.clone(), state(&path))).collect();
+        let seen = files(scenario, &[]).into_iter().map(|path| (path.clone(), state(&path))).collect();
         WatchedFiles { scenario: scenario.to_owned(), seen }
     }
 
