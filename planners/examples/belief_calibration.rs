@@ -1,7 +1,7 @@
 //! How often a belief names a driver's style, and how often its interval holds the driver's safety weight.
 //!
 //! ```sh
-//! cargo run --release -p interplay-planners --example belief_calibration -- [RUNS [SEED]]
+//! cargo run --release -p interplay-planners --example belief_calibration -- [RUNS [SEED [SHARPNESS]]]
 //! ```
 //!
 //! In each run an ego that infers meets one human of the families `lane keeping`, `intersection` and `lane change`, from a random start.
@@ -15,6 +15,8 @@
 //!
 //! The last table says where these edges are: in each scene in which the interaction begins, the weight whose plan is after a second
 //! as far from that of one hypothesis as from that of the next.
+//!
+//! The deviations of a driver's acceleration and steering from its model, by which the observer judges it, are divided by SHARPNESS (1).
 //!
 //! Shares have Wilson's 95 % interval.
 
@@ -59,13 +61,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
     let runs: usize = words.next().map_or(Ok(300), |word| word.parse())?;
     let seed: u64 = words.next().map_or(Ok(1), |word| word.parse())?;
+    let sharpness: f64 = words.next().map_or(Ok(1.0), |word| word.parse())?;
+    let usual = belief::Settings::default();
     let mut out = std::io::stdout();
     for (words, prior) in [("nice", Prior::Nice), ("even", Prior::Even)] {
         writeln!(out, "prior {words}\n")?;
+        let settings = belief::Settings {
+            prior,
+            acceleration_sd_mps2: usual.acceleration_sd_mps2 / sharpness,
+            steering_sd_rad: usual.steering_sd_rad / sharpness,
+            ..usual
+        };
         let weights = |random: &mut Random| [0.0, 8.0, 50.0][(3.0 * random.unit()) as usize];
-        named_styles(&mut out, &beliefs(runs, seed, prior, weights))?;
+        named_styles(&mut out, &beliefs(runs, seed, &settings, weights))?;
         let weights = |random: &mut Random| 10f64.powf(random.between(-2.0, 2.0));
-        let beliefs = beliefs(runs, seed, prior, weights);
+        let beliefs = beliefs(runs, seed, &settings, weights);
         held_weights(&mut out, &beliefs)?;
         edges(&mut out, &beliefs)?;
     }
@@ -73,12 +83,22 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// What is believed in each run in which drivers can be told apart.
-fn beliefs(runs: usize, seed: u64, prior: Prior, weight: impl Fn(&mut Random) -> f64) -> Vec<Option<Belief>> {
+fn beliefs(
+    runs: usize,
+    seed: u64,
+    settings: &belief::Settings,
+    weight: impl Fn(&mut Random) -> f64,
+) -> Vec<Option<Belief>> {
     let mut random = Random(seed);
-    (0..runs).map(|number| meet(number, &mut random, prior, &weight)).collect()
+    (0..runs).map(|number| meet(number, &mut random, settings, &weight)).collect()
 }
 
-fn meet(number: usize, random: &mut Random, prior: Prior, weight: impl Fn(&mut Random) -> f64) -> Option<Belief> {
+fn meet(
+    number: usize,
+    random: &mut Random,
+    settings: &belief::Settings,
+    weight: impl Fn(&mut Random) -> f64,
+) -> Option<Belief> {
     let prediction = Prediction::Inferred;
     let ego = match number / 3 % 2 {
         0 => Driver::Negotiation(negotiation::Settings { prediction, ..negotiation::Settings::default() }),
@@ -99,7 +119,7 @@ fn meet(number: usize, random: &mut Random, prior: Prior, weight: impl Fn(&mut R
     let safety_weight = weight(random);
     let observed = if family == "lane change" { 2 } else { 1 };
     vehicles[observed].drive(human(safety_weight));
-    let (estimate, edges) = believed(&vehicles, observed, prior)?;
+    let (estimate, edges) = believed(&vehicles, observed, settings)?;
     Some(Belief { family, safety_weight, estimate, edges })
 }
 
@@ -108,11 +128,14 @@ fn human(safety_weight: f64) -> Driver {
 }
 
 /// What vehicle 0 believes of another a second after drivers can first be told apart there, and where the edges are then.
-fn believed(vehicles: &[Vehicle], observed: usize, prior: Prior) -> Option<(DriverEstimate, [Option<f64>; 2])> {
-    let settings = belief::Settings { prior, ..belief::Settings::default() };
+fn believed(
+    vehicles: &[Vehicle],
+    observed: usize,
+    settings: &belief::Settings,
+) -> Option<(DriverEstimate, [Option<f64>; 2])> {
     let (mut traffic, _) = begin(vehicles);
     let mut planners: Vec<Planner> =
-        vehicles.iter().map(|vehicle| vehicle.driver.planner_believing(&settings)).collect();
+        vehicles.iter().map(|vehicle| vehicle.driver.planner_believing(settings)).collect();
     let mut began = None;
     for tick in 0..TICKS {
         let decisions = traffic.drive(|index, scene| {

@@ -4,7 +4,6 @@ use std::error::Error;
 use std::panic::catch_unwind;
 use std::path::Path;
 
-use interplay_planners::State;
 use interplay_scenarios::{Override, Scenario, SweepPlan, load};
 use interplay_simulation::frame::{Collision, Frame, VehicleFrame};
 use interplay_simulation::measure::{Fallback, Passage};
@@ -220,11 +219,10 @@ fn a_building_has_the_sums_of_its_days() -> Outcome {
 
 /// A vehicle that drives along the road.
 fn at(name: &str, x_m: f64, speed_mps: f64) -> VehicleFrame {
-    VehicleFrame {
-        name: name.to_owned(),
-        state: State { x_m, speed_mps, ..State::default() },
-        ..VehicleFrame::default()
-    }
+    let mut vehicle = VehicleFrame { name: name.to_owned(), ..VehicleFrame::default() };
+    vehicle.state.x_m = x_m;
+    vehicle.state.speed_mps = speed_mps;
+    vehicle
 }
 
 #[test]
