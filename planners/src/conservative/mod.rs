@@ -41,6 +41,12 @@ impl Conservative {
         }
     }
 
+    /// The same with a limit of the work of a descent, beyond which it hands out what it has come to.
+    pub(crate) fn limited_to(mut self, work_limit: usize) -> Self {
+        self.optimiser.tolerances.work_limit = work_limit;
+        self
+    }
+
     /// Plans with the predictions of all other vehicles as constraints.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use crate::trajectory::{Optimiser, Optimum, Robust, Violation};
 use crate::{Agent, Scene};
 
 /// Slack that a conservative plan may need after the step.
-const MAX_VIOLATION: f64 = 2e-3;
+pub(super) const MAX_VIOLATION: f64 = 2e-3;
 /// It may also need this much more than the retreat needs now.
 const MAX_VIOLATION_GROWTH: f64 = 1.2;
 /// A proposal that itself violates safety by this much is refused.

@@ -31,6 +31,8 @@ pub use settings::Settings;
 use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::encounter::partner_event;
+use crate::passing::passing_orders;
+use crate::passing_order::PassingPosition;
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
@@ -40,6 +42,9 @@ use diagnostics::{ACCEPTANCE, CONCESSION_WEIGHT, PERSUASION_ACTIVE, PERSUASION_S
 use filter::Filter;
 use partner_selection::PartnerSelection;
 use state::{NegotiationRound, NegotiationState};
+
+/// Most work of a descent of the retreat. One that takes more goes to and fro.
+const RETREAT_WORK_LIMIT: usize = 1000;
 
 /// A negotiating planner with what it remembers.
 #[derive(Clone, Debug)]
@@ -59,7 +64,8 @@ impl Negotiation {
         let passing_orders = settings.passing_orders;
         Negotiation {
             settings,
-            retreat: Conservative::new(conservative::Settings { passing_orders, ..Default::default() }),
+            retreat: Conservative::new(conservative::Settings { passing_orders, ..Default::default() })
+                .limited_to(RETREAT_WORK_LIMIT),
             filter: Filter::default(),
             optimiser: optimiser(&settings),
             selection: PartnerSelection::default(),
@@ -75,7 +81,7 @@ impl Negotiation {
         let scene = &self.settings.prediction.applied_to(scene);
         let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
-        let partners = self.choose(scene, &mut events);
+        let partners = self.choose(scene, &passed_by(scene, &retreat), &mut events);
         if partners.is_empty() {
             return Ok(Plan { events, ..conservative::answer(retreat?) });
         }
@@ -100,9 +106,10 @@ impl Negotiation {
         Ok(plan)
     }
 
-    /// Chooses the vehicles to negotiate with; notes a change as an event. What is known of a negotiation that goes on stays.
-    fn choose<'a>(&mut self, scene: &'a Scene, events: &mut Vec<PlanEvent>) -> Vec<&'a Agent> {
-        let partners = self.selection.choose(scene, &self.settings);
+    /// Chooses the vehicles to negotiate with, none of those that the retreat has `passed`; notes a change as an event. What is
+    /// known of a negotiation that goes on stays.
+    fn choose<'a>(&mut self, scene: &'a Scene, passed: &[String], events: &mut Vec<PlanEvent>) -> Vec<&'a Agent> {
+        let partners = self.selection.choose(scene, &self.settings, passed);
         let mut before = std::mem::take(&mut self.negotiations);
         if partners.is_empty() && !before.is_empty() {
             events.push(partner_event(None, "asks", "to ask"));
@@ -232,4 +239,15 @@ impl Negotiation {
         }
         plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused))));
     }
+}
+
+/// The names of the vehicles that a retreat passes ahead of, if it is safe.
+fn passed_by(scene: &Scene, retreat: &Result<Solved, PlanError>) -> Vec<String> {
+    let Ok(Solved { optimum, .. }) = retreat else { return Vec::new() };
+    if optimum.cost.violation(Violation::Safety) > filter::MAX_VIOLATION {
+        return Vec::new();
+    }
+    let plan = Plan { trajectory: optimum.trajectory(0), ..Plan::default() };
+    let ahead = passing_orders(scene, &plan).into_iter().filter(|order| order.position == PassingPosition::Ahead);
+    ahead.map(|order| order.of).collect()
 }

@@ -3,7 +3,8 @@
 //! The source asks the front vehicle first and the rear one when the acceptance probability has not risen by more than
 //! `ε` five times in a row (section 6.5). That also happens at steady acceptance, so a low probability is required too. A
 //! vehicle with which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has
-//! crossed, or that the ego has crossed before. A driver who takes notice of nobody outside its own lane is never asked:
+//! crossed, or that the ego has crossed before. With one that a safe retreat passes ahead of no negotiation is begun: it need not be
+//! asked for what the ego can have without its consent, and waiting for its answer could cost the way. A driver who takes notice of nobody outside its own lane is never asked:
 //! the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
 
 use super::settings::Settings;
@@ -32,8 +33,9 @@ struct AskedVehicle {
 }
 
 impl PartnerSelection {
-    /// The vehicles to ask now, from the front to the rear.
-    pub(super) fn choose<'a>(&mut self, scene: &'a Scene, settings: &Settings) -> Vec<&'a Agent> {
+    /// The vehicles to ask now, from the front to the rear. Those in `passed`, ahead of which the ego gets anyway, are not asked
+    /// unless they are being asked already.
+    pub(super) fn choose<'a>(&mut self, scene: &'a Scene, settings: &Settings, passed: &[String]) -> Vec<&'a Agent> {
         if self.order.is_empty() {
             self.order = from_front_to_rear(scene);
         }
@@ -41,7 +43,8 @@ impl PartnerSelection {
             .order
             .iter()
             .filter_map(|name| scene.others.iter().find(|other| other.name == *name))
-            .filter(|other| other.can_be_asked && !is_settled(scene, other, settings.clear_lead_m))
+            .filter(|other| other.can_be_asked && (self.asks(&other.name) || !passed.contains(&other.name)))
+            .filter(|other| !is_settled(scene, other, settings.clear_lead_m))
             .collect();
         let willing = open.iter().filter(|other| !self.refused.contains(&other.name)).copied();
         let mut chosen: Vec<&Agent> = willing.take(settings.partners_at_most).collect();
@@ -53,6 +56,11 @@ impl PartnerSelection {
         let asked = |agent| known(agent).unwrap_or(AskedVehicle { name: agent.name.clone(), ..Default::default() });
         self.asked = chosen.iter().map(asked).collect();
         chosen
+    }
+
+    /// Whether a vehicle was asked last.
+    fn asks(&self, name: &str) -> bool {
+        self.asked.iter().any(|asked| asked.name == name)
     }
 
     /// Records the latest acceptance of a vehicle. After too many steps without progress it is not asked again.

@@ -83,6 +83,10 @@ impl<S: StageSolver> Descent<S> {
             }
             let warm = step > 0 || warm;
             self.previous_step.clone_from(&self.steps.step);
+            if let Some(gives_up) = gives_up {
+                let coarse = gives_up.programme_tolerance(now.cost.total, tolerances.exploration_share);
+                self.steps.problem.qp.tolerance = self.steps.problem.qp.tolerance.max(coarse);
+            }
             self.steps.solve_for_direction(problem, &mut now, warm, damping)?;
             let promised = -self.steps.problem.qp.change(&self.steps.step);
             if let Some(gives_up) = gives_up {

@@ -150,14 +150,21 @@ impl Columns {
     }
 
     /// Slacks and multipliers at the start, from `value` and the multipliers `known` of a neighbouring problem: a multiplier
-    /// begins there, its slack where the two are as complementary as all others.
+    /// begins there, its slack where the two are as complementary as all others. Where nothing is known, `ℓ` belongs to `ν` at
+    /// a soft inequality that holds, and half of it to each of `λ` and `ν` at one that is violated: so `ℓ + q σ − λ − ν` is
+    /// small from the beginning.
     pub(super) fn begin(&mut self, start: Start, known: &[f64]) {
         let Start { slack, complementarity, informed } = start;
         let apart =
             |multiplier: f64, most: f64| if informed { smaller(complementarity / multiplier, most) } else { slack };
         let first = self.first_soft();
         for (i, known) in known.iter().enumerate() {
-            let known = if informed { *known } else { 0.0 };
+            let is_violated = i >= first && self.value[i] < 0.0;
+            let known = match informed {
+                true => *known,
+                false if is_violated => 0.5 * self.soft.linear[i - first],
+                false => 0.0,
+            };
             let mut violation = 0.0;
             if i >= first {
                 let (j, soft) = (i - first, &mut self.soft);
@@ -166,8 +173,10 @@ impl Columns {
                 soft.multiplier[j] = 0.0;
                 if soft.linear[j] > 0.0 {
                     let price = larger(soft.curvature[j] * violation - excess, 0.0);
-                    violation = larger(violation, apart(price, larger(slack, -self.value[i])));
-                    soft.multiplier[j] = larger(if informed { price } else { 0.0 }, complementarity / violation);
+                    let (priced, needed) = (complementarity / price, -self.value[i]);
+                    let least = if informed { smaller(priced, larger(slack, needed)) } else { larger(priced, needed) };
+                    violation = larger(violation, least);
+                    soft.multiplier[j] = larger(price, complementarity / violation);
                 } else {
                     violation = larger(-self.value[i], 0.0);
                 }
