@@ -5,7 +5,7 @@ mod common;
 
 use common::{HORIZON, Random, iterate, pair, step_problem};
 use interplay_planners::Input;
-use interplay_planners::trajectory::terms::{DistanceCost, DistancePrice, MeanSpeed};
+use interplay_planners::trajectory::terms::{DistanceCost, DistancePrice, MeanSpeed, SpeedMeasure};
 use interplay_planners::trajectory::{
     Optimiser, Penalty, Problem, Sparse, StageSolution, StageSolver, Structured, Term, Violation, kkt,
 };
@@ -28,7 +28,11 @@ fn problem(seed: u64) -> Problem {
     let lower = random.between(0.6, 1.4);
     for (vehicle, width) in [0.05, 0.0].into_iter().enumerate() {
         let (lower_mps, upper_mps) = (Some(lower), Some(lower + width));
-        problem.terms.extend(MeanSpeed { lower_mps, upper_mps, penalty: PENALTY }.bounds(vehicle).map(Term::MeanSpeed));
+        problem.terms.extend(
+            MeanSpeed { measure: SpeedMeasure::Speeds, lower_mps, upper_mps, penalty: PENALTY }
+                .bounds(vehicle)
+                .map(Term::MeanSpeed),
+        );
     }
     problem
 }
@@ -86,11 +90,13 @@ fn a_mean_speed_is_as_binding_as_its_price() {
     let mean = |weight: f64| {
         let mut problem = free.clone();
         let penalty = Penalty { linear: weight, quadratic: 0.0 };
-        problem
-            .terms
-            .extend(MeanSpeed { lower_mps: Some(1.25), upper_mps: Some(1.3), penalty }.bounds(0).map(Term::MeanSpeed));
+        problem.terms.extend(
+            MeanSpeed { measure: SpeedMeasure::Speeds, lower_mps: Some(1.25), upper_mps: Some(1.3), penalty }
+                .bounds(0)
+                .map(Term::MeanSpeed),
+        );
         let optimum = Optimiser::new(Structured::default()).descend(&problem, &guess).expect("an optimum");
-        (MeanSpeed::of(&optimum.iterate.states[0]), optimum.cost.violation(Violation::MeanSpeed))
+        (SpeedMeasure::Speeds.of(&optimum.iterate.states[0]), optimum.cost.violation(Violation::MeanSpeed))
     };
     let (dear, cheap) = (mean(1e3), mean(1e-3));
     assert!((1.25 - 1e-6..=1.3 + 1e-6).contains(&dear.0) && dear.1 < 1e-6, "{dear:?}");

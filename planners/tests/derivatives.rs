@@ -4,7 +4,9 @@ mod common;
 
 use common::derivatives::check;
 use common::{HORIZON, Random, Vehicle, follower, iterate, lane_change, problem};
-use interplay_planners::trajectory::terms::{DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, Separation};
+use interplay_planners::trajectory::terms::{
+    DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, Separation, SpeedMeasure,
+};
 use interplay_planners::trajectory::{Participant, Penalty, Problem, Term};
 use interplay_planners::vehicle::OrientedEllipse;
 use interplay_planners::{Axes, Corridor, LaneEnd, SafetyEllipse, State};
@@ -112,12 +114,17 @@ fn persuasion() {
 
 #[test]
 fn mean_speed() {
+    // A road that turns by a twentieth of a radian a step.
+    let directions = (0..HORIZON).map(|t| 0.05 * t as f64).map(|turn| [turn.cos(), turn.sin()]).collect();
+    let measures = [SpeedMeasure::Speeds, SpeedMeasure::AlongRoad { directions, step_s: 0.1 }];
     for (lower_mps, upper_mps) in [(Some(1.6), None), (None, Some(0.1)), (Some(1.6), Some(0.1))] {
-        check_all(|random| {
-            let penalty = Penalty { linear: 75.0, quadratic: 2.0 };
-            let mean_speed = MeanSpeed { lower_mps, upper_mps, penalty };
-            problem(&[indifferent(random)], mean_speed.bounds(0).map(Term::MeanSpeed))
-        });
+        for measure in &measures {
+            check_all(|random| {
+                let penalty = Penalty { linear: 75.0, quadratic: 2.0 };
+                let mean_speed = MeanSpeed { measure: measure.clone(), lower_mps, upper_mps, penalty };
+                problem(&[indifferent(random)], mean_speed.bounds(0).map(Term::MeanSpeed))
+            });
+        }
     }
 }
 

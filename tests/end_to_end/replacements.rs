@@ -66,7 +66,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("left-turn/game-tough", "scripted", "yields.ego.to.oncoming"),
     ("narrow-passage/nice", "conservative", "yields.oncoming.to.ego"),
     ("narrow-passage/tough", "scripted", "no_collision"),
-    ("narrow-passage/two-negotiators", "human", "yields.oncoming.to.ego"),
+    ("narrow-passage/two-negotiators", "scripted", "yields.ego.to.oncoming"),
     ("roundabout/nice", "human", "yields.ring.to.ego"),
     ("roundabout/tough", "negotiation", "yields.ego.to.ring"),
     ("left-turn/cooperative", "human", "completes.ego"),

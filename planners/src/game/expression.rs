@@ -5,7 +5,7 @@ use super::meeting::{Meeting, ObservedBehaviour};
 use super::reply::{MAX_INTENTION, MIN_INTENTION};
 use crate::Scene;
 use crate::trajectory::Penalty;
-use crate::trajectory::terms::MeanSpeed;
+use crate::trajectory::terms::{MeanSpeed, SpeedMeasure};
 
 /// An intention this close to a bound means "or more": with both at 0.95, eq. 8.14 would force the neutral speed.
 const EXTREME_MARGIN: f64 = 0.005;
@@ -25,6 +25,7 @@ pub fn mean_speed(
     ego_behaviour: &ObservedBehaviour,
     scene: &Scene,
     settings: &Settings,
+    measure: SpeedMeasure,
 ) -> MeanSpeed {
     let lower = (intention - settings.epsilon_p).max(MIN_LOWER_BOUND);
     let least = (lower > MIN_INTENTION + EXTREME_MARGIN).then(|| ego_behaviour.behaviour.expressing(lower, prior));
@@ -33,7 +34,7 @@ pub fn mean_speed(
     let [least, most] = [least, most].map(|bound| bound.map(|bound| speed_mps(bound, meeting)));
     let drivable = |speed: f64| speed.clamp(scene.ego.limits.speed_min_mps, scene.ego.limits.speed_max_mps);
     let penalty = Penalty { linear: settings.slack_weight * scene.horizon as f64, quadratic: 0.0 };
-    MeanSpeed { lower_mps: least.map(drivable), upper_mps: most.map(drivable), penalty }
+    MeanSpeed { measure, lower_mps: least.map(drivable), upper_mps: most.map(drivable), penalty }
 }
 
 /// The speed that a behaviour of the ego stands for: itself, or that of an arrival.
@@ -66,7 +67,7 @@ mod tests {
             let settings = Settings::default();
             let meeting = MEETINGS[which];
             let [ego_behaviour, _] = meeting.observations([1.0, other_mps], &settings);
-            let bound = mean_speed(intention, prior, &meeting, &ego_behaviour, &alone(), &settings);
+            let bound = mean_speed(intention, prior, &meeting, &ego_behaviour, &alone(), &settings, SpeedMeasure::default());
             if let (Some(lower), Some(upper)) = (bound.lower_mps, bound.upper_mps) {
                 prop_assert!(lower <= upper);
                 let speed = lower + share * (upper - lower);
@@ -86,7 +87,7 @@ mod tests {
         let settings = Settings { sigma_2_s: 0.5, ..Settings::default() };
         let meeting = Meeting::Crossing { ego_m: 1.4, other_m: 0.2 };
         let [ego_behaviour, _] = meeting.observations([1.0, 1.0], &settings);
-        let bound = mean_speed(0.9, 0.1, &meeting, &ego_behaviour, &alone(), &settings);
+        let bound = mean_speed(0.9, 0.1, &meeting, &ego_behaviour, &alone(), &settings, SpeedMeasure::default());
         assert_eq!(bound.lower_mps, Some(alone().ego.limits.speed_max_mps));
     }
 
@@ -94,7 +95,9 @@ mod tests {
     fn extreme_intentions_are_bounded_on_one_side() {
         let (settings, meeting) = (Settings::default(), MEETINGS[0]);
         let [ego_behaviour, _] = meeting.observations([1.0, 1.0], &settings);
-        let bound = |intention| mean_speed(intention, 0.5, &meeting, &ego_behaviour, &alone(), &settings);
+        let bound = |intention| {
+            mean_speed(intention, 0.5, &meeting, &ego_behaviour, &alone(), &settings, SpeedMeasure::default())
+        };
         assert!(bound(MAX_INTENTION).upper_mps.is_none() && bound(MAX_INTENTION).lower_mps.is_some());
         assert!(bound(MIN_INTENTION).lower_mps.is_none() && bound(MIN_INTENTION).upper_mps.is_some());
     }

@@ -25,7 +25,7 @@ pub mod prospect;
 pub mod reply;
 mod settings;
 
-pub use settings::{GameForm, Settings, SolutionConcept};
+pub use settings::{ExpressedSpeed, GameForm, Settings, SolutionConcept};
 
 use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
@@ -33,9 +33,9 @@ use crate::driver_estimate::{DriverEstimate, DriverModel};
 use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
-use crate::trajectory::terms::MeanSpeed;
+use crate::trajectory::terms::{MeanSpeed, SpeedMeasure};
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
-use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
+use crate::{Agent, Axes, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
 use diagnostics as reported;
 use equilibrium::{GameSolution, leader_follower, nash, solution};
 use intention::forget;
@@ -125,7 +125,7 @@ impl Game {
                 self.is_expressing(scene, &choice, &meeting).then(|| self.express(scene, &meeting, &ego_behaviour));
             round = Some(played);
         }
-        let problem = problem(scene, expressed);
+        let problem = problem(scene, expressed.as_ref());
         let Solved { problem, optimum, event } =
             conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref())?;
         let expressed = expressed.filter(|_| event.is_none());
@@ -140,8 +140,9 @@ impl Game {
     /// Renews both beliefs; returns what the next belief about the ego will be judged by.
     fn watch(&mut self, scene: &Scene, other: &Agent, usual: f64, meeting: &Meeting) -> ObservedBehaviour {
         let plan = self.last.as_ref().map(Trajectory::shifted);
-        let ego_mps = plan.map_or(scene.ego.state.speed_mps, |plan| MeanSpeed::of(&plan.states));
-        let other_mps = MeanSpeed::of(&other.prediction.states);
+        let ego_mps =
+            plan.map_or(scene.ego.state.speed_mps, |plan| self.mean_speed_mps(&scene.ego, &plan, scene.step_s));
+        let other_mps = self.mean_speed_mps(other, &other.prediction, scene.step_s);
         let driven_mps = [scene.ego.state.speed_mps, other.state.speed_mps];
         let observations = |fastest_mps: [f64; 2]| match self.settings.form {
             GameForm::Corrected => meeting.own_observations([ego_mps, other_mps], fastest_mps, &self.settings),
@@ -160,6 +161,26 @@ impl Game {
         (self.intentions.other, self.intentions.seen) = beliefs;
         self.fastest_mps = fastest_mps;
         expected
+    }
+
+    /// The mean speed of a vehicle's motion \[m/s\].
+    fn mean_speed_mps(&self, agent: &Agent, motion: &Trajectory, step_s: f64) -> f64 {
+        self.measure(agent, motion, step_s).of(&motion.states)
+    }
+
+    /// What a mean speed is the mean of, with the directions of the road where a motion leads.
+    fn measure(&self, agent: &Agent, motion: &Trajectory, step_s: f64) -> SpeedMeasure {
+        match self.settings.expressed_speed {
+            ExpressedSpeed::OfStates => SpeedMeasure::Speeds,
+            ExpressedSpeed::AlongRoad => {
+                let steps = motion.states.iter().take(motion.horizon());
+                let headings = steps.map(|state| agent.route.heading_at(state.position()));
+                SpeedMeasure::AlongRoad {
+                    directions: headings.map(|heading| Axes::along(heading).vector([1.0, 0.0])).collect(),
+                    step_s,
+                }
+            }
+        }
     }
 
     /// The prior of the next belief: what is believed now, after forgetting.
@@ -199,7 +220,9 @@ impl Game {
 
     fn express(&self, scene: &Scene, meeting: &Meeting, ego_behaviour: &ObservedBehaviour) -> MeanSpeed {
         let Intentions { own, seen, .. } = self.intentions;
-        expression::mean_speed(own, self.prior(seen), meeting, ego_behaviour, scene, &self.settings)
+        let motion = self.last.as_ref().map_or_else(|| scene.ego.prediction.clone(), Trajectory::shifted);
+        let measure = self.measure(&scene.ego, &motion, scene.step_s);
+        expression::mean_speed(own, self.prior(seen), meeting, ego_behaviour, scene, &self.settings, measure)
     }
 
     fn diagnostics(
@@ -237,7 +260,7 @@ impl Game {
             ]);
         }
         diagnostics.extend([
-            reported::MEAN_SPEED.is(MeanSpeed::of(&optimum.iterate.states[0])),
+            reported::MEAN_SPEED.is(self.mean_speed_mps(&scene.ego, &optimum.trajectory(0), scene.step_s)),
             COST.is(optimum.cost.total),
             SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ]);
@@ -258,7 +281,7 @@ fn usual_intention(estimate: &DriverEstimate) -> f64 {
 }
 
 /// The conservative problem (eq. 8.10) with the bounds that express an intention.
-pub fn problem(scene: &Scene, expressed: Option<MeanSpeed>) -> Problem {
+pub fn problem(scene: &Scene, expressed: Option<&MeanSpeed>) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
     problem.terms.extend(expressed.iter().flat_map(|interval| interval.bounds(0)).map(Term::MeanSpeed));

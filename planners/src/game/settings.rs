@@ -31,6 +31,17 @@ pub enum GameForm {
     AsPrinted,
 }
 
+/// By which mean speed the ego expresses its intention, and is thought to be read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ExpressedSpeed {
+    /// The mean of its speeds (eq. 8.13): an ego that may not arrive yet weaves in its lane, to be fast all the same.
+    #[default]
+    OfStates,
+    /// Its way along the road by time, which says when it arrives.
+    AlongRoad,
+}
+
 /// The persuasion game (chapter 8).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -91,6 +102,8 @@ pub struct Settings {
     /// Width of the interval of intentions that the ego expresses, `ε_p` of eq. 8.11.
     #[schemars(range(min = 0.0, max = 0.9), extend("x-unit" = "dimensionless"))]
     pub epsilon_p: f64,
+    /// By which mean speed the ego expresses its intention.
+    pub expressed_speed: ExpressedSpeed,
     /// What a mean speed outside the expressed interval costs per m/s and step: 0.5 on one road, 1.5 on a ramp, 50 at an
     /// intersection.
     #[schemars(range(min = 0.0), extend("x-unit" = "s/m"))]
@@ -131,6 +144,7 @@ impl Default for Settings {
             arrival_max_s: 20.0,
             forgetting: 0.1,
             epsilon_p: 0.05,
+            expressed_speed: ExpressedSpeed::OfStates,
             slack_weight: 0.5,
             later_expression_s: 2.5,
             clear_lead_m: 0.2,

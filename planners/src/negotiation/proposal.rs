@@ -29,19 +29,18 @@ const LEAST_DISTANCE_SHARE: f64 = 0.3;
 /// Weight of the other's changes of input.
 const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 
-/// Most work of a descent: a problem that needs more has no proposal that the safety filter would admit.
-const WORK_LIMIT: usize = 200;
-/// Most work of comparing passing orders in the first plan and in a later one. Proposals are renewed at every step and may be
-/// compared over several; a planner that asks nobody decides by its comparison and makes it at once.
-const COMPARISON_WORK_LIMITS: [usize; 2] = [400, 100];
+/// Most work of a descent: a problem that needs more has no proposal that the safety filter would admit. With 200 the ego is touched
+/// in 3 of 200 starts of `ramp-merge/front-tough`, with 300 in none.
+const WORK_LIMIT: usize = 300;
+/// Most work of comparing passing orders in a plan but the first. Proposals are renewed at every step and may be compared over
+/// several; a planner that asks nobody decides by its comparison and makes it at once.
+const COMPARISON_WORK_LIMIT: usize = 200;
 
 /// What solves the negotiation problem.
 pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
     let mut optimiser = Optimiser::resuming(Robust::default()).searching(settings.passing_orders);
     optimiser.tolerances.work_limit = WORK_LIMIT;
-    optimiser.tolerances.comparison_work_limits = COMPARISON_WORK_LIMITS;
-    // Without a proposal the ego drives its retreat.
-    optimiser.has_fallback = true;
+    optimiser.tolerances.comparison_work_limit = COMPARISON_WORK_LIMIT;
     optimiser
 }
 

@@ -11,7 +11,7 @@ mod warm_start_record;
 
 use std::path::{Path, PathBuf};
 
-use interplay_planners::trajectory::terms::{Comfort, RoadEdge, Tracking};
+use interplay_planners::trajectory::terms::{Comfort, RoadEdge, SpeedMeasure, Tracking};
 use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust, RouteStart, Term, WarmStart};
 use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, LaneEnd, Limits, State, negotiation};
 use serde::{Deserialize, Serialize};
@@ -225,6 +225,7 @@ impl Vehicle {
             Term::KeepOut(of) if of.vehicle == vehicle => self.keep_outs.push(Ellipse::new(of)),
             Term::DistanceCost(of) if of.vehicle == vehicle => self.distance_costs.push(Distance::new(of)),
             Term::MeanSpeed(of) if of.vehicle == vehicle => {
+                assert_eq!(of.measure, SpeedMeasure::Speeds, "recorded problems bound the mean of speeds");
                 let penalty = [of.penalty.linear, of.penalty.quadratic];
                 let mean = self.mean_speed.get_or_insert(Mean { bounds: [None; 2], penalty });
                 mean.bounds[usize::from(of.is_upper)] = Some(of.speed_mps);

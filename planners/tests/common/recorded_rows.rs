@@ -3,7 +3,9 @@
 
 use interplay_planners::SafetyEllipse;
 use interplay_planners::trajectory::Term;
-use interplay_planners::trajectory::terms::{DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, Separation};
+use interplay_planners::trajectory::terms::{
+    DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, Separation, SpeedMeasure,
+};
 use interplay_planners::vehicle::OrientedEllipse;
 use serde::{Deserialize, Serialize};
 
@@ -142,7 +144,8 @@ impl Distance {
 
 impl Mean {
     pub fn mean_speed(&self) -> MeanSpeed {
-        MeanSpeed { lower_mps: self.bounds[0], upper_mps: self.bounds[1], penalty: self.penalty.into() }
+        let [lower_mps, upper_mps] = self.bounds;
+        MeanSpeed { measure: SpeedMeasure::Speeds, lower_mps, upper_mps, penalty: self.penalty.into() }
     }
 }
 

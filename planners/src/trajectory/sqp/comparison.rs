@@ -12,8 +12,8 @@ pub(super) struct Comparison {
     pub(super) plans_at_rest: usize,
     /// What the last plan cost whose classes could have been compared.
     pub(super) last_cost: f64,
-    /// Whether a comparison has been begun; the first one may take more work.
-    pub(super) has_begun: bool,
+    /// Whether a comparison has been finished; the first one is made at once.
+    pub(super) has_finished: bool,
     /// The comparison that goes on with the next plan.
     pub(super) round: Round,
 }

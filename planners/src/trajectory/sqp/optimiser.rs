@@ -20,9 +20,6 @@ pub struct Optimiser<S> {
     pub resumes: bool,
     /// How far [`Optimiser::optimise`] looks for a cheaper class of motion.
     pub passing_orders: PassingOrderSearch,
-    /// Whether its planner has something to do without an optimum. Otherwise a comparison that has found none yet is finished at
-    /// once.
-    pub has_fallback: bool,
     /// What the descent whose optimum was kept last has left.
     pub warm_start: WarmStart,
     /// How far the comparison of classes has got.

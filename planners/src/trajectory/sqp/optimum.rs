@@ -19,9 +19,8 @@ pub struct Tolerances {
     pub iteration_limit: usize,
     /// Most [work](Statistics::work) of one descent; steps of a descent that goes nowhere pose up to four programmes.
     pub work_limit: usize,
-    /// Most work that the comparison of passing orders may take of one plan, the first ever and a later one; what is left goes
-    /// on with the next one.
-    pub comparison_work_limits: [usize; 2],
+    /// Most work that the comparison of passing orders may take of one plan; what is left goes on with the next one.
+    pub comparison_work_limit: usize,
     /// Tolerance of a step problem in search of a cheaper optimum, as a share of what is missing to the cost to beat: a promise
     /// need not be more exact than that. On the recorded problems it saves a quarter of the iterations and costs no optimum.
     pub exploration_share: f64,
@@ -36,7 +35,7 @@ impl Default for Tolerances {
             decrease: 1e-11,
             iteration_limit: 100,
             work_limit: 4000,
-            comparison_work_limits: [4000; 2],
+            comparison_work_limit: 4000,
             exploration_share: 1e-4,
             slack: 1e-3,
         }

@@ -26,7 +26,7 @@ mod tracking;
 pub use comfort::Comfort;
 pub use distance_cost::{DistanceCost, DistancePrice};
 pub use keep_out::KeepOut;
-pub use mean_speed::{MeanSpeed, MeanSpeedBound};
+pub use mean_speed::{MeanSpeed, MeanSpeedBound, SpeedMeasure};
 pub use persuasion::Persuasion;
 pub use road_edge::RoadEdge;
 pub use road_tracking::{RoadTarget, RoadTracking};

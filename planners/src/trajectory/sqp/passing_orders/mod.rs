@@ -13,7 +13,7 @@
 //! 4. The cheapest optimum wins if it saves enough ([`super::hysteresis`]).
 //!
 //! A comparison may take several plans: each has a limit of work, and an exploration that reaches it goes on with the next
-//! plan, a step later. One without any plan to fall back on is made at once.
+//! plan, a step later. Only the first comparison, and one without any plan to fall back on, are made at once.
 //! After a comparison that changed nothing the next few plans go without one, more of them where every other class is far
 //! dearer.
 
@@ -149,18 +149,17 @@ impl<S: StageSolver> Optimiser<S> {
             round.unfinished = round.unfinished.and_then(|unfinished| unfinished.after(work_before, most));
             work_left -= work.min(work_left);
         }
+        self.comparison.has_finished = true;
         let is_far = best.as_ref().is_ok_and(|held| round.nearest_cost > FAR_COST_RATIO * held.cost.total);
         self.comparison.plans_at_rest = if round.has_changed { 0 } else { PLANS_AT_REST[usize::from(is_far)] };
         best
     }
 
-    /// Most work of the explorations of this plan.
-    fn work_of_a_plan(&mut self, best: &Result<Optimum, DescentError>) -> usize {
-        let is_later = std::mem::replace(&mut self.comparison.has_begun, true);
-        match best {
-            Err(_) if !self.has_fallback => usize::MAX,
-            _ => self.tolerances.comparison_work_limits[usize::from(is_later)],
-        }
+    /// Most work of the explorations of this plan. The first comparison of all, and one that has no plan at all to fall
+    /// back on, are made at once.
+    fn work_of_a_plan(&self, best: &Result<Optimum, DescentError>) -> usize {
+        let is_at_once = !self.comparison.has_finished || best.is_err();
+        if is_at_once { usize::MAX } else { self.tolerances.comparison_work_limit }
     }
 
     /// Most work of one exploration.

@@ -32,6 +32,8 @@
 //!
 //! # Start and end
 //!
+//! Where nothing is known, a violated soft row begins with `λ = ν = ℓ/2`, every other soft row with `ν = ℓ`, so that `ℓ + q σ − λ − ν`
+//! is small from the beginning, and every other number with the same `μ` and slack.
 //! With the multipliers `λ` of a neighbouring problem every product starts at the same small `μ`: `s = μ/λ` where the row was
 //! active, `λ = μ/s` where it was not; a violation follows from `λ` by stationarity, `σ = (λ − ℓ)₊/q`, `ν = ℓ + q σ − λ`. Rows
 //! that the expected deviations cannot reach are left out; the solution without them is the solution if it satisfies them,
