@@ -48,15 +48,22 @@ impl Axis {
         let step = self.every.unwrap_or_else(|| round_step((end - start) / count));
         let decimals = (-libm::floor(libm::log10(step) + 1e-9)).max(0.0) as usize;
         let decimals = if is_whole(step * libm::pow(10.0, decimals as f64)) { decimals } else { decimals + 1 };
+        let words = |value: f64| match step < SHORTEST_WRITTEN_STEP {
+            true => format!("{value:.1e}"),
+            false => format!("{value:.decimals$}"),
+        };
         let (first, last) = (libm::ceil(start / step - 1e-9) as i64, libm::floor(end / step + 1e-9) as i64);
         (first..=last)
             .map(|index| {
                 let value = index as f64 * step;
-                (value, format!("{value:.decimals$}").replace('-', "\u{2212}"))
+                (value, words(value).replace('-', "\u{2212}"))
             })
             .collect()
     }
 }
+
+/// Numbers with a smaller step between them are written with a power of ten: in full they do not fit beside an axis.
+const SHORTEST_WRITTEN_STEP: f64 = 1e-6;
 
 /// The smallest of 1, 2, 2.5 and 5 times a power of ten that is at least `least`.
 fn round_step(least: f64) -> f64 {
