@@ -13,7 +13,8 @@ use crate::{Agent, Scene};
 pub(super) const MAX_VIOLATION: f64 = 2e-3;
 /// It may also need this much more than the retreat needs now.
 const MAX_VIOLATION_GROWTH: f64 = 1.2;
-/// A proposal that itself violates safety by this much is refused.
+/// A proposal that itself violates safety by this much is refused. So is one that leaves the road by this many metres, or falls
+/// short of persuasion by this many square metres, at 1/10 scale: its descent has ended where nothing is solved.
 const MAX_OWN_VIOLATION: f64 = 0.05;
 
 #[derive(Clone, Debug)]
@@ -30,7 +31,9 @@ impl Default for Filter {
 impl Filter {
     /// Whether the first input of `optimum` may be applied.
     pub(super) fn admits(&mut self, scene: &Scene, optimum: &Optimum, retreat: &Optimum) -> bool {
-        if optimum.cost.violation(Violation::Safety) > MAX_OWN_VIOLATION {
+        let scale = scene.ego.body.scale;
+        let scales = [(Violation::Safety, 1.0), (Violation::RoadEdge, scale), (Violation::Persuasion, scale * scale)];
+        if scales.iter().any(|(kind, unit)| optimum.cost.violation(*kind) > MAX_OWN_VIOLATION * unit) {
             return false;
         }
         let next = successor(scene, optimum);

@@ -16,6 +16,7 @@ mod concession;
 pub mod diagnostics;
 mod filter;
 mod partner_selection;
+mod patience;
 mod persuasion;
 mod proposal;
 mod references;
@@ -85,7 +86,8 @@ impl Negotiation {
         if partners.is_empty() {
             return Ok(Plan { events, ..conservative::answer(retreat?) });
         }
-        let accepted = self.update_acceptance(scene, &partners);
+        let accepted =
+            self.update_acceptance(scene, &partners, retreat.as_ref().ok().map(|retreat| retreat.optimum.cost.total));
         let persuasion = self.persuasion(&accepted, scene.ego.body.scale);
         let outcome = self.propose(scene, &partners, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
@@ -126,7 +128,7 @@ impl Negotiation {
     }
 
     /// How far each of the last proposals was accepted; the ego concedes accordingly. Before the first proposal it is 1.
-    fn update_acceptance(&mut self, scene: &Scene, partners: &[&Agent]) -> Vec<f64> {
+    fn update_acceptance(&mut self, scene: &Scene, partners: &[&Agent], retreat_cost: Option<f64>) -> Vec<f64> {
         let (settings, selection) = (&self.settings, &mut self.selection);
         let pairs = self.negotiations.iter_mut().zip(partners);
         let accepted = pairs.map(|((_, negotiation), partner)| {
@@ -134,7 +136,7 @@ impl Negotiation {
             if settings.concession {
                 negotiation.concession.concede(accepted, settings.beta, settings.least_weight());
             }
-            selection.record(&partner.name, accepted, settings);
+            selection.record(&partner.name, accepted, retreat_cost, settings);
             accepted
         });
         accepted.collect()

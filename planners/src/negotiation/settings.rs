@@ -23,9 +23,14 @@ pub struct Settings {
     /// A rise of the acceptance probability of at most this much counts as no progress, `ε`.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     pub epsilon: f64,
-    /// Steps without progress after which the next vehicle is asked.
+    /// Steps without progress after which the next vehicle is asked, or nobody if it was the last.
     #[schemars(range(min = 1))]
     pub patience_steps: usize,
+    /// By which share the conservative plan may become dearer while a vehicle refuses. Beyond it that vehicle is not asked any
+    /// more. The source has no such end: with 1000000 the steps alone count.
+    #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
+    #[schemars(extend("x-mechanism" = { "price of patience": 1e6 }))]
+    pub retreat_dearer_at_most: f64,
     /// A vehicle that is this far ahead in the target lane is not asked any more \[m\].
     #[schemars(range(min = 0.0))]
     pub clear_lead_m: f64,
@@ -76,6 +81,7 @@ impl Default for Settings {
             gamma: 1.0,
             epsilon: 0.01,
             patience_steps: 5,
+            retreat_dearer_at_most: 0.1,
             clear_lead_m: 0.2,
             partners_at_most: 1,
             settled_steps: 6,

@@ -1,0 +1,73 @@
+//! How long a vehicle is asked that does not accept.
+//!
+//! The source asks the next vehicle when the acceptance probability has not risen by more than `ε` five times in a row
+//! (section 6.5). That also happens at steady acceptance, so a low probability is required too. Beside this count there is a price:
+//! an ego that asks drives as if it were granted what it asks for, and with each refusal the retreat that it will need becomes dearer.
+//! Where that goes beyond a share of what the retreat cost at first, it asks no longer. Both are free of units and scale.
+
+use super::settings::Settings;
+
+/// An acceptance below this counts as a refusal.
+const REFUSAL_ACCEPTANCE: f64 = 0.5;
+
+/// What patience with one vehicle remembers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Patience {
+    last_acceptance: Option<f64>,
+    steps_without_progress: usize,
+    /// What the retreat cost when the vehicle first answered.
+    first_retreat_cost: Option<f64>,
+}
+
+impl Patience {
+    /// Whether the vehicle is not to be asked any more, after an answer and with what the retreat costs now, if there is one.
+    pub(super) fn ends(&mut self, accepted: f64, retreat_cost: Option<f64>, settings: &Settings) -> bool {
+        let no_progress = accepted < REFUSAL_ACCEPTANCE
+            && self.last_acceptance.is_some_and(|last| accepted - last <= settings.epsilon);
+        self.steps_without_progress = if no_progress { self.steps_without_progress + 1 } else { 0 };
+        self.last_acceptance = Some(accepted);
+        let first = self.first_retreat_cost.or(retreat_cost);
+        self.first_retreat_cost = first;
+        let bearable = 1.0 + settings.retreat_dearer_at_most;
+        let too_dear = first.zip(retreat_cost).is_some_and(|(first, now)| now > bearable * first);
+        self.steps_without_progress >= settings.patience_steps || no_progress && too_dear
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The answer at which patience ends, of acceptances and costs of the retreat.
+    fn ends_at(settings: &Settings, answers: &[(f64, f64)]) -> Option<usize> {
+        let mut patience = Patience::default();
+        answers.iter().position(|(accepted, cost)| patience.ends(*accepted, Some(*cost), settings))
+    }
+
+    #[test]
+    fn five_refusals_without_progress_end_it() {
+        let refused = [(0.0, 2.0); 10];
+        assert_eq!(ends_at(&Settings::default(), &refused), Some(5));
+        let rising: Vec<_> = (0..10).map(|step| (0.04 * f64::from(step), 2.0)).collect();
+        assert_eq!(ends_at(&Settings::default(), &rising), None);
+        let accepted = [(0.9, 2.0); 10];
+        assert_eq!(ends_at(&Settings::default(), &accepted), None);
+    }
+
+    #[test]
+    fn a_refusal_that_makes_the_retreat_dearer_ends_it_at_once() {
+        let settings = Settings::default();
+        let growing = |accepted: f64| [(accepted, 2.0), (accepted, 2.19), (accepted, 2.21), (accepted, 2.4)];
+        assert_eq!(ends_at(&settings, &growing(0.0)), Some(2));
+        assert_eq!(ends_at(&settings, &growing(0.9)), None, "who accepts is asked on, whatever a retreat would cost");
+        let unmoved = Settings { retreat_dearer_at_most: 1e6, ..settings };
+        assert_eq!(ends_at(&unmoved, &growing(0.0)), None);
+    }
+
+    #[test]
+    fn without_a_retreat_only_the_count_ends_it() {
+        let mut patience = Patience::default();
+        let ends = (0..10).position(|_| patience.ends(0.0, None, &Settings::default()));
+        assert_eq!(ends, Some(5));
+    }
+}
