@@ -220,7 +220,7 @@ fn scenarios_are_compared_with_their_counterfactuals() {
 fn hard_braking_is_a_share_of_what_a_vehicle_is_capable_of() {
     let folder = scratch("sweep-braking");
     let mut found = Vec::new();
-    for limit in ["-2.0", "-6.0"] {
+    for limit in ["-1.0", "-6.0"] {
         let set = format!("vehicle.ego.limits.acceleration_min_mps2={limit}");
         let run =
             interplay(&folder, &["run", "intersection/tough", "--seed", "1", "--set", &set, "--no-record", "--json"]);
