@@ -129,17 +129,18 @@ impl Negotiation {
 
     /// How far each of the last proposals was accepted; the ego concedes accordingly. Before the first proposal it is 1.
     fn update_acceptance(&mut self, scene: &Scene, partners: &[&Agent], retreat_cost: Option<f64>) -> Vec<f64> {
-        let (settings, selection) = (&self.settings, &mut self.selection);
+        let settings = &self.settings;
         let pairs = self.negotiations.iter_mut().zip(partners);
-        let accepted = pairs.map(|((_, negotiation), partner)| {
-            let Some(accepted) = negotiation.acceptance(settings.acceptance, scene, partner) else { return 1.0 };
+        let answer = |((_, negotiation), partner): (&mut (String, NegotiationState), &&Agent)| {
+            let accepted = negotiation.acceptance(settings.acceptance, scene, partner)?;
             if settings.concession {
                 negotiation.concession.concede(accepted, settings.beta, settings.least_weight());
             }
-            selection.record(&partner.name, accepted, retreat_cost, settings);
-            accepted
-        });
-        accepted.collect()
+            Some(accepted)
+        };
+        let answers: Vec<Option<f64>> = pairs.map(answer).collect();
+        self.selection.record(&answers, retreat_cost, settings);
+        answers.into_iter().map(|accepted| accepted.unwrap_or(1.0)).collect()
     }
 
     /// The persuasion constraint: of several negotiations, that of the vehicle which accepts least.

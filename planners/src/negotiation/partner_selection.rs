@@ -7,7 +7,7 @@
 //! the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
 //! When all have refused nobody is asked: the ego drives by its retreat.
 
-use super::patience::Patience;
+use super::patience::{Patience, RetreatPrice};
 use super::settings::Settings;
 use crate::encounter::{from_front_to_rear, is_settled};
 use crate::{Agent, Scene};
@@ -20,6 +20,7 @@ pub(super) struct PartnerSelection {
     /// Vehicles that refused for too long and are no longer asked.
     refused: Vec<String>,
     asked: Vec<AskedVehicle>,
+    retreat: RetreatPrice,
 }
 
 /// A vehicle that is asked, and the patience with it.
@@ -55,11 +56,14 @@ impl PartnerSelection {
         self.asked.iter().any(|asked| asked.name == name)
     }
 
-    /// Records the latest acceptance of a vehicle and what the retreat costs now. Where patience with it ends it is not asked again.
-    pub(super) fn record(&mut self, name: &str, accepted: f64, retreat_cost: Option<f64>, settings: &Settings) {
-        let Some(asked) = self.asked.iter_mut().find(|asked| asked.name == name) else { return };
-        if asked.patience.ends(accepted, retreat_cost, settings) {
-            self.refused.push(asked.name.clone());
+    /// Records the latest acceptances of those that are asked, in their order, none of whom has not answered yet, and what the
+    /// retreat costs now. Who has been asked long enough is not asked again.
+    pub(super) fn record(&mut self, accepted: &[Option<f64>], retreat_cost: Option<f64>, settings: &Settings) {
+        let dearer = self.retreat.dearer(retreat_cost);
+        for (asked, accepted) in self.asked.iter_mut().zip(accepted) {
+            if accepted.is_some_and(|accepted| asked.patience.ends(accepted, dearer, settings)) {
+                self.refused.push(asked.name.clone());
+            }
         }
     }
 }

@@ -3,7 +3,8 @@
 //! The source asks the next vehicle when the acceptance probability has not risen by more than `ε` five times in a row
 //! (section 6.5). That also happens at steady acceptance, so a low probability is required too. Beside this count there is a price:
 //! an ego that asks drives as if it were granted what it asks for, and with each refusal the retreat that it will need becomes dearer.
-//! Where that goes beyond a share of what the retreat cost at first, it asks no longer. Both are free of units and scale.
+//! Where that goes beyond a share of what the cheapest retreat cost since the first question to anybody, it asks no longer. Both are
+//! free of units and scale.
 
 use super::settings::Settings;
 
@@ -15,22 +16,33 @@ const REFUSAL_ACCEPTANCE: f64 = 0.5;
 pub(super) struct Patience {
     last_acceptance: Option<f64>,
     steps_without_progress: usize,
-    /// What the retreat cost when the vehicle first answered.
-    first_retreat_cost: Option<f64>,
 }
 
 impl Patience {
-    /// Whether the vehicle is not to be asked any more, after an answer and with what the retreat costs now, if there is one.
-    pub(super) fn ends(&mut self, accepted: f64, retreat_cost: Option<f64>, settings: &Settings) -> bool {
+    /// Whether the vehicle is not to be asked any more, after an answer and where the retreat has become `dearer` by this share.
+    pub(super) fn ends(&mut self, accepted: f64, dearer: f64, settings: &Settings) -> bool {
         let no_progress = accepted < REFUSAL_ACCEPTANCE
             && self.last_acceptance.is_some_and(|last| accepted - last <= settings.epsilon);
         self.steps_without_progress = if no_progress { self.steps_without_progress + 1 } else { 0 };
         self.last_acceptance = Some(accepted);
-        let first = self.first_retreat_cost.or(retreat_cost);
-        self.first_retreat_cost = first;
-        let bearable = 1.0 + settings.retreat_dearer_at_most;
-        let too_dear = first.zip(retreat_cost).is_some_and(|(first, now)| now > bearable * first);
-        self.steps_without_progress >= settings.patience_steps || no_progress && too_dear
+        self.steps_without_progress >= settings.patience_steps
+            || no_progress && dearer > settings.retreat_dearer_at_most
+    }
+}
+
+/// By which share the retreat has become dearer than the cheapest one since somebody was first asked.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RetreatPrice {
+    least_cost: Option<f64>,
+}
+
+impl RetreatPrice {
+    /// The share, with what the retreat costs now; 0 without a retreat.
+    pub(super) fn dearer(&mut self, cost: Option<f64>) -> f64 {
+        let Some(cost) = cost else { return 0.0 };
+        let least = self.least_cost.map_or(cost, |least| least.min(cost));
+        self.least_cost = Some(least);
+        if cost > least { cost / least - 1.0 } else { 0.0 }
     }
 }
 
@@ -40,8 +52,8 @@ mod tests {
 
     /// The answer at which patience ends, of acceptances and costs of the retreat.
     fn ends_at(settings: &Settings, answers: &[(f64, f64)]) -> Option<usize> {
-        let mut patience = Patience::default();
-        answers.iter().position(|(accepted, cost)| patience.ends(*accepted, Some(*cost), settings))
+        let (mut patience, mut price) = (Patience::default(), RetreatPrice::default());
+        answers.iter().position(|(accepted, cost)| patience.ends(*accepted, price.dearer(Some(*cost)), settings))
     }
 
     #[test]
@@ -65,9 +77,11 @@ mod tests {
     }
 
     #[test]
-    fn without_a_retreat_only_the_count_ends_it() {
-        let mut patience = Patience::default();
-        let ends = (0..10).position(|_| patience.ends(0.0, None, &Settings::default()));
-        assert_eq!(ends, Some(5));
+    fn the_price_is_counted_from_the_cheapest_retreat() {
+        let mut price = RetreatPrice::default();
+        let dearer =
+            [Some(2.0), Some(3.0), Some(1.0), None, Some(1.5), Some(0.0), Some(0.0)].map(|cost| price.dearer(cost));
+        assert_eq!(dearer, [0.0, 0.5, 0.0, 0.0, 0.5, 0.0, 0.0]);
+        assert_eq!(price.dearer(Some(1.0)), f64::INFINITY, "dearer than a retreat that cost nothing");
     }
 }
