@@ -14,15 +14,12 @@ mod common;
 use std::error::Error;
 use std::io::Write;
 
-use common::Random;
-use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, egos, families, run};
+use common::starts::perturbed;
+use common::world::{LANES, Run, Vehicle, egos, families, run};
 use interplay_planners::Driver;
-use interplay_planners::predict::constant_velocity;
 
 /// Ticks of a run.
 const TICKS: usize = 80;
-/// Largest perturbation along the road \[m\] and of the speed \[m/s\].
-const PERTURBATION: f64 = 0.1;
 /// How often each start is driven.
 const REPEATS: usize = 2;
 
@@ -57,18 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// A run from a perturbed start, and the shortest time of each of the ego's plans \[ms\].
 fn drive(driver: &Driver, pose: &dyn Fn(Driver) -> Vec<Vehicle>, seed: u64) -> (Run, Vec<f64>) {
-    let start = || {
-        let (mut vehicles, mut random) = (pose(driver.clone()), Random(seed));
-        for vehicle in &mut vehicles {
-            let state = &mut vehicle.agent.state;
-            let along_m = random.between(-PERTURBATION, PERTURBATION);
-            state.x_m += along_m * libm::cos(state.heading_rad);
-            state.y_m += along_m * libm::sin(state.heading_rad);
-            state.speed_mps += random.between(-PERTURBATION, PERTURBATION);
-            vehicle.agent.prediction = constant_velocity(&vehicle.agent.state, HORIZON, STEP_S);
-        }
-        vehicles
-    };
+    let start = || perturbed(pose(driver.clone()), seed);
     let mut driven = run(start(), TICKS);
     for _ in 1..REPEATS {
         let again = run(start(), TICKS);

@@ -4,6 +4,7 @@
 pub mod derivatives;
 pub mod games;
 pub mod junction;
+pub mod starts;
 pub mod wilson;
 pub mod world;
 

@@ -1,0 +1,23 @@
+//! Perturbed starts of a family of scenarios.
+
+use interplay_planners::predict::constant_velocity;
+
+use super::Random;
+use super::world::{HORIZON, STEP_S, Vehicle};
+
+/// Largest perturbation along the road \[m\] and of the speed \[m/s\].
+const PERTURBATION: f64 = 0.1;
+
+/// The vehicles, each up to 0.1 m further ahead or behind and up to 0.1 m/s faster or slower, by a seed.
+pub fn perturbed(mut vehicles: Vec<Vehicle>, seed: u64) -> Vec<Vehicle> {
+    let mut random = Random(seed);
+    for vehicle in &mut vehicles {
+        let state = &mut vehicle.agent.state;
+        let along_m = random.between(-PERTURBATION, PERTURBATION);
+        state.x_m += along_m * libm::cos(state.heading_rad);
+        state.y_m += along_m * libm::sin(state.heading_rad);
+        state.speed_mps += random.between(-PERTURBATION, PERTURBATION);
+        vehicle.agent.prediction = constant_velocity(&vehicle.agent.state, HORIZON, STEP_S);
+    }
+    vehicles
+}
