@@ -2,7 +2,7 @@
 //!
 //! The negotiated input is applied only if, from the state it leads to and with the others one step further along their
 //! predictions, a conservative plan still keeps its slack small. There is no guarantee if a prediction changes, so every
-//! intervention is recorded.
+//! intervention is recorded. A plan that itself violates much is not applied either.
 
 use crate::conservative::problem;
 use crate::trajectory::PassingOrderSearch;

@@ -26,8 +26,9 @@ pub struct Settings {
     /// Steps without progress after which the next vehicle is asked, or nobody if it was the last.
     #[schemars(range(min = 1))]
     pub patience_steps: usize,
-    /// By which share the conservative plan may become dearer, while a vehicle refuses, than the cheapest one since the ego began
-    /// to ask. Beyond it that vehicle is not asked any more. The source has no such end: with 1000000 the steps alone count.
+    /// By which share the conservative plan may be dearer than the cheapest one since the ego first asked anybody. Where it is
+    /// dearer, a vehicle that makes no progress is not asked any more. The source has no such end: with 1000000 the steps alone
+    /// count.
     #[schemars(range(min = 0.0), extend("x-unit" = "dimensionless"))]
     #[schemars(extend("x-mechanism" = { "price of patience": 1e6 }))]
     pub retreat_dearer_at_most: f64,
