@@ -3,8 +3,8 @@
 //! The source asks the front vehicle first and the rear one when the front one has refused for too long ([`Patience`]). A
 //! vehicle with which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has
 //! crossed, or that the ego has crossed before. With one that a safe retreat passes ahead of no negotiation is begun: it need not be
-//! asked for what the ego can have without its consent, and waiting for its answer could cost the way. A driver who takes notice of nobody outside its own lane is never asked:
-//! the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
+//! asked for what the ego can have without its consent, and waiting for its answer could cost the way. A driver who takes notice of
+//! nobody outside its own lane is never asked: the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
 //! When all have refused nobody is asked: the ego drives by its retreat.
 
 use super::patience::{Patience, RetreatPrice};
@@ -56,7 +56,7 @@ impl PartnerSelection {
         self.asked.iter().any(|asked| asked.name == name)
     }
 
-    /// Records the latest acceptances of those that are asked, in their order, none of whom has not answered yet, and what the
+    /// Records the latest acceptances of those that are asked, in their order (`None` of one that has not answered yet), and what the
     /// retreat costs now. Who has been asked long enough is not asked again.
     pub(super) fn record(&mut self, accepted: &[Option<f64>], retreat_cost: Option<f64>, settings: &Settings) {
         let dearer = self.retreat.dearer(retreat_cost);
