@@ -107,6 +107,11 @@ def tables_of(curve):
     return curved_road.line_table(curve), curved_road.edge_table(curve["right"]), curved_road.edge_table(curve["left"])
 
 
+def stages_of(found, horizon):
+    """What is given at t = 1...N, or once for all of them."""
+    return found * horizon if len(found) == 1 else found
+
+
 def headings_of(ellipse, horizon):
     """Directions of an ellipse at t = 1...N."""
     return ellipse.get("headings") or [ellipse["shape"][0]] * horizon
@@ -201,11 +206,11 @@ class Programme:
             for t in range(n):
                 self.soft(outside(states[t + 1], centres[:, t], form, headings[t]), price)
         for j, kind in enumerate(prices):
-            centres, metric = self.parameter(f"impressions{i}_{j}", 2, n), self.parameter(f"metric{i}_{j}", 3)
+            centres, metrics = self.parameter(f"impressions{i}_{j}", 2, n), self.parameter(f"metrics{i}_{j}", 3, n)
             numbers = self.parameter(f"distance_price{i}_{j}", 1 if kind == "linear" else 3)
             for t in range(n):
                 dx, dy = states[t + 1][0] - centres[0, t], states[t + 1][1] - centres[1, t]
-                squared = metric[0] * dx**2 + 2 * metric[1] * dx * dy + metric[2] * dy**2
+                squared = metrics[0, t] * dx**2 + 2 * metrics[1, t] * dx * dy + metrics[2, t] * dy**2
                 self.cost += distance_price(kind, numbers, ca.sqrt(squared + self.TIP**2))
         if any(bounds):
             self.mean_speed(i, states, bounds)
@@ -288,7 +293,7 @@ class Programme:
                 found |= {f"centres{i}_{j}": e["centres"], f"form{i}_{j}": e["shape"], f"price{i}_{j}": e["penalty"],
                           f"headings{i}_{j}": headings_of(e, n)}
             for j, d in enumerate(v.get("distance_costs", [])):
-                found |= {f"impressions{i}_{j}": d["centres"], f"metric{i}_{j}": d["metric"],
+                found |= {f"impressions{i}_{j}": d["centres"], f"metrics{i}_{j}": stages_of(d["metrics"], n),
                           f"distance_price{i}_{j}": next(iter(d["price"].values()))}
             if "mean_speed" in v:
                 mean = v["mean_speed"]

@@ -66,7 +66,7 @@ impl Bayesian {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
         self.observe(&choice, outlook);
-        let problem = problem(scene, choice.partner, &self.belief, &self.settings);
+        let problem = problem(scene, choice.partner, self.last.as_ref(), &self.belief, &self.settings);
         let Solved { problem, optimum, event } =
             conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref())?;
         let diagnostics = self.diagnostics(&problem, &optimum);

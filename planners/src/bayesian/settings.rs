@@ -48,6 +48,11 @@ pub struct Settings {
     pub impression_variance: f64,
     /// Which value of the other's best reply enters the ego's cost.
     pub value: ReplyValue,
+    /// Share of the squared distance along the other's road that counts where the ego expects to be ahead of the other; 1 as
+    /// printed, where the ego falls back for the sake of a bold signal and loses places in ramp merges and roundabouts.
+    #[schemars(range(min = 0.001, max = 1.0), extend("x-unit" = "dimensionless"))]
+    #[schemars(extend("x-mechanism" = { "keeping its lead": 1.0 }))]
+    pub ahead_share: f64,
     /// A vehicle that is this far ahead in the target lane is not persuaded any more \[m\].
     #[schemars(range(min = 0.0))]
     pub clear_lead_m: f64,
@@ -70,6 +75,7 @@ impl Default for Settings {
             variance_max: 0.05,
             impression_variance: 0.1,
             value: ReplyValue::Linear,
+            ahead_share: 0.3,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
             passing_orders: PassingOrderSearch::Classes,

@@ -12,20 +12,32 @@
 //! and `ω` is evaluated at it: doubt exaggerates deviations from the goal. `2ΣW_2` is kept below 0.9. As `x*` is affine in
 //! `x̂`, so is the place from which `ω` is measured: the distance from `x_sᴾ` at `x*` is the one from a moved centre at `x̂`, in
 //! a stretched metric.
+//!
+//! As printed `ω` also draws an ego back that is ahead of the other: it brakes for the sake of a bold signal, and loses its place
+//! to the one it came close to. So at a stage at which the ego is expected ahead of the other, along the other's road, only a share of
+//! the distance along that road counts, and the ego comes closer from the side. What is expected is the ego's last plan: within a
+//! problem a distance costs the same ahead and behind, and no passing order is favoured.
 
 use super::belief::PersuasionBelief;
 use super::{Settings, value};
 use crate::scene::ellipses;
 use crate::trajectory::terms::{DistanceCost, RoadTracking, Tracking};
 use crate::trajectory::{Problem, Term};
-use crate::{Agent, Scene, conservative};
+use crate::vehicle::OrientedEllipse;
+use crate::{Agent, Scene, Trajectory, conservative};
 
 /// Largest `2ΣW_2`.
 const MAX_SIGNAL_DOUBT: f64 = 0.9;
 
 /// The conservative problem (eq. 6.13), which is also that of somebody whom nobody is left to persuade, with the price of a
-/// signal to `partner`.
-pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &PersuasionBelief, settings: &Settings) -> Problem {
+/// signal to `partner`. `last` is what the ego planned a step ago.
+pub fn problem(
+    scene: &Scene,
+    partner: Option<&Agent>,
+    last: Option<&Trajectory>,
+    belief: &PersuasionBelief,
+    settings: &Settings,
+) -> Problem {
     let others: Vec<&Agent> = scene.others.iter().collect();
     let mut problem = conservative::problem(scene, &others);
     if let Some(partner) = partner {
@@ -35,7 +47,8 @@ pub fn problem(scene: &Scene, partner: Option<&Agent>, belief: &PersuasionBelief
                 weights.iter_mut().zip(doubts).for_each(|(weight, doubt)| *weight /= 1.0 - doubt);
             }
         }
-        problem.terms.push(Term::DistanceCost(impression(scene, partner, belief, doubts, settings)));
+        let metrics = metrics(scene, partner, last, settings);
+        problem.terms.push(Term::DistanceCost(impression(scene, partner, &metrics, belief, doubts, settings)));
     }
     problem
 }
@@ -47,17 +60,36 @@ fn doubts(scene: &Scene, belief: &PersuasionBelief) -> [f64; 4] {
     weights.map(|weight| (2.0 * belief.variance * weight).min(MAX_SIGNAL_DOUBT))
 }
 
+/// `I′ᵀI′` of `ω` at `t = 1…N`: that of the safety ellipse, with less along the other's road where the ego is expected ahead.
+fn metrics(scene: &Scene, partner: &Agent, last: Option<&Trajectory>, settings: &Settings) -> Vec<[f64; 3]> {
+    let expected = last.map(|last| scene.centres(&last.shifted()));
+    let centres = scene.centres(&partner.prediction);
+    let ellipses = ellipses(scene.goal.safety, &partner.route, &centres);
+    let metric = |(stage, (ellipse, centre)): (usize, (&OrientedEllipse, &[f64; 2]))| {
+        let (sin, cos) = libm::sincos(ellipse.heading_rad());
+        let leads = |[x, y]: [f64; 2]| cos * (x - centre[0]) + sin * (y - centre[1]) > 0.0;
+        let is_ahead = expected.as_ref().is_some_and(|expected| leads(expected[stage]));
+        let discount = if is_ahead { 1.0 - settings.ahead_share } else { 0.0 };
+        let along_m = ellipse.shape().along_m;
+        let less = discount / (along_m * along_m);
+        // The curvature of a squared distance is twice its metric.
+        let [xx, xy, yy] = ellipse.hessian().map(|bend| 0.5 * bend);
+        [xx - less * cos * cos, xy - less * cos * sin, yy - less * sin * sin]
+    };
+    ellipses.iter().zip(&centres).enumerate().map(metric).collect()
+}
+
 /// The price of `ω` at `x*`: with `D = 2ΣW_2`, `x* − x_sᴾ = (x̂ − D x_g − (1 − D) x_sᴾ)/(1 − D)`.
 fn impression(
     scene: &Scene,
     partner: &Agent,
+    metrics: &[[f64; 3]],
     belief: &PersuasionBelief,
     [doubt_along, doubt_across, ..]: [f64; 4],
     settings: &Settings,
 ) -> DistanceCost {
     let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
     let centres = scene.centres(&partner.prediction);
-    let ellipses = ellipses(scene.goal.safety, &partner.route, &centres);
     let goals = scene.goals_beside(&centres);
     let place = |stage: usize| {
         let (axes, goal) = goals[stage];
@@ -67,8 +99,7 @@ fn impression(
             doubt_along * goal_along + (1.0 - doubt_along) * along,
             doubt_across * goal_across + (1.0 - doubt_across) * across,
         ]);
-        // The curvature of a squared distance is twice its metric.
-        let [along, mixed, across] = axes.entries(ellipses[stage].hessian().map(|bend| 0.5 * bend));
+        let [along, mixed, across] = axes.entries(metrics[stage]);
         (moved, axes.matrix([stretch * stretch * along, stretch * widen * mixed, widen * widen * across]))
     };
     let (centres, metrics) = (0..centres.len()).map(place).unzip();

@@ -23,8 +23,8 @@ pub struct Line {
 pub struct Distance {
     /// Centres at `t = 1…N`.
     pub centres: Vec<[f64; 2]>,
-    /// `M`: xx, xy, yy.
-    pub metric: [f64; 3],
+    /// `M`: xx, xy, yy, at `t = 1…N`, or one for all.
+    pub metrics: Vec<[f64; 3]>,
     /// What a distance costs.
     pub price: Price,
 }
@@ -130,7 +130,9 @@ impl Distance {
             DistancePrice::Linear { weight } => Price::Linear(weight),
             DistancePrice::Exact { base, loyalty, aversion } => Price::Exact([base, loyalty, aversion]),
         };
-        Distance { centres: of.centres.clone(), metric: of.metrics[0], price }
+        let is_one = of.metrics.windows(2).all(|pair| pair[0] == pair[1]);
+        let metrics = if is_one { of.metrics[..1].to_vec() } else { of.metrics.clone() };
+        Distance { centres: of.centres.clone(), metrics, price }
     }
 
     pub fn distance_cost(&self, vehicle: usize) -> DistanceCost {
@@ -138,7 +140,8 @@ impl Distance {
             Price::Linear(weight) => DistancePrice::Linear { weight },
             Price::Exact([base, loyalty, aversion]) => DistancePrice::Exact { base, loyalty, aversion },
         };
-        DistanceCost { vehicle, centres: self.centres.clone(), metrics: vec![self.metric; self.centres.len()], price }
+        let metrics = self.metrics.iter().cycle().take(self.centres.len()).copied().collect();
+        DistanceCost { vehicle, centres: self.centres.clone(), metrics, price }
     }
 }
 
