@@ -9,7 +9,7 @@ use interplay_planners::human::Style;
 use interplay_planners::nash::diagnostics::{DEVIATION_GAIN, PLAYERS};
 use interplay_planners::nash::{self, Equilibrium, TOLERATED_GAIN, equilibrium};
 use interplay_planners::trajectory::PassingOrderSearch;
-use interplay_planners::trajectory::{Iterate, Optimiser, Problem, Robust};
+use interplay_planners::trajectory::{Iterate, Optimiser, Problem, Robust, Violation};
 use interplay_planners::{Driver, Input};
 
 const GAMES: usize = 20;
@@ -84,6 +84,27 @@ fn replies_settle_where_the_joint_descent_does_not_end() {
         }
     }
     assert!(settled >= 5, "replies were needed in {settled} games only");
+}
+
+/// Guesses that lead vehicles into one another are moved out of nearly all ellipses, at a lower cost; others stay.
+#[test]
+fn a_start_is_outside_of_the_ellipses() {
+    let mut random = Random(17);
+    let (mut moved, mut left_inside) = (0, 0);
+    for game in 0..3 * GAMES {
+        let problem = joint_problem(&mut random, 2 + game % 3);
+        let guess = problem.start(&[]);
+        let start = problem.start(&problem.start_outside(&guess.inputs));
+        let [before, after] = [&guess, &start].map(|iterate| problem.cost(iterate));
+        if start == guess {
+            continue;
+        }
+        moved += 1;
+        let entries = [before, after].map(|cost| cost.violation(Violation::Safety));
+        assert!(entries[0] > 1e-2 && after.total < before.total, "game {game}: {entries:?}");
+        left_inside += usize::from(entries[1] > 1e-2);
+    }
+    assert!(moved >= GAMES && 10 * left_inside <= moved, "{moved} moved, {left_inside} of them still inside");
 }
 
 /// The game has a potential: whatever a player does alone changes its own cost and the joint cost by the same amount.

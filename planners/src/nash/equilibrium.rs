@@ -13,8 +13,10 @@
 //! which both players of a constraint have the same multiplier (Rosen's normalised equilibria). Other weights of the players, as
 //! `1/Z_i` in the costs, give the other ones.
 //!
-//! Where the descent of the sum does not end, along the edge of an ellipse between two vehicles that both turn, the players plan anew
-//! in turn from where it has come to, each against the plans of the others, until nobody gains (`best_replies.rs`).
+//! The descent of the sum takes long for two reasons. Inside an ellipse it is caught: the linear rows of stages before the centre
+//! point one way out and those behind it the other. So it begins outside (`Problem::start_outside`). Near a saddle, where two classes
+//! of motion part, the step problem is not convex and the descent creeps. There it is cut short, and the players plan anew in turn from
+//! where it has come to, each against the plans of the others, until nobody gains (`best_replies.rs`).
 //!
 //! A local optimum of the sum is an equilibrium against small deviations. Whether it is one against all, the certificate says: each
 //! player's own problem is solved anew, from the equilibrium and in the other classes of motion. A player who gains leaves, and
@@ -102,7 +104,7 @@ fn joint_optimum<S: StageSolver>(
     problem: &Problem,
     guess: &[Vec<Input>],
 ) -> Result<(Optimum, bool), DescentError> {
-    let outcome = joint.optimise(problem, guess);
+    let outcome = joint.optimise(problem, &problem.start_outside(guess));
     let reached = match &outcome {
         Ok(optimum) if optimum.statistics.unfinished == 0 => return outcome.map(|optimum| (optimum, false)),
         Ok(optimum) => Some(optimum),

@@ -20,6 +20,7 @@
 mod followed_road;
 mod global;
 mod motions;
+mod start_outside;
 
 use super::comparison::{Round, Unfinished};
 use super::exploration::{Exploration, GivesUp, replace};
