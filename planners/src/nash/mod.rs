@@ -41,9 +41,9 @@ pub struct Nash {
     last: Vec<(String, Trajectory)>,
 }
 
-/// Most [work](crate::trajectory::Statistics::work) of a descent of the joint problem. One that takes more goes to and fro, and replies
-/// settle sooner.
-const JOINT_WORK_LIMIT: usize = 1000;
+/// Most [work](crate::trajectory::Statistics::work) of a descent of the joint problem. One that takes more creeps past a saddle, and
+/// replies settle sooner.
+const JOINT_WORK_LIMIT: usize = 500;
 
 /// What solves the joint problem of a game.
 pub fn joint_optimiser(passing_orders: PassingOrderSearch) -> Optimiser<Robust> {

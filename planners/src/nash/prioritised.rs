@@ -5,6 +5,9 @@ use crate::trajectory::{Iterate, Optimiser, Problem, StageSolver, Term, Toleranc
 
 /// A guess need not be optimal: the tolerance of its descents.
 const GUESS_TOLERANCE: f64 = 1e-3;
+/// Most [work](crate::trajectory::Statistics::work) of one of them, before other classes of motion are compared. One that takes more is
+/// caught in an ellipse, and the joint start leads out of it sooner ([`Problem::start_outside`]).
+const GUESS_WORK_LIMIT: usize = 100;
 
 /// Per player, inputs that keep all apart where they can.
 ///
@@ -12,7 +15,8 @@ const GUESS_TOLERANCE: f64 = 1e-3;
 /// the player with priority over most plans first. Where no two do, the plans alone are the guess. A player whose problem has no solution keeps to its plan alone.
 pub(super) fn prioritised<S: StageSolver>(optimiser: &mut Optimiser<S>, joint: &Problem) -> Vec<Vec<Input>> {
     let exact = optimiser.tolerances;
-    optimiser.tolerances = Tolerances { residual: GUESS_TOLERANCE, decrease: GUESS_TOLERANCE, ..exact };
+    optimiser.tolerances =
+        Tolerances { residual: GUESS_TOLERANCE, decrease: GUESS_TOLERANCE, work_limit: GUESS_WORK_LIMIT, ..exact };
     let inputs = plans(optimiser, joint);
     optimiser.tolerances = exact;
     inputs
