@@ -36,7 +36,8 @@ impl<S: StageSolver> StepSolver<S> {
             now.statistics.fallbacks += usize::from(outcome.is_err());
             if matches!(outcome, Err(StageError::NotConvex { .. })) {
                 self.problem.scale_curvature(SOFTENED_CURVATURE);
-                outcome = self.solve(now, false);
+                // Problems of pairs often are not convex for many steps, and multipliers say as much of this problem as of the refused one.
+                outcome = self.solve(now, damping == 0.0 && self.problem.qp.has_pairs());
             }
         }
         if outcome.is_err() {

@@ -159,6 +159,13 @@ impl Reach {
     }
 }
 
+impl StageQp {
+    /// Whether rows couple two vehicles.
+    pub(crate) fn has_pairs(&self) -> bool {
+        self.blocks.iter().any(|block| block.other.is_some())
+    }
+}
+
 impl VehicleStages {
     /// `μ r` of one input; not zero without a comfort weight.
     #[inline(always)]
