@@ -59,6 +59,11 @@ impl Problem {
         })
     }
 
+    /// Whether deciding vehicles keep apart from each other.
+    pub(super) fn has_pairs(&self) -> bool {
+        self.row_terms().any(|rows| rows.subject().other.is_some())
+    }
+
     /// What a guess costs, made admissible.
     pub fn cost_of(&self, guess: &[Vec<Input>]) -> f64 {
         self.cost(&self.start(guess)).total

@@ -76,7 +76,7 @@ impl<S: StageSolver> Optimiser<S> {
             self.comparison.plans_at_rest -= 1;
             return found;
         }
-        self.compare_classes(problem, found)
+        self.compare_classes(problem, guess, found)
     }
 
     /// As [`Optimiser::optimise`]; without any optimum, the motion that the descent from the guess has come to, if it is cheaper
@@ -111,10 +111,11 @@ impl<S: StageSolver> Optimiser<S> {
         false
     }
 
-    /// The cheapest of what a descent found and the optima of other classes, as far as the work of one plan goes.
+    /// The cheapest of what the descent from a guess found and the optima of other classes, as far as the work of one plan goes.
     fn compare_classes(
         &mut self,
         problem: &Problem,
+        guess: &[Vec<Input>],
         mut best: Result<Optimum, DescentError>,
     ) -> Result<Optimum, DescentError> {
         let mut round = std::mem::take(&mut self.comparison.round);
@@ -123,6 +124,11 @@ impl<S: StageSolver> Optimiser<S> {
         let own_class = trusted.map(|optimum| PassingClass::of(problem, &optimum.iterate));
         let planned = best.as_ref().ok().map(|optimum| &optimum.iterate);
         let mut candidates = representatives(problem, planned, own_class);
+        if problem.has_pairs() {
+            // The guess may be a simple motion itself: `Problem::start_outside`.
+            let begun = problem.start(guess);
+            candidates.retain(|candidate| candidate.iterate.inputs != begun.inputs);
+        }
         candidates.truncate(MAX_CLASSES);
         candidates.retain(|candidate| !round.examined.contains(&candidate.class));
         let mut candidates = candidates.into_iter().peekable();
