@@ -135,6 +135,7 @@ impl<S: StageSolver> Descent<S> {
         let Optimum { cost, statistics: Statistics { residual, .. }, .. } = *now;
         self.previous_step.clone_from(&self.steps.step);
         self.steps.problem.qp.tolerance = POLISH_TOLERANCE;
+        self.search.forget_costs();
         let solved = self.steps.solve_for_direction(problem, now, true, 0.0).is_ok();
         if solved && self.search.take(&self.steps.step, problem, now, 1.0, 0.0, true) {
             now.statistics.residual = self.steps.residual_at(problem, &now.iterate);

@@ -16,6 +16,10 @@ const MIN_PENALTY_SHARE: f64 = 1e-4;
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Smallest share of a step that is tried.
 const MIN_STEP_SHARE: f64 = 1.0 / 1024.0;
+/// A full step of a joint problem need only be better than the worst of this many last iterates. With more of them fewer descents of
+/// games stay without an end (17 of 500 with four players, with eight 9), but of the 60 random problems of `tests/coupled_rows.rs`
+/// eight lose 10 and three none.
+const REMEMBERED_COSTS: usize = 3;
 /// Rounding of a cost of order 1.
 const ROUNDING: f64 = 1e-13;
 
@@ -28,6 +32,10 @@ pub(super) struct LineSearch {
     pub trial: Iterate,
     /// The step before its second-order correction.
     uncorrected: StageSolution,
+    /// The costs of the last iterates, in a ring; for joint problems only.
+    recent: [Cost; REMEMBERED_COSTS],
+    /// How many iterates there were.
+    seen: usize,
 }
 
 impl Default for LineSearch {
@@ -36,6 +44,8 @@ impl Default for LineSearch {
             penalty_share: MIN_PENALTY_SHARE,
             trial: Iterate::default(),
             uncorrected: StageSolution::default(),
+            recent: Default::default(),
+            seen: 0,
         }
     }
 }
@@ -44,6 +54,20 @@ impl LineSearch {
     /// Forgets the last descent (and keeps its memory).
     pub fn restart(&mut self) {
         self.penalty_share = MIN_PENALTY_SHARE;
+        self.forget_costs();
+    }
+
+    /// From now on steps must be better than the iterate at which they begin.
+    pub fn forget_costs(&mut self) {
+        self.seen = 0;
+    }
+
+    /// Remembers the cost of an iterate of a joint problem (the parent module says why).
+    fn remember(&mut self, problem: &Problem, now: &Optimum) {
+        if problem.has_pairs() {
+            self.recent[self.seen % REMEMBERED_COSTS] = now.cost;
+            self.seen += 1;
+        }
     }
 
     /// Chooses `κ` for the step's multipliers and returns the decrease of the merit that the step promises, given the
@@ -65,6 +89,7 @@ impl LineSearch {
         predicted: f64,
         last: bool,
     ) -> f64 {
+        self.remember(problem, now);
         if self.take(&steps.step, problem, now, 1.0, predicted, last) || self.correct(steps, problem, now, predicted) {
             return 1.0;
         }
@@ -85,7 +110,7 @@ impl LineSearch {
     ) -> bool {
         self.try_step(step, problem, &now.iterate, share);
         let cost = problem.cost(&self.trial);
-        let (before, after) = (self.merit(&now.cost), self.merit(&cost));
+        let (before, after) = (self.merit_to_beat(now, share), self.merit(&cost));
         let pays = after < before && after <= before - SUFFICIENT_DECREASE * share * predicted.max(0.0);
         let accepted = pays || (last && cost.total <= now.cost.total + ROUNDING * (1.0 + now.cost.total.abs()));
         if accepted {
@@ -113,6 +138,13 @@ impl LineSearch {
             }));
         }
         problem.roll_out(trial);
+    }
+
+    /// What a share of a step has to be better than: the worst of the remembered iterates for a full step, else where it begins.
+    fn merit_to_beat(&self, now: &Optimum, share: f64) -> f64 {
+        let remembered = if share < 1.0 { 0 } else { self.seen.min(REMEMBERED_COSTS) };
+        let recent = self.recent[..remembered].iter().map(|cost| self.merit(cost));
+        recent.fold(self.merit(&now.cost), f64::max)
     }
 
     fn merit(&self, cost: &Cost) -> f64 {
