@@ -44,11 +44,15 @@ pub struct Nash {
 /// Most [work](crate::trajectory::Statistics::work) of a descent of the joint problem. One that takes more creeps past a saddle, and
 /// replies settle sooner.
 const JOINT_WORK_LIMIT: usize = 500;
+/// A full step of a descent of the joint problem is compared with the worst of this many iterates and the last one: where two vehicles
+/// both turn along an ellipse, steps that enter it a little and leave it with the next one lead on much faster than those that stay outside.
+const REMEMBERED_COSTS: usize = 7;
 
 /// What solves the joint problem of a game.
 pub fn joint_optimiser(passing_orders: PassingOrderSearch) -> Optimiser<Robust> {
     let mut joint = Optimiser::resuming(Robust::default()).searching(passing_orders);
     joint.tolerances.work_limit = JOINT_WORK_LIMIT;
+    joint.tolerances.remembered_costs = REMEMBERED_COSTS;
     joint
 }
 

@@ -97,7 +97,9 @@ impl<S: StageSolver> Descent<S> {
             // A damped step promises little because it is short, not because there is little to gain.
             let damped_by = self.steps.problem.qp.damping;
             let last = damped_by == 0.0 && little;
+            let cost = now.cost;
             let share = self.search.advance(&mut self.steps, problem, &mut now, predicted, last);
+            self.search.remember(cost, tolerances.remembered_costs);
             if warm {
                 self.steps.step.retreat(&self.previous_step, share);
             }

@@ -1,5 +1,7 @@
 //! The backtracking search along a step (the parent module states the merit function).
 
+use std::collections::VecDeque;
+
 use super::optimum::Optimum;
 use super::step_solver::StepSolver;
 use crate::Input;
@@ -16,10 +18,6 @@ const MIN_PENALTY_SHARE: f64 = 1e-4;
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Smallest share of a step that is tried.
 const MIN_STEP_SHARE: f64 = 1.0 / 1024.0;
-/// A full step of a joint problem need only be better than the worst of this many last iterates. With more of them fewer descents of
-/// games stay without an end (17 of 500 with four players, with eight 9), but of the 60 random problems of `tests/coupled_rows.rs`
-/// eight lose 10 and three none.
-const REMEMBERED_COSTS: usize = 3;
 /// Rounding of a cost of order 1.
 const ROUNDING: f64 = 1e-13;
 
@@ -32,10 +30,8 @@ pub(super) struct LineSearch {
     pub trial: Iterate,
     /// The step before its second-order correction.
     uncorrected: StageSolution,
-    /// The costs of the last iterates, in a ring; for joint problems only.
-    recent: [Cost; REMEMBERED_COSTS],
-    /// How many iterates there were.
-    seen: usize,
+    /// The costs of the last iterates but this one, the newest in front.
+    earlier: VecDeque<Cost>,
 }
 
 impl Default for LineSearch {
@@ -44,8 +40,7 @@ impl Default for LineSearch {
             penalty_share: MIN_PENALTY_SHARE,
             trial: Iterate::default(),
             uncorrected: StageSolution::default(),
-            recent: Default::default(),
-            seen: 0,
+            earlier: VecDeque::new(),
         }
     }
 }
@@ -59,15 +54,13 @@ impl LineSearch {
 
     /// From now on steps must be better than the iterate at which they begin.
     pub fn forget_costs(&mut self) {
-        self.seen = 0;
+        self.earlier.clear();
     }
 
-    /// Remembers the cost of an iterate of a joint problem (the parent module says why).
-    fn remember(&mut self, problem: &Problem, now: &Optimum) {
-        if problem.has_pairs() {
-            self.recent[self.seen % REMEMBERED_COSTS] = now.cost;
-            self.seen += 1;
-        }
+    /// Remembers the cost of an iterate that is left, and no more than so many.
+    pub fn remember(&mut self, cost: Cost, most: usize) {
+        self.earlier.push_front(cost);
+        self.earlier.truncate(most);
     }
 
     /// Chooses `κ` for the step's multipliers and returns the decrease of the merit that the step promises, given the
@@ -89,7 +82,6 @@ impl LineSearch {
         predicted: f64,
         last: bool,
     ) -> f64 {
-        self.remember(problem, now);
         if self.take(&steps.step, problem, now, 1.0, predicted, last) || self.correct(steps, problem, now, predicted) {
             return 1.0;
         }
@@ -142,9 +134,8 @@ impl LineSearch {
 
     /// What a share of a step has to be better than: the worst of the remembered iterates for a full step, else where it begins.
     fn merit_to_beat(&self, now: &Optimum, share: f64) -> f64 {
-        let remembered = if share < 1.0 { 0 } else { self.seen.min(REMEMBERED_COSTS) };
-        let recent = self.recent[..remembered].iter().map(|cost| self.merit(cost));
-        recent.fold(self.merit(&now.cost), f64::max)
+        let merit = self.merit(&now.cost);
+        if share < 1.0 { merit } else { self.earlier.iter().map(|cost| self.merit(cost)).fold(merit, f64::max) }
     }
 
     fn merit(&self, cost: &Cost) -> f64 {

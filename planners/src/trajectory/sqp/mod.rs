@@ -12,9 +12,8 @@
 //! along a curved boundary. An exact penalty need only exceed the multipliers (Nocedal and Wright, section 18.5), so the
 //! search counts the share `κ = 2 max λ/linear` of it, at most all.
 //!
-//! Of joint problems a full step is compared with the worst of the last three iterates instead of the last one (Grippo, Lampariello
-//! and Lucidi, "A nonmonotone line search technique for Newton's method", 1986): where two vehicles both turn along an ellipse, steps
-//! that enter it a little and leave it with the next one lead on much faster than those that stay outside.
+//! A full step can be compared with the worst of some earlier iterates, too (Grippo, Lampariello and Lucidi, "A nonmonotone line search
+//! technique for Newton's method", 1986). Games do so; for a planner that sees the outcome of one descent its end would depend on rounding.
 //!
 //! A full step that is refused is corrected to second order before it is shortened. The first step is Gauss-Newton; later
 //! steps use the exact Hessian of the Lagrangian, which makes the end quadratic; where it is not positive definite on the

@@ -15,6 +15,8 @@ pub struct Tolerances {
     /// An undamped step whose predicted decrease is below this share of `1 + |J|` is the last: beyond it the stage
     /// problems' own tolerance shows.
     pub decrease: f64,
+    /// A full step need only be better than the worst of the iterate at which it begins and of this many before it.
+    pub remembered_costs: usize,
     /// Most steps in one descent.
     pub iteration_limit: usize,
     /// Most [work](Statistics::work) of one descent; steps of a descent that goes nowhere pose up to four programmes.
@@ -33,6 +35,7 @@ impl Default for Tolerances {
         Tolerances {
             residual: 1e-8,
             decrease: 1e-11,
+            remembered_costs: 0,
             iteration_limit: 100,
             work_limit: 4000,
             comparison_work_limit: 4000,
