@@ -54,7 +54,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("intersection/safety-filter", "idm", "no_collision"),
     ("lane-change/bayesian-front-tough", "idm", "order"),
     ("lane-change/game-friendly", "idm", "order"),
-    ("lane-keeping/bayesian-tough", "idm", "no_collision"),
+    ("lane-keeping/bayesian-tough", "idm", "min_gap_m"),
     ("ramp-merge/bayesian-front-tough", "idm", "order"),
     ("ramp-merge/front-tough", "idm", "order"),
     ("curve/lane-drop", "idm", "order"),
