@@ -7,7 +7,7 @@
 //! runs the scenario with seeds 1 to SEEDS and starts changed by up to 0.1 m and 0.1 m/s. It prints how often each order
 //! occurs, when the ego completes, and in how many steps of the game its intention is off its bounds, the accident is its
 //! worst outcome, it expresses its intention, the bounds on its mean speed hold, and then the next belief about the ego
-//! lies in the wanted interval to 0.02.
+//! is as wanted to 0.02.
 
 #![allow(clippy::print_stdout, reason = "the numbers are the result")]
 
@@ -15,12 +15,12 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::sync::mpsc::{Sender, channel};
 
-use interplay_planners::Plan;
-use interplay_planners::game::Settings;
 use interplay_planners::game::diagnostics::{
     ACCIDENT_PAYOFF, EGO_INTENTION, EGO_PAYOFFS, EGO_POSTERIOR, EXPRESSION_SLACK,
 };
+use interplay_planners::game::expression::wanted_posterior;
 use interplay_planners::game::reply::{MAX_INTENTION, MIN_INTENTION};
+use interplay_planners::{Driver, Plan};
 use interplay_scenarios::{Override, load};
 use interplay_simulation::frame::Frame;
 use interplay_simulation::run::run;
@@ -56,6 +56,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     for seed in 1..=seeds {
         let changes: Vec<Override> = changes.iter().cloned().chain([Override::Seed(seed)]).collect();
         let scenario = load(&name, &changes).map_err(|error| format!("{error:?}"))?;
+        let Driver::Game(settings) = scenario.vehicles[0].driver else {
+            return Err("the first vehicle does not play".into());
+        };
         let (sender, receiver) = channel();
         let report = serde_json::to_value(run(&name, &scenario, vec![Box::new(Plans(sender))])?)?;
         *orders.entry(report["order"].to_string()).or_default() += 1;
@@ -69,10 +72,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             worst += usize::from(EGO_PAYOFFS.iter().all(|payoff| plan.value_of(payoff) > accident));
             let Some(slack) = plan.value_of(&EXPRESSION_SLACK) else { continue };
             let Some(belief) = plans.get(index + 1).and_then(|next| next.value_of(&EGO_POSTERIOR)) else { continue };
-            let wanted = intention - Settings::default().epsilon_p - BELIEF_TOLERANCE..=intention + BELIEF_TOLERANCE;
+            let [lowest, highest] = wanted_posterior(intention, &settings);
+            let is_wanted = lowest.is_none_or(|lowest| belief >= lowest - BELIEF_TOLERANCE)
+                && highest.is_none_or(|highest| belief <= highest + BELIEF_TOLERANCE);
             expressed += 1;
             held += usize::from(slack < MAX_SLACK_MPS);
-            believed += usize::from(slack < MAX_SLACK_MPS && wanted.contains(&belief));
+            believed += usize::from(slack < MAX_SLACK_MPS && is_wanted);
         }
     }
     completed_s.sort_by(f64::total_cmp);

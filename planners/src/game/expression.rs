@@ -12,8 +12,20 @@ const EXTREME_MARGIN: f64 = 0.005;
 /// The lower bound of eq. 8.11 stays above this.
 const MIN_LOWER_BOUND: f64 = 0.01;
 
-/// The interval of mean speeds at which the posterior about the ego is in `[p* − ε_p, p*]` (eq. 8.11), within what the ego
-/// can drive.
+/// The lowest and the highest probability at which the other is to believe that the ego passes: `[p* − ε_p, p*]` (eq. 8.11).
+///
+/// Expressed on one side, an ego that intends to pass may seem surer of it, and so may one that yields. With both bounds an ego that is ahead
+/// and thought to pass for sure slows down until it seems less determined, and the other no longer yields.
+pub fn wanted_posterior(intention: f64, settings: &Settings) -> [Option<f64>; 2] {
+    let lower = (intention - settings.epsilon_p).max(MIN_LOWER_BOUND);
+    let [has_lower, has_upper] = match settings.expresses_intervals() {
+        true => [lower > MIN_INTENTION + EXTREME_MARGIN, intention < MAX_INTENTION - EXTREME_MARGIN],
+        false => [intention >= 0.5, intention < 0.5],
+    };
+    [has_lower.then_some(lower), has_upper.then_some(intention)]
+}
+
+/// The interval of mean speeds at which the posterior about the ego is [as wanted](wanted_posterior), within what the ego can drive.
 ///
 /// Bounds of arrivals turn into bounds of speeds, `v = d/T`. An earliest arrival before now (an upper denominator of eq.
 /// 8.15 that is not positive) bounds nothing; to arrive by a time that is past no speed is enough, so the highest is asked
@@ -27,11 +39,8 @@ pub fn mean_speed(
     settings: &Settings,
     measure: SpeedMeasure,
 ) -> MeanSpeed {
-    let lower = (intention - settings.epsilon_p).max(MIN_LOWER_BOUND);
-    let least = (lower > MIN_INTENTION + EXTREME_MARGIN).then(|| ego_behaviour.behaviour.expressing(lower, prior));
-    let most =
-        (intention < MAX_INTENTION - EXTREME_MARGIN).then(|| ego_behaviour.behaviour.expressing(intention, prior));
-    let [least, most] = [least, most].map(|bound| bound.map(|bound| speed_mps(bound, meeting)));
+    let [least, most] = wanted_posterior(intention, settings)
+        .map(|bound| bound.map(|bound| speed_mps(ego_behaviour.behaviour.expressing(bound, prior), meeting)));
     let drivable = |speed: f64| speed.clamp(scene.ego.limits.speed_min_mps, scene.ego.limits.speed_max_mps);
     let penalty = Penalty { linear: settings.slack_weight * scene.horizon as f64, quadratic: 0.0 };
     MeanSpeed { measure, lower_mps: least.map(drivable), upper_mps: most.map(drivable), penalty }
@@ -50,6 +59,7 @@ fn speed_mps(shown: f64, meeting: &Meeting) -> f64 {
 mod tests {
     use super::*;
     use crate::fixture::{agent, scene};
+    use crate::game::{ExpressedBounds, GameForm};
     use proptest::prelude::*;
 
     fn alone() -> Scene {
@@ -64,7 +74,7 @@ mod tests {
         fn speeds_in_the_interval_are_read_as_intended(
             intention in 0.12..0.94, prior in 0.1..0.9, other_mps in 0.4..1.4, share in 0.0..1.0, which in 0_usize..2,
         ) {
-            let settings = Settings::default();
+            let settings = Settings { expressed_bounds: ExpressedBounds::Interval, ..Settings::default() };
             let meeting = MEETINGS[which];
             let [ego_behaviour, _] = meeting.observations([1.0, other_mps], &settings);
             let bound = mean_speed(intention, prior, &meeting, &ego_behaviour, &alone(), &settings, SpeedMeasure::default());
@@ -92,8 +102,18 @@ mod tests {
     }
 
     #[test]
+    fn whoever_passes_may_seem_surer_and_whoever_yields_too() {
+        let wanted = |intention| wanted_posterior(intention, &Settings::default());
+        assert_eq!(wanted(0.7), [Some(0.7 - Settings::default().epsilon_p), None]);
+        assert_eq!(wanted(0.3), [None, Some(0.3)]);
+        let printed = Settings { form: GameForm::AsPrinted, ..Settings::default() };
+        assert_eq!(wanted_posterior(0.7, &printed), [Some(0.7 - printed.epsilon_p), Some(0.7)]);
+    }
+
+    #[test]
     fn extreme_intentions_are_bounded_on_one_side() {
-        let (settings, meeting) = (Settings::default(), MEETINGS[0]);
+        let settings = Settings { expressed_bounds: ExpressedBounds::Interval, ..Settings::default() };
+        let meeting = MEETINGS[0];
         let [ego_behaviour, _] = meeting.observations([1.0, 1.0], &settings);
         let bound = |intention| {
             mean_speed(intention, 0.5, &meeting, &ego_behaviour, &alone(), &settings, SpeedMeasure::default())

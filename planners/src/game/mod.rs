@@ -25,7 +25,7 @@ pub mod prospect;
 pub mod reply;
 mod settings;
 
-pub use settings::{ExpressedSpeed, GameForm, Settings, SolutionConcept};
+pub use settings::{ExpressedBounds, ExpressedSpeed, GameForm, Settings, SolutionConcept};
 
 use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};

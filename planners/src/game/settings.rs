@@ -42,6 +42,17 @@ pub enum ExpressedSpeed {
     AlongRoad,
 }
 
+/// How sure the other is to be of the ego's intention, once that is expressed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ExpressedBounds {
+    /// At least so sure that the ego passes, if it intends to pass, and at most, if it intends to yield.
+    #[default]
+    OneSided,
+    /// To within `epsilon_p` (eq. 8.11): an ego that is thought to pass for sure slows down, to seem less determined.
+    Interval,
+}
+
 /// The persuasion game (chapter 8).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -102,6 +113,8 @@ pub struct Settings {
     /// Width of the interval of intentions that the ego expresses, `ε_p` of eq. 8.11.
     #[schemars(range(min = 0.0, max = 0.9), extend("x-unit" = "dimensionless"))]
     pub epsilon_p: f64,
+    /// Whether the ego may seem more determined than it is; in the form `as-printed` it may not.
+    pub expressed_bounds: ExpressedBounds,
     /// By which mean speed the ego expresses its intention.
     pub expressed_speed: ExpressedSpeed,
     /// What a mean speed outside the expressed interval costs per m/s and step: 0.5 on one road, 1.5 on a ramp, 50 at an
@@ -124,6 +137,13 @@ pub struct Settings {
     pub passing_orders: PassingOrderSearch,
 }
 
+impl Settings {
+    /// Whether an intention is expressed to within an interval.
+    pub(super) fn expresses_intervals(&self) -> bool {
+        self.form == GameForm::AsPrinted || self.expressed_bounds == ExpressedBounds::Interval
+    }
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Settings {
@@ -144,6 +164,7 @@ impl Default for Settings {
             arrival_max_s: 20.0,
             forgetting: 0.1,
             epsilon_p: 0.05,
+            expressed_bounds: ExpressedBounds::OneSided,
             expressed_speed: ExpressedSpeed::OfStates,
             slack_weight: 0.5,
             later_expression_s: 2.5,
