@@ -24,6 +24,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("rerun", "another program"),
     ("interplay sweep real-roads", "takes six minutes; the mechanism is in `sweeps`"),
     ("interplay sweep --starts 200", "takes minutes; the mechanism is in `sweeps`"),
+    ("interplay sweep --samples", "takes minutes; the mechanism is in `sweeps`"),
     ("interplay sweep perturbed-starts", "the same"),
     ("interplay sweep inferred", "the same"),
     ("interplay compare starts", "of a sweep that is not run here"),

@@ -23,7 +23,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("lane-keeping/contingency", "idm", "comfort.ego.braking_at_most_mps2"),
     ("ramp-merge/contingency", "negotiation", "comfort.ego.braking_at_most_mps2"),
     ("intersection/conservative-nice", "negotiation", "order"),
-    ("intersection/negotiation-meets-game", "conservative", "order"),
+    ("intersection/negotiation-meets-game", "scripted", "order"),
     ("lane-change/front-nice", "conservative", "order"),
     ("lane-change/bayesian-front-nice", "conservative", "order"),
     ("lane-change/game-front-nice", "conservative", "order"),
@@ -43,7 +43,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("lane-change/cooperative", "conservative", "completes.ego"),
     ("lane-keeping/cooperative", "conservative", "completes.merger"),
     // The game shows that it passes, also to those who cannot see it; the exact value keeps away, the linear one does not.
-    ("lane-change/among-idm", "game", "completes.ego"),
+    ("lane-change/among-idm", "idm", "completes.ego"),
     ("lane-change/front-tough", "idm", "order"),
     ("lane-change/bayesian-exact", "conservative", "order"),
     // The intelligent driver model sees no crossing traffic, and waits for a gap that nobody makes.
