@@ -42,7 +42,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("intersection/cooperative", "conservative", "order"),
     ("lane-change/cooperative", "conservative", "completes.ego"),
     ("lane-keeping/cooperative", "conservative", "completes.merger"),
-    // The game shows that it passes, also to those who cannot see it; the exact value keeps away, the linear one does not.
+    // The intelligent driver model waits for a gap in which to merge; the exact value keeps away, the linear one does not.
     ("lane-change/among-idm", "idm", "completes.ego"),
     ("lane-change/front-tough", "idm", "order"),
     ("lane-change/bayesian-exact", "conservative", "order"),

@@ -47,8 +47,7 @@ pub fn problem(
                 weights.iter_mut().zip(doubts).for_each(|(weight, doubt)| *weight /= 1.0 - doubt);
             }
         }
-        let metrics = metrics(scene, partner, last, settings);
-        problem.terms.push(Term::DistanceCost(impression(scene, partner, &metrics, belief, doubts, settings)));
+        problem.terms.push(Term::DistanceCost(impression(scene, partner, last, belief, doubts, settings)));
     }
     problem
 }
@@ -61,10 +60,16 @@ fn doubts(scene: &Scene, belief: &PersuasionBelief) -> [f64; 4] {
 }
 
 /// `I′ᵀI′` of `ω` at `t = 1…N`: that of the safety ellipse, with less along the other's road where the ego is expected ahead.
-fn metrics(scene: &Scene, partner: &Agent, last: Option<&Trajectory>, settings: &Settings) -> Vec<[f64; 3]> {
+/// `centres` are those of the partner.
+fn metrics(
+    scene: &Scene,
+    partner: &Agent,
+    centres: &[[f64; 2]],
+    last: Option<&Trajectory>,
+    settings: &Settings,
+) -> Vec<[f64; 3]> {
     let expected = last.map(|last| scene.centres(&last.shifted()));
-    let centres = scene.centres(&partner.prediction);
-    let ellipses = ellipses(scene.goal.safety, &partner.route, &centres);
+    let ellipses = ellipses(scene.goal.safety, &partner.route, centres);
     let metric = |(stage, (ellipse, centre)): (usize, (&OrientedEllipse, &[f64; 2]))| {
         let (sin, cos) = libm::sincos(ellipse.heading_rad());
         let leads = |[x, y]: [f64; 2]| cos * (x - centre[0]) + sin * (y - centre[1]) > 0.0;
@@ -76,20 +81,21 @@ fn metrics(scene: &Scene, partner: &Agent, last: Option<&Trajectory>, settings: 
         let [xx, xy, yy] = ellipse.hessian().map(|bend| 0.5 * bend);
         [xx - less * cos * cos, xy - less * cos * sin, yy - less * sin * sin]
     };
-    ellipses.iter().zip(&centres).enumerate().map(metric).collect()
+    ellipses.iter().zip(centres).enumerate().map(metric).collect()
 }
 
 /// The price of `ω` at `x*`: with `D = 2ΣW_2`, `x* − x_sᴾ = (x̂ − D x_g − (1 − D) x_sᴾ)/(1 − D)`.
 fn impression(
     scene: &Scene,
     partner: &Agent,
-    metrics: &[[f64; 3]],
+    last: Option<&Trajectory>,
     belief: &PersuasionBelief,
     [doubt_along, doubt_across, ..]: [f64; 4],
     settings: &Settings,
 ) -> DistanceCost {
     let (stretch, widen) = (1.0 / (1.0 - doubt_along), 1.0 / (1.0 - doubt_across));
     let centres = scene.centres(&partner.prediction);
+    let metrics = metrics(scene, partner, &centres, last, settings);
     let goals = scene.goals_beside(&centres);
     let place = |stage: usize| {
         let (axes, goal) = goals[stage];
