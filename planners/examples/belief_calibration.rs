@@ -9,7 +9,8 @@
 //! as a nice one: the two first plans are more than 2 cm apart after a second. A run in which that never happens tells nothing
 //! and is counted apart. What is believed a second later is compared with the truth:
 //!
-//! - with humans of a named style (tough, normal or nice, in equal shares), the kind for which the human is taken;
+//! - with humans of a named style (tough, normal or nice, in equal shares), the kind for which the human is taken, and whether it is
+//!   one of the kinds that it may well be ([`DriverEstimate::credible_models`]);
 //! - with humans of any weight (log-uniform from 0.01 to 100), whether the interval of the safety weight holds it. A hypothesis
 //!   stands for the weights whose plans are nearer to its plan than to the next one's ([`SAFETY_WEIGHT_EDGES`]).
 //!
@@ -48,6 +49,12 @@ const HALVINGS: usize = 12;
 /// The smallest weight at which an edge is looked for.
 const LEAST_WEIGHT: f64 = 1e-3;
 
+/// The named styles: name, safety weight, kind of driver.
+const STYLES: [(&str, f64, DriverModel); 3] =
+    [("tough", 0.0, DriverModel::Tough), ("normal", 8.0, DriverModel::Normal), ("nice", 50.0, DriverModel::Nice)];
+/// The families of scenarios.
+const FAMILIES: [&str; 3] = ["lane keeping", "intersection", "lane change"];
+
 /// What was believed a second after the interaction began.
 struct Belief {
     family: &'static str,
@@ -72,8 +79,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             steering_sd_rad: usual.steering_sd_rad / sharpness,
             ..usual
         };
-        let weights = |random: &mut Random| [0.0, 8.0, 50.0][(3.0 * random.unit()) as usize];
-        named_styles(&mut out, &beliefs(runs, seed, &settings, weights))?;
+        let weights = |random: &mut Random| STYLES[(3.0 * random.unit()) as usize].1;
+        let named = beliefs(runs, seed, &settings, weights);
+        named_styles(&mut out, &named)?;
+        credible_names(&mut out, &named)?;
         let weights = |random: &mut Random| 10f64.powf(random.between(-2.0, 2.0));
         let beliefs = beliefs(runs, seed, &settings, weights);
         held_weights(&mut out, &beliefs)?;
@@ -171,10 +180,8 @@ fn named_styles(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::Re
     let told: Vec<&Belief> = beliefs.iter().flatten().collect();
     writeln!(out, "{} of {} runs tell styles apart, {STEP_S} s a tick", told.len(), beliefs.len())?;
     writeln!(out, "| family | is | named so | tough, normal, nice, IDM, unknown |\n|---|---|---|---|")?;
-    let styles =
-        [("tough", 0.0, DriverModel::Tough), ("normal", 8.0, DriverModel::Normal), ("nice", 50.0, DriverModel::Nice)];
-    for family in ["lane keeping", "intersection", "lane change"] {
-        for (name, weight, model) in styles {
+    for family in FAMILIES {
+        for (name, weight, model) in STYLES {
             let of: Vec<&&Belief> =
                 told.iter().filter(|belief| belief.family == family && belief.safety_weight == weight).collect();
             let count = |model| of.iter().filter(|belief| belief.estimate.model == model).count();
@@ -183,16 +190,35 @@ fn named_styles(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::Re
         }
     }
     let right = |belief: &&&Belief| {
-        styles.iter().any(|(_, weight, model)| belief.safety_weight == *weight && belief.estimate.model == *model)
+        STYLES.iter().any(|(_, weight, model)| belief.safety_weight == *weight && belief.estimate.model == *model)
     };
     writeln!(out, "| all | | {} | |\n", share(told.iter().filter(right).count(), told.len()))
+}
+
+/// For each family, how often the style is among the kinds that are credible, and how often these are how many.
+fn credible_names(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::Result<()> {
+    writeln!(out, "| family | style is among the credible names | of 1, 2, 3, 4, 5 names |\n|---|---|---|")?;
+    for family in FAMILIES.into_iter().chain([""]) {
+        let of: Vec<&Belief> = beliefs.iter().flatten().filter(|belief| belief.family.starts_with(family)).collect();
+        let (mut held, mut sizes) = (0, [0; DriverModel::ALL.len()]);
+        for belief in &of {
+            let names = belief.estimate.credible_models();
+            sizes[names.len() - 1] += 1;
+            let is =
+                |(_, weight, model): &&(_, f64, DriverModel)| belief.safety_weight == *weight && names.contains(model);
+            held += usize::from(STYLES.iter().any(|style| is(&style)));
+        }
+        let (family, sizes) = (if family.is_empty() { "all" } else { family }, sizes.map(|count| count.to_string()));
+        writeln!(out, "| {family} | {} | {} |", share(held, of.len()), sizes.join(", "))?;
+    }
+    writeln!(out)
 }
 
 /// For each family, how often the interval holds the weight, and how often it says something.
 fn held_weights(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::Result<()> {
     let told: Vec<&Belief> = beliefs.iter().flatten().collect();
     writeln!(out, "| family | interval holds the weight | not all weights |\n|---|---|---|")?;
-    for family in ["lane keeping", "intersection", "lane change", ""] {
+    for family in FAMILIES.into_iter().chain([""]) {
         let of: Vec<&&Belief> = told.iter().filter(|belief| belief.family.starts_with(family)).collect();
         let interval = |belief: &Belief| belief.estimate.safety_weight_interval;
         let holds = |belief: &&&&Belief| {

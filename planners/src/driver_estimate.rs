@@ -54,8 +54,8 @@ impl DriverModel {
     }
 }
 
-/// The probability that the interval of the safety weight contains, at least.
-const INTERVAL_PROBABILITY: f64 = 0.9;
+/// The probability that the interval of the safety weight contains, and the names that are credible, at least.
+const CREDIBLE_PROBABILITY: f64 = 0.9;
 
 /// What is believed of one observed driver.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,18 +97,32 @@ impl DriverEstimate {
         DriverModel::ALL.into_iter().map(|model| self.probability(model) * of(model)).sum()
     }
 
+    /// The fewest kinds of driver that contain this one with a probability of at least 0.9, the likeliest first: a highest posterior
+    /// density set. A driver who cannot be told from another kind is named by both.
+    pub fn credible_models(&self) -> Vec<DriverModel> {
+        let mut models = DriverModel::ALL;
+        models.sort_by(|a, b| self.probability(*b).total_cmp(&self.probability(*a)));
+        let mut mass = 0.0;
+        let needed = models.iter().take_while(|model| {
+            let is_needed = mass < CREDIBLE_PROBABILITY;
+            mass += self.probability(**model);
+            is_needed
+        });
+        needed.copied().collect()
+    }
+
     /// The probability of a kind of driver.
     pub fn probability(&self, model: DriverModel) -> f64 {
         self.probabilities[model.index()]
     }
 }
 
-/// The shortest run of weights whose probabilities sum to [`INTERVAL_PROBABILITY`]; of equally many the likeliest.
+/// The shortest run of weights whose probabilities sum to [`CREDIBLE_PROBABILITY`]; of equally many the likeliest.
 fn interval(styles: [f64; 3]) -> [f64; 2] {
     for count in 1..=styles.len() {
         let runs = (0..=styles.len() - count).map(|first| (first, styles[first..first + count].iter().sum::<f64>()));
         let best = runs.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        if let Some((first, _)) = best.filter(|(_, mass)| *mass >= INTERVAL_PROBABILITY) {
+        if let Some((first, _)) = best.filter(|(_, mass)| *mass >= CREDIBLE_PROBABILITY) {
             return [SAFETY_WEIGHT_EDGES[first], SAFETY_WEIGHT_EDGES[first + count]];
         }
     }
@@ -129,6 +143,14 @@ mod tests {
         assert_eq!(interval_of([0.02, 0.3, 0.6, 0.0, 0.08]), [0.2, 100.0]);
         assert_eq!(interval_of([0.3, 0.3, 0.3, 0.05, 0.05]), [0.0, 100.0]);
         assert_eq!(interval_of([0.5, 0.02, 0.0, 0.4, 0.08]), [0.0, 0.2]);
+    }
+
+    #[test]
+    fn a_driver_is_named_by_all_kinds_that_it_may_well_be() {
+        let credible = |p| DriverEstimate::new("a", DriverModel::Nice, p).credible_models();
+        assert_eq!(credible([0.02, 0.37, 0.55, 0.03, 0.03]), [DriverModel::Nice, DriverModel::Normal]);
+        assert_eq!(credible([0.95, 0.05, 0.0, 0.0, 0.0]), [DriverModel::Tough]);
+        assert_eq!(credible([0.2; 5]).len(), 5);
     }
 
     #[test]

@@ -7,6 +7,7 @@
 use super::wishes::Wish;
 use crate::driver_estimate::SAFETY_WEIGHTS;
 use crate::human::{self, Human};
+use crate::trajectory::Tolerances;
 use crate::{Goal, PlanError, Scene, Trajectory};
 
 /// Ellipses count as free below this difference of the costs, relative to `1 + cost`.
@@ -15,9 +16,29 @@ const FREE_COST_RATIO: f64 = 1e-9;
 /// Root mean square distance below which two plans of 1/10 scale cars nearly coincide \[m\].
 const COINCIDENCE_M: f64 = 0.02;
 
+/// Largest KKT residual of a supposed plan. What a plan is compared with is known far less exactly.
+const PLAN_RESIDUAL: f64 = 1e-4;
+/// Smallest decrease that is worth a further step to a supposed plan, as a share of `1 + cost`.
+const PLAN_DECREASE: f64 = 1e-5;
+/// Most work of one descent to a supposed plan: a longer one goes to and fro, and what it has come to is a plan.
+const PLAN_WORK: usize = 100;
+/// Most work of comparing passing orders for one supposed plan; the comparison goes on with the next one.
+const COMPARISON_WORK: usize = 50;
+
 /// Places of styles in the list of weights.
 const NORMAL: usize = 1;
 const NICE: usize = 2;
+
+/// How exactly, and with how much work, a supposed driver plans.
+fn supposed(usual: Tolerances) -> Tolerances {
+    Tolerances {
+        residual: PLAN_RESIDUAL,
+        decrease: PLAN_DECREASE,
+        work_limit: PLAN_WORK,
+        comparison_work_limit: COMPARISON_WORK,
+        ..usual
+    }
+}
 
 /// The humans with one wish.
 #[derive(Clone, Debug)]
@@ -33,7 +54,8 @@ pub(super) struct WishfulHumans {
 impl WishfulHumans {
     pub(super) fn new(wish: Wish) -> WishfulHumans {
         let settings = human::Settings { safety_weight: Some(SAFETY_WEIGHTS[0]), ..human::Settings::default() };
-        WishfulHumans { wish, tough: Human::new(settings), split: [None, None], plans: [None, None, None] }
+        let tough = Human::new(settings).with_tolerances(supposed);
+        WishfulHumans { wish, tough, split: [None, None], plans: [None, None, None] }
     }
 
     /// Forgets all plans of the last sighting.

@@ -58,7 +58,7 @@ use crate::predict::steady_inputs;
 use crate::right_of_way::ArrivalMemory;
 use crate::scene::ellipses;
 use crate::trajectory::terms::KeepOut;
-use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
+use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term, Tolerances};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 use sighting::{Decision, Perception};
 
@@ -96,6 +96,12 @@ impl Human {
             optimiser,
             last: None,
         }
+    }
+
+    /// This driver with other tolerances, given its own ones.
+    pub(crate) fn with_tolerances(mut self, other: impl FnOnce(Tolerances) -> Tolerances) -> Human {
+        self.optimiser.tolerances = other(self.optimiser.tolerances);
+        self
     }
 
     /// A driver of another safety weight who remembers the same.

@@ -51,9 +51,7 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     }
     for vehicle in &report.vehicles {
         for belief in &vehicle.beliefs {
-            let (percent, since_s) = (100.0 * belief.probability, to_milliseconds(belief.since_s));
-            let BeliefReport { about, taken_for, .. } = belief;
-            writeln!(text, "  {} takes {about} for {taken_for} since {since_s:?} s ({percent:.0} %)", vehicle.name)?;
+            writeln!(text, "  {} takes {}", vehicle.name, belief_in_words(belief))?;
         }
     }
     for collision in &report.collisions {
@@ -61,6 +59,19 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
         writeln!(text, "  COLLISION of {a} and {b} at {:.2} s ({:.2} Ns)", collision.time_s, collision.impulse_ns)?;
     }
     write_vehicles(text, &report.vehicles)
+}
+
+/// For whom a driver takes another one: all kinds of driver that it may well be, and of which of them its prediction is.
+fn belief_in_words(belief: &BeliefReport) -> String {
+    let BeliefReport { about, taken_for, may_be, .. } = belief;
+    let (percent, since_s) = (100.0 * belief.may_be_probability, to_milliseconds(belief.since_s));
+    match may_be.as_slice() {
+        [only] if only == taken_for => format!("{about} for {only} since {since_s:?} s ({percent:.0} %)"),
+        several => {
+            let names = several.join(" or ");
+            format!("{about} for {names} ({percent:.0} %), and plans for {taken_for} since {since_s:?} s")
+        }
+    }
 }
 
 fn write_expectations(text: &mut String, report: &Report) -> std::fmt::Result {
