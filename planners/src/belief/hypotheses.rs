@@ -16,28 +16,16 @@ const FREE_COST_RATIO: f64 = 1e-9;
 /// Root mean square distance below which two plans of 1/10 scale cars nearly coincide \[m\].
 const COINCIDENCE_M: f64 = 0.02;
 
-/// Largest KKT residual of a supposed plan. What a plan is compared with is known far less exactly.
-const PLAN_RESIDUAL: f64 = 1e-4;
-/// Smallest decrease that is worth a further step to a supposed plan, as a share of `1 + cost`.
-const PLAN_DECREASE: f64 = 1e-5;
-/// Most work of one descent to a supposed plan: a longer one goes to and fro, and what it has come to is a plan.
-const PLAN_WORK: usize = 100;
-/// Most work of comparing passing orders for one supposed plan; the comparison goes on with the next one.
-const COMPARISON_WORK: usize = 50;
+/// Most work of one descent to a supposed plan: a longer one goes to and fro, and what it has come to is a plan. (With 200, twins of another size drift apart: what is left undone depends on rounding.)
+const PLAN_WORK: usize = 500;
 
 /// Places of styles in the list of weights.
 const NORMAL: usize = 1;
 const NICE: usize = 2;
 
-/// How exactly, and with how much work, a supposed driver plans.
+/// With how much work a supposed driver plans.
 fn supposed(usual: Tolerances) -> Tolerances {
-    Tolerances {
-        residual: PLAN_RESIDUAL,
-        decrease: PLAN_DECREASE,
-        work_limit: PLAN_WORK,
-        comparison_work_limit: COMPARISON_WORK,
-        ..usual
-    }
+    Tolerances { work_limit: PLAN_WORK, ..usual }
 }
 
 /// The humans with one wish.
