@@ -16,7 +16,8 @@ const FREE_COST_RATIO: f64 = 1e-9;
 /// Root mean square distance below which two plans of 1/10 scale cars nearly coincide \[m\].
 const COINCIDENCE_M: f64 = 0.02;
 
-/// Most work of one descent to a supposed plan: a longer one goes to and fro, and what it has come to is a plan. (With 200, twins of another size drift apart: what is left undone depends on rounding.)
+/// Most work of one descent to a supposed plan: a longer one goes to and fro, and what it has come to is a plan. With 200, twins of another
+/// size drift apart, since what is left undone depends on rounding.
 const PLAN_WORK: usize = 500;
 
 /// Places of styles in the list of weights.
