@@ -56,6 +56,8 @@ impl DriverModel {
 
 /// The probability that the interval of the safety weight contains, and the names that are credible, at least.
 const CREDIBLE_PROBABILITY: f64 = 0.9;
+/// Rounding of a sum of probabilities.
+const ROUNDING: f64 = 1e-12;
 
 /// What is believed of one observed driver.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,7 +106,7 @@ impl DriverEstimate {
         models.sort_by(|a, b| self.probability(*b).total_cmp(&self.probability(*a)));
         let mut mass = 0.0;
         let needed = models.iter().take_while(|model| {
-            let is_needed = mass < CREDIBLE_PROBABILITY;
+            let is_needed = mass < CREDIBLE_PROBABILITY - ROUNDING;
             mass += self.probability(**model);
             is_needed
         });
@@ -150,6 +152,11 @@ mod tests {
         let credible = |p| DriverEstimate::new("a", DriverModel::Nice, p).credible_models();
         assert_eq!(credible([0.02, 0.37, 0.55, 0.03, 0.03]), [DriverModel::Nice, DriverModel::Normal]);
         assert_eq!(credible([0.95, 0.05, 0.0, 0.0, 0.0]), [DriverModel::Tough]);
+        assert_eq!(
+            credible([0.1, 0.3, 0.6, 0.0, 0.0]),
+            [DriverModel::Nice, DriverModel::Normal],
+            "0.6 + 0.3 rounds below 0.9"
+        );
         assert_eq!(credible([0.2; 5]).len(), 5);
     }
 

@@ -148,3 +148,26 @@ fn write_vehicles(text: &mut String, vehicles: &[VehicleReport]) -> std::fmt::Re
     };
     lines(&header, vehicles.iter().map(row)).iter().try_for_each(|line| writeln!(text, "  {line}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_belief_names_all_kinds_and_the_one_that_is_planned_for() {
+        let mut belief = BeliefReport {
+            about: "merger".to_owned(),
+            taken_for: "nice".to_owned(),
+            probability: 0.6,
+            may_be: vec!["nice", "normal"],
+            may_be_probability: 0.95,
+            since_s: 1.2,
+            safety_weight: 33.2,
+            safety_weight_interval: [0.2, 100.0],
+            entropy: 0.8,
+        };
+        assert_eq!(belief_in_words(&belief), "merger for nice or normal (95 %), and plans for nice since 1.2 s");
+        (belief.may_be, belief.may_be_probability) = (vec!["nice"], 0.91);
+        assert_eq!(belief_in_words(&belief), "merger for nice since 1.2 s (91 %)");
+    }
+}
