@@ -64,6 +64,13 @@ struct Belief {
     edges: [Option<f64>; 2],
 }
 
+impl Belief {
+    /// The style of the human, if its weight is that of a named one.
+    fn style(&self) -> Option<DriverModel> {
+        STYLES.iter().find(|(_, weight, _)| *weight == self.safety_weight).map(|(.., model)| *model)
+    }
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
     let runs: usize = words.next().map_or(Ok(300), |word| word.parse())?;
@@ -189,9 +196,7 @@ fn named_styles(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::Re
             writeln!(out, "| {family} | {name} | {} | {counts} |", share(count(model), of.len()))?;
         }
     }
-    let right = |belief: &&&Belief| {
-        STYLES.iter().any(|(_, weight, model)| belief.safety_weight == *weight && belief.estimate.model == *model)
-    };
+    let right = |belief: &&&Belief| belief.style() == Some(belief.estimate.model);
     writeln!(out, "| all | | {} | |\n", share(told.iter().filter(right).count(), told.len()))
 }
 
@@ -204,9 +209,7 @@ fn credible_names(out: &mut impl Write, beliefs: &[Option<Belief>]) -> std::io::
         for belief in &of {
             let names = belief.estimate.credible_models();
             sizes[names.len() - 1] += 1;
-            let is =
-                |(_, weight, model): &&(_, f64, DriverModel)| belief.safety_weight == *weight && names.contains(model);
-            held += usize::from(STYLES.iter().any(|style| is(&style)));
+            held += usize::from(belief.style().is_some_and(|style| names.contains(&style)));
         }
         let (family, sizes) = (if family.is_empty() { "all" } else { family }, sizes.map(|count| count.to_string()));
         writeln!(out, "| {family} | {} | {} |", share(held, of.len()), sizes.join(", "))?;

@@ -20,7 +20,7 @@ use common::world::{Vehicle, begin, families};
 use interplay_planners::belief::{DriverBeliefs, Settings};
 use interplay_planners::predict::Prediction;
 use interplay_planners::sensing::SensedScene;
-use interplay_planners::{Driver, Planner, negotiation};
+use interplay_planners::{Driver, negotiation};
 
 /// Ticks of a run.
 const TICKS: usize = 80;
@@ -57,8 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The time of each tick, per observed vehicle \[ms\].
 fn infer(vehicles: &[Vehicle]) -> Vec<f64> {
-    let (mut traffic, _) = begin(vehicles);
-    let mut planners: Vec<Planner> = vehicles.iter().map(|vehicle| vehicle.driver.planner()).collect();
+    let (mut traffic, mut planners) = begin(vehicles);
     let mut timed = DriverBeliefs::new(Settings::default());
     let mut times_ms = Vec::new();
     for _ in 0..TICKS {

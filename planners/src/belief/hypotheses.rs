@@ -7,7 +7,6 @@
 use super::wishes::Wish;
 use crate::driver_estimate::SAFETY_WEIGHTS;
 use crate::human::{self, Human};
-use crate::trajectory::Tolerances;
 use crate::{Goal, PlanError, Scene, Trajectory};
 
 /// Ellipses count as free below this difference of the costs, relative to `1 + cost`.
@@ -24,11 +23,6 @@ const PLAN_WORK: usize = 500;
 const NORMAL: usize = 1;
 const NICE: usize = 2;
 
-/// With how much work a supposed driver plans.
-fn supposed(usual: Tolerances) -> Tolerances {
-    Tolerances { work_limit: PLAN_WORK, ..usual }
-}
-
 /// The humans with one wish.
 #[derive(Clone, Debug)]
 pub(super) struct WishfulHumans {
@@ -43,7 +37,7 @@ pub(super) struct WishfulHumans {
 impl WishfulHumans {
     pub(super) fn new(wish: Wish) -> WishfulHumans {
         let settings = human::Settings { safety_weight: Some(SAFETY_WEIGHTS[0]), ..human::Settings::default() };
-        let tough = Human::new(settings).with_tolerances(supposed);
+        let tough = Human::new(settings).limited_to(PLAN_WORK);
         WishfulHumans { wish, tough, split: [None, None], plans: [None, None, None] }
     }
 

@@ -58,7 +58,7 @@ use crate::predict::steady_inputs;
 use crate::right_of_way::ArrivalMemory;
 use crate::scene::ellipses;
 use crate::trajectory::terms::KeepOut;
-use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term, Tolerances};
+use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};
 use sighting::{Decision, Perception};
 
@@ -98,9 +98,9 @@ impl Human {
         }
     }
 
-    /// This driver with other tolerances, given its own ones.
-    pub(crate) fn with_tolerances(mut self, other: impl FnOnce(Tolerances) -> Tolerances) -> Human {
-        self.optimiser.tolerances = other(self.optimiser.tolerances);
+    /// The same with a limit of the work of a descent, beyond which it hands out what it has come to.
+    pub(crate) fn limited_to(mut self, work_limit: usize) -> Self {
+        self.optimiser.tolerances.work_limit = work_limit;
         self
     }
 

@@ -61,7 +61,7 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     write_vehicles(text, &report.vehicles)
 }
 
-/// For whom a driver takes another one: all kinds of driver that it may well be, and of which of them its prediction is.
+/// For whom a driver takes another one: all kinds of driver that it may well be, and the one for which it plans.
 fn belief_in_words(belief: &BeliefReport) -> String {
     let BeliefReport { about, taken_for, may_be, .. } = belief;
     let (percent, since_s) = (100.0 * belief.may_be_probability, to_milliseconds(belief.since_s));
