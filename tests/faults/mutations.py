@@ -2,9 +2,10 @@
 """Input with random mistakes in it: a command answers each, and what it accepts is run with recording and report.
 
 No command may panic, abort, hang, or refuse what was accepted, and no recording may be twice as large as `check` states.
-A refusal names a file with its line, or a flag. Inputs that led to a message not seen before are kept in tests/faults/corpus/TARGET
-while these are small; they come first in the next call, and further mistakes are made in them. Prints counts as Markdown; exits
-with 1 if anything did not hold, and keeps that input as small as it could be made. The same seed and corpus make the same inputs.
+A refusal names a file with its line, or a flag. Inputs that led to a message not seen before are kept in
+tests/faults/corpus/TARGET.json while these are small; they come first in the next call, and further mistakes are made in
+them. Prints counts as Markdown; exits with 1 if anything did not hold, and keeps that input as small as it could be made.
+The same seed and corpus make the same inputs.
 
     tests/faults/mutations.py [TARGET ...] [--count 1000 | --minutes 5] [--seed 1] [--binary target/release/interplay]
 """
@@ -130,9 +131,9 @@ class Session:
 
     def __init__(self, binary: str, name: str, target: targets.Target) -> None:
         self.binary, self.name, self.target = binary, name, target
-        self.folder = CORPUS / name
-        self.kept = sorted(self.folder.glob(f"*.{target.suffix}")) if self.folder.exists() else []
-        self.corpus = [file.read_bytes().decode("utf-8", "surrogateescape") for file in self.kept]
+        self.archive = CORPUS / f"{name}.json"
+        self.kept: dict[str, str] = json.loads(self.archive.read_text("utf-8")) if self.archive.exists() else {}
+        self.corpus = [self.kept[key] for key in sorted(self.kept)]
         self.seen: dict[str, int] = collections.Counter()
         self.unplaced: dict[str, str] = {}
         self.checks, self.runs = collections.Counter(), collections.Counter()
@@ -176,13 +177,11 @@ class Session:
     def keep(self, prefix: str, text: str) -> None:
         """Puts an input into the corpus, if there is room."""
         content = text.encode("utf-8", "surrogateescape")
-        used = sum(file.stat().st_size for file in self.kept)
+        used = sum(len(kept.encode("utf-8", "surrogateescape")) for kept in self.kept.values())
         if len(content) <= MOST_INPUT_BYTES and used + len(content) <= MOST_CORPUS_BYTES:
-            self.folder.mkdir(parents=True, exist_ok=True)
-            file = self.folder / f"{prefix}{zlib.crc32(content):08x}.{self.target.suffix}"
-            if not file.exists():
-                file.write_bytes(content)
-                self.kept.append(file)
+            self.kept.setdefault(f"{prefix}{zlib.crc32(content):08x}", text)
+            # Sorted and in ASCII, an input a line: equal inputs give equal bytes, and a difference can be read.
+            self.archive.write_text(json.dumps(self.kept, indent=0, sort_keys=True) + "\n", "utf-8")
 
     def row(self) -> str:
         """Counts as a row of a table."""
