@@ -12,9 +12,9 @@ use interplay_building::identify::{
     Confidence, Estimator, Gaps, IdentificationReport, Mapping, Quantity, ResidualForecast, Telemetry, identify,
 };
 
-const DUTCH: &str = include_str!("../examples/dutch3.toml");
-const FLEXHOUSE: &str = include_str!("../examples/flexhouse.toml");
-const RISKBR: &str = include_str!("../examples/riskbr.toml");
+const DUTCH: &str = include_str!("../experiments/dutch3.toml");
+const FLEXHOUSE: &str = include_str!("../experiments/flexhouse.toml");
+const RISKBR: &str = include_str!("../experiments/riskbr.toml");
 
 /// Reads a file of the data.
 fn table(path: &str) -> String {

@@ -364,8 +364,8 @@ fn what_the_check_lets_pass_can_be_read() {
 #[test]
 fn the_example_mappings_are_sound() {
     for (file, text) in [
-        ("dutch3.toml", include_str!("../examples/dutch3.toml")),
-        ("riskbr.toml", include_str!("../examples/riskbr.toml")),
+        ("dutch3.toml", include_str!("../experiments/dutch3.toml")),
+        ("riskbr.toml", include_str!("../experiments/riskbr.toml")),
     ] {
         Mapping::parse(file, text).expect("an example is sound");
     }

@@ -20,6 +20,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("app/sweep", &["building", "scenarios", "app/files", "app/simulation"]),
     ("app/presentation", &["planners", "building", "scenarios", "app/files", "app/simulation", "app/sweep"]),
     ("app/cli", &["building", "scenarios", "app/files", "app/simulation", "app/fmu", "app/sweep", "app/presentation"]),
+    ("examples", &["planners", "scenarios", "app/simulation", "app/sweep"]),
     ("tests", &["planners", "building", "scenarios", "app/simulation", "app/cli"]),
 ];
 

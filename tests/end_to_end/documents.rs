@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use interplay_scenarios::{embedded, from_text};
+use saphyr_parser::Parser;
 
 use crate::command::{interplay, scratch};
 
@@ -106,7 +107,8 @@ fn the_readme_names_scenarios_that_exist() {
 #[test]
 fn the_documents_speak_of_files_that_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut names = vec!["README.md".to_owned(), "ARCHITECTURE.md".to_owned()];
+    let mut names =
+        ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "examples/README.md"].map(str::to_owned).to_vec();
     let pages = fs::read_dir(root.join("docs")).expect("the book");
     let pages = pages.map(|entry| format!("docs/{}", entry.expect("readable").file_name().to_string_lossy()));
     names.extend(pages.filter(|name| name.ends_with(".md")));
@@ -119,6 +121,42 @@ fn the_documents_speak_of_files_that_exist() {
 
 /// Whether a quoted word is a path of this repository, from its root.
 fn is_path(word: &str) -> bool {
-    let folders = ["convex/", "planners/", "scenarios/", "app/", "tests/", "docs/", ".ci/", "assets/"];
+    let folders = [
+        ".ci/",
+        ".github/",
+        "app/",
+        "assets/",
+        "building/",
+        "convex/",
+        "docs/",
+        "examples/",
+        "packaging/",
+        "planners/",
+        "scenarios/",
+        "tests/",
+    ];
     folders.iter().any(|folder| word.starts_with(folder)) && !word.contains(char::is_whitespace)
+}
+
+/// Workflows and issue forms are YAML, and the programs of this repository that workflows and the `justfile` start are there.
+#[test]
+fn workflows_are_yaml_and_start_what_exists() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut started = document("justfile");
+    let mut count = 0;
+    for folder in [".github/workflows", ".github/ISSUE_TEMPLATE"] {
+        for entry in fs::read_dir(root.join(folder)).expect("a folder") {
+            let path = entry.expect("readable").path();
+            let text = fs::read_to_string(&path).expect("a text");
+            for event in Parser::new_from_str(&text) {
+                assert!(event.is_ok(), "{}: {event:?}", path.display());
+            }
+            started += &text;
+            count += 1;
+        }
+    }
+    assert!(count >= 6 && started.contains("\n      - run: .ci/run\n"), "{count} files");
+    for word in started.split_whitespace().filter(|word| is_path(word)) {
+        assert!(root.join(word).exists(), "a workflow or the justfile starts `{word}`");
+    }
 }

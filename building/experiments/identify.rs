@@ -1,7 +1,7 @@
 //! Identifies thermal parameters from a CSV and its mapping, and prints what was found.
 //!
 //! ```sh
-//! cargo run --release -p interplay-building --example identify -- examples/dutch3.toml blg_1.csv [--json]
+//! cargo run --release -p interplay-building --example identify -- experiments/dutch3.toml blg_1.csv [--json]
 //! ```
 
 #![allow(clippy::print_stdout, reason = "this is a program: its results go to standard output")]
