@@ -1,4 +1,6 @@
-//! The shapes that vehicles have from above: the same car in animations and in figures.
+//! The shapes that vehicles have from above: the same car in animations and figures, on the same wheels in recordings.
+
+use interplay_planners::Body;
 
 use crate::body_style::BodyStyle;
 use crate::palette::{Colour, GLASS, TYRE};
@@ -36,9 +38,56 @@ pub struct BodyPart {
     pub paint: BodyPaint,
 }
 
-/// A rectangle along and across a body: rear, front, right, left.
-pub fn rectangle([rear, front, right, left]: [f64; 4]) -> [[f64; 2]; 4] {
+/// A rectangle along and across a body: rear, front, right, left, from −1 at the rear and right to 1 at the front and left.
+pub type Share = [f64; 4];
+
+/// The rider of a bicycle.
+pub const RIDER: Share = [-0.28, 0.12, -0.8, 0.8];
+
+/// The corners of a rectangle along and across a body.
+pub fn rectangle([rear, front, right, left]: Share) -> [[f64; 2]; 4] {
     [[rear, right], [front, right], [front, left], [rear, left]]
+}
+
+/// The point ahead and to the left of the mass centre \[m\] that lies at shares of a body.
+pub fn place_on(body: &Body, [along, across]: [f64; 2]) -> [f64; 2] {
+    let Body { front_m, rear_m, width_m, .. } = *body;
+    [0.5 * (front_m - rear_m) + 0.5 * along * (front_m + rear_m), 0.5 * across * width_m]
+}
+
+/// How deep the lights are, as a share of the body: as deep as those of a car, however long the vehicle is.
+pub fn light_depth(body: &Body) -> f64 {
+    0.24 * body.width_m / (body.front_m + body.rear_m)
+}
+
+/// The wheels of a vehicle, which the body does not cover quite.
+pub struct Wheels {
+    /// Length and thickness of each \[m\].
+    pub size_m: [f64; 2],
+    /// The corners of each, ahead and to the left of the mass centre \[m\].
+    pub rings_m: [[[f64; 2]; 4]; 4],
+}
+
+impl Wheels {
+    /// The wheels of a body; the front ones are turned.
+    pub fn of(body: &Body, style: BodyStyle, steering_rad: f64) -> Wheels {
+        let Body { width_m, front_m, rear_m, front_axle_m, rear_axle_m, .. } = *body;
+        let length_m = if style == BodyStyle::Lorry { 0.42 } else { 0.38 } * width_m;
+        let thick_m = 0.15 * width_m;
+        // The axles of scale cars are at their bumpers: the wheels are drawn where cars have them.
+        let front = front_axle_m.min(front_m - 0.85 * length_m);
+        let rear = -rear_axle_m.min(rear_m - 0.75 * length_m);
+        let wheel = |(ahead, angle_rad, side): (f64, f64, f64)| {
+            let middle = side * (0.5 * width_m - 0.25 * thick_m);
+            let (sin, cos) = libm::sincos(angle_rad);
+            rectangle([-1.0, 1.0, -1.0, 1.0]).map(|[along, across]| {
+                let (along, across) = (0.5 * along * length_m, 0.5 * across * thick_m);
+                [ahead + cos * along - sin * across, middle + sin * along + cos * across]
+            })
+        };
+        let places = [(front, steering_rad, -1.0), (front, steering_rad, 1.0), (rear, 0.0, -1.0), (rear, 0.0, 1.0)];
+        Wheels { size_m: [length_m, thick_m], rings_m: places.map(wheel) }
+    }
 }
 
 /// The body of a vehicle, and what lies on it, from below to above.
@@ -62,7 +111,7 @@ pub fn body_parts(style: BodyStyle) -> Vec<BodyPart> {
         ],
         BodyStyle::Bicycle => vec![
             part(&rectangle([-1.0, 1.0, -0.12, 0.12]), 0.06, BodyPaint::Tyre),
-            part(&rectangle([-0.28, 0.12, -0.8, 0.8]), 0.25, BodyPaint::Own),
+            part(&rectangle(RIDER), 0.25, BodyPaint::Own),
         ],
     }
 }

@@ -32,13 +32,7 @@ impl<'a> CurvedRoad<'a> {
         [&self.route.right, &self.route.left].map(|edge| self.line(edge, range_m))
     }
 
-    /// The lines between lanes \[m\]. Where lane 0 ends, the line to its left ends as well.
-    pub fn dividers(&self, range_m: [f64; 2]) -> Vec<WorldLine> {
-        let stretches = (1..self.lane_count()).map(|between| (between, self.divided(between, range_m)));
-        stretches.map(|(between, range_m)| self.line(&self.divider(between), range_m)).collect()
-    }
-
-    /// The lines between lanes as dashes, with spaces as long as they are \[m\].
+    /// The lines between lanes as dashes, with spaces as long as they are \[m\]. Where lane 0 ends, the line to its left ends as well.
     pub fn dashes(&self, dash_m: f64, range_m: [f64; 2]) -> Vec<WorldLine> {
         let of_divider = |between: usize| {
             let ([from_m, to_m], divider) = (self.divided(between, range_m), self.divider(between));
@@ -115,7 +109,7 @@ mod tests {
         let route = road.route(Branch::Main).expect("it is no network");
         let dashes = curved.dashes(3.0, [0.0, 125.0]);
         assert!(dashes.len() > 10);
-        for point in dashes.iter().chain(&curved.dividers([0.0, 125.0])).flatten() {
+        for point in dashes.iter().flatten() {
             let place = route.locate(*point, None);
             assert!(place.across_m.abs() < 1e-6 && place.along_m < 110.0 - 17.9, "{place:?}");
         }

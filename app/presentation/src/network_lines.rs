@@ -83,13 +83,7 @@ impl<'a> NetworkLines<'a> {
         solid.map(|part| line(&self.lanes[part.lane], part.side, part.range_m)).collect()
     }
 
-    /// The lines between lanes into which vehicles may change \[m\].
-    pub fn dividers(&self) -> Vec<WorldLine> {
-        let dashed = self.parts().into_iter().filter(|part| part.style == EdgeStyle::Dashed);
-        dashed.map(|part| line(&self.lanes[part.lane], part.side, part.range_m)).collect()
-    }
-
-    /// The same lines as dashes, with spaces as long as they are \[m\].
+    /// The lines between lanes into which vehicles may change, as dashes with spaces as long as they are \[m\].
     pub fn dashes(&self, dash_m: f64) -> Vec<WorldLine> {
         let of_part = |part: EdgePart| {
             let [from_m, to_m] = part.range_m;
@@ -271,7 +265,6 @@ mod tests {
             let scenario = scenario(&format!("kind = 'two-way'\novertaking = {overtaking}"), "east");
             let lines = NetworkLines::new(scenario.network.as_ref().expect("a network"));
             assert!((length_m(&lines.edges()) - solid_m).abs() < 1e-6, "{}", length_m(&lines.edges()));
-            assert!((length_m(&lines.dividers()) - dashed_m).abs() < 1e-6, "{}", length_m(&lines.dividers()));
             assert!((length_m(&lines.dashes(3.0)) - 0.5 * dashed_m).abs() < 3.0);
         }
     }
@@ -281,7 +274,8 @@ mod tests {
     fn a_lane_that_begins_and_ends_beside_another_divides_it_there() {
         let scenario = scenario("kind = 'on-ramp'\nlane_count = 1", "ramp");
         let lines = NetworkLines::new(scenario.network.as_ref().expect("a network"));
-        assert!((length_m(&lines.dividers()) - 180.0).abs() < 2.0, "{}", length_m(&lines.dividers()));
+        let dashes_m = length_m(&lines.dashes(0.5));
+        assert!((dashes_m - 90.0).abs() < 1.0, "{dashes_m}");
         let edges = lines.edges();
         let on_right = |from_m: f64, to_m: f64| {
             let is_there = |[x, y]: &[f64; 2]| y.abs() < 1e-6 && (from_m..to_m).contains(x);
@@ -302,7 +296,7 @@ mod tests {
         let yields = self::scenario("kind = 'roundabout'", "west-in");
         let lines = NetworkLines::new(yields.network.as_ref().expect("a network"));
         assert_eq!(lines.stop_lines().len(), 16, "four dashes for each arm");
-        assert_eq!(lines.dividers().len(), 0);
+        assert_eq!(lines.dashes(1.0).len(), 0);
         let [low, high] = expected_bounds_m(&yields);
         assert!((low[0] + 90.0).abs() < 1e-6 && (high[0] + 78.0).abs() < 1e-6, "{low:?} {high:?}");
     }

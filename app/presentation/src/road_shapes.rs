@@ -1,4 +1,4 @@
-//! The road as shapes in the world, whatever its form: asphalt, lines, arrows. Recordings and animations draw the same.
+//! The road as shapes in the world, whatever its form: asphalt, lines, arrows. Recordings, animations and figures draw the same.
 
 use interplay_planners::road::network::{Lane, RoadNetwork};
 use interplay_planners::{Axes, Corridor};
@@ -7,6 +7,8 @@ use interplay_scenarios::{Branch, Road, Scenario};
 use crate::curved_road::{CurvedRoad, WorldLine, taper_m};
 use crate::network_lines::NetworkLines;
 
+/// Width of the lines where vehicles stop or yield, in lane widths.
+pub const STOP_LINE_LANES: f64 = 0.11;
 /// Length of a dash and of the space behind it, in lane widths.
 const DASH_LANES: f64 = 0.8;
 /// Most dashes of one line: on a longer road they are farther apart.
@@ -27,7 +29,7 @@ const MIN_ARROW_LANE_LANES: f64 = 5.0;
 const TURN_RAD: f64 = 0.6;
 
 /// A road, all lengths in metres of the world.
-#[derive(Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RoadShapes {
     /// Width of a lane.
     pub lane_m: f64,

@@ -6,15 +6,13 @@ use interplay_scenarios::Vehicle;
 use super::camera::CameraView;
 use super::canvas::{Canvas, Ink, LineEnd};
 use super::scene::SeenVehicle;
-use crate::body_shape::{BodyPart, body_parts, rectangle};
+use crate::body_shape::{BodyPart, RIDER, Share, Wheels, body_parts, light_depth, place_on, rectangle};
 use crate::body_style::BodyStyle;
 use crate::palette::{BRAKE_LIGHT, Colour, HEADLIGHT, INDICATOR, TAIL_LIGHT, TYRE, darker};
 use crate::signals::Turn;
 
 const SHADOW: Colour = [0x1B, 0x1D, 0x20];
 const SKIN: Colour = [0xE8, 0xC3, 0xA0];
-/// Rectangles along and across a body: rear, front, right, left, from −1 at the rear and right to 1 at the front and left.
-type Share = [f64; 4];
 
 /// A vehicle on its way to the canvas: from its own frame to pixels.
 struct Placed<'a> {
@@ -31,9 +29,8 @@ impl Placed<'_> {
     }
 
     /// A place by shares of the body: −1 at the rear and right, 1 at the front and left.
-    fn shared(&self, [along, across]: [f64; 2]) -> [f64; 2] {
-        let (front, rear) = (self.body.front_m, self.body.rear_m);
-        self.place([0.5 * (front - rear) + 0.5 * along * (front + rear), 0.5 * across * self.body.width_m])
+    fn shared(&self, share: [f64; 2]) -> [f64; 2] {
+        self.place(place_on(self.body, share))
     }
 
     fn rectangle(&self, share: Share) -> [[f64; 2]; 4] {
@@ -62,7 +59,10 @@ pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &Se
         draw_bicycle(canvas, &placed, seen, colour);
         return;
     }
-    draw_wheels(canvas, &placed, style, seen.steering_rad);
+    let Wheels { size_m, rings_m } = Wheels::of(&vehicle.body, style, seen.steering_rad);
+    for ring in rings_m {
+        canvas.fill_rounded(&ring.map(|corner| placed.place(corner)), placed.px(0.3 * size_m[1]), TYRE);
+    }
     let width = placed.px(vehicle.body.width_m);
     let parts = body_parts(style);
     for BodyPart { ring, radius, paint } in &parts {
@@ -86,28 +86,6 @@ pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &Se
     draw_lights(canvas, &placed, seen);
 }
 
-/// Wheels below the body, which they leave a little; the front ones turn.
-fn draw_wheels(canvas: &mut Canvas, placed: &Placed, style: BodyStyle, steering_rad: f64) {
-    let Body { width_m, front_m, rear_m, front_axle_m, rear_axle_m, .. } = *placed.body;
-    let length_m = if style == BodyStyle::Lorry { 0.42 } else { 0.38 } * width_m;
-    let thick_m = 0.15 * width_m;
-    // The axles of scale cars are at their bumpers: the wheels are drawn where cars have them.
-    let front = front_axle_m.min(front_m - 0.85 * length_m);
-    let rear = -rear_axle_m.min(rear_m - 0.75 * length_m);
-    for (ahead, angle_rad) in [(front, steering_rad), (rear, 0.0)] {
-        for side in [-1.0, 1.0] {
-            let middle = [ahead, side * (0.5 * width_m - 0.25 * thick_m)];
-            let (sin, cos) = libm::sincos(angle_rad);
-            let corner = |[along, across]: [f64; 2]| {
-                let (along, across) = (0.5 * along * length_m, 0.5 * across * thick_m);
-                placed.place([middle[0] + cos * along - sin * across, middle[1] + sin * along + cos * across])
-            };
-            let ring = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner);
-            canvas.fill_rounded(&ring, placed.px(0.3 * thick_m), TYRE);
-        }
-    }
-}
-
 /// The pillars between the side windows of a car.
 fn draw_pillars(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
     const ALONG: f64 = -0.15;
@@ -118,9 +96,7 @@ fn draw_pillars(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
 }
 
 fn draw_lights(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle) {
-    let length_m = placed.body.front_m + placed.body.rear_m;
-    // Lights are as deep as those of a car, however long the vehicle is.
-    let deep = 0.24 * placed.body.width_m / length_m;
+    let deep = light_depth(placed.body);
     for side in [-1.0_f64, 1.0] {
         let across = [side * 0.88, side * 0.5];
         let [right, left] = [across[0].min(across[1]), across[0].max(across[1])];
@@ -157,7 +133,7 @@ fn draw_bicycle(canvas: &mut Canvas, placed: &Placed, seen: &SeenVehicle, colour
     canvas.line(&[placed.shared([-0.5, 0.0]), placed.shared([0.45, 0.0])], thick, LineEnd::Round, darker(colour));
     let bar = [placed.shared([0.38, -0.9]), placed.shared([0.45, 0.0]), placed.shared([0.38, 0.9])];
     canvas.line(&bar, thick, LineEnd::Round, TYRE);
-    let rider = placed.rectangle([-0.28, 0.12, -0.8, 0.8]);
+    let rider = placed.rectangle(RIDER);
     canvas.fill_rounded(&rider, 0.25 * width, colour);
     for side in [-1.0, 1.0] {
         canvas.line(

@@ -1,16 +1,14 @@
 //! Pictures of a run with vehicles.
 
 use interplay_planners::State;
-use interplay_scenarios::{Road, Scenario, Vehicle};
+use interplay_scenarios::{Branch, Scenario, Vehicle};
 use interplay_simulation::frame::Frame;
 
 use super::recorded_run::RecordedRun;
 use crate::body_style::BodyStyle;
-use crate::curved_road::CurvedRoad;
 use crate::extent::extent;
-use crate::network_lines::NetworkLines;
 use crate::plot::style::{self, BLACK, BLUE, Dash, GREY, LineStyle, ORANGE};
-use crate::plot::{Curve, CurvedStrip, FootprintPlot, FootprintSnapshot, FootprintVehicle, Panel, Panels, Strip};
+use crate::plot::{Curve, FootprintPlot, FootprintSnapshot, FootprintVehicle, Panel, Panels};
 use crate::road_shapes::RoadShapes;
 
 /// How many snapshots a picture of footprints has: in strips, and on one map.
@@ -21,8 +19,8 @@ const MIN_SNAPSHOTS: usize = 5;
 const FOOTPRINT_DISTANCE_LENGTHS: f64 = 1.5;
 /// How long a picture of footprints goes on after the last vehicle has reached its goal \[s\].
 const TIME_AFTER_GOALS_S: f64 = 1.5;
-/// How far a road that turns is drawn beyond the first and the last vehicle, in widths of the road.
-const ROAD_BEYOND_WIDTHS: f64 = 1.0;
+/// How far the road goes on beyond all vehicles, in lengths of the longest one: as far as any picture shows.
+const ROAD_BEYOND_LENGTHS: f64 = 40.0;
 
 /// The line style of every vehicle, in the scenario's order: the ego's is orange.
 pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {
@@ -37,10 +35,9 @@ pub fn line_styles(scenario: &Scenario) -> Vec<LineStyle> {
 /// Footprints at equal steps of time, until all have reached their goals who do; to the end if the ego does not.
 pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     let RecordedRun { scenario, frames, .. } = recorded;
-    let (roads, curves) = (roads(scenario), curves(recorded));
-    let parallel = curves.is_empty() && roads.iter().all(|road| road.heading_rad == roads[0].heading_rad);
+    let strip_m = strip_m(scenario);
     let end = end_tick(recorded);
-    let count = if parallel { SNAPSHOT_COUNTS[0] } else { count_in_one_plan(recorded, end) };
+    let count = if strip_m.is_some() { SNAPSHOT_COUNTS[0] } else { count_in_one_plan(recorded, end) };
     let ego = scenario.ego_index();
     let mut order: Vec<usize> = (0..scenario.vehicles.len()).collect();
     order.sort_by_key(|&index| index != ego);
@@ -56,10 +53,14 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     let vehicle =
         |vehicle: &Vehicle, colour| FootprintVehicle { label: who(vehicle), colour, style: BodyStyle::of(vehicle) };
     let last = ticks.last().copied().unwrap_or_default();
+    let driven_m = extent(frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| vehicle.state.position()));
+    let lengths_m = scenario.vehicles.iter().map(|vehicle| vehicle.body.front_m + vehicle.body.rear_m);
+    let beyond_m = ROAD_BEYOND_LENGTHS * lengths_m.fold(0.0, f64::max);
+    let [low_m, high_m] = driven_m;
     FootprintPlot {
         title: title.to_owned(),
-        roads,
-        curves,
+        road: RoadShapes::of(scenario, [low_m.map(|part| part - beyond_m), high_m.map(|part| part + beyond_m)]),
+        strip_m,
         vehicles: order.iter().map(|&index| vehicle(&scenario.vehicles[index], line_styles[index].colour)).collect(),
         snapshots: ticks.into_iter().map(snapshot).collect(),
         path: (0..=last.min(frames.len()))
@@ -109,63 +110,11 @@ fn who(vehicle: &Vehicle) -> String {
     format!("{}: {}", vehicle.name, vehicle.driver.description())
 }
 
-/// Every straight road that somebody drives on.
-fn roads(scenario: &Scenario) -> Vec<Strip> {
-    let mut roads: Vec<Strip> = Vec::new();
-    for vehicle in &scenario.vehicles {
-        if let Some(strip) = strip(&scenario.road, vehicle).filter(|strip| !roads.contains(strip)) {
-            roads.push(strip);
-        }
-    }
-    roads
-}
-
-fn strip(road: &Road, vehicle: &Vehicle) -> Option<Strip> {
-    let corridor = road.corridor(vehicle.road)?;
-    let divider = |lane: usize| corridor.right_m + lane as f64 * road.lane_width_m();
-    let tapered_edge_m = corridor.end.map(|end| {
-        let start = end.end_m - 8.0 * end.taper_m;
-        let samples = (0..=80).map(|i| start + f64::from(i) * 0.1 * end.taper_m);
-        let edge = samples.map(|along| [along, corridor.right_edge_m(along)]);
-        // From its end on, the edge is that of the next lane, exactly.
-        edge.chain([[end.end_m + 0.1 * end.taper_m, corridor.right_m + end.height_m]]).collect()
-    });
-    Some(Strip {
-        heading_rad: corridor.heading_rad,
-        edges_m: [corridor.right_m, corridor.left_m],
-        dividers_m: (1..road.parallel_lanes()?.count).map(divider).collect(),
-        tapered_edge_m: tapered_edge_m.unwrap_or_default(),
-    })
-}
-
-/// The road if it turns, as far as somebody drives on it, or the network.
-fn curves(recorded: &RecordedRun) -> Vec<CurvedStrip> {
-    let road = &recorded.scenario.road;
-    if let Some(network) = &recorded.scenario.network {
-        let states = recorded.frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| vehicle.state.position());
-        let shapes = RoadShapes::of(&recorded.scenario, extent(states));
-        let edges_m = [shapes.edges, shapes.stop_lines].concat();
-        let dividers_m = NetworkLines::new(network).dividers();
-        return vec![CurvedStrip { surfaces_m: shapes.surfaces, edges_m, dividers_m }];
-    }
-    let Some(curved) = CurvedRoad::new(road) else { return Vec::new() };
-    let route = recorded.scenario.main_route();
-    let states = recorded.frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| &vehicle.state);
-    let [from_m, to_m] = states.fold([f64::INFINITY, f64::NEG_INFINITY], |[from_m, to_m], state| {
-        let along_m = route.along(state.position());
-        [from_m.min(along_m), to_m.max(along_m)]
-    });
-    if from_m > to_m {
-        return Vec::new();
-    }
-    let beyond_m = ROAD_BEYOND_WIDTHS * road.width_m();
-    let range_m = [from_m - beyond_m, to_m + beyond_m];
-    let edges_m = curved.edges(range_m);
-    vec![CurvedStrip {
-        surfaces_m: vec![edges_m[0].iter().chain(edges_m[1].iter().rev()).copied().collect()],
-        edges_m: edges_m.to_vec(),
-        dividers_m: curved.dividers(range_m),
-    }]
+/// Lateral coordinates of the edges of the one straight road that all drive on; none if roads cross or turn.
+fn strip_m(scenario: &Scenario) -> Option<[f64; 2]> {
+    let has_one_road = scenario.vehicles.iter().all(|vehicle| vehicle.road == Branch::Main);
+    let corridor = scenario.road.corridor(Branch::Main).filter(|_| has_one_road)?;
+    Some([corridor.right_m, corridor.left_m])
 }
 
 /// Speeds over time, with uprights where somebody reaches its goal.

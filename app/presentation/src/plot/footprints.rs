@@ -9,15 +9,14 @@ mod data;
 mod plan;
 mod strips;
 
-pub use data::{CurvedStrip, FootprintPlot, FootprintSnapshot, FootprintVehicle, Strip};
+pub use data::{FootprintPlot, FootprintSnapshot, FootprintVehicle};
 
 use super::drawing::Drawing;
 
 impl FootprintPlot {
     /// The picture that suits the roads.
     pub fn drawing(&self) -> Drawing {
-        let parallel = self.roads.iter().all(|road| libm::cos(road.heading_rad) > 0.999);
-        if parallel && self.curves.is_empty() { self.strips() } else { self.plan() }
+        if self.strip_m.is_some() { self.strips() } else { self.plan() }
     }
 }
 
@@ -28,7 +27,8 @@ mod tests {
     use crate::extent::extent;
     use crate::palette::{ASPHALT, PAINT};
     use crate::plot::drawing::Mark;
-    use crate::plot::style::{BLUE, Colour, Dash, ORANGE};
+    use crate::plot::style::{BLUE, Colour, ORANGE};
+    use crate::road_shapes::RoadShapes;
 
     fn car(label: &str, colour: Colour) -> FootprintVehicle {
         FootprintVehicle { label: label.to_owned(), colour, style: BodyStyle::Car }
@@ -47,6 +47,16 @@ mod tests {
         drawing.marks.windows(2).filter_map(body).collect()
     }
 
+    /// A straight road with two lanes along x.
+    fn straight([from_m, to_m]: [f64; 2], [right_m, left_m]: [f64; 2]) -> RoadShapes {
+        let line = |lateral_m: f64| vec![[from_m, lateral_m], [to_m, lateral_m]];
+        let mut road = RoadShapes::default();
+        road.surfaces.push(vec![[from_m, right_m], [to_m, right_m], [to_m, left_m], [from_m, left_m]]);
+        road.edges.extend([line(right_m), line(left_m)]);
+        road.dashes.push(line(0.5 * (right_m + left_m)));
+        road
+    }
+
     /// Two cars of 4.5 m on a straight road, seen at equal steps while they go `length_m`.
     fn drive(length_m: f64) -> FootprintPlot {
         let body = |x: f64, y: f64| [[x + 2.3, y - 1.0], [x + 2.3, y + 1.0], [x - 2.2, y - 1.0], [x - 2.2, y + 1.0]];
@@ -57,8 +67,8 @@ mod tests {
         };
         FootprintPlot {
             title: "Drive".to_owned(),
-            roads: vec![Strip { edges_m: [0.0, 7.0], dividers_m: vec![3.5], ..Strip::default() }],
-            curves: Vec::new(),
+            road: straight([-10.0, length_m + 40.0], [0.0, 7.0]),
+            strip_m: Some([0.0, 7.0]),
             vehicles: vec![car("ego: human", ORANGE), car("front: human", BLUE)],
             snapshots: (0..8).map(snapshot).collect(),
             path: (0..8).map(|i| (f64::from(i), [place(i), 1.75])).collect(),
@@ -68,11 +78,7 @@ mod tests {
     /// The same where the second car drives on a road that crosses.
     fn crossing(length_m: f64) -> FootprintPlot {
         let mut footprints = drive(length_m);
-        footprints.roads.push(Strip {
-            heading_rad: std::f64::consts::FRAC_PI_2,
-            edges_m: [-3.5, 3.5],
-            ..Strip::default()
-        });
+        footprints.strip_m = None;
         footprints
             .snapshots
             .iter_mut()
@@ -117,18 +123,6 @@ mod tests {
         }
     }
 
-    /// Where straight roads cross there are no lines: the corners are on the edges of both.
-    #[test]
-    fn the_corners_of_a_crossing_are_on_the_edges_of_both_roads() {
-        let road = |heading_rad: f64, edges_m: [f64; 2]| Strip { heading_rad, edges_m, ..Strip::default() };
-        let (main, cross) = (road(0.0, [0.0, 7.0]), road(std::f64::consts::FRAC_PI_2, [-3.5, 3.5]));
-        let corners = cross.crossing(&main).expect("they cross");
-        for (corner, expected) in corners.iter().zip([[3.5, 0.0], [3.5, 7.0], [-3.5, 7.0], [-3.5, 0.0]]) {
-            assert!(corner.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{corners:?}");
-        }
-        assert_eq!(main.crossing(&road(0.0, [8.0, 9.0])), None);
-    }
-
     /// Numbers that would lie on others are left out, but not the first and the last.
     #[test]
     fn numbers_do_not_pile_up_where_many_vehicles_pass() {
@@ -141,7 +135,7 @@ mod tests {
                 snapshot.bodies.push(body);
             }
         }
-        footprints.roads.push(Strip { heading_rad: 1.0, ..Strip::default() });
+        footprints.strip_m = None;
         let drawing = footprints.drawing();
         assert_eq!(drawing.illegible(), Vec::<String>::new());
         let numbers = |number: &str| drawing.words().iter().filter(|words| **words == number).count();
@@ -153,18 +147,17 @@ mod tests {
     #[test]
     fn the_edge_line_follows_a_ramp_that_ends() {
         let mut footprints = drive(20.0);
-        footprints.roads[0].tapered_edge_m = vec![[8.0, 0.0], [12.0, 2.0], [16.0, 3.5]];
-        assert_eq!(footprints.roads[0].right_edge([0.0, 10.0]), [[0.0, 0.0], [8.0, 0.0], [10.0, 1.0]]);
-        assert_eq!(footprints.roads[0].right_edge([14.0, 30.0]), [[14.0, 2.75], [16.0, 3.5], [30.0, 3.5]]);
+        footprints.road.edges[0] = vec![[-10.0, 0.0], [8.0, 0.0], [12.0, 2.0], [16.0, 3.5], [60.0, 3.5]];
         let drawing = footprints.drawing();
         let lines = |points: usize| {
-            let is_edge = move |mark: &&Mark| matches!(mark, Mark::Line { points: line, style } if line.len() == points && style.dash == Dash::Solid && style.colour == PAINT);
+            let is_edge = move |mark: &&Mark| matches!(mark, Mark::Line { points: line, style } if line.len() == points && style.colour == PAINT);
             drawing.marks.iter().filter(is_edge).count()
         };
-        assert_eq!(lines(5), 8, "a tapered edge a strip");
-        // The ticks of the axis have two points, too.
-        let ticks = drawing.words().iter().filter(|words| words.parse::<f64>().is_ok()).count();
-        assert!(lines(2) >= 8 && lines(2) < 16 + ticks, "{} straight lines", lines(2));
+        assert_eq!(
+            (lines(5), lines(2)),
+            (8, 16),
+            "in each strip a tapered edge, a straight one, and the line between the lanes"
+        );
     }
 
     /// A road that turns is drawn around the vehicles, in one plan, and every word can be read.
@@ -174,12 +167,10 @@ mod tests {
             let at = move |i: u32| libm::sincos(0.05 * f64::from(i));
             (0..=30).map(move |i| [radius * at(i).0, 40.0 - radius * at(i).1]).collect::<Vec<_>>()
         };
-        let curve = CurvedStrip {
-            surfaces_m: vec![arc(38.0).into_iter().chain(arc(31.0).into_iter().rev()).collect()],
-            edges_m: vec![arc(38.0), arc(31.0)],
-            dividers_m: vec![arc(34.5)],
-        };
-        let footprints = FootprintPlot { roads: Vec::new(), curves: vec![curve], ..drive(10.0) };
+        let mut road = RoadShapes::default();
+        road.surfaces.push(arc(38.0).into_iter().chain(arc(31.0).into_iter().rev()).collect());
+        road.edges.extend([arc(38.0), arc(31.0)]);
+        let footprints = FootprintPlot { road, strip_m: None, ..drive(10.0) };
         let drawing = footprints.drawing();
         assert_eq!(drawing.illegible(), Vec::<String>::new());
         let is_surface = |mark: &&Mark| matches!(mark, Mark::Fill { colour, .. } if *colour == ASPHALT);

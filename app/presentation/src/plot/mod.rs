@@ -17,7 +17,7 @@ mod table;
 pub use bars::{IntervalBar, IntervalBars};
 pub use drawing::Drawing;
 pub use figure::PlotError;
-pub use footprints::{CurvedStrip, FootprintPlot, FootprintSnapshot, FootprintVehicle, Strip};
+pub use footprints::{FootprintPlot, FootprintSnapshot, FootprintVehicle};
 pub use identification::identification;
 pub use panels::{Curve, Marks, Panel, Panels};
 pub use table::TextTable;

@@ -4,8 +4,10 @@ use interplay_planners::Body;
 use interplay_scenarios::Vehicle;
 
 use super::mesh::Mesh;
+use crate::body_shape::{RIDER, Share, Wheels, light_depth, place_on, rectangle};
 use crate::body_style::BodyStyle;
 use crate::palette::{Colour, GLASS, HEADLIGHT, TAIL_LIGHT, TYRE, darker};
+use crate::rectangle::rounded_corners;
 
 /// Space below the body, and the upper edges of bonnet, roof, van, cab and box, in widths of the body.
 const CLEARANCE_WIDTHS: f64 = 0.1;
@@ -14,18 +16,19 @@ const ROOF_WIDTHS: f64 = 0.76;
 const VAN_WIDTHS: f64 = 1.0;
 const CAB_WIDTHS: f64 = 1.15;
 const BOX_WIDTHS: f64 = 1.35;
-/// Rectangles along and across a body: rear, front, right, left, from −1 at the rear and right to 1 at the front and left.
-type Share = [f64; 4];
 
 /// The solids of a vehicle.
 pub fn mesh(vehicle: &Vehicle, colour: Colour) -> Mesh {
     let placed = Placed(&vehicle.body);
     let mut mesh = Mesh::default();
     let style = BodyStyle::of(vehicle);
+    if style != BodyStyle::Bicycle {
+        add_wheels(&mut mesh, &vehicle.body, style);
+        add_lights(&mut mesh, &placed);
+    }
     match style {
         BodyStyle::Bicycle => add_bicycle(&mut mesh, &placed, colour),
         BodyStyle::Car => {
-            add_wheels(&mut mesh, &placed);
             mesh.add_block(
                 &placed.rounded([-1.0, 1.0, -1.0, 1.0], 0.22),
                 placed.z([CLEARANCE_WIDTHS, BONNET_WIDTHS]),
@@ -36,7 +39,6 @@ pub fn mesh(vehicle: &Vehicle, colour: Colour) -> Mesh {
             mesh.add_solid([&windows, &roof], placed.z([BONNET_WIDTHS, ROOF_WIDTHS]), [GLASS, colour]);
         }
         BodyStyle::Van => {
-            add_wheels(&mut mesh, &placed);
             mesh.add_block(
                 &placed.rounded([-1.0, 1.0, -1.0, 1.0], 0.12),
                 placed.z([CLEARANCE_WIDTHS, BONNET_WIDTHS]),
@@ -50,16 +52,12 @@ pub fn mesh(vehicle: &Vehicle, colour: Colour) -> Mesh {
             mesh.add_solid([&screen, &above], placed.z([BONNET_WIDTHS, 0.97 * VAN_WIDTHS]), [GLASS, GLASS]);
         }
         BodyStyle::Lorry => {
-            add_wheels(&mut mesh, &placed);
             let chassis = placed.rectangle([-0.98, 0.98, -0.7, 0.7]);
             mesh.add_block(&chassis, placed.z([CLEARANCE_WIDTHS, 0.3]), TYRE);
             mesh.add_block(&placed.rectangle([-1.0, 0.63, -1.0, 1.0]), placed.z([0.3, BOX_WIDTHS]), colour);
             mesh.add_block(&placed.rounded([0.69, 1.0, -0.96, 0.96], 0.1), placed.z([0.2, CAB_WIDTHS]), darker(colour));
             mesh.add_block(&placed.rectangle([0.9, 1.004, -0.86, 0.86]), placed.z([0.65, 1.01 * CAB_WIDTHS]), GLASS);
         }
-    }
-    if style != BodyStyle::Bicycle {
-        add_lights(&mut mesh, &placed);
     }
     mesh
 }
@@ -98,33 +96,22 @@ pub fn height_m(vehicle: &Vehicle) -> f64 {
 struct Placed<'a>(&'a Body);
 
 impl Placed<'_> {
-    fn place(&self, [along, across]: [f64; 2]) -> [f64; 2] {
-        let Body { front_m, rear_m, width_m, .. } = *self.0;
-        [0.5 * (front_m - rear_m) + 0.5 * along * (front_m + rear_m), 0.5 * across * width_m]
+    fn place(&self, share: [f64; 2]) -> [f64; 2] {
+        place_on(self.0, share)
     }
 
     fn ring(&self, corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
         corners.iter().map(|corner| self.place(*corner)).collect()
     }
 
-    fn rectangle(&self, [rear, front, right, left]: Share) -> Vec<[f64; 2]> {
-        self.ring(&[[rear, right], [front, right], [front, left], [rear, left]])
+    fn rectangle(&self, share: Share) -> Vec<[f64; 2]> {
+        self.ring(&rectangle(share))
     }
 
     /// A rectangle without its corners; `cut` is in widths of the body.
     fn rounded(&self, share: Share, cut: f64) -> Vec<[f64; 2]> {
         let corners = self.rectangle(share);
-        let cut_m = cut * self.0.width_m;
-        let near = |from: [f64; 2], to: [f64; 2]| {
-            let length = libm::hypot(to[0] - from[0], to[1] - from[1]).max(1e-9);
-            let part = (cut_m / length).min(0.5);
-            [0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis]))
-        };
-        (0..4)
-            .flat_map(|index| {
-                [near(corners[index], corners[(index + 3) % 4]), near(corners[index], corners[(index + 1) % 4])]
-            })
-            .collect()
+        rounded_corners(&corners, cut * self.0.width_m).flat_map(|[start, _, end]| [start, end]).collect()
     }
 
     /// Heights \[m\] from heights in widths of the body.
@@ -133,26 +120,13 @@ impl Placed<'_> {
     }
 }
 
-/// Four wheels, which leave the body a little.
-fn add_wheels(mesh: &mut Mesh, placed: &Placed) {
-    let Body { width_m, front_m, rear_m, front_axle_m, rear_axle_m, .. } = *placed.0;
-    let (length_m, thick_m) = (0.38 * width_m, 0.15 * width_m);
-    // The axles of scale cars are at their bumpers: the wheels are drawn where cars have them.
-    let front = front_axle_m.min(front_m - 0.85 * length_m);
-    let rear = -rear_axle_m.min(rear_m - 0.75 * length_m);
-    for ahead in [front, rear] {
-        for side in [-1.0, 1.0] {
-            let middle = side * (0.5 * width_m - 0.25 * thick_m);
-            let corner = |along: f64, across: f64| [ahead + 0.5 * along * length_m, middle + 0.5 * across * thick_m];
-            let ring = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-            mesh.add_block(&ring, [0.0, 0.9 * length_m], TYRE);
-        }
-    }
+fn add_wheels(mesh: &mut Mesh, body: &Body, style: BodyStyle) {
+    let Wheels { size_m, rings_m } = Wheels::of(body, style, 0.0);
+    rings_m.iter().for_each(|ring| mesh.add_block(ring, [0.0, 0.9 * size_m[0]], TYRE));
 }
 
 fn add_lights(mesh: &mut Mesh, placed: &Placed) {
-    // Lights are as deep as those of a car, however long the vehicle is.
-    let deep = 0.24 * placed.0.width_m / (placed.0.front_m + placed.0.rear_m);
+    let deep = light_depth(placed.0);
     for side in [-1.0_f64, 1.0] {
         let across = [side * 0.84, side * 0.5];
         let [right, left] = [across[0].min(across[1]), across[0].max(across[1])];
@@ -169,6 +143,6 @@ fn add_bicycle(mesh: &mut Mesh, placed: &Placed, colour: Colour) {
     }
     mesh.add_block(&placed.rectangle([-0.5, 0.45, -0.1, 0.1]), placed.z([0.6, 1.1]), darker(colour));
     mesh.add_block(&placed.rectangle([0.36, 0.44, -0.9, 0.9]), placed.z([1.4, 1.5]), TYRE);
-    mesh.add_block(&placed.rounded([-0.28, 0.12, -0.8, 0.8], 0.2), placed.z([1.1, 2.1]), colour);
+    mesh.add_block(&placed.rounded(RIDER, 0.2), placed.z([1.1, 2.1]), colour);
     mesh.add_block(&placed.rounded([-0.1, 0.14, -0.4, 0.4], 0.2), placed.z([2.1, 2.4]), darker(colour));
 }

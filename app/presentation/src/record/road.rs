@@ -8,7 +8,7 @@ use rerun::{RecordingStream, RecordingStreamResult};
 use super::mesh::Mesh;
 use crate::curved_road::WorldLine;
 use crate::palette::{ARROW, ASPHALT, Colour, GRASS, PAINT};
-use crate::road_shapes::RoadShapes;
+use crate::road_shapes::{RoadShapes, STOP_LINE_LANES};
 
 /// How far below the road the ground is, and how far above it its lines are, in lane widths.
 const GROUND_LANES: f64 = -0.02;
@@ -17,9 +17,6 @@ const LINES_LANES: f64 = 0.005;
 const SHOULDER_LANES: f64 = 0.08;
 /// How far the road goes on beyond the vehicles, in lane widths.
 const BEYOND_LANES: f64 = 40.0;
-/// Width of the lines where vehicles stop or yield, in lane widths. They are surfaces: a line of the viewer has round ends, which
-/// would close the spaces between dashes.
-const STOP_LINE_LANES: f64 = 0.11;
 /// Length of the pieces of a line, in lane widths, and most of them between two points.
 const PIECE_LANES: f64 = 2.0;
 const MAX_PIECES: f64 = 2000.0;
@@ -48,6 +45,7 @@ pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 
         arrow.heads.iter().for_each(|head| surface.add_polygon(head, height_m, ARROW));
         arrows.extend(arrow.bends.into_iter().chain([arrow.stem]));
     }
+    // Surfaces, since a line of the viewer has round ends, which would close the spaces between dashes.
     for line in shapes.stop_lines.iter().flat_map(|line| line.windows(2)) {
         let half_m = 0.5 * STOP_LINE_LANES * shapes.lane_m;
         surface.add_polygon(&strip([line[0], line[1]], half_m, 0.0), height_m, PAINT);

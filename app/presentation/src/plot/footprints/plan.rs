@@ -2,12 +2,11 @@
 
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
-use super::super::style::{Colour, Dash, GREY, LineStyle, PAPER};
+use super::super::style::{Colour, Dash, GREY, LineStyle};
 use super::body;
-use super::clipping::{clipped, clipped_line};
-use super::data::{CurvedStrip, FootprintPlot, MARGIN_PX, PATH, Strip, TITLE_HEIGHT_PX, WIDTH_PX, distance, spaced};
+use super::data::{FootprintPlot, MARGIN_PX, PATH, TITLE_HEIGHT_PX, WIDTH_PX, distance};
 use crate::extent::extent;
-use crate::palette::{ASPHALT, PAINT};
+use crate::palette::ASPHALT;
 
 /// Space at the left of the plan, for the tick labels of the y axis.
 const LEFT_MARGIN_PX: f64 = 92.0;
@@ -19,9 +18,6 @@ const X_LABEL_HEIGHT_PX: f64 = 38.0;
 const MAX_PLAN_HEIGHT_PX: f64 = 900.0;
 /// How far the plan reaches beyond all footprints, as a multiple of the longest one.
 const ROAD_AROUND_BODIES_RATIO: f64 = 1.5;
-
-/// How far the asphalt reaches beyond the lines at the edges.
-const SHOULDER_PX: f64 = 4.0;
 
 /// How much of the colour of its vehicle the first footprint has, and the last: the asphalt shines through.
 const OPACITIES: [f64; 2] = [0.55, 0.95];
@@ -114,16 +110,7 @@ impl FootprintPlot {
         let words =
             format!("footprint 1 at 0 s, then one every {steps:.1} s; a car that has hardly moved has one for several");
         drawing.text([MARGIN_PX, head - 66.0], Side::Left, MEDIUM_TEXT_PX, words);
-        self.roads.iter().for_each(|road| map.draw_road(&mut drawing, road));
-        self.roads.iter().for_each(|road| map.draw_lines(&mut drawing, road));
-        for (index, road) in self.roads.iter().enumerate() {
-            let road = road.wider(SHOULDER_PX / map.scale);
-            let others = self.roads[..index].iter().map(|other| other.wider(SHOULDER_PX / map.scale));
-            others.filter_map(|other| road.crossing(&other)).for_each(|ring| {
-                drawing.fill(ring.map(|corner| map.place(corner)).to_vec(), ASPHALT, 1.0);
-            });
-        }
-        self.curves.iter().for_each(|road| map.draw_curve(&mut drawing, road));
+        self.draw_road(&mut drawing, [low_m, high_m], |point| map.place(point));
         map.draw_axes(&mut drawing);
         drawing.line(self.path_pixels(f64::INFINITY, |point| map.place(point)), PATH);
         self.draw_footprints(&mut drawing, &map);
@@ -198,60 +185,6 @@ impl FootprintPlot {
 }
 
 impl Map {
-    /// The part of a strip between two lateral coordinates that is visible.
-    fn band(&self, road: &Strip, [right_m, left_m]: [f64; 2]) -> Vec<[f64; 2]> {
-        let (sin, cos) = libm::sincos(road.heading_rad);
-        let far = 4.0 * distance(self.low_m, self.high_m);
-        let point = |along: f64, lateral: f64| [cos * along - sin * lateral, sin * along + cos * lateral];
-        let ring = [point(-far, right_m), point(far, right_m), point(far, left_m), point(-far, left_m)];
-        clipped(&ring, self.low_m, self.high_m)
-    }
-
-    fn draw_road(&self, drawing: &mut Drawing, road: &Strip) {
-        let shoulder_m = SHOULDER_PX / self.scale;
-        let surface = self.band(road, road.wider(shoulder_m).edges_m);
-        drawing.fill(surface.into_iter().map(|point| self.place(point)).collect(), ASPHALT, 1.0);
-        if !road.tapered_edge_m.is_empty() {
-            let outside = road.shoulder([self.low_m[0], self.high_m[0]], shoulder_m);
-            let ring = clipped(&outside, self.low_m, self.high_m);
-            drawing.fill(ring.into_iter().map(|point| self.place(point)).collect(), PAPER, 1.0);
-        }
-    }
-
-    fn draw_lines(&self, drawing: &mut Drawing, road: &Strip) {
-        let style = |dash| LineStyle { width: 2, ..LineStyle::new(PAINT, dash) };
-        let is_tapered = !road.tapered_edge_m.is_empty();
-        if is_tapered {
-            let edge = road.right_edge([self.low_m[0], self.high_m[0]]);
-            drawing.line(edge.into_iter().map(|point| self.place(point)).collect(), style(Dash::Solid));
-        }
-        let edges = road.edges_m.iter().skip(usize::from(is_tapered)).map(|&edge| (edge, Dash::Solid));
-        let dividers = road.dividers_m.iter().map(|&divider| (divider, Dash::Long));
-        for (lateral_m, dash) in edges.chain(dividers) {
-            let line = self.band(road, [lateral_m, lateral_m]);
-            let ends: Vec<[f64; 2]> = line.into_iter().map(|point| self.place(point)).collect();
-            drawing.line(ends, style(dash));
-        }
-    }
-
-    fn draw_curve(&self, drawing: &mut Drawing, road: &CurvedStrip) {
-        for ring in &road.surfaces_m {
-            let surface = clipped(ring, self.low_m, self.high_m);
-            let surface: Vec<[f64; 2]> = surface.into_iter().map(|point| self.place(point)).collect();
-            let outline = surface.iter().chain(&surface[..surface.len().min(1)]).copied().collect();
-            drawing.line(outline, LineStyle { width: 2 * SHOULDER_PX as u32, ..LineStyle::new(ASPHALT, Dash::Solid) });
-            drawing.fill(surface, ASPHALT, 1.0);
-        }
-        let edges = road.edges_m.iter().map(|edge| (edge, Dash::Solid));
-        let dividers = road.dividers_m.iter().map(|divider| (divider, Dash::Long));
-        for (line, dash) in edges.chain(dividers) {
-            for visible in clipped_line(line, self.low_m, self.high_m) {
-                let points = spaced(visible.iter().map(|point| self.place(*point)));
-                drawing.line(points, LineStyle { width: 2, ..LineStyle::new(PAINT, dash) });
-            }
-        }
-    }
-
     fn draw_axes(&self, drawing: &mut Drawing) {
         let [left, right, top, bottom] = [self.left, self.right(), self.top(), self.bottom];
         let axis = LineStyle::new(GREY, Dash::Solid).thin();

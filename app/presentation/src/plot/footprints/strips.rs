@@ -2,17 +2,14 @@
 
 use super::super::axis::Axis;
 use super::super::drawing::{Drawing, LARGE_TEXT_PX, MEDIUM_TEXT_PX, SMALL_TEXT_PX, Side};
-use super::super::style::{Dash, GREY, LineStyle, PAPER};
+use super::super::style::{Dash, GREY, LineStyle};
 use super::body;
-use super::data::{FootprintPlot, MARGIN_PX, PATH, TITLE_HEIGHT_PX, WIDTH_PX};
-use crate::palette::{ASPHALT, PAINT};
+use super::data::{FootprintPlot, MARGIN_PX, PATH, SHOULDER_PX, TITLE_HEIGHT_PX, WIDTH_PX};
 
 /// Space at the left of each strip, for the number and the time of its snapshot.
 const LEFT_MARGIN_PX: f64 = 150.0;
 /// Space between two strips.
 const STRIP_SPACING_PX: f64 = 16.0;
-/// How far the asphalt reaches beyond the lines at the edges.
-const SHOULDER_PX: f64 = 4.0;
 /// Height of the tick labels of the x axis.
 const TICK_LABEL_HEIGHT_PX: f64 = 36.0;
 /// Height of the line with the name of the x axis.
@@ -41,12 +38,7 @@ struct Window {
 impl Window {
     fn of(footprints: &FootprintPlot) -> Window {
         let [[from, _], [to, _]] = footprints.bounds();
-        let edges = footprints.roads.iter().map(|road| road.edges_m);
-        let mut edges_m = edges
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [right, left]| [low.min(right), high.max(left)]);
-        if edges_m[0] >= edges_m[1] {
-            edges_m = [0.0, 1.0];
-        }
+        let edges_m = footprints.strip_m.unwrap_or([0.0, 1.0]);
         let (margin, longest) = (0.5 * footprints.longest_m(), footprints.longest_m());
         let space = WIDTH_PX - LEFT_MARGIN_PX - MARGIN_PX;
         let whole = space / (to - from + 2.0 * margin);
@@ -103,39 +95,18 @@ impl FootprintPlot {
             let along = LEFT_MARGIN_PX + (x - shift_m - window.start_m) * window.scale;
             [along, bottom - (y - window.edges_m[0]) * window.scale]
         };
-        let place = |at: [f64; 2]| {
-            let [x, y] = point(at);
-            [x.clamp(LEFT_MARGIN_PX, WIDTH_PX - MARGIN_PX), y]
-        };
         let start_m = window.start_m + shift_m;
-        let span_m = [start_m, start_m + window.length_m];
-        drawing.block([LEFT_MARGIN_PX, top - SHOULDER_PX], [WIDTH_PX - MARGIN_PX, bottom + SHOULDER_PX], ASPHALT);
-        for road in &self.roads {
-            if !road.tapered_edge_m.is_empty() {
-                let margin_m = SHOULDER_PX / window.scale;
-                drawing.fill(road.shoulder(span_m, margin_m).into_iter().map(place).collect(), PAPER, 1.0);
-            }
-            for &lateral_m in &road.dividers_m {
-                let y = place([0.0, lateral_m])[1];
-                drawing.line(
-                    vec![[LEFT_MARGIN_PX, y], [WIDTH_PX - MARGIN_PX, y]],
-                    LineStyle::new(PAINT, Dash::Long).thin(),
-                );
-            }
-        }
-        let edge = LineStyle::new(PAINT, Dash::Solid).thin();
-        drawing.line(vec![[LEFT_MARGIN_PX, top], [WIDTH_PX - MARGIN_PX, top]], edge);
-        for road in &self.roads {
-            drawing.line(road.right_edge(span_m).into_iter().map(place).collect(), edge);
-        }
+        let beyond_m = SHOULDER_PX / window.scale;
+        let visible_m =
+            [[start_m, window.edges_m[0] - beyond_m], [start_m + window.length_m, window.edges_m[1] + beyond_m]];
+        self.draw_road(drawing, visible_m, point);
         let path = self.path_pixels(snapshot.time_s, point).into_iter();
         drawing.line(path.filter(|[x, _]| (LEFT_MARGIN_PX..=WIDTH_PX - MARGIN_PX).contains(x)).collect(), PATH);
         let number = format!("{}", index + 1);
         for (body, vehicle) in snapshot.bodies.iter().zip(&self.vehicles) {
             let x = body.map(|corner| LEFT_MARGIN_PX + (corner[0] - shift_m - window.start_m) * window.scale);
             if x.iter().all(|x| (LEFT_MARGIN_PX..=WIDTH_PX - MARGIN_PX).contains(x)) {
-                let corners = body.map(place);
-                body::draw(drawing, corners, vehicle.style, vehicle.colour, 1.0);
+                body::draw(drawing, body.map(point), vehicle.style, vehicle.colour, 1.0);
             }
         }
         let middle = 0.5 * (top + bottom);
