@@ -126,7 +126,7 @@ fn is_path(word: &str) -> bool {
         ".github/",
         "app/",
         "assets/",
-        "building/",
+        "building/experiments/",
         "convex/",
         "docs/",
         "examples/",

@@ -2,6 +2,14 @@
 //!
 //! Results go to stdout, everything else to stderr. Exit codes: 0 all well, 1 an expectation failed, 2 bad input, 3 a run
 //! could not be finished.
+//!
+//! The binary is this and nothing else:
+//!
+//! ```no_run
+//! fn main() -> std::process::ExitCode {
+//!     interplay::main()
+//! }
+//! ```
 
 mod check;
 mod compare;

@@ -3,6 +3,19 @@
 //! On Linux a file has no name until it is complete, where the file system allows that: the system removes it with the process.
 //! Elsewhere it is written beside its place and renamed. What it replaces stays as it is until then. When a function
 //! returns without an error, content and name are on the disk.
+//!
+//! ```
+//! let folder = tempfile::tempdir()?;
+//! let target = folder.path().join("reports/first.json");
+//! interplay_files::write(&target, b"{}")?;
+//! assert_eq!(std::fs::read(&target)?, b"{}");
+//!
+//! // What cannot be written leaves nothing behind, no folder either.
+//! let below_a_file = target.join("second/third.json");
+//! assert!(interplay_files::write(&below_a_file, b"{}").is_err());
+//! assert!(!target.join("second").exists());
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 mod folders;
 mod whole;

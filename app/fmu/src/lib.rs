@@ -8,6 +8,12 @@
 //!
 //! The heat of each zone is an input; people, sun and the air outside are those of the scenario and its seed. The shared library
 //! is the code in `library/`, which this crate contains as bytes.
+//!
+//! ```no_run
+//! let scenario = interplay_scenarios::load("building/four-room-pid", &[])?;
+//! std::fs::write("four-rooms.fmu", interplay_fmu::export(&scenario)?)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod archive;
 mod description;

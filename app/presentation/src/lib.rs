@@ -1,6 +1,18 @@
 //! What people see of a run: recordings for Rerun, drawings, pages, figures and reports.
 //!
 //! Everything here is made from the plain values of [`interplay_simulation`]: its frames and its report.
+//!
+//! ```
+//! use interplay_presentation::report::summary;
+//! use interplay_scenarios::{Override, load};
+//! use interplay_simulation::run::run;
+//!
+//! let short = ["duration_s=0.5", "expect={}"].map(|change| Override::Set(change.to_owned()));
+//! let scenario = load("lane-change/front-nice", &short)?;
+//! let report = run("short", &scenario, Vec::new())?;
+//! assert!(summary(&scenario.title, &report).contains("0.5 s simulated"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod animation;
 mod answer;

@@ -7,6 +7,33 @@
 //! The key of a run is a digest of all that decides its result. So a run that is in a journal is not run again, whoever ran it:
 //! a sweep that was killed goes on where it was, and a bigger one reuses the rows of a smaller one. Shards divide the keys, and
 //! need not know of one another.
+//!
+//! ```
+//! use interplay_scenarios::SweepPlan;
+//! use interplay_sweep::compare::{GroupBy, compare};
+//! use interplay_sweep::{Shard, SweepOptions, sweep};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let folder = tempfile::tempdir()?;
+//! let text = "scenario = ['lane-change/front-nice']\nplanner = ['idm', 'conservative']\nsamples = 2\n\
+//!     jitter = { speed_mps = 0.1 }\nset = { duration_s = 1.0, expect = {} }\n";
+//! let plan = SweepPlan::from_text("two planners", text, folder.path())?;
+//! let options = SweepOptions {
+//!     folder: folder.path(),
+//!     shard: Shard::WHOLE,
+//!     keep: None,
+//!     checked: &|| (),
+//!     begin: &|_, _| (),
+//!     advance: &|| (),
+//! };
+//! assert_eq!(sweep(&plan, &options)?.made, 4);
+//! assert_eq!(sweep(&plan, &options)?.made, 0, "they are there");
+//!
+//! let figures = compare(folder.path(), Some("idm"), GroupBy::Scenario)?;
+//! assert_eq!(figures.runs, 4);
+//! # Ok(())
+//! # }
+//! ```
 
 mod column;
 pub mod compare;
