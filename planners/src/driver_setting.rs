@@ -5,7 +5,7 @@ use thiserror::Error;
 /// A setting of a driver that is admissible alone, but not beside another one.
 ///
 /// Its text says what is wrong; [`DriverSettingError::key`] and [`DriverSettingError::remedy`] say where and what would work.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum DriverSettingError {
     /// A number of steps reaches to the end of the horizon or beyond.
     #[error("({steps}) must be below `horizon_steps` ({horizon_steps})")]
@@ -31,13 +31,25 @@ pub enum DriverSettingError {
         /// Its value.
         upper: f64,
     },
+    /// Any other setting that does not fit.
+    #[error("{reason}")]
+    Unfit {
+        /// The setting.
+        key: &'static str,
+        /// What is wrong, as the end of a sentence that begins with the setting's path.
+        reason: String,
+        /// What would work.
+        remedy: String,
+    },
 }
 
 impl DriverSettingError {
     /// The setting to change, as a scenario file calls it.
     pub fn key(&self) -> &'static str {
         match self {
-            DriverSettingError::BeyondHorizon { key, .. } | DriverSettingError::BoundsCrossed { key, .. } => key,
+            DriverSettingError::BeyondHorizon { key, .. }
+            | DriverSettingError::BoundsCrossed { key, .. }
+            | DriverSettingError::Unfit { key, .. } => key,
         }
     }
 
@@ -46,6 +58,7 @@ impl DriverSettingError {
         match self {
             DriverSettingError::BeyondHorizon { .. } => "too long",
             DriverSettingError::BoundsCrossed { .. } => "too large",
+            DriverSettingError::Unfit { .. } => "does not fit",
         }
     }
 
@@ -56,6 +69,7 @@ impl DriverSettingError {
             DriverSettingError::BoundsCrossed { upper_key, upper, .. } => {
                 format!("state at most {upper}, or raise `{upper_key}`")
             }
+            DriverSettingError::Unfit { remedy, .. } => remedy.clone(),
         }
     }
 }

@@ -8,8 +8,9 @@
 //! - [`road`]: where a vehicle may drive
 //! - [`predict`]: what the others will do
 //! - [`sensing`]: what a driver sees of them; [`belief`]: what it believes of their drivers
-//! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`conservative`], [`cooperative`], [`negotiation`],
-//!   [`bayesian`], [`game`], [`nash`]; [`Driver`] lists them
+//! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`external`], [`conservative`], [`cooperative`],
+//!   [`negotiation`], [`bayesian`], [`game`], [`nash`], [`contingency`]; [`Driver`] lists them, [`DriverKind`] is what the
+//!   settings of each provide, [`Drive`] what plans with them, and [`Planner`] what all of them have around it
 //! - [`joint`]: the problem of several deciding vehicles
 //! - [`passing_order`]: before or behind whom a plan leads
 //! - [`trajectory`]: one trajectory optimiser
@@ -28,12 +29,15 @@ pub mod contingency;
 pub mod cooperative;
 mod deadline;
 pub mod diagnostic;
+mod drive;
 mod driver;
 pub mod driver_estimate;
 mod driver_setting;
 mod encounter;
+pub mod external;
 #[cfg(test)]
 mod fixture;
+mod foreign_driver;
 pub mod game;
 pub mod human;
 pub mod idm;
@@ -43,6 +47,7 @@ pub mod negotiation;
 mod passing;
 pub mod passing_order;
 mod plan;
+mod planner;
 pub mod predict;
 mod relation;
 mod right_of_way;
@@ -58,11 +63,14 @@ pub mod vehicle;
 
 pub use deadline::PlanDeadline;
 pub use diagnostic::Diagnostic;
-pub use driver::{Driver, Planner};
+pub use drive::{Drive, DriverKind};
+pub use driver::Driver;
 pub use driver_setting::DriverSettingError;
+pub use foreign_driver::ForeignDriver;
 pub use passing::passing_orders;
 pub use passing_order::{PassingOrder, PassingPosition};
 pub use plan::{Plan, PlanBranch, PlanError, PlanEvent, PlanEventKind, Proposal};
+pub use planner::Planner;
 pub use road::{Axes, CentreLine, Corridor, LaneEnd, Profile, Route};
 pub use scene::{Agent, Goal, Scene};
 pub use vehicle::{Bicycle, Body, EllipticalDistance, Input, Limits, SafetyEllipse, State, Trajectory};

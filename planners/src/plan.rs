@@ -107,6 +107,9 @@ pub enum PlanError {
         /// Quadratic programmes solved.
         iterations: usize,
     },
+    /// The driver's inputs come from outside, and none has come.
+    #[error("no input has come from outside: a driver of the kind `external` does not plan")]
+    NoInput,
     /// The scene holds a number that is not finite.
     #[error("bad input: {0}")]
     BadInput(String),

@@ -37,7 +37,7 @@ pub struct Agent {
     pub prediction: Trajectory,
     /// What it wants, if it tells: vehicles that cooperate share their goals.
     pub shared_goal: Option<Goal>,
-    /// Whether its driver may give way to somebody outside its own lane ([`Driver::can_be_asked`](crate::Driver::can_be_asked)).
+    /// Whether its driver may give way to somebody outside its own lane ([`DriverKind::can_be_asked`](crate::DriverKind::can_be_asked)).
     pub can_be_asked: bool,
 }
 

@@ -3,11 +3,14 @@
 mod common;
 
 use common::world::{HORIZON, LANES, Run, STEP_S, Vehicle, begin, intersection, run, vehicle};
+use interplay_planners::belief::Outlook;
 use interplay_planners::human::{Human, Settings, Style};
 use interplay_planners::predict::{Prediction, constant_velocity};
 use interplay_planners::scripted::{self, Order};
 use interplay_planners::trajectory::PassingOrderSearch;
-use interplay_planners::{Agent, Body, Corridor, Driver, Input, Limits, Plan, PlanError, Scene, State, conservative};
+use interplay_planners::{
+    Agent, Body, Corridor, Drive, Driver, Input, Limits, Plan, PlanError, Scene, State, conservative,
+};
 use proptest::prelude::*;
 
 const STEADY: [f64; 4] = [0.0, 4.0, 1.0, 1.0];
@@ -114,7 +117,7 @@ fn a_late_and_hesitant_driver_can_be_replayed() {
             let plan = planners[index].plan(scene);
             if index == 1 {
                 let trajectory = |plan: &Result<Plan, PlanError>| plan.clone().map(|plan| plan.trajectory);
-                assert!(trajectory(&plan) == trajectory(&replayed.plan(scene)));
+                assert!(trajectory(&plan) == trajectory(&replayed.plan(scene, &Outlook::default())));
             }
             plan
         });
@@ -197,7 +200,7 @@ proptest! {
             tick += later;
             let (ego, goal) = (own.agent.clone(), own.goal);
             let scene = Scene { tick, step_s: STEP_S, horizon: HORIZON, ego, goal, others };
-            if let Ok(plan) = driver.plan(&scene) {
+            if let Ok(plan) = driver.plan(&scene, &Outlook::default()) {
                 prop_assert!(plan.trajectory.states.iter().all(State::is_finite));
                 prop_assert_eq!(plan.trajectory.inputs.len(), HORIZON);
             }

@@ -7,17 +7,17 @@ use std::sync::Arc;
 
 use crate::error::{Document, Fault, Place};
 use crate::overrides::{lay_paths, lay_planner};
-use crate::schema::{self, SchemaNode};
+use crate::schema::SchemaNode;
 use crate::tree::{Table, TomlEntry, TomlNode, TomlValue};
 
 /// The rank of what a counterfactual states: as a flag, it is blamed before the file that it changes.
 const RANK: usize = 0;
 
-/// The tree of a counterfactual, `stated` being its table.
+/// The tree of a counterfactual, `stated` being its table and `schema` that of a whole scenario.
 ///
 /// # Errors
 /// Paths that lead nowhere, and keys that a counterfactual cannot change.
-pub(crate) fn tree(of: &TomlNode, stated: &Table) -> Result<TomlNode, Vec<Fault>> {
+pub(crate) fn tree(of: &TomlNode, stated: &Table, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
     let TomlValue::Table(root) = &of.value else { return Ok(of.clone()) };
     let mut root = root.clone();
     for key in ["counterfactual", "expect", "figure"] {
@@ -29,17 +29,17 @@ pub(crate) fn tree(of: &TomlNode, stated: &Table) -> Result<TomlNode, Vec<Fault>
             let fault = Fault::at(&planner.key, "for vehicles only", "`planner` is stated, but there are no vehicles");
             return Err(vec![fault]);
         }
-        lay_planner(&mut root, planner.node.clone()).map_err(|fault| vec![fault])?;
+        lay_planner(&mut root, planner.node.clone(), schema).map_err(|fault| vec![fault])?;
     }
     if let Some(TomlValue::Table(set)) = stated.get("set").map(|entry| entry.node.value.clone()) {
         let faults: Vec<Fault> = set.iter().filter_map(|(key, entry)| refused(key, entry)).collect();
-        let faults = if faults.is_empty() { lay_paths(&mut root, set) } else { faults };
+        let faults = if faults.is_empty() { lay_paths(&mut root, set, schema) } else { faults };
         if !faults.is_empty() {
             return Err(faults);
         }
     }
     if let Some(expect) = stated.get("expect") {
-        root.insert("expect".to_owned(), without_comparisons(expect.clone()));
+        root.insert("expect".to_owned(), without_comparisons(expect.clone(), schema));
     }
     Ok(TomlNode { place: of.place.clone(), value: TomlValue::Table(root) })
 }
@@ -57,8 +57,8 @@ fn refused(key: &str, entry: &TomlEntry) -> Option<Fault> {
 }
 
 /// The expectations that any run may have.
-fn without_comparisons(mut expect: TomlEntry) -> TomlEntry {
-    let known = schema::complete().property("expect");
+fn without_comparisons(mut expect: TomlEntry, schema: SchemaNode) -> TomlEntry {
+    let known = schema.property("expect");
     if let TomlValue::Table(table) = &mut expect.node.value {
         table.retain(|key, _| known.and_then(|known: SchemaNode| known.property(key)).is_some());
     }

@@ -12,30 +12,33 @@ use interplay_building::nearest::listed;
 use serde_json::{Map, Value as Json};
 
 use crate::error::LoadError;
-use crate::load::{load, tree};
-use crate::schema::{self, Concern, SchemaNode};
+use crate::load::tree;
+use crate::registry::Registry;
+use crate::schema::{Concern, SchemaNode};
 use crate::tree::{TomlNode, TomlValue};
 use crate::weather_file::is_embedded_weather;
 
 /// Columns of a comment.
 const WIDTH: usize = 110;
 
-/// The scenario of that name or path as a commented file that means the same, for a file in `folder`: a path to a weather
-/// file that would lead elsewhere from there is made absolute. Its figure is left out, since a variant is another picture.
-///
-/// # Errors
-///
-/// As [`load`].
-pub fn commented(name_or_path: &str, folder: &Path) -> Result<String, LoadError> {
-    let scenario = load(name_or_path, &[])?;
-    let mut tree = tree(name_or_path)?;
-    make_weather_path_absolute(&mut tree, folder);
-    let Json::Object(mut stated) = tree.to_json() else { return Ok(String::new()) };
-    stated.remove("figure");
-    let [vehicles, building] = [!scenario.vehicles.is_empty(), scenario.building.is_some()];
-    let mut writer = Writer { text: String::new(), explained: BTreeSet::new(), vehicles, building };
-    writer.table("", schema::complete(), &stated, true);
-    Ok(writer.text)
+impl Registry {
+    /// The scenario of that name or path as a commented file that means the same, for a file in `folder`: a path to a weather
+    /// file that would lead elsewhere from there is made absolute. Its figure is left out, since a variant is another picture.
+    ///
+    /// # Errors
+    ///
+    /// As [`Registry::load`].
+    pub fn commented(&self, name_or_path: &str, folder: &Path) -> Result<String, LoadError> {
+        let scenario = self.load(name_or_path, &[])?;
+        let mut tree = tree(self, name_or_path)?;
+        make_weather_path_absolute(&mut tree, folder);
+        let Json::Object(mut stated) = tree.to_json() else { return Ok(String::new()) };
+        stated.remove("figure");
+        let [vehicles, building] = [!scenario.vehicles.is_empty(), scenario.building.is_some()];
+        let mut writer = Writer { text: String::new(), explained: BTreeSet::new(), vehicles, building };
+        writer.table("", self.complete(), &stated, true);
+        Ok(writer.text)
+    }
 }
 
 /// Makes a relative path to a weather file absolute if it starts from another folder than `folder`.
@@ -66,7 +69,7 @@ struct Writer {
 /// A table below another, to be written after its plain keys.
 struct Section<'a> {
     path: String,
-    schema: SchemaNode,
+    schema: SchemaNode<'a>,
     value: &'a Json,
     live: bool,
 }
@@ -167,7 +170,7 @@ impl Writer {
 }
 
 /// The properties of a table; of a tagged one, those of its `kind`, and where a value has several forms, those of the table.
-fn keys(schema: SchemaNode, value: &Map<String, Json>) -> impl Iterator<Item = (&'static String, SchemaNode)> {
+fn keys<'s>(schema: SchemaNode<'s>, value: &Map<String, Json>) -> impl Iterator<Item = (&'s String, SchemaNode<'s>)> {
     let kind = value.get("kind").and_then(Json::as_str);
     let form = || schema.forms().find(|form| form.properties().next().is_some());
     kind.and_then(|kind| schema.of_kind(kind)).or_else(form).unwrap_or(schema).properties()

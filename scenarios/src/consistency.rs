@@ -18,6 +18,7 @@ use crate::narrowest_lane::{NarrowestLane, narrowest_lane};
 use crate::readable::readable;
 use crate::road::{Branch, Road};
 use crate::scenario::{Scenario, Vehicle};
+use crate::schema::SchemaNode;
 use crate::tree::TomlNode;
 use checker::Checker;
 
@@ -29,7 +30,7 @@ const MAX_TICKS: f64 = 100_000.0;
 const ROUNDING_M: f64 = 1e-9;
 
 /// Everything that does not fit together.
-pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
+pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut checker = Checker::new(scenario, tree);
     checker.times();
     checker.names();
@@ -44,7 +45,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     }
     checker.starts();
     checker.expectations();
-    checker.faults.extend(building::check(scenario, tree));
+    checker.faults.extend(building::check(scenario, tree, schema));
     if checker.faults.is_empty() {
         checker.faults = budget::check(scenario, tree);
     }

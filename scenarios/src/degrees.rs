@@ -7,7 +7,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::error::Fault;
-use crate::schema::{self, SchemaNode, TWIN_OF, in_degrees, rounded};
+use crate::schema::{SchemaNode, TWIN_OF, in_degrees, rounded};
 use crate::tree::{TomlNode, TomlValue};
 
 /// Puts radians in the place of the degrees of every twin.
@@ -38,9 +38,9 @@ pub(crate) fn to_radians(schema: SchemaNode, value: &mut Json) {
 }
 
 /// A remark for each key in radians that is stated, with the value in degrees.
-pub(crate) fn remarks(tree: &TomlNode) -> Vec<Fault> {
+pub(crate) fn remarks(tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut found = Vec::new();
-    collect(schema::complete(), tree, &mut found);
+    collect(schema, tree, &mut found);
     found
 }
 
@@ -73,11 +73,12 @@ fn collect(schema: SchemaNode, node: &TomlNode, found: &mut Vec<Fault>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Registry;
 
     #[test]
     fn degrees_take_the_place_of_radians() {
         let mut stated = json!({ "vehicle": [{ "limits": { "steering_max_deg": 30.0 } }] });
-        to_radians(schema::complete(), &mut stated);
+        to_radians(Registry::standard().complete(), &mut stated);
         let limits = &stated["vehicle"][0]["limits"];
         assert_eq!(limits, &json!({ "steering_max_rad": 30.0_f64.to_radians() }));
     }

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 
 use crate::load;
 use crate::overrides::Override;
+use crate::registry::Registry;
 use crate::source::Source;
 use crate::stated_path::path_beside;
 use crate::tree::{self, TomlNode, TomlValue};
 
 /// The files of which a scenario is made, as far as they can be read: its own, those that it extends, and those that any of them or
 /// of `overrides` names, such as its weather. Scenarios in the binary never change and are not among them.
-pub fn files(name_or_path: &str, overrides: &[Override]) -> Vec<PathBuf> {
+pub fn files(registry: &Registry, name_or_path: &str, overrides: &[Override]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut next = Source::find(name_or_path).ok();
     while let Some(source @ Source::File(path)) = &next {
@@ -21,10 +22,10 @@ pub fn files(name_or_path: &str, overrides: &[Override]) -> Vec<PathBuf> {
         found.push(path.clone());
         next = parent(source);
     }
-    let Ok(mut tree) = load::tree(name_or_path) else { return found };
+    let Ok(mut tree) = load::tree(registry, name_or_path) else { return found };
     if let TomlValue::Table(root) = &mut tree.value {
         // One that is wrong is refused when the scenario is loaded.
-        overrides.iter().for_each(|change| drop(change.apply(root)));
+        overrides.iter().for_each(|change| drop(change.apply(root, registry.complete())));
     }
     add_named(&tree, &mut found);
     found

@@ -13,8 +13,8 @@ pub(crate) fn merge_tables(schema: Option<SchemaNode>, mut under: Table, over: T
         let table = schema.and_then(|table| table.of_kind(new));
         under.retain(|key, _| table.is_some_and(|table| table.property(key).is_some()));
     }
-    let of_its_kind = |table: SchemaNode| kind(&over).or(kind(&under)).and_then(|kind| table.of_kind(kind));
-    let table = schema.map(|table| of_its_kind(table).unwrap_or(table));
+    let own_kind = kind(&over).or(kind(&under));
+    let table = schema.map(|table| own_kind.and_then(|kind| table.of_kind(kind)).unwrap_or(table));
     for (one, other) in table.into_iter().flat_map(SchemaNode::exclusions).flat_map(|(a, b)| [(a, b), (b, a)]) {
         if over.contains_key(one) && !over.contains_key(other) {
             under.remove(other);

@@ -10,7 +10,7 @@ use interplay_building::nearest::suggestion;
 use crate::error::{Document, Fault, Place, quoted};
 use crate::merge::merge_tables;
 use crate::scenario::EGO;
-use crate::schema::{self, SchemaNode};
+use crate::schema::SchemaNode;
 use crate::tree::{Table, TomlEntry, TomlNode, TomlValue, kind_of, parse_value};
 
 /// The most words that a path may have; bounds the depth of what `--set` can make.
@@ -37,7 +37,7 @@ struct Step {
 
 impl Override {
     /// Lays the change over a scenario.
-    pub(crate) fn apply(&self, root: &mut Table) -> Result<(), Fault> {
+    pub(crate) fn apply(&self, root: &mut Table, schema: SchemaNode) -> Result<(), Fault> {
         let (steps, value) = match self {
             Override::Set(assignment) => assignment_of(assignment)?,
             Override::Seed(seed) => {
@@ -49,17 +49,17 @@ impl Override {
                 if !has_vehicles(root) {
                     return Err(no_vehicles(root, &place));
                 }
-                return lay_planner(root, TomlNode { place, value: TomlValue::Text(kind.clone()) });
+                return lay_planner(root, TomlNode { place, value: TomlValue::Text(kind.clone()) }, schema);
             }
         };
-        lay(Some(schema::complete()), root, (&steps, 0), value)
+        lay(Some(schema), root, (&steps, 0), value)
     }
 }
 
 /// Lays the kind of driver that `node` holds over that of the ego.
-pub(crate) fn lay_planner(root: &mut Table, node: TomlNode) -> Result<(), Fault> {
+pub(crate) fn lay_planner(root: &mut Table, node: TomlNode, schema: SchemaNode) -> Result<(), Fault> {
     let SettingPath(steps) = ego_kind(root, &node.place);
-    lay(Some(schema::complete()), root, (&steps, 0), node)
+    lay(Some(schema), root, (&steps, 0), node)
 }
 
 /// The path of the kind of driver of a scenario's ego, written at a place.
@@ -69,14 +69,12 @@ pub(crate) fn ego_kind(root: &Table, place: &Place) -> SettingPath {
 
 /// Lays a table over a scenario whose keys are paths as `--set` has them, or tables below one another that spell them.
 /// Returns what is wrong with it; the scenario is then changed in part.
-pub(crate) fn lay_paths(root: &mut Table, set: Table) -> Vec<Fault> {
+pub(crate) fn lay_paths(root: &mut Table, set: Table, schema: SchemaNode) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (key, entry) in set {
-        match assignments(Some(schema::complete()), &[], &key, entry) {
-            Ok(all) => faults.extend(
-                all.into_iter()
-                    .filter_map(|(steps, value)| lay(Some(schema::complete()), root, (&steps, 0), value).err()),
-            ),
+        match assignments(Some(schema), &[], &key, entry) {
+            Ok(all) => faults
+                .extend(all.into_iter().filter_map(|(steps, value)| lay(Some(schema), root, (&steps, 0), value).err())),
             Err(fault) => faults.push(fault),
         }
     }
@@ -166,9 +164,9 @@ impl SettingPath {
         words.join(".")
     }
 
-    /// What the schema says of what is at its end, if it knows.
-    pub fn schema(&self) -> Option<SchemaNode> {
-        schema_at(self.0.iter().map(|step| step.word.as_str()))
+    /// What the schema of a scenario says of what is at its end, if it knows.
+    pub fn schema<'s>(&self, root: SchemaNode<'s>) -> Option<SchemaNode<'s>> {
+        schema_at(root, self.0.iter().map(|step| step.word.as_str()))
     }
 
     /// Where its words are written.
@@ -177,13 +175,13 @@ impl SettingPath {
     }
 
     /// Lays a value over a scenario at the end of the path.
-    pub fn lay(&self, root: &mut Table, value: &TomlNode) -> Result<(), Fault> {
+    pub fn lay(&self, root: &mut Table, value: &TomlNode, schema: SchemaNode) -> Result<(), Fault> {
         if self.is_of_others() && !has_vehicles(root) {
             let message = format!("the scenario has no vehicles, so {} changes nothing", quoted(&self.written()));
             return Err(Fault::at(&self.0[1].place, "no vehicle here", message));
         }
         let mut paths = self.in_scenario(root).into_iter();
-        paths.try_for_each(|path| lay(Some(schema::complete()), root, (&path.0, 0), value.clone()))
+        paths.try_for_each(|path| lay(Some(schema), root, (&path.0, 0), value.clone()))
     }
 
     /// The paths that it stands for in a scenario: one for each vehicle but the ego if it has a `*`, otherwise itself.
@@ -206,17 +204,20 @@ impl SettingPath {
     }
 }
 
-/// What the schema says of what is at the end of a path, if it knows.
-pub(crate) fn schema_at<'a>(words: impl IntoIterator<Item = &'a str>) -> Option<SchemaNode> {
+/// What the schema of a scenario says of what is at the end of a path, if it knows.
+pub(crate) fn schema_at<'a, 's>(
+    root: SchemaNode<'s>,
+    words: impl IntoIterator<Item = &'a str>,
+) -> Option<SchemaNode<'s>> {
     let mut words = words.into_iter();
-    words.try_fold(schema::complete(), |schema, word| schema.entries().or_else(|| schema.property(word)))
+    words.try_fold(root, |schema, word| schema.entries().or_else(|| schema.property(word)))
 }
 
 /// The paths and values of a table such as [`lay_paths`] takes.
-pub(crate) fn settings_of(set: Table) -> Result<Vec<(SettingPath, TomlNode)>, Vec<Fault>> {
+pub(crate) fn settings_of(set: Table, schema: SchemaNode) -> Result<Vec<(SettingPath, TomlNode)>, Vec<Fault>> {
     let (mut all, mut faults) = (Vec::new(), Vec::new());
     for (key, entry) in set {
-        match assignments(Some(schema::complete()), &[], &key, entry) {
+        match assignments(Some(schema), &[], &key, entry) {
             Ok(found) => all.extend(found.into_iter().map(|(steps, value)| (SettingPath(steps), value))),
             Err(fault) => faults.push(fault),
         }

@@ -15,6 +15,7 @@ use serde_json::Value as Json;
 use crate::consistency::curve_faults;
 use crate::error::Fault;
 use crate::road::{Branch, Road};
+use crate::schema::SchemaNode;
 use crate::tree::TomlNode;
 pub(crate) use known_roads::KnownRoads;
 use written::VehicleAsWritten;
@@ -37,6 +38,7 @@ pub(crate) struct Placed {
 pub(crate) fn resolve_starts(
     scenario: &mut Json,
     tree: &TomlNode,
+    schema: SchemaNode,
     known_roads: &KnownRoads,
 ) -> Result<Placed, Vec<Fault>> {
     let text = scenario.get("road").map(Json::to_string).unwrap_or_default();
@@ -52,7 +54,7 @@ pub(crate) fn resolve_starts(
     let [main, cross] = [Branch::Main, Branch::Cross].map(|branch| road.route(branch));
     let mut faults = Vec::new();
     for (index, vehicle) in vehicles.iter_mut().enumerate() {
-        let Some(written) = VehicleAsWritten::new(vehicle, index, tree) else { continue };
+        let Some(written) = VehicleAsWritten::new(vehicle, index, tree, schema) else { continue };
         let route = if written.branch == Branch::Main { &main } else { &cross };
         let found = match (&network, route) {
             (Some(network), _) => on_network::place(&written, network),

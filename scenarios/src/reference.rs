@@ -9,7 +9,8 @@ use interplay_building::bounds::Bound;
 use serde_json::Value as Json;
 
 use crate::commented::{inline, toml};
-use crate::schema::{self, SchemaNode, in_degrees};
+use crate::registry::Registry;
+use crate::schema::{SchemaNode, in_degrees};
 
 /// Defaults and examples longer than this are not shown: the section of the table has them key by key \[characters\].
 const MAX_SHOWN: usize = 60;
@@ -26,9 +27,10 @@ const HEAD: &str = "# Every key\n\n\
 /// The page.
 pub fn key_reference() -> String {
     let mut pages = Sections::default();
+    let schema = Registry::standard().complete();
     let extends = "| `extends` | text | | | | `\"lane-change/front-nice\"` | Another scenario, from which this one differs in what it \
                    states: [variants](authoring.md#variants). |\n";
-    pages.add("Top level", schema::complete(), "The keys outside of any table.");
+    pages.add("Top level", schema, "The keys outside of any table.");
     let mut page = HEAD.to_owned() + "\n## All tables\n\n| table | what |\n|---|---|\n";
     for section in &pages.sections {
         let title = &section.title;
@@ -54,14 +56,14 @@ struct Section {
 
 /// The sections so far, and in which of them each definition is described.
 #[derive(Default)]
-struct Sections {
+struct Sections<'s> {
     sections: Vec<Section>,
-    described: BTreeMap<&'static str, String>,
+    described: BTreeMap<&'s str, String>,
 }
 
-impl Sections {
+impl<'s> Sections<'s> {
     /// Describes a table, and then the tables below it.
-    fn add(&mut self, title: &str, table: SchemaNode, about: &str) {
+    fn add(&mut self, title: &str, table: SchemaNode<'s>, about: &str) {
         let index = self.sections.len();
         self.sections.push(Section { title: title.to_owned(), about: about.to_owned(), rows: String::new() });
         let prefix = title.split(": ").next().filter(|_| index > 0).map_or(String::new(), |path| format!("{path}."));
@@ -75,7 +77,7 @@ impl Sections {
     }
 
     /// The title of the section that describes the table, or the entries of the list, at a path; described now if it is new.
-    fn link(&mut self, path: &str, property: SchemaNode) -> Option<String> {
+    fn link(&mut self, path: &str, property: SchemaNode<'s>) -> Option<String> {
         let table = tables(property).find(|node| !node.kinds().is_empty() || node.properties().next().is_some())?;
         if let Some(title) = table.definition_name().and_then(|name| self.described.get(name)) {
             return Some(title.clone());

@@ -11,6 +11,7 @@ use crate::error::{Fault, quoted};
 use crate::narrowest_lane::{NarrowestLane, narrowest_lane};
 use crate::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::scenario::{Scenario, Vehicle};
+use crate::schema::SchemaNode;
 use crate::swept_width;
 use crate::tree::TomlNode;
 
@@ -24,8 +25,8 @@ const ROUNDING_M: f64 = 1e-6;
 const MAX_START_ANGLE_DEG: f64 = 20.0;
 
 /// Everything to remark on.
-pub(crate) fn of(scenario: &Scenario, tree: &TomlNode) -> ScenarioRemarks {
-    let mut faults = degrees::remarks(tree);
+pub(crate) fn of(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> ScenarioRemarks {
+    let mut faults = degrees::remarks(tree, schema);
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         let remark = |key: &str, label: &str, (message, help): (String, String)| {
             let place = tree.place_of(&format!("vehicle.{index}.{key}"));
@@ -48,7 +49,7 @@ pub(crate) fn of(scenario: &Scenario, tree: &TomlNode) -> ScenarioRemarks {
 fn too_small_ellipse(scenario: &Scenario, index: usize) -> Option<(String, String)> {
     let vehicle = &scenario.vehicles[index];
     // These drivers have no use for an ellipse.
-    if matches!(vehicle.driver, Driver::Idm(_) | Driver::Scripted(_)) {
+    if matches!(vehicle.driver, Driver::Idm(_) | Driver::Scripted(_) | Driver::External(_)) {
         return None;
     }
     let others = scenario.vehicles.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);

@@ -11,27 +11,25 @@
 //! - `x-radians`: the key in radians whose value it gives in degrees (`twins`),
 //! - `x-merge-by`: the key by which a variant's entries of a list are merged with its parent's.
 //!
-//! [`complete`] describes a whole scenario, all that it extends included. [`schema`] describes one file, which may leave to
+//! [`complete`] describes a whole scenario, all that it extends included. [`of_file`] describes one file, which may leave to
 //! its parent whatever it does not state.
 
 mod node;
 mod twins;
 mod units;
 
-use std::sync::LazyLock;
-
 use interplay_building::json_schema::kind_of;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json, json};
 
+use crate::foreign_kind::ForeignKind;
+use crate::registry::Registry;
 use crate::scenario::Scenario;
 
 pub(crate) use node::{Concern, SchemaNode};
 pub(crate) use twins::{TWIN_OF, in_degrees, rounded};
 pub(crate) use units::{quantity_of, unit_of};
-
-static COMPLETE: LazyLock<Json> = LazyLock::new(generated::<Scenario>);
 
 /// The schema of a type of files, as the check reads it.
 pub(crate) fn generated<T: JsonSchema>() -> Json {
@@ -41,25 +39,30 @@ pub(crate) fn generated<T: JsonSchema>() -> Json {
     schema
 }
 
-/// The schema of a whole scenario, all that it extends included.
-pub(crate) fn complete() -> SchemaNode {
-    SchemaNode::of(&COMPLETE)
-}
-
-/// The kinds of drivers that a vehicle may have.
-pub fn driver_kinds() -> Vec<&'static str> {
-    let vehicle = complete().property("vehicle").and_then(SchemaNode::entries);
-    vehicle.and_then(|vehicle| vehicle.property("driver")).map(SchemaNode::kinds).unwrap_or_default()
-}
-
-/// The kinds of controllers that a building may have.
-pub fn controller_kinds() -> Vec<&'static str> {
-    complete().property("controller").map(SchemaNode::kinds).unwrap_or_default()
-}
-
-/// The JSON Schema of a scenario file, for editors. A file that extends another need not repeat what that one states.
+/// [`Registry::schema`] of what Interplay has.
 pub fn schema() -> Json {
-    let whole = &*COMPLETE;
+    Registry::standard().schema()
+}
+
+/// The schema of a whole scenario, all that it extends included, whose vehicles may have drivers of `foreign` kinds.
+pub(crate) fn complete(foreign: &[ForeignKind]) -> Json {
+    let mut generator = SchemaSettings::draft2020_12().into_generator();
+    let mut schema = generator.root_schema_for::<Scenario>().to_value();
+    let drivers: Vec<Json> = foreign.iter().map(|foreign| foreign.schema(&mut generator)).collect();
+    if let Some(definitions) = schema["$defs"].as_object_mut() {
+        for (name, definition) in generator.take_definitions(true) {
+            definitions.entry(name).or_insert(definition);
+        }
+    }
+    if let Some(kinds) = schema["$defs"]["Driver"]["oneOf"].as_array_mut() {
+        kinds.extend(drivers);
+    }
+    polish(&mut schema);
+    schema
+}
+
+/// The schema of one file, which need not repeat what it extends; `whole` is that of a whole scenario.
+pub(crate) fn of_file(whole: &Json) -> Json {
     let mut schema = whole.clone();
     let mut required = requirements(whole, whole).unwrap_or_else(|| json!({}));
     drop_requirements(&mut schema);
@@ -231,7 +234,7 @@ mod tests {
 
     #[test]
     fn the_kinds_of_drivers_are_those_of_the_planners() {
-        let kinds = driver_kinds();
+        let kinds = Registry::standard().driver_kinds();
         assert!(kinds.contains(&"human") && kinds.contains(&"negotiation"), "{kinds:?}");
         for kind in kinds {
             let driver: Driver = serde_json::from_value(json!({ "kind": kind })).expect("every setting has a default");
@@ -256,13 +259,14 @@ mod tests {
 
     #[test]
     fn a_variant_may_leave_out_what_a_complete_file_must_state() {
-        let file = schema();
+        let whole_scenario = complete(&[]);
+        let file = of_file(&whole_scenario);
         let definitions = file["$defs"].to_string();
         assert!(!definitions.contains("required"), "{definitions}");
         let [variant, whole] = file["anyOf"].as_array().expect("two cases").as_slice() else { panic!("two cases") };
         assert_eq!(variant, &json!({ "required": ["extends"] }));
         assert_eq!(whole["not"], *variant);
-        assert_eq!(whole["required"], COMPLETE["required"]);
+        assert_eq!(whole["required"], whole_scenario["required"]);
         let vehicle = &whole["properties"]["vehicle"]["items"];
         assert_eq!(vehicle["required"], json!(["name", "start"]));
         assert_eq!(vehicle["properties"]["start"]["required"], json!(["speed_mps"]));

@@ -1,6 +1,6 @@
 //! The check of a tree against the JSON Schema: keys, types, ranges, words.
 //!
-//! It understands the part of JSON Schema that [`schema::complete`] uses (a test holds it to that), and says in the words
+//! It understands the part of JSON Schema that the scenario's schema uses (a test holds it to that), and says in the words
 //! of the format what is wrong and what would work.
 
 use std::rc::Rc;
@@ -13,25 +13,20 @@ use serde_json::Value as Json;
 use crate::error::{Fault, Place, quoted};
 use crate::name;
 use crate::plain_text::is_plain;
-use crate::schema::{self, SchemaNode, quantity_of, unit_of};
+use crate::schema::{SchemaNode, quantity_of, unit_of};
 use crate::tree::{Table, TomlNode, TomlValue, kind_of};
 
-/// Everything that is wrong with the shape of the tree.
-pub(crate) fn check(tree: &TomlNode) -> Vec<Fault> {
-    check_file(tree, schema::complete())
-}
-
 /// Everything that is wrong with the shape of a file of which `schema` describes the whole.
-pub(crate) fn check_file(tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
+pub(crate) fn check(tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut checker = Checker::default();
     checker.node(tree, schema, &Path::default());
     checker.faults
 }
 
 /// Everything that is wrong with the shape of one table of the file, which `key` leads to.
-pub(crate) fn check_table(node: &TomlNode, key: &str) -> Vec<Fault> {
+pub(crate) fn check_table(node: &TomlNode, key: &str, schema: SchemaNode) -> Vec<Fault> {
     let mut checker = Checker::default();
-    if let Some(schema) = schema::complete().property(key) {
+    if let Some(schema) = schema.property(key) {
         checker.node(node, schema, &Path(key.to_owned()));
     }
     checker.faults
@@ -103,10 +98,10 @@ impl Checker {
     }
 
     /// A value that may be a number or a text, for example: the form of its type counts.
-    fn one_of_several_forms(
+    fn one_of_several_forms<'s>(
         &mut self,
         node: &TomlNode,
-        forms: impl Iterator<Item = SchemaNode>,
+        forms: impl Iterator<Item = SchemaNode<'s>>,
         schema: SchemaNode,
         path: &Path,
     ) {
@@ -346,6 +341,6 @@ mod tests {
             let closed = object.get("additionalProperties").is_some();
             assert_eq!(object.contains_key("properties"), closed, "a table that takes unknown keys: {schema}");
         }
-        walk(schema::complete().json());
+        walk(&crate::schema::complete(&[]));
     }
 }

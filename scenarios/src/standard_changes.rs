@@ -9,10 +9,10 @@ use interplay_planners::{Driver, human::Style};
 use serde_json::Value as Json;
 
 use crate::error::LoadError;
-use crate::load::load;
 use crate::overrides::Override;
+use crate::registry::Registry;
 use crate::scenario::{Scenario, Vehicle};
-use crate::schema::{self, SchemaNode};
+use crate::schema::SchemaNode;
 
 /// The planners that an interactive vehicle is given instead of its own.
 const PLANNERS: [&str; 4] = ["negotiation", "conservative", "cooperative", "idm"];
@@ -30,28 +30,31 @@ pub struct StandardChange {
     pub scenario: Scenario,
 }
 
-/// The changed scenarios of the standard list. `scenario` is what `name_or_path` means with `overrides`.
-///
-/// # Errors
-/// As [`load`], if a change does not fit the scenario.
-pub fn standard_changes(
-    name_or_path: &str,
-    scenario: &Scenario,
-    overrides: &[Override],
-) -> Result<Vec<StandardChange>, LoadError> {
-    let stated = scenario.vehicles.iter().flat_map(changes);
-    let changed = stated.map(|(factor, change, set)| {
-        let more = ["counterfactual=[]", &set].map(|set| Override::Set(set.to_owned()));
-        let scenario = load(name_or_path, &[overrides, &more].concat())?;
-        Ok(StandardChange { factor, change, sets: vec![set], scenario })
-    });
-    changed.collect()
+impl Registry {
+    /// The changed scenarios of the standard list. `scenario` is what `name_or_path` means with `overrides`.
+    ///
+    /// # Errors
+    /// As [`Registry::load`], if a change does not fit the scenario.
+    pub fn standard_changes(
+        &self,
+        name_or_path: &str,
+        scenario: &Scenario,
+        overrides: &[Override],
+    ) -> Result<Vec<StandardChange>, LoadError> {
+        let stated = scenario.vehicles.iter().flat_map(|vehicle| changes(vehicle, self.complete()));
+        let changed = stated.map(|(factor, change, set)| {
+            let more = ["counterfactual=[]", &set].map(|set| Override::Set(set.to_owned()));
+            let scenario = self.load(name_or_path, &[overrides, &more].concat())?;
+            Ok(StandardChange { factor, change, sets: vec![set], scenario })
+        });
+        changed.collect()
+    }
 }
 
 /// Factor, change, and the argument of `--set`.
 type Change = (String, String, String);
 
-fn changes(vehicle: &Vehicle) -> Vec<Change> {
+fn changes(vehicle: &Vehicle, schema: SchemaNode) -> Vec<Change> {
     let mut changes = match &vehicle.driver {
         Driver::Human(settings) => {
             let styles = [Style::Tough, Style::Nice].into_iter();
@@ -65,7 +68,7 @@ fn changes(vehicle: &Vehicle) -> Vec<Change> {
         }
     };
     let settings = serde_json::to_value(&vehicle.driver).unwrap_or_default();
-    for (key, property) in settings_of(&vehicle.driver) {
+    for (key, property) in settings_of(&vehicle.driver, schema) {
         let value = settings.get(key).unwrap_or(&Json::Null);
         changes.extend(mechanism_change(vehicle, key, property, value));
         if key == "prediction" {
@@ -120,8 +123,8 @@ fn toml_of(value: &Json) -> String {
 }
 
 /// The settings of a driver as its kind has them.
-fn settings_of(driver: &Driver) -> impl Iterator<Item = (&'static String, SchemaNode)> {
-    let vehicle = schema::complete().property("vehicle").and_then(SchemaNode::entries);
+fn settings_of<'s>(driver: &Driver, schema: SchemaNode<'s>) -> impl Iterator<Item = (&'s String, SchemaNode<'s>)> {
+    let vehicle = schema.property("vehicle").and_then(SchemaNode::entries);
     let kinds = vehicle.and_then(|vehicle| vehicle.property("driver"));
     kinds.and_then(|kinds| kinds.of_kind(driver.kind())).into_iter().flat_map(SchemaNode::properties)
 }

@@ -4,7 +4,7 @@ mod common;
 
 use common::Catalogue;
 use interplay_planners::{Driver, human::Style};
-use interplay_scenarios::{Override, Scenario, embedded, from_text, load, standard_changes};
+use interplay_scenarios::{Override, Registry, Scenario, embedded, from_text, load};
 
 /// A variant with one counterfactual, whose table is `stated`.
 fn variant(stated: &str) -> String {
@@ -181,7 +181,7 @@ fn a_building_has_counterfactuals_too() {
 fn standard_changes_fit_every_authored_scenario() {
     for file in embedded() {
         let scenario = load(file.name, &[]).expect("authored");
-        let changes = standard_changes(file.name, &scenario, &[]);
+        let changes = Registry::standard().standard_changes(file.name, &scenario, &[]);
         let changes = changes.unwrap_or_else(|error| panic!("{}: {:?}", file.name, error.faults()));
         assert_eq!(changes.is_empty(), scenario.vehicles.is_empty(), "{}", file.name);
         for one in changes {

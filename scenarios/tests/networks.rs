@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use interplay_planners::Route;
 use interplay_planners::road::network::{NeighbourRelation, RightOfWay, RoadNetwork};
-use interplay_scenarios::{Override, Scenario, commented, from_text, load};
+use interplay_scenarios::{Override, Registry, Scenario, from_text, load};
 
 /// A scenario with a car on a road.
 fn scenario(road: &str, vehicle: &str) -> Scenario {
@@ -229,7 +229,7 @@ fn networks_survive_writing() {
         let path = folder.path().join("first.toml");
         std::fs::write(&path, &text).expect("the folder can be written");
         let first = load(&path.to_string_lossy(), &[]).unwrap_or_else(|error| panic!("{road}: {error:?}"));
-        let written = commented(&path.to_string_lossy(), folder.path()).expect("it loads");
+        let written = Registry::standard().commented(&path.to_string_lossy(), folder.path()).expect("it loads");
         let second = from_text("second.toml", &written, &[]).unwrap_or_else(|error| panic!("{written}\n{error:?}"));
         assert_eq!(first, second, "{written}");
         assert!(second.network.is_some());

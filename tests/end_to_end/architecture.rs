@@ -281,8 +281,8 @@ fn names_variant(line: &str, enumeration: &str) -> bool {
 /// these quantities names no planner, no controller, and no variant of `Driver` or `Controller`. Comments and tests may.
 #[test]
 fn recorder_report_and_measures_name_no_planner_and_no_controller() {
-    let kinds = interplay_scenarios::driver_kinds();
-    let controllers = interplay_scenarios::controller_kinds();
+    let kinds = interplay_scenarios::Registry::standard().driver_kinds();
+    let controllers = interplay_scenarios::Registry::standard().controller_kinds();
     assert!(kinds.contains(&"negotiation") && controllers.contains(&"pid"), "{kinds:?}, {controllers:?}");
     // Quantities that one planner alone reports, and one controller alone.
     let quantities = ["acceptance", "centralised"];

@@ -1,7 +1,7 @@
 //! `interplay check`
 
 use clap::Args;
-use interplay_scenarios::{Scenario, load};
+use interplay_scenarios::{Registry, Scenario};
 
 use crate::exit_status::ExitStatus;
 use crate::files;
@@ -17,13 +17,13 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    pub(crate) fn execute(self) -> ExitStatus {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
         let mut ending = ExitStatus::Well;
         for path in &self.paths {
             match files::find(path) {
                 Ok(found) => {
                     for file in found.into_iter().map(|found| found.scenario) {
-                        match load(&file, &[]) {
+                        match registry.load(&file, &[]) {
                             Ok(scenario) => ending = ending.max(printed(&approved(&file, &scenario))),
                             Err(error) => {
                                 print_load_error(error);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use interplay_fmu::export;
 use interplay_presentation::figures::FrameLog;
-use interplay_scenarios::{Override, Scenario, load};
+use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::run::run;
 
 use crate::error::{CommandError, write_file};
@@ -40,15 +40,15 @@ pub(crate) struct ExportFmu {
 }
 
 impl ExportFmu {
-    pub(crate) fn execute(self) -> ExitStatus {
-        let scenario = match load(&self.scenario, &self.overrides()) {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        let scenario = match registry.load(&self.scenario, &self.overrides()) {
             Ok(scenario) => scenario,
             Err(error) => {
                 print_load_error(error);
                 return ExitStatus::BadInput;
             }
         };
-        if let Some(reason) = self.refused_output() {
+        if let Some(reason) = self.refused_output(registry) {
             print_error(&reason);
             return ExitStatus::BadInput;
         }
@@ -73,10 +73,10 @@ impl ExportFmu {
     }
 
     /// Why a file must not be written: it would take the place of an input or of the other file.
-    fn refused_output(&self) -> Option<String> {
+    fn refused_output(&self, registry: &Registry) -> Option<String> {
         let outputs = [Some(self.out.as_path()), self.reference.as_deref()];
         for path in outputs.into_iter().flatten() {
-            if let Some(path) = destroyed(path, [self.scenario.as_str()].into_iter(), &self.overrides()) {
+            if let Some(path) = destroyed(registry, path, [self.scenario.as_str()].into_iter(), &self.overrides()) {
                 let path = path.display();
                 return Some(format!(
                     "`{path}` would be overwritten, of which the scenario is made; choose another name"

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use interplay_scenarios::{Override, embedded, files_below};
+use interplay_scenarios::{Override, Registry, embedded, files_below};
 use thiserror::Error;
 
 /// A scenario to be loaded.
@@ -51,13 +51,14 @@ pub(crate) fn find(argument: &str) -> Result<Vec<ScenarioArgument>, FolderError>
 
 /// A file of which one of the scenarios is made, changed by `overrides`, that writing to `output` would destroy.
 pub(crate) fn destroyed<'a>(
+    registry: &Registry,
     output: &Path,
     mut scenarios: impl Iterator<Item = &'a str>,
     overrides: &[Override],
 ) -> Option<PathBuf> {
     let output = output.canonicalize().ok()?;
     let is_output = |path: &PathBuf| path.canonicalize().is_ok_and(|path| path == output);
-    scenarios.find_map(|scenario| interplay_scenarios::files(scenario, overrides).into_iter().find(is_output))
+    scenarios.find_map(|scenario| interplay_scenarios::files(registry, scenario, overrides).into_iter().find(is_output))
 }
 
 /// Whether two paths, of files that need not exist, name the same file.

@@ -42,7 +42,8 @@ mod why;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use interplay_scenarios::Registry;
 
 /// Simulate agents that must interact: scenarios in, verdicts and recordings out.
 #[derive(Debug, Parser)]
@@ -73,30 +74,43 @@ enum Command {
     Man(man::Man),
 }
 
-/// Reads the arguments and does what they say.
+/// Reads the arguments and does what they say, with what Interplay has.
 pub fn main() -> ExitCode {
-    let interplay = match Interplay::try_parse() {
+    main_with(Registry::standard())
+}
+
+/// The same with the kinds of drivers of a registry: the whole command for a crate with drivers of its own.
+pub fn main_with(registry: &Registry) -> ExitCode {
+    let mut command = command(registry);
+    let parsed = command.try_get_matches_from_mut(std::env::args_os());
+    let interplay = match parsed.and_then(|found| Interplay::from_arg_matches(&found)) {
         Ok(interplay) => interplay,
         Err(said) if said.use_stderr() => said.exit(),
         Err(asked) => return output::ended(asked.print().and_then(|()| std::io::stdout().flush())).into(),
     };
     let ending = match interplay.command {
-        None => run::Run::default().execute(),
-        Some(Command::Run(command)) => command.execute(),
+        None => run::Run::default().execute(registry),
+        Some(Command::Run(command)) => command.execute(registry),
         Some(Command::List(command)) => command.execute(),
-        Some(Command::Check(command)) => command.execute(),
-        Some(Command::Suite(command)) => command.execute(),
-        Some(Command::Why(command)) => command.execute(),
-        Some(Command::Sweep(command)) => command.execute(),
+        Some(Command::Check(command)) => command.execute(registry),
+        Some(Command::Suite(command)) => command.execute(registry),
+        Some(Command::Why(command)) => command.execute(registry),
+        Some(Command::Sweep(command)) => command.execute(registry),
         Some(Command::Compare(command)) => command.execute(),
-        Some(Command::New(command)) => command.execute(),
-        Some(Command::Schema(command)) => command.execute(),
+        Some(Command::New(command)) => command.execute(registry),
+        Some(Command::Schema(command)) => command.execute(registry),
         Some(Command::View(command)) => command.execute(),
         Some(Command::Reproduce(command)) => command.execute(),
         Some(Command::Identify(command)) => command.execute(),
-        Some(Command::ExportFmu(command)) => command.execute(),
-        Some(Command::Completions(command)) => command.execute(Interplay::command()),
-        Some(Command::Man(command)) => command.execute(Interplay::command()),
+        Some(Command::ExportFmu(command)) => command.execute(registry),
+        Some(Command::Completions(asked)) => asked.execute(command),
+        Some(Command::Man(asked)) => asked.execute(command),
     };
     ending.into()
+}
+
+/// The arguments, with the kinds of drivers that `--planner` takes.
+fn command(registry: &Registry) -> clap::Command {
+    let drivers = run::planner_help(registry);
+    Interplay::command().mut_subcommand("run", |run| run.mut_arg("planner", |planner| planner.help(drivers)))
 }

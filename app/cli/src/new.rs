@@ -6,7 +6,7 @@ use std::{fs, io};
 use clap::Args;
 use interplay_files::{NewFolders, write_new};
 use interplay_presentation::shell;
-use interplay_scenarios::{LoadError, commented};
+use interplay_scenarios::{LoadError, Registry};
 use thiserror::Error;
 
 use crate::exit_status::ExitStatus;
@@ -44,8 +44,8 @@ enum NewError {
 }
 
 impl New {
-    pub(crate) fn execute(self) -> ExitStatus {
-        match self.write() {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        match self.write(registry) {
             Ok(()) => {
                 let run = shell::line(["interplay", "run", &self.file.to_string_lossy()]);
                 printed(&format!("wrote {}; to run it: {run}\n", self.file.display()))
@@ -61,12 +61,12 @@ impl New {
         }
     }
 
-    fn write(&self) -> Result<(), NewError> {
+    fn write(&self, registry: &Registry) -> Result<(), NewError> {
         if self.file.exists() {
             return Err(NewError::Exists(self.file.clone()));
         }
         let folder = self.file.parent().unwrap_or(Path::new(""));
-        let scenario = commented(&self.from, folder)?;
+        let scenario = registry.commented(&self.from, folder)?;
         let words = ["interplay", "new", &self.file.to_string_lossy(), "--from", &self.from].map(str::to_owned);
         // A comment is one line, whatever the file is called.
         let command = shell::line(words.iter().map(String::as_str)).replace(char::is_control, "·");
@@ -80,7 +80,7 @@ impl New {
         let schema = folder.join(SCHEMA_FILE);
         let is_missing = !schema.exists();
         if is_missing {
-            create(&schema, &schema::text())?;
+            create(&schema, &schema::text(registry))?;
         }
         create(&self.file, &(head + &scenario)).inspect_err(|_| {
             if is_missing {

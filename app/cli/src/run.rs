@@ -9,7 +9,7 @@ use interplay_presentation::page::Page;
 use interplay_presentation::record::{OpenRecording, RecordError, Recorder, Sink, Viewer};
 use interplay_presentation::report::summary;
 use interplay_presentation::shell;
-use interplay_scenarios::{Override, Scenario, driver_kinds, load};
+use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use interplay_simulation::watch::Watcher;
@@ -35,7 +35,8 @@ pub(crate) struct Run {
     #[arg(value_name = "NAME|FILE", default_value = DEFAULT_SCENARIO)]
     scenario: Option<String>,
 
-    #[arg(long, value_name = "KIND", help = planner_help())]
+    /// Who drives the ego instead of the scenario's choice
+    #[arg(long, value_name = "KIND")]
     planner: Option<String>,
 
     /// Change one value of the scenario; may be repeated
@@ -81,13 +82,13 @@ pub(crate) struct Run {
 pub(crate) const DEFAULT_SCENARIO: &str = "lane-change/front-nice";
 
 impl Run {
-    pub(crate) fn execute(self) -> ExitStatus {
-        if self.watch { self.run_at_every_change() } else { self.run_once() }
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        if self.watch { self.run_at_every_change(registry) } else { self.run_once(registry) }
     }
 
     /// Runs at every change of the scenario; never returns unless there is nothing to watch.
-    fn run_at_every_change(&self) -> ExitStatus {
-        let mut watched = WatchedFiles::look(self.scenario());
+    fn run_at_every_change(&self, registry: &Registry) -> ExitStatus {
+        let mut watched = WatchedFiles::look(registry, self.scenario());
         if watched.is_empty() {
             print_error(&format!(
                 "--watch needs a scenario file, and `{}` is none; `interplay new my.toml --from {0}` makes one",
@@ -96,14 +97,14 @@ impl Run {
             return ExitStatus::BadInput;
         }
         loop {
-            self.run_once();
+            self.run_once(registry);
             print_error(&format!("watching {}; Ctrl-C ends", self.scenario()));
-            watched = watched.wait();
+            watched = watched.wait(registry);
         }
     }
 
-    fn run_once(&self) -> ExitStatus {
-        let scenario = match load(self.scenario(), &self.overrides()) {
+    fn run_once(&self, registry: &Registry) -> ExitStatus {
+        let scenario = match registry.load(self.scenario(), &self.overrides()) {
             Ok(scenario) => self.without_foreign_claims(scenario),
             Err(error) => {
                 print_load_error(error);
@@ -117,7 +118,7 @@ impl Run {
             print_error(&format!("note: {remark}"));
         }
         let name = short_name(self.scenario());
-        if let Some(reason) = self.refused_output(&name) {
+        if let Some(reason) = self.refused_output(&name, registry) {
             print_error(&reason);
             return ExitStatus::BadInput;
         }
@@ -150,11 +151,11 @@ impl Run {
     }
 
     /// Why an output must not be written: it would take the place of an input, of another output, or of somebody's page.
-    fn refused_output(&self, name: &str) -> Option<String> {
+    fn refused_output(&self, name: &str, registry: &Registry) -> Option<String> {
         let (recording, animation) = (self.recording(name), self.animate.as_ref().map(AnimationFile::path));
         let outputs = [("recording", recording.as_deref()), ("animation", animation)];
         for (what, path) in outputs.iter().filter_map(|(what, path)| Some((what, (*path)?))) {
-            if let Some(path) = destroyed(path, [self.scenario()].into_iter(), &self.overrides()) {
+            if let Some(path) = destroyed(registry, path, [self.scenario()].into_iter(), &self.overrides()) {
                 let path = path.display();
                 return Some(format!(
                     "the {what} would overwrite `{path}`, of which the scenario is made; choose another name for it"
@@ -291,8 +292,8 @@ impl Run {
 struct SeedError;
 
 /// What `--planner` does, with the kinds of drivers that a scenario may name.
-fn planner_help() -> String {
-    format!("Who drives the ego instead of the scenario's choice: {}", driver_kinds().join(", "))
+pub(crate) fn planner_help(registry: &Registry) -> String {
+    format!("Who drives the ego instead of the scenario's choice: {}", registry.driver_kinds().join(", "))
 }
 
 /// A seed as it is written on the command line.

@@ -1,6 +1,7 @@
 //! `interplay schema`
 
 use clap::Args;
+use interplay_scenarios::Registry;
 
 use crate::exit_status::ExitStatus;
 use crate::output::printed;
@@ -14,12 +15,12 @@ use crate::output::printed;
 pub(crate) struct Schema {}
 
 impl Schema {
-    pub(crate) fn execute(self) -> ExitStatus {
-        printed(&text())
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        printed(&text(registry))
     }
 }
 
 /// The schema as it is written into files.
-pub(crate) fn text() -> String {
-    format!("{:#}\n", interplay_scenarios::schema())
+pub(crate) fn text(registry: &Registry) -> String {
+    format!("{:#}\n", registry.schema())
 }

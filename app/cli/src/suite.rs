@@ -8,7 +8,7 @@ use clap::Args;
 use interplay_presentation::animation::AnimationFile;
 use interplay_presentation::figures::RecordedRun;
 use interplay_presentation::report::{Case, junit, table};
-use interplay_scenarios::{Scenario, embedded, load};
+use interplay_scenarios::{Registry, Scenario, embedded};
 use interplay_simulation::report::Report;
 use interplay_simulation::run::run_with_counterfactuals;
 use rayon::prelude::*;
@@ -51,16 +51,16 @@ pub(crate) struct Suite {
 }
 
 impl Suite {
-    pub(crate) fn execute(self) -> ExitStatus {
-        let Some(scenarios) = self.load() else { return ExitStatus::BadInput };
-        if let Some(path) = self.junit.as_deref().and_then(|junit| self.destroyed_by(junit)) {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        let Some(scenarios) = self.load(registry) else { return ExitStatus::BadInput };
+        if let Some(path) = self.junit.as_deref().and_then(|junit| self.destroyed_by(junit, registry)) {
             print_error(&format!(
                 "the results would overwrite the scenario `{}`; choose another name for --junit",
                 path.display()
             ));
             return ExitStatus::BadInput;
         }
-        if let Some(reason) = self.refused_animation(&scenarios) {
+        if let Some(reason) = self.refused_animation(&scenarios, registry) {
             print_error(&reason);
             return ExitStatus::BadInput;
         }
@@ -86,11 +86,11 @@ impl Suite {
     }
 
     /// All scenarios with their names; `None` if any cannot be used, once all that is wrong has been said.
-    fn load(&self) -> Option<Vec<(String, Scenario)>> {
+    fn load(&self, registry: &Registry) -> Option<Vec<(String, Scenario)>> {
         let mut sound = true;
         let mut scenarios = Vec::new();
         for ScenarioArgument { name, scenario } in self.find(&mut sound) {
-            match load(&scenario, &[]) {
+            match registry.load(&scenario, &[]) {
                 Ok(scenario) => scenarios.push((name, scenario)),
                 Err(error) => {
                     print_load_error(error);
@@ -102,9 +102,9 @@ impl Suite {
     }
 
     /// The scenario that writing to a file would destroy.
-    fn destroyed_by(&self, output: &Path) -> Option<PathBuf> {
+    fn destroyed_by(&self, output: &Path, registry: &Registry) -> Option<PathBuf> {
         let found = self.find(&mut true);
-        destroyed(output, found.iter().map(|found| found.scenario.as_str()), &[])
+        destroyed(registry, output, found.iter().map(|found| found.scenario.as_str()), &[])
     }
 
     fn find(&self, sound: &mut bool) -> Vec<ScenarioArgument> {
@@ -157,13 +157,13 @@ impl Suite {
     }
 
     /// Why an animation must not be written: it would take the place of a scenario, or its folder is none.
-    fn refused_animation(&self, scenarios: &[(String, Scenario)]) -> Option<String> {
+    fn refused_animation(&self, scenarios: &[(String, Scenario)], registry: &Registry) -> Option<String> {
         let folder = self.animate_failures.as_ref()?;
         if folder.exists() && !folder.is_dir() {
             return Some(format!("`{}` is no folder; choose another name for --animate-failures", folder.display()));
         }
         let animations = scenarios.iter().filter_map(|(name, _)| self.animation(name));
-        let path = animations.into_iter().find_map(|animation| self.destroyed_by(animation.path()))?;
+        let path = animations.into_iter().find_map(|animation| self.destroyed_by(animation.path(), registry))?;
         Some(format!(
             "an animation would overwrite the scenario `{}`; choose another folder for --animate-failures",
             path.display()
@@ -204,7 +204,7 @@ mod tests {
     use super::*;
 
     fn case(outcome: Result<bool, &str>) -> Case {
-        let mut scenario = load("lane-change/front-nice", &[]).expect("embedded");
+        let mut scenario = Registry::standard().load("lane-change/front-nice", &[]).expect("embedded");
         scenario.duration_s = scenario.step_s;
         let report = || run("short", &scenario, Vec::new()).expect("one tick");
         let outcome = outcome.map(|passed| Report { passed, ..report() });

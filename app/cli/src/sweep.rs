@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use clap::{Args, Subcommand, ValueEnum};
 use interplay_presentation::record::{OpenRecording, Recorder, Sink};
-use interplay_scenarios::{LoadError, Scenario, SweepPlan, embedded_plans};
+use interplay_scenarios::{LoadError, Registry, Scenario, SweepPlan, embedded_plans};
 use interplay_simulation::run::run;
 use interplay_sweep::{Shard, ShardError, SweepError, SweepOptions, SweepOutcome, SweepRow, check, merge, sweep};
 use rayon::ThreadPool;
@@ -102,7 +102,7 @@ fn plan_help() -> String {
 }
 
 impl Sweep {
-    pub(crate) fn execute(self) -> ExitStatus {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
         if let Some(Action::Merge { folder, to, no_timings }) = &self.action {
             return merged(folder, to.as_deref(), !no_timings);
         }
@@ -117,7 +117,7 @@ impl Sweep {
             print_error(&message);
             return ExitStatus::BadInput;
         }
-        let plan = match self.plan() {
+        let plan = match self.plan(registry) {
             Ok(plan) => plan,
             Err(error) => {
                 print_load_error(error);
@@ -148,10 +148,10 @@ impl Sweep {
         Ok(found.unwrap_or(Shard::WHOLE))
     }
 
-    fn plan(&self) -> Result<SweepPlan, LoadError> {
+    fn plan(&self, registry: &Registry) -> Result<SweepPlan, LoadError> {
         match self.flags.text() {
-            Some(text) => SweepPlan::from_text("the flags", &text, Path::new("")),
-            None => SweepPlan::load(&self.plan, self.flags.samples.map(NonZeroU64::get)),
+            Some(text) => registry.sweep_plan_from_text("the flags", &text, Path::new("")),
+            None => registry.sweep_plan(&self.plan, self.flags.samples.map(NonZeroU64::get)),
         }
     }
 

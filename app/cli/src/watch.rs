@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-use interplay_scenarios::files;
+use interplay_scenarios::{Registry, files};
 
 /// Time between two looks.
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
@@ -18,12 +18,12 @@ pub(crate) struct WatchedFiles {
 
 impl WatchedFiles {
     /// Looks at a scenario and all of which it is made.
-    pub fn look(scenario: &str) -> WatchedFiles {
+    pub fn look(registry: &Registry, scenario: &str) -> WatchedFiles {
         let state = |path: &PathBuf| {
             let found = std::fs::metadata(path).ok()?;
             Some((found.modified().ok()?, found.len()))
         };
-        let seen = files(scenario, &[]).into_iter().map(|path| (path.clone(), state(&path))).collect();
+        let seen = files(registry, scenario, &[]).into_iter().map(|path| (path.clone(), state(&path))).collect();
         WatchedFiles { scenario: scenario.to_owned(), seen }
     }
 
@@ -33,15 +33,15 @@ impl WatchedFiles {
     }
 
     /// Waits until any of the files has changed and is left alone again: editors write in several steps.
-    pub fn wait(self) -> WatchedFiles {
+    pub fn wait(self, registry: &Registry) -> WatchedFiles {
         loop {
             sleep(POLL_INTERVAL);
-            let now = WatchedFiles::look(&self.scenario);
+            let now = WatchedFiles::look(registry, &self.scenario);
             if now == self || now.is_empty() {
                 continue;
             }
             sleep(POLL_INTERVAL);
-            let later = WatchedFiles::look(&self.scenario);
+            let later = WatchedFiles::look(registry, &self.scenario);
             if later == now {
                 return later;
             }

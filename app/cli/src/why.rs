@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use clap::Args;
 use interplay_presentation::report;
-use interplay_scenarios::{LoadError, Override, Scenario, StandardChange, load, standard_changes};
+use interplay_scenarios::{LoadError, Override, Registry, Scenario, StandardChange};
 use interplay_simulation::why::{WhyReport, why};
 
 use crate::error::CommandError;
@@ -41,8 +41,8 @@ pub(crate) struct Why {
 }
 
 impl Why {
-    pub(crate) fn execute(self) -> ExitStatus {
-        let (scenario, changes) = match self.load() {
+    pub(crate) fn execute(self, registry: &Registry) -> ExitStatus {
+        let (scenario, changes) = match self.load(registry) {
             Ok(loaded) => loaded,
             Err(error) => {
                 print_load_error(error);
@@ -79,10 +79,10 @@ impl Why {
         ["interplay", "run", &self.scenario].map(str::to_owned).into_iter().chain(sets).collect()
     }
 
-    fn load(&self) -> Result<(Scenario, Vec<StandardChange>), LoadError> {
+    fn load(&self, registry: &Registry) -> Result<(Scenario, Vec<StandardChange>), LoadError> {
         let overrides: Vec<Override> = self.sets.iter().cloned().map(Override::Set).collect();
-        let scenario = load(&self.scenario, &overrides)?;
-        let changes = standard_changes(&self.scenario, &scenario, &overrides)?;
+        let scenario = registry.load(&self.scenario, &overrides)?;
+        let changes = registry.standard_changes(&self.scenario, &scenario, &overrides)?;
         Ok((scenario, changes))
     }
 

@@ -50,7 +50,7 @@ pub struct VehicleGoal {
 }
 
 /// Who drives a vehicle, with all that the planner remembers.
-#[derive(Component, Clone, Debug)]
+#[derive(Component, Debug)]
 pub struct Driving {
     /// Whether others can ask it to give way.
     pub can_be_asked: bool,

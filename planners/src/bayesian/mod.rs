@@ -26,6 +26,7 @@ pub use value::attraction;
 use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::drive::Drive;
 use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
@@ -57,12 +58,14 @@ impl Bayesian {
             last: None,
         }
     }
+}
 
+impl Drive for Bayesian {
     /// Plans the next move.
     ///
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.
-    pub fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
         self.observe(&choice, outlook);
@@ -80,6 +83,12 @@ impl Bayesian {
         Ok(Plan { trajectory, diagnostics, events, problem, statistics, ..Plan::default() })
     }
 
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl Bayesian {
     /// Updates the belief about the vehicle to persuade.
     fn observe(&mut self, choice: &PartnerChoice, outlook: &Outlook) {
         if choice.is_new {

@@ -3,7 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Bayesian;
 use crate::DriverSettingError;
+use crate::diagnostic::Explanation;
+use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::PassingOrderSearch;
 
@@ -83,9 +86,25 @@ impl Default for Settings {
     }
 }
 
-impl Settings {
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "bayesian"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Bayesian::new(*self))
+    }
+
+    fn explanation(&self) -> &'static Explanation {
+        &super::diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<Prediction> {
+        Some(self.prediction)
+    }
+
     /// Checks that the range of `w_1` is not empty and lies above `w_4`.
-    pub(crate) fn check(&self) -> Result<(), DriverSettingError> {
+    fn check(&self, _: usize) -> Result<(), DriverSettingError> {
         let ordered = |key, lower: f64, upper_key, upper: f64| match lower <= upper {
             true => Ok(()),
             false => Err(DriverSettingError::BoundsCrossed { key, lower, upper_key, upper }),
@@ -102,7 +121,8 @@ mod tests {
     /// The source's condition `w_1 ⪰ w_4`.
     #[test]
     fn the_weight_of_keeping_away_is_at_most_that_of_the_own_plan() {
-        let with = |w_1_min, w_4| Settings { w_1_min, w_4, ..Settings::default() }.check().map_err(|error| error.key());
+        let with =
+            |w_1_min, w_4| Settings { w_1_min, w_4, ..Settings::default() }.check(30).map_err(|error| error.key());
         assert_eq!(with(1.0, 1.0), Ok(()));
         assert_eq!(with(1.0, 1.1), Err("w_4"));
         assert_eq!(with(30.0, 1.0), Err("w_1_min"));

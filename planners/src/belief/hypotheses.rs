@@ -4,7 +4,9 @@
 //! plan of the others: it costs them the same, and no motion costs them less than it costs the tough one. Only where the plans
 //! may differ are they computed.
 
+use super::alternative::Outlook;
 use super::wishes::Wish;
+use crate::drive::Drive;
 use crate::driver_estimate::SAFETY_WEIGHTS;
 use crate::human::{self, Human};
 use crate::{Goal, PlanError, Scene, Trajectory};
@@ -49,7 +51,7 @@ impl WishfulHumans {
     /// Plans for each style; returns how many problems were posed. `scene` is seen by the driver; its goal is replaced.
     pub(super) fn plan(&mut self, scene: &mut Scene) -> usize {
         scene.goal = self.wish.goal;
-        let Ok(tough) = self.tough.plan(scene) else {
+        let Ok(tough) = self.tough.plan(scene, &Outlook::default()) else {
             self.split = [None, None];
             return 1;
         };
@@ -67,7 +69,7 @@ impl WishfulHumans {
             } else {
                 let human =
                     self.split[style - 1].get_or_insert_with(|| self.tough.with_safety_weight(SAFETY_WEIGHTS[style]));
-                self.plans[style] = human.plan(scene).ok().map(|plan| plan.trajectory);
+                self.plans[style] = human.plan(scene, &Outlook::default()).ok().map(|plan| plan.trajectory);
                 problems += 1;
             }
         }
@@ -116,11 +118,11 @@ impl Continuing {
         let plan = match self {
             Continuing::Human(human, goal) => {
                 scene.goal = *goal;
-                human.plan(scene)?
+                human.plan(scene, &Outlook::default())?
             }
             Continuing::Idm(idm, goal) => {
                 scene.goal = *goal;
-                idm.plan(scene)?
+                idm.plan(scene, &Outlook::default())?
             }
             Continuing::Unknown => return Ok(None),
         };

@@ -1,11 +1,12 @@
 //! The belief about one observed driver.
 
-use super::alternative::Alternative;
+use super::alternative::{Alternative, Outlook};
 use super::evidence::Evidence;
 use super::hypotheses::{Continuing, WishfulHumans};
 use super::likelihood::{ObservedMotion, Spread};
 use super::settings::Settings;
 use super::wishes::wishes;
+use crate::drive::Drive;
 use crate::driver_estimate::DriverModel;
 use crate::idm::{self, Idm};
 use crate::predict::steadily_along;
@@ -188,7 +189,7 @@ impl ObservedDriver {
             }
         }
         scene.goal = self.humans[0].goal();
-        self.idm_plan = self.idm.plan(scene).ok().map(|plan| plan.trajectory);
+        self.idm_plan = self.idm.plan(scene, &Outlook::default()).ok().map(|plan| plan.trajectory);
         self.unknown_plan = Some(steady(scene));
         self.last = Some(*sighting);
     }

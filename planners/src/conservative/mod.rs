@@ -10,7 +10,9 @@ mod settings;
 pub(crate) use retreat::{retreat, solve_or_retreat};
 pub use settings::Settings;
 
+use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::drive::Drive;
 use crate::solo::{self, Solved};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
@@ -46,15 +48,23 @@ impl Conservative {
         self.optimiser.tolerances.work_limit = work_limit;
         self
     }
+}
 
+impl Drive for Conservative {
     /// Plans with the predictions of all other vehicles as constraints.
     ///
     /// # Errors
     /// [`PlanError`] if no starting guess leads to an optimum.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         Ok(answer(self.optimise(scene)?))
     }
 
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl Conservative {
     /// As [`Conservative::plan`], but returns the optimum together with the problem that it solves.
     pub(crate) fn optimise(&mut self, scene: &Scene) -> Result<Solved, DescentError> {
         let scene = &self.settings.prediction.applied_to(scene);

@@ -24,6 +24,7 @@ pub use settings::Settings;
 use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::drive::Drive;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Optimum, Penalty, Problem, Robust, Term, Violation};
@@ -64,12 +65,14 @@ impl Contingency {
             last: Vec::new(),
         }
     }
+}
 
+impl Drive for Contingency {
     /// Plans for the futures that follow from what the others may do.
     ///
     /// # Errors
     /// [`PlanError`] if neither this problem nor the conservative one can be solved.
-    pub fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
         let futures = futures(scene, &outlook.alternatives, &self.settings);
         let shared_steps = shared_steps(&futures, self.settings.told_apart_m, outlook.delay, scene.horizon);
         let problem = problem(scene, &futures, shared_steps);
@@ -88,6 +91,12 @@ impl Contingency {
         }
     }
 
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl Contingency {
     /// The last motion in each future, a step later; in a new one, that of the first.
     fn guess(&self, futures: &[Future]) -> Vec<Vec<Input>> {
         let guess = futures.iter().map(|future| {

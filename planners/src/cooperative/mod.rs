@@ -21,8 +21,10 @@ mod settings;
 
 pub use settings::Settings;
 
+use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::drive::Drive;
 use crate::joint::{JointVehicle, problem};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
@@ -66,12 +68,14 @@ impl Cooperative {
             last: Vec::new(),
         }
     }
+}
 
+impl Drive for Cooperative {
     /// Solves the joint problem and returns the plan of the ego.
     ///
     /// # Errors
     /// [`PlanError`] if neither the joint problem nor the conservative one can be solved.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let cooperators = cooperators(scene, self.settings.shared_goal(&scene.goal));
         let names = cooperators.iter().map(|cooperator| cooperator.agent.name.as_str());
@@ -97,6 +101,12 @@ impl Cooperative {
         }
     }
 
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl Cooperative {
     fn answer(&self, problem: &Problem, optimum: &Optimum, own: usize) -> Plan {
         let others = self.last.iter().enumerate().filter(|(index, _)| *index != own).map(|(_, part)| part.clone());
         let proposals = others.map(|(to, trajectory)| Proposal { to, trajectory, acceptance: None }).collect();

@@ -29,6 +29,7 @@ pub use settings::{ExpressedBounds, ExpressedSpeed, GameForm, Settings, Solution
 
 use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::drive::Drive;
 use crate::driver_estimate::{DriverEstimate, DriverModel};
 use crate::encounter::{PartnerChoice, PartnerSequence};
 use crate::solo::Solved;
@@ -100,12 +101,14 @@ impl Game {
             last: None,
         }
     }
+}
 
+impl Drive for Game {
     /// Plans the next move.
     ///
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.
-    pub fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let choice = self.partner.choose(scene, self.settings.clear_lead_m);
         let estimate = choice.partner.and_then(|partner| outlook.estimate(&partner.name));
@@ -137,6 +140,12 @@ impl Game {
         Ok(Plan { trajectory, diagnostics, events, problem, statistics, ..Plan::default() })
     }
 
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl Game {
     /// Renews both beliefs; returns what the next belief about the ego will be judged by.
     fn watch(&mut self, scene: &Scene, other: &Agent, usual: f64, meeting: &Meeting) -> ObservedBehaviour {
         let plan = self.last.as_ref().map(Trajectory::shifted);

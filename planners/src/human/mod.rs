@@ -54,6 +54,8 @@ pub use settings::{Settings, Style};
 
 use std::borrow::Cow;
 
+use crate::belief::Outlook;
+use crate::drive::Drive;
 use crate::predict::steady_inputs;
 use crate::right_of_way::ArrivalMemory;
 use crate::scene::ellipses;
@@ -110,12 +112,14 @@ impl Human {
         human.settings = Settings { safety_weight: Some(safety_weight), style: None, ..self.settings };
         human
     }
+}
 
+impl Drive for Human {
     /// Plans the next move.
     ///
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let seen = self.perception.perceive(scene, self.settings.reaction_s);
         let expected = self.decision.hold(&seen, self.settings.hesitation_s);
         let mut wanted = Cow::Borrowed(seen.as_ref());
@@ -137,6 +141,10 @@ impl Human {
             statistics: optimum.statistics,
             ..Plan::default()
         })
+    }
+
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
     }
 }
 

@@ -12,6 +12,8 @@ mod settings;
 
 pub use settings::{Mobil, Settings};
 
+use crate::belief::Outlook;
+use crate::drive::Drive;
 use crate::relation::Relation;
 use crate::right_of_way::ArrivalMemory;
 use crate::steering::{admissible, roll_out, steer, steer_over_step};
@@ -35,12 +37,14 @@ impl Idm {
     pub fn new(settings: Settings) -> Self {
         Idm { settings, lane_centre_m: None, arrivals: ArrivalMemory::default() }
     }
+}
 
+impl Drive for Idm {
     /// Chooses a lane and plans the next moves.
     ///
     /// # Errors
-    /// Never; the signature is that of all planners.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    /// Never.
+    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let line_m = self.arrivals.stop_line_m(scene);
         let scene = &along_the_road(self.settings.prediction.applied_to(scene).into_owned());
         let lanes = Lanes::of_road(scene, &self.settings.mobil);
@@ -83,6 +87,10 @@ impl Idm {
             .collect();
         Ok(Plan { trajectory, diagnostics, events, ..Plan::default() })
     }
+
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
 }
 
 /// The scene with those others only that are on the same road.
@@ -114,7 +122,7 @@ mod tests {
         let leader = agent(1.2, 0.185, 0.0, 0.0);
         let mut scene = in_lanes(agent(0.0, 0.185, 0.0, 0.8), vec![leader], 0.185, 1.0);
         scene.horizon = 100;
-        let plan = Idm::new(Settings::default()).plan(&scene).expect("a plan");
+        let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
         let end = plan.trajectory.states.last().expect("states");
         assert!(end.x_m + 0.4 < 1.2 && end.speed_mps < 0.05, "{end:?}");
     }
@@ -124,7 +132,7 @@ mod tests {
         for (behind_m, lane) in [(-3.0, 1.0), (-0.7, 0.0)] {
             let follower = agent(behind_m, 0.555, 0.0, 1.2);
             let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![follower], 0.555, 1.0);
-            let plan = Idm::new(Settings::default()).plan(&scene).expect("a plan");
+            let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
             assert_eq!(plan.value_of(&LANE), Some(lane), "follower at {behind_m}");
         }
     }
@@ -135,7 +143,10 @@ mod tests {
         let scene = in_lanes(agent(0.0, 0.185, 0.0, 1.0), vec![leader], 0.185, 1.2);
         let lane = |bias_mps2: f64| {
             let mobil = Mobil { bias_mps2, ..Mobil::default() };
-            Idm::new(Settings { mobil, ..Settings::default() }).plan(&scene).expect("a plan").value_of(&LANE)
+            Idm::new(Settings { mobil, ..Settings::default() })
+                .plan(&scene, &Outlook::default())
+                .expect("a plan")
+                .value_of(&LANE)
         };
         assert_eq!((lane(0.0), lane(100.0)), (Some(1.0), Some(0.0)));
     }
@@ -148,7 +159,7 @@ mod tests {
         let end = Some(crate::LaneEnd { end_m: 3.5, height_m: 0.37, taper_m: 0.3 });
         scene.ego.route = Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end }.into();
         scene.horizon = 100;
-        let plan = Idm::new(Settings::default()).plan(&scene).expect("a plan");
+        let plan = Idm::new(Settings::default()).plan(&scene, &Outlook::default()).expect("a plan");
         let end = plan.trajectory.states.last().expect("states");
         assert!(end.x_m + 0.21 < 2.6 && end.speed_mps < 0.05, "{end:?}");
     }

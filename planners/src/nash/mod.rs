@@ -18,8 +18,10 @@ pub use deviation::TOLERATED_GAIN;
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use settings::Settings;
 
+use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::drive::Drive;
 use crate::joint::{JointVehicle, problem};
 use crate::trajectory::PassingOrderSearch;
 use crate::trajectory::activity::Activity;
@@ -69,12 +71,14 @@ impl Nash {
             last: Vec::new(),
         }
     }
+}
 
+impl Drive for Nash {
     /// Finds an equilibrium and returns the ego's part of it.
     ///
     /// # Errors
     /// [`PlanError`] if neither the game nor the conservative problem can be solved.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         self.seen.look(scene);
         self.refusals.look(scene, &self.last, self.settings.patience_steps);
@@ -97,6 +101,12 @@ impl Nash {
         }
     }
 
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl Nash {
     /// The last motion of each player one step later; of one that did not play, its prediction.
     fn guess(&self, players: &[JointVehicle]) -> Vec<Vec<Input>> {
         let guess = players.iter().map(|player| {

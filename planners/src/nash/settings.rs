@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Nash;
+use crate::diagnostic::Explanation;
+use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
 use crate::trajectory::PassingOrderSearch;
 
@@ -43,5 +46,23 @@ impl Default for Settings {
             prediction: Prediction::ConstantVelocity,
             passing_orders: PassingOrderSearch::Classes,
         }
+    }
+}
+
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "nash"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Nash::new(*self))
+    }
+
+    fn explanation(&self) -> &'static Explanation {
+        &super::diagnostics::EXPLANATION
+    }
+
+    fn prediction(&self) -> Option<Prediction> {
+        Some(self.prediction)
     }
 }

@@ -29,8 +29,10 @@ pub use proposal::{AskedPartner, optimiser, problem};
 pub use references::References;
 pub use settings::Settings;
 
+use crate::belief::Outlook;
 use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
+use crate::drive::Drive;
 use crate::encounter::partner_event;
 use crate::passing::passing_orders;
 use crate::passing_order::PassingPosition;
@@ -73,12 +75,14 @@ impl Negotiation {
             negotiations: Vec::new(),
         }
     }
+}
 
+impl Drive for Negotiation {
     /// Plans the next move and the next proposals.
     ///
     /// # Errors
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
         let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
@@ -108,6 +112,12 @@ impl Negotiation {
         Ok(plan)
     }
 
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl Negotiation {
     /// Chooses the vehicles to negotiate with, none of those that the retreat has `passed`; notes a change as an event. What is
     /// known of a negotiation that goes on stays.
     fn choose<'a>(&mut self, scene: &'a Scene, passed: &[String], events: &mut Vec<PlanEvent>) -> Vec<&'a Agent> {

@@ -8,6 +8,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::belief::Outlook;
+use crate::drive::{Drive, DriverKind};
+use crate::predict::Prediction;
 use crate::steering::{admissible, roll_out, steer};
 use crate::{Input, Plan, PlanError, Scene};
 
@@ -40,6 +43,28 @@ pub struct Order {
     pub lateral_m: Option<f64>,
 }
 
+impl DriverKind for Settings {
+    fn kind(&self) -> &'static str {
+        "scripted"
+    }
+
+    fn driver(&self) -> Box<dyn Drive> {
+        Box::new(Scripted::new(self.clone()))
+    }
+
+    fn prediction(&self) -> Option<Prediction> {
+        None
+    }
+
+    fn goes_first(&self) -> bool {
+        true
+    }
+
+    fn can_be_asked(&self) -> bool {
+        false
+    }
+}
+
 /// A driver at its script.
 #[derive(Clone, Debug)]
 pub struct Scripted {
@@ -56,12 +81,14 @@ impl Scripted {
     pub fn new(settings: Settings) -> Self {
         Scripted { settings, kept: None }
     }
+}
 
+impl Drive for Scripted {
     /// The next moves of the script.
     ///
     /// # Errors
-    /// Never; the signature is that of all planners.
-    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+    /// Never.
+    fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let own = &scene.ego;
         let [speed, lateral] = *self.kept.get_or_insert([own.state.speed_mps, own.route.across(own.state.position())]);
         let trajectory = roll_out(scene, |t, state| {
@@ -79,6 +106,12 @@ impl Scripted {
         Ok(Plan { trajectory, ..Plan::default() })
     }
 
+    fn fork(&self) -> Option<Box<dyn Drive>> {
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl Scripted {
     /// The order that rules at a time, of those that `applies` accepts; of orders at one time, the last.
     fn latest(&self, time_s: f64, applies: impl Fn(&Order) -> bool) -> Option<&Order> {
         let begun =
@@ -99,7 +132,7 @@ mod tests {
     fn driven(script: Vec<Order>, tick: usize) -> Plan {
         let mut scene = scene(agent(0.0, 0.185, 0.0, 1.0), Vec::new());
         scene.tick = tick;
-        Scripted::new(Settings { script }).plan(&scene).expect("a plan")
+        Scripted::new(Settings { script }).plan(&scene, &Outlook::default()).expect("a plan")
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::building::{BuildingConfig, DAY_S};
 use crate::building_plant::BuildingPlant;
 use crate::error::{Fault, quoted};
 use crate::scenario::Scenario;
-use crate::schema::{self, Concern, SchemaNode};
+use crate::schema::{Concern, SchemaNode};
 use crate::tree::TomlNode;
 
 /// The most steps that a building may take.
@@ -19,10 +19,10 @@ const MAX_STEPS: usize = 100_000;
 /// The most zones.
 const MAX_ZONES: usize = 1000;
 /// Everything that does not fit together.
-pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
+pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> Vec<Fault> {
     let mut faults = Vec::new();
     if scenario.vehicles.is_empty() {
-        faults.extend(stated(Concern::Vehicles, tree).map(|key| {
+        faults.extend(stated(Concern::Vehicles, tree, schema).map(|key| {
             let message = format!("{} is stated, but there are no vehicles", quoted(&key));
             let help = "a building takes its step from `building.step_s` and its days from `iterations`";
             Fault::at(tree.place_of(&key), "for vehicles only", message).help(help)
@@ -34,7 +34,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
             let help = "state vehicles, a building, or both; or start with `extends = \"lane-change/front-nice\"`";
             faults.push(Fault::at(&tree.place, "in this file", message).help(help));
         }
-        faults.extend(stated(Concern::Building, tree).map(|key| {
+        faults.extend(stated(Concern::Building, tree, schema).map(|key| {
             let message = format!("{} is stated, but there is no building", quoted(&key));
             Fault::at(tree.place_of(&key), "for a building only", message).help("add a `[building]`")
         }));
@@ -53,8 +53,7 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
 }
 
 /// The keys of the file and of its expectations that have this concern and do not state what is so by default.
-fn stated(concern: Concern, tree: &TomlNode) -> impl Iterator<Item = String> {
-    let root = schema::complete();
+fn stated(concern: Concern, tree: &TomlNode, root: SchemaNode) -> impl Iterator<Item = String> {
     let of_file = root.properties().map(|(key, property)| (key.clone(), property));
     let expectations = root.property("expect").into_iter().flat_map(SchemaNode::properties);
     let all = of_file.chain(expectations.map(|(key, property)| (format!("expect.{key}"), property)));

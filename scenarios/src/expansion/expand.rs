@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json, json};
 use super::fill::{fill_key, scaled};
 use crate::classes::{FULL_SCALE, NamedScale, ScenarioScale, VehicleClass};
 use crate::road::Road;
-use crate::schema::{self, SchemaNode};
+use crate::schema::SchemaNode;
 
 /// What of a scenario is scaled besides its vehicles.
 const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_jitter"];
@@ -13,7 +13,7 @@ const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_
 /// Writes the defaults of a scenario's size into it: of the scenario where it states a `scale` or the `class` of a vehicle, and
 /// of each vehicle. Where neither is stated, the width of the lanes says the size. A scenario of 1/10 scale is left as it is, but
 /// for the lanes of IDM drivers. What is no table of the format is left too.
-pub(crate) fn expand(scenario: &mut Json) {
+pub(crate) fn expand(scenario: &mut Json, schema: SchemaNode) {
     let Some(root) = scenario.as_object_mut() else { return };
     root.remove("defaults");
     let size = size(root);
@@ -21,7 +21,7 @@ pub(crate) fn expand(scenario: &mut Json) {
         if !root.contains_key("road") {
             root.insert("road".to_owned(), json!({ "kind": "lanes" }));
         }
-        for (key, property) in schema::complete().properties().filter(|(key, _)| SCALED_KEYS.contains(&key.as_str())) {
+        for (key, property) in schema.properties().filter(|(key, _)| SCALED_KEYS.contains(&key.as_str())) {
             let native = if key == "road" { native_scale_of_road(root) } else { 1.0 };
             fill_key(key, property, root, scale / native);
         }
@@ -33,7 +33,7 @@ pub(crate) fn expand(scenario: &mut Json) {
         if let Some(lane_width_m) = lane_width_m {
             state_lane_width(vehicle, lane_width_m);
         }
-        expand_vehicle(vehicle, size);
+        expand_vehicle(vehicle, size, schema);
     }
 }
 
@@ -96,7 +96,7 @@ fn read<T: serde::de::DeserializeOwned>(value: &Json) -> Option<T> {
 }
 
 /// Writes the defaults of a vehicle's class and scale into it.
-fn expand_vehicle(vehicle: &mut Map<String, Json>, size: Option<Size>) {
+fn expand_vehicle(vehicle: &mut Map<String, Json>, size: Option<Size>, schema: SchemaNode) {
     let stated = vehicle.get("class").and_then(read::<VehicleClass>);
     let own_scale = vehicle.get("body").and_then(|body| body.get("scale")?.as_f64());
     if size.is_none() && own_scale.is_none() {
@@ -105,7 +105,7 @@ fn expand_vehicle(vehicle: &mut Map<String, Json>, size: Option<Size>) {
     let class = stated.unwrap_or_else(|| VehicleClass::of_scale(size.is_some_and(|size| size.is_full)));
     let of_scenario = size.filter(|size| stated.is_none() && !size.is_full).map(|size| size.scale);
     let scale = own_scale.or(of_scenario).unwrap_or_else(|| class.scale());
-    let Some(schema) = schema::complete().property("vehicle").and_then(SchemaNode::entries) else { return };
+    let Some(schema) = schema.property("vehicle").and_then(SchemaNode::entries) else { return };
     let dimensions = serde_json::to_value(class.dimensions()).unwrap_or_default();
     let mut dimensions = scaled(schema, &dimensions, scale / class.scale());
     dimensions["body"]["scale"] = json!(scale);

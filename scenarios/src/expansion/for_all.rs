@@ -2,7 +2,7 @@
 
 use crate::error::Fault;
 use crate::merge::merge_tables;
-use crate::schema::{self, SchemaNode};
+use crate::schema::SchemaNode;
 use crate::schema_check;
 use crate::tree::{Table, TomlNode, TomlValue};
 
@@ -10,15 +10,15 @@ use crate::tree::{Table, TomlNode, TomlValue};
 ///
 /// # Errors
 /// What is wrong with `[defaults]`, once instead of once for every vehicle.
-pub(crate) fn with_defaults(mut tree: TomlNode) -> Result<TomlNode, Vec<Fault>> {
+pub(crate) fn with_defaults(mut tree: TomlNode, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
     let TomlValue::Table(root) = &mut tree.value else { return Ok(tree) };
     let Some(defaults) = root.get("defaults").map(|entry| entry.node.clone()) else { return Ok(tree) };
-    let faults = schema_check::check_table(&defaults, "defaults");
+    let faults = schema_check::check_table(&defaults, "defaults", schema);
     if !faults.is_empty() {
         return Err(faults);
     }
     let TomlValue::Table(defaults) = defaults.value else { return Ok(tree) };
-    let schema = schema::complete().property("vehicle").and_then(SchemaNode::entries);
+    let schema = schema.property("vehicle").and_then(SchemaNode::entries);
     let Some(TomlValue::Array(vehicles)) = root.get_mut("vehicle").map(|entry| &mut entry.node.value) else {
         return Ok(tree);
     };

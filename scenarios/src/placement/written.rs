@@ -8,7 +8,7 @@ use serde_json::Value as Json;
 use crate::error::{Fault, quoted};
 use crate::lane_reference::LaneReference;
 use crate::road::Branch;
-use crate::schema::{self, SchemaNode};
+use crate::schema::SchemaNode;
 use crate::start::StartConfig;
 use crate::tree::TomlNode;
 
@@ -27,11 +27,17 @@ pub(super) struct VehicleAsWritten<'a> {
     /// The path of the vehicle, as errors show it.
     pub shown: String,
     tree: &'a TomlNode,
+    schema: SchemaNode<'a>,
 }
 
 impl<'a> VehicleAsWritten<'a> {
     /// None if the table is no vehicle with a start.
-    pub(super) fn new(vehicle: &Json, index: usize, tree: &'a TomlNode) -> Option<VehicleAsWritten<'a>> {
+    pub(super) fn new(
+        vehicle: &Json,
+        index: usize,
+        tree: &'a TomlNode,
+        schema: SchemaNode<'a>,
+    ) -> Option<VehicleAsWritten<'a>> {
         let name = vehicle.get("name").and_then(Json::as_str).unwrap_or_default();
         let goal_lane = vehicle.get("goal").and_then(|goal| goal.get("lane")).cloned();
         Some(VehicleAsWritten {
@@ -42,6 +48,7 @@ impl<'a> VehicleAsWritten<'a> {
             path: format!("vehicle.{index}"),
             shown: format!("vehicle.{name}"),
             tree,
+            schema,
         })
     }
 
@@ -52,7 +59,7 @@ impl<'a> VehicleAsWritten<'a> {
 
     /// The refusal of a start without a key that it needs.
     pub(super) fn missing(&self, key: &str) -> Fault {
-        let start = schema::complete().property("vehicle").and_then(SchemaNode::entries);
+        let start = self.schema.property("vehicle").and_then(SchemaNode::entries);
         let property = start.and_then(|vehicle| vehicle.property("start")).and_then(|start| start.property(key));
         let message = format!("{} is missing", quoted(&format!("{}.start.{key}", self.shown)));
         self.at_start(&format!("has no `{key}`"), message)

@@ -15,54 +15,48 @@ pub(crate) enum Concern {
 
 /// What the schema says of a value: beside a reference, and in the definition that it refers to.
 #[derive(Clone, Copy)]
-pub(crate) struct SchemaNode {
-    root: &'static Json,
-    stated: &'static Json,
+pub(crate) struct SchemaNode<'s> {
+    root: &'s Json,
+    stated: &'s Json,
     /// The list of which this is an entry.
-    list: Option<&'static Json>,
+    list: Option<&'s Json>,
 }
 
-impl SchemaNode {
+impl<'s> SchemaNode<'s> {
     /// The whole schema.
-    pub fn of(root: &'static Json) -> SchemaNode {
+    pub fn of(root: &'s Json) -> SchemaNode<'s> {
         SchemaNode { root, stated: root, list: None }
     }
 
-    /// The keywords as they are stated here.
-    #[cfg(test)]
-    pub fn json(self) -> &'static Json {
-        self.stated
-    }
-
-    fn at(self, stated: &'static Json) -> SchemaNode {
+    fn at(self, stated: &'s Json) -> SchemaNode<'s> {
         SchemaNode { stated, list: None, ..self }
     }
 
     /// The name of the definition that this refers to.
-    pub fn definition_name(self) -> Option<&'static str> {
+    pub fn definition_name(self) -> Option<&'s str> {
         self.stated.get("$ref")?.as_str()?.strip_prefix("#/$defs/")
     }
 
-    fn definition(self) -> &'static Json {
+    fn definition(self) -> &'s Json {
         definition_of(self.root, self.stated)
     }
 
     /// What a keyword says here, or else in the definition.
-    pub fn keyword(self, keyword: &str) -> Option<&'static Json> {
+    pub fn keyword(self, keyword: &str) -> Option<&'s Json> {
         self.stated.get(keyword).or_else(|| self.definition().get(keyword))
     }
 
-    fn text(self, keyword: &str) -> Option<&'static str> {
+    fn text(self, keyword: &str) -> Option<&'s str> {
         self.keyword(keyword)?.as_str()
     }
 
     /// The type: `object`, `array`, `string`, `boolean`, `integer` or `number`.
-    pub fn type_name(self) -> Option<&'static str> {
+    pub fn type_name(self) -> Option<&'s str> {
         self.text("type")
     }
 
     /// What the key is about, or the list of which this is an entry; empty if nothing is said.
-    pub fn description(self) -> &'static str {
+    pub fn description(self) -> &'s str {
         let of_list = || self.list?.get("description")?.as_str();
         self.text("description").or_else(of_list).unwrap_or_default()
     }
@@ -73,18 +67,18 @@ impl SchemaNode {
     }
 
     /// The default.
-    pub fn default(self) -> Option<&'static Json> {
+    pub fn default(self) -> Option<&'s Json> {
         self.stated.get("default")
     }
 
     /// The bounds of a number in place of which a word may stand.
-    pub fn number_beside_words(self) -> Option<SchemaNode> {
+    pub fn number_beside_words(self) -> Option<SchemaNode<'s>> {
         let is_number = |one: &&Json| one.get("type").is_some_and(|name| name == "number");
         self.alternatives().find(is_number).map(|one| self.at(one))
     }
 
     /// The default, or else the first example.
-    pub fn default_or_example(self) -> Option<&'static Json> {
+    pub fn default_or_example(self) -> Option<&'s Json> {
         self.stated.get("default").or_else(|| self.stated.get("examples")?.get(0))
     }
 
@@ -107,7 +101,7 @@ impl SchemaNode {
     }
 
     /// The key by which entries of a list are merged with those of the same name; other lists are replaced.
-    pub fn merge_key(self) -> Option<&'static str> {
+    pub fn merge_key(self) -> Option<&'s str> {
         self.stated.get("x-merge-by")?.as_str()
     }
 
@@ -117,13 +111,13 @@ impl SchemaNode {
     }
 
     /// The mechanism of a planner that this setting switches off: its name, and the value with which it is off.
-    pub fn mechanism(self) -> Option<(&'static str, &'static Json)> {
+    pub fn mechanism(self) -> Option<(&'s str, &'s Json)> {
         let stated = self.stated.get("x-mechanism")?.as_object()?;
         stated.iter().next().map(|(name, off)| (name.as_str(), off))
     }
 
     /// Pairs of keys of this table that may not stand side by side. Each pair is stated on the first of them.
-    pub fn exclusions(self) -> impl Iterator<Item = (&'static str, &'static str)> {
+    pub fn exclusions(self) -> impl Iterator<Item = (&'s str, &'s str)> {
         self.properties().flat_map(|(key, property)| {
             let others = property.stated.get("x-excludes").and_then(Json::as_array).into_iter().flatten();
             others.filter_map(Json::as_str).map(|other| (key.as_str(), other))
@@ -131,55 +125,55 @@ impl SchemaNode {
     }
 
     /// The words from which a text is chosen.
-    pub fn words(self) -> Vec<&'static str> {
+    pub fn words(self) -> Vec<&'s str> {
         words_of(self.definition()).collect()
     }
 
     /// The kinds of a table that has several.
-    pub fn kinds(self) -> Vec<&'static str> {
+    pub fn kinds(self) -> Vec<&'s str> {
         self.alternatives().filter_map(kind_of).collect()
     }
 
-    fn alternatives(self) -> impl Iterator<Item = &'static Json> {
+    fn alternatives(self) -> impl Iterator<Item = &'s Json> {
         self.definition().get("oneOf").and_then(Json::as_array).into_iter().flatten()
     }
 
     /// The table of one kind, if there is such a kind.
-    pub fn of_kind(self, kind: &str) -> Option<SchemaNode> {
+    pub fn of_kind(self, kind: &str) -> Option<SchemaNode<'s>> {
         self.alternatives().find(|one| kind_of(one) == Some(kind)).map(|one| self.at(one))
     }
 
     /// The forms that a value may have, if there are several: a number or a text, for example.
-    pub fn forms(self) -> impl Iterator<Item = SchemaNode> {
+    pub fn forms(self) -> impl Iterator<Item = SchemaNode<'s>> {
         let forms = self.definition().get("anyOf").and_then(Json::as_array);
         forms.into_iter().flatten().map(move |form| self.at(form))
     }
 
     /// The keys of a table, in the order of the fields; none if this is no table, or one of several kinds.
-    pub fn properties(self) -> impl Iterator<Item = (&'static String, SchemaNode)> {
+    pub fn properties(self) -> impl Iterator<Item = (&'s String, SchemaNode<'s>)> {
         let properties = self.definition().get("properties").and_then(Json::as_object);
         properties.into_iter().flatten().map(move |(key, stated)| (key, self.at(stated)))
     }
 
     /// A key of a table; where the kind of the table is open, of the first kind that has it.
-    pub fn property(self, key: &str) -> Option<SchemaNode> {
-        let of = |schema: &'static Json| schema.get("properties")?.get(key);
+    pub fn property(self, key: &str) -> Option<SchemaNode<'s>> {
+        let of = |schema: &'s Json| schema.get("properties")?.get(key);
         of(self.definition()).or_else(|| self.alternatives().find_map(of)).map(|stated| self.at(stated))
     }
 
     /// The keys that a table must have.
-    pub fn required(self) -> impl Iterator<Item = &'static str> {
+    pub fn required(self) -> impl Iterator<Item = &'s str> {
         let required = self.definition().get("required").and_then(Json::as_array);
         required.into_iter().flatten().filter_map(Json::as_str)
     }
 
     /// What each entry of a list is.
-    pub fn entries(self) -> Option<SchemaNode> {
+    pub fn entries(self) -> Option<SchemaNode<'s>> {
         self.keyword("items").map(|items| SchemaNode { list: Some(self.stated), ..self.at(items) })
     }
 
     /// What each entry of a list of tables is.
-    pub fn table_entries(self) -> Option<SchemaNode> {
+    pub fn table_entries(self) -> Option<SchemaNode<'s>> {
         self.entries().filter(|entry| entry.properties().next().is_some())
     }
 }

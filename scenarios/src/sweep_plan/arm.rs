@@ -7,7 +7,7 @@ use super::assignment::{Assignment, path_of};
 use super::factor::{DrawSettings, Factor, factors};
 use crate::error::{Fault, quoted};
 use crate::overrides::{SettingPath, settings_of};
-use crate::schema::driver_kinds;
+use crate::registry::Registry;
 use crate::tree::{Table, TomlEntry, TomlNode, TomlValue};
 
 /// A planner of the ego, or drivers of the others.
@@ -37,11 +37,11 @@ impl Arm {
     }
 
     /// A planner: a kind of driver, or a table.
-    pub fn planner(node: &TomlNode) -> Result<Arm, Vec<Fault>> {
+    pub fn planner(node: &TomlNode, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         match &node.value {
             TomlValue::Table(table) => {
                 let kind = table.get("kind").map(|entry| entry.node.clone());
-                Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0))? })
+                Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0), registry)? })
             }
             _ => {
                 let name = node.text().unwrap_or_default().to_owned();
@@ -52,22 +52,22 @@ impl Arm {
     }
 
     /// A counterfactual of a scenario, whose name it has.
-    pub fn counterfactual(table: &Table) -> Result<Arm, Vec<Fault>> {
+    pub fn counterfactual(table: &Table, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         let kind = table.get("planner").map(|entry| entry.node.clone());
-        Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0))? })
+        Ok(Arm { kind, ..Arm::stated(table, (Default::default(), 0, 0), registry)? })
     }
 
     /// Drivers of the others: a style of humans, a kind of driver, or a table.
-    pub fn style(node: &TomlNode, settings: DrawSettings) -> Result<Arm, Vec<Fault>> {
+    pub fn style(node: &TomlNode, settings: DrawSettings, registry: &Registry) -> Result<Arm, Vec<Fault>> {
         if let TomlValue::Table(table) = &node.value {
-            return Arm::stated(table, settings);
+            return Arm::stated(table, settings, registry);
         }
         let word = node.text().unwrap_or_default();
         if word == AS_WRITTEN {
             return Ok(Arm::as_written());
         }
         let styles = Style::ALL.map(Style::name);
-        let kinds = driver_kinds();
+        let kinds = registry.driver_kinds();
         let text = |word: &str| TomlNode { place: node.place.clone(), value: TomlValue::Text(word.to_owned()) };
         let entry = |word: &str| TomlEntry { key: node.place.clone(), node: text(word) };
         let driver = if styles.contains(&word) {
@@ -84,11 +84,12 @@ impl Arm {
         Ok(Arm { name: word.to_owned(), changes, ..Arm::as_written() })
     }
 
-    fn stated(table: &Table, settings: DrawSettings) -> Result<Arm, Vec<Fault>> {
+    fn stated(table: &Table, settings: DrawSettings, registry: &Registry) -> Result<Arm, Vec<Fault>> {
+        let schema = registry.complete();
         let name = table.get("name").and_then(|entry| entry.node.text()).unwrap_or_default().to_owned();
         let part = |key: &str| table.get(key).and_then(|entry| entry.node.table());
-        let changes = part("set").map_or_else(|| Ok(Vec::new()), |set| settings_of(set.clone()))?;
-        let factors = part("vary").map_or_else(|| Ok(Vec::new()), |vary| factors(vary, settings))?;
+        let changes = part("set").map_or_else(|| Ok(Vec::new()), |set| settings_of(set.clone(), schema))?;
+        let factors = part("vary").map_or_else(|| Ok(Vec::new()), |vary| factors(vary, settings, schema))?;
         Ok(Arm { name, kind: None, changes, factors })
     }
 

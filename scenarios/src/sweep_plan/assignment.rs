@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use crate::error::{Fault, Place};
 use crate::overrides::{SettingPath, lay_planner};
+use crate::schema::SchemaNode;
 use crate::start_jitter::StartJitter;
 use crate::tree::{Table, TomlNode, TomlValue};
 
@@ -45,15 +46,15 @@ impl<'a> Assignment<'a> {
     }
 
     /// Lays the value over a scenario.
-    pub fn lay(&self, root: &mut Table) -> Result<(), Fault> {
+    pub fn lay(&self, root: &mut Table, schema: SchemaNode) -> Result<(), Fault> {
         let Some(path) = &self.path else {
             if root.get("vehicle").is_none_or(|entry| entry.node.is_empty_list()) {
                 let message = "the scenario has no vehicles, so a planner has nothing to drive";
                 return Err(Fault::at(&self.value.place, "no vehicle to drive", message));
             }
-            return lay_planner(root, self.value.clone().into_owned());
+            return lay_planner(root, self.value.clone().into_owned(), schema);
         };
-        path.lay(root, &self.value)
+        path.lay(root, &self.value, schema)
     }
 
     /// Whether the setting is one of these or stands below one, by the first key of its path.
@@ -74,8 +75,8 @@ impl<'a> Assignment<'a> {
     }
 
     /// Whether the format has a setting at the path.
-    pub fn has_known_path(&self) -> bool {
-        self.path.as_ref().is_none_or(|path| path.schema().is_some())
+    pub fn has_known_path(&self, schema: SchemaNode) -> bool {
+        self.path.as_ref().is_none_or(|path| path.schema(schema).is_some())
     }
 
     /// The assignment as it would be written, numbers to six digits.

@@ -33,7 +33,9 @@ impl SweepPlan {
         let assignments = self.assignments(place, None);
         let culprit = self.culprit(place, &assignments, faults, fault);
         let is_laid = self.laid(place, &assignments).is_ok();
-        let differs = |one: &Assignment<'_>| (one.is_varied && is_laid && one.has_known_path()) || self.is_jitter(one);
+        let differs = |one: &Assignment<'_>| {
+            (one.is_varied && is_laid && one.has_known_path(self.registry.complete())) || self.is_jitter(one)
+        };
         (!culprit.is_some_and(|index| differs(&assignments[index])))
             .then(|| self.located(fault, place, &assignments, culprit, None))
     }

@@ -7,6 +7,7 @@ use super::draw::UnitDraws;
 use crate::error::{Fault, Place, quoted};
 use crate::overrides::SettingPath;
 use crate::plan_file::Sampling;
+use crate::schema::SchemaNode;
 use crate::tree::{Table, TomlNode, TomlValue, kind_of};
 
 /// A path whose value varies.
@@ -49,16 +50,16 @@ const EXAMPLE: &str = "write a list of values, or for example `{ range = [0.0, 1
 pub(super) type DrawSettings = (Sampling, u64, u64);
 
 /// The factors of a `vary` table, in the order of their paths.
-pub(super) fn factors(vary: &Table, settings: DrawSettings) -> Result<Vec<Factor>, Vec<Fault>> {
+pub(super) fn factors(vary: &Table, settings: DrawSettings, schema: SchemaNode) -> Result<Vec<Factor>, Vec<Fault>> {
     let (mut found, mut faults) = (Vec::new(), Vec::new());
-    collect(&SettingPath::root(), vary, settings, &mut found, &mut faults);
+    collect(&SettingPath::root(), vary, (settings, schema), &mut found, &mut faults);
     if faults.is_empty() { Ok(found) } else { Err(faults) }
 }
 
 fn collect(
     before: &SettingPath,
     vary: &Table,
-    settings: DrawSettings,
+    (settings, schema): (DrawSettings, SchemaNode),
     found: &mut Vec<Factor>,
     faults: &mut Vec<Fault>,
 ) {
@@ -77,9 +78,9 @@ fn collect(
         };
         match &entry.node.value {
             TomlValue::Table(table) if !table.keys().any(|key| DISTRIBUTIONS.contains(&key.as_str())) => {
-                match misspelt(&path, table) {
+                match misspelt(&path, table, schema) {
                     Some(fault) => faults.push(fault),
-                    None => collect(&path, table, settings, found, faults),
+                    None => collect(&path, table, (settings, schema), found, faults),
                 }
             }
             _ => match values_of(&entry.node) {
@@ -96,10 +97,10 @@ fn collect(
 
 /// The refusal of a table that can only be meant as a distribution: it stands for a setting below which there is none, or its
 /// first key is all but the name of one.
-fn misspelt(path: &SettingPath, table: &Table) -> Option<Fault> {
+fn misspelt(path: &SettingPath, table: &Table, schema: SchemaNode) -> Option<Fault> {
     let (key, entry) =
         table.iter().find(|(key, _)| nearest(key, DISTRIBUTIONS).is_some()).or_else(|| table.iter().next())?;
-    let property = path.schema();
+    let property = path.schema(schema);
     let is_value =
         property.is_some_and(|schema| matches!(schema.type_name(), Some("number" | "integer" | "boolean" | "string")));
     let is_close = nearest(key, DISTRIBUTIONS).is_some_and(|near| key.len().abs_diff(near.len()) <= 2);

@@ -13,12 +13,14 @@ use crate::error::{Fault, Place};
 use crate::load::assemble_on;
 use crate::placement::KnownRoads;
 use crate::plan_file::Sampling;
+use crate::registry::Registry;
 use crate::scenario::Scenario;
 use crate::start_jitter::StartJitter;
 use crate::tree::{Table, TomlNode, TomlValue};
 
 /// A plan of many runs. They are numbered from 0, those of one sample next to each other.
 pub struct SweepPlan {
+    pub(super) registry: Registry,
     pub(super) name: String,
     pub(super) title: Option<String>,
     /// The text as it was written.
@@ -266,7 +268,7 @@ impl SweepPlan {
         assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
     ) -> Result<Scenario, Vec<Fault>> {
         let tree = self.laid(place, assignments).map_err(|fault| vec![fault])?;
-        assemble_on(&tree, &self.known_roads)
+        assemble_on(&self.registry, &tree, &self.known_roads)
     }
 
     /// The same, unchecked.
@@ -289,7 +291,8 @@ impl SweepPlan {
         assignments: impl IntoIterator<Item = &'a Assignment<'a>>,
     ) -> Result<(), Fault> {
         let seed = TomlValue::Integer(i128::from(self.seed + place.draw));
-        path_of("seed", &self.place)?.lay(root, &TomlNode { place: self.place.clone(), value: seed })?;
-        assignments.into_iter().try_for_each(|assignment| assignment.lay(root))
+        let (schema, seed) = (self.registry.complete(), TomlNode { place: self.place.clone(), value: seed });
+        path_of("seed", &self.place)?.lay(root, &seed, schema)?;
+        assignments.into_iter().try_for_each(|assignment| assignment.lay(root, schema))
     }
 }

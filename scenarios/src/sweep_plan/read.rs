@@ -18,8 +18,9 @@ use crate::load;
 use crate::overrides::settings_of;
 use crate::placement::KnownRoads;
 use crate::plan_file::PlanFile;
+use crate::registry::Registry;
 use crate::schema::{self, SchemaNode};
-use crate::schema_check::check_file;
+use crate::schema_check;
 use crate::source::Source;
 use crate::start_jitter::StartJitter;
 use crate::tree::{self, TomlNode, TomlValue};
@@ -44,14 +45,32 @@ pub fn embedded_plans() -> Vec<&'static str> {
 }
 
 impl SweepPlan {
+    /// [`Registry::sweep_plan`] with what Interplay has.
+    ///
+    /// # Errors
+    /// As [`Registry::sweep_plan`].
+    pub fn load(name_or_path: &str, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
+        Registry::standard().sweep_plan(name_or_path, samples)
+    }
+
+    /// [`Registry::sweep_plan_from_text`] with what Interplay has.
+    ///
+    /// # Errors
+    /// As [`Registry::sweep_plan`].
+    pub fn from_text(name: &str, text: &str, folder: &Path) -> Result<SweepPlan, LoadError> {
+        Registry::standard().sweep_plan_from_text(name, text, folder)
+    }
+}
+
+impl Registry {
     /// The plan of that name in the binary, otherwise the file at that path; with a number of samples, with so many instead of
     /// its own.
     ///
     /// # Errors
     /// Whatever is wrong with it, each error located.
-    pub fn load(name_or_path: &str, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
+    pub fn sweep_plan(&self, name_or_path: &str, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
         if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == name_or_path) {
-            return SweepPlan::with_samples(name, text, Path::new(""), samples);
+            return with_samples(self, name, text, Path::new(""), samples);
         }
         let refused = |fault: Fault| LoadError::of_plan(name_or_path, vec![fault]);
         let path = Path::new(name_or_path);
@@ -64,30 +83,42 @@ impl SweepPlan {
             ))));
         }
         let (_, text) = Source::File(path.to_owned()).read(0).map_err(refused)?;
-        SweepPlan::with_samples(name_or_path, &text, path.parent().unwrap_or(Path::new("")), samples)
+        with_samples(self, name_or_path, &text, path.parent().unwrap_or(Path::new("")), samples)
     }
 
     /// The plan of a text that errors call `name`; paths in it are relative to `folder`.
     ///
     /// # Errors
-    /// As [`SweepPlan::load`].
-    pub fn from_text(name: &str, text: &str, folder: &Path) -> Result<SweepPlan, LoadError> {
-        SweepPlan::with_samples(name, text, folder, None)
-    }
-
-    fn with_samples(name: &str, text: &str, folder: &Path, samples: Option<u64>) -> Result<SweepPlan, LoadError> {
-        let document = Document::new(name, text, 0);
-        let place = Place::new(&document, 0..0);
-        let plan = tree::parse(&document, text).and_then(|mut tree| {
-            let replaced = samples.map(|samples| samples::replace(&mut tree, text, samples));
-            read(name, replaced.as_deref().unwrap_or(text), place, &tree, folder)
-        });
-        plan.map_err(|faults| LoadError::of_plan(name, faults))
+    /// As [`Registry::sweep_plan`].
+    pub fn sweep_plan_from_text(&self, name: &str, text: &str, folder: &Path) -> Result<SweepPlan, LoadError> {
+        with_samples(self, name, text, folder, None)
     }
 }
 
-fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) -> Result<SweepPlan, Vec<Fault>> {
-    let faults = check_file(tree, SchemaNode::of(&SCHEMA));
+fn with_samples(
+    registry: &Registry,
+    name: &str,
+    text: &str,
+    folder: &Path,
+    samples: Option<u64>,
+) -> Result<SweepPlan, LoadError> {
+    let document = Document::new(name, text, 0);
+    let place = Place::new(&document, 0..0);
+    let plan = tree::parse(&document, text).and_then(|mut tree| {
+        let replaced = samples.map(|samples| samples::replace(&mut tree, text, samples));
+        read(registry, (name, replaced.as_deref().unwrap_or(text)), place, &tree, folder)
+    });
+    plan.map_err(|faults| LoadError::of_plan(name, faults))
+}
+
+fn read(
+    registry: &Registry,
+    (name, text): (&str, &str),
+    place: Place,
+    tree: &TomlNode,
+    folder: &Path,
+) -> Result<SweepPlan, Vec<Fault>> {
+    let faults = schema_check::check(tree, SchemaNode::of(&SCHEMA));
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -99,13 +130,14 @@ fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) ->
     }
     let settings = (file.sampling, file.seed, file.samples);
     let mut plan = SweepPlan {
+        registry: registry.clone(),
         name: name.to_owned(),
         title: file.title,
         text: text.to_owned(),
         scenarios: Vec::new(),
-        styles: arms(tree, "style", |node| Arm::style(node, settings))?,
-        planners: arms(tree, "planner", Arm::planner)?,
-        changes: changes(tree, settings)?,
+        styles: arms(tree, "style", |node| Arm::style(node, settings, registry))?,
+        planners: arms(tree, "planner", |node| Arm::planner(node, registry))?,
+        changes: changes(tree, settings, registry.complete())?,
         sampling: file.sampling,
         samples: file.samples,
         samples_place: tree.at("samples").map(|node| node.place.clone()),
@@ -118,7 +150,7 @@ fn read(name: &str, text: &str, place: Place, tree: &TomlNode, folder: &Path) ->
     let named = scenarios(tree, folder)?;
     refuse_too_many(plan.count_for(named.len()), file.max_runs, tree)?;
     let jitter = file.jitter.zip(tree.at("jitter").map(|node| &node.place));
-    let read = |named| planned(named, jitter, file.counterfactuals);
+    let read = |named| planned(registry, named, jitter, file.counterfactuals);
     plan.scenarios = named.into_iter().map(read).collect::<Result<_, _>>()?;
     refuse_too_many(plan.count(), file.max_runs, tree)?;
     refuse_equal_names(&plan, tree)?;
@@ -156,9 +188,10 @@ fn arms(
 }
 
 /// What is changed, and varies, in all runs.
-fn changes(tree: &TomlNode, settings: DrawSettings) -> Result<Arm, Vec<Fault>> {
+fn changes(tree: &TomlNode, settings: DrawSettings, schema: SchemaNode) -> Result<Arm, Vec<Fault>> {
     let table = |key: &str| tree.at(key).and_then(TomlNode::table).cloned().unwrap_or_default();
-    Ok(Arm::changing("everywhere", settings_of(table("set"))?, factors(&table("vary"), settings)?))
+    let (set, vary) = (settings_of(table("set"), schema)?, factors(&table("vary"), settings, schema)?);
+    Ok(Arm::changing("everywhere", set, vary))
 }
 
 /// The scenarios of a plan. Two of one name are refused.
@@ -226,16 +259,17 @@ fn refuse_too_many(count: Option<u64>, most: u64, tree: &TomlNode) -> Result<(),
 
 /// Reads a scenario and what it extends. Its counterfactuals are a part of a plan that asks for them.
 fn planned(
+    registry: &Registry,
     named: NamedScenario,
     jitter: Option<(StartJitter, &Place)>,
     with_counterfactuals: bool,
 ) -> Result<PlannedScenario, Vec<Fault>> {
-    let mut tree = load::tree(&named.source).map_err(|error| error.faults().to_vec())?;
-    let counterfactuals = if with_counterfactuals { counterfactuals(&tree)? } else { Vec::new() };
+    let mut tree = load::tree(registry, &named.source).map_err(|error| error.faults().to_vec())?;
+    let counterfactuals = if with_counterfactuals { counterfactuals(registry, &tree)? } else { Vec::new() };
     if let TomlValue::Table(root) = &mut tree.value {
         root.remove("counterfactual");
     }
-    let scenario = load::assemble(&tree)?;
+    let scenario = load::assemble(registry, &tree)?;
     if let Some((_, place)) = jitter.filter(|_| scenario.vehicles.is_empty()) {
         let message = format!("{} has no vehicles, so `jitter` has no start to change", quoted(&named.name));
         return Err(vec![Fault::at(place, "no vehicle starts", message)]);
@@ -245,13 +279,13 @@ fn planned(
         position_m: jitter.position_m * scale,
         speed_mps: jitter.speed_mps * scale.sqrt(),
     };
-    let canonical = format!("{}{}", tree.to_json(), named_files::contents(&scenario));
+    let canonical = format!("{}{}{}", tree.to_json(), named_files::contents(&scenario), registry.versions());
     Ok(PlannedScenario { named, tree, canonical, jitter: jitter.map(|(jitter, _)| scaled(jitter)), counterfactuals })
 }
 
 /// The counterfactuals of a scenario as planners.
-fn counterfactuals(tree: &TomlNode) -> Result<Vec<Arm>, Vec<Fault>> {
-    let scenario = load::assemble(tree)?;
+fn counterfactuals(registry: &Registry, tree: &TomlNode) -> Result<Vec<Arm>, Vec<Fault>> {
+    let scenario = load::assemble(registry, tree)?;
     let faults = crate::consistency::counterfactual::check(&scenario, tree, false);
     if !faults.is_empty() {
         return Err(faults);
@@ -259,5 +293,6 @@ fn counterfactuals(tree: &TomlNode) -> Result<Vec<Arm>, Vec<Fault>> {
     let Some(TomlValue::Array(stated)) = tree.at("counterfactual").map(|node| &node.value) else {
         return Ok(Vec::new());
     };
-    stated.iter().filter_map(TomlNode::table).map(Arm::counterfactual).collect()
+    let stated = stated.iter().filter_map(TomlNode::table);
+    stated.map(|table| Arm::counterfactual(table, registry)).collect()
 }

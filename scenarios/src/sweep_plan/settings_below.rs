@@ -9,18 +9,19 @@ use crate::tree::{TomlNode, TomlValue};
 /// The paths of the settings that a value replaces when it is laid over a scenario at a path; of a `kind`, with its word.
 ///
 /// Tables, and lists whose entries have names, are merged with what is there: an empty one replaces nothing.
-pub(super) fn settings_below(path: &str, value: &TomlNode) -> BTreeMap<String, Option<String>> {
+pub(super) fn settings_below(path: &str, value: &TomlNode, schema: SchemaNode) -> BTreeMap<String, Option<String>> {
     let mut found = BTreeMap::new();
-    collect(path, value, &mut found);
+    collect(path, value, schema, &mut found);
     found
 }
 
-fn collect(path: &str, value: &TomlNode, found: &mut BTreeMap<String, Option<String>>) {
+fn collect(path: &str, value: &TomlNode, schema: SchemaNode, found: &mut BTreeMap<String, Option<String>>) {
     match &value.value {
         TomlValue::Table(table) => {
-            table.iter().for_each(|(key, entry)| collect(&format!("{path}.{key}"), &entry.node, found));
+            table.iter().for_each(|(key, entry)| collect(&format!("{path}.{key}"), &entry.node, schema, found));
         }
-        TomlValue::Array(_) if schema_at(path.split('.')).is_some_and(|schema| schema.merge_key().is_some()) => {}
+        TomlValue::Array(_)
+            if schema_at(schema, path.split('.')).is_some_and(|schema| schema.merge_key().is_some()) => {}
         _ => {
             let kind = value.text().filter(|_| path.ends_with(".kind")).map(str::to_owned);
             found.insert(path.to_owned(), kind);
@@ -34,13 +35,13 @@ pub(super) fn is_within(above: &str, path: &str) -> bool {
 }
 
 /// What removes the setting at a path when it is laid over it.
-pub(super) struct Rivals {
+pub(super) struct Rivals<'s> {
     /// The setting itself and all that it is below.
     above: Vec<String>,
     /// Keys that exclude the key of a table on the way to the setting: the key, and those.
     excluding: Vec<(String, Vec<String>)>,
     /// The `kind` of a table on the way, and the kinds that do not know the setting.
-    kinds: Vec<(String, Vec<&'static str>)>,
+    kinds: Vec<(String, Vec<&'s str>)>,
 }
 
 /// How a setting is removed.
@@ -54,15 +55,15 @@ pub(super) enum Removal {
     Unknown(String, String),
 }
 
-impl Rivals {
+impl<'s> Rivals<'s> {
     /// Those of a path without `*`.
-    pub fn of(path: &str) -> Rivals {
+    pub fn of(path: &str, schema: SchemaNode<'s>) -> Rivals<'s> {
         let words: Vec<&str> = path.split('.').collect();
         let up_to = |count: usize| words[..count].join(".");
         let mut rivals =
             Rivals { above: (1..=words.len()).map(up_to).collect(), excluding: Vec::new(), kinds: Vec::new() };
         for (count, word) in words.iter().enumerate().skip(1) {
-            let Some(table) = schema_at(words[..count].iter().copied()) else { continue };
+            let Some(table) = schema_at(schema, words[..count].iter().copied()) else { continue };
             let others: Vec<String> = excluded(table, word).map(|other| format!("{}.{other}", up_to(count))).collect();
             if !others.is_empty() {
                 rivals.excluding.push((up_to(count + 1), others));
@@ -100,7 +101,7 @@ impl Rivals {
 }
 
 /// The keys that may not stand beside a key of a table, whatever its kind.
-fn excluded(table: SchemaNode, key: &str) -> impl Iterator<Item = &'static str> {
+fn excluded<'s>(table: SchemaNode<'s>, key: &str) -> impl Iterator<Item = &'s str> {
     let tables = table.kinds().into_iter().filter_map(move |kind| table.of_kind(kind)).chain([table]);
     let pairs = tables.flat_map(|table| table.exclusions().collect::<Vec<_>>());
     let of_key = pairs.filter_map(move |(one, other)| match key {

@@ -16,10 +16,14 @@ use super::plan::{PlannedScenario, SweepPlan};
 use super::settings_below::{Removal, Rivals, settings_below};
 use crate::error::{Fault, Place, quoted};
 use crate::overrides::{OTHER_VEHICLES, SettingPath, ego_kind};
+use crate::schema::SchemaNode;
 use crate::tree::{Table, TomlNode, TomlValue};
 
 /// The settings that a value of a change replaces in a scenario; of a `kind`, with its word.
 type Settings = BTreeMap<String, Option<String>>;
+
+/// A scenario as it is written, and the schema of scenarios.
+type Root<'a, 'r> = (&'r Table, SchemaNode<'a>);
 
 /// A change of a plan in one scenario.
 struct Change<'a> {
@@ -31,7 +35,7 @@ struct Change<'a> {
     /// Whether it is of every vehicle but the ego.
     is_of_others: bool,
     /// The settings that it states, as the plan writes them, each with what removes it from the vehicles that it is about.
-    settings: BTreeMap<String, Vec<Rivals>>,
+    settings: BTreeMap<String, Vec<Rivals<'a>>>,
     /// What each of its values replaces, equal ones once.
     values: BTreeSet<Settings>,
 }
@@ -57,6 +61,7 @@ impl SweepPlan {
         let mut varied: BTreeMap<(usize, usize), Fault> = BTreeMap::new();
         for scenario in &self.scenarios {
             let TomlValue::Table(root) = &scenario.tree.value else { continue };
+            let root = (root, self.registry.complete());
             let everywhere = changes(&self.changes, "the plan", root);
             let (fixed, factors) = everywhere.split_at(everywhere.len() - self.changes.factors.len());
             let (planners, counterfactuals) = self.planners_of(scenario, root);
@@ -96,7 +101,11 @@ impl SweepPlan {
     }
 
     /// The changes of the planners and of the counterfactuals of a scenario.
-    fn planners_of<'a>(&'a self, scenario: &'a PlannedScenario, root: &Table) -> (Vec<Changes<'a>>, Vec<Changes<'a>>) {
+    fn planners_of<'a>(
+        &'a self,
+        scenario: &'a PlannedScenario,
+        root: Root<'a, '_>,
+    ) -> (Vec<Changes<'a>>, Vec<Changes<'a>>) {
         let named = |what: &str, arm: &'a Arm| changes(arm, &format!("{what} {}", quoted(&arm.name)), root);
         let planners = self.planners.iter().map(|arm| named("the planner", arm));
         let of_scenario = format!("{} with its counterfactual", quoted(&scenario.named.name));
@@ -132,11 +141,12 @@ fn span(place: &Place) -> (usize, usize) {
 }
 
 /// The changes of an arm in a scenario: who drives the ego, its settings, then what varies.
-fn changes<'a>(arm: &'a Arm, by: &str, root: &Table) -> Changes<'a> {
+fn changes<'a>(arm: &'a Arm, by: &str, root: Root<'a, '_>) -> Changes<'a> {
     let change = |path: &SettingPath, key, values: &mut dyn Iterator<Item = &TomlNode>, is_varied| {
         Change::new(by, path, key, values, is_varied, root)
     };
-    let kind = arm.kind().map(|kind| change(&ego_kind(root, &kind.place), &kind.place, &mut [kind].into_iter(), false));
+    let kind =
+        arm.kind().map(|kind| change(&ego_kind(root.0, &kind.place), &kind.place, &mut [kind].into_iter(), false));
     let set =
         arm.settings().iter().map(|(path, value)| change(path, key_of(path, value), &mut [value].into_iter(), false));
     let varied = arm.factors.iter().map(|factor: &Factor| {
@@ -154,17 +164,18 @@ impl<'a> Change<'a> {
         key: &'a Place,
         values: &mut dyn Iterator<Item = &TomlNode>,
         is_varied: bool,
-        root: &Table,
+        (root, schema): Root<'a, '_>,
     ) -> Change<'a> {
         let (mut settings, mut all) = (BTreeMap::new(), BTreeSet::new());
         let (written, paths) = (path.written(), path.in_scenario(root));
         for value in values {
-            for setting in settings_below(&written, value).into_keys() {
+            for setting in settings_below(&written, value, schema).into_keys() {
                 let below = setting.strip_prefix(&written).unwrap_or_default();
-                let rivals = || paths.iter().map(|path| Rivals::of(&format!("{}{below}", path.written()))).collect();
+                let of = |path: &SettingPath| Rivals::of(&format!("{}{below}", path.written()), schema);
+                let rivals = || paths.iter().map(of).collect();
                 settings.entry(setting.clone()).or_insert_with(rivals);
             }
-            all.insert(paths.iter().flat_map(|path| settings_below(&path.written(), value)).collect());
+            all.insert(paths.iter().flat_map(|path| settings_below(&path.written(), value, schema)).collect());
         }
         Change { by: by.to_owned(), key, is_varied, is_of_others: path.is_of_others(), settings, values: all }
     }

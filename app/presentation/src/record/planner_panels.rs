@@ -72,7 +72,7 @@ mod tests {
 
     use interplay_planners::belief::diagnostics::QUANTITIES as BELIEF_QUANTITIES;
     use interplay_planners::diagnostic::{COMMON_QUANTITIES, ValueSet};
-    use interplay_scenarios::{Override, driver_kinds, load};
+    use interplay_scenarios::{Override, Registry, load};
 
     use super::*;
 
@@ -86,7 +86,7 @@ mod tests {
     /// Two curves of one planner would end up at one path.
     #[test]
     fn slugs_tell_the_quantities_of_a_planner_apart() {
-        for kind in driver_kinds() {
+        for kind in Registry::standard().driver_kinds() {
             let scenario =
                 load("lane-change/front-nice", &[Override::Planner(kind.to_owned())]).expect("every kind may drive");
             let (_, explanation) = explanations(&scenario)[0];

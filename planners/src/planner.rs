@@ -1,0 +1,113 @@
+//! A driver at work: what every kind of driver has around it.
+
+use crate::belief::{self, DriverBeliefs, Outlook};
+use crate::certificate::{refused, violations};
+use crate::deadline::PlanDeadline;
+use crate::drive::{Drive, DriverKind};
+use crate::passing::PassingOrderLog;
+use crate::predict::Prediction;
+use crate::sensing::SensedScene;
+use crate::{Plan, PlanError, Scene};
+
+/// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs passing orders.
+///
+/// It is the same for all kinds of drivers, and knows them only through [`DriverKind`] and [`Drive`].
+#[derive(Debug)]
+pub struct Planner {
+    driver: Box<dyn Drive>,
+    /// What it believes of the others, if it is not told their plans.
+    beliefs: Option<Box<DriverBeliefs>>,
+    /// Whether the driver is given what each of the others may do.
+    branches: bool,
+    passing_orders: PassingOrderLog,
+    /// What its certificates take for where the others will be.
+    prediction: Prediction,
+    /// Whether a plan may be refused. Those who go first are what the others have to live with, and drive as they do.
+    may_be_refused: bool,
+    /// When a plan is too late; never by default.
+    deadline: Option<PlanDeadline>,
+}
+
+impl Planner {
+    /// A planner with a driver of a kind, which has not planned yet. `inference` says how it infers plans, where it is told none.
+    pub fn new(kind: &dyn DriverKind, inference: &belief::Settings) -> Self {
+        Planner {
+            driver: kind.driver(),
+            beliefs: (!kind.knows_plans()).then(|| Box::new(DriverBeliefs::new(*inference))),
+            branches: kind.branches(),
+            passing_orders: PassingOrderLog::default(),
+            prediction: kind.prediction().unwrap_or_default(),
+            may_be_refused: !kind.goes_first(),
+            deadline: None,
+        }
+    }
+
+    /// The same planner, whose plans have this deadline, or none.
+    pub fn with_deadline(self, deadline: Option<PlanDeadline>) -> Self {
+        Planner { deadline, ..self }
+    }
+
+    /// The same planner with another driver. What follows from the kind of the former one stays: what the driver is told, and
+    /// whether its plans may be refused.
+    pub fn with_driver(self, driver: Box<dyn Drive>) -> Self {
+        Planner { driver, ..self }
+    }
+
+    /// A copy that remembers the same; `None` if its driver cannot be copied.
+    pub fn fork(&self) -> Option<Self> {
+        Some(Planner {
+            driver: self.driver.fork()?,
+            beliefs: self.beliefs.clone(),
+            passing_orders: self.passing_orders.clone(),
+            ..*self
+        })
+    }
+
+    /// Plans the next move in a scene in which everybody is seen as it is.
+    ///
+    /// # Errors
+    /// [`PlanError`] if there is no plan; the caller falls back.
+    pub fn plan(&mut self, scene: &Scene) -> Result<Plan, PlanError> {
+        match self.beliefs {
+            Some(_) => self.plan_sensed(&SensedScene::perfect(scene)),
+            None => self.plan_as_told(scene, &Outlook::default()),
+        }
+    }
+
+    /// Plans the next move in a scene as it is sensed, with inferred predictions where the driver is told no plans.
+    ///
+    /// # Errors
+    /// As [`Planner::plan`].
+    pub fn plan_sensed(&mut self, sensed: &SensedScene) -> Result<Plan, PlanError> {
+        let Some(beliefs) = &mut self.beliefs else {
+            return self.plan_as_told(&sensed.scene, &Outlook::default());
+        };
+        let inferred = beliefs.infer(sensed);
+        let outlook = Outlook {
+            alternatives: if self.branches { beliefs.alternatives(sensed, &inferred.scene) } else { Vec::new() },
+            estimates: inferred.estimates,
+            delay: sensed.oldest_sighting(),
+        };
+        let mut plan = self.plan_as_told(&inferred.scene, &outlook)?;
+        plan.diagnostics.extend(inferred.diagnostics);
+        plan.events.splice(0..0, inferred.events);
+        plan.beliefs = outlook.estimates;
+        Ok(plan)
+    }
+
+    /// Plans the next move with the predictions of the scene, and says of a plan with a problem how it passes the others.
+    fn plan_as_told(&mut self, scene: &Scene, outlook: &Outlook) -> Result<Plan, PlanError> {
+        let mut plan = self.driver.plan(scene, outlook)?;
+        self.deadline.map_or(Ok(()), |deadline| deadline.check(&plan.statistics))?;
+        let expected = self.prediction.applied_to(scene);
+        plan.violations = violations(&expected, &plan.trajectory);
+        let refused = self.may_be_refused.then(|| refused(&expected, &plan.trajectory, &plan.violations)).flatten();
+        if let Some(violation) = refused {
+            return Err(PlanError::Refused(violation.clone()));
+        }
+        if plan.problem.is_some() {
+            self.passing_orders.note(scene, &mut plan);
+        }
+        Ok(plan)
+    }
+}
