@@ -15,7 +15,7 @@ use interplay_building::identify::{
     Boundary, Confidence, Hold, IdentificationReport, IdentifySettings, MeasuredWall, MeasuredZone, Neighbour,
     Telemetry, identify,
 };
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 use rayon::prelude::*;
 
 const MINUTES_PER_DAY: usize = 1440;

@@ -9,7 +9,6 @@
 //! - [`control`]: controllers that are compared day by day, and the day's optimum
 //! - [`day`]: the closed loop of a building and a controller, and the key figures of a day
 //! - [`identify`]: thermal parameters from telemetry
-//! - [`setting`]: settings that are out of range, [`bounds`] and [`json_schema`]: what stands on their fields
 //!
 //! Temperatures are in °C, differences in K, heat in kW (positive into a zone), energy in kWh, capacities in kJ/K,
 //! resistances in K/kW, time in seconds or hours, as the names say. A day's signals are stacked time-major: entry t·n + i
@@ -57,7 +56,6 @@
 //! # }
 //! ```
 
-pub mod bounds;
 pub mod calendar;
 pub mod comfort;
 pub mod control;
@@ -65,12 +63,8 @@ pub mod day;
 pub mod discretise;
 pub mod energy;
 pub mod identify;
-pub mod json_schema;
 pub mod lifted;
-pub mod nearest;
 pub mod network;
 pub mod occupancy;
-pub mod random;
 pub mod schedule;
-pub mod setting;
 pub mod weather;

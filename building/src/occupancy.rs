@@ -5,10 +5,10 @@
 //! The others cannot: people come earlier or later and are more or fewer (shift, scatter), and meetings take place
 //! unannounced, or are cancelled. In these buildings the error of occupancy dominates that of the weather forecast.
 
+use interplay_common::random::Random;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::random::Random;
 use crate::schedule::Timetable;
 use crate::weather::TimeSeries;
 

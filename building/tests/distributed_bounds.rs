@@ -9,7 +9,7 @@ use interplay_building::control::distributed::{DistributedSettings, Scheme};
 use interplay_building::control::{Design, Disturbance, Exchange};
 use interplay_building::discretise::Model;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 
 /// A connected network of 2 to 9 zones, a chain in every third case, with a few more walls otherwise.
 fn random_network(seed: u64) -> Model {

@@ -6,7 +6,7 @@ use interplay_building::identify::{
     Neighbour, Telemetry, identify,
 };
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 
 const STEP_S: f64 = 900.0;
 const CONDUCTANCE: f64 = 0.2;

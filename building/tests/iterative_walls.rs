@@ -13,7 +13,7 @@ use interplay_building::control::{Control, ControlError};
 use interplay_building::discretise::Model;
 use interplay_building::lifted::Lifted;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 
 /// A row of rooms with walls of this capacity \[kJ/K\] outdoors, and every second one between rooms.
 fn row_of_rooms(zones: usize, wall_kj_per_k: f64, seed: u64) -> Model {

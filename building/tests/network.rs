@@ -70,7 +70,9 @@ fn what_is_no_network_is_refused_with_its_place() {
     assert_eq!(repeated, NetworkError::DuplicateZone { zone: 2, name: "a".to_owned() });
 
     let unknown = refused(&two, &[Wall::new("bath", AMBIENT, 30.0), Wall::new("kitchn", "bath", 30.0)]);
-    assert!(matches!(&unknown, NetworkError::UnknownZone { nearest, .. } if nearest == "kitchen"));
+    assert!(
+        matches!(&unknown, NetworkError::UnknownZone { suggestion, .. } if suggestion == "did you mean `kitchen`?")
+    );
     assert!(unknown.to_string().starts_with("wall 2 (`kitchn` - `bath`)"), "{unknown}");
     assert_eq!(place(&unknown), (Some(Part::Wall(1)), "between".to_owned()));
 

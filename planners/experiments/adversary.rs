@@ -21,7 +21,7 @@ mod common;
 
 use std::io::Write;
 
-use common::Random;
+use common::SplitMix64;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::certificate::{last_resorts, overlap_m};
 use interplay_planners::{Agent, Driver, Scene, State, Trajectory, contingency, human, nash};
@@ -98,15 +98,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// The number of runs, the smallest gap in them, and the contacts in words.
 fn search(vehicles: &dyn Fn() -> Vec<Vehicle>, steps: usize, seed: u64) -> (usize, f64, Vec<String>) {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     let count = NUMBERS * vehicles().len();
     let (mut best, mut best_m, mut runs) = (vec![0.5; count], f64::INFINITY, 0);
     let mut contacts = Vec::new();
     for step in 0..steps {
         let width = 0.3 * (1.0 - (step as f64 - 0.5 * steps as f64) / (0.51 * steps as f64));
         let numbers: Vec<f64> = match step < steps / 2 {
-            true => best.iter().map(|_| random.unit()).collect(),
-            false => best.iter().map(|number| (number + random.between(-width, width)).clamp(0.0, 1.0)).collect(),
+            true => best.iter().map(|_| random.uniform(0.0, 1.0)).collect(),
+            false => best.iter().map(|number| (number + random.uniform(-width, width)).clamp(0.0, 1.0)).collect(),
         };
         let Some(encounter) = drive(vehicles(), &numbers) else { continue };
         runs += 1;

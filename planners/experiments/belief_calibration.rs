@@ -27,7 +27,7 @@ mod common;
 use std::error::Error;
 use std::io::Write;
 
-use common::Random;
+use common::SplitMix64;
 use common::wilson::wilson_interval;
 use common::world::{STEP_S, Vehicle, begin, intersection, lane_change, lane_keeping};
 use interplay_planners::belief::{self, Prior};
@@ -86,11 +86,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             steering_sd_rad: usual.steering_sd_rad / sharpness,
             ..usual
         };
-        let weights = |random: &mut Random| STYLES[(3.0 * random.unit()) as usize].1;
+        let weights = |random: &mut SplitMix64| STYLES[(3.0 * random.uniform(0.0, 1.0)) as usize].1;
         let named = beliefs(runs, seed, &settings, weights);
         named_styles(&mut out, &named)?;
         credible_names(&mut out, &named)?;
-        let weights = |random: &mut Random| 10f64.powf(random.between(-2.0, 2.0));
+        let weights = |random: &mut SplitMix64| 10f64.powf(random.uniform(-2.0, 2.0));
         let beliefs = beliefs(runs, seed, &settings, weights);
         held_weights(&mut out, &beliefs)?;
         edges(&mut out, &beliefs)?;
@@ -103,17 +103,17 @@ fn beliefs(
     runs: usize,
     seed: u64,
     settings: &belief::Settings,
-    weight: impl Fn(&mut Random) -> f64,
+    weight: impl Fn(&mut SplitMix64) -> f64,
 ) -> Vec<Option<Belief>> {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     (0..runs).map(|number| meet(number, &mut random, settings, &weight)).collect()
 }
 
 fn meet(
     number: usize,
-    random: &mut Random,
+    random: &mut SplitMix64,
     settings: &belief::Settings,
-    weight: impl Fn(&mut Random) -> f64,
+    weight: impl Fn(&mut SplitMix64) -> f64,
 ) -> Option<Belief> {
     let prediction = Prediction::Inferred;
     let ego = match number / 3 % 2 {
@@ -122,15 +122,15 @@ fn meet(
     };
     let (family, mut vehicles) = match number % 3 {
         0 => ("lane keeping", lane_keeping(ego, Style::Nice)),
-        1 => ("intersection", intersection(ego, Style::Nice, random.between(1.6, 2.1))),
+        1 => ("intersection", intersection(ego, Style::Nice, random.uniform(1.6, 2.1))),
         _ => ("lane change", lane_change(ego, [Style::Nice; 2])),
     };
     for vehicle in &mut vehicles {
         let State { x_m, speed_mps, .. } = vehicle.agent.state;
         if vehicle.agent.state.heading_rad == 0.0 {
-            vehicle.agent.state.x_m = x_m + random.between(-0.2, 0.2);
+            vehicle.agent.state.x_m = x_m + random.uniform(-0.2, 0.2);
         }
-        vehicle.agent.state.speed_mps = speed_mps + random.between(-0.15, 0.15);
+        vehicle.agent.state.speed_mps = speed_mps + random.uniform(-0.15, 0.15);
     }
     let safety_weight = weight(random);
     let observed = if family == "lane change" { 2 } else { 1 };

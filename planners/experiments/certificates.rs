@@ -14,7 +14,7 @@ mod common;
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use common::Random;
+use common::SplitMix64;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::Driver;
 use interplay_planners::PlanError;
@@ -53,13 +53,13 @@ fn main() -> std::io::Result<()> {
 }
 
 fn perturb(vehicles: &mut [Vehicle], seed: u64) {
-    let mut random = Random(1000 + seed);
+    let mut random = SplitMix64::new(1000 + seed);
     for vehicle in vehicles {
         let (sin, cos) = vehicle.agent.state.heading_rad.sin_cos();
-        let along = random.between(-0.3, 0.3);
+        let along = random.uniform(-0.3, 0.3);
         vehicle.agent.state.x_m += along * cos;
         vehicle.agent.state.y_m += along * sin;
-        vehicle.agent.state.speed_mps += random.between(-0.1, 0.1);
+        vehicle.agent.state.speed_mps += random.uniform(-0.1, 0.1);
     }
 }
 

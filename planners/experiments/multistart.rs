@@ -25,7 +25,7 @@ use std::error::Error;
 use std::io::Write;
 use std::time::Instant;
 
-use common::Random;
+use common::SplitMix64;
 use common::wilson::wilson_interval;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::diagnostic::COST;
@@ -166,13 +166,13 @@ fn search_closed_loop(words: &[String]) -> std::io::Result<()> {
 }
 
 fn perturb(vehicles: &mut [Vehicle], seed: u64) {
-    let mut random = Random(1000 + seed);
+    let mut random = SplitMix64::new(1000 + seed);
     for vehicle in vehicles {
         let (sin, cos) = vehicle.agent.state.heading_rad.sin_cos();
-        let along = random.between(-0.3, 0.3);
+        let along = random.uniform(-0.3, 0.3);
         vehicle.agent.state.x_m += along * cos;
         vehicle.agent.state.y_m += along * sin;
-        vehicle.agent.state.speed_mps += random.between(-0.1, 0.1);
+        vehicle.agent.state.speed_mps += random.uniform(-0.1, 0.1);
     }
 }
 
@@ -210,7 +210,7 @@ fn cost_of(problem: &Problem, plan: &Plan) -> f64 {
 }
 
 fn cheapest(problem: &Problem, seed: u64) -> f64 {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     let mut best = f64::INFINITY;
     for _ in 0..STARTS {
         let guess: Vec<Vec<Input>> = problem.participants.iter().map(|_| random_inputs(&mut random)).collect();
@@ -222,9 +222,9 @@ fn cheapest(problem: &Problem, seed: u64) -> f64 {
 }
 
 /// Five pieces of random acceleration and steering.
-fn random_inputs(random: &mut Random) -> Vec<Input> {
+fn random_inputs(random: &mut SplitMix64) -> Vec<Input> {
     let pieces: Vec<Input> = (0..5)
-        .map(|_| Input { acceleration_mps2: random.between(-1.2, 1.2), steering_rad: random.between(-0.4, 0.4) })
+        .map(|_| Input { acceleration_mps2: random.uniform(-1.2, 1.2), steering_rad: random.uniform(-0.4, 0.4) })
         .collect();
     (0..30).map(|t| pieces[t / 6]).collect()
 }

@@ -22,7 +22,7 @@ use std::error::Error;
 use std::io::Write;
 use std::time::Instant;
 
-use common::Random;
+use common::SplitMix64;
 use common::games::joint_problem;
 use common::wilson::wilson_interval;
 use interplay_planners::nash::{Equilibrium, equilibrium, joint_optimiser};
@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     writeln!(out, "|---|---|---|---|---|---|---|---|---|---|---|")?;
     for players in 2..=4 {
         for (name, all_classes) in [("local", false), ("all classes", true)] {
-            let mut random = Random(seed);
+            let mut random = SplitMix64::new(seed);
             let solutions: Vec<Solution> =
                 (0..games).map(|_| solve(&joint_problem(&mut random, players), all_classes)).collect();
             writeln!(out, "| {players} | {name} | {}", row(&solutions))?;
@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The own problem of every player of the certified games, a third of the games with 2, 3 and 4 players each.
 fn own_problems(games: usize, seed: u64) -> Result<Vec<Recorded>, Box<dyn Error>> {
-    let (mut random, mut records) = (Random(seed), Vec::new());
+    let (mut random, mut records) = (SplitMix64::new(seed), Vec::new());
     for game in 0..games {
         let players = 2 + game % 3;
         let problem = joint_problem(&mut random, players);

@@ -2,12 +2,12 @@
 
 mod common;
 
-use common::{Random, alone, iterate, pair};
+use common::{SplitMix64, alone, iterate, pair};
 use interplay_planners::trajectory::{Problem, StageSolution, StageSolver, StepProblem, Structured};
 
 /// Steps of one descent, as the sequential method takes them.
 fn steps(problem: &Problem, seed: u64) -> u64 {
-    let at = iterate(problem, &mut Random(seed));
+    let at = iterate(problem, &mut SplitMix64::new(seed));
     let (mut solver, mut step, mut solution) =
         (Structured::default(), StepProblem::default(), StageSolution::default());
     let mut round = || {

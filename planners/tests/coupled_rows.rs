@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{HORIZON, Random, iterate, pair, step_problem};
+use common::{HORIZON, SplitMix64, iterate, pair, step_problem};
 use interplay_planners::Input;
 use interplay_planners::trajectory::terms::{DistanceCost, DistancePrice, MeanSpeed, SpeedMeasure};
 use interplay_planners::trajectory::{
@@ -15,17 +15,17 @@ const PENALTY: Penalty = Penalty { linear: 15.0, quadratic: 0.0 };
 
 /// Two vehicles with a persuasion row and bounds on both mean speeds; the first is drawn to the second.
 fn problem(seed: u64) -> Problem {
-    let random = &mut Random(seed + 500);
+    let random = &mut SplitMix64::new(seed + 500);
     let mut problem = pair(seed, 1.0 + 0.01 * seed as f64);
     let centres = (1..=HORIZON).map(|t| [0.1 + 0.1 * t as f64, 0.555]).collect();
-    let price = DistancePrice::Linear { weight: random.between(0.02, 0.9) };
+    let price = DistancePrice::Linear { weight: random.uniform(0.02, 0.9) };
     problem.terms.push(Term::DistanceCost(DistanceCost {
         vehicle: 0,
         centres,
         metrics: vec![[1.8, 0.3, 8.2]; HORIZON],
         price,
     }));
-    let lower = random.between(0.6, 1.4);
+    let lower = random.uniform(0.6, 1.4);
     for (vehicle, width) in [0.05, 0.0].into_iter().enumerate() {
         let (lower_mps, upper_mps) = (Some(lower), Some(lower + width));
         problem.terms.extend(
@@ -41,7 +41,7 @@ fn problem(seed: u64) -> Problem {
 fn the_solvers_agree_on_step_problems() {
     for seed in 0..SEEDS {
         let problem = problem(seed);
-        let qp = step_problem(&problem, &iterate(&problem, &mut Random(seed)));
+        let qp = step_problem(&problem, &iterate(&problem, &mut SplitMix64::new(seed)));
         assert_eq!(qp.trajectory_rows.len(), 5);
         let (mut structured, mut sparse) = (StageSolution::default(), StageSolution::default());
         Structured::default().solve(&qp, &mut structured, false).expect("structured");

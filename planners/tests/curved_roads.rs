@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use common::derivatives::check;
 use common::world::{Run, begin, egos, lane_change, moved_to, run};
-use common::{HORIZON, Random, iterate, lane_change as change_of_lanes};
+use common::{HORIZON, SplitMix64, iterate, lane_change as change_of_lanes};
 use interplay_planners::human::Style::{Nice, Tough};
 use interplay_planners::road::centre_line::{Piece, smooth};
 use interplay_planners::trajectory::terms::{Comfort, RoadEdge, RoadTarget, RoadTracking, StopLine};
@@ -30,12 +30,12 @@ fn bend(curvature_1pm: f64) -> CentreLine {
 }
 
 /// A vehicle that tracks a place beside a curve and is beyond both edges of its road, from a random start beside the curve.
-fn off_the_road(random: &mut Random) -> Problem {
+fn off_the_road(random: &mut SplitMix64) -> Problem {
     let line = bend(0.25);
-    let along_m = random.between(2.5, 6.0);
-    let [x_m, y_m] = line.position(along_m, random.between(-0.1, 0.3));
-    let heading_rad = line.at(along_m).heading_rad + random.between(-0.1, 0.1);
-    let start = State { x_m, y_m, heading_rad, speed_mps: random.between(0.5, 1.2) };
+    let along_m = random.uniform(2.5, 6.0);
+    let [x_m, y_m] = line.position(along_m, random.uniform(-0.1, 0.3));
+    let heading_rad = line.at(along_m).heading_rad + random.uniform(-0.1, 0.1);
+    let start = State { x_m, y_m, heading_rad, speed_mps: random.uniform(0.5, 1.2) };
     // The right edge lies to the left of the body and the left edge to its right, and both move.
     let moving = |from_m: f64, to_m: f64| Profile::steps(&[[2.0, from_m], [11.0, to_m]]).expect("a profile");
     let route = Arc::new(Route::curved(line, moving(3.0, 3.6), moving(-3.0, -3.4), Profile::constant(0.37)));
@@ -70,7 +70,7 @@ fn off_the_road(random: &mut Random) -> Problem {
 #[test]
 fn derivatives_agree_with_finite_differences() {
     for seed in 0..20 {
-        let random = &mut Random(seed);
+        let random = &mut SplitMix64::new(seed);
         let problem = off_the_road(random);
         let seen = check(&problem, &iterate(&problem, random), random);
         assert!(seen.first > 1.0 && seen.second > 1.0, "nothing costs anything here");
@@ -80,14 +80,14 @@ fn derivatives_agree_with_finite_differences() {
 /// Cheap values of the edge rows are the exact ones wherever a corner is beyond its edge, and positive lower bounds elsewhere.
 #[test]
 fn cheap_edge_values_never_hide_a_violation() {
-    let (random, body) = (&mut Random(3), Body::default());
+    let (random, body) = (&mut SplitMix64::new(3), Body::default());
     let narrowing = |from_m: f64, to_m: f64| Profile::steps(&[[3.0, from_m], [9.0, to_m]]).expect("a profile");
     let route = Route::curved(bend(0.9), narrowing(-0.2, 0.05), narrowing(0.2, 0.3), Profile::constant(0.37));
     let (mut beyond, mut bounds) = (0, 0);
     for _ in 0..20_000 {
-        let along_m = random.between(0.0, 14.0);
-        let [x_m, y_m] = route.position(along_m, random.between(-0.4, 0.4));
-        let heading_rad = route.centre.at(along_m).heading_rad + random.between(-1.0, 1.0);
+        let along_m = random.uniform(0.0, 14.0);
+        let [x_m, y_m] = route.position(along_m, random.uniform(-0.4, 0.4));
+        let heading_rad = route.centre.at(along_m).heading_rad + random.uniform(-1.0, 1.0);
         let state = State { x_m, y_m, heading_rad, speed_mps: 1.0 };
         let at = route.locate(state.position(), Some(along_m));
         let exact = route.clearances(&body, &state, &at);

@@ -3,7 +3,7 @@
 mod common;
 
 use common::derivatives::check;
-use common::{HORIZON, Random, Vehicle, follower, iterate, lane_change, problem};
+use common::{HORIZON, SplitMix64, Vehicle, follower, iterate, lane_change, problem};
 use interplay_planners::trajectory::terms::{
     DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, Separation, SpeedMeasure,
 };
@@ -14,7 +14,7 @@ use interplay_planners::{Axes, Corridor, LaneEnd, SafetyEllipse, State};
 const SEEDS: u64 = 20;
 
 /// A vehicle on a wide road that nothing costs anything.
-fn indifferent(random: &mut Random) -> Vehicle {
+fn indifferent(random: &mut SplitMix64) -> Vehicle {
     Vehicle {
         tracking: [0.0; 4],
         targets: vec![State::default(); HORIZON],
@@ -30,10 +30,10 @@ fn alone(vehicle: Vehicle) -> Problem {
 }
 
 /// Checks what `pose` makes of random numbers, and that it was there to be checked.
-fn check_all(pose: impl Fn(&mut Random) -> Problem) {
+fn check_all(pose: impl Fn(&mut SplitMix64) -> Problem) {
     let (mut first, mut second) = (0.0_f64, 0.0_f64);
     for seed in 0..SEEDS {
-        let random = &mut Random(seed);
+        let random = &mut SplitMix64::new(seed);
         let problem = pose(random);
         let seen = check(&problem, &iterate(&problem, random), random);
         (first, second) = (first.max(seen.first), second.max(seen.second));
@@ -42,8 +42,8 @@ fn check_all(pose: impl Fn(&mut Random) -> Problem) {
 }
 
 /// Centres beside which the vehicle drives, well inside their ellipses.
-fn beside(random: &mut Random) -> Vec<[f64; 2]> {
-    let (x, speed) = (random.between(-0.2, 0.2), random.between(0.6, 1.2));
+fn beside(random: &mut SplitMix64) -> Vec<[f64; 2]> {
+    let (x, speed) = (random.uniform(-0.2, 0.2), random.uniform(0.6, 1.2));
     (1..=HORIZON).map(|t| [x + 0.1 * speed * t as f64, 0.25]).collect()
 }
 
@@ -56,7 +56,7 @@ fn ellipse(heading_rad: f64) -> OrientedEllipse {
 fn tracking() {
     check_all(|random| {
         let target = State { x_m: 1.0, y_m: 0.5, heading_rad: 0.2, speed_mps: 1.3 };
-        let axes = Axes::along(random.between(-3.0, 3.0));
+        let axes = Axes::along(random.uniform(-3.0, 3.0));
         let tracking = [0.3, 1.0, 0.7, 2.0];
         alone(Vehicle { tracking, axes, targets: vec![target; HORIZON], ..indifferent(random) })
     });

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Random, alone, iterate, pair};
+use common::{SplitMix64, alone, iterate, pair};
 use interplay_planners::Input;
 use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::trajectory::{DescentError, Optimiser, Problem, Sparse, Structured};
@@ -44,7 +44,7 @@ fn descents_end_at_points_that_satisfy_the_optimality_conditions() {
 fn an_optimum_costs_no_more_than_its_guess() {
     let mut solved = 0;
     for (seed, problem) in problems() {
-        let guess = iterate(&problem, &mut Random(seed + 7));
+        let guess = iterate(&problem, &mut SplitMix64::new(seed + 7));
         let before = problem.cost(&guess).total;
         if let Ok(optimum) = Optimiser::new(Structured::default()).descend(&problem, &guess.inputs) {
             assert!(optimum.cost.total <= before, "seed {seed}: {} from {before}", optimum.cost.total);
@@ -59,7 +59,7 @@ fn an_optimum_costs_no_more_than_its_guess() {
 fn what_has_not_ended_improves_on_its_guess_or_is_refused() {
     let (mut handed_out, mut refused) = (0, 0);
     for (seed, problem) in problems() {
-        let guess = iterate(&problem, &mut Random(seed + 7));
+        let guess = iterate(&problem, &mut SplitMix64::new(seed + 7));
         let before = problem.cost(&guess);
         let mut optimiser = Optimiser::new(Structured::default()).searching(PassingOrderSearch::Off);
         optimiser.tolerances.work_limit = 8;

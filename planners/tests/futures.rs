@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{HORIZON, Random, futures};
+use common::{HORIZON, SplitMix64, futures};
 use interplay_planners::Input;
 use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::trajectory::terms::{Comfort, KeepOut, RoadEdge, Tracking};
@@ -93,16 +93,16 @@ fn equal_futures_are_one() {
 /// No small change of the inputs, shared where they are to be, makes an optimum cheaper.
 #[test]
 fn no_admissible_change_makes_an_optimum_cheaper() {
-    let mut random = Random(3);
+    let mut random = SplitMix64::new(3);
     for seed in 0..10 {
         let problem = futures(seed, 3, 6);
         let found = solve(&problem).expect("an optimum");
         for _ in 0..200 {
-            let size = 10f64.powf(random.between(-4.0, -1.0));
+            let size = 10f64.powf(random.uniform(-4.0, -1.0));
             let guess = found.iterate.inputs.iter().map(|inputs| {
                 let moved = inputs.iter().map(|input| Input {
-                    acceleration_mps2: input.acceleration_mps2 + size * random.between(-1.0, 1.0),
-                    steering_rad: input.steering_rad + 0.1 * size * random.between(-1.0, 1.0),
+                    acceleration_mps2: input.acceleration_mps2 + size * random.uniform(-1.0, 1.0),
+                    steering_rad: input.steering_rad + 0.1 * size * random.uniform(-1.0, 1.0),
                 });
                 moved.collect()
             });

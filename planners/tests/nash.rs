@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::Random;
+use common::SplitMix64;
 use common::games::joint_problem;
 use common::world::{lane_change, run};
 use interplay_planners::human::Style;
@@ -21,20 +21,20 @@ fn solve(problem: &Problem) -> Equilibrium {
 }
 
 /// The inputs of one player moved at random, by little or by much.
-fn moved(random: &mut Random, iterate: &Iterate, player: usize) -> Vec<Input> {
+fn moved(random: &mut SplitMix64, iterate: &Iterate, player: usize) -> Vec<Input> {
     let [acceleration, steering] =
-        [random.between(-3.0, -0.3), random.between(-3.5, -1.0)].map(|power| 10f64.powf(power));
+        [random.uniform(-3.0, -0.3), random.uniform(-3.5, -1.0)].map(|power| 10f64.powf(power));
     let moved = iterate.inputs[player].iter().map(|input| Input {
-        acceleration_mps2: input.acceleration_mps2 + acceleration * random.between(-1.0, 1.0),
-        steering_rad: input.steering_rad + steering * random.between(-1.0, 1.0),
+        acceleration_mps2: input.acceleration_mps2 + acceleration * random.uniform(-1.0, 1.0),
+        steering_rad: input.steering_rad + steering * random.uniform(-1.0, 1.0),
     });
     moved.collect()
 }
 
-/// Random deviations, which share nothing with the solver: no player gains by any of them.
+/// SplitMix64 deviations, which share nothing with the solver: no player gains by any of them.
 #[test]
 fn nobody_gains_by_a_random_deviation() {
-    let mut random = Random(7);
+    let mut random = SplitMix64::new(7);
     for players in 2..=3 {
         for game in 0..GAMES {
             let problem = joint_problem(&mut random, players);
@@ -63,7 +63,7 @@ fn nobody_gains_by_a_random_deviation() {
 /// deviation.
 #[test]
 fn replies_settle_where_the_joint_descent_does_not_end() {
-    let mut random = Random(13);
+    let mut random = SplitMix64::new(13);
     let mut settled = 0;
     for game in 0..GAMES {
         let problem = joint_problem(&mut random, 3);
@@ -89,7 +89,7 @@ fn replies_settle_where_the_joint_descent_does_not_end() {
 /// Guesses that lead vehicles into one another are moved out of nearly all ellipses, at a lower cost; others stay.
 #[test]
 fn a_start_is_outside_of_the_ellipses() {
-    let mut random = Random(17);
+    let mut random = SplitMix64::new(17);
     let (mut moved, mut left_inside) = (0, 0);
     for game in 0..3 * GAMES {
         let problem = joint_problem(&mut random, 2 + game % 3);
@@ -110,7 +110,7 @@ fn a_start_is_outside_of_the_ellipses() {
 /// The game has a potential: whatever a player does alone changes its own cost and the joint cost by the same amount.
 #[test]
 fn what_a_player_gains_alone_the_sum_gains() {
-    let mut random = Random(11);
+    let mut random = SplitMix64::new(11);
     for players in [2, 3, 4] {
         let problem = joint_problem(&mut random, players);
         let iterate = problem.start(&[]);
@@ -128,7 +128,7 @@ fn what_a_player_gains_alone_the_sum_gains() {
 /// Most games are solved; the share is measured by the example `nash_games`.
 #[test]
 fn most_random_games_have_a_certified_equilibrium() {
-    let mut random = Random(3);
+    let mut random = SplitMix64::new(3);
     let certified = (0..GAMES).filter(|_| solve(&joint_problem(&mut random, 2)).is_certified()).count();
     assert!(certified >= GAMES - 1, "{certified} of {GAMES}");
 }
@@ -136,7 +136,7 @@ fn most_random_games_have_a_certified_equilibrium() {
 /// A motion that is no equilibrium is not certified: players whose joint descent takes one step for enough would gain by leaving.
 #[test]
 fn a_motion_far_from_an_optimum_is_not_certified() {
-    let mut random = Random(5);
+    let mut random = SplitMix64::new(5);
     let mut gains = 0;
     for _ in 0..GAMES {
         let problem = joint_problem(&mut random, 2);

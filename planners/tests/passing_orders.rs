@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{HORIZON, Random, Vehicle, alone, iterate, lane_change, pair, problem};
+use common::{HORIZON, SplitMix64, Vehicle, alone, iterate, lane_change, pair, problem};
 use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::trajectory::terms::KeepOut;
 use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust};
@@ -17,7 +17,7 @@ fn somebody_ahead(left_m: f64) -> Problem {
         ellipses: vec![SafetyEllipse::default().oriented(0.0); HORIZON],
         penalty: Penalty::EXACT,
     };
-    let free = lane_change(&mut Random(0));
+    let free = lane_change(&mut SplitMix64::new(0));
     let vehicle = Vehicle {
         participant: Participant { start: wanted, previous_input: Input::default(), ..free.participant },
         corridor: Corridor { heading_rad: 0.0, right_m: -2.0, left_m: 2.0, end: None },
@@ -62,7 +62,7 @@ fn looking_across_is_never_dearer() {
     let (mut gained, mut compared) = (0, 0);
     for seed in 0..60 {
         for problem in [alone(seed), pair(seed, 1.0 + 0.02 * seed as f64)] {
-            let guess = iterate(&problem, &mut Random(seed + 7)).inputs;
+            let guess = iterate(&problem, &mut SplitMix64::new(seed + 7)).inputs;
             let Some([alone, across]) = optima(&problem, &guess) else { continue };
             assert!(across <= alone, "seed {seed}: {across} instead of {alone}");
             gained += usize::from(across < alone * (1.0 - 1e-3));

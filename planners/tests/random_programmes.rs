@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Random, alone, iterate, pair, step_problem};
+use common::{SplitMix64, alone, iterate, pair, step_problem};
 use interplay_planners::trajectory::{
     Interval, Problem, Robust, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver, Structured, Term, kkt,
 };
@@ -35,8 +35,8 @@ const HARMS: [Harm; 7] = [
 ];
 
 impl Harm {
-    fn on_problem(self, problem: &mut Problem, random: &mut Random) {
-        let scales = |random: &mut Random| 10.0_f64.powf(random.between(-4.0, 4.0));
+    fn on_problem(self, problem: &mut Problem, random: &mut SplitMix64) {
+        let scales = |random: &mut SplitMix64| 10.0_f64.powf(random.uniform(-4.0, 4.0));
         let starts: Vec<[f64; 2]> = problem.participants.iter().map(|of| of.start.position()).collect();
         for term in &mut problem.terms {
             match (self, term) {
@@ -54,7 +54,7 @@ impl Harm {
         }
     }
 
-    fn on_programme(self, qp: &mut StageQp, random: &mut Random) {
+    fn on_programme(self, qp: &mut StageQp, random: &mut SplitMix64) {
         match self {
             Harm::Degenerate => {
                 // Every row twice, one of them with nothing to say.
@@ -65,15 +65,15 @@ impl Harm {
                 }
             }
             Harm::SpeedOutOfReach => {
-                let at = (random.unit() * 5.0) as usize;
+                let at = (random.uniform(0.0, 1.0) * 5.0) as usize;
                 let boxes = &mut qp.vehicles[0].speed_boxes;
-                let lower = 0.2 * (at + 1) as f64 + random.between(0.3, 2.0);
+                let lower = 0.2 * (at + 1) as f64 + random.uniform(0.3, 2.0);
                 boxes[at] = Interval { lower, upper: lower + 1.0 };
             }
             Harm::RowsContradict => {
                 let Some(block) = qp.blocks.first().cloned() else { return };
-                let at = 3 + (random.unit() * 20.0) as usize;
-                let (slope, apart) = (random.between(0.5, 2.0), random.between(0.05, 0.5));
+                let at = 3 + (random.uniform(0.0, 1.0) * 20.0) as usize;
+                let (slope, apart) = (random.uniform(0.5, 2.0), random.uniform(0.05, 0.5));
                 for direction in [1.0, -1.0] {
                     let mut opposed = block.clone();
                     opposed.penalty = None;
@@ -91,9 +91,9 @@ impl Harm {
 
 /// A random problem of a kind, linearised at random inputs.
 fn programme(seed: u64) -> (Harm, StageQp) {
-    let random = &mut Random(seed.wrapping_mul(0x5851_f42d_4c95_7f2d));
+    let random = &mut SplitMix64::new(seed.wrapping_mul(0x5851_f42d_4c95_7f2d));
     let harm = HARMS[(seed % HARMS.len() as u64) as usize];
-    let mut problem = if seed.is_multiple_of(5) { pair(seed, random.between(1.0, 2.0)) } else { alone(seed) };
+    let mut problem = if seed.is_multiple_of(5) { pair(seed, random.uniform(1.0, 2.0)) } else { alone(seed) };
     harm.on_problem(&mut problem, random);
     let mut qp = step_problem(&problem, &iterate(&problem, random));
     harm.on_programme(&mut qp, random);

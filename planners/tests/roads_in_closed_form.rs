@@ -5,7 +5,7 @@ mod common;
 use std::sync::Arc;
 
 use common::derivatives::model;
-use common::{HORIZON, Random, iterate, lane_change};
+use common::{HORIZON, SplitMix64, iterate, lane_change};
 use interplay_planners::predict::steadily_along;
 use interplay_planners::road::centre_line::Piece;
 use interplay_planners::trajectory::terms::{Comfort, RoadEdge, RoadTarget, RoadTracking, Tracking};
@@ -17,10 +17,10 @@ const PENALTY: Penalty = Penalty { linear: 1.0, quadratic: 1.0 };
 
 /// The same problem on a straight road and on a line of one straight piece, in some direction. The road is so narrow that all
 /// corners are beyond their edges.
-fn twins(random: &mut Random) -> [Problem; 2] {
-    let heading_rad = random.between(-3.0, 3.0);
+fn twins(random: &mut SplitMix64) -> [Problem; 2] {
+    let heading_rad = random.uniform(-3.0, 3.0);
     let (sin, cos) = libm::sincos(heading_rad);
-    let [right_m, left_m] = [random.between(0.3, 0.5), random.between(-0.3, 0.0)];
+    let [right_m, left_m] = [random.uniform(0.3, 0.5), random.uniform(-0.3, 0.0)];
     let [along_m, across_m, speed_mps] = [6.0, 0.2, 1.0];
     let in_world = |along_m: f64, across_m: f64| [cos * along_m - sin * across_m, sin * along_m + cos * across_m];
     let free = lane_change(random);
@@ -72,11 +72,11 @@ fn numbers(qp: &StageQp) -> Vec<f64> {
 #[test]
 fn terms_on_a_straight_line_of_pieces_are_those_of_a_straight_road() {
     for seed in 0..50 {
-        let random = &mut Random(seed);
+        let random = &mut SplitMix64::new(seed);
         let problems = twins(random);
         let seed_of_inputs = random.0;
         let [straight, pieced] = problems.map(|problem| {
-            let iterate = iterate(&problem, &mut Random(seed_of_inputs));
+            let iterate = iterate(&problem, &mut SplitMix64::new(seed_of_inputs));
             (problem.cost(&iterate).total, numbers(&model(&problem, &iterate, true)))
         });
         assert!((straight.0 - pieced.0).abs() <= 1e-12 * straight.0, "{} and {}", straight.0, pieced.0);

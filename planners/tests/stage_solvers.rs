@@ -2,12 +2,12 @@
 
 mod common;
 
-use common::{Random, alone, futures, iterate, pair};
+use common::{SplitMix64, alone, futures, iterate, pair};
 use interplay_planners::trajectory::kkt::Residual;
 use interplay_planners::trajectory::{Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt};
 
 fn step_problem(problem: &Problem, seed: u64) -> StageQp {
-    common::step_problem(problem, &iterate(problem, &mut Random(seed)))
+    common::step_problem(problem, &iterate(problem, &mut SplitMix64::new(seed)))
 }
 
 fn compare(problem: &Problem, seed: u64) {

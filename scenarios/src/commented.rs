@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use interplay_building::bounds::Bound;
-use interplay_building::nearest::listed;
+use interplay_common::bounds::Bound;
+use interplay_common::spelling::listed;
 use serde_json::{Map, Value as Json};
 
 use crate::error::LoadError;

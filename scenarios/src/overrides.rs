@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use interplay_building::nearest::suggestion;
+use interplay_common::spelling::suggestion;
 
 use crate::error::{Document, Fault, Place, quoted};
 use crate::merge::merge_tables;

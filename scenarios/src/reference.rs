@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use interplay_building::bounds::Bound;
+use interplay_common::bounds::Bound;
 use serde_json::Value as Json;
 
 use crate::commented::{inline, toml};

@@ -3,7 +3,7 @@
 //! It is generated from [`Scenario`]. Whatever is said of a setting stands on its field: description, type and default, and as
 //! `schemars` attributes its bounds, its example, and
 //!
-//! - `x-unit`: the unit of a number whose key does not end with one ([`units`]),
+//! - `x-unit`: the unit of a number whose key does not end with one ([`interplay_common::units`]),
 //! - `x-excludes`: keys that may not stand beside it,
 //! - `x-concerns`: `vehicles` or `building`, for what means nothing without them,
 //! - `x-mechanism`: the mechanism of a planner that it switches off, with the value that does so,
@@ -16,9 +16,9 @@
 
 mod node;
 mod twins;
-mod units;
 
-use interplay_building::json_schema::kind_of;
+use interplay_common::json_schema::kind_of;
+use interplay_common::units::unit_of;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json, json};
@@ -29,7 +29,6 @@ use crate::scenario::Scenario;
 
 pub(crate) use node::{Concern, SchemaNode};
 pub(crate) use twins::{TWIN_OF, in_degrees, rounded};
-pub(crate) use units::{quantity_of, unit_of};
 
 /// The schema of a type of files, as the check reads it.
 pub(crate) fn generated<T: JsonSchema>() -> Json {

@@ -5,15 +5,16 @@
 
 use std::rc::Rc;
 
-use interplay_building::bounds::Bound;
-use interplay_building::json_schema::type_in_words;
-use interplay_building::nearest::{listed, nearest, suggestion};
+use interplay_common::bounds::Bound;
+use interplay_common::json_schema::type_in_words;
+use interplay_common::spelling::{listed, nearest, suggestion};
+use interplay_common::units::{quantity_of, unit_of};
 use serde_json::Value as Json;
 
 use crate::error::{Fault, Place, quoted};
 use crate::name;
 use crate::plain_text::is_plain;
-use crate::schema::{SchemaNode, quantity_of, unit_of};
+use crate::schema::SchemaNode;
 use crate::tree::{Table, TomlNode, TomlValue, kind_of};
 
 /// Everything that is wrong with the shape of a file of which `schema` describes the whole.

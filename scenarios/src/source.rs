@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use interplay_building::nearest::nearest;
+use interplay_common::spelling::nearest;
 
 use crate::embedded::{self, Embedded};
 use crate::error::{Document, Fault, LoadError, Place, quoted};

@@ -1,6 +1,6 @@
 //! The random change of the starts.
 
-use interplay_building::random::SplitMix64;
+use interplay_common::random::SplitMix64;
 use interplay_planners::{Limits, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ pub struct StartJitter {
 impl StartJitter {
     /// A start, changed at random. It takes two numbers of the sequence: position, then speed.
     pub(crate) fn changed(&self, start: State, limits: &Limits, random: &mut SplitMix64) -> State {
-        let (shift_m, faster_mps) = (self.position_m * random.around_zero(), self.speed_mps * random.around_zero());
+        let [shift_m, faster_mps] = [self.position_m, self.speed_mps].map(|most| most * random.uniform(-1.0, 1.0));
         let (sin, cos) = libm::sincos(start.heading_rad);
         let speed_mps = if self.speed_mps > 0.0 {
             (start.speed_mps + faster_mps).max(limits.speed_min_mps).min(limits.speed_max_mps)

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use interplay_building::nearest::suggestion;
 use interplay_building::weather::Epw;
+use interplay_common::spelling::suggestion;
 
 use crate::building::DAY_S;
 use crate::error::{Fault, Place, quoted};

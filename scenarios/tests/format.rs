@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use interplay_building::bounds::Bound;
+use interplay_common::bounds::Bound;
 use interplay_planners::trajectory::PassingOrderSearch;
 use interplay_planners::{Driver, human::Style};
 use interplay_scenarios::{

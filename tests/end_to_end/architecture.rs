@@ -10,22 +10,25 @@ use toml::Table;
 
 /// Each crate and the crates that it may depend on. Data flows one way.
 const ARROWS: &[(&str, &[&str])] = &[
+    ("common", &[]),
     ("convex", &[]),
-    ("planners", &["convex"]),
-    ("building", &["convex"]),
-    ("scenarios", &["planners", "building"]),
+    ("planners", &["common", "convex"]),
+    ("building", &["common", "convex"]),
+    ("scenarios", &["common", "planners", "building"]),
     ("app/simulation", &["planners", "building", "scenarios"]),
     ("app/files", &[]),
     ("app/fmu", &["building", "scenarios", "app/simulation"]),
-    ("app/sweep", &["building", "scenarios", "app/files", "app/simulation"]),
-    ("app/presentation", &["planners", "building", "scenarios", "app/files", "app/simulation", "app/sweep"]),
+    ("app/sweep", &["common", "scenarios", "app/files", "app/simulation"]),
+    ("app/presentation", &["common", "planners", "building", "scenarios", "app/files", "app/simulation", "app/sweep"]),
     ("app/cli", &["building", "scenarios", "app/files", "app/simulation", "app/fmu", "app/sweep", "app/presentation"]),
     ("examples", &["planners", "scenarios", "app/simulation", "app/sweep"]),
-    ("tests", &["planners", "building", "scenarios", "app/simulation", "app/cli"]),
+    ("tests", &["common", "planners", "building", "scenarios", "app/simulation", "app/cli"]),
 ];
 
 /// Libraries that only one crate may depend on.
 const OWNERS: &[(&str, &str)] = &[
+    ("rand_chacha", "common"),
+    ("strsim", "common"),
     ("clarabel", "convex"),
     ("bevy", "app/simulation"),
     ("rapier", "app/simulation"),

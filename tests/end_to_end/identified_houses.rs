@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use interplay_building::discretise::Model;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 
 use crate::command::{interplay, scratch};
 

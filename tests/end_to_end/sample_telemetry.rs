@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 use interplay_scenarios::load;
 use interplay_simulation::frame::BuildingFrame;
 use serde_json::Value;

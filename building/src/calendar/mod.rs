@@ -4,7 +4,7 @@ use jiff::civil::{Date, Weekday as CivilWeekday};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::setting::SettingKey;
+use interplay_common::setting::SettingKey;
 
 /// The date of the first day, and the holidays.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

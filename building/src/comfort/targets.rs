@@ -2,12 +2,12 @@
 
 use std::borrow::Cow;
 
+use interplay_common::bounds::Bound;
+use interplay_common::setting::{self, SettingError, SettingKey, check_bound};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bounds::Bound;
 use crate::energy::EnergySupply;
-use crate::setting::{self, SettingError, SettingKey, check_bound};
 
 /// Wanted temperatures and what it costs to miss them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

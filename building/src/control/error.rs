@@ -2,10 +2,10 @@
 
 use std::cmp::Ordering;
 
+use interplay_common::setting::{SettingError, SettingKey};
 use interplay_convex::{ProblemError, SolveError};
 
 use crate::discretise::ModelError;
-use crate::setting::{SettingError, SettingKey};
 
 /// Largest magnitude of a temperature \[°C\] or of a heat flow \[kW\]. Chosen far beyond any building; larger numbers are
 /// errors of the input.

@@ -15,6 +15,7 @@
 //! analyses I − G L Ω: its spectral radius decides whether the errors vanish in the end, its largest singular value whether
 //! they may grow before. The two differ by orders of magnitude for P-type learning.
 
+use interplay_common::setting;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +26,6 @@ use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
-use crate::setting;
 
 /// Iterative learning of P- or PD-type on top of a PID controller.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

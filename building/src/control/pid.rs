@@ -8,6 +8,7 @@
 //! integration: while the output is at a limit, an error that would push it further is not integrated. Where the
 //! temperature is free, the output is zero and the integral is reset.
 
+use interplay_common::setting::{self, SettingError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +16,6 @@ use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
 use crate::network::PowerLimits;
-use crate::setting::{self, SettingError};
 
 /// Gains of a PID controller. They are per hour, not per step, so that they do not depend on the step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,5 +1,6 @@
 //! An on-off controller: full power when it is too cold or too warm, none otherwise.
 
+use interplay_common::setting;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +8,6 @@ use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
 use crate::network::PowerLimits;
-use crate::setting;
 
 /// A two-sided thermostat with a dead band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -9,13 +9,13 @@
 //! σ_o is larger while the zone is occupied. After each day, the σ are estimated again from the errors of the predictions,
 //! with the settings as a prior of `prior_days` days. With a constant Σ, the iterations would end with a constant gain.
 
+use interplay_common::setting::{self, SettingError};
 use nalgebra::{Cholesky, DMatrix};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ControlError;
 use crate::comfort::Targets;
-use crate::setting::{self, SettingError};
 
 /// Variance that is added to every entry of the diagonal \[kW²\].
 const NUGGET_KW2: f64 = 1e-8;

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bounds::Bound;
-use crate::setting::{self, SettingError, SettingKey};
+use interplay_common::bounds::Bound;
+use interplay_common::setting::{self, SettingError, SettingKey};
 
 /// Coefficients of performance of the equipment, for heating and for cooling, by outdoor temperature.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::setting::{self, SettingKey};
+use interplay_common::setting::{self, SettingKey};
 
 /// In the weights of a plan a price counts at least as this share of the mean one, so that cheap heat is not free: prices of
 /// markets may be negative.

@@ -1,6 +1,6 @@
 //! Errors of an identification.
 
-use crate::setting::SettingError;
+use interplay_common::setting::SettingError;
 
 /// Why an identification is not possible.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

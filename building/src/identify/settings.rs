@@ -1,11 +1,11 @@
 //! Settings of an identification.
 
+use interplay_common::bounds::Bound;
+use interplay_common::setting::{self, SettingError, check_bound};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bounds::Bound;
 use crate::discretise;
-use crate::setting::{self, SettingError, check_bound};
 
 /// How to identify. Every field has a default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,11 +4,11 @@
 //! every two hours and so excites the temperatures. It is occupied on a known schedule, and disturbed by unmeasured heat. Parameters are those of Table 2.1 (1000 kJ/K, 31.25 K/kW outwards, 62.5 K/kW to each room), the
 //! step is the source's 15 minutes, and time is cut by forward Euler, as in eq. 2.3.
 
+use interplay_common::random::Random;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::telemetry::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, Telemetry};
-use crate::random::Random;
 
 /// Sampling time \[s\].
 pub const STEP_S: f64 = 900.0;

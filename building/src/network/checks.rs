@@ -1,8 +1,10 @@
 //! Checks of described zones and walls.
 
+use interplay_common::setting;
+use interplay_common::spelling::suggestion;
+
 use super::error::{NetworkError, Part};
 use super::settings::{AMBIENT, Wall, Zone};
-use crate::setting;
 
 pub(super) fn check_zones(zones: &[Zone]) -> Result<(), NetworkError> {
     if zones.is_empty() {
@@ -63,11 +65,11 @@ pub(super) fn wall_name(index: usize, wall: &Wall) -> String {
 }
 
 fn unknown(zones: &[Zone], (index, wall): (usize, &Wall), name: &str) -> NetworkError {
-    let nearest = zones.iter().min_by_key(|zone| strsim::damerau_levenshtein(&zone.name, name));
+    let names: Vec<&str> = zones.iter().map(|zone| zone.name.as_str()).collect();
     NetworkError::UnknownZone {
         wall: index,
         called: wall_name(index, wall),
         name: name.to_owned(),
-        nearest: nearest.map_or_else(String::new, |zone| zone.name.clone()),
+        suggestion: suggestion(name, "the zones are", &names),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::setting::{SettingError, SettingKey};
+use interplay_common::setting::{SettingError, SettingKey};
 
 /// A zone or a wall of a described building, by its position in the description, from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +38,7 @@ pub enum NetworkError {
         name: String,
     },
     /// A wall leads to a zone that does not exist.
-    #[error("{called} leads to `{name}`, which is no zone; the nearest name is `{nearest}`, and outdoors is `ambient`")]
+    #[error("{called} leads to `{name}`, which is no zone (outdoors is `ambient`): {suggestion}")]
     UnknownZone {
         /// Position of the wall, from zero.
         wall: usize,
@@ -46,8 +46,8 @@ pub enum NetworkError {
         called: String,
         /// The unknown name.
         name: String,
-        /// The zone whose name is most like it.
-        nearest: String,
+        /// The zone that was probably meant, or else all zones, in words.
+        suggestion: String,
     },
     /// A wall has the same zone, or the air outside, on both sides.
     #[error("{called} has `{name}` on both sides: heat cannot flow from a place to itself")]

@@ -1,10 +1,10 @@
 //! The mismatch between a building and a controller's model of it.
 
+use interplay_common::setting;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Network, NetworkError};
-use crate::setting;
 
 /// The factors by which a controller's model of a building is wrong. With all factors 1 it is right.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,9 +1,10 @@
 //! The schedule of each zone on each day.
 
+use interplay_common::setting::{self, SettingKey};
+use interplay_common::spelling::suggestion;
+
 use super::zone_schedule::ZoneSchedule;
 use crate::calendar::{DayKind, RunDays};
-use crate::nearest::suggestion;
-use crate::setting::{self, SettingKey};
 
 /// How many kinds of days there are: a week, and holidays.
 const DAY_KINDS: usize = 8;

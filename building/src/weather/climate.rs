@@ -10,11 +10,11 @@
 
 use std::f64::consts::TAU;
 
+use interplay_common::random::Random;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{TimeSeries, Weather};
-use crate::random::Random;
 
 /// Time between two values \[s\].
 const INTERVAL_S: f64 = 1800.0;

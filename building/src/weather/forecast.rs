@@ -7,11 +7,11 @@
 //! e(0) ~ N(F₀, K₀²)        e(h+1) ~ N(F e(h) + μ, K²)
 //! ```
 
+use interplay_common::random::Random;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{TimeSeries, Weather};
-use crate::random::Random;
 
 /// How a day's outdoor temperatures are forecast at its start. (For the forecast of a second file, ask that file's
 /// weather for [`Forecast::Exact`].)

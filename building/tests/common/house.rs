@@ -3,7 +3,7 @@
 use interplay_building::discretise::Model;
 use interplay_building::identify::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour, Telemetry};
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 
 /// Parameters of a house.
 #[derive(Clone, Copy)]

@@ -6,8 +6,8 @@ use interplay_building::day::{Surroundings, run_day};
 use interplay_building::discretise::Model;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
 use interplay_building::occupancy::Occupancy;
-use interplay_building::random::Random;
 use interplay_building::weather::{Climate, ErrorLevel, Forecast};
+use interplay_common::random::Random;
 
 const STEP_S: f64 = 1800.0;
 const STEPS: usize = 48;

@@ -5,6 +5,8 @@
 
 use std::f64::consts::TAU;
 
+use interplay_common::random::SplitMix64;
+
 /// What a random number is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Draw {
@@ -43,17 +45,13 @@ impl Noise {
     }
 
     fn unit(&self, tick: usize, draw: Draw, part: u64) -> f64 {
-        let number = mixed(self.0 ^ mixed(tick as u64 ^ mixed(2 * draw as u64 + part)));
-        (number >> 11) as f64 / (1_u64 << 53) as f64
+        SplitMix64::new(self.0 ^ mixed(tick as u64 ^ mixed(2 * draw as u64 + part))).uniform(0.0, 1.0)
     }
 }
 
-/// The finaliser of SplitMix64 (Steele, Lea and Flood, 2014), after its increment.
+/// A number whose bits all depend on all bits of another.
 fn mixed(number: u64) -> u64 {
-    let mut z = number.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
+    SplitMix64::new(number).next_u64()
 }
 
 /// FNV-1a over the bytes of a name.

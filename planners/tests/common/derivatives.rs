@@ -12,7 +12,7 @@
 use interplay_planners::Input;
 use interplay_planners::trajectory::{Iterate, Penalty, Problem, StageQp, StageSolution, StepProblem};
 
-use super::Random;
+use super::SplitMix64;
 
 /// Step of the differences.
 const STEP: f64 = 1e-4;
@@ -25,7 +25,7 @@ pub struct Seen {
 }
 
 /// Checks first and second derivatives of the cost of `problem` at `iterate` along random directions.
-pub fn check(problem: &Problem, iterate: &Iterate, random: &mut Random) -> Seen {
+pub fn check(problem: &Problem, iterate: &Iterate, random: &mut SplitMix64) -> Seen {
     let exact = model(problem, iterate, true);
     let convex = model(problem, iterate, false);
     let mut seen = Seen { first: 0.0, second: 0.0 };
@@ -79,10 +79,10 @@ fn slope(penalty: Penalty, violation: f64) -> f64 {
 }
 
 /// Per vehicle and stage, a direction of the inputs.
-fn direction(problem: &Problem, random: &mut Random) -> Vec<Vec<[f64; 2]>> {
-    let stages = |first: usize, random: &mut Random| {
+fn direction(problem: &Problem, random: &mut SplitMix64) -> Vec<Vec<[f64; 2]>> {
+    let stages = |first: usize, random: &mut SplitMix64| {
         let mut stage = |k: usize| {
-            let w = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)];
+            let w = [random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)];
             if k < first { [0.0; 2] } else { w }
         };
         (0..problem.horizon).map(&mut stage).collect()

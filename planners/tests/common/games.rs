@@ -7,7 +7,7 @@ use interplay_planners::joint::{JointVehicle, problem};
 use interplay_planners::trajectory::Problem;
 use interplay_planners::{Corridor, Driver, Route, Scene, State, conservative};
 
-use super::Random;
+use super::SplitMix64;
 use super::world::{HORIZON, LANES, STEP_S, Vehicle, vehicle};
 
 const NAMES: [&str; 4] = ["a", "b", "c", "d"];
@@ -16,8 +16,8 @@ const NAMES: [&str; 4] = ["a", "b", "c", "d"];
 const LEAST_SPACING_M: f64 = 0.8;
 
 /// A game with random starts, wanted lanes, wanted speeds and weights, in which nobody begins in another's ellipse.
-pub fn game(random: &mut Random, players: usize) -> (Scene, Vec<JointVehicle>) {
-    let crosses = random.between(0.0, 1.0) < 0.5;
+pub fn game(random: &mut SplitMix64, players: usize) -> (Scene, Vec<JointVehicle>) {
+    let crosses = random.uniform(0.0, 1.0) < 0.5;
     let mut vehicles: Vec<Vehicle> = Vec::new();
     while vehicles.len() < players {
         let index = vehicles.len();
@@ -40,7 +40,7 @@ pub fn game(random: &mut Random, players: usize) -> (Scene, Vec<JointVehicle>) {
 }
 
 /// The joint problem of a random game.
-pub fn joint_problem(random: &mut Random, players: usize) -> Problem {
+pub fn joint_problem(random: &mut SplitMix64, players: usize) -> Problem {
     let (scene, players) = game(random, players);
     problem(&scene, &players)
 }
@@ -49,22 +49,22 @@ fn driver() -> Driver {
     Driver::Conservative(conservative::Settings::default())
 }
 
-fn weights(random: &mut Random) -> [f64; 4] {
-    [0.0, random.between(0.5, 4.0), random.between(0.5, 1.0), random.between(0.5, 2.0)]
+fn weights(random: &mut SplitMix64) -> [f64; 4] {
+    [0.0, random.uniform(0.5, 4.0), random.uniform(0.5, 1.0), random.uniform(0.5, 2.0)]
 }
 
 /// A vehicle somewhere on two lanes, which wants into either.
-fn beside(random: &mut Random, index: usize) -> Vehicle {
-    let [lane, wanted] = [0, 1].map(|_| LANES[usize::from(random.between(0.0, 1.0) < 0.5)]);
-    let start = [random.between(-2.0, 2.0), lane, random.between(0.6, 1.3)];
-    vehicle(NAMES[index], start, [wanted, random.between(0.6, 1.4)], weights(random), driver())
+fn beside(random: &mut SplitMix64, index: usize) -> Vehicle {
+    let [lane, wanted] = [0, 1].map(|_| LANES[usize::from(random.uniform(0.0, 1.0) < 0.5)]);
+    let start = [random.uniform(-2.0, 2.0), lane, random.uniform(0.6, 1.3)];
+    vehicle(NAMES[index], start, [wanted, random.uniform(0.6, 1.4)], weights(random), driver())
 }
 
 /// A vehicle before a crossing of two roads: of even number on the first, of odd number on the second, which comes from the right.
-fn crossing(random: &mut Random, index: usize) -> Vehicle {
-    let (from_m, speed_mps) = (random.between(-3.2, -0.9), random.between(0.5, 1.1));
+fn crossing(random: &mut SplitMix64, index: usize) -> Vehicle {
+    let (from_m, speed_mps) = (random.uniform(-3.2, -0.9), random.uniform(0.5, 1.1));
     let mut vehicle =
-        vehicle(NAMES[index], [from_m, 0.0, speed_mps], [0.0, random.between(0.6, 1.4)], weights(random), driver());
+        vehicle(NAMES[index], [from_m, 0.0, speed_mps], [0.0, random.uniform(0.6, 1.4)], weights(random), driver());
     let heading_rad = if index.is_multiple_of(2) { 0.0 } else { FRAC_PI_2 };
     let (sin, cos) = heading_rad.sin_cos();
     vehicle.agent.route = Route::from(Corridor { heading_rad, right_m: -0.185, left_m: 0.185, end: None }).into();

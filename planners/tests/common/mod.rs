@@ -8,26 +8,10 @@ pub mod starts;
 pub mod wilson;
 pub mod world;
 
+use interplay_common::random::SplitMix64;
 use interplay_planners::trajectory::terms::{Comfort, KeepOut, Persuasion, RoadEdge, Separation, Tracking};
 use interplay_planners::trajectory::{Iterate, Participant, Penalty, Problem, StageQp, StepProblem, Term};
 use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, Limits, SafetyEllipse, State};
-
-/// SplitMix64: small, seeded, the same everywhere.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-}
 
 pub const HORIZON: usize = 30;
 
@@ -70,21 +54,21 @@ pub fn problem(vehicles: &[Vehicle], besides: impl IntoIterator<Item = Term>) ->
 }
 
 /// A lane-changing vehicle among one or two others that drive straight on.
-pub fn lane_change(random: &mut Random) -> Vehicle {
-    let wanted = State { x_m: 0.0, y_m: 0.555, heading_rad: 0.0, speed_mps: random.between(0.8, 1.3) };
+pub fn lane_change(random: &mut SplitMix64) -> Vehicle {
+    let wanted = State { x_m: 0.0, y_m: 0.555, heading_rad: 0.0, speed_mps: random.uniform(0.8, 1.3) };
     let centre = |x: f64, speed: f64| (1..=HORIZON).map(|t| [x + speed * 0.1 * t as f64, 0.555]).collect();
-    let others = [(random.between(0.2, 0.9), random.between(0.8, 1.4)), (random.between(-1.8, -0.8), 1.2)];
+    let others = [(random.uniform(0.2, 0.9), random.uniform(0.8, 1.4)), (random.uniform(-1.8, -0.8), 1.2)];
     let participant = Participant {
         model: Bicycle::new(&Body::default(), 0.1),
         limits: Limits::default(),
         steering_bounds_rad: Vec::new(),
         start: State {
             x_m: 0.0,
-            y_m: 0.185 + random.between(-0.05, 0.05),
-            heading_rad: random.between(-0.1, 0.1),
-            speed_mps: random.between(0.5, 1.3),
+            y_m: 0.185 + random.uniform(-0.05, 0.05),
+            heading_rad: random.uniform(-0.1, 0.1),
+            speed_mps: random.uniform(0.5, 1.3),
         },
-        previous_input: Input { acceleration_mps2: random.between(-0.3, 0.3), steering_rad: random.between(-0.1, 0.1) },
+        previous_input: Input { acceleration_mps2: random.uniform(-0.3, 0.3), steering_rad: random.uniform(-0.1, 0.1) },
         known_inputs: Vec::new(),
         route_start: None,
     };
@@ -93,7 +77,7 @@ pub fn lane_change(random: &mut Random) -> Vehicle {
         participant,
         body: Body::default(),
         corridor: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.74, end: None },
-        tracking: [0.0, random.between(0.5, 4.0), random.between(0.5, 1.0), 1.0],
+        tracking: [0.0, random.uniform(0.5, 4.0), random.uniform(0.5, 1.0), 1.0],
         axes: Axes::WORLD,
         targets: vec![wanted; HORIZON],
         comfort: [0.1, 0.1],
@@ -109,8 +93,8 @@ pub fn lane_change(random: &mut Random) -> Vehicle {
 }
 
 /// A vehicle that follows its plan until `first` and may then be asked to deviate.
-pub fn follower(random: &mut Random, first: usize) -> Vehicle {
-    let start = State { x_m: random.between(-0.6, 0.1), y_m: 0.555, heading_rad: 0.0, speed_mps: 1.2 };
+pub fn follower(random: &mut SplitMix64, first: usize) -> Vehicle {
+    let start = State { x_m: random.uniform(-0.6, 0.1), y_m: 0.555, heading_rad: 0.0, speed_mps: 1.2 };
     let targets = (1..=HORIZON).map(|t| State { x_m: start.x_m + 0.12 * t as f64, ..start }).collect();
     let free = lane_change(random);
     Vehicle {
@@ -130,12 +114,12 @@ pub fn follower(random: &mut Random, first: usize) -> Vehicle {
 
 /// One vehicle among others.
 pub fn alone(seed: u64) -> Problem {
-    problem(&[lane_change(&mut Random(seed))], [])
+    problem(&[lane_change(&mut SplitMix64::new(seed))], [])
 }
 
 /// Two deciding vehicles, the second from step 6 on, with a persuasion constraint of strength `alpha`.
 pub fn pair(seed: u64, alpha: f64) -> Problem {
-    let random = &mut Random(seed);
+    let random = &mut SplitMix64::new(seed);
     let mut ego = lane_change(random);
     ego.keep_outs.truncate(1);
     let away = (0..HORIZON).map(|t| [0.1 * t as f64, 0.185]).collect();
@@ -149,11 +133,11 @@ pub fn pair(seed: u64, alpha: f64) -> Problem {
 
 /// A lane-changing vehicle in several futures, in each of which the others drive at other speeds, with its first steps shared.
 pub fn futures(seed: u64, count: usize, shared_steps: usize) -> Problem {
-    let random = &mut Random(seed);
+    let random = &mut SplitMix64::new(seed);
     let ego = lane_change(random);
     let share = 1.0 / count as f64;
     let in_future = |_| {
-        let faster_mps = random.between(-0.4, 0.4);
+        let faster_mps = random.uniform(-0.4, 0.4);
         let mut future = ego.clone();
         future.tracking = ego.tracking.map(|weight| share * weight);
         future.comfort = ego.comfort.map(|weight| share * weight);
@@ -167,11 +151,11 @@ pub fn futures(seed: u64, count: usize, shared_steps: usize) -> Problem {
 }
 
 /// An iterate of `problem` with small random inputs.
-pub fn iterate(problem: &Problem, random: &mut Random) -> Iterate {
+pub fn iterate(problem: &Problem, random: &mut SplitMix64) -> Iterate {
     let guess = problem.participants.iter().map(|_| {
         let input = |t| Input {
-            acceleration_mps2: random.between(-0.2, 0.2),
-            steering_rad: if t < 8 { random.between(0.0, 0.1) } else { random.between(-0.05, 0.05) },
+            acceleration_mps2: random.uniform(-0.2, 0.2),
+            steering_rad: if t < 8 { random.uniform(0.0, 0.1) } else { random.uniform(-0.05, 0.05) },
         };
         (0..problem.horizon).map(input).collect()
     });

@@ -2,7 +2,7 @@
 
 use interplay_planners::predict::constant_velocity;
 
-use super::Random;
+use super::SplitMix64;
 use super::world::{HORIZON, STEP_S, Vehicle};
 
 /// Largest perturbation along the road \[m\] and of the speed \[m/s\].
@@ -10,13 +10,13 @@ const PERTURBATION: f64 = 0.1;
 
 /// The vehicles, each up to 0.1 m further ahead or behind and up to 0.1 m/s faster or slower, by a seed.
 pub fn perturbed(mut vehicles: Vec<Vehicle>, seed: u64) -> Vec<Vehicle> {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     for vehicle in &mut vehicles {
         let state = &mut vehicle.agent.state;
-        let along_m = random.between(-PERTURBATION, PERTURBATION);
+        let along_m = random.uniform(-PERTURBATION, PERTURBATION);
         state.x_m += along_m * libm::cos(state.heading_rad);
         state.y_m += along_m * libm::sin(state.heading_rad);
-        state.speed_mps += random.between(-PERTURBATION, PERTURBATION);
+        state.speed_mps += random.uniform(-PERTURBATION, PERTURBATION);
         vehicle.agent.prediction = constant_velocity(&vehicle.agent.state, HORIZON, STEP_S);
     }
     vehicles

@@ -1,12 +1,13 @@
 //! The check of what counterfactuals say beside the scenarios that they run.
 
+use interplay_common::spelling::suggestion;
+
 use super::checker::Checker;
 use crate::counterfactual::Counterfactual;
 use crate::error::{Fault, quoted};
 use crate::expect::{CounterfactualExpect, Expect};
 use crate::scenario::Scenario;
 use crate::tree::TomlNode;
-use interplay_building::nearest::suggestion;
 
 /// Everything that is wrong with the counterfactuals of a scenario, but for what they change. Unless it is `as_written`, flags
 /// may have removed what they refer to.

@@ -1,6 +1,6 @@
 //! The check of what a scenario expects of its vehicles.
 
-use interplay_building::nearest::suggestion;
+use interplay_common::spelling::suggestion;
 
 use super::checker::Checker;
 use crate::error::quoted;

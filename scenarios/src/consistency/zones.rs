@@ -1,8 +1,8 @@
 //! The check of what a scenario says about single zones, their hours, and the price of their heat.
 
 use interplay_building::energy::Tariff;
-use interplay_building::nearest::suggestion;
 use interplay_building::network::Network;
+use interplay_common::spelling::suggestion;
 
 use super::checker::Checker;
 use crate::error::{Fault, quoted};

@@ -1,6 +1,6 @@
 //! The network of a road, and what keeps lanes from being one.
 
-use interplay_building::nearest::suggestion;
+use interplay_common::spelling::suggestion;
 use interplay_planners::road::network::{Lane, LaneFault, NeighbourRelation, RoadNetwork, RoadNetworkError};
 
 use crate::error::{Fault, quoted};

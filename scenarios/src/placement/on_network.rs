@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use interplay_building::nearest::{listed, suggestion};
+use interplay_common::spelling::{listed, suggestion};
 use interplay_planners::road::network::{Lane, RouteError};
 use interplay_planners::{Route, State};
 

@@ -1,7 +1,7 @@
 //! A part of the schema, with what its keywords say as Rust types.
 
-use interplay_building::bounds::Bound;
-use interplay_building::json_schema::{definition_of, kind_of, words_of};
+use interplay_common::bounds::Bound;
+use interplay_common::json_schema::{definition_of, kind_of, words_of};
 use serde_json::Value as Json;
 
 /// What a key concerns that means nothing without it.

@@ -1,6 +1,6 @@
 //! What is compared: planners of the ego, and drivers of the other vehicles.
 
-use interplay_building::nearest::suggestion;
+use interplay_common::spelling::suggestion;
 use interplay_planners::human::Style;
 
 use super::assignment::{Assignment, path_of};

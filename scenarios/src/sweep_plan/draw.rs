@@ -1,6 +1,6 @@
 //! Numbers of the unit interval for each path and sample.
 
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 
 use crate::plan_file::Sampling;
 

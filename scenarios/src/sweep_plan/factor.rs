@@ -1,7 +1,7 @@
 //! A path whose value varies, and the values that it takes.
 
 use interplay_building::control::uncertainty::normal_quantile;
-use interplay_building::nearest::nearest;
+use interplay_common::spelling::nearest;
 
 use super::draw::UnitDraws;
 use crate::error::{Fault, Place, quoted};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use interplay_building::nearest::suggestion;
+use interplay_common::spelling::suggestion;
 
 use crate::embedded::embedded;
 use crate::error::{Fault, Place, quoted};
@@ -57,7 +57,7 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
     names.extend(families());
     let message = format!("there is no scenario, no family and no file {}", quoted(entry));
     let help = format!("{}; `interplay list` shows all of them", suggestion(entry, "families are", &families()));
-    let near = interplay_building::nearest::nearest(entry, names);
+    let near = interplay_common::spelling::nearest(entry, names);
     let help = near.map_or(help, |near| format!("did you mean `{near}`? `interplay list` shows all of them"));
     Err(Fault::at(place, "unknown", message).help(help))
 }

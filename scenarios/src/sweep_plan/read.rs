@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use interplay_building::nearest::suggestion;
+use interplay_common::spelling::suggestion;
 use serde_json::Value as Json;
 
 use super::arm::Arm;

@@ -1,5 +1,6 @@
 //! From words to figures.
 
+use interplay_common::spelling::nearest;
 use thiserror::Error;
 
 use super::{Entry, registry};
@@ -47,8 +48,9 @@ fn id_of(words: &str) -> String {
 
 fn unknown(words: &str, id: &str) -> UnknownFigure {
     let ids: Vec<String> = registry().map(Entry::id).collect();
-    let near = ids.iter().min_by_key(|known| strsim::osa_distance(known, id));
-    let help = match near.filter(|near| words.len() < 40 && strsim::osa_distance(near, id) <= 2) {
+    // Without a number there is nothing to be near to.
+    let near = nearest(id, ids.iter().map(String::as_str)).filter(|_| !id.ends_with('-'));
+    let help = match near {
         Some(near) => format!("did you mean `{near}`?"),
         None => "`interplay reproduce --list` has them all".to_owned(),
     };

@@ -118,7 +118,7 @@ pub fn compare(path: &Path, baseline: Option<&str>, by: GroupBy) -> Result<Compa
     let baseline = match baseline {
         Some(stated) if planners.contains(&stated) => stated.to_owned(),
         Some(stated) => {
-            let known = interplay_building::nearest::suggestion(stated, "there are", &planners);
+            let known = interplay_common::spelling::suggestion(stated, "there are", &planners);
             return Err(SweepError::Input(format!("no run has the planner `{stated}`; {known}")));
         }
         None if planners.contains(&AS_WRITTEN) => AS_WRITTEN.to_owned(),

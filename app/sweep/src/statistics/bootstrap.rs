@@ -1,6 +1,6 @@
 //! The interval of a mean, whatever the distribution.
 
-use interplay_building::random::Random;
+use interplay_common::random::Random;
 use rayon::prelude::*;
 
 use super::quantile::quantile;

@@ -1,12 +1,12 @@
 //! Settings of the concurrent design.
 
+use interplay_common::setting::{self, SettingError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::control::BandPenalty;
 use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
-use crate::setting::{self, SettingError};
 
 /// Feedforward and a Youla-parametrised feedback (chapter 4).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

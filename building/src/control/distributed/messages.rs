@@ -15,8 +15,9 @@
 
 use std::collections::VecDeque;
 
+use interplay_common::random::Random;
+
 use crate::lifted::Lifted;
-use crate::random::Random;
 
 /// How often a message that was lost is sent again in its round. Of messages of which 20 % are lost, one in two million is then
 /// missing.

@@ -1,12 +1,12 @@
 //! Settings of the distributed design and of its centralised counterpart.
 
+use interplay_common::bounds::Bound;
+use interplay_common::setting::{self, SettingError, check_bound};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bounds::Bound;
 use crate::control::BandPenalty;
 use crate::control::disturbance_estimate::DisturbancePrediction;
-use crate::setting::{self, SettingError, check_bound};
 
 /// How the zones' proposals of a round become a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

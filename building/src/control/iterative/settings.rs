@@ -1,11 +1,11 @@
 //! Settings of the iterative design.
 
+use interplay_common::setting::{self, SettingError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
-use crate::setting::{self, SettingError};
 
 /// What is minimised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

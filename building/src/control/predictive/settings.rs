@@ -1,10 +1,10 @@
 //! Settings of the model predictive controller.
 
+use interplay_common::setting::{self, SettingError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::control::BandPenalty;
-use crate::setting::{self, SettingError};
 
 /// Model predictive control: a new plan at every step, from what is measured and forecast.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use interplay_common::random::Random;
+
 use super::{Arma, fit, is_stable, whitened};
-use crate::random::Random;
 
 const TRUTH: ([f64; 2], f64, f64) = ([1.55, -0.6], 0.4, 0.02);
 

@@ -2,10 +2,11 @@
 
 use std::fmt;
 
+use interplay_common::bounds::Bound;
+use interplay_common::setting::{SettingError, SettingKey};
+use interplay_common::spelling::suggestion;
+
 use super::value_shape::ValueShape;
-use crate::bounds::Bound;
-use crate::nearest::suggestion;
-use crate::setting::{SettingError, SettingKey};
 
 /// A mapping or a table that cannot be read.
 ///

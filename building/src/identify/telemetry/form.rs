@@ -2,6 +2,9 @@
 //!
 //! The schema is generated from the type, so that what is known of a key stands on its field and nowhere else.
 
+use interplay_common::bounds::Bound;
+use interplay_common::json_schema::{definition_of, kind_of, words_of};
+use interplay_common::setting::SettingKey;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value as Json;
 use toml::Spanned;
@@ -9,9 +12,6 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::TelemetryProblem;
 use super::value_shape::ValueShape;
-use crate::bounds::Bound;
-use crate::json_schema::{definition_of, kind_of, words_of};
-use crate::setting::SettingKey;
 
 /// Holds a document to the schema of `T`.
 ///

@@ -24,6 +24,7 @@
 //! solar = { column = "Ps", unit = "kw-per-m2" }
 //! ```
 
+use interplay_common::setting::SettingKey;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::de::DeTable;
@@ -33,7 +34,6 @@ use super::form;
 use super::measurements::Hold;
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
 use crate::identify::IdentifySettings;
-use crate::setting::SettingKey;
 
 /// Which column is which quantity. Unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::json_schema::type_in_words;
-use crate::nearest::listed;
+use interplay_common::json_schema::type_in_words;
+use interplay_common::spelling::listed;
 
 /// What the value of a key must be, in plain words: `a table with …`, `one of …`, `a number`.
 #[derive(Debug, Clone, PartialEq, Eq)]

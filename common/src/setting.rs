@@ -3,7 +3,7 @@
 //! The bound of a setting stands on its field, as a `schemars` attribute; [`check`] reads it from there.
 //!
 //! ```
-//! use interplay_building::setting::check;
+//! use interplay_common::setting::check;
 //!
 //! #[derive(serde::Serialize, schemars::JsonSchema)]
 //! struct Heater {
@@ -101,7 +101,7 @@ pub fn check_each<T: Serialize + JsonSchema>(tables: &[T]) -> Result<(), (usize,
 }
 
 /// Refuses a setting that breaks a bound which is known only together with other settings.
-pub(crate) fn check_bound(key: &str, value: f64, bound: Bound) -> Result<(), SettingError> {
+pub fn check_bound(key: &str, value: f64, bound: Bound) -> Result<(), SettingError> {
     if bound.admits(value) { Ok(()) } else { Err(SettingError { key: key.into(), value, bound }) }
 }
 

@@ -1,15 +1,15 @@
 //! All random numbers of runs, the same on every machine.
 //!
 //! [`Random`] is ChaCha's stream, with the normal distribution through `libm`. [`SplitMix64`] draws the random change of
-//! starts; it is older than the other, and stays because the seeds of recorded runs and of the tables in the documents stand
-//! for its numbers.
+//! starts and mixes the numbers of a sensor's errors. Both stay, because the seeds of recorded runs and of the tables in the
+//! documents stand for their numbers.
 
 use std::f64::consts::TAU;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
-/// A stream of random numbers. Streams of one seed with other labels are independent.
+/// A stream of random numbers (ChaCha with 8 rounds). Streams of one seed with different labels are independent.
 #[derive(Clone, Debug)]
 pub struct Random(ChaCha8Rng);
 
@@ -44,10 +44,14 @@ impl Random {
         mean + deviation * radius * libm::cos(TAU * self.unit())
     }
 
-    /// Uniform in [0, 1), from the upper 53 bits.
     fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+        unit(self.0.next_u64())
     }
+}
+
+/// A number in [0, 1) from the upper 53 bits of another.
+fn unit(bits: u64) -> f64 {
+    (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// A sequence of 64-bit numbers from a seed (Steele, Lea and Flood, 2014).
@@ -60,7 +64,8 @@ impl SplitMix64 {
         Self(seed)
     }
 
-    fn next(&mut self) -> u64 {
+    /// The next number of the sequence.
+    pub fn next_u64(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -68,9 +73,9 @@ impl SplitMix64 {
         z ^ (z >> 31)
     }
 
-    /// Uniform in \[−1, 1), from the upper 53 bits.
-    pub fn around_zero(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    /// Uniform in \[low, high).
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * unit(self.next_u64())
     }
 }
 
@@ -82,7 +87,7 @@ mod tests {
     #[test]
     fn split_mix_is_the_published_generator() {
         let mut sequence = SplitMix64::new(1_234_567);
-        let numbers: Vec<u64> = (0..3).map(|_| sequence.next()).collect();
+        let numbers: Vec<u64> = (0..3).map(|_| sequence.next_u64()).collect();
         assert_eq!(numbers, [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]);
     }
 

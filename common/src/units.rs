@@ -34,12 +34,12 @@ const ENDINGS: [(&str, &str); 23] = [
 const COMPARISONS: [&str; 2] = ["_at_most", "_at_least"];
 
 /// The unit that a key ends with, if it ends with one; of several the longest.
-pub(crate) fn unit_of(key: &str) -> Option<&'static str> {
+pub fn unit_of(key: &str) -> Option<&'static str> {
     split(key).map(|(_, unit)| unit)
 }
 
 /// The part of a key before its unit; the whole key if it ends with none.
-pub(crate) fn quantity_of(key: &str) -> &str {
+pub fn quantity_of(key: &str) -> &str {
     split(key).map_or(key, |(quantity, _)| quantity)
 }
 

@@ -1,0 +1,13 @@
+//! Interplay: what both halves of the project, the planners and the building, and the scenarios share.
+//!
+//! - settings: [`setting`] holds them to the [`bounds`] on their fields, [`json_schema`] reads what stands there, and [`units`]
+//!   reads the unit of a number from its key
+//! - [`spelling`]: the known word that an unknown one was probably meant to be
+//! - [`random`]: the random streams of runs, the same on every machine
+
+pub mod bounds;
+pub mod json_schema;
+pub mod random;
+pub mod setting;
+pub mod spelling;
+pub mod units;
