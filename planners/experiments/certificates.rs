@@ -17,8 +17,9 @@ use std::io::Write;
 use common::SplitMix64;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::Driver;
+use interplay_planners::PlanCondition;
 use interplay_planners::PlanError;
-use interplay_planners::certificate::{PlanCondition, violations};
+use interplay_planners::certificate::violations;
 
 const SEEDS: u64 = 4;
 /// Ticks of a run.

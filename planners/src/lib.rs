@@ -11,7 +11,7 @@
 //! - drivers, one folder each: [`human`], [`idm`], [`scripted`], [`external`], [`conservative`], [`cooperative`],
 //!   [`negotiation`], [`bayesian`], [`game`], [`nash`], [`contingency`]; [`Driver`] lists them, [`DriverKind`] is what the
 //!   settings of each provide, [`Drive`] what plans with them, and [`Planner`] what all of them have around it
-//! - [`joint`]: the problem of several deciding vehicles
+//! - [`posing`]: from a scene to the terms of a trajectory problem, of one vehicle or of several that decide together
 //! - [`passing_order`]: before or behind whom a plan leads
 //! - [`trajectory`]: one trajectory optimiser
 //! - [`traffic`]: the closed loop of all vehicles on a road
@@ -41,13 +41,15 @@ mod foreign_driver;
 pub mod game;
 pub mod human;
 pub mod idm;
-pub mod joint;
 pub mod nash;
 pub mod negotiation;
 mod passing;
 pub mod passing_order;
+mod permitted_speed;
 mod plan;
+mod plan_violation;
 mod planner;
+pub mod posing;
 pub mod predict;
 mod relation;
 mod right_of_way;
@@ -70,6 +72,7 @@ pub use foreign_driver::ForeignDriver;
 pub use passing::passing_orders;
 pub use passing_order::{PassingOrder, PassingPosition};
 pub use plan::{Plan, PlanBranch, PlanError, PlanEvent, PlanEventKind, Proposal};
+pub use plan_violation::{PlanCondition, PlanViolation};
 pub use planner::Planner;
 pub use road::{Axes, CentreLine, Corridor, LaneEnd, Profile, Route};
 pub use scene::{Agent, Goal, Scene};

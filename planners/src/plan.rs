@@ -2,12 +2,11 @@
 
 use thiserror::Error;
 
-use crate::Trajectory;
-use crate::certificate::PlanViolation;
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
 use crate::driver_estimate::DriverEstimate;
 use crate::passing_order::PassingOrder;
-use crate::trajectory::{DescentError, Problem, StageError, Statistics};
+use crate::trajectory::{Problem, Statistics};
+use crate::{PlanViolation, Trajectory};
 
 /// What a vehicle will do, what it asks of another, and why.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -124,23 +123,4 @@ pub enum PlanError {
         /// The most that it may take.
         most_work: usize,
     },
-}
-
-impl From<DescentError> for PlanError {
-    fn from(error: DescentError) -> Self {
-        match error {
-            DescentError::Step { source: StageError::Infeasible { .. }, .. } => {
-                PlanError::Infeasible(error.to_string())
-            }
-            DescentError::Step { step, .. } => PlanError::Unsolved { status: error.to_string(), iterations: step },
-            DescentError::NotConverged(ref reached) => {
-                let iterations = reached.statistics.programmes;
-                PlanError::Unsolved { status: error.to_string(), iterations }
-            }
-            DescentError::NotBelow { .. } | DescentError::Settled(_) => {
-                PlanError::Unsolved { status: error.to_string(), iterations: 0 }
-            }
-            DescentError::NotFinite => PlanError::BadInput(error.to_string()),
-        }
-    }
 }

@@ -1,10 +1,11 @@
 //! Plans that must not be driven, and what is done without one.
 
-use interplay_planners::certificate::{Harm, PlanCondition, last_resorts, refused, violations};
+use interplay_planners::certificate::{Harm, last_resorts, refused, violations};
 use interplay_planners::predict::steadily_along;
 use interplay_planners::traffic::{Origin, RoadUser, Traffic};
 use interplay_planners::{
-    Agent, Body, Corridor, Goal, Input, Limits, Plan, PlanError, Route, SafetyEllipse, Scene, State, Trajectory,
+    Agent, Body, Corridor, Goal, Input, Limits, Plan, PlanCondition, PlanError, Route, SafetyEllipse, Scene, State,
+    Trajectory,
 };
 
 const STEP_S: f64 = 0.1;

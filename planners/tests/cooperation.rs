@@ -7,7 +7,7 @@ use interplay_planners::cooperative::diagnostics::{COOPERATING_VEHICLES, OWN_COS
 use interplay_planners::cooperative::{self, cooperators};
 use interplay_planners::diagnostic::{COST, DiagnosticQuantity, SAFETY_SLACK};
 use interplay_planners::human::Style;
-use interplay_planners::joint::{JointVehicle, problem};
+use interplay_planners::posing::{JointVehicle, joint_problem};
 use interplay_planners::trajectory::{Optimiser, Problem, Robust, Term};
 use interplay_planners::{Driver, Plan, Planner, Scene};
 
@@ -90,7 +90,7 @@ fn costs(normalisers: [f64; 2], guess: &Problem) -> ([f64; 2], Problem) {
 fn solutions_are_pareto_optimal() {
     let vehicles = convoy(2);
     let goals = cooperators(&scene(&vehicles, 0), vehicles[0].goal);
-    let posed = problem(&scene(&vehicles, 0), &goals);
+    let posed = joint_problem(&scene(&vehicles, 0), &goals);
     let normalisers = [0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 5.0];
     let front: Vec<[f64; 2]> = normalisers.map(|z| costs([z, 1.0], &posed).0).into();
     assert!(front.iter().any(|point| (point[0] - front[0][0]).abs() > 1e-3), "weights change nothing: {front:?}");
@@ -111,7 +111,7 @@ fn the_list_of_cooperators_is_the_same_for_all() {
     let vehicles = convoy(3);
     let lists: Vec<Vec<JointVehicle>> = (0..3).map(|i| cooperators(&scene(&vehicles, i), vehicles[i].goal)).collect();
     assert!(lists.windows(2).all(|pair| pair[0] == pair[1]));
-    let problems: Vec<Problem> = (0..3).map(|i| problem(&scene(&vehicles, i), &lists[i])).collect();
+    let problems: Vec<Problem> = (0..3).map(|i| joint_problem(&scene(&vehicles, i), &lists[i])).collect();
     assert!(problems.windows(2).all(|pair| pair[0] == pair[1]));
     let separations = problems[0].terms.iter().filter(|term| matches!(term, Term::Separation(_))).count();
     assert_eq!((problems[0].participants.len(), separations), (3, 3));

@@ -59,6 +59,14 @@ const PARTS: &[(&str, &str)] = &[
     ("image_webp", "app/presentation/src/animation"),
 ];
 
+/// Nouns of the planners, and what their files may name of the optimiser (`trajectory`): problems are posed, solved and checked
+/// beside them, not in them.
+const NOUNS: &[(&str, &[&str])] = &[
+    ("planners/src/scene.rs", &[]),
+    ("planners/src/plan.rs", &["Problem", "Statistics"]),
+    ("planners/src/plan_violation.rs", &[]),
+];
+
 /// The most lines of a file, and of a function.
 const FILE_LINES: usize = 400;
 const FUNCTION_LINES: usize = 60;
@@ -172,6 +180,24 @@ fn inside_a_crate_only_one_folder_names_an_engine() {
             named |= names;
         }
         assert!(named, "{owner} does not name {library} any more: this rule is out of date");
+    }
+}
+
+#[test]
+fn nouns_know_no_cost_terms_no_certificate_and_no_optimiser() {
+    for (noun, allowed) in NOUNS {
+        let text = read(&root().join(noun));
+        let code: String = text.lines().filter_map(|line| line.split("//").next()).collect();
+        for module in ["posing", "certificate"] {
+            assert!(!code.contains(&format!("{module}::")), "{noun} names {module}");
+        }
+        for (at, path) in code.match_indices("trajectory::") {
+            let rest = &code[at + path.len()..];
+            let named = rest.split([';', '(', ')', '<', '>']).next().unwrap_or_default();
+            for name in named.trim_matches(['{', '}']).split(", ") {
+                assert!(allowed.contains(&name), "{noun} names {name} of the optimiser");
+            }
+        }
     }
 }
 

@@ -17,9 +17,9 @@ mod violation;
 pub(crate) use last_resort::rolled_out;
 pub use last_resort::{Harm, gives_away_the_last_way_out, last_resorts, least_harmful};
 pub use rectangles::overlap_m;
-pub use violation::{PlanCondition, PlanViolation, violations};
+pub use violation::violations;
 
-use crate::{Scene, Trajectory};
+use crate::{PlanCondition, PlanViolation, Scene, Trajectory};
 
 /// Of what a plan violates, that for which it must not be driven.
 pub fn refused<'a>(scene: &Scene, plan: &Trajectory, violations: &'a [PlanViolation]) -> Option<&'a PlanViolation> {

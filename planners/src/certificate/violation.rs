@@ -1,9 +1,7 @@
-//! What a plan violates.
-
-use std::fmt;
+//! What a plan violates: the checks.
 
 use super::rectangles::overlap_m;
-use crate::{Agent, Body, Scene, State, Trajectory};
+use crate::{Agent, Body, PlanCondition, PlanViolation, Scene, State, Trajectory};
 
 /// States may differ from those that follow from the inputs by this share of the vehicle's length.
 const STATE_TOLERANCE: f64 = 1e-6;
@@ -11,50 +9,6 @@ const STATE_TOLERANCE: f64 = 1e-6;
 const LIMIT_TOLERANCE: f64 = 1e-6;
 /// Bodies may overlap, and corners be beyond the edge, by this share of the vehicle's length: planners see both as soft.
 const PLACE_TOLERANCE: f64 = 5e-3;
-
-/// Something that a plan violates.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlanViolation {
-    /// What.
-    pub condition: PlanCondition,
-    /// When first \[steps from now\].
-    pub stage: usize,
-}
-
-/// What a plan must keep.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PlanCondition {
-    /// Its states are numbers and follow from its inputs.
-    Dynamics,
-    /// Its inputs are within the vehicle's limits.
-    InputLimits,
-    /// Its speeds are within the vehicle's limits.
-    SpeedLimits,
-    /// The body stays on the road.
-    Road,
-    /// The body stays clear of where this vehicle is expected to be.
-    Clear(String),
-}
-
-impl fmt::Display for PlanViolation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let stage = self.stage;
-        match &self.condition {
-            PlanCondition::Dynamics => write!(f, "its states do not follow from its inputs from step {stage} on"),
-            PlanCondition::InputLimits => write!(f, "its input at step {stage} is beyond the vehicle's limits"),
-            PlanCondition::SpeedLimits => write!(f, "its speed at step {stage} is beyond the vehicle's limits"),
-            PlanCondition::Road => write!(f, "it leaves the road at step {stage}"),
-            PlanCondition::Clear(other) => write!(f, "it touches {other} at step {stage}"),
-        }
-    }
-}
-
-impl PlanViolation {
-    /// Whether the plan is wrong in itself, whatever the others do.
-    pub fn is_fault(&self) -> bool {
-        matches!(self.condition, PlanCondition::Dynamics | PlanCondition::InputLimits | PlanCondition::SpeedLimits)
-    }
-}
 
 /// What a plan of the planning vehicle violates: each condition once, with its first stage.
 pub fn violations(scene: &Scene, plan: &Trajectory) -> Vec<PlanViolation> {

@@ -25,7 +25,7 @@ use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::Drive;
-use crate::joint::{JointVehicle, problem};
+use crate::posing::{JointVehicle, joint_problem};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
@@ -84,7 +84,7 @@ impl Drive for Cooperative {
         if !known {
             self.last.clear();
         }
-        let problem = problem(scene, &cooperators);
+        let problem = joint_problem(scene, &cooperators);
         let keep: Vec<Vec<Input>> = self.last.iter().map(|(_, trajectory)| trajectory.later_inputs()).collect();
         match self.optimiser.optimise(&problem, &keep) {
             Ok(optimum) => {

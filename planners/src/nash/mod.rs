@@ -22,7 +22,7 @@ use crate::belief::Outlook;
 use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::Drive;
-use crate::joint::{JointVehicle, problem};
+use crate::posing::{JointVehicle, joint_problem};
 use crate::trajectory::PassingOrderSearch;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Problem, Robust, Violation};
@@ -84,7 +84,7 @@ impl Drive for Nash {
         self.refusals.look(scene, &self.last, self.settings.patience_steps);
         let plays = |name: &str| self.refusals.plays(name, self.settings.patience_steps);
         let players = players(scene, &self.seen, &self.settings, plays);
-        let problem = problem(scene, &players);
+        let problem = joint_problem(scene, &players);
         let guess = self.guess(&players);
         match equilibrium(&mut self.joint, &mut self.replies, &problem, &guess) {
             Ok(equilibrium) => {

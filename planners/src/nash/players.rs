@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::settings::Settings;
 use crate::encounter::is_settled;
-use crate::joint::JointVehicle;
+use crate::posing::JointVehicle;
 use crate::{Agent, Goal, Scene, State};
 
 /// The highest speed at which each vehicle was seen, by its name \[m/s\].

@@ -19,7 +19,7 @@ pub struct JointVehicle {
 ///
 /// A pair has two separation constraints, one for the ellipse of each vehicle. If both ellipses have the same size and
 /// direction, the two constraints are equal, and only one is kept.
-pub fn problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
+pub fn joint_problem(scene: &Scene, vehicles: &[JointVehicle]) -> Problem {
     let decides = |agent: &&Agent| vehicles.iter().any(|vehicle| vehicle.agent.name == agent.name);
     let mut strangers: Vec<&Agent> = scene.others.iter().filter(|agent| !decides(agent)).collect();
     strangers.sort_by(|a, b| a.name.cmp(&b.name));

@@ -1,0 +1,93 @@
+//! How fast a driver may go along its road, and comes up to a line: speed limits, curves and comfortable braking.
+
+use crate::{Agent, Limits};
+
+/// Drivers brake for a speed limit with this share of their strongest braking.
+const COMFORTABLE_BRAKING_SHARE: f64 = 0.4;
+
+/// Drivers take curves with this share of their largest lateral acceleration.
+const COMFORTABLE_LATERAL_SHARE: f64 = 0.5;
+
+/// Drivers come up to a line with this share of their strongest acceleration.
+const COMFORTABLE_ACCELERATION_SHARE: f64 = 0.5;
+
+impl Agent {
+    /// The highest permitted speeds at arc lengths of its route, braking comfortably for lower limits and curves ahead; infinite
+    /// where nothing limits it, and empty if nothing does anywhere \[m/s\].
+    pub(crate) fn permitted_speeds_mps(&self, along_m: &[f64]) -> Vec<f64> {
+        let permitted = |along_m: &f64| self.permitted_speed_mps(*along_m).unwrap_or(f64::INFINITY);
+        let permitted: Vec<f64> = along_m.iter().map(permitted).collect();
+        if permitted.iter().any(|speed_mps| speed_mps.is_finite()) { permitted } else { Vec::new() }
+    }
+
+    /// The highest permitted speed at an arc length of its route, braking comfortably for lower limits and curves ahead; none
+    /// without limits \[m/s\].
+    pub(crate) fn permitted_speed_mps(&self, along_m: f64) -> Option<f64> {
+        let braking_mps2 = self.comfortable_braking_mps2();
+        let permitted_mps = self.route.permitted_speed_mps(along_m, braking_mps2);
+        let lateral_mps2 = self.limits.lateral_acceleration_max_mps2.map(|most| COMFORTABLE_LATERAL_SHARE * most);
+        let in_curves_mps = lateral_mps2.and_then(|most| self.route.curve_speed_mps(along_m, most, braking_mps2));
+        permitted_mps.into_iter().chain(in_curves_mps).min_by(f64::total_cmp)
+    }
+
+    /// The largest acceleration of a step at an arc length of its route after which it is not faster than permitted where it then
+    /// is; none without limits \[m/s²\].
+    ///
+    /// At a speed `v` above the permitted `v_p` it is at least `−b (v/v_p)²`, with the comfortable braking `b` that `v_p` is made of.
+    pub(crate) fn permitted_acceleration_mps2(&self, along_m: f64, speed_mps: f64, step_s: f64) -> Option<f64> {
+        let permitted_mps = self.permitted_speed_mps(along_m + speed_mps * step_s)?;
+        let excess = (speed_mps / permitted_mps).max(1.0);
+        Some(((permitted_mps - speed_mps) / step_s).max(-self.comfortable_braking_mps2() * excess * excess))
+    }
+
+    /// With what it brakes for a speed limit \[m/s²\].
+    fn comfortable_braking_mps2(&self) -> f64 {
+        COMFORTABLE_BRAKING_SHARE * self.limits.acceleration_min_mps2.abs()
+    }
+
+    /// The speeds at `t = 1…N` of a comfortable approach to a line at which its front stops, from its present speed on \[m/s\].
+    pub(crate) fn approach_speeds_mps(&self, line_m: f64, wanted_mps: f64, horizon: usize, step_s: f64) -> Vec<f64> {
+        let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;
+        let braking_mps2 = COMFORTABLE_BRAKING_SHARE * acceleration_min_mps2.abs();
+        let mut speed_mps = self.state.speed_mps;
+        let mut room_m = line_m - self.body.front_m - self.route.along(self.state.position());
+        let speeds = (0..horizon).map(|_| {
+            let permitted_mps = (2.0 * braking_mps2 * room_m.max(0.0)).sqrt().min(wanted_mps);
+            let (low, high) =
+                (acceleration_min_mps2 * step_s, COMFORTABLE_ACCELERATION_SHARE * acceleration_max_mps2 * step_s);
+            speed_mps = (speed_mps + (permitted_mps - speed_mps).clamp(low, high)).max(0.0);
+            room_m -= step_s * speed_mps;
+            speed_mps
+        });
+        speeds.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::road::centre_line::Piece;
+    use crate::{CentreLine, Profile, Route, fixture};
+
+    /// A plan that reaches beyond the last curve of a road without speed limits keeps the speeds of the curve.
+    #[test]
+    fn a_curve_limits_the_speed_although_nothing_does_behind_it() {
+        let pieces = [
+            Piece::Straight { length_m: 10.0 },
+            Piece::Arc { length_m: 5.0, curvature_1pm: 0.25 },
+            Piece::Straight { length_m: 30.0 },
+        ];
+        let pieces = crate::road::centre_line::smooth(&pieces, 1.0).expect("room for transitions");
+        let line = CentreLine::from_pieces([0.0, 0.0], 0.0, &pieces).expect("a line");
+        let edge = Profile::constant;
+        let mut agent = fixture::agent(0.0, 0.0, 0.0, 5.0);
+        agent.route = Arc::new(Route::curved(line, edge(-1.0), edge(1.0), edge(1.0)));
+        agent.limits.lateral_acceleration_max_mps2 = Some(2.0);
+        let speeds = agent.permitted_speeds_mps(&[12.0, 14.0, 40.0]);
+        // Half of 2 m/s² at a radius of 4 m.
+        assert!(speeds[..2].iter().all(|speed| (speed - 2.0).abs() < 0.2), "{speeds:?}");
+        assert_eq!(speeds[2], f64::INFINITY);
+        assert!(agent.permitted_speeds_mps(&[40.0, 41.0]).is_empty());
+    }
+}

@@ -1,0 +1,128 @@
+//! From a scene to the terms of a trajectory problem: what a vehicle wants, and what it keeps clear of.
+//!
+//! [`JointVehicle`] and [`joint_problem`] do so for several vehicles that decide together.
+
+mod joint;
+
+use std::sync::Arc;
+
+pub use joint::{JointVehicle, joint_problem};
+
+use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, Separation, StopLine, Tracking};
+use crate::trajectory::{Participant, Penalty, RouteStart, Term};
+use crate::vehicle::{OrientedEllipse, slip_on_curve_rad};
+use crate::{Agent, Goal, Route, SafetyEllipse, Scene, Trajectory};
+
+impl Agent {
+    /// Corners that stay on the road, of this agent as number `vehicle` of a trajectory problem.
+    pub fn road_edge(&self, vehicle: usize) -> RoadEdge {
+        let (route, penalty) = (Arc::clone(&self.route), Penalty::road_edge(self.body.scale));
+        RoadEdge { vehicle, body: self.body, route, penalty }
+    }
+
+    /// A line that its front stays before, as number `vehicle` of a trajectory problem.
+    pub(crate) fn stop_line(&self, vehicle: usize, line_m: f64) -> StopLine {
+        StopLine {
+            vehicle,
+            front_m: self.body.front_m,
+            route: Arc::clone(&self.route),
+            line_m,
+            penalty: Penalty::ROAD_EDGE,
+        }
+    }
+
+    /// Arc lengths that it would reach at `t = 1…N` at its present speed \[m\]; empty on a straight road, where nobody needs them.
+    fn expected_along_m(&self, horizon: usize, step_s: f64) -> Vec<f64> {
+        if self.route.straight().is_some() {
+            return Vec::new();
+        }
+        let here_m = self.route.along(self.state.position());
+        (1..=horizon).map(|t| here_m + self.state.speed_mps * step_s * t as f64).collect()
+    }
+
+    /// The largest steering angles at `t = 0…N−1`, at the speeds that it is expected to have; empty where they do not depend on
+    /// the speed \[rad\].
+    pub(crate) fn steering_bounds_rad(&self, horizon: usize) -> Vec<f64> {
+        if self.limits.lateral_acceleration_max_mps2.is_none() {
+            return Vec::new();
+        }
+        let expected = self.prediction.states.iter().skip(1).map(|state| state.speed_mps);
+        let last_mps = self.prediction.states.last().unwrap_or(&self.state).speed_mps;
+        let speeds = std::iter::once(self.state.speed_mps).chain(expected).chain(std::iter::repeat(last_mps));
+        speeds.take(horizon).map(|speed_mps| self.limits.steering_max_at_rad(&self.body, speed_mps)).collect()
+    }
+
+    /// The slip angles with which it follows its route at arc lengths \[rad\].
+    fn slips_rad(&self, along_m: &[f64]) -> Vec<f64> {
+        let curvature_1pm = |along_m: &f64| self.route.centre.at(*along_m).curvature_1pm;
+        along_m.iter().map(|along_m| slip_on_curve_rad(self.body.rear_axle_m, curvature_1pm(along_m))).collect()
+    }
+}
+
+impl Scene {
+    /// The planning vehicle as a participant of a trajectory problem.
+    pub fn participant(&self) -> Participant {
+        Participant {
+            model: self.model(),
+            limits: self.ego.limits,
+            steering_bounds_rad: self.ego.steering_bounds_rad(self.horizon),
+            start: self.ego.state,
+            previous_input: self.ego.previous_input,
+            known_inputs: Vec::new(),
+            route_start: RouteStart::new(&self.ego.route, &self.ego.state),
+        }
+    }
+
+    /// What a goal and the road ask of the planning vehicle as number `vehicle` of a trajectory problem: comfort, tracking
+    /// (eq. 6.6) and road edges (eq. 6.7).
+    pub fn own_terms(&self, vehicle: usize, goal: &Goal) -> Vec<Term> {
+        let comfort = Term::Comfort(Comfort { vehicle, weights: goal.comfort });
+        vec![comfort, self.tracking(vehicle, goal), Term::RoadEdge(self.ego.road_edge(vehicle))]
+    }
+
+    /// What the planning vehicle pays for deviations from a goal: in road coordinates where its road is curved.
+    fn tracking(&self, vehicle: usize, goal: &Goal) -> Term {
+        let route = &self.ego.route;
+        if route.straight().is_some() {
+            let targets = vec![goal.target; self.horizon];
+            return Term::Tracking(Tracking { vehicle, weights: goal.tracking, axes: goal.axes(), targets });
+        }
+        let wanted = route.locate(goal.target.position(), None);
+        let near_m = self.ego.expected_along_m(self.horizon, self.step_s);
+        let permitted_mps = self.ego.permitted_speeds_mps(&near_m);
+        Term::RoadTracking(RoadTracking {
+            vehicle,
+            weights: goal.tracking,
+            target: RoadTarget { along_m: wanted.along_m, across_m: wanted.across_m, speed_mps: goal.target.speed_mps },
+            permitted_mps,
+            slips_rad: self.ego.slips_rad(&near_m),
+        })
+    }
+
+    /// An ellipse of the planning vehicle's safety distance around a predicted motion; the vehicle is number 0.
+    /// Each ellipse lies along `route`.
+    pub fn keep_out(&self, prediction: &Trajectory, route: &Route, penalty: Penalty) -> KeepOut {
+        let centres = self.centres(prediction);
+        KeepOut { vehicle: 0, ellipses: ellipses(self.goal.safety, route, &centres), centres, penalty }
+    }
+
+    /// Vehicle number `vehicle` of a joint problem keeps out of ellipses of the size `safety` around vehicle number `from`, each
+    /// along the road where that one is predicted.
+    pub fn separation(&self, safety: SafetyEllipse, vehicle: usize, (from, agent): (usize, &Agent)) -> Term {
+        let ellipses = ellipses(safety, &agent.route, &self.centres(&agent.prediction));
+        Term::Separation(Separation { vehicle, from, ellipses, penalty: Penalty::EXACT })
+    }
+
+    /// The ellipses around the predictions of others that must not be entered, each along its road (eq. 6.13).
+    pub fn exact_keep_outs<'a>(&self, others: impl IntoIterator<Item = &'a Agent>) -> impl Iterator<Item = Term> {
+        others.into_iter().map(|other| Term::KeepOut(self.keep_out(&other.prediction, &other.route, Penalty::EXACT)))
+    }
+}
+
+/// A safety ellipse around each centre, along a road.
+pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]]) -> Vec<OrientedEllipse> {
+    match route.straight() {
+        Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
+        None => route.locate_all(centres).map(|at| safety.oriented(at.heading_rad)).collect(),
+    }
+}
