@@ -18,7 +18,7 @@ use std::time::Duration;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, criterion_group, criterion_main, measurement::WallTime};
 use interplay_planners::Input;
 use interplay_planners::trajectory::{
-    Optimiser, Problem, Sparse, StageQp, StageSolution, StageSolver, StepProblem, Structured,
+    Optimiser, Problem, QpSubproblem, Sparse, StageQp, StageSolution, StageSolver, Structured,
 };
 
 /// Every how many problems the general solver, some hundred times slower, is measured on.
@@ -75,7 +75,7 @@ fn programme<S: StageSolver>(group: &mut BenchmarkGroup<WallTime>, name: &str, q
 
 /// The programme that a descent from the guess begins with.
 fn first_programme((problem, guess): &Posed) -> StageQp {
-    let mut step = StepProblem::default();
+    let mut step = QpSubproblem::default();
     step.linearize(problem, &problem.start(guess));
     step.qp
 }

@@ -1,4 +1,4 @@
-//! The hot loop and nothing else, for counting its instructions (`tests/instructions/count.sh`): the first step problem of
+//! The hot loop and nothing else, for counting its instructions (`tests/instructions/count.sh`): the first QP subproblem of
 //! every tenth recorded plan, solved from nothing by the structured solver.
 
 #[path = "../tests/common/recorded.rs"]
@@ -8,14 +8,14 @@ use std::error::Error;
 use std::hint::black_box;
 use std::io::Write;
 
-use interplay_planners::trajectory::{StageQp, StageSolution, StageSolver, StepProblem, Structured};
+use interplay_planners::trajectory::{QpSubproblem, StageQp, StageSolution, StageSolver, Structured};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let kind = std::env::args().nth(1).ok_or("usage: hot_loop KIND")?;
     let mut programmes = Vec::new();
     for recorded in recorded::load(&kind)?.iter().step_by(10) {
         let problem = recorded.problem();
-        let mut step = StepProblem::default();
+        let mut step = QpSubproblem::default();
         step.linearize(&problem, &problem.start(&recorded.guess()));
         programmes.push(step.qp);
     }

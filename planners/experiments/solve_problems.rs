@@ -7,7 +7,7 @@
 //!
 //! `KIND` is a planner of `tests/data`. `SOLVER` is one of
 //!
-//! - `robust`, `structured`, `sparse`: one descent from the guess alone, each with its own solver of step problems,
+//! - `robust`, `structured`, `sparse`: one descent from the guess alone, each with its own solver of QP subproblems,
 //! - `resumed`: one descent of `robust` that begins with the recorded warm start,
 //! - `planner`: the same, then a comparison of the classes of motion. It is finished at once: each problem has an optimiser of its
 //!   own, whereas in closed loop a comparison may rest for a few plans or take several,

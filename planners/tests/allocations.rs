@@ -1,15 +1,15 @@
-//! The hot loop allocates nothing once its buffers have their size: expanding a problem, its cost, and solving step problems.
+//! The hot loop allocates nothing once its buffers have their size: expanding a problem, its cost, and solving QP subproblems.
 
 mod common;
 
 use common::{SplitMix64, alone, iterate, pair};
-use interplay_planners::trajectory::{Problem, StageSolution, StageSolver, StepProblem, Structured};
+use interplay_planners::trajectory::{Problem, QpSubproblem, StageSolution, StageSolver, Structured};
 
 /// Steps of one descent, as the sequential method takes them.
 fn steps(problem: &Problem, seed: u64) -> u64 {
     let at = iterate(problem, &mut SplitMix64::new(seed));
     let (mut solver, mut step, mut solution) =
-        (Structured::default(), StepProblem::default(), StageSolution::default());
+        (Structured::default(), QpSubproblem::default(), StageSolution::default());
     let mut round = || {
         assert!(problem.cost(&at).total.is_finite());
         step.linearize(problem, &at);

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{HORIZON, SplitMix64, iterate, pair, step_problem};
+use common::{HORIZON, SplitMix64, iterate, pair, qp_subproblem};
 use interplay_planners::Input;
 use interplay_planners::trajectory::terms::{DistanceCost, DistancePrice, MeanSpeed, SpeedMeasure};
 use interplay_planners::trajectory::{
@@ -38,10 +38,10 @@ fn problem(seed: u64) -> Problem {
 }
 
 #[test]
-fn the_solvers_agree_on_step_problems() {
+fn the_solvers_agree_on_qp_subproblems() {
     for seed in 0..SEEDS {
         let problem = problem(seed);
-        let qp = step_problem(&problem, &iterate(&problem, &mut SplitMix64::new(seed)));
+        let qp = qp_subproblem(&problem, &iterate(&problem, &mut SplitMix64::new(seed)));
         assert_eq!(qp.trajectory_rows.len(), 5);
         let (mut structured, mut sparse) = (StageSolution::default(), StageSolution::default());
         Structured::default().solve(&qp, &mut structured, false).expect("structured");

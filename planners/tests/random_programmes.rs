@@ -1,9 +1,9 @@
-//! Ten thousand random step problems, harsher than any road: badly scaled, degenerate, contradictory, with an obstacle on top
+//! Ten thousand random QP subproblems, harsher than any road: badly scaled, degenerate, contradictory, with an obstacle on top
 //! of the start, without weights. Each is solved, or called infeasible, as the general solver does it.
 
 mod common;
 
-use common::{SplitMix64, alone, iterate, pair, step_problem};
+use common::{SplitMix64, alone, iterate, pair, qp_subproblem};
 use interplay_planners::trajectory::{
     Interval, Problem, Robust, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver, Structured, Term, kkt,
 };
@@ -95,7 +95,7 @@ fn programme(seed: u64) -> (Harm, StageQp) {
     let harm = HARMS[(seed % HARMS.len() as u64) as usize];
     let mut problem = if seed.is_multiple_of(5) { pair(seed, random.uniform(1.0, 2.0)) } else { alone(seed) };
     harm.on_problem(&mut problem, random);
-    let mut qp = step_problem(&problem, &iterate(&problem, random));
+    let mut qp = qp_subproblem(&problem, &iterate(&problem, random));
     harm.on_programme(&mut qp, random);
     (harm, qp)
 }

@@ -58,7 +58,7 @@ fn twins(random: &mut SplitMix64) -> [Problem; 2] {
     })
 }
 
-/// Everything that a step problem with the exact Hessian knows of tracking and edges: value, gradient and Hessian of each.
+/// Everything that a QP subproblem with the exact Hessian knows of tracking and edges: value, gradient and Hessian of each.
 fn numbers(qp: &StageQp) -> Vec<f64> {
     let costs = qp.vehicles.iter().flat_map(|vehicle| &vehicle.state_costs).flat_map(|cost| {
         let convex = cost.gradient.into_iter().chain(cost.hessian).chain([cost.cross]).chain(cost.heading_cross);

@@ -6,12 +6,12 @@ use common::{SplitMix64, alone, futures, iterate, pair};
 use interplay_planners::trajectory::kkt::Residual;
 use interplay_planners::trajectory::{Problem, Sparse, StageQp, StageSolution, StageSolver, Structured, kkt};
 
-fn step_problem(problem: &Problem, seed: u64) -> StageQp {
-    common::step_problem(problem, &iterate(problem, &mut SplitMix64::new(seed)))
+fn qp_subproblem(problem: &Problem, seed: u64) -> StageQp {
+    common::qp_subproblem(problem, &iterate(problem, &mut SplitMix64::new(seed)))
 }
 
 fn compare(problem: &Problem, seed: u64) {
-    let qp = step_problem(problem, seed);
+    let qp = qp_subproblem(problem, seed);
     let (mut structured, mut sparse) = (StageSolution::default(), StageSolution::default());
     Structured::default().solve(&qp, &mut structured, false).expect("structured");
     Sparse::default().solve(&qp, &mut sparse, false).expect("sparse");
@@ -40,7 +40,7 @@ fn is_optimal_for_oracle(residual: &Residual, problem: &Problem) -> bool {
 fn a_solution_that_is_slightly_off_is_no_optimum() {
     for (seed, problem) in (0..20).flat_map(|seed| [(seed, alone(seed)), (seed, pair(seed, 1.0 + 0.01 * seed as f64))])
     {
-        let qp = step_problem(&problem, seed);
+        let qp = qp_subproblem(&problem, seed);
         let mut solution = StageSolution::default();
         Sparse::default().solve(&qp, &mut solution, false).expect("sparse");
         solution.inputs[0][10][0] += 1e-3;
@@ -103,7 +103,7 @@ fn each_condition_that_is_broken_is_seen() {
     for (what, break_it, of) in BROKEN {
         for seed in 0..10 {
             let problem = if what.contains("shared") { futures(seed, 2, 5) } else { pair(seed, 1.2) };
-            let qp = step_problem(&problem, seed);
+            let qp = qp_subproblem(&problem, seed);
             let mut solution = StageSolution::default();
             Structured::default().solve(&qp, &mut solution, false).expect("solved");
             assert!(kkt::residual(&qp, &solution).largest() < 3e-5);
@@ -120,7 +120,7 @@ fn each_condition_that_is_broken_is_seen() {
 #[test]
 fn damping_is_part_of_the_conditions() {
     for seed in 0..10 {
-        let mut qp = step_problem(&pair(seed, 1.2), seed);
+        let mut qp = qp_subproblem(&pair(seed, 1.2), seed);
         qp.damping = 3.0;
         let mut solution = StageSolution::default();
         Structured::default().solve(&qp, &mut solution, false).expect("solved");
@@ -134,7 +134,7 @@ fn damping_is_part_of_the_conditions() {
 #[test]
 fn curvature_pushes_the_steering() {
     for seed in 0..10 {
-        let mut qp = step_problem(&pair(seed, 1.2), seed);
+        let mut qp = qp_subproblem(&pair(seed, 1.2), seed);
         let mut solution = StageSolution::default();
         Structured::default().solve(&qp, &mut solution, false).expect("solved");
         let steering_rad = |k: &usize| solution.inputs[0][*k][1];
@@ -174,7 +174,7 @@ fn futures_that_share_their_first_inputs() {
 fn a_warm_start_changes_the_way_and_not_the_answer() {
     for seed in 0..50 {
         let problem = alone(seed);
-        let (first, second) = (step_problem(&problem, seed), step_problem(&problem, seed + 1000));
+        let (first, second) = (qp_subproblem(&problem, seed), qp_subproblem(&problem, seed + 1000));
         let mut solver = Structured::default();
         let (mut warm, mut cold) = (StageSolution::default(), StageSolution::default());
         solver.solve(&first, &mut warm, false).expect("first");

@@ -115,7 +115,7 @@ const SAME_COST: f64 = 1e-3;
 /// Most by which twins drift apart \[m, rad, m/s of the small one\]; measured are 10⁻⁷ to 10⁻⁴.
 ///
 /// The optimiser stops by numbers that are not scaled. A row on the verge of being active has a slack of about the root of the
-/// tolerance of step problems, 3·10⁻⁵, and a descent ends where a step promises less than 10⁻⁹ of the cost. Without these two,
+/// tolerance of QP subproblems, 3·10⁻⁵, and a descent ends where a step promises less than 10⁻⁹ of the cost. Without these two,
 /// the law would hold to rounding, as it does for the model without an optimiser ([`MAX_DRIFT_OF_RULES`]).
 const MAX_DRIFT: f64 = 1e-3;
 /// The same for a driver without an optimiser among others without one.

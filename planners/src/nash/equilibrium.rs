@@ -15,7 +15,7 @@
 //!
 //! The descent of the sum takes long for two reasons. Inside an ellipse it is caught: the linear rows of stages before the centre
 //! point one way out and those behind it the other. So it begins outside (`Problem::start_outside`). Near a saddle, where two classes
-//! of motion part, the step problem is not convex and the descent creeps. There it is cut short, and the players plan anew in turn from
+//! of motion part, the QP subproblem is not convex and the descent creeps. There it is cut short, and the players plan anew in turn from
 //! where it has come to, each against the plans of the others, until nobody gains (`best_replies.rs`).
 //!
 //! A local optimum of the sum is an equilibrium against small deviations. Whether it is one against all, the certificate says: each

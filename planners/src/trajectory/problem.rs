@@ -51,7 +51,7 @@ impl Problem {
         iterate
     }
 
-    /// The terms that are stage rows. Each has as many blocks in the step problem as rows at a stage, in this order.
+    /// The terms that are stage rows. Each has as many blocks in the QP subproblem as rows at a stage, in this order.
     pub(in crate::trajectory) fn row_terms(&self) -> impl Iterator<Item = &dyn RowTerm> {
         self.terms.iter().filter_map(|term| match term.shape() {
             Shape::Rows(rows) => Some(rows),

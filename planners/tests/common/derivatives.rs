@@ -1,6 +1,6 @@
 //! One checker of derivatives for every cost and constraint.
 //!
-//! It compares the cost of a trajectory problem with the model that [`StepProblem`] makes of it, along a
+//! It compares the cost of a trajectory problem with the model that [`QpSubproblem`] makes of it, along a
 //! direction `w` of the inputs. With the rows' multipliers set to the slopes of their penalties, the model's odd and even parts
 //! must be the first and second derivatives of the cost:
 //!
@@ -10,7 +10,7 @@
 //! ```
 
 use interplay_planners::Input;
-use interplay_planners::trajectory::{Iterate, Penalty, Problem, StageQp, StageSolution, StepProblem};
+use interplay_planners::trajectory::{Iterate, Penalty, Problem, QpSubproblem, StageQp, StageSolution};
 
 use super::SplitMix64;
 
@@ -52,9 +52,9 @@ fn close(what: &str, numeric: f64, analytic: f64, tolerance: f64) {
     assert!((numeric - analytic).abs() <= bound, "{what} derivative: {numeric} by differences, {analytic} stated");
 }
 
-/// The step problem at an iterate, with the exact Hessian or the Gauss-Newton one.
+/// The QP subproblem at an iterate, with the exact Hessian or the Gauss-Newton one.
 pub fn model(problem: &Problem, iterate: &Iterate, exact: bool) -> StageQp {
-    let mut step = StepProblem::default();
+    let mut step = QpSubproblem::default();
     step.linearize(problem, iterate);
     if !exact {
         return step.qp;

@@ -10,7 +10,7 @@ pub mod world;
 
 use interplay_common::random::SplitMix64;
 use interplay_planners::trajectory::terms::{Comfort, KeepOut, Persuasion, RoadEdge, Separation, Tracking};
-use interplay_planners::trajectory::{Iterate, Participant, Penalty, Problem, StageQp, StepProblem, Term};
+use interplay_planners::trajectory::{Iterate, Participant, Penalty, Problem, QpSubproblem, StageQp, Term};
 use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, Limits, SafetyEllipse, State};
 
 pub const HORIZON: usize = 30;
@@ -162,9 +162,9 @@ pub fn iterate(problem: &Problem, random: &mut SplitMix64) -> Iterate {
     problem.start(&guess.collect::<Vec<_>>())
 }
 
-/// The Gauss-Newton step problem at an iterate.
-pub fn step_problem(problem: &Problem, iterate: &Iterate) -> StageQp {
-    let mut step = StepProblem::default();
+/// The Gauss-Newton QP subproblem at an iterate.
+pub fn qp_subproblem(problem: &Problem, iterate: &Iterate) -> StageQp {
+    let mut step = QpSubproblem::default();
     step.linearize(problem, iterate);
     step.qp
 }

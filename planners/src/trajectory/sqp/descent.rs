@@ -3,7 +3,7 @@
 use super::exploration::GivesUp;
 use super::line_search::{LineSearch, REACH_GROWTH};
 use super::optimum::{DescentError, Optimum, Statistics, Tolerances};
-use super::step_solver::StepSolver;
+use super::subproblem_solver::SubproblemSolver;
 use super::warm_start::WarmStart;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
@@ -15,7 +15,7 @@ const MIN_DAMPING: f64 = 1.0;
 const MAX_DAMPING: f64 = 1e6;
 /// A step of which a smaller share was taken is followed by a damped one.
 const MIN_UNDAMPED_SHARE: f64 = 0.1;
-/// Tolerance of the very last step problem where rows on the verge of being active need it: such a row has slack and
+/// Tolerance of the very last QP subproblem where rows on the verge of being active need it: such a row has slack and
 /// multiplier of about its root.
 const POLISH_TOLERANCE: f64 = 1e-14;
 /// A KKT residual above this is worth polishing.
@@ -24,7 +24,7 @@ const POLISHED_RESIDUAL: f64 = 1e-6;
 /// A descent and the memory that it needs; nothing is allocated once it has its size.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Descent<S> {
-    pub steps: StepSolver<S>,
+    pub steps: SubproblemSolver<S>,
     pub search: LineSearch,
     previous_step: StageSolution,
     /// How far the first step was expected to lead.
@@ -32,7 +32,7 @@ pub(super) struct Descent<S> {
 }
 
 impl<S: StageSolver> Descent<S> {
-    /// The beginning of a descent, with its step problem posed.
+    /// The beginning of a descent, with its QP subproblem posed.
     pub fn begin(&mut self, problem: &Problem, iterate: Iterate) -> Result<Optimum, DescentError> {
         let cost = problem.cost(&iterate);
         if !cost.total.is_finite() {
@@ -120,7 +120,7 @@ impl<S: StageSolver> Descent<S> {
         Err(DescentError::NotConverged(Box::new(now)))
     }
 
-    /// Poses the next step problem, and says how far its solution is expected to be.
+    /// Poses the next QP subproblem, and says how far its solution is expected to be.
     fn expect_reach(&mut self, problem: &Problem, now: &mut Optimum, step: usize, damping: f64) {
         // A damped step says little about the next.
         let reach = (damping == 0.0).then(|| self.steps.step.reach().times(REACH_GROWTH));
@@ -131,7 +131,7 @@ impl<S: StageSolver> Descent<S> {
         self.steps.problem.qp.reach = reach;
     }
 
-    /// One more step, from a step problem solved to the last digits, if that brings the optimality conditions nearer.
+    /// One more step, from a QP subproblem solved to the last digits, if that brings the optimality conditions nearer.
     /// (Where large weights cost more digits than that it does not.)
     fn polish(&mut self, problem: &Problem, now: &mut Optimum) {
         let Optimum { cost, statistics: Statistics { residual, .. }, .. } = *now;

@@ -9,7 +9,7 @@ use crate::trajectory::problem::Problem;
 const MAX_GAIN_PER_PROMISE: f64 = 2.0;
 /// The same for later steps, whose promises are nearer to the truth.
 const LATER_GAIN_PER_PROMISE: f64 = 1.2;
-/// Largest tolerance of a step problem.
+/// Largest tolerance of a QP subproblem.
 const MAX_PROGRAMME_TOLERANCE: f64 = 1e-2;
 
 /// When an exploration is given up.
@@ -22,7 +22,7 @@ pub(super) struct GivesUp<'a> {
 }
 
 impl GivesUp<'_> {
-    /// The tolerance that will do for the step problem at an iterate of this cost: `share` of what is missing to the cost to beat.
+    /// The tolerance that will do for the QP subproblem at an iterate of this cost: `share` of what is missing to the cost to beat.
     pub fn programme_tolerance(&self, cost: f64, share: f64) -> f64 {
         (share * (cost - self.above)).min(MAX_PROGRAMME_TOLERANCE)
     }

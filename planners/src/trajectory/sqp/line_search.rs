@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::optimum::Optimum;
-use super::step_solver::StepSolver;
+use super::subproblem_solver::SubproblemSolver;
 use crate::Input;
 use crate::trajectory::cost::Cost;
 use crate::trajectory::iterate::Iterate;
@@ -65,7 +65,7 @@ impl LineSearch {
 
     /// Chooses `κ` for the step's multipliers and returns the decrease of the merit that the step promises, given the
     /// decrease of the whole cost that its model promises.
-    pub fn predict<S: StageSolver>(&mut self, steps: &StepSolver<S>, cost: &Cost, promised: f64) -> f64 {
+    pub fn predict<S: StageSolver>(&mut self, steps: &SubproblemSolver<S>, cost: &Cost, promised: f64) -> f64 {
         let (after, share) = steps.problem.qp.linear_penalties(&steps.step);
         let enough = (2.0 * share).clamp(MIN_PENALTY_SHARE, 1.0);
         self.penalty_share = enough.max(0.5 * self.penalty_share);
@@ -76,7 +76,7 @@ impl LineSearch {
     /// less than the merit's own rounding and is taken unless the cost rises by more than its own.
     pub fn advance<S: StageSolver>(
         &mut self,
-        steps: &mut StepSolver<S>,
+        steps: &mut SubproblemSolver<S>,
         problem: &Problem,
         now: &mut Optimum,
         predicted: f64,
@@ -142,11 +142,11 @@ impl LineSearch {
         cost.total - (1.0 - self.penalty_share) * cost.linear_penalties
     }
 
-    /// Second-order correction: the rows are taken where the full step really led, and the step problem is solved again.
+    /// Second-order correction: the rows are taken where the full step really led, and the QP subproblem is solved again.
     /// Without it, steps along a curved boundary are cut short for the little by which they miss it (Maratos).
     fn correct<S: StageSolver>(
         &mut self,
-        steps: &mut StepSolver<S>,
+        steps: &mut SubproblemSolver<S>,
         problem: &Problem,
         now: &mut Optimum,
         predicted: f64,

@@ -1,6 +1,6 @@
 //! Sequential quadratic programming with the problem's own cost as merit function.
 //!
-//! From an iterate that obeys the dynamics, a step problem ([`StepProblem`]) gives a direction `w` and the decrease that its model predicts;
+//! From an iterate that obeys the dynamics, a QP subproblem ([`QpSubproblem`]) gives a direction `w` and the decrease that its model predicts;
 //! a backtracking search takes the largest `α ∈ {1, ½, ¼, …}` with
 //!
 //! ```text
@@ -36,13 +36,13 @@ mod optimiser;
 mod optimum;
 mod passing_class;
 mod passing_orders;
+mod qp_subproblem;
 mod search;
-mod step_problem;
-mod step_solver;
+mod subproblem_solver;
 mod warm_start;
 
 pub use optimiser::Optimiser;
 pub use optimum::{DescentError, Optimum, Statistics, Tolerances};
+pub use qp_subproblem::QpSubproblem;
 pub use search::PassingOrderSearch;
-pub use step_problem::StepProblem;
 pub use warm_start::WarmStart;

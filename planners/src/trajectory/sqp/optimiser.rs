@@ -54,7 +54,7 @@ impl<S: StageSolver> Optimiser<S> {
     /// admissible and costs less than the guess (Scokaert, Mayne and Rawlings, "Suboptimal model predictive control", 1999).
     ///
     /// # Errors
-    /// [`DescentError`] if a step problem cannot be solved, or at the limit a safety row or road edge is violated.
+    /// [`DescentError`] if a QP subproblem cannot be solved, or at the limit a safety row or road edge is violated.
     pub fn descend(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
         let outcome = self.resume(problem, guess);
         match outcome {

@@ -23,7 +23,7 @@ pub struct Tolerances {
     pub work_limit: usize,
     /// Most work that the comparison of passing orders may take of one plan; what is left goes on with the next one.
     pub comparison_work_limit: usize,
-    /// Tolerance of a step problem in search of a cheaper optimum, as a share of what is missing to the cost to beat: a promise
+    /// Tolerance of a QP subproblem in search of a cheaper optimum, as a share of what is missing to the cost to beat: a promise
     /// need not be more exact than that. On the recorded problems it saves a quarter of the iterations and costs no optimum.
     pub exploration_share: f64,
     /// A safety row (1 − d²) or a road edge \[m\] violated by more than this makes a solution suspect.
@@ -86,7 +86,7 @@ pub struct Optimum {
 /// Why no optimum was found.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum DescentError {
-    /// A step problem had no solution.
+    /// A QP subproblem had no solution.
     #[error("step {step}: {source}")]
     Step {
         /// Which step.

@@ -109,7 +109,7 @@ pub struct TrajectoryRow {
     pub penalty: Penalty,
 }
 
-/// Which second derivatives a step problem has.
+/// Which second derivatives a QP subproblem has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hessian {
     /// Those of the convex part of the cost only: every `curvature` is zero, and the problem is convex.

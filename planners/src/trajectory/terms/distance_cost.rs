@@ -8,7 +8,7 @@
 //! ```
 //!
 //! `M − n nᵀ` is positive semi-definite (Cauchy and Schwarz). So the Hessian splits into a convex part, where `φ′` or `φ″`
-//! is positive, and a concave one: the first is in every step problem, the second in exact ones only.
+//! is positive, and a concave one: the first is in every QP subproblem, the second in exact ones only.
 
 use super::shape::StateCostTerm;
 use crate::trajectory::iterate::Iterate;

@@ -9,7 +9,7 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::penalty::Penalty;
 use crate::vehicle::{OrientedEllipse, PoseExpansion};
 
-/// Rows of this value and more (`d² ≥ 25`) are left out of step problems.
+/// Rows of this value and more (`d² ≥ 25`) are left out of QP subproblems.
 pub(super) const FAR_VALUE: f64 = 24.0;
 
 /// A moving ellipse.

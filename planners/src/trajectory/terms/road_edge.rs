@@ -13,7 +13,7 @@ use crate::vehicle::PoseExpansion;
 use crate::{Body, Corridor, Route};
 
 /// On a curved road, corners that are farther inside their edge than this many widths of the body have approximate derivatives in
-/// step problems. The rows of an optimum that hold it back are zero there, so they are exact.
+/// QP subproblems. The rows of an optimum that hold it back are zero there, so they are exact.
 const EXACT_WIDTHS: f64 = 1.0;
 
 /// The road that a vehicle may use.

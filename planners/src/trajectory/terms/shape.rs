@@ -57,7 +57,7 @@ pub(in crate::trajectory) trait RowTerm {
     /// What a violation is, if a planner wants to know of it.
     fn violation(&self) -> Option<Violation>;
 
-    /// A row of a larger value is left out of step problems; the merit still counts it.
+    /// A row of a larger value is left out of QP subproblems; the merit still counts it.
     fn far_value(&self) -> f64 {
         f64::INFINITY
     }

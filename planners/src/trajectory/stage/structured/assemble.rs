@@ -1,4 +1,4 @@
-//! Second derivatives and gradient of the step problem, with what the inequalities add to them.
+//! Second derivatives and gradient of the QP subproblem, with what the inequalities add to them.
 
 use super::memory::Memory;
 use super::riccati::{PairHessian, VehicleHessian, pair_index, pairs_among};
@@ -106,20 +106,21 @@ impl<const W: usize> Memory<W> {
         self.add_row_curvature(qp);
     }
 
-    /// The gradient with the rows' pull: of the multipliers where they are, or where the step aims.
-    pub(super) fn fill_gradient(&mut self, at_rest: bool) {
+    /// The gradient of the Lagrangian over states and inputs: with the multipliers as they are (`with_multipliers`), or with those
+    /// that the targets imply (the right-hand side of the Newton step).
+    pub(super) fn fill_gradient(&mut self, with_multipliers: bool) {
         self.gradient.states.clone_from(&self.cost_gradient.states);
         self.gradient.inputs.clone_from(&self.cost_gradient.inputs);
-        let multipliers = if at_rest { &self.columns.multiplier } else { &self.columns.pull };
+        let multipliers = if with_multipliers { &self.columns.multiplier } else { &self.columns.condensed_multiplier };
         let (pulls, row_pulls) = multipliers.split_at(self.inequalities.bounds.len());
         for (bound, pull) in self.inequalities.bounds.iter().zip(pulls) {
-            bound.pull(-pull, &mut self.gradient);
+            bound.add_gradient(-pull, &mut self.gradient);
         }
         for (row, pull) in self.inequalities.rows.iter().zip(row_pulls) {
-            row.pull(-pull, &mut self.gradient.states);
+            row.add_gradient(-pull, &mut self.gradient.states);
         }
         for (expanded, pull) in self.trajectory_rows.iter().zip(&row_pulls[self.inequalities.rows.len()..]) {
-            expanded.pull(*pull, &mut self.gradient, Self::VEHICLES);
+            expanded.add_gradient(*pull, &mut self.gradient, Self::VEHICLES);
         }
     }
 

@@ -36,8 +36,8 @@ pub(super) struct Columns {
     pub residual: Vec<f64>,
     /// `ω`: what the inequality adds to the Hessian.
     pub weight: Vec<f64>,
-    /// The multiplier that it would take if nothing else moved.
-    pub pull: Vec<f64>,
+    /// `η₁ − d₁ e/D`: the multiplier after a step that leaves `z` as it is.
+    pub condensed_multiplier: Vec<f64>,
     d1: Vec<f64>,
     eta1: Vec<f64>,
     inverse_slack: Vec<f64>,
@@ -73,10 +73,10 @@ fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// What a step would do: the largest relative decrease of a positive number, and how complementarity changes with the
-/// share `α` of the step: `Σ(s + αΔs)(λ + αΔλ) = Σsλ + α·linear + α²·quadratic`.
+/// The ratio test of a direction: the largest relative decrease of a number that stays positive, and how complementarity changes
+/// with the share `α` of the step: `Σ(s + αΔs)(λ + αΔλ) = Σsλ + α·linear + α²·quadratic`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Prospect {
+pub(super) struct RatioTest {
     pub ratio: f64,
     pub linear: f64,
     pub quadratic: f64,
@@ -85,9 +85,9 @@ pub(super) struct Prospect {
 /// Independent running sums, so that the processor need not wait for one addition to begin the next.
 const RUNNING_SUMS: usize = 4;
 
-impl Prospect {
-    fn and(self, other: Prospect) -> Prospect {
-        Prospect {
+impl RatioTest {
+    fn and(self, other: RatioTest) -> RatioTest {
+        RatioTest {
             ratio: larger(self.ratio, other.ratio),
             linear: self.linear + other.linear,
             quadratic: self.quadratic + other.quadratic,
@@ -120,7 +120,7 @@ impl Columns {
             &mut self.multiplier,
             &mut self.residual,
             &mut self.weight,
-            &mut self.pull,
+            &mut self.condensed_multiplier,
             &mut self.d1,
             &mut self.eta1,
             &mut self.inverse_slack,
@@ -153,7 +153,7 @@ impl Columns {
     /// begins there, its slack where the two are as complementary as all others. Where nothing is known, `ℓ` belongs to `ν` at
     /// a soft inequality that holds, and half of it to each of `λ` and `ν` at one that is violated: so `ℓ + q σ − λ − ν` is
     /// small from the beginning.
-    pub(super) fn begin(&mut self, start: Start, known: &[f64]) {
+    pub(super) fn initialize(&mut self, start: Start, known: &[f64]) {
         let Start { slack, complementarity, informed } = start;
         let apart =
             |multiplier: f64, most: f64| if informed { smaller(complementarity / multiplier, most) } else { slack };
@@ -188,7 +188,7 @@ impl Columns {
     }
 
     /// Refreshes the residuals from `value`; returns mean complementarity and the largest residual.
-    pub(super) fn measure(&mut self) -> (f64, f64) {
+    pub(super) fn update_residuals(&mut self) -> (f64, f64) {
         let (first, count) = (self.first_soft(), self.pairs().max(1) as f64);
         let numbers = self.value.iter().zip(&self.slack).zip(&self.multiplier);
         let mut complementarity = 0.0;
@@ -205,8 +205,8 @@ impl Columns {
         (complementarity / count, primal)
     }
 
-    /// Refreshes `d₁`, `d₂`, `D` and `ω`.
-    pub(super) fn weigh(&mut self) {
+    /// Refreshes the scaling: `d₁`, `d₂`, `D` and `ω`.
+    pub(super) fn update_scaling(&mut self) {
         let first = self.first_soft();
         let numbers = self.slack.iter().zip(&self.multiplier).zip(&mut self.inverse_slack);
         for (d1, ((slack, multiplier), inverse)) in self.d1.iter_mut().zip(numbers) {
@@ -228,31 +228,32 @@ impl Columns {
         }
     }
 
-    /// Targets: complementarity `mu` everywhere, less the second-order error of the step if it is `corrected`.
-    pub(super) fn aim(&mut self, mu: f64, corrected: bool) {
+    /// Sets the targets `η₁` and `η₂`: complementarity `mu` everywhere, less the second-order error `Δs Δλ` of the predictor's
+    /// direction where that is `corrected`.
+    pub(super) fn set_targets(&mut self, mu: f64, corrected: bool) {
         let error = if corrected { 1.0 } else { 0.0 };
         let steps = self.slack_step.iter().zip(&self.multiplier_step);
         let numbers = steps.zip(self.inverse_slack.iter().zip(&self.d1).zip(&self.residual));
         for (eta1, ((slack, multiplier), ((inverse, d1), residual))) in self.eta1.iter_mut().zip(numbers) {
             *eta1 = (mu - error * slack * multiplier) * inverse - d1 * residual;
         }
-        self.pull.copy_from_slice(&self.eta1);
+        self.condensed_multiplier.copy_from_slice(&self.eta1);
         let (first, m) = (self.first_soft(), self.soft.violation.len());
-        let (pull, d1) = (&mut self.pull[first..][..m], &self.d1[first..][..m]);
+        let (condensed, d1) = (&mut self.condensed_multiplier[first..][..m], &self.d1[first..][..m]);
         let soft = &mut self.soft;
         let (linear, curvature, violation) = (&soft.linear[..m], &soft.curvature[..m], &soft.violation[..m]);
         let (violation_step, multiplier_step) = (&soft.violation_step[..m], &soft.multiplier_step[..m]);
         let (inverse, total, eta2) = (&soft.inverse_violation[..m], &soft.inverse_total[..m], &mut soft.eta2[..m]);
         for j in 0..m {
             eta2[j] = (mu - error * violation_step[j] * multiplier_step[j]) * inverse[j];
-            let pressure = pull[j] + eta2[j] - linear[j] - curvature[j] * violation[j];
-            pull[j] -= d1[j] * pressure * total[j];
+            let pressure = condensed[j] + eta2[j] - linear[j] - curvature[j] * violation[j];
+            condensed[j] -= d1[j] * pressure * total[j];
         }
     }
 
-    /// The Newton step for the `slope`s.
-    pub(super) fn step(&mut self) -> Prospect {
-        let soft = self.soft_step();
+    /// The direction of slacks, violations and multipliers for the `slope`s, and its ratio test.
+    pub(super) fn fill_direction(&mut self) -> RatioTest {
+        let soft = self.fill_soft_direction();
         let n = self.len();
         // Slices of one length let the compiler drop the bounds checks.
         let (slope, residual, eta1, d1) = (&self.slope[..n], &self.residual[..n], &self.eta1[..n], &self.d1[..n]);
@@ -262,11 +263,11 @@ impl Columns {
             slack_step[i] = slope[i] + residual[i];
             multiplier_step[i] = eta1[i] - d1[i] * slope[i] - multiplier[i];
         }
-        soft.and(self.prospect())
+        soft.and(self.ratio_test())
     }
 
-    /// What the step would do to slacks and multipliers.
-    fn prospect(&self) -> Prospect {
+    /// The ratio test over slacks and multipliers.
+    fn ratio_test(&self) -> RatioTest {
         let (slack, slack_rest) = self.slack.as_chunks::<RUNNING_SUMS>();
         let (slack_step, slack_step_rest) = self.slack_step.as_chunks::<RUNNING_SUMS>();
         let (inverse, inverse_rest) = self.inverse_slack.as_chunks::<RUNNING_SUMS>();
@@ -288,11 +289,11 @@ impl Columns {
             ratio[0] = larger(larger(-ds * inverse, -dm / m), ratio[0]);
         }
         let sum = |lanes: [f64; RUNNING_SUMS]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-        Prospect { ratio: ratio.into_iter().fold(0.0, larger), linear: sum(linear), quadratic: sum(quadratic) }
+        RatioTest { ratio: ratio.into_iter().fold(0.0, larger), linear: sum(linear), quadratic: sum(quadratic) }
     }
 
     /// The part of the violations; turns `slope` from `g·Δz` into `g·Δz + Δσ`.
-    fn soft_step(&mut self) -> Prospect {
+    fn fill_soft_direction(&mut self) -> RatioTest {
         let (first, m) = (self.first_soft(), self.soft.violation.len());
         let (slope, d1, eta1) = (&mut self.slope[first..][..m], &self.d1[first..][..m], &self.eta1[first..][..m]);
         let soft = &mut self.soft;
@@ -300,7 +301,7 @@ impl Columns {
         let (multiplier, d2, eta2) = (&soft.multiplier[..m], &soft.d2[..m], &soft.eta2[..m]);
         let (inverse, total) = (&soft.inverse_violation[..m], &soft.inverse_total[..m]);
         let (violation_step, multiplier_step) = (&mut soft.violation_step[..m], &mut soft.multiplier_step[..m]);
-        let mut prospect = Prospect::default();
+        let mut test = RatioTest::default();
         for j in 0..m {
             let pressure = eta1[j] + eta2[j] - linear[j] - curvature[j] * violation[j];
             let step = (pressure - d1[j] * slope[j]) * total[j];
@@ -309,18 +310,18 @@ impl Columns {
             if linear[j] > 0.0 {
                 let change = eta2[j] - d2[j] * step - multiplier[j];
                 multiplier_step[j] = change;
-                prospect.ratio = larger(larger(-step * inverse[j], -change / multiplier[j]), prospect.ratio);
-                prospect.linear += violation[j] * change + multiplier[j] * step;
-                prospect.quadratic += step * change;
+                test.ratio = larger(larger(-step * inverse[j], -change / multiplier[j]), test.ratio);
+                test.linear += violation[j] * change + multiplier[j] * step;
+                test.quadratic += step * change;
             } else {
                 multiplier_step[j] = 0.0;
             }
         }
-        prospect
+        test
     }
 
     /// Takes a share of the step.
-    pub(super) fn advance(&mut self, share: f64) {
+    pub(super) fn take_step(&mut self, share: f64) {
         let go = |column: &mut [f64], steps: &[f64]| {
             for (value, step) in column.iter_mut().zip(steps) {
                 *value += share * step;

@@ -15,7 +15,7 @@ const DUAL_TOLERANCE_RATIO: f64 = 1e-3;
 const ACCEPTED_RESIDUAL: f64 = 1e-7;
 /// Below this mean complementarity Newton steps are refined: the factorisation has lost digits that matter.
 const REFINEMENT_COMPLEMENTARITY: f64 = 1e-4;
-/// The iteration does not aim at a complementarity below this share of the tolerance.
+/// The centring aims at no complementarity below this share of the tolerance.
 const MIN_CENTRING_RATIO: f64 = 1e-2;
 /// Weight on the inputs where the Hessian is singular but for rounding ([`Memory::input_regularization`]).
 const INPUT_REGULARIZATION: f64 = 1e-3;
@@ -103,7 +103,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         self.begin(qp, known, start, reach);
         let unsolved = |status, iterations| Err(StageError::Unsolved { status, iterations });
         match self.iterate(qp, iterations) {
-            Ok(()) if !self.memory.inequalities.far_ones_hold(&self.memory.point) => {
+            Ok(()) if !self.memory.inequalities.excluded_rows_hold(&self.memory.point) => {
                 unsolved("the solution is farther than expected".to_owned(), *iterations)
             }
             // Without curvature every problem is convex: it was rounding.
@@ -126,7 +126,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         memory.point.clear(qp.horizon * Self::VEHICLES);
         memory.fill_smooth_hessians(qp);
         memory.refresh_values(qp);
-        memory.columns.begin(start, &memory.inequalities.multipliers);
+        memory.columns.initialize(start, &memory.inequalities.multipliers);
     }
 
     /// Newton's method with predictor and corrector until every residual is small.
@@ -135,7 +135,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         // The dual residual is linear in the unknowns, so every step of length α leaves 1 − α of it.
         let (mut dual_share, mut polished) = (1.0, 0);
         for _ in 0..ITERATION_LIMIT {
-            let (complementarity, primal) = self.memory.columns.measure();
+            let (complementarity, primal) = self.memory.columns.update_residuals();
             if complementarity < qp.tolerance
                 && primal < qp.tolerance
                 && dual_share < DUAL_TOLERANCE_RATIO * qp.tolerance
@@ -154,33 +154,35 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
                 return Err(StageError::Infeasible { iterations: *iterations });
             }
             *iterations += 1;
-            self.memory.columns.weigh();
+            self.memory.columns.update_scaling();
             self.memory.assemble(qp);
             match self.riccati.factor(qp, &self.memory.hessians, &self.memory.pairs) {
                 Err(_) if polished > 0 => return Ok(()),
                 outcome => outcome?,
             }
-            self.respond(qp);
+            self.solve_for_trajectory_rows(qp);
             self.memory.fill_cost_gradient(qp);
-            self.memory.columns.aim(0.0, false);
-            self.newton(qp, false);
-            let affine = self.memory.columns.step();
+            // Predictor: the affine direction, to a complementarity of zero.
+            self.memory.columns.set_targets(0.0, false);
+            self.solve_for_direction(qp, false);
+            let affine = self.memory.columns.fill_direction();
             let share = if affine.ratio > 1.0 { 1.0 / affine.ratio } else { 1.0 };
             let left = complementarity + share * (affine.linear + share * affine.quadratic) / count;
-            // Without any inequality there is nothing to centre; beyond the tolerance there is nothing to gain but rounding.
+            // Centring. Without any inequality there is nothing to centre; beyond the tolerance there is nothing to gain but rounding.
             let centring = if complementarity > 0.0 { (left / complementarity).powi(3) * complementarity } else { 0.0 };
             let centring = larger(centring, MIN_CENTRING_RATIO * qp.tolerance);
-            self.memory.columns.aim(centring, true);
-            self.newton(qp, complementarity < REFINEMENT_COMPLEMENTARITY);
-            let ratio = self.memory.columns.step().ratio;
+            // Corrector.
+            self.memory.columns.set_targets(centring, true);
+            self.solve_for_direction(qp, complementarity < REFINEMENT_COMPLEMENTARITY);
+            let ratio = self.memory.columns.fill_direction().ratio;
             let boundary = 1.0 - complementarity.clamp(1e-6, 5e-3);
             let share = if ratio > boundary { boundary / ratio } else { 1.0 };
-            self.memory.columns.advance(share);
+            self.memory.columns.take_step(share);
             self.memory.point.add(share, &self.memory.step);
             dual_share *= 1.0 - share;
             self.memory.refresh_values(qp);
         }
-        let (complementarity, worst) = self.memory.columns.measure();
+        let (complementarity, worst) = self.memory.columns.update_residuals();
         if complementarity < ACCEPTED_RESIDUAL && worst < ACCEPTED_RESIDUAL && dual_share < ACCEPTED_RESIDUAL {
             return Ok(());
         }
@@ -189,7 +191,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
     }
 
     /// `H⁻¹ v` of every row over a whole trajectory, for Sherman and Morrison.
-    fn respond(&mut self, qp: &StageQp) {
+    fn solve_for_trajectory_rows(&mut self, qp: &StageQp) {
         let memory = &mut self.memory;
         let weights = &memory.columns.weight[memory.columns.len() - memory.trajectory_rows.len()..];
         for index in 0..memory.trajectory_rows.len() {
@@ -197,7 +199,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
             let expanded = &mut after[0];
             memory.gradient.clear(qp.horizon * Self::VEHICLES);
             // The gradient −v makes the solve return H⁻¹ v.
-            expanded.pull(-1.0, &mut memory.gradient, Self::VEHICLES);
+            expanded.add_gradient(-1.0, &mut memory.gradient, Self::VEHICLES);
             expanded.response.clear(qp.horizon * Self::VEHICLES);
             self.riccati.solve(qp, &memory.gradient, &mut expanded.response);
             for (earlier, weight) in before.iter().zip(weights) {
@@ -206,8 +208,8 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         }
     }
 
-    /// One Newton step towards the targets, if asked with a refinement; leaves its slopes in the columns.
-    fn newton(&mut self, qp: &StageQp, refined: bool) {
+    /// The Newton direction towards the targets, refined if asked; leaves its slopes in the columns.
+    fn solve_for_direction(&mut self, qp: &StageQp, refined: bool) {
         let memory = &mut self.memory;
         memory.fill_gradient(false);
         memory.step.states.resize(memory.gradient.states.len(), [0.0; 4]);
@@ -215,7 +217,7 @@ impl<const W: usize, const Z: usize> Interior<W, Z> {
         self.riccati.solve(qp, &memory.gradient, &mut memory.step);
         correct(&memory.columns, &memory.trajectory_rows, &mut memory.step, Self::VEHICLES);
         if refined {
-            memory.leave_residual(qp);
+            memory.fill_newton_residual(qp);
             self.correction.clear(qp.horizon * Self::VEHICLES);
             self.riccati.solve(qp, &memory.gradient, &mut self.correction);
             correct(&memory.columns, &memory.trajectory_rows, &mut self.correction, Self::VEHICLES);

@@ -25,7 +25,7 @@ pub(super) struct Memory<const W: usize> {
     pub step: Point,
     /// Gradient of the smooth cost at the point.
     pub cost_gradient: Point,
-    /// The same with the rows' pull.
+    /// The same with the multipliers of the inequalities.
     pub gradient: Point,
     /// The rows over whole trajectories at the point.
     pub trajectory_rows: Vec<ExpandedTrajectoryRow>,

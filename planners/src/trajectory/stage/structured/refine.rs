@@ -17,28 +17,28 @@ use crate::trajectory::stage::adjoint::curvature_gradient;
 use crate::trajectory::stage::qp::StageQp;
 
 impl<const W: usize> Memory<W> {
-    /// Turns `gradient` into what the step leaves of it: zero over states, `ρ` over inputs.
-    pub(super) fn leave_residual(&mut self, qp: &StageQp) {
+    /// Turns `gradient` into the residual of the Newton step: zero over states, `ρ` over inputs.
+    pub(super) fn fill_newton_residual(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
         add_product(qp, &self.hessians, &self.pairs, &self.step, &mut self.gradient);
         let weights = &self.columns.weight[self.columns.len() - self.trajectory_rows.len()..];
         for (expanded, weight) in self.trajectory_rows.iter().zip(weights) {
-            expanded.pull(weight * expanded.dot(&self.step, vehicles), &mut self.gradient, vehicles);
+            expanded.add_gradient(weight * expanded.dot(&self.step, vehicles), &mut self.gradient, vehicles);
         }
-        self.carry_back(qp);
+        self.condense_gradient(qp);
     }
 
     /// Largest derivative of the Lagrangian over the inputs, where the iteration stands.
     pub(super) fn stationarity(&mut self, qp: &StageQp) -> f64 {
         self.fill_cost_gradient(qp);
         self.fill_gradient(true);
-        self.carry_back(qp);
+        self.condense_gradient(qp);
         self.gradient.inputs.as_flattened().iter().fold(0.0, |largest, slope| larger(slope.abs(), largest))
     }
 
-    /// Turns a gradient over states and inputs into one over inputs alone, the states following the dynamics. That over shared
-    /// inputs is with the first vehicle.
-    fn carry_back(&mut self, qp: &StageQp) {
+    /// Condenses a gradient over states and inputs into one over inputs alone, the states following the dynamics. The entries of
+    /// inputs that several futures share are added up in the first of them.
+    fn condense_gradient(&mut self, qp: &StageQp) {
         let vehicles = Self::VEHICLES;
         for (i, stages) in qp.vehicles.iter().enumerate() {
             let mut carried = [0.0; 4];

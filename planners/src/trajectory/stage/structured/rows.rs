@@ -55,7 +55,7 @@ impl Bound {
 
     /// Adds `weight · g` to a gradient.
     #[inline(always)]
-    pub(super) fn pull(&self, weight: f64, gradient: &mut Point) {
+    pub(super) fn add_gradient(&self, weight: f64, gradient: &mut Point) {
         let pull = self.sign * weight;
         match self.quantity {
             2 => gradient.states[self.at][3] += pull,
@@ -94,7 +94,7 @@ impl Inequality {
 
     /// Adds `weight · g` to the gradients of states.
     #[inline(always)]
-    pub(super) fn pull(&self, weight: f64, states: &mut [[f64; 4]]) {
+    pub(super) fn add_gradient(&self, weight: f64, states: &mut [[f64; 4]]) {
         for axis in 0..3 {
             states[self.at][axis] += weight * self.gradient[axis];
         }
@@ -183,7 +183,7 @@ impl Inequalities {
     }
 
     /// Whether a point satisfies everything that was left out, so that it is the optimum with it too.
-    pub(super) fn far_ones_hold(&self, point: &Point) -> bool {
+    pub(super) fn excluded_rows_hold(&self, point: &Point) -> bool {
         self.far_bounds.iter().all(|bound| bound.room + bound.slope(point) >= 0.0)
             && self.far_rows.iter().all(|row| row.value + row.slope(&point.states) >= 0.0)
     }

@@ -37,7 +37,7 @@ impl ExpandedTrajectoryRow {
     }
 
     /// Adds `share · v` to a gradient.
-    pub fn pull(&self, share: f64, gradient: &mut Point, vehicles: usize) {
+    pub fn add_gradient(&self, share: f64, gradient: &mut Point, vehicles: usize) {
         let states = gradient.states.iter_mut().skip(self.vehicle).step_by(vehicles);
         for (v, d) in self.slopes.iter().zip(states) {
             d[0] += share * v[0];

@@ -1,9 +1,9 @@
-//! The step problem: the trajectory problem expanded around an iterate, as a quadratic programme in stage form.
+//! The QP subproblem: the trajectory problem expanded around an iterate, as a quadratic programme in stage form.
 //!
 //! First derivatives are exact, and so are second derivatives of the cost where it is convex. What the Hessian of the
 //! Lagrangian adds — the curvature of dynamics and rows, weighted with multipliers of an earlier step, and that of concave
-//! costs — is in the programme only after [`StepProblem::use_lagrangian`]; before, and after
-//! [`StepProblem::use_gauss_newton`], the step is Gauss-Newton and convex ([`StageQp::hessian`] says which).
+//! costs — is in the programme only after [`QpSubproblem::use_lagrangian`]; before, and after
+//! [`QpSubproblem::use_gauss_newton`], the step is Gauss-Newton and convex ([`StageQp::hessian`] says which).
 
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::participant::Participant;
@@ -15,13 +15,13 @@ use crate::trajectory::stage::{
 use crate::trajectory::terms::{MAX_ROWS_PER_STAGE, RowTerm, Shape, Subject, TrajectoryTerm};
 use crate::vehicle::{DynamicsCurvature, PoseExpansion};
 
-/// Tolerance of an ordinary step problem.
+/// Tolerance of an ordinary QP subproblem.
 const TOLERANCE: f64 = 1e-9;
 
-/// A step problem with the second derivatives that a Gauss-Newton step leaves out. It keeps its allocations from one
+/// A QP subproblem with the second derivatives that a Gauss-Newton step leaves out. It keeps its allocations from one
 /// iterate to the next.
 #[derive(Clone, Debug, Default)]
-pub struct StepProblem {
+pub struct QpSubproblem {
     /// The programme.
     pub qp: StageQp,
     /// Per block and stage, `∇²c` over `(xx, xy, xθ, yy, yθ, θθ)`.
@@ -31,8 +31,8 @@ pub struct StepProblem {
     costates: Costates,
 }
 
-impl StepProblem {
-    /// Expands `problem` at `iterate`, whose states obey the dynamics, into a Gauss-Newton step problem.
+impl QpSubproblem {
+    /// Expands `problem` at `iterate`, whose states obey the dynamics, into a Gauss-Newton QP subproblem.
     pub fn linearize(&mut self, problem: &Problem, iterate: &Iterate) {
         let qp = &mut self.qp;
         qp.horizon = problem.horizon;
@@ -51,7 +51,7 @@ impl StepProblem {
         fill_trajectory_rows(problem, iterate, &mut self.qp.trajectory_rows);
     }
 
-    /// Adds the exact curvature of dynamics, rows and costs at the iterate of [`StepProblem::linearize`], weighted with the
+    /// Adds the exact curvature of dynamics, rows and costs at the iterate of [`QpSubproblem::linearize`], weighted with the
     /// multipliers of an earlier step, whose deviations are set to zero.
     pub fn use_lagrangian(&mut self, problem: &Problem, iterate: &Iterate, multipliers: &mut StageSolution) {
         let qp = &mut self.qp;
@@ -76,7 +76,7 @@ impl StepProblem {
         qp.hessian = Hessian::Lagrangian;
     }
 
-    /// Leaves a share of what [`StepProblem::use_lagrangian`] has added.
+    /// Leaves a share of what [`QpSubproblem::use_lagrangian`] has added.
     pub fn scale_curvature(&mut self, share: f64) {
         let qp = &mut self.qp;
         for curvature in qp.vehicles.iter_mut().flat_map(|stages| &mut stages.curvatures) {
@@ -90,7 +90,7 @@ impl StepProblem {
         }
     }
 
-    /// Drops all that [`StepProblem::use_lagrangian`] has added.
+    /// Drops all that [`QpSubproblem::use_lagrangian`] has added.
     pub fn use_gauss_newton(&mut self) {
         let qp = &mut self.qp;
         if qp.hessian == Hessian::GaussNewton {

@@ -1,7 +1,7 @@
-//! Directions: the step problem at an iterate, solved.
+//! Directions: the QP subproblem at an iterate, solved.
 
 use super::optimum::{DescentError, Optimum};
-use super::step_problem::StepProblem;
+use super::qp_subproblem::QpSubproblem;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{StageError, StageSolution, StageSolver};
@@ -9,17 +9,17 @@ use crate::trajectory::stage::{StageError, StageSolution, StageSolver};
 /// Share of a curvature that is not convex which is tried before none.
 const SOFTENED_CURVATURE: f64 = 0.3;
 
-/// A stage solver with the step problem that it works on and the step it has found.
+/// A stage solver with the QP subproblem that it works on and the step it has found.
 #[derive(Clone, Debug, Default)]
-pub(super) struct StepSolver<S> {
+pub(super) struct SubproblemSolver<S> {
     pub solver: S,
-    pub problem: StepProblem,
-    /// The step, with the multipliers of the step problem.
+    pub problem: QpSubproblem,
+    /// The step, with the multipliers of the QP subproblem.
     pub step: StageSolution,
 }
 
-impl<S: StageSolver> StepSolver<S> {
-    /// Solves the step problem at `now`: with the exact Hessian if there are multipliers to make it from (`warm`) and it is
+impl<S: StageSolver> SubproblemSolver<S> {
+    /// Solves the QP subproblem at `now`: with the exact Hessian if there are multipliers to make it from (`warm`) and it is
     /// convex; else with a third of its curvature; else by Gauss and Newton.
     pub fn solve_for_direction(
         &mut self,
@@ -47,7 +47,7 @@ impl<S: StageSolver> StepSolver<S> {
         outcome.map_err(|source| DescentError::Step { step: now.statistics.programmes, source })
     }
 
-    /// Solves the step problem as it is; the work is counted in `now`.
+    /// Solves the QP subproblem as it is; the work is counted in `now`.
     pub fn solve(&mut self, now: &mut Optimum, warm: bool) -> Result<(), StageError> {
         now.statistics.programmes += 1;
         let outcome = self.solver.solve(&self.problem.qp, &mut self.step, warm);
@@ -63,7 +63,7 @@ impl<S: StageSolver> StepSolver<S> {
         self.residual()
     }
 
-    /// The KKT residual of step and multipliers in the step problem.
+    /// The KKT residual of step and multipliers in the QP subproblem.
     pub fn residual(&mut self) -> f64 {
         self.problem.residual(&self.step)
     }
