@@ -11,7 +11,7 @@
 //! took.
 //!
 //! The second does the same with the recorded problems (`tests/data`): the plan is a descent from the recorded warm start and a
-//! comparison of the classes of motion, finished at once, or a global search. A row for each planner counts the problems with a
+//! comparison of the homotopy classes, finished at once, or a global search. A row for each planner counts the problems with a
 //! cheaper random start, and gives their share with its 95 % interval (Wilson's score interval). Then each such problem follows
 //! with both costs. `DRAW` seeds the random starts.
 
@@ -29,7 +29,7 @@ use common::SplitMix64;
 use common::wilson::wilson_interval;
 use common::world::{Vehicle, begin, egos, families};
 use interplay_planners::diagnostic::COST;
-use interplay_planners::trajectory::{Optimiser, PassingOrderSearch, Problem, Robust};
+use interplay_planners::trajectory::{HomotopySearch, Optimiser, Problem, Robust};
 use interplay_planners::{Driver, Input, Plan};
 use recorded::Recorded;
 
@@ -84,7 +84,7 @@ impl Findings {
 }
 
 /// How far planners look for a cheaper plan, in the order of the columns.
-const SEARCHES: [PassingOrderSearch; 2] = [PassingOrderSearch::Classes, PassingOrderSearch::Global];
+const SEARCHES: [HomotopySearch; 2] = [HomotopySearch::Classes, HomotopySearch::Global];
 
 /// Prints how often random starts find something cheaper in the recorded problems.
 fn search_recorded(draw: u64) -> Result<(), Box<dyn Error>> {
@@ -121,7 +121,7 @@ fn search_recorded(draw: u64) -> Result<(), Box<dyn Error>> {
 }
 
 /// What a planner's descent and search come to; infinite if they fail.
-fn planned_cost(kind: &str, search: PassingOrderSearch, recorded: &Recorded) -> f64 {
+fn planned_cost(kind: &str, search: HomotopySearch, recorded: &Recorded) -> f64 {
     let mut optimiser = recorded::optimiser(kind).searching(search);
     optimiser.warm_start = recorded.memory();
     let plan = optimiser.optimise(&recorded.problem(), &recorded.guess());

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Each game is solved once without a guess, over 30 steps of 0.1 s, to the tolerances of planners. *Local* is one
-//! descent whose certificate holds against small deviations; *all classes* compares the classes of motion, for the joint motion
+//! descent whose certificate holds against small deviations; *all classes* compares the homotopy classes, for the joint motion
 //! and for each player's deviation. A game counts as solved if the descent or the replies in its place ended, nobody enters a safety ellipse by more than 0.001 (of `1 − d²`), and no
 //! player gains more than 1e-4 by leaving. Shares have Wilson's 95 % interval. The times include the certificate.
 //!
@@ -26,7 +26,7 @@ use common::SplitMix64;
 use common::games::joint_problem;
 use common::wilson::wilson_interval;
 use interplay_planners::nash::{Equilibrium, equilibrium, joint_optimiser};
-use interplay_planners::trajectory::PassingOrderSearch;
+use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::trajectory::{DescentError, Optimiser, Problem, Robust, Tolerances, Violation, WarmStart};
 use recorded::Recorded;
 
@@ -93,7 +93,7 @@ fn own_problems(games: usize, seed: u64) -> Result<Vec<Recorded>, Box<dyn Error>
 }
 
 fn find(problem: &Problem, all_classes: bool) -> Result<Equilibrium, DescentError> {
-    let search = if all_classes { PassingOrderSearch::Classes } else { PassingOrderSearch::Off };
+    let search = if all_classes { HomotopySearch::Classes } else { HomotopySearch::Off };
     let mut joint = joint_optimiser(search);
     let mut replies = Optimiser::new(Robust::default()).searching(search);
     equilibrium(&mut joint, &mut replies, problem, &[])

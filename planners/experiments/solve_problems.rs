@@ -9,7 +9,7 @@
 //!
 //! - `robust`, `structured`, `sparse`: one descent from the guess alone, each with its own solver of QP subproblems,
 //! - `resumed`: one descent of `robust` that begins with the recorded warm start,
-//! - `planner`: the same, then a comparison of the classes of motion. It is finished at once: each problem has an optimiser of its
+//! - `planner`: the same, then a comparison of the homotopy classes. It is finished at once: each problem has an optimiser of its
 //!   own, whereas in closed loop a comparison may rest for a few plans or take several,
 //! - `global`: the same with the global search (`passing_orders = "global"`).
 //!
@@ -25,7 +25,7 @@ use std::io::Write;
 use std::time::Instant;
 
 use interplay_planners::Input;
-use interplay_planners::trajectory::PassingOrderSearch;
+use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::trajectory::{
     DescentError, Iterate, Optimiser, Optimum, Problem, Robust, Sparse, StageSolver, Structured, Violation,
 };
@@ -70,23 +70,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let problems = recorded::load(kind)?;
     let outcomes = match solver.as_str() {
         "planner" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind)),
-        "global" => {
-            solve_all(&problems, &starts, repeats, recorded::optimiser(kind).searching(PassingOrderSearch::Global))
-        }
-        "resumed" => {
-            solve_all(&problems, &starts, repeats, recorded::optimiser(kind).searching(PassingOrderSearch::Off))
-        }
+        "global" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind).searching(HomotopySearch::Global)),
+        "resumed" => solve_all(&problems, &starts, repeats, recorded::optimiser(kind).searching(HomotopySearch::Off)),
         "robust" => {
-            solve_all(&problems, &starts, repeats, Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off))
+            solve_all(&problems, &starts, repeats, Optimiser::new(Robust::default()).searching(HomotopySearch::Off))
         }
-        "structured" => solve_all(
-            &problems,
-            &starts,
-            repeats,
-            Optimiser::new(Structured::default()).searching(PassingOrderSearch::Off),
-        ),
+        "structured" => {
+            solve_all(&problems, &starts, repeats, Optimiser::new(Structured::default()).searching(HomotopySearch::Off))
+        }
         "sparse" => {
-            solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default()).searching(PassingOrderSearch::Off))
+            solve_all(&problems, &starts, repeats, Optimiser::new(Sparse::default()).searching(HomotopySearch::Off))
         }
         other => {
             return Err(format!(

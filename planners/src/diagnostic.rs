@@ -120,7 +120,7 @@ impl Explanation {
 
 /// The cost of the trajectory problem at its optimum.
 pub const COST: DiagnosticQuantity = DiagnosticQuantity::new("cost", "", ValueSet::Real);
-/// The cost of the cheapest plan of another class of motion (another passing order), where one was found.
+/// The cost of the cheapest plan of another homotopy class, where one was found.
 pub const RUNNER_UP_COST: DiagnosticQuantity = DiagnosticQuantity::new("cost of the runner-up", "", ValueSet::Real);
 /// By how much a plan enters the safety ellipses, summed over its steps (of `1 − d²`).
 pub const SAFETY_SLACK: DiagnosticQuantity = DiagnosticQuantity::new("safety slack", "", ValueSet::NonNegative);

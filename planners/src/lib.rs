@@ -12,7 +12,7 @@
 //!   [`negotiation`], [`bayesian`], [`game`], [`nash`], [`contingency`]; [`Driver`] lists them, [`DriverKind`] is what the
 //!   settings of each provide, [`Drive`] what plans with them, and [`Planner`] what all of them have around it
 //! - [`posing`]: from a scene to the terms of a trajectory problem, of one vehicle or of several that decide together
-//! - [`passing_order`]: before or behind whom a plan leads
+//! - [`homotopy`]: before or behind whom a plan leads
 //! - [`trajectory`]: one trajectory optimiser
 //! - [`traffic`]: the closed loop of all vehicles on a road
 //!
@@ -39,12 +39,11 @@ pub mod external;
 mod fixture;
 mod foreign_driver;
 pub mod game;
+pub mod homotopy;
 pub mod human;
 pub mod idm;
 pub mod nash;
 pub mod negotiation;
-mod passing;
-pub mod passing_order;
 mod permitted_speed;
 mod plan;
 mod plan_violation;
@@ -69,8 +68,7 @@ pub use drive::{Drive, DriverKind};
 pub use driver::Driver;
 pub use driver_setting::DriverSettingError;
 pub use foreign_driver::ForeignDriver;
-pub use passing::passing_orders;
-pub use passing_order::{PassingOrder, PassingPosition};
+pub use homotopy::{PassingSide, PlannedPassing, homotopy_class};
 pub use plan::{Plan, PlanBranch, PlanError, PlanEvent, PlanEventKind, Proposal};
 pub use plan_violation::{PlanCondition, PlanViolation};
 pub use planner::Planner;

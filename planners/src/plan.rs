@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::diagnostic::{Diagnostic, DiagnosticQuantity};
 use crate::driver_estimate::DriverEstimate;
-use crate::passing_order::PassingOrder;
+use crate::homotopy::PlannedPassing;
 use crate::trajectory::{Problem, Statistics};
 use crate::{PlanViolation, Trajectory};
 
@@ -17,8 +17,8 @@ pub struct Plan {
     pub branches: Vec<PlanBranch>,
     /// What the planner asks of others, whom it asks first at first.
     pub proposals: Vec<Proposal>,
-    /// How it passes the other vehicles that it comes near; of plans that keep out of ellipses.
-    pub passing_orders: Vec<PassingOrder>,
+    /// Its homotopy class: how it passes each vehicle that it comes near; empty for planners that keep out of no ellipses.
+    pub homotopy_class: Vec<PlannedPassing>,
     /// Numbers that explain it, in a fixed order for one planner.
     pub diagnostics: Vec<Diagnostic>,
     /// What is believed of the others, where their plans are inferred.
@@ -60,8 +60,8 @@ pub enum PlanEventKind {
     Retreat(String),
     /// The planner finds nothing to ask for; the optimiser's reason.
     NoProposal(String),
-    /// The plan passes another vehicle in an order that is new or has changed.
-    PassingOrder(PassingOrder),
+    /// The plan passes another vehicle in a way that is new or has changed.
+    Passing(PlannedPassing),
     /// Any other event.
     Note,
 }

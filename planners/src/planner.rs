@@ -4,12 +4,12 @@ use crate::belief::{self, DriverBeliefs, Outlook};
 use crate::certificate::{refused, violations};
 use crate::deadline::PlanDeadline;
 use crate::drive::{Drive, DriverKind};
-use crate::passing::PassingOrderLog;
+use crate::homotopy::HomotopyLog;
 use crate::predict::Prediction;
 use crate::sensing::SensedScene;
 use crate::{Plan, PlanError, Scene};
 
-/// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs passing orders.
+/// A driver at work: it infers what its driver is not told, checks each plan and its deadline, and logs homotopy classes.
 ///
 /// It is the same for all kinds of drivers, and knows them only through [`DriverKind`] and [`Drive`].
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub struct Planner {
     beliefs: Option<Box<DriverBeliefs>>,
     /// Whether the driver is given what each of the others may do.
     branches: bool,
-    passing_orders: PassingOrderLog,
+    homotopy_log: HomotopyLog,
     /// What its certificates take for where the others will be.
     prediction: Prediction,
     /// Whether a plan may be refused. Those who go first are what the others have to live with, and drive as they do.
@@ -35,7 +35,7 @@ impl Planner {
             driver: kind.driver(),
             beliefs: (!kind.knows_plans()).then(|| Box::new(DriverBeliefs::new(*inference))),
             branches: kind.branches(),
-            passing_orders: PassingOrderLog::default(),
+            homotopy_log: HomotopyLog::default(),
             prediction: kind.prediction().unwrap_or_default(),
             may_be_refused: !kind.goes_first(),
             deadline: None,
@@ -58,7 +58,7 @@ impl Planner {
         Some(Planner {
             driver: self.driver.fork()?,
             beliefs: self.beliefs.clone(),
-            passing_orders: self.passing_orders.clone(),
+            homotopy_log: self.homotopy_log.clone(),
             ..*self
         })
     }
@@ -106,7 +106,7 @@ impl Planner {
             return Err(PlanError::Refused(violation.clone()));
         }
         if plan.problem.is_some() {
-            self.passing_orders.note(scene, &mut plan);
+            self.homotopy_log.note(scene, &mut plan);
         }
         Ok(plan)
     }

@@ -12,10 +12,10 @@ pub(crate) struct Solved {
     pub event: Option<PlanEvent>,
 }
 
-/// Solves a problem from the last plan, shifted by one step, and compares the passing orders.
+/// Solves a problem from the last plan, shifted by one step, and compares the homotopy classes.
 ///
 /// # Errors
-/// [`DescentError`] if no class of motion has an optimum.
+/// [`DescentError`] if no homotopy class has an optimum.
 pub(crate) fn solve(
     optimiser: &mut Optimiser<Robust>,
     problem: Problem,

@@ -4,7 +4,7 @@ mod common;
 
 use common::{SplitMix64, alone, iterate, pair};
 use interplay_planners::Input;
-use interplay_planners::trajectory::PassingOrderSearch;
+use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::trajectory::{DescentError, Optimiser, Problem, Sparse, Structured};
 
 const SEEDS: u64 = 60;
@@ -61,7 +61,7 @@ fn what_has_not_ended_improves_on_its_guess_or_is_refused() {
     for (seed, problem) in problems() {
         let guess = iterate(&problem, &mut SplitMix64::new(seed + 7));
         let before = problem.cost(&guess);
-        let mut optimiser = Optimiser::new(Structured::default()).searching(PassingOrderSearch::Off);
+        let mut optimiser = Optimiser::new(Structured::default()).searching(HomotopySearch::Off);
         optimiser.tolerances.work_limit = 8;
         let strict = optimiser.clone().optimise(&problem, &guess.inputs);
         match (strict, optimiser.optimise_or_improve(&problem, &guess.inputs)) {

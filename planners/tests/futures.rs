@@ -4,12 +4,12 @@ mod common;
 
 use common::{HORIZON, SplitMix64, futures};
 use interplay_planners::Input;
-use interplay_planners::trajectory::PassingOrderSearch;
+use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::trajectory::terms::{Comfort, KeepOut, RoadEdge, Tracking};
 use interplay_planners::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust, Term};
 
 fn solve(problem: &Problem) -> Result<Optimum, DescentError> {
-    Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off).optimise(problem, &[])
+    Optimiser::new(Robust::default()).searching(HomotopySearch::Off).optimise(problem, &[])
 }
 
 /// The problem of one future, with the weights that it has among all.
@@ -58,7 +58,7 @@ fn the_later_the_future_is_known_the_more_it_costs() {
         for shared_steps in [HORIZON - 1, 12, 4] {
             let problem = futures(seed, 2, shared_steps);
             let found = Optimiser::new(Robust::default())
-                .searching(PassingOrderSearch::Off)
+                .searching(HomotopySearch::Off)
                 .optimise(&problem, &guess)
                 .expect("an optimum");
             costs.push(found.cost.total);
@@ -81,7 +81,7 @@ fn equal_futures_are_one() {
         let mut twice = futures(seed, 2, 7);
         twice.terms = (0..2).flat_map(|future| one.terms.iter().map(move |term| moved_to(term, future))).collect();
         let found = Optimiser::new(Robust::default())
-            .searching(PassingOrderSearch::Off)
+            .searching(HomotopySearch::Off)
             .optimise(&twice, &[guess.clone(), guess])
             .expect("an optimum");
         assert!((found.cost.total - 2.0 * single.cost.total).abs() < 1e-6 * (1.0 + single.cost.total), "seed {seed}");

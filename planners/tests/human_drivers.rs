@@ -7,7 +7,7 @@ use interplay_planners::belief::Outlook;
 use interplay_planners::human::{Human, Settings, Style};
 use interplay_planners::predict::{Prediction, constant_velocity};
 use interplay_planners::scripted::{self, Order};
-use interplay_planners::trajectory::PassingOrderSearch;
+use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::{
     Agent, Body, Corridor, Drive, Driver, Input, Limits, Plan, PlanError, Scene, State, conservative,
 };
@@ -149,7 +149,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     let weight = || prop_oneof![Just(0.0), 0.0..100.0, Just(1e4)];
     let prediction = prop_oneof![Just(Prediction::Plan), Just(Prediction::ConstantVelocity)];
     let style = prop::option::of(prop::sample::select(Style::ALL.to_vec()));
-    let orders = prop_oneof![Just(PassingOrderSearch::Off), Just(PassingOrderSearch::Classes)];
+    let orders = prop_oneof![Just(HomotopySearch::Off), Just(HomotopySearch::Classes)];
     let plain = (style, prop::option::of(weight()), weight(), 0.0..2.0, orders);
     (plain, prediction, duration_s(), duration_s()).prop_map(|(plain, prediction, reaction_s, hesitation_s)| {
         let (style, safety_weight, following_weight, closing_mps, passing_orders) = plain;

@@ -12,7 +12,7 @@ use interplay_planners::game::expression::wanted_posterior;
 use interplay_planners::human::Style::{self, Nice, Tough};
 use interplay_planners::predict::constant_velocity;
 use interplay_planners::{
-    Diagnostic, Driver, PassingPosition, PlanEvent, PlanEventKind, bayesian, conservative, cooperative, game, idm,
+    Diagnostic, Driver, PassingSide, PlanEvent, PlanEventKind, bayesian, conservative, cooperative, game, idm,
     negotiation,
 };
 
@@ -302,12 +302,12 @@ fn plans_say_in_which_order_they_pass() {
     for (ego, style) in egos().into_iter().flat_map(|ego| [(ego.clone(), Nice), (ego, Tough)]) {
         let name = format!("{} before a {style:?} driver", ego.kind());
         let run = sound(run(intersection(ego, style, 1.965), 60));
-        let last = run.plans.iter().rev().find_map(|plan| plan.passing_orders.first()).expect("an order");
+        let last = run.plans.iter().rev().find_map(|plan| plan.homotopy_class.first()).expect("an order");
         let [own, other] = [run.first(0, |at| at.x_m > 0.0), run.first(1, |at| at.y_m > LANES[0])];
         let goes_first = own.expect("the ego crosses") < other.expect("the other crosses");
-        let happened = if goes_first { PassingPosition::Ahead } else { PassingPosition::Behind };
+        let happened = if goes_first { PassingSide::Ahead } else { PassingSide::Behind };
         assert_eq!((last.of.as_str(), last.position), ("crossing", happened), "{name}");
         let mut events = run.plans.iter().flat_map(|plan| &plan.events);
-        assert!(events.any(|event| event.kind == PlanEventKind::PassingOrder(last.clone())), "{name}: no event");
+        assert!(events.any(|event| event.kind == PlanEventKind::Passing(last.clone())), "{name}: no event");
     }
 }

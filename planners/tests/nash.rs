@@ -8,14 +8,14 @@ use common::world::{lane_change, run};
 use interplay_planners::human::Style;
 use interplay_planners::nash::diagnostics::{DEVIATION_GAIN, PLAYERS};
 use interplay_planners::nash::{self, Equilibrium, TOLERATED_GAIN, equilibrium};
-use interplay_planners::trajectory::PassingOrderSearch;
+use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::trajectory::{Iterate, Optimiser, Problem, Robust, Violation};
 use interplay_planners::{Driver, Input};
 
 const GAMES: usize = 20;
 
 fn solve(problem: &Problem) -> Equilibrium {
-    let mut joint = Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off);
+    let mut joint = Optimiser::new(Robust::default()).searching(HomotopySearch::Off);
     let mut replies = joint.clone();
     equilibrium(&mut joint, &mut replies, problem, &[]).expect("a joint optimum")
 }
@@ -67,7 +67,7 @@ fn replies_settle_where_the_joint_descent_does_not_end() {
     let mut settled = 0;
     for game in 0..GAMES {
         let problem = joint_problem(&mut random, 3);
-        let mut joint = Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off);
+        let mut joint = Optimiser::new(Robust::default()).searching(HomotopySearch::Off);
         let mut replies = joint.clone();
         joint.tolerances.work_limit = 20;
         let found = equilibrium(&mut joint, &mut replies, &problem, &[]).ok();
@@ -140,7 +140,7 @@ fn a_motion_far_from_an_optimum_is_not_certified() {
     let mut gains = 0;
     for _ in 0..GAMES {
         let problem = joint_problem(&mut random, 2);
-        let mut joint = Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off);
+        let mut joint = Optimiser::new(Robust::default()).searching(HomotopySearch::Off);
         let mut replies = joint.clone();
         joint.tolerances.residual = f64::INFINITY;
         let guess = vec![Vec::new(), Vec::new()];

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use interplay_common::bounds::Bound;
-use interplay_planners::trajectory::PassingOrderSearch;
+use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::{Driver, human::Style};
 use interplay_scenarios::{
     Override, ParallelLanes, Registry, Road, Scenario, Source, embedded, from_text, load, schema,
@@ -121,7 +121,7 @@ fn another_planner_keeps_the_settings_that_it_knows() {
     let Some(Driver::Conservative(settings)) = scenario.ego().map(|ego| &ego.driver) else {
         panic!("not conservative")
     };
-    assert_eq!(settings.passing_orders, PassingOrderSearch::Off);
+    assert_eq!(settings.passing_orders, HomotopySearch::Off);
     let same = load("lane-change/front-nice", &[Override::Planner("negotiation".to_owned())]).expect("a planner");
     assert_eq!(same, load("lane-change/front-nice", &[]).expect("authored"));
     let first = least("", &[Override::Planner("conservative".to_owned())]);

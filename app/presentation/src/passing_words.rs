@@ -1,6 +1,6 @@
-//! Which passing orders make sense in words: left and right are sides of one road only.
+//! Which ways of passing make sense in words: left and right are sides of one road only.
 
-use interplay_planners::{PassingOrder, PassingPosition, PlanEventKind, Route};
+use interplay_planners::{PassingSide, PlanEventKind, PlannedPassing, Route};
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame};
 
@@ -13,20 +13,20 @@ const PLACES: usize = 64;
 ///
 /// On a network that leads around corners the left and the right of another vehicle are elsewhere a moment later: there
 /// only who goes ahead and who stays behind is said.
-pub fn is_said(scenario: &Scenario, vehicle: usize, order: &PassingOrder) -> bool {
-    let is_sideways = matches!(order.position, PassingPosition::Left | PassingPosition::Right);
+pub fn is_said(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) -> bool {
+    let is_sideways = matches!(passing.side, PassingSide::Left | PassingSide::Right);
     let turns = |index: usize| leads_around_a_corner(&scenario.vehicles[index].route);
-    let turn = || turns(vehicle) || scenario.index_of(&order.of).is_some_and(turns);
+    let turn = || turns(vehicle) || scenario.index_of(&passing.of).is_some_and(turns);
     !is_sideways || scenario.network.is_none() || !turn()
 }
 
-/// Whether an event is said: all are, but for orders that are not.
+/// Whether an event is said: all are, but for passings that are not.
 pub fn is_event_said(scenario: &Scenario, frame: &Frame, event: &Event) -> bool {
     let Some(index) = scenario.index_of(&event.vehicle) else { return true };
     let Some(vehicle) = frame.vehicles.get(index) else { return true };
-    let orders = vehicle.plan.events.iter().filter(|planned| planned.text == event.text);
-    orders.into_iter().all(|planned| match &planned.kind {
-        PlanEventKind::PassingOrder(order) => is_said(scenario, index, order),
+    let passings = vehicle.plan.events.iter().filter(|planned| planned.text == event.text);
+    passings.into_iter().all(|planned| match &planned.kind {
+        PlanEventKind::Passing(passing) => is_said(scenario, index, passing),
         _ => true,
     })
 }
@@ -58,15 +58,15 @@ mod tests {
         let said = |name: &str, position| {
             let scenario = load(name, &[]).expect("embedded");
             let other = usize::from(scenario.ego_index() == 0);
-            let order = PassingOrder { of: scenario.vehicles[other].name.clone(), position };
-            is_said(&scenario, scenario.ego_index(), &order)
+            let passing = PlannedPassing { of: scenario.vehicles[other].name.clone(), side: position };
+            is_said(&scenario, scenario.ego_index(), &passing)
         };
         for name in ["lane-change/front-nice", "on-ramp/five", "overtaking/oncoming", "curve/lane-drop"] {
-            assert!(said(name, PassingPosition::Left), "{name}");
+            assert!(said(name, PassingSide::Left), "{name}");
         }
         for name in ["roundabout/nice", "left-turn/nice", "t-junction/bayesian-nice"] {
-            assert!(!said(name, PassingPosition::Right), "{name}");
-            assert!(said(name, PassingPosition::Behind), "{name}");
+            assert!(!said(name, PassingSide::Right), "{name}");
+            assert!(said(name, PassingSide::Behind), "{name}");
         }
     }
 }

@@ -53,7 +53,7 @@ pub fn car_m(scenario: &Scenario) -> f64 {
 pub fn partners(scenario: &Scenario, vehicle: &VehicleFrame) -> Vec<usize> {
     let asked = vehicle.plan.proposals.iter().map(|proposal| &proposal.to);
     let mut partners = Vec::new();
-    for name in asked.chain(vehicle.plan.passing_orders.iter().map(|order| &order.of)) {
+    for name in asked.chain(vehicle.plan.homotopy_class.iter().map(|order| &order.of)) {
         if let Some(index) = scenario.index_of(name).filter(|index| !partners.contains(index)) {
             partners.push(index);
         }

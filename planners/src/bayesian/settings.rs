@@ -8,7 +8,7 @@ use crate::DriverSettingError;
 use crate::diagnostic::Explanation;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 
 /// Which value of the other's best reply enters the ego's cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -63,8 +63,8 @@ pub struct Settings {
     pub prediction: Prediction,
     /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
     /// cheapest one is driven.
-    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
-    pub passing_orders: PassingOrderSearch,
+    #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
+    pub passing_orders: HomotopySearch,
 }
 
 impl Default for Settings {
@@ -81,7 +81,7 @@ impl Default for Settings {
             ahead_share: 0.3,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
-            passing_orders: PassingOrderSearch::Classes,
+            passing_orders: HomotopySearch::Classes,
         }
     }
 }

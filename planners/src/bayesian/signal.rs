@@ -16,7 +16,7 @@
 //! As printed `ω` also draws an ego back that is ahead of the other: it brakes for the sake of a bold signal, and loses its place
 //! to the one it came close to. So at a stage at which the ego is expected ahead of the other, along the other's road, only a share of
 //! the distance along that road counts, and the ego comes closer from the side. What is expected is the ego's last plan: within a
-//! problem a distance costs the same ahead and behind, and no passing order is favoured.
+//! problem a distance costs the same ahead and behind, and no side is favoured.
 
 use super::belief::PersuasionBelief;
 use super::{Settings, value};

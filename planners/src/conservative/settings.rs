@@ -7,7 +7,7 @@ use super::Conservative;
 use crate::diagnostic::Explanation;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 
 /// The conservative baseline (eq. 6.13).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -15,15 +15,15 @@ use crate::trajectory::PassingOrderSearch;
 pub struct Settings {
     /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
     /// cheapest one is driven.
-    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
-    pub passing_orders: PassingOrderSearch,
+    #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
+    pub passing_orders: HomotopySearch,
     /// What the others are expected to do.
     pub prediction: Prediction,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { passing_orders: PassingOrderSearch::Classes, prediction: Prediction::Plan }
+        Settings { passing_orders: HomotopySearch::Classes, prediction: Prediction::Plan }
     }
 }
 

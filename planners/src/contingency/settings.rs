@@ -7,7 +7,7 @@ use super::Contingency;
 use crate::diagnostic::Explanation;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 
 /// A plan that branches: the ego infers what the others may do, decides now what holds for all of it, and has a continuation for
 /// each. It is told nobody's plan; `inference` on the vehicle says how it learns.
@@ -30,8 +30,8 @@ pub struct Settings {
     pub told_apart_m: f64,
     /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
     /// cheapest one is driven.
-    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
-    pub passing_orders: PassingOrderSearch,
+    #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
+    pub passing_orders: HomotopySearch,
 }
 
 impl Default for Settings {
@@ -40,7 +40,7 @@ impl Default for Settings {
             probability_at_least: 0.05,
             futures_at_most: 3,
             told_apart_m: 0.05,
-            passing_orders: PassingOrderSearch::Classes,
+            passing_orders: HomotopySearch::Classes,
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::Goal;
 use crate::diagnostic::Explanation;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 
 /// The joint problem of all vehicles that have this driver (eq. 6.12).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,13 +21,13 @@ pub struct Settings {
     pub prediction: Prediction,
     /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
     /// cheapest one is driven.
-    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
-    pub passing_orders: PassingOrderSearch,
+    #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
+    pub passing_orders: HomotopySearch,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { normaliser: 1.0, prediction: Prediction::Plan, passing_orders: PassingOrderSearch::Classes }
+        Settings { normaliser: 1.0, prediction: Prediction::Plan, passing_orders: HomotopySearch::Classes }
     }
 }
 

@@ -8,7 +8,7 @@ use super::prospect::ProspectTheory;
 use crate::diagnostic::Explanation;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 
 /// How the game is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -136,8 +136,8 @@ pub struct Settings {
     pub prediction: Prediction,
     /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
     /// cheapest one is driven.
-    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
-    pub passing_orders: PassingOrderSearch,
+    #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
+    pub passing_orders: HomotopySearch,
 }
 
 impl Settings {
@@ -173,7 +173,7 @@ impl Default for Settings {
             later_expression_s: 2.5,
             clear_lead_m: 0.2,
             prediction: Prediction::Plan,
-            passing_orders: PassingOrderSearch::Classes,
+            passing_orders: HomotopySearch::Classes,
         }
     }
 }

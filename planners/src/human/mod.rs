@@ -29,7 +29,7 @@
 //! it brake, with knowledge of that vehicle's plan. The source only says that nice drivers have a higher safety weight
 //! (section 6.5); it mentions neither following nor the wall, without which tough drivers run into whoever has merged.
 //!
-//! Going first and yielding are two classes of motion, which the optimiser compares (`passing_orders`).
+//! Going first and yielding are two homotopy classes, which the optimiser compares (`passing_orders`).
 //!
 //! On a network of lanes every driver keeps to the right of way, whatever its style (module `right_of_way`). While it must
 //! wait at a line, its desired speed is at most that of a comfortable approach.

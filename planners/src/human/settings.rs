@@ -7,7 +7,7 @@ use super::Human;
 use crate::diagnostic::Explanation;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 
 /// Named points on the continuum of safety weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -73,8 +73,8 @@ pub struct Settings {
     pub closing_mps: f64,
     /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
     /// cheapest one is driven.
-    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
-    pub passing_orders: PassingOrderSearch,
+    #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
+    pub passing_orders: HomotopySearch,
     /// What others are expected to do that might cut in or cross: by default what their present heading and speed say, so
     /// that a nudge is seen, and not what they plan. With `plan` the driver reads plans: it yields to what others plan before
     /// it shows in their motion. The car ahead is always expected to follow its plan.
@@ -96,7 +96,7 @@ impl Default for Settings {
             safety_weight: None,
             following_weight: 20.0,
             closing_mps: 0.0,
-            passing_orders: PassingOrderSearch::Classes,
+            passing_orders: HomotopySearch::Classes,
             prediction: Prediction::ConstantVelocity,
             reaction_s: 0.0,
             hesitation_s: 0.0,

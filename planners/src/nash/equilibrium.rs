@@ -19,7 +19,7 @@
 //! where it has come to, each against the plans of the others, until nobody gains (`best_replies.rs`).
 //!
 //! A local optimum of the sum is an equilibrium against small deviations. Whether it is one against all, the certificate says: each
-//! player's own problem is solved anew, from the equilibrium and in the other classes of motion. A player who gains leaves, and
+//! player's own problem is solved anew, from the equilibrium and in the other homotopy classes. A player who gains leaves, and
 //! the joint descent goes on from there; since the potential falls each time, this ends.
 
 use super::best_replies::best_replies;
@@ -59,7 +59,7 @@ impl Equilibrium {
 /// Finds an equilibrium of the players of a joint problem from a guess (per player, inputs); from an empty one, by letting the players
 /// plan one after the other first.
 ///
-/// `joint` solves the joint problem, and `replies` the problem of each player alone; where it compares the classes of motion, the
+/// `joint` solves the joint problem, and `replies` the problem of each player alone; where it compares the homotopy classes, the
 /// certificate holds against deviations into other classes too. The result need not be certified: see
 /// [`Equilibrium::is_certified`].
 ///

@@ -23,7 +23,7 @@ use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::Drive;
 use crate::posing::{JointVehicle, joint_problem};
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Problem, Robust, Violation};
 use crate::{Diagnostic, Input, Plan, PlanError, PlanEvent, Proposal, Scene, Trajectory};
@@ -51,8 +51,8 @@ const JOINT_WORK_LIMIT: usize = 500;
 const REMEMBERED_COSTS: usize = 7;
 
 /// What solves the joint problem of a game.
-pub fn joint_optimiser(passing_orders: PassingOrderSearch) -> Optimiser<Robust> {
-    let mut joint = Optimiser::resuming(Robust::default()).searching(passing_orders);
+pub fn joint_optimiser(search: HomotopySearch) -> Optimiser<Robust> {
+    let mut joint = Optimiser::resuming(Robust::default()).searching(search);
     joint.tolerances.work_limit = JOINT_WORK_LIMIT;
     joint.tolerances.remembered_costs = REMEMBERED_COSTS;
     joint
@@ -64,8 +64,8 @@ impl Nash {
         Nash {
             settings,
             joint: joint_optimiser(settings.passing_orders),
-            // The comparison of the joint problem looks into the other classes of motion.
-            replies: Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off),
+            // The comparison of the joint problem looks into the other homotopy classes.
+            replies: Optimiser::new(Robust::default()).searching(HomotopySearch::Off),
             seen: SeenSpeeds::default(),
             refusals: Refusals::default(),
             last: Vec::new(),

@@ -5,7 +5,7 @@ use crate::trajectory::{Iterate, Optimiser, Problem, StageSolver, Term, Toleranc
 
 /// A guess need not be optimal: the tolerance of its descents.
 const GUESS_TOLERANCE: f64 = 1e-3;
-/// Most [work](crate::trajectory::Statistics::work) of one of them, before other classes of motion are compared. One that takes more is
+/// Most [work](crate::trajectory::Statistics::work) of one of them, before other homotopy classes are compared. One that takes more is
 /// caught in an ellipse, and the joint start leads out of it sooner ([`Problem::start_outside`]).
 const GUESS_WORK_LIMIT: usize = 100;
 

@@ -7,7 +7,7 @@ use super::Nash;
 use crate::diagnostic::Explanation;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 
 /// A general-sum game of 2 to 4 vehicles: everybody minimises its own cost, and nobody may collide.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -32,8 +32,8 @@ pub struct Settings {
     pub prediction: Prediction,
     /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
     /// cheapest one is driven.
-    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
-    pub passing_orders: PassingOrderSearch,
+    #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
+    pub passing_orders: HomotopySearch,
 }
 
 impl Default for Settings {
@@ -44,7 +44,7 @@ impl Default for Settings {
             patience_steps: 5,
             clear_lead_m: 0.2,
             prediction: Prediction::ConstantVelocity,
-            passing_orders: PassingOrderSearch::Classes,
+            passing_orders: HomotopySearch::Classes,
         }
     }
 }

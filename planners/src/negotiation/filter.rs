@@ -5,7 +5,7 @@
 //! intervention is recorded. A plan that itself violates much is not applied either.
 
 use crate::conservative::problem;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 use crate::trajectory::{Optimiser, Optimum, Robust, Violation};
 use crate::{Agent, Scene};
 
@@ -24,7 +24,7 @@ pub(super) struct Filter {
 
 impl Default for Filter {
     fn default() -> Self {
-        Filter { optimiser: Optimiser::resuming(Robust::default()).searching(PassingOrderSearch::Off) }
+        Filter { optimiser: Optimiser::resuming(Robust::default()).searching(HomotopySearch::Off) }
     }
 }
 

@@ -34,8 +34,7 @@ use crate::conservative::{self, Conservative};
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::Drive;
 use crate::encounter::partner_event;
-use crate::passing::passing_orders;
-use crate::passing_order::PassingPosition;
+use crate::homotopy::{PassingSide, homotopy_class};
 use crate::solo::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
@@ -261,6 +260,6 @@ fn passed_by(scene: &Scene, retreat: &Result<Solved, PlanError>) -> Vec<String> 
         return Vec::new();
     }
     let plan = Plan { trajectory: optimum.trajectory(0), ..Plan::default() };
-    let ahead = passing_orders(scene, &plan).into_iter().filter(|order| order.position == PassingPosition::Ahead);
+    let ahead = homotopy_class(scene, &plan).into_iter().filter(|passing| passing.side == PassingSide::Ahead);
     ahead.map(|order| order.of).collect()
 }

@@ -32,7 +32,7 @@ const OTHER_COMFORT_WEIGHT: f64 = 1e-2;
 /// Most work of a descent: a problem that needs more has no proposal that the safety filter would admit. With 100 here and 60 below
 /// three of 108 authored scenarios fail.
 const WORK_LIMIT: usize = 300;
-/// Most work of comparing passing orders in a plan but the first. Proposals are renewed at every step and may be compared over
+/// Most work of comparing homotopy classes in a plan but the first. Proposals are renewed at every step and may be compared over
 /// several; a planner that asks nobody decides by its comparison and makes it at once.
 const COMPARISON_WORK_LIMIT: usize = 200;
 

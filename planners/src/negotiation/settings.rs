@@ -10,7 +10,7 @@ use crate::DriverSettingError;
 use crate::diagnostic::Explanation;
 use crate::drive::{Drive, DriverKind};
 use crate::predict::Prediction;
-use crate::trajectory::PassingOrderSearch;
+use crate::trajectory::HomotopySearch;
 
 /// Negotiation with concession and persuasion (chapter 6).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -72,8 +72,8 @@ pub struct Settings {
     pub safety_filter: bool,
     /// Which classes of motion (before or behind another vehicle, to its left or to its right) are compared, of which the
     /// cheapest one is driven.
-    #[schemars(extend("x-mechanism" = { "passing orders": PassingOrderSearch::Off }))]
-    pub passing_orders: PassingOrderSearch,
+    #[schemars(extend("x-mechanism" = { "passing orders": HomotopySearch::Off }))]
+    pub passing_orders: HomotopySearch,
     /// What the others are expected to do. At constant velocity nobody ever seems to accept a proposal.
     pub prediction: Prediction,
 }
@@ -97,7 +97,7 @@ impl Default for Settings {
             persuasion: true,
             references: References::LastRound,
             safety_filter: true,
-            passing_orders: PassingOrderSearch::Classes,
+            passing_orders: HomotopySearch::Classes,
             prediction: Prediction::Plan,
         }
     }

@@ -18,7 +18,7 @@
 //! **Who knows which plan.** Those who go first ([`RoadUser::goes_first`]) plan from the front of the road to its rear and
 //! publish their plans at once. All the others plan afterwards and know these plans (the source's assumption of perfect
 //! prediction); of one another they know the last plans only, so that nobody's decision depends on who was asked before in the
-//! same tick. Sums and the search over passing orders still go through the others as they are listed: reversed, they differ in
+//! same tick. Sums and the search over homotopy classes still go through the others as they are listed: reversed, they differ in
 //! rounding, and in a near-tie by more (`docs/reliability.md`).
 //! Whoever infers plans ([`RoadUser::knows_plans`]) is told none: its scene has the states of the others only.
 

@@ -22,7 +22,7 @@ pub use participant::Participant;
 pub use penalty::Penalty;
 pub use problem::Problem;
 pub use route_start::RouteStart;
-pub use sqp::{DescentError, Optimiser, Optimum, PassingOrderSearch, QpSubproblem, Statistics, Tolerances, WarmStart};
+pub use sqp::{DescentError, HomotopySearch, Optimiser, Optimum, QpSubproblem, Statistics, Tolerances, WarmStart};
 pub use stage::{
     Costates, Hessian, Interval, Reach, Robust, Row, RowBlock, Sparse, StageError, StageQp, StageSolution, StageSolver,
     StateCost, Structured, TrajectoryRow, VehicleStages, kkt,

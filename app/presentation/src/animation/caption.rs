@@ -1,6 +1,6 @@
 //! The words under a picture: who asks whom, what the other answers, and what happened last.
 
-use interplay_planners::PassingOrder;
+use interplay_planners::PlannedPassing;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Event, Frame, Level};
 
@@ -80,9 +80,9 @@ fn asks(run: &DrivingRun, frame: &Frame) -> Option<String> {
 fn intends(run: &DrivingRun, frame: &Frame) -> Option<String> {
     let index = run.scenario.ego_index();
     let ego = &frame.vehicles[index];
-    let said = ego.plan.passing_orders.iter().filter(|order| is_said(run.scenario, index, order));
-    let orders: Vec<String> = said.map(PassingOrder::sentence).collect();
-    (!orders.is_empty()).then(|| format!("{} {}", ego.name, orders.join(", ")))
+    let said = ego.plan.homotopy_class.iter().filter(|passing| is_said(run.scenario, index, passing));
+    let passings: Vec<String> = said.map(PlannedPassing::sentence).collect();
+    (!passings.is_empty()).then(|| format!("{} {}", ego.name, passings.join(", ")))
 }
 
 /// What happened in a tick to the ego or to others: warnings before notes.

@@ -100,7 +100,7 @@ impl<'a> DrivingRun<'a> {
         let mut last = None;
         for (tick, pair) in self.frames.windows(2).enumerate() {
             let partners = partners(self.scenario, &pair[0].vehicles[ego]);
-            let is_open = !pair[0].vehicles[ego].plan.passing_orders.is_empty();
+            let is_open = !pair[0].vehicles[ego].plan.homotopy_class.is_empty();
             known.extend(partners);
             let comes = |other: &usize| {
                 let [before_m, after_m] = [pair[0], pair[1]].map(|frame| distance_m(frame, *other));

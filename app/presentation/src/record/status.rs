@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use interplay_planners::{PassingOrder, PassingPosition};
+use interplay_planners::{PassingSide, PlannedPassing};
 use interplay_scenarios::{LaneReference, Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 use rerun::{RecordingStream, RecordingStreamResult};
@@ -84,16 +84,16 @@ fn does(scenario: &Scenario, index: usize, now: &VehicleFrame, asks: Option<Stri
     let stands = now.state.speed_mps.abs() < STANDS_SHARE * wanted_mps;
     let brakes = is_braking(now.input.acceleration_mps2);
     let mut parts: Vec<String> = asks.into_iter().collect();
-    let orders: Vec<&PassingOrder> =
-        now.plan.passing_orders.iter().filter(|order| is_said(scenario, index, order)).collect();
-    parts.extend(grouped(&orders, |order| verb(order, stands, brakes)));
+    let passings: Vec<&PlannedPassing> =
+        now.plan.homotopy_class.iter().filter(|passing| is_said(scenario, index, passing)).collect();
+    parts.extend(grouped(&passings, |passing| verb(passing, stands, brakes)));
     let speed = match now.input.acceleration_mps2 {
         _ if stands => "stands",
         _ if brakes => "brakes",
         acceleration if acceleration > KEEPS_MPS2 => "speeds up",
         _ => "keeps its speed",
     };
-    let waits = orders.iter().any(|order| order.position == PassingPosition::Behind);
+    let waits = passings.iter().any(|passing| passing.side == PassingSide::Behind);
     if !(stands || brakes) || !waits {
         parts.push(speed.to_owned());
     }
@@ -101,25 +101,25 @@ fn does(scenario: &Scenario, index: usize, now: &VehicleFrame, asks: Option<Stri
 }
 
 /// What a vehicle does with respect to another one.
-fn verb(order: &PassingOrder, stands: bool, brakes: bool) -> &'static str {
-    match order.position {
-        PassingPosition::Ahead => "goes ahead of",
-        PassingPosition::Behind if stands => "waits for",
-        PassingPosition::Behind if brakes => "yields to",
-        PassingPosition::Behind => "stays behind",
-        PassingPosition::Left => "passes on the left of",
-        PassingPosition::Right => "passes on the right of",
+fn verb(passing: &PlannedPassing, stands: bool, brakes: bool) -> &'static str {
+    match passing.side {
+        PassingSide::Ahead => "goes ahead of",
+        PassingSide::Behind if stands => "waits for",
+        PassingSide::Behind if brakes => "yields to",
+        PassingSide::Behind => "stays behind",
+        PassingSide::Left => "passes on the left of",
+        PassingSide::Right => "passes on the right of",
     }
 }
 
 /// Orders with the same verb as one part of a sentence.
-fn grouped(orders: &[&PassingOrder], verb: impl Fn(&PassingOrder) -> &'static str) -> Vec<String> {
+fn grouped(passings: &[&PlannedPassing], verb: impl Fn(&PlannedPassing) -> &'static str) -> Vec<String> {
     let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
-    for order in orders {
-        let verb = verb(order);
+    for passing in passings {
+        let verb = verb(passing);
         match groups.iter_mut().find(|(known, _)| *known == verb) {
-            Some((_, names)) => names.push(&order.of),
-            None => groups.push((verb, vec![&order.of])),
+            Some((_, names)) => names.push(&passing.of),
+            None => groups.push((verb, vec![&passing.of])),
         }
     }
     groups.into_iter().map(|(verb, names)| format!("{verb} {}", names.join(" and "))).collect()
@@ -132,8 +132,8 @@ mod tests {
 
     use super::*;
 
-    fn order(of: &str, position: PassingPosition) -> PassingOrder {
-        PassingOrder { of: of.to_owned(), position }
+    fn passing(of: &str, position: PassingSide) -> PlannedPassing {
+        PlannedPassing { of: of.to_owned(), side: position }
     }
 
     fn said(speed_mps: f64, acceleration_mps2: f64, plan: Plan, origin: Origin) -> String {
@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn a_line_says_who_waits_for_whom_and_why() {
         let behind = || Plan {
-            passing_orders: vec![order("front", PassingPosition::Behind), order("rear", PassingPosition::Behind)],
+            homotopy_class: vec![passing("front", PassingSide::Behind), passing("rear", PassingSide::Behind)],
             ..Plan::default()
         };
         assert_eq!(said(1.0, 0.0, behind(), Origin::Planned), "stays behind front and rear; keeps its speed");
@@ -162,7 +162,7 @@ mod tests {
     fn a_line_says_who_is_asked_and_what_it_answers() {
         let asks = |acceptance| Plan {
             proposals: vec![Proposal { to: "front".to_owned(), trajectory: Default::default(), acceptance }],
-            passing_orders: vec![order("front", PassingPosition::Ahead)],
+            homotopy_class: vec![passing("front", PassingSide::Ahead)],
             ..Plan::default()
         };
         assert_eq!(

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use interplay_planners::diagnostic::{COMMON_PANELS, COST, RUNNER_UP_COST};
 use interplay_planners::negotiation::diagnostics::CONCESSION_WEIGHT;
-use interplay_planners::{PassingOrder, PassingPosition, Plan, Proposal, State, Trajectory};
+use interplay_planners::{PassingSide, Plan, PlannedPassing, Proposal, State, Trajectory};
 use interplay_scenarios::{Override, Registry, Scenario, load};
 use interplay_simulation::frame::{Event, Level, Origin, VehicleFrame};
 use rerun::log::LogMsg;
@@ -58,7 +58,7 @@ fn frame(scenario: &Scenario, tick: usize) -> Frame {
                 .into_iter()
                 .collect(),
             diagnostics: if asks { vec![CONCESSION_WEIGHT.is(0.5)] } else { vec![COST.is(1.0)] },
-            passing_orders: vec![PassingOrder { of: "rear".to_owned(), position: PassingPosition::Ahead }],
+            homotopy_class: vec![PlannedPassing { of: "rear".to_owned(), side: PassingSide::Ahead }],
             ..Plan::default()
         };
         let origin = if tick == 7 { Origin::Braking } else { Origin::Planned };

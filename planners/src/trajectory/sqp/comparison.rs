@@ -1,6 +1,6 @@
-//! A comparison of the classes of motion, which may take several plans.
+//! A comparison of the homotopy classes, which may take several plans.
 
-use super::passing_class::PassingClass;
+use super::homotopy_class::HomotopyClass;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
@@ -22,9 +22,9 @@ pub(super) struct Comparison {
 #[derive(Clone, Debug)]
 pub(super) struct Round {
     /// Classes of which a representative was examined.
-    pub examined: Vec<PassingClass>,
+    pub examined: Vec<HomotopyClass>,
     /// Classes whose optimum is known.
-    pub settled: Vec<PassingClass>,
+    pub settled: Vec<HomotopyClass>,
     /// The exploration that goes on with the next plan.
     pub unfinished: Option<Unfinished>,
     /// The lowest cost that another class was found or expected to have.

@@ -1,7 +1,7 @@
-//! Explorations: descents in another class of motion, in search of something cheaper than what is at hand.
+//! Explorations: descents in another homotopy class, in search of something cheaper than what is at hand.
 
+use super::homotopy_class::HomotopyClass;
 use super::optimum::{DescentError, Optimum, Statistics};
-use super::passing_class::PassingClass;
 use crate::trajectory::problem::Problem;
 
 /// An exploration goes on while this multiple of what a step promises would lead below the cost to beat. On the recorded
@@ -18,7 +18,7 @@ pub(super) struct GivesUp<'a> {
     /// As soon as nothing suggests that it will end below this cost, the cost to beat.
     pub above: f64,
     /// As soon as it is in one of these classes, whose optima are known, and its step promises nothing below that cost.
-    pub settled: &'a [PassingClass],
+    pub settled: &'a [HomotopyClass],
 }
 
 impl GivesUp<'_> {
@@ -37,7 +37,7 @@ impl GivesUp<'_> {
         if expected <= self.above {
             return Ok(());
         }
-        let is_settled = step > 0 && self.settled.contains(&PassingClass::of(problem, &now.iterate));
+        let is_settled = step > 0 && self.settled.contains(&HomotopyClass::of(problem, &now.iterate));
         if is_settled {
             return Err(DescentError::Settled(statistics));
         }

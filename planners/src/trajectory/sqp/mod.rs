@@ -24,25 +24,24 @@
 //! first step has the exact Hessian already, and where the shifted plan is optimal there is no step. Steps also tell the next
 //! one how far to look for rows that matter ([`Reach`](super::Reach)).
 //!
-//! [`Optimiser::optimise`] compares the passing orders that a problem allows; an [`Exploration`] is a descent that only counts
+//! [`Optimiser::optimise`] compares the homotopy classes that a problem has; an [`Exploration`] is a descent that only counts
 //! if it ends below what is at hand.
 
 mod comparison;
 mod descent;
 mod exploration;
+mod homotopy_class;
+mod homotopy_search;
 mod hysteresis;
 mod line_search;
 mod optimiser;
 mod optimum;
-mod passing_class;
-mod passing_orders;
 mod qp_subproblem;
-mod search;
 mod subproblem_solver;
 mod warm_start;
 
+pub use homotopy_search::HomotopySearch;
 pub use optimiser::Optimiser;
 pub use optimum::{DescentError, Optimum, Statistics, Tolerances};
 pub use qp_subproblem::QpSubproblem;
-pub use search::PassingOrderSearch;
 pub use warm_start::WarmStart;

@@ -3,8 +3,8 @@
 use super::comparison::Comparison;
 use super::descent::Descent;
 use super::exploration::{Exploration, GivesUp};
+use super::homotopy_search::HomotopySearch;
 use super::optimum::{DescentError, Optimum, Tolerances};
-use super::search::PassingOrderSearch;
 use super::warm_start::WarmStart;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
@@ -18,8 +18,8 @@ pub struct Optimiser<S> {
     pub tolerances: Tolerances,
     /// Whether a descent begins with what the one before has left, if the problem has the same shape.
     pub resumes: bool,
-    /// How far [`Optimiser::optimise`] looks for a cheaper class of motion.
-    pub passing_orders: PassingOrderSearch,
+    /// How far [`Optimiser::optimise`] looks for a cheaper homotopy class.
+    pub homotopy_search: HomotopySearch,
     /// What the descent whose optimum was kept last has left.
     pub warm_start: WarmStart,
     /// How far the comparison of classes has got.
@@ -42,9 +42,9 @@ impl<S: StageSolver + Default> Optimiser<S> {
         Optimiser { tolerances, resumes: true, ..Optimiser::new(solver) }
     }
 
-    /// This optimiser, looking so far for a cheaper passing order.
-    pub fn searching(self, passing_orders: PassingOrderSearch) -> Self {
-        Optimiser { passing_orders, ..self }
+    /// This optimiser, looking so far for a cheaper homotopy class.
+    pub fn searching(self, homotopy_search: HomotopySearch) -> Self {
+        Optimiser { homotopy_search, ..self }
     }
 }
 

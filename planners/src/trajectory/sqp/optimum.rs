@@ -21,7 +21,7 @@ pub struct Tolerances {
     pub iteration_limit: usize,
     /// Most [work](Statistics::work) of one descent; steps of a descent that goes nowhere pose up to four programmes.
     pub work_limit: usize,
-    /// Most work that the comparison of passing orders may take of one plan; what is left goes on with the next one.
+    /// Most work that the comparison of homotopy classes may take of one plan; what is left goes on with the next one.
     pub comparison_work_limit: usize,
     /// Tolerance of a QP subproblem in search of a cheaper optimum, as a share of what is missing to the cost to beat: a promise
     /// need not be more exact than that. On the recorded problems it saves a quarter of the iterations and costs no optimum.
@@ -79,7 +79,7 @@ pub struct Optimum {
     pub cost: Cost,
     /// How it was found.
     pub statistics: Statistics,
-    /// The cost of the cheapest optimum of another class of motion, if one was looked for and reached.
+    /// The cost of the cheapest optimum of another homotopy class, if one was looked for and reached.
     pub runner_up_cost: Option<f64>,
 }
 
@@ -107,8 +107,8 @@ pub enum DescentError {
         /// The work that it took.
         statistics: Statistics,
     },
-    /// An exploration that was given up: it entered a class of motion whose optimum is known.
-    #[error("led into a class of motion whose optimum is known")]
+    /// An exploration that was given up: it entered a homotopy class whose optimum is known.
+    #[error("led into a homotopy class whose optimum is known")]
     Settled(Statistics),
     /// The problem holds a number that is not finite.
     #[error("the problem has a cost that is not a number")]

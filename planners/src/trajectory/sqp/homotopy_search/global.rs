@@ -10,9 +10,9 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::participant::Participant;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::sqp::exploration::{Exploration, replace};
+use crate::trajectory::sqp::homotopy_class::HomotopyClass;
 use crate::trajectory::sqp::optimiser::Optimiser;
 use crate::trajectory::sqp::optimum::{DescentError, Optimum, Tolerances};
-use crate::trajectory::sqp::passing_class::PassingClass;
 use crate::trajectory::stage::StageSolver;
 
 /// Number of spread motions.
@@ -41,7 +41,7 @@ impl<S: StageSolver> Optimiser<S> {
                     replace(&mut best, reached);
                 }
                 Ok(Exploration::Dearer(found)) => best.iter_mut().for_each(|held| {
-                    let class = |optimum: &Optimum| PassingClass::of(problem, &optimum.iterate);
+                    let class = |optimum: &Optimum| HomotopyClass::of(problem, &optimum.iterate);
                     if class(&found) == class(held) {
                         held.add_work(&found.statistics)
                     } else {

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{HORIZON, SplitMix64, Vehicle, alone, iterate, lane_change, pair, problem};
-use interplay_planners::trajectory::PassingOrderSearch;
+use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::trajectory::terms::KeepOut;
 use interplay_planners::trajectory::{Optimiser, Participant, Penalty, Problem, Robust};
 use interplay_planners::{Corridor, Input, SafetyEllipse, State};
@@ -37,9 +37,9 @@ fn swerve(side: f64) -> Vec<Vec<Input>> {
 
 /// The optimum from a guess and what it costs, alone and looking across.
 fn optima(problem: &Problem, guess: &[Vec<Input>]) -> Option<[f64; 2]> {
-    let mut optimiser = Optimiser::new(Robust::default()).searching(PassingOrderSearch::Off);
+    let mut optimiser = Optimiser::new(Robust::default()).searching(HomotopySearch::Off);
     let alone = optimiser.optimise(problem, guess).ok()?;
-    optimiser.passing_orders = PassingOrderSearch::Classes;
+    optimiser.homotopy_search = HomotopySearch::Classes;
     let across = optimiser.optimise(problem, guess).ok()?;
     Some([alone.cost.total, across.cost.total])
 }

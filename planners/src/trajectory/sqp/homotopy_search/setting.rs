@@ -1,12 +1,12 @@
-//! How far an optimiser looks beyond the class of motion in which it begins.
+//! How far an optimiser looks beyond the homotopy class in which it begins.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Which passing orders (before or behind another vehicle, to its left or to its right) are looked at for a cheaper plan.
+/// Which homotopy classes (before or behind another vehicle, to its left or to its right) are looked at for a cheaper plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum PassingOrderSearch {
+pub enum HomotopySearch {
     /// None: a plan stays in the class of the plan before.
     Off,
     /// Those that simple motions reach, as long as they promise to be cheaper.

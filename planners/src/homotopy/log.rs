@@ -1,27 +1,26 @@
-//! Changes of passing orders as events.
+//! Changes of the homotopy class as events.
 
-use super::passing_orders;
-use crate::passing_order::PassingOrder;
+use super::{PlannedPassing, homotopy_class};
 use crate::{Plan, PlanEvent, PlanEventKind, Scene};
 
-/// The last order with respect to each vehicle that had one so far.
+/// How each vehicle was passed by the last plan that came near it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct PassingOrderLog {
-    known: Vec<PassingOrder>,
+pub(crate) struct HomotopyLog {
+    known: Vec<PlannedPassing>,
 }
 
-impl PassingOrderLog {
-    /// Writes its orders into a plan, and an event for each that is new or has changed.
+impl HomotopyLog {
+    /// Writes its homotopy class into a plan, and an event for each vehicle that is passed in a way that is new or has changed.
     pub(crate) fn note(&mut self, scene: &Scene, plan: &mut Plan) {
-        plan.passing_orders = passing_orders(scene, plan);
-        for order in &plan.passing_orders {
-            match self.known.iter_mut().find(|known| known.of == order.of) {
-                Some(known) if known == order => continue,
-                Some(known) => known.position = order.position,
-                None => self.known.push(order.clone()),
+        plan.homotopy_class = homotopy_class(scene, plan);
+        for passing in &plan.homotopy_class {
+            match self.known.iter_mut().find(|known| known.of == passing.of) {
+                Some(known) if known == passing => continue,
+                Some(known) => known.side = passing.side,
+                None => self.known.push(passing.clone()),
             }
-            let kind = PlanEventKind::PassingOrder(order.clone());
-            plan.events.push(PlanEvent { kind, text: order.sentence() });
+            let kind = PlanEventKind::Passing(passing.clone());
+            plan.events.push(PlanEvent { kind, text: passing.sentence() });
         }
     }
 }
@@ -32,10 +31,10 @@ mod tests {
     use crate::fixture::{agent, scene};
     use crate::predict::constant_velocity;
 
-    /// An order is an event when it is new and when it changes, and not in between.
+    /// A side is an event when it is new and when it changes, and not in between.
     #[test]
     fn a_change_is_told_once() {
-        let mut log = PassingOrderLog::default();
+        let mut log = HomotopyLog::default();
         let mut told = |other_x_m: f64| {
             let other = crate::Agent { name: "front".to_owned(), ..agent(other_x_m, 0.0, 0.0, 1.0) };
             let scene = scene(agent(0.0, 0.0, 0.0, 1.0), vec![other]);

@@ -1,10 +1,10 @@
-//! Passing orders: which classes of motion a problem has, and which of them holds the cheapest plan.
+//! The search over homotopy classes: which homotopy classes a problem has, and which of them holds the cheapest plan.
 //!
 //! A descent ends in the optimum of the class where it began: before or behind another vehicle, to its left or to its right.
 //! Which class is the cheapest no descent can tell. So before a plan is made the classes are enumerated:
 //!
 //! 1. A plan that touches no ellipse and violates nothing has no rival: without ellipses the problem has one optimum.
-//! 2. Otherwise simple motions ([`motions`]) are rolled out and sorted into classes ([`PassingClass`]). The cheapest of each other
+//! 2. Otherwise simple motions ([`motions`]) are rolled out and sorted into classes ([`HomotopyClass`]). The cheapest of each other
 //!    class represents it; classes out of reach have no representative. A plan that violates something is compared with
 //!    the representative of its own class, too.
 //! 3. Each class is bounded by what one Gauss-Newton step from its representative promises. Where that is less than the plan
@@ -20,19 +20,20 @@
 mod followed_road;
 mod global;
 mod motions;
+mod setting;
 mod start_outside;
 
 use super::comparison::{Round, Unfinished};
 use super::exploration::{Exploration, GivesUp, replace};
+use super::homotopy_class::HomotopyClass;
 use super::optimiser::Optimiser;
 use super::optimum::{DescentError, Optimum, Statistics, Tolerances};
-use super::passing_class::PassingClass;
-use super::search::PassingOrderSearch;
 use crate::Input;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::stage::{ACTIVE_MULTIPLIER, StageSolver};
 use motions::for_each_motion;
+pub use setting::HomotopySearch;
 
 /// Most classes that are examined in one comparison, the cheapest representatives first.
 const MAX_CLASSES: usize = 4;
@@ -47,14 +48,14 @@ const PLANS_AT_REST: [usize; 2] = [2, 4];
 
 /// The cheapest motion of a class.
 struct Representative {
-    class: PassingClass,
+    class: HomotopyClass,
     cost: f64,
     iterate: Iterate,
 }
 
 impl<S: StageSolver> Optimiser<S> {
-    /// The cheapest plan: descends from a guess (per participant, inputs), which decides a first class of motion, then compares it
-    /// with others as far as [`Optimiser::passing_orders`] says.
+    /// The cheapest plan: descends from a guess (per participant, inputs), which decides a first homotopy class, then compares it
+    /// with others as far as [`Optimiser::homotopy_search`] says.
     ///
     /// # Errors
     /// That of the descent from the guess, if no class has an optimum.
@@ -63,10 +64,10 @@ impl<S: StageSolver> Optimiser<S> {
         let trusted = self.tolerances.trust(&found);
         // What a descent has come to without an end has no multipliers to tell.
         let is_unfinished = found.as_ref().is_ok_and(|optimum| optimum.statistics.unfinished > 0);
-        match self.passing_orders {
-            PassingOrderSearch::Off if trusted => return found,
+        match self.homotopy_search {
+            HomotopySearch::Off if trusted => return found,
             _ if trusted && !(is_unfinished || self.has_rivals(problem)) => return found,
-            PassingOrderSearch::Global => return self.search_globally(problem, found),
+            HomotopySearch::Global => return self.search_globally(problem, found),
             _ => {}
         }
         let cost = found.as_ref().map_or(f64::INFINITY, |optimum| optimum.cost.total);
@@ -121,7 +122,7 @@ impl<S: StageSolver> Optimiser<S> {
         let mut round = std::mem::take(&mut self.comparison.round);
         // The class of a plan that violates something may hold a better one.
         let trusted = best.as_ref().ok().filter(|_| self.tolerances.trust(&best));
-        let own_class = trusted.map(|optimum| PassingClass::of(problem, &optimum.iterate));
+        let own_class = trusted.map(|optimum| HomotopyClass::of(problem, &optimum.iterate));
         let planned = best.as_ref().ok().map(|optimum| &optimum.iterate);
         let mut candidates = representatives(problem, planned, own_class);
         if problem.has_pairs() {
@@ -188,7 +189,7 @@ impl<S: StageSolver> Optimiser<S> {
         let gives_up = GivesUp { above: self.bar(best), settled: &round.settled };
         let explored = self.explore_class(problem, iterate, gives_up.above, Some(&gives_up), &tolerances);
         if let Ok(Exploration::Cheaper(found) | Exploration::Dearer(found)) = &explored {
-            round.settled.push(PassingClass::of(problem, &found.iterate));
+            round.settled.push(HomotopyClass::of(problem, &found.iterate));
         }
         let statistics = match explored {
             Ok(Exploration::Cheaper(found)) => {
@@ -224,10 +225,14 @@ impl<S: StageSolver> Optimiser<S> {
 }
 
 /// The cheapest simple motion of each class but one, the cheapest first; `planned` is what everybody plans so far.
-fn representatives(problem: &Problem, planned: Option<&Iterate>, without: Option<PassingClass>) -> Vec<Representative> {
+fn representatives(
+    problem: &Problem,
+    planned: Option<&Iterate>,
+    without: Option<HomotopyClass>,
+) -> Vec<Representative> {
     let mut found: Vec<Representative> = Vec::new();
     for_each_motion(problem, planned, |iterate| {
-        let class = PassingClass::of(problem, iterate);
+        let class = HomotopyClass::of(problem, iterate);
         if without == Some(class) {
             return;
         }

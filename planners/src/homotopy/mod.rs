@@ -1,22 +1,26 @@
-//! The passing order of a plan: on which side of each other vehicle it leads.
+//! The homotopy class of a plan: on which side of each other vehicle it leads.
+//!
+//! Two plans are in one class if one can be deformed into the other without driving through anybody (Bender et al., "The
+//! combinatorial aspect of motion planning: maneuver variants in structured environments", 2015).
 //!
 //! It is read off the plan and the predictions in plain geometry, so any plan has one, whoever made it.
 //!
 //! - **Roads that cross**: the plan goes *ahead* of the other if it reaches the other's path before the other reaches its
-//!   own, and *behind* it otherwise. While neither gets there within the plan the two have no order yet, and once one of
-//!   them is past the other's path the order is settled and no longer reported.
+//!   own, and *behind* it otherwise. While neither gets there within the plan this is open and not reported, and once one of
+//!   them is past the other's path it is settled and no longer reported.
 //! - **Roads side by side**: the sector around the other's predicted centre in which the plan ends, between the diagonals of
 //!   the safety ellipse's box: ahead, left, behind or right, as the other faces.
 //!
 //! The other's motion is its prediction; of a vehicle that the plan asks for something it is the proposed motion, which the
-//! plan relies on. Vehicles that the plan stays far from ([`RELEVANT_HALF_AXES`]) have no order.
+//! plan relies on. Vehicles that the plan stays far from ([`RELEVANT_HALF_AXES`]) have no part in the class.
 
 mod log;
+mod planned_passing;
 
-pub(crate) use log::PassingOrderLog;
+pub(crate) use log::HomotopyLog;
+pub use planned_passing::{PassingSide, PlannedPassing};
 
 use crate::encounter::PARALLEL_RAD;
-use crate::passing_order::{PassingOrder, PassingPosition};
 use crate::relation::Relation;
 use crate::road::network::RouteConflict;
 use crate::scene::ellipses;
@@ -25,19 +29,19 @@ use crate::{Agent, Axes, Plan, Scene, State};
 /// A vehicle is relevant if the plan comes nearer to it than this many half axes of the safety ellipse.
 const RELEVANT_HALF_AXES: f64 = 3.0;
 
-/// The order of a plan with respect to each relevant vehicle, in the scene's order.
-pub fn passing_orders(scene: &Scene, plan: &Plan) -> Vec<PassingOrder> {
-    let order = |other: &Agent| {
+/// How a plan passes each relevant vehicle, in the scene's order.
+pub fn homotopy_class(scene: &Scene, plan: &Plan) -> Vec<PlannedPassing> {
+    let passing = |other: &Agent| {
         let proposal = plan.proposals.iter().find(|proposal| proposal.to == other.name);
         let theirs = proposal.map_or(&other.prediction, |proposal| &proposal.trajectory);
-        let position = position(scene, other, &plan.trajectory.states, &theirs.states)?;
-        Some(PassingOrder { of: other.name.clone(), position })
+        let side = side(scene, other, &plan.trajectory.states, &theirs.states)?;
+        Some(PlannedPassing { of: other.name.clone(), side })
     };
-    scene.others.iter().filter_map(order).collect()
+    scene.others.iter().filter_map(passing).collect()
 }
 
-/// Where the states of a plan lead relative to a vehicle in motion; both begin at the present step.
-fn position(scene: &Scene, other: &Agent, own: &[State], theirs: &[State]) -> Option<PassingPosition> {
+/// On which side of a vehicle in motion the states of a plan lead; both begin at the present step.
+fn side(scene: &Scene, other: &Agent, own: &[State], theirs: &[State]) -> Option<PassingSide> {
     let centres: Vec<[f64; 2]> = theirs.iter().map(State::position).collect();
     let ellipses = ellipses(scene.goal.safety, &other.route, &centres);
     let places = own.iter().zip(&centres).zip(&ellipses);
@@ -47,12 +51,12 @@ fn position(scene: &Scene, other: &Agent, own: &[State], theirs: &[State]) -> Op
         return None;
     }
     match scene.ego.relation(other) {
-        Relation::Conflict(conflict) => return position_at_conflict(scene, other, conflict, own, theirs),
+        Relation::Conflict(conflict) => return side_at_conflict(scene, other, conflict, own, theirs),
         Relation::Apart => return None,
         Relation::Alongside | Relation::CrossingRoads => {}
     }
     if let Some(crossing) = Crossing::of(&scene.ego, other) {
-        return crossing.position(own, theirs);
+        return crossing.side(own, theirs);
     }
     let steps = own.len().min(theirs.len());
     let ([x, y], [other_x, other_y]) = (own[..steps].last()?.position(), theirs[..steps].last()?.position());
@@ -83,7 +87,7 @@ impl Crossing {
     }
 
     /// Who of two motions comes first, while that is open.
-    fn position(&self, own: &[State], theirs: &[State]) -> Option<PassingPosition> {
+    fn side(&self, own: &[State], theirs: &[State]) -> Option<PassingSide> {
         let relative = |(own, their): (&State, &State)| {
             let ([x, y], [other_x, other_y]) = (own.position(), their.position());
             [x - other_x, y - other_y]
@@ -96,25 +100,25 @@ impl Crossing {
 }
 
 /// Who of two motions comes first to where the routes meet, while that is open.
-fn position_at_conflict(
+fn side_at_conflict(
     scene: &Scene,
     other: &Agent,
     conflict: &RouteConflict,
     own: &[State],
     theirs: &[State],
-) -> Option<PassingPosition> {
+) -> Option<PassingSide> {
     let own_way_m = own.iter().map(|state| conflict.own_meeting_m - scene.ego.route.along(state.position()));
     let their_way_m = theirs.iter().map(|state| conflict.their_meeting_m - other.route.along(state.position()));
     first_to_arrive(arrival(own_way_m), arrival(their_way_m))
 }
 
 /// The order of two arrivals, while it is open.
-fn first_to_arrive(own: Arrival, their: Arrival) -> Option<PassingPosition> {
+fn first_to_arrive(own: Arrival, their: Arrival) -> Option<PassingSide> {
     match (own, their) {
         (Arrival::Past, _) | (_, Arrival::Past) | (Arrival::Never, Arrival::Never) => None,
-        (Arrival::After(own), Arrival::After(their)) if own > their => Some(PassingPosition::Behind),
-        (Arrival::Never, Arrival::After(_)) => Some(PassingPosition::Behind),
-        (Arrival::After(_), _) => Some(PassingPosition::Ahead),
+        (Arrival::After(own), Arrival::After(their)) if own > their => Some(PassingSide::Behind),
+        (Arrival::Never, Arrival::After(_)) => Some(PassingSide::Behind),
+        (Arrival::After(_), _) => Some(PassingSide::Ahead),
     }
 }
 
@@ -144,15 +148,15 @@ fn arrival(remaining_m: impl Iterator<Item = f64>) -> Arrival {
 }
 
 /// The sector of a position in half axes.
-fn sector([along, across]: [f64; 2]) -> PassingPosition {
+fn sector([along, across]: [f64; 2]) -> PassingSide {
     if along >= across.abs() {
-        PassingPosition::Ahead
+        PassingSide::Ahead
     } else if -along >= across.abs() {
-        PassingPosition::Behind
+        PassingSide::Behind
     } else if across > 0.0 {
-        PassingPosition::Left
+        PassingSide::Left
     } else {
-        PassingPosition::Right
+        PassingSide::Right
     }
 }
 
@@ -170,7 +174,7 @@ mod tests {
     }
 
     fn words(scene: &Scene, plan: &Plan) -> Vec<String> {
-        passing_orders(scene, plan).iter().map(PassingOrder::sentence).collect()
+        homotopy_class(scene, plan).iter().map(PlannedPassing::sentence).collect()
     }
 
     fn named(name: &str, agent: Agent) -> Agent {

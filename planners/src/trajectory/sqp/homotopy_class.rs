@@ -1,4 +1,4 @@
-//! The class of a motion: which way it goes round whom.
+//! The homotopy class of a motion: which way it goes round whom.
 
 use crate::Axes;
 use crate::trajectory::iterate::Iterate;
@@ -8,9 +8,9 @@ use crate::trajectory::terms::RowTerm;
 /// Most ellipses that are told apart; the classes of motions around further ones are not.
 const MAX_ELLIPSES: usize = 16;
 
-/// Which way a motion goes round a centre, seen from there.
+/// Which way a motion winds round a centre, seen from there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Way {
+enum Winding {
     /// Within an eighth of a turn of where it began: nobody has passed.
     #[default]
     Neither,
@@ -20,22 +20,22 @@ enum Way {
     Right,
 }
 
-/// The class of a motion in a problem: for every ellipse, in the order of the terms, the way round its centre.
+/// The homotopy class of a motion in a problem: for every ellipse, in the order of the terms, the way round its centre.
 ///
 /// Whoever begins beside another vehicle, to its left, and merges ahead of it goes round to the right; behind it, to the left.
 /// Whoever comes from behind and overtakes on the left goes round to the right. Crossing ahead of somebody and crossing
 /// behind are the two ways, too. How far a motion gets on its way makes no class of its own: no centre lies between.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct PassingClass {
-    ways: [Way; MAX_ELLIPSES],
+pub(super) struct HomotopyClass {
+    windings: [Winding; MAX_ELLIPSES],
 }
 
-impl PassingClass {
+impl HomotopyClass {
     /// The class of a motion that was rolled out.
-    pub fn of(problem: &Problem, iterate: &Iterate) -> PassingClass {
-        let mut class = PassingClass::default();
-        for (way, rows) in class.ways.iter_mut().zip(ellipses(problem)) {
-            *way = way_round(problem.horizon, rows, iterate);
+    pub fn of(problem: &Problem, iterate: &Iterate) -> HomotopyClass {
+        let mut class = HomotopyClass::default();
+        for (winding, rows) in class.windings.iter_mut().zip(ellipses(problem)) {
+            *winding = winding_round(problem.horizon, rows, iterate);
         }
         class
     }
@@ -47,12 +47,12 @@ fn ellipses(problem: &Problem) -> impl Iterator<Item = &dyn RowTerm> {
 }
 
 /// The way round the centre of an ellipse, in the plane where it is a circle.
-fn way_round(horizon: usize, rows: &dyn RowTerm, iterate: &Iterate) -> Way {
+fn winding_round(horizon: usize, rows: &dyn RowTerm, iterate: &Iterate) -> Winding {
     let mut course = Course::default();
     let (mut heading_rad, mut axes) = (0.0, Axes::WORLD);
     for stage in 0..horizon {
         let (Some(ellipse), Some(relative)) = (rows.ellipse(stage), rows.relative_position(stage, iterate)) else {
-            return Way::Neither;
+            return Winding::Neither;
         };
         if ellipse.heading_rad() != heading_rad {
             heading_rad = ellipse.heading_rad();
@@ -62,7 +62,7 @@ fn way_round(horizon: usize, rows: &dyn RowTerm, iterate: &Iterate) -> Way {
         let [along, across] = axes.components(relative);
         course.go_to([along / shape.along_m, across / shape.across_m]);
     }
-    course.way()
+    course.winding()
 }
 
 /// A course about a centre: quarters of a turn, counted from the direction in which it began.
@@ -87,11 +87,11 @@ impl Course {
         self.last = now;
     }
 
-    fn way(&self) -> Way {
+    fn winding(&self) -> Winding {
         match self.quarters {
-            0 => Way::Neither,
-            1.. => Way::Left,
-            _ => Way::Right,
+            0 => Winding::Neither,
+            1.. => Winding::Left,
+            _ => Winding::Right,
         }
     }
 }
@@ -110,32 +110,32 @@ fn quarter([ahead, left]: [f64; 2]) -> i32 {
 mod tests {
     use super::*;
 
-    fn way(path: &[[f64; 2]]) -> Way {
+    fn winding(path: &[[f64; 2]]) -> Winding {
         let mut course = Course::default();
         path.iter().for_each(|position| course.go_to(*position));
-        course.way()
+        course.winding()
     }
 
     #[test]
     fn overtaking_on_the_left_goes_round_to_the_right_and_staying_behind_nowhere() {
         let (left, right) =
             ([[-2.0, 0.1], [-1.0, 1.5], [1.0, 1.5], [2.0, 0.1]], [[-2.0, 0.1], [0.0, -1.5], [2.0, 0.1]]);
-        assert_eq!((way(&left), way(&right)), (Way::Right, Way::Left));
-        assert_eq!(way(&left[..1]), Way::Neither);
-        assert_eq!(way(&[[-2.0, 0.1], [-1.2, 0.0], [-1.1, -0.1]]), Way::Neither);
+        assert_eq!((winding(&left), winding(&right)), (Winding::Right, Winding::Left));
+        assert_eq!(winding(&left[..1]), Winding::Neither);
+        assert_eq!(winding(&[[-2.0, 0.1], [-1.2, 0.0], [-1.1, -0.1]]), Winding::Neither);
     }
 
     /// A motion that jumps across in one step goes round the way that its chord passes the centre.
     #[test]
     fn a_jump_across_goes_the_way_its_chord_passes() {
-        assert_eq!(way(&[[-2.0, 0.1], [2.0, 0.1]]), Way::Right, "over the left");
-        assert_eq!(way(&[[-2.0, -0.1], [2.0, -0.1]]), Way::Left, "over the right");
+        assert_eq!(winding(&[[-2.0, 0.1], [2.0, 0.1]]), Winding::Right, "over the left");
+        assert_eq!(winding(&[[-2.0, -0.1], [2.0, -0.1]]), Winding::Left, "over the right");
     }
 
     #[test]
     fn merging_ahead_and_merging_behind_are_the_two_ways() {
         let beside = [0.1, 1.2];
-        assert_eq!(way(&[beside, [0.8, 0.9], [1.3, 0.0]]), Way::Right);
-        assert_eq!(way(&[beside, [-0.8, 0.9], [-1.3, 0.0]]), Way::Left);
+        assert_eq!(winding(&[beside, [0.8, 0.9], [1.3, 0.0]]), Winding::Right);
+        assert_eq!(winding(&[beside, [-0.8, 0.9], [-1.3, 0.0]]), Winding::Left);
     }
 }
