@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::road::centre_line::RoadPoint;
+use crate::road::centre_line::FrenetPoint;
 use crate::{Axes, Bicycle, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
 
 /// A vehicle as anyone sees it.
@@ -79,7 +79,7 @@ impl Scene {
             return vec![(self.goal.axes(), target); positions.len()];
         }
         let across_m = route.across(target);
-        let beside = |at: RoadPoint| (Axes::along(at.heading_rad), route.position(at.along_m, across_m));
+        let beside = |at: FrenetPoint| (Axes::along(at.heading_rad), route.position(at.along_m, across_m));
         route.locate_all(positions).map(beside).collect()
     }
 

@@ -4,7 +4,7 @@ mod common;
 
 use common::world::{LANES, Run, Vehicle, human, run, vehicle};
 use interplay_planners::human::Style;
-use interplay_planners::road::centre_line::RoadPoint;
+use interplay_planners::road::centre_line::FrenetPoint;
 use interplay_planners::{Driver, conservative, negotiation};
 
 /// The ego changes lanes ahead of, between or behind two faster humans.
@@ -57,7 +57,7 @@ fn towards_a_standing_car(driver: Driver, ahead_m: f64) -> (f64, f64) {
     let (mut gap_m, mut beyond_m) = (f64::INFINITY, 0.0_f64);
     for state in run.states.iter().map(|states| states[0]) {
         gap_m = gap_m.min(ahead_m - state.x_m - agent.body.front_m - agent.body.rear_m);
-        let clearances = agent.route.clearances(&agent.body, &state, &RoadPoint::default());
+        let clearances = agent.route.clearances(&agent.body, &state, &FrenetPoint::default());
         beyond_m = clearances.iter().map(|corner| -corner.value).fold(beyond_m, f64::max);
     }
     (gap_m, beyond_m)

@@ -9,7 +9,7 @@ use common::world::{Run, begin, egos, lane_change, moved_to, run};
 use common::{HORIZON, SplitMix64, iterate, lane_change as change_of_lanes};
 use interplay_planners::human::Style::{Nice, Tough};
 use interplay_planners::road::centre_line::{Piece, smooth};
-use interplay_planners::trajectory::terms::{Comfort, RoadEdge, RoadTarget, RoadTracking, StopLine};
+use interplay_planners::trajectory::terms::{Comfort, FrenetTarget, FrenetTracking, RoadEdge, StopLine};
 use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, Term};
 use interplay_planners::{Body, CentreLine, Driver, Profile, Route, State, idm};
 
@@ -43,10 +43,10 @@ fn off_the_road(random: &mut SplitMix64) -> Problem {
     let participant = Participant { start, route_start: RouteStart::new(&route, &start), ..free.participant };
     let terms = vec![
         Term::Comfort(Comfort { vehicle: 0, weights: [0.1, 0.1] }),
-        Term::RoadTracking(RoadTracking {
+        Term::FrenetTracking(FrenetTracking {
             vehicle: 0,
             weights: [0.4, 1.0, 0.7, 2.0],
-            target: RoadTarget { along_m: 6.0, across_m: 0.2, speed_mps: 1.0 },
+            target: FrenetTarget { along_m: 6.0, across_m: 0.2, speed_mps: 1.0 },
             permitted_mps: vec![0.8; HORIZON],
             slips_rad: vec![0.03; HORIZON],
         }),

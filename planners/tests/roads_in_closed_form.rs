@@ -8,7 +8,7 @@ use common::derivatives::model;
 use common::{HORIZON, SplitMix64, iterate, lane_change};
 use interplay_planners::predict::steadily_along;
 use interplay_planners::road::centre_line::Piece;
-use interplay_planners::trajectory::terms::{Comfort, RoadEdge, RoadTarget, RoadTracking, Tracking};
+use interplay_planners::trajectory::terms::{Comfort, FrenetTarget, FrenetTracking, RoadEdge, Tracking};
 use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, StageQp, Term};
 use interplay_planners::{Axes, Body, CentreLine, Corridor, Profile, Route, State, Trajectory};
 
@@ -41,14 +41,14 @@ fn twins(random: &mut SplitMix64) -> [Problem; 2] {
     let target = State { x_m, y_m, heading_rad, speed_mps };
     let tracking =
         Tracking { vehicle: 0, weights: WEIGHTS, axes: Axes::along(heading_rad), targets: vec![target; HORIZON] };
-    let road_tracking = RoadTracking {
+    let frenet_tracking = FrenetTracking {
         vehicle: 0,
         weights: WEIGHTS,
-        target: RoadTarget { along_m: along_m + 3.0, across_m, speed_mps },
+        target: FrenetTarget { along_m: along_m + 3.0, across_m, speed_mps },
         permitted_mps: Vec::new(),
         slips_rad: Vec::new(),
     };
-    [(Term::Tracking(tracking), straight), (Term::RoadTracking(road_tracking), pieced)].map(|(tracking, route)| {
+    [(Term::Tracking(tracking), straight), (Term::FrenetTracking(frenet_tracking), pieced)].map(|(tracking, route)| {
         let participant =
             Participant { start, route_start: RouteStart::new(&route, &start), ..free.participant.clone() };
         let edge = RoadEdge { vehicle: 0, body: Body::default(), route, penalty: PENALTY };
@@ -68,7 +68,7 @@ fn numbers(qp: &StageQp) -> Vec<f64> {
     costs.chain(rows.flat_map(|row| [row.value].into_iter().chain(row.gradient).chain(row.curvature))).collect()
 }
 
-/// In road coordinates, tracking and edges have the same value, gradient and Hessian as on a straight road.
+/// In Frenet coordinates, tracking and edges have the same value, gradient and Hessian as on a straight road.
 #[test]
 fn terms_on_a_straight_line_of_pieces_are_those_of_a_straight_road() {
     for seed in 0..50 {

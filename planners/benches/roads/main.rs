@@ -1,11 +1,11 @@
-//! What road coordinates cost: plans on a straight road beside plans on curved ones.
+//! What Frenet coordinates cost: plans on a straight road beside plans on curved ones.
 //!
 //! ```sh
 //! cargo bench -p interplay-planners --bench roads
 //! ```
 //!
 //! `road/PLANNER/ROAD`: the first four seconds of a lane change among nice drivers, all plans of the ego. `straight` is a straight
-//! road, `pieces` the same road as a line of straight pieces (the same plans in road coordinates, so the ratio is the price of these
+//! road, `pieces` the same road as a line of straight pieces (the same plans in Frenet coordinates, so the ratio is the price of these
 //! alone), and `bend` a turn with a radius of 20 m.
 
 #[path = "../../tests/common/mod.rs"]

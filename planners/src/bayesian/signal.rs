@@ -21,7 +21,7 @@
 use super::belief::PersuasionBelief;
 use super::{Settings, value};
 use crate::scene::ellipses;
-use crate::trajectory::terms::{DistanceCost, RoadTracking, Tracking};
+use crate::trajectory::terms::{DistanceCost, FrenetTracking, Tracking};
 use crate::trajectory::{Problem, Term};
 use crate::vehicle::OrientedEllipse;
 use crate::{Agent, Scene, Trajectory, conservative};
@@ -43,7 +43,9 @@ pub fn problem(
     if let Some(partner) = partner {
         let doubts = doubts(scene, belief);
         for term in &mut problem.terms {
-            if let Term::Tracking(Tracking { weights, .. }) | Term::RoadTracking(RoadTracking { weights, .. }) = term {
+            if let Term::Tracking(Tracking { weights, .. }) | Term::FrenetTracking(FrenetTracking { weights, .. }) =
+                term
+            {
                 weights.iter_mut().zip(doubts).for_each(|(weight, doubt)| *weight /= 1.0 - doubt);
             }
         }

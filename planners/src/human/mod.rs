@@ -167,7 +167,7 @@ fn pose(scene: &Scene, expected: &[Agent], settings: &Settings) -> Problem {
 fn wait_at(problem: &mut Problem, scene: &Scene, line_m: f64) {
     let ego = &scene.ego;
     for term in &mut problem.terms {
-        if let Term::RoadTracking(tracking) = term {
+        if let Term::FrenetTracking(tracking) = term {
             let approach_mps = ego.approach_speeds_mps(line_m, tracking.target.speed_mps, scene.horizon, scene.step_s);
             let permitted_mps = std::mem::take(&mut tracking.permitted_mps);
             let no_limits = std::iter::repeat(f64::INFINITY);

@@ -8,7 +8,9 @@ use std::sync::Arc;
 
 pub use joint::{JointVehicle, joint_problem};
 
-use crate::trajectory::terms::{Comfort, KeepOut, RoadEdge, RoadTarget, RoadTracking, Separation, StopLine, Tracking};
+use crate::trajectory::terms::{
+    Comfort, FrenetTarget, FrenetTracking, KeepOut, RoadEdge, Separation, StopLine, Tracking,
+};
 use crate::trajectory::{Participant, Penalty, RouteStart, Term};
 use crate::vehicle::{OrientedEllipse, slip_on_curve_rad};
 use crate::{Agent, Goal, Route, SafetyEllipse, Scene, Trajectory};
@@ -80,7 +82,7 @@ impl Scene {
         vec![comfort, self.tracking(vehicle, goal), Term::RoadEdge(self.ego.road_edge(vehicle))]
     }
 
-    /// What the planning vehicle pays for deviations from a goal: in road coordinates where its road is curved.
+    /// What the planning vehicle pays for deviations from a goal: in Frenet coordinates where its road is curved.
     fn tracking(&self, vehicle: usize, goal: &Goal) -> Term {
         let route = &self.ego.route;
         if route.straight().is_some() {
@@ -90,10 +92,14 @@ impl Scene {
         let wanted = route.locate(goal.target.position(), None);
         let near_m = self.ego.expected_along_m(self.horizon, self.step_s);
         let permitted_mps = self.ego.permitted_speeds_mps(&near_m);
-        Term::RoadTracking(RoadTracking {
+        Term::FrenetTracking(FrenetTracking {
             vehicle,
             weights: goal.tracking,
-            target: RoadTarget { along_m: wanted.along_m, across_m: wanted.across_m, speed_mps: goal.target.speed_mps },
+            target: FrenetTarget {
+                along_m: wanted.along_m,
+                across_m: wanted.across_m,
+                speed_mps: goal.target.speed_mps,
+            },
             permitted_mps,
             slips_rad: self.ego.slips_rad(&near_m),
         })

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::road::centre_line::{RoadExpansion, RoadPoint};
+use crate::road::centre_line::{FrenetExpansion, FrenetPoint};
 use crate::steering::steer;
 use crate::vehicle::slip_on_curve_rad;
 use crate::{Agent, Body, Input, Limits, Route, Scene, State, Trajectory};
@@ -73,26 +73,26 @@ pub fn constant_velocity(state: &State, horizon: usize, step_s: f64) -> Trajecto
 
 /// The motion of a vehicle that keeps its speed and its angle to the road: on a straight road [`constant_velocity`].
 ///
-/// In road coordinates, with the angle `φ` of the motion to the road: `s′ = v cos φ/(1 − κ n)`, `n′ = v sin φ`, by Euler's
+/// In Frenet coordinates, with the angle `φ` of the motion to the road: `s′ = v cos φ/(1 − κ n)`, `n′ = v sin φ`, by Euler's
 /// method. The motion leads outward of the heading by the slip angle of the curve.
 pub fn steadily_along(route: &Route, body: &Body, state: &State, horizon: usize, step_s: f64) -> Trajectory {
     if route.straight().is_some() {
         return constant_velocity(state, horizon, step_s);
     }
     let mut at = route.locate(state.position(), None);
-    let slip_rad = |at: &RoadPoint| {
-        let stretch = (1.0 - at.curvature_1pm * at.across_m).max(RoadExpansion::MIN_STRETCH);
+    let slip_rad = |at: &FrenetPoint| {
+        let stretch = (1.0 - at.curvature_1pm * at.across_m).max(FrenetExpansion::MIN_STRETCH);
         slip_on_curve_rad(body.rear_axle_m, at.curvature_1pm / stretch)
     };
     let angle_rad = state.heading_rad + slip_rad(&at) - at.heading_rad;
     let (sin, cos) = libm::sincos(angle_rad);
     let mut states = vec![*state];
     for _ in 0..horizon {
-        let stretch = (1.0 - at.curvature_1pm * at.across_m).max(RoadExpansion::MIN_STRETCH);
+        let stretch = (1.0 - at.curvature_1pm * at.across_m).max(FrenetExpansion::MIN_STRETCH);
         let along_m = at.along_m + step_s * state.speed_mps * cos / stretch;
         let across_m = at.across_m + step_s * state.speed_mps * sin;
         let point = route.centre.at(along_m);
-        at = RoadPoint { along_m, across_m, heading_rad: point.heading_rad, curvature_1pm: point.curvature_1pm };
+        at = FrenetPoint { along_m, across_m, heading_rad: point.heading_rad, curvature_1pm: point.curvature_1pm };
         let [x_m, y_m] = route.position(along_m, across_m);
         states.push(State { x_m, y_m, heading_rad: point.heading_rad + angle_rad - slip_rad(&at), ..*state });
     }

@@ -1,10 +1,10 @@
 //! Following a road without an optimiser.
 
-use super::centre_line::RoadPoint;
+use super::centre_line::FrenetPoint;
 use crate::vehicle::slip_on_curve_rad;
 use crate::vehicle::{State, SteeringGeometry};
 
-impl RoadPoint {
+impl FrenetPoint {
     /// The steering angle with which a vehicle that is here comes to a lateral position \[rad\]. In a curve it also turns at the
     /// rate of the road, and heads inward by the slip angle.
     pub(crate) fn steer(&self, geometry: &SteeringGeometry, state: &State, lateral_m: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! A point of the trajectory problem: inputs, and the states that follow from them.
 
-use crate::road::centre_line::RoadExpansion;
+use crate::road::centre_line::FrenetExpansion;
 use crate::{Input, State, Trajectory};
 
 /// Inputs and states of every deciding vehicle.
@@ -11,7 +11,7 @@ pub struct Iterate {
     /// Per vehicle, `N + 1` states.
     pub states: Vec<Vec<State>>,
     /// Per vehicle on a curved route, where its states at `t = 1…N` are beside it; empty for a vehicle on a straight one.
-    pub places: Vec<Vec<RoadExpansion>>,
+    pub frenet: Vec<Vec<FrenetExpansion>>,
 }
 
 impl Iterate {
@@ -21,8 +21,8 @@ impl Iterate {
     }
 
     /// Where a vehicle is beside its curved route after a stage; none on a straight one.
-    pub(super) fn place(&self, vehicle: usize, stage: usize) -> Option<&RoadExpansion> {
-        self.places[vehicle].get(stage)
+    pub(super) fn place(&self, vehicle: usize, stage: usize) -> Option<&FrenetExpansion> {
+        self.frenet[vehicle].get(stage)
     }
 
     /// The motion of one vehicle.

@@ -1,7 +1,7 @@
 //! A vehicle whose inputs are decided, with its hard bounds.
 
 use super::route_start::RouteStart;
-use crate::road::centre_line::RoadExpansion;
+use crate::road::centre_line::FrenetExpansion;
 use crate::{Bicycle, Input, Limits, State};
 
 /// One vehicle whose inputs are decided. What it wants and avoids is said by the problem's terms.
@@ -54,12 +54,12 @@ impl Participant {
             .collect()
     }
 
-    /// The states that inputs lead to (`N + 1`, the first its start), and their road coordinates at `t = 1…N`; none of these on a
+    /// The states that inputs lead to (`N + 1`, the first its start), and their Frenet coordinates at `t = 1…N`; none of these on a
     /// straight route.
-    pub(super) fn roll_out(&self, inputs: &[Input], states: &mut Vec<State>, places: &mut Vec<RoadExpansion>) {
-        places.clear();
+    pub(super) fn roll_out(&self, inputs: &[Input], states: &mut Vec<State>, frenet: &mut Vec<FrenetExpansion>) {
+        frenet.clear();
         match &self.route_start {
-            Some(start) => start.roll_out(&self.model, &self.start, inputs, states, places),
+            Some(start) => start.roll_out(&self.model, &self.start, inputs, states, frenet),
             None => self.model.roll_out(&self.start, inputs, states),
         }
     }

@@ -29,12 +29,12 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Rolls the inputs of an iterate out into its states, and finds their places beside curved routes.
+    /// Rolls the inputs of an iterate out into its states, and finds their Frenet coordinates on curved routes.
     pub fn roll_out(&self, iterate: &mut Iterate) {
         iterate.states.resize_with(self.participants.len(), Vec::new);
-        iterate.places.resize_with(self.participants.len(), Vec::new);
+        iterate.frenet.resize_with(self.participants.len(), Vec::new);
         for (i, participant) in self.participants.iter().enumerate() {
-            participant.roll_out(&iterate.inputs[i], &mut iterate.states[i], &mut iterate.places[i]);
+            participant.roll_out(&iterate.inputs[i], &mut iterate.states[i], &mut iterate.frenet[i]);
         }
     }
 

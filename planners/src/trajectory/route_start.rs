@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::road::centre_line::RoadExpansion;
+use crate::road::centre_line::FrenetExpansion;
 use crate::{Bicycle, Input, Route, State};
 
 /// A curved route, and where a vehicle starts beside it.
@@ -10,8 +10,8 @@ use crate::{Bicycle, Input, Route, State};
 pub struct RouteStart {
     /// The route.
     pub route: Arc<Route>,
-    /// Road coordinates of the start, with derivatives.
-    pub at: RoadExpansion,
+    /// Frenet coordinates of the start, with derivatives.
+    pub at: FrenetExpansion,
 }
 
 impl RouteStart {
@@ -21,7 +21,7 @@ impl RouteStart {
         route.straight().is_none().then(|| RouteStart { route: Arc::clone(route), at: at() })
     }
 
-    /// The states that inputs lead to, from the start on, and the road coordinates of all but the first.
+    /// The states that inputs lead to, from the start on, and the Frenet coordinates of all but the first.
     ///
     /// State by state: a processor finds the place of one state while it computes the next.
     pub(super) fn roll_out(
@@ -30,7 +30,7 @@ impl RouteStart {
         start: &State,
         inputs: &[Input],
         states: &mut Vec<State>,
-        places: &mut Vec<RoadExpansion>,
+        frenet: &mut Vec<FrenetExpansion>,
     ) {
         states.clear();
         states.push(*start);
@@ -40,14 +40,14 @@ impl RouteStart {
             place = self.after(&place, &state, &next);
             state = next;
             states.push(state);
-            places.push(place);
+            frenet.push(place);
         }
     }
 
-    /// Road coordinates of a state that follows another, whose place is known. The search begins where the expansion of that place
+    /// Frenet coordinates of a state that follows another, whose place is known. The search begins where the expansion of that place
     /// leads, which a motion misses by the third power of what it moves; so it stays on its branch of the line.
     #[inline(always)]
-    pub(super) fn after(&self, before: &RoadExpansion, from: &State, to: &State) -> RoadExpansion {
+    pub(super) fn after(&self, before: &FrenetExpansion, from: &State, to: &State) -> FrenetExpansion {
         let ([x0, y0], [x1, y1]) = (from.position(), to.position());
         let near_m = before.along_after_m([x1 - x0, y1 - y0]);
         self.route.centre.expand([x1, y1], Some(near_m))

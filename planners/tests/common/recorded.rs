@@ -204,7 +204,7 @@ impl Vehicle {
                     self.targets.truncate(1);
                 }
             }
-            Term::RoadTracking(of) if of.vehicle == vehicle => {
+            Term::FrenetTracking(of) if of.vehicle == vehicle => {
                 self.weights = of.weights;
                 self.road_goal = Some(RoadGoal::new(of));
             }
@@ -269,7 +269,7 @@ impl Vehicle {
             None => terms.extend([self.tracking(vehicle, horizon), self.straight_edge(vehicle)]),
             Some(curve) => {
                 let (body, route) = (self.body(), curve.route());
-                let in_road = |goal: &RoadGoal| Term::RoadTracking(goal.tracking(vehicle, self.weights));
+                let in_road = |goal: &RoadGoal| Term::FrenetTracking(goal.tracking(vehicle, self.weights));
                 terms.push(self.road_goal.as_ref().map_or_else(|| self.tracking(vehicle, horizon), in_road));
                 terms.push(Term::RoadEdge(curve.edge(vehicle, body, &route)));
                 let stop_line = |line: &Line| Term::StopLine(curve.stop_line(vehicle, &body, &route, line));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use interplay_planners::road::Stretch;
 use interplay_planners::road::centre_line::LinePolynomial;
 use interplay_planners::trajectory::Penalty;
-use interplay_planners::trajectory::terms::{RoadEdge, RoadTarget, RoadTracking, StopLine};
+use interplay_planners::trajectory::terms::{FrenetTarget, FrenetTracking, RoadEdge, StopLine};
 use interplay_planners::{Body, CentreLine, LaneEnd, Profile, Route};
 use serde::{Deserialize, Serialize};
 
@@ -99,8 +99,8 @@ impl Curve {
 
 impl RoadGoal {
     /// The record of a tracking cost.
-    pub fn new(of: &RoadTracking) -> Self {
-        let RoadTarget { along_m, across_m, speed_mps } = of.target;
+    pub fn new(of: &FrenetTracking) -> Self {
+        let FrenetTarget { along_m, across_m, speed_mps } = of.target;
         RoadGoal {
             target: [along_m, across_m, speed_mps],
             permitted: of.permitted_mps.clone(),
@@ -109,12 +109,12 @@ impl RoadGoal {
     }
 
     /// The tracking cost.
-    pub fn tracking(&self, vehicle: usize, weights: [f64; 4]) -> RoadTracking {
+    pub fn tracking(&self, vehicle: usize, weights: [f64; 4]) -> FrenetTracking {
         let [along_m, across_m, speed_mps] = self.target;
-        RoadTracking {
+        FrenetTracking {
             vehicle,
             weights,
-            target: RoadTarget { along_m, across_m, speed_mps },
+            target: FrenetTarget { along_m, across_m, speed_mps },
             permitted_mps: self.permitted.clone(),
             slips_rad: self.slips.clone(),
         }

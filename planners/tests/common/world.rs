@@ -117,7 +117,7 @@ pub fn intersection(ego: Driver, crossing: Style, away_m: f64) -> Vec<Vehicle> {
     vec![ego, human]
 }
 
-/// Places vehicles of a straight road at the same road coordinates of another one that is as wide, and begins 3 m earlier.
+/// Places vehicles of a straight road at the same Frenet coordinates of another one that is as wide, and begins 3 m earlier.
 pub fn moved_to(route: &Arc<Route>, mut vehicles: Vec<Vehicle>) -> Vec<Vehicle> {
     for vehicle in &mut vehicles {
         let agent = &mut vehicle.agent;

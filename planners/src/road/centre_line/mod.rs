@@ -2,7 +2,7 @@
 //!
 //! A [`CentreLine`] is built from straight, arc and clothoid [`Piece`]s ([`CentreLine::from_pieces`]), as a smooth curve
 //! through points ([`CentreLine::through`], for measured points after [`smooth_points`]), or from other lines ([`CentreLine::between`], [`CentreLine::parallel`],
-//! [`CentreLine::joined`]). It answers where a position is in road coordinates: the arc length `s` along the line and the
+//! [`CentreLine::joined`]). It answers where a position is in Frenet coordinates: the arc length `s` along the line and the
 //! signed lateral distance `n`, positive to the left ([`CentreLine::project`], [`CentreLine::expand`]).
 //!
 //! # Representation
@@ -15,6 +15,7 @@
 mod chord;
 mod error;
 mod fit;
+mod frenet;
 mod gauss_legendre;
 mod joining;
 mod line;
@@ -25,7 +26,6 @@ mod plane;
 mod polynomials;
 mod projection;
 mod reparametrisation;
-mod road_point;
 mod segment;
 mod smoothing;
 mod spline;
@@ -34,9 +34,9 @@ mod spline;
 mod tests;
 
 pub use error::CentreLineError;
+pub use frenet::{FrenetExpansion, FrenetPoint};
 pub use joining::{JoinedLine, LineSection};
 pub use line::{CentreLine, LinePoint};
 pub use line_polynomial::LinePolynomial;
 pub use pieces::{Piece, smooth};
-pub use road_point::{RoadExpansion, RoadPoint};
 pub use smoothing::smooth_points;

@@ -1,17 +1,17 @@
-//! Road coordinates of a position: its nearest point on a centre line, with derivatives.
+//! Frenet coordinates of a position: its nearest point on a centre line, with derivatives.
 
+use super::frenet::{AcrossExpansion, FrenetExpansion, FrenetPoint};
 use super::line::{CentreLine, Curve, CurvePoint, Shape};
 use super::nearest::SearchStep;
 use super::plane::{cross, dot};
-use super::road_point::{AcrossExpansion, RoadExpansion, RoadPoint};
 
 impl Curve {
-    /// Road coordinates of a position, searched from `near_m` on or on the whole curve.
+    /// Frenet coordinates of a position, searched from `near_m` on or on the whole curve.
     ///
     /// Where the first step of the search is the last one, as from a place that an expansion has led to, nothing passes through
     /// memory.
     #[inline(always)]
-    fn locate<R: RoadReading>(&self, position: [f64; 2], near_m: Option<f64>) -> R {
+    fn locate<R: FrenetReading>(&self, position: [f64; 2], near_m: Option<f64>) -> R {
         let Some(near_m) = near_m.filter(|near_m| near_m.is_finite()) else {
             return self.locate_anywhere(position);
         };
@@ -24,7 +24,7 @@ impl Curve {
     }
 
     #[inline(never)]
-    fn locate_from<'a, R: RoadReading>(
+    fn locate_from<'a, R: FrenetReading>(
         &'a self,
         position: [f64; 2],
         near_m: f64,
@@ -35,24 +35,24 @@ impl Curve {
     }
 
     #[inline(never)]
-    fn locate_anywhere<R: RoadReading>(&self, position: [f64; 2]) -> R {
+    fn locate_anywhere<R: FrenetReading>(&self, position: [f64; 2]) -> R {
         let (along_m, point) = self.nearest(position);
         R::at(position, along_m, &point)
     }
 }
 
-/// Road coordinates that are read off the nearest point of a curve.
-trait RoadReading {
+/// Frenet coordinates that are read off the nearest point of a curve.
+trait FrenetReading {
     /// Those of a position whose nearest point lies at an arc length.
     fn at(position: [f64; 2], along_m: f64, point: &CurvePoint) -> Self;
 }
 
-impl RoadReading for RoadPoint {
+impl FrenetReading for FrenetPoint {
     #[inline(always)]
-    fn at(position: [f64; 2], along_m: f64, point: &CurvePoint) -> RoadPoint {
+    fn at(position: [f64; 2], along_m: f64, point: &CurvePoint) -> FrenetPoint {
         let [place, first, ..] = point.jet;
         let apart = [position[0] - place[0], position[1] - place[1]];
-        RoadPoint {
+        FrenetPoint {
             along_m,
             across_m: cross(first, apart) * point.inverse_speed(),
             heading_rad: point.heading_rad(),
@@ -61,7 +61,7 @@ impl RoadReading for RoadPoint {
     }
 }
 
-impl RoadReading for AcrossExpansion {
+impl FrenetReading for AcrossExpansion {
     #[inline(always)]
     fn at(position: [f64; 2], _along_m: f64, point: &CurvePoint) -> AcrossExpansion {
         Foot::of(position, point).across()
@@ -79,32 +79,32 @@ impl CentreLine {
     /// The result is finite for every position up to `1e100` m. At the centre of curvature the nearest point is not unique, and
     /// which of the nearest points is returned depends on `near_m`.
     #[inline]
-    pub fn project(&self, position: [f64; 2], near_m: Option<f64>) -> RoadPoint {
+    pub fn project(&self, position: [f64; 2], near_m: Option<f64>) -> FrenetPoint {
         let curve = match &self.0 {
             Shape::Straight { heading_rad, cos, sin } => {
                 let [along_m, across_m] = straight_coordinates(*cos, *sin, position);
-                return RoadPoint { along_m, across_m, heading_rad: *heading_rad, curvature_1pm: 0.0 };
+                return FrenetPoint { along_m, across_m, heading_rad: *heading_rad, curvature_1pm: 0.0 };
             }
             Shape::Curve(curve) => curve,
         };
         curve.locate(position, near_m)
     }
 
-    /// Like [`CentreLine::project`], with the derivatives over the position that [`RoadExpansion`] states.
+    /// Like [`CentreLine::project`], with the derivatives over the position that [`FrenetExpansion`] states.
     ///
     /// The third derivative of the line is continuous between knots only, and so is the second derivative of `s`.
     #[inline(always)]
-    pub fn expand(&self, position: [f64; 2], near_m: Option<f64>) -> RoadExpansion {
+    pub fn expand(&self, position: [f64; 2], near_m: Option<f64>) -> FrenetExpansion {
         match &self.0 {
             Shape::Straight { heading_rad, cos, sin } => {
                 let [along_m, across_m] = straight_coordinates(*cos, *sin, position);
-                RoadExpansion {
+                FrenetExpansion {
                     along_m,
                     along_gradient: [*cos, *sin],
                     across_m,
                     across_gradient: [-sin, *cos],
                     heading_rad: *heading_rad,
-                    ..RoadExpansion::default()
+                    ..FrenetExpansion::default()
                 }
             }
             Shape::Curve(curve) => curve.locate(position, near_m),
@@ -131,7 +131,7 @@ fn straight_coordinates(cos: f64, sin: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     [cos * x + sin * y, -sin * x + cos * y]
 }
 
-/// What the road coordinates of a position and their derivatives share.
+/// What the Frenet coordinates of a position and their derivatives share.
 struct Foot {
     tangent: [f64; 2],
     normal: [f64; 2],
@@ -152,7 +152,7 @@ impl Foot {
         let normal = [-tangent[1], tangent[0]];
         let across_m = dot(normal, [position[0] - place[0], position[1] - place[1]]);
         let curvature = cross(tangent, second) * (slowness * slowness);
-        let inverse_stretch = 1.0 / (1.0 - curvature * across_m).max(RoadExpansion::MIN_STRETCH);
+        let inverse_stretch = 1.0 / (1.0 - curvature * across_m).max(FrenetExpansion::MIN_STRETCH);
         Foot { tangent, normal, slowness, across_m, curvature, inverse_stretch }
     }
 
@@ -171,9 +171,9 @@ impl Foot {
     }
 }
 
-impl RoadReading for RoadExpansion {
+impl FrenetReading for FrenetExpansion {
     #[inline(always)]
-    fn at(position: [f64; 2], along_m: f64, point: &CurvePoint) -> RoadExpansion {
+    fn at(position: [f64; 2], along_m: f64, point: &CurvePoint) -> FrenetExpansion {
         let [_, first, second, third] = point.jet;
         let foot = Foot::of(position, point);
         let Foot { tangent, normal, slowness, across_m, curvature, inverse_stretch } = foot;
@@ -185,7 +185,7 @@ impl RoadReading for RoadExpansion {
         let mixed = curvature * inverse_stretch * shrink;
         let along_bend = (curvature_slope * across_m * inverse_stretch - speed_slope * slowness) * (shrink * shrink);
         let AcrossExpansion { gradient: across_gradient, hessian: across_hessian, .. } = foot.across();
-        RoadExpansion {
+        FrenetExpansion {
             along_m,
             along_gradient: tangent.map(|component| component * shrink),
             along_hessian: [

@@ -217,7 +217,7 @@ fn beyond_the_centre_of_curvature_a_search_leaves_the_maximum() {
     // Inside of the clamp the derivatives are large and finite.
     let close = line.expand(line.position(middle_m, 9.9), Some(middle_m));
     let slope = libm::hypot(close.along_gradient[0], close.along_gradient[1]);
-    assert!((slope * RoadExpansion::MIN_STRETCH - 1.0).abs() < 1e-6, "{slope}");
+    assert!((slope * FrenetExpansion::MIN_STRETCH - 1.0).abs() < 1e-6, "{slope}");
 }
 
 #[test]

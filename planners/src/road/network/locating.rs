@@ -1,6 +1,6 @@
 //! The lanes that hold a position.
 
-use super::super::centre_line::RoadPoint;
+use super::super::centre_line::FrenetPoint;
 use super::road_network::{RoadNetwork, turn_rad};
 
 /// A position on a lane.
@@ -9,7 +9,7 @@ pub struct LanePlace {
     /// The name of the lane.
     pub lane: String,
     /// Where on the lane.
-    pub point: RoadPoint,
+    pub point: FrenetPoint,
     /// Heading less that of the lane there, between −π and π \[rad\].
     pub heading_error_rad: f64,
 }

@@ -1,6 +1,6 @@
-//! The strip of a route in road coordinates: where a position is, and how far a body is inside the edges.
+//! The strip of a route in Frenet coordinates: where a position is, and how far a body is inside the edges.
 
-use super::super::centre_line::RoadPoint;
+use super::super::centre_line::FrenetPoint;
 use super::super::corridor::LaneEnd;
 use super::route::Route;
 use crate::vehicle::{Body, PoseExpansion, State};
@@ -81,13 +81,13 @@ impl Frame {
 }
 
 impl Route {
-    /// Road coordinates of a position, searched from an arc length on where one is known.
-    pub fn locate(&self, position: [f64; 2], near_m: Option<f64>) -> RoadPoint {
+    /// Frenet coordinates of a position, searched from an arc length on where one is known.
+    pub fn locate(&self, position: [f64; 2], near_m: Option<f64>) -> FrenetPoint {
         self.centre.project(position, near_m)
     }
 
-    /// Road coordinates of the positions of a motion, each searched from the place of the one before.
-    pub fn locate_all(&self, positions: &[[f64; 2]]) -> impl Iterator<Item = RoadPoint> {
+    /// Frenet coordinates of the positions of a motion, each searched from the place of the one before.
+    pub fn locate_all(&self, positions: &[[f64; 2]]) -> impl Iterator<Item = FrenetPoint> {
         let mut near_m = None;
         positions.iter().map(move |position| {
             let at = self.locate(*position, near_m);
@@ -111,7 +111,7 @@ impl Route {
         self.locate(position, None).heading_rad
     }
 
-    /// The position with these road coordinates \[m\].
+    /// The position with these Frenet coordinates \[m\].
     pub fn position(&self, along_m: f64, across_m: f64) -> [f64; 2] {
         self.centre.position(along_m, across_m)
     }
@@ -145,7 +145,7 @@ impl Route {
     /// ∇h = ∇n − e′ ∇s,    ∇²h = ∇²n − e′ ∇²s − e″ ∇s ∇sᵀ
     /// ∂/∂θ = ∇h·c_θ,      ∂²/∂p∂θ = ∇²h c_θ,    ∂²/∂θ² = c_θᵀ ∇²h c_θ + ∇h·c_θθ
     /// ```
-    pub fn clearances(&self, body: &Body, state: &State, at: &RoadPoint) -> [PoseExpansion; 4] {
+    pub fn clearances(&self, body: &Body, state: &State, at: &FrenetPoint) -> [PoseExpansion; 4] {
         let mut rows = [PoseExpansion::default(); 4];
         self.write_clearances(f64::INFINITY, body, state, at, &mut rows);
         rows
@@ -159,7 +159,7 @@ impl Route {
         exact_m: f64,
         body: &Body,
         state: &State,
-        at: &RoadPoint,
+        at: &FrenetPoint,
         rows: &mut [PoseExpansion],
     ) {
         if let Some(corridor) = self.straight() {
@@ -194,7 +194,7 @@ impl Route {
 
     /// The values of [`Route::clearances`]; where one is positive, a positive lower bound may stand in its place. So most corners
     /// need no projection of their own.
-    pub fn clearance_bounds(&self, body: &Body, state: &State, at: &RoadPoint) -> [f64; 4] {
+    pub fn clearance_bounds(&self, body: &Body, state: &State, at: &FrenetPoint) -> [f64; 4] {
         if let Some(corridor) = self.straight() {
             return corridor.clearances(body, state).map(|corner| corner.value);
         }
@@ -219,7 +219,7 @@ impl Route {
     /// How far both right corners are at least inside the right edge, and both left ones inside the left edge, if these bounds are
     /// positive \[m\]. A corner is at most `beside + ahead |θ − ψ|` beside the mass centre, and by [`Frame::corner`] the line leaves
     /// its tangent by no more than `K reach²`.
-    fn inside_both_m(&self, body: &Body, state: &State, at: &RoadPoint) -> Option<[f64; 2]> {
+    fn inside_both_m(&self, body: &Body, state: &State, at: &FrenetPoint) -> Option<[f64; 2]> {
         let (ahead_m, beside_m, reach_m) = extents_m(body);
         if self.max_curvature_1pm * (at.across_m.abs() + reach_m) > 0.5 {
             return None;
@@ -238,7 +238,7 @@ impl Route {
     }
 
     /// What the corners of a body share.
-    fn frame(&self, body: &Body, state: &State, at: &RoadPoint) -> Frame {
+    fn frame(&self, body: &Body, state: &State, at: &FrenetPoint) -> Frame {
         let (_, _, reach_m) = extents_m(body);
         Frame {
             turn: libm::sincos(state.heading_rad),

@@ -4,7 +4,7 @@
 //!
 //! | shape | adds to the cost | terms |
 //! |---|---|---|
-//! | `StateCostTerm` | `φ_t(x_t)` | [`Tracking`], [`RoadTracking`], [`DistanceCost`] |
+//! | `StateCostTerm` | `φ_t(x_t)` | [`Tracking`], [`FrenetTracking`], [`DistanceCost`] |
 //! | change of input | `‖u_t − u_{t−1}‖²_R` | [`Comfort`] |
 //! | `RowTerm` | the penalty of `c_t(x_t) + s ≥ 0` at every stage | [`RoadEdge`], [`StopLine`], [`KeepOut`], [`Separation`] |
 //! | `TrajectoryTerm` | the penalty of one row over all states of a vehicle | [`Persuasion`], [`MeanSpeed`] |
@@ -13,11 +13,11 @@
 
 mod comfort;
 mod distance_cost;
+mod frenet_tracking;
 mod keep_out;
 mod mean_speed;
 mod persuasion;
 mod road_edge;
-mod road_tracking;
 mod separation;
 mod shape;
 mod stop_line;
@@ -25,11 +25,11 @@ mod tracking;
 
 pub use comfort::Comfort;
 pub use distance_cost::{DistanceCost, DistancePrice};
+pub use frenet_tracking::{FrenetTarget, FrenetTracking};
 pub use keep_out::KeepOut;
 pub use mean_speed::{MeanSpeed, MeanSpeedBound, SpeedMeasure};
 pub use persuasion::Persuasion;
 pub use road_edge::RoadEdge;
-pub use road_tracking::{RoadTarget, RoadTracking};
 pub use separation::Separation;
 pub(super) use shape::{MAX_ROWS_PER_STAGE, RowTerm, Shape, Subject, TrajectoryTerm};
 pub use stop_line::StopLine;
@@ -41,7 +41,7 @@ pub enum Term {
     /// Distance from a desired motion.
     Tracking(Tracking),
     /// Distance from a desired place and speed on a curved road.
-    RoadTracking(RoadTracking),
+    FrenetTracking(FrenetTracking),
     /// Changes of the input.
     Comfort(Comfort),
     /// Corners that stay on the road.
@@ -66,7 +66,7 @@ impl Term {
         let mut own = self.clone();
         let number = match &mut own {
             Term::Tracking(term) => &mut term.vehicle,
-            Term::RoadTracking(term) => &mut term.vehicle,
+            Term::FrenetTracking(term) => &mut term.vehicle,
             Term::Comfort(term) => &mut term.vehicle,
             Term::RoadEdge(term) => &mut term.vehicle,
             Term::StopLine(term) => &mut term.vehicle,
@@ -84,7 +84,7 @@ impl Term {
     pub(in crate::trajectory) fn shape(&self) -> Shape<'_> {
         match self {
             Term::Tracking(term) => Shape::StateCost(term),
-            Term::RoadTracking(term) => Shape::StateCost(term),
+            Term::FrenetTracking(term) => Shape::StateCost(term),
             Term::Comfort(term) => Shape::InputChange(term),
             Term::RoadEdge(term) => Shape::Rows(term),
             Term::StopLine(term) => Shape::Rows(term),

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use super::shape::{RowTerm, Subject};
-use crate::road::centre_line::RoadPoint;
+use crate::road::centre_line::FrenetPoint;
 use crate::trajectory::cost::Violation;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::penalty::Penalty;
@@ -38,8 +38,12 @@ impl RoadEdge {
 
 impl RoadEdge {
     /// Where the vehicle is beside a curved road. On a straight one the rows do not ask.
-    fn place(&self, stage: usize, iterate: &Iterate) -> RoadPoint {
-        if self.route.straight().is_some() { RoadPoint::default() } else { iterate.places[self.vehicle][stage].point() }
+    fn place(&self, stage: usize, iterate: &Iterate) -> FrenetPoint {
+        if self.route.straight().is_some() {
+            FrenetPoint::default()
+        } else {
+            iterate.frenet[self.vehicle][stage].point()
+        }
     }
 }
 

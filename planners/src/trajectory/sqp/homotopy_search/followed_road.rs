@@ -1,6 +1,6 @@
 //! The road along which a simple motion leads.
 
-use crate::road::centre_line::{RoadExpansion, RoadPoint};
+use crate::road::centre_line::{FrenetExpansion, FrenetPoint};
 use crate::trajectory::problem::Problem;
 use crate::trajectory::route_start::RouteStart;
 use crate::trajectory::terms::{Term, Tracking};
@@ -31,7 +31,7 @@ impl<'a> FollowedRoad<'a> {
             });
         };
         let wanted_m = problem.terms.iter().find_map(|term| match term {
-            Term::RoadTracking(tracking) if tracking.vehicle == vehicle && tracking.weights[1] > 0.0 => {
+            Term::FrenetTracking(tracking) if tracking.vehicle == vehicle && tracking.weights[1] > 0.0 => {
                 Some(tracking.target.across_m)
             }
             _ => None,
@@ -41,12 +41,12 @@ impl<'a> FollowedRoad<'a> {
     }
 
     /// Where a state is beside the road; `place` is its place beside a curved one.
-    pub fn at(&self, state: &State, place: Option<&RoadExpansion>) -> RoadPoint {
+    pub fn at(&self, state: &State, place: Option<&FrenetExpansion>) -> FrenetPoint {
         match self {
             FollowedRoad::Straight(tracking) => {
                 let [along_m, across_m] = tracking.axes.components(state.position());
                 let heading_rad = tracking.targets.last().map_or(0.0, |target| target.heading_rad);
-                RoadPoint { along_m, across_m, heading_rad, curvature_1pm: 0.0 }
+                FrenetPoint { along_m, across_m, heading_rad, curvature_1pm: 0.0 }
             }
             FollowedRoad::Curved { start, .. } => place.unwrap_or(&start.at).point(),
         }

@@ -5,7 +5,7 @@
 //! deciding vehicles one after the other does each of these while the others go on as planned, brake, or accelerate.
 
 use super::followed_road::FollowedRoad;
-use crate::road::centre_line::RoadExpansion;
+use crate::road::centre_line::FrenetExpansion;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::problem::Problem;
 use crate::trajectory::terms::Term;
@@ -29,14 +29,14 @@ const MAX_PARALLEL_SIN: f64 = 0.1;
 struct Motion {
     inputs: Vec<Input>,
     states: Vec<State>,
-    places: Vec<RoadExpansion>,
+    frenet: Vec<FrenetExpansion>,
 }
 
 impl Motion {
     /// The motion of a vehicle in an iterate.
     fn of(iterate: &Iterate, vehicle: usize) -> Motion {
-        let Iterate { inputs, states, places } = iterate;
-        Motion { inputs: inputs[vehicle].clone(), states: states[vehicle].clone(), places: places[vehicle].clone() }
+        let Iterate { inputs, states, frenet } = iterate;
+        Motion { inputs: inputs[vehicle].clone(), states: states[vehicle].clone(), frenet: frenet[vehicle].clone() }
     }
 }
 
@@ -47,12 +47,12 @@ pub(super) fn for_each_motion(problem: &Problem, planned: Option<&Iterate>, mut 
     let mut joint = Iterate {
         inputs: planned.iter().map(|motion| motion.inputs.clone()).collect(),
         states: planned.iter().map(|motion| motion.states.clone()).collect(),
-        places: planned.iter().map(|motion| motion.places.clone()).collect(),
+        frenet: planned.iter().map(|motion| motion.frenet.clone()).collect(),
     };
     let set = |joint: &mut Iterate, vehicle: usize, motion: &Motion| {
         joint.inputs[vehicle].clone_from(&motion.inputs);
         joint.states[vehicle].clone_from(&motion.states);
-        joint.places[vehicle].clone_from(&motion.places);
+        joint.frenet[vehicle].clone_from(&motion.frenet);
     };
     // Of two, the motions of the first beside those of the second are all that there are.
     let focused = if count > 2 { count } else { 1 };
@@ -159,11 +159,11 @@ fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> O
     for t in 0..problem.horizon {
         let input = participant.known_inputs.get(t).copied().unwrap_or_else(|| Input {
             acceleration_mps2: participant.reachable_acceleration(t, state.speed_mps, share * bound),
-            steering_rad: road.at(&state, motion.places.last()).steer(&geometry, &state, lateral_m),
+            steering_rad: road.at(&state, motion.frenet.last()).steer(&geometry, &state, lateral_m),
         });
         let next = participant.model.step(&state, &input);
         if let Some(start) = &participant.route_start {
-            motion.places.push(start.after(motion.places.last().unwrap_or(&start.at), &state, &next));
+            motion.frenet.push(start.after(motion.frenet.last().unwrap_or(&start.at), &state, &next));
         }
         state = next;
         motion.inputs.push(input);

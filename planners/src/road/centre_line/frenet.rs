@@ -1,8 +1,9 @@
-//! What road coordinates say of a position, with and without derivatives.
+//! Coordinates in the Frenet frame of a centre line, with and without derivatives: `s` along it, `n` across (Werling et al., "Optimal
+//! trajectory generation for dynamic street scenarios in a Frenet frame", 2010).
 
-/// Where a position is beside a centre line.
+/// A position in the Frenet frame of a centre line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RoadPoint {
+pub struct FrenetPoint {
     /// Arc length `s` of the nearest point; negative before the begin, above the length after the end \[m\].
     pub along_m: f64,
     /// Signed distance `n` from the line, positive to the left \[m\].
@@ -13,20 +14,20 @@ pub struct RoadPoint {
     pub curvature_1pm: f64,
 }
 
-impl RoadPoint {
+impl FrenetPoint {
     /// The arc length beside a place `[a, b]` along and across the line from here \[m\]: exact, to the fifth power of `κ a`, where
     /// the line is a circle.
     ///
     /// On a circle it is `s + atan(z)/κ` with `z = κ a/(1 − κ (n + b))`.
     pub(in crate::road) fn along_beside_m(&self, [a, b]: [f64; 2]) -> f64 {
-        let stretch = (1.0 - self.curvature_1pm * (self.across_m + b)).max(RoadExpansion::MIN_STRETCH);
+        let stretch = (1.0 - self.curvature_1pm * (self.across_m + b)).max(FrenetExpansion::MIN_STRETCH);
         let shift_m = a / stretch;
         let turn = self.curvature_1pm * shift_m;
         self.along_m + shift_m * (1.0 - turn * turn * (1.0 / 3.0))
     }
 }
 
-/// The road coordinates `(s, n)` of a position, expanded to second order over `(x, y)`.
+/// The Frenet coordinates `(s, n)` of a position, expanded to second order over `(x, y)`.
 ///
 /// With the curve `p(s)`, its speed `v = |p′|`, tangent `t`, normal `m` (to the left), curvature `κ` and `q = 1 − κ n`:
 ///
@@ -35,9 +36,9 @@ impl RoadPoint {
 /// - `∇²s = (κ/q² · (m tᵀ + t mᵀ) + (κ′ n/(v q³) − v′/(v² q²)) · t tᵀ)/v`
 ///
 /// where `′` is the derivative over `s`. Beyond the centre of curvature, where `q ≤ 0`, the derivatives do not exist. `q` is
-/// taken as at least [`RoadExpansion::MIN_STRETCH`].
+/// taken as at least [`FrenetExpansion::MIN_STRETCH`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RoadExpansion {
+pub struct FrenetExpansion {
     /// Arc length `s` of the nearest point \[m\].
     pub along_m: f64,
     /// First derivatives of `s` over (x, y).
@@ -60,7 +61,7 @@ pub struct RoadExpansion {
     pub curvature_1pm: f64,
 }
 
-/// The lateral coordinate `n` of a position, expanded to second order over `(x, y)`: a part of [`RoadExpansion`].
+/// The lateral coordinate `n` of a position, expanded to second order over `(x, y)`: a part of [`FrenetExpansion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::road) struct AcrossExpansion {
     /// `n` \[m\].
@@ -71,14 +72,14 @@ pub(in crate::road) struct AcrossExpansion {
     pub hessian: [f64; 3],
 }
 
-impl RoadExpansion {
+impl FrenetExpansion {
     /// Least value of `1 − κ n` in derivatives.
     pub const MIN_STRETCH: f64 = 0.05;
 
-    /// Only the road coordinates.
-    pub fn point(&self) -> RoadPoint {
-        let RoadExpansion { along_m, across_m, heading_rad, curvature_1pm, .. } = *self;
-        RoadPoint { along_m, across_m, heading_rad, curvature_1pm }
+    /// The coordinates without their derivatives.
+    pub fn point(&self) -> FrenetPoint {
+        let FrenetExpansion { along_m, across_m, heading_rad, curvature_1pm, .. } = *self;
+        FrenetPoint { along_m, across_m, heading_rad, curvature_1pm }
     }
 
     /// The arc length after a move `d`, to second order: `s + ∇s·d + ½ dᵀ ∇²s d` \[m\].

@@ -1,4 +1,4 @@
-//! Tracking in road coordinates: `Σ_{t=1…N} q_s (s − s*)² + q_n (n − n*)² + q_θ (θ − ψ(s))² + q_v (v − v*)²` (eq. 6.6 along a
+//! Tracking in Frenet coordinates: `Σ_{t=1…N} q_s (s − s*)² + q_n (n − n*)² + q_θ (θ − ψ(s))² + q_v (v − v*)²` (eq. 6.6 along a
 //! curved road), with `ψ` the direction of the road beside the vehicle, less the slip angle that the curve takes.
 //!
 //! With `e_θ = θ − ψ(s) + β_t`, whose gradient is `(−ψ′ ∇s, 1)`, the Gauss-Newton part of the Hessian is
@@ -7,19 +7,19 @@
 //! On a straight road this is [`Tracking`](super::Tracking).
 
 use super::shape::StateCostTerm;
-use crate::road::centre_line::RoadExpansion;
+use crate::road::centre_line::FrenetExpansion;
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::stage::StateCost;
 
 /// The tracking cost of one vehicle on a curved road: that of its participant's [`RouteStart`](crate::trajectory::RouteStart).
 #[derive(Clone, Debug, PartialEq)]
-pub struct RoadTracking {
+pub struct FrenetTracking {
     /// Whose states.
     pub vehicle: usize,
     /// Diagonal of `Q` on (position along the road, across it, θ, v).
     pub weights: [f64; 4],
     /// Desired arc length \[m\], lateral coordinate \[m\] and speed \[m/s\].
-    pub target: RoadTarget,
+    pub target: FrenetTarget,
     /// Highest permitted speeds at `t = 1…N`, which lower the desired one; `N` long, or empty without limits \[m/s\].
     pub permitted_mps: Vec<f64>,
     /// Slip angles of a vehicle that follows the road at `t = 1…N`, by which it heads outward of the road; `N` long, or empty for
@@ -29,7 +29,7 @@ pub struct RoadTracking {
 
 /// What a vehicle on a curved road wants.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RoadTarget {
+pub struct FrenetTarget {
     /// Arc length \[m\].
     pub along_m: f64,
     /// Lateral coordinate, positive to the left \[m\].
@@ -38,7 +38,7 @@ pub struct RoadTarget {
     pub speed_mps: f64,
 }
 
-impl RoadTracking {
+impl FrenetTracking {
     /// The desired speed at a stage \[m/s\].
     fn speed_mps(&self, stage: usize) -> f64 {
         let permitted_mps = self.permitted_mps.get(stage).copied().unwrap_or(f64::INFINITY);
@@ -46,8 +46,8 @@ impl RoadTracking {
     }
 
     /// Where the vehicle is beside its route.
-    fn place<'a>(&self, stage: usize, iterate: &'a Iterate) -> &'a RoadExpansion {
-        &iterate.places[self.vehicle][stage]
+    fn place<'a>(&self, stage: usize, iterate: &'a Iterate) -> &'a FrenetExpansion {
+        &iterate.frenet[self.vehicle][stage]
     }
 
     /// The slip angle at a stage \[rad\].
@@ -56,7 +56,7 @@ impl RoadTracking {
     }
 }
 
-impl StateCostTerm for RoadTracking {
+impl StateCostTerm for FrenetTracking {
     fn vehicle(&self) -> usize {
         self.vehicle
     }
