@@ -214,7 +214,7 @@ fn cheapest(problem: &Problem, seed: u64) -> f64 {
     let mut best = f64::INFINITY;
     for _ in 0..STARTS {
         let guess: Vec<Vec<Input>> = problem.participants.iter().map(|_| random_inputs(&mut random)).collect();
-        if let Ok(optimum) = Optimiser::resuming(Robust::default()).descend(problem, &guess) {
+        if let Ok(optimum) = Optimiser::receding_horizon(Robust::default()).descend(problem, &guess) {
             best = best.min(optimum.cost.total);
         }
     }

@@ -7,7 +7,7 @@
 //!
 //! Each game is solved once without a guess, over 30 steps of 0.1 s, to the tolerances of planners. *Local* is one
 //! descent whose certificate holds against small deviations; *all classes* compares the homotopy classes, for the joint motion
-//! and for each player's deviation. A game counts as solved if the descent or the replies in its place ended, nobody enters a safety ellipse by more than 0.001 (of `1 − d²`), and no
+//! and for each player's deviation. A game counts as solved if the descent or the best responses in its place ended, nobody enters a safety ellipse by more than 0.001 (of `1 − d²`), and no
 //! player gains more than 1e-4 by leaving. Shares have Wilson's 95 % interval. The times include the certificate.
 //!
 //! With a file, it writes the own problem of every player of the solved games, with the equilibrium as the guess, for
@@ -40,7 +40,7 @@ struct Solution {
     because: &'static str,
     time_ms: f64,
     departures: usize,
-    by_replies: bool,
+    by_best_responses: bool,
     /// Largest KKT residual of the descents that it comes from.
     residual: f64,
 }
@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     writeln!(
         out,
-        "| players | certificate | solved | 95 % interval | median ms | p99 ms | max ms | departures | by replies | residual above 1e-6 | unsolved because |"
+        "| players | certificate | solved | 95 % interval | median ms | p99 ms | max ms | departures | by responses | residual above 1e-6 | unsolved because |"
     )?;
     writeln!(out, "|---|---|---|---|---|---|---|---|---|---|---|")?;
     for players in 2..=4 {
@@ -95,8 +95,8 @@ fn own_problems(games: usize, seed: u64) -> Result<Vec<Recorded>, Box<dyn Error>
 fn find(problem: &Problem, all_classes: bool) -> Result<Equilibrium, DescentError> {
     let search = if all_classes { HomotopySearch::Classes } else { HomotopySearch::Off };
     let mut joint = joint_optimiser(search);
-    let mut replies = Optimiser::new(Robust::default()).searching(search);
-    equilibrium(&mut joint, &mut replies, problem, &[])
+    let mut responses = Optimiser::new(Robust::default()).searching(search);
+    equilibrium(&mut joint, &mut responses, problem, &[])
 }
 
 fn solve(problem: &Problem, all_classes: bool) -> Solution {
@@ -104,8 +104,8 @@ fn solve(problem: &Problem, all_classes: bool) -> Solution {
     let outcome = find(problem, all_classes);
     let time_ms = 1e3 * began.elapsed().as_secs_f64();
     let Ok(found) = outcome else {
-        let (departures, by_replies, residual) = (0, false, f64::INFINITY);
-        return Solution { solved: false, because: "failed", time_ms, departures, by_replies, residual };
+        let (departures, by_best_responses, residual) = (0, false, f64::INFINITY);
+        return Solution { solved: false, because: "failed", time_ms, departures, by_best_responses, residual };
     };
     let optimum = &found.optimum;
     let because = if optimum.statistics.unfinished > 0 {
@@ -117,9 +117,9 @@ fn solve(problem: &Problem, all_classes: bool) -> Solution {
     } else {
         ""
     };
-    let Equilibrium { departures, by_replies, .. } = found;
+    let Equilibrium { departures, by_best_responses, .. } = found;
     let residual = found.optimum.statistics.residual;
-    Solution { solved: because.is_empty(), because, time_ms, departures, by_replies, residual }
+    Solution { solved: because.is_empty(), because, time_ms, departures, by_best_responses, residual }
 }
 
 fn row(solutions: &[Solution]) -> String {
@@ -127,7 +127,7 @@ fn row(solutions: &[Solution]) -> String {
     times_ms.sort_by(f64::total_cmp);
     let quantile = |share: f64| times_ms[((times_ms.len() - 1) as f64 * share).round() as usize];
     let solved = solutions.iter().filter(|solution| solution.solved).count();
-    let by_replies = solutions.iter().filter(|solution| solution.solved && solution.by_replies).count();
+    let by_best_responses = solutions.iter().filter(|solution| solution.solved && solution.by_best_responses).count();
     let residuals = solutions.iter().filter(|solution| solution.solved && solution.residual > LARGEST_RESIDUAL).count();
     let [low, high] = wilson_interval(solved, solutions.len());
     let departures: usize = solutions.iter().map(|solution| solution.departures).sum();
@@ -136,7 +136,7 @@ fn row(solutions: &[Solution]) -> String {
         format!("{reason} {count}")
     });
     format!(
-        "{:.1} % | {:.1} to {:.1} | {:.2} | {:.2} | {:.1} | {departures} | {by_replies} | {residuals} | {} |",
+        "{:.1} % | {:.1} to {:.1} | {:.2} | {:.2} | {:.1} | {departures} | {by_best_responses} | {residuals} | {} |",
         100.0 * solved as f64 / solutions.len() as f64,
         100.0 * low,
         100.0 * high,

@@ -56,8 +56,8 @@ pub struct PlanEvent {
 pub enum PlanEventKind {
     /// The planner turns to another vehicle, by its name; to none if nobody is left.
     Partner(Option<String>),
-    /// The planner's own problem has no solution, and the plan is the conservative one; the optimiser's reason.
-    Retreat(String),
+    /// The planner's own problem has no solution, and the plan is the fallback, the conservative one; the optimiser's reason.
+    Fallback(String),
     /// The planner finds nothing to ask for; the optimiser's reason.
     NoProposal(String),
     /// The plan passes another vehicle in a way that is new or has changed.

@@ -16,8 +16,8 @@ const GAMES: usize = 20;
 
 fn solve(problem: &Problem) -> Equilibrium {
     let mut joint = Optimiser::new(Robust::default()).searching(HomotopySearch::Off);
-    let mut replies = joint.clone();
-    equilibrium(&mut joint, &mut replies, problem, &[]).expect("a joint optimum")
+    let mut responses = joint.clone();
+    equilibrium(&mut joint, &mut responses, problem, &[]).expect("a joint optimum")
 }
 
 /// The inputs of one player moved at random, by little or by much.
@@ -59,7 +59,7 @@ fn nobody_gains_by_a_random_deviation() {
     }
 }
 
-/// Where the descent of the joint problem is cut short, replies settle at an equilibrium, and nobody gains there by any random
+/// Where the descent of the joint problem is cut short, best responses settle at an equilibrium, and nobody gains there by any random
 /// deviation.
 #[test]
 fn replies_settle_where_the_joint_descent_does_not_end() {
@@ -68,10 +68,10 @@ fn replies_settle_where_the_joint_descent_does_not_end() {
     for game in 0..GAMES {
         let problem = joint_problem(&mut random, 3);
         let mut joint = Optimiser::new(Robust::default()).searching(HomotopySearch::Off);
-        let mut replies = joint.clone();
+        let mut responses = joint.clone();
         joint.tolerances.work_limit = 20;
-        let found = equilibrium(&mut joint, &mut replies, &problem, &[]).ok();
-        let Some(found) = found.filter(|found| found.by_replies) else { continue };
+        let found = equilibrium(&mut joint, &mut responses, &problem, &[]).ok();
+        let Some(found) = found.filter(|found| found.by_best_responses) else { continue };
         settled += 1;
         assert!(found.is_certified() && found.optimum.statistics.unfinished == 0, "game {game}: {:?}", found.gains);
         let iterate = &found.optimum.iterate;
@@ -83,7 +83,7 @@ fn replies_settle_where_the_joint_descent_does_not_end() {
             assert!(cost - least <= TOLERATED_GAIN, "game {game}: player {player} gains {}", cost - least);
         }
     }
-    assert!(settled >= 5, "replies were needed in {settled} games only");
+    assert!(settled >= 5, "responses were needed in {settled} games only");
 }
 
 /// Guesses that lead vehicles into one another are moved out of nearly all ellipses, at a lower cost; others stay.
@@ -141,10 +141,10 @@ fn a_motion_far_from_an_optimum_is_not_certified() {
     for _ in 0..GAMES {
         let problem = joint_problem(&mut random, 2);
         let mut joint = Optimiser::new(Robust::default()).searching(HomotopySearch::Off);
-        let mut replies = joint.clone();
+        let mut responses = joint.clone();
         joint.tolerances.residual = f64::INFINITY;
         let guess = vec![Vec::new(), Vec::new()];
-        let Ok(found) = equilibrium(&mut joint, &mut replies, &problem, &guess) else { continue };
+        let Ok(found) = equilibrium(&mut joint, &mut responses, &problem, &guess) else { continue };
         gains += usize::from(found.largest_gain() > TOLERATED_GAIN || found.departures > 0);
     }
     assert!(gains > 0, "no player noticed");

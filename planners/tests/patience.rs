@@ -19,9 +19,9 @@ fn last(ego: &Driver) -> usize {
 }
 
 /// A conservative ego merges between the two from each of these starts. One that asks the tough driver five times before it gives up
-/// comes too late for that at one start in six or more, one that minds what its retreat costs at one in thirty at most.
+/// comes too late for that at one start in six or more, one that minds what its fallback costs at one in thirty at most.
 #[test]
-fn an_ego_that_asks_on_while_its_retreat_becomes_dearer_loses_its_place() {
+fn an_ego_that_asks_on_while_its_fallback_becomes_dearer_loses_its_place() {
     let minds = negotiation::Settings::default();
     let patient = negotiation::Settings { retreat_dearer_at_most: 1e6, ..minds };
     assert_eq!(last(&Driver::Conservative(conservative::Settings::default())), 0);

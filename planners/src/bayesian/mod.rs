@@ -6,7 +6,7 @@
 //! 1. chooses whom to persuade, one vehicle after the other;
 //! 2. reads from the change of the other's plan how loyal it is to it (`belief`, eq. 7.28), or from what it believes of the
 //!    other's driver where it infers plans, and from the change of its own plan how clear its signal is (eq. 7.27);
-//! 3. prices impressions by what the other's best reply to them is worth (`value`, eq. 7.18, 7.19);
+//! 3. prices impressions by what the other's best response to them is worth (`value`, eq. 7.18, 7.19);
 //! 4. solves for its own trajectory only (`signal`, eq. 7.23-7.26).
 //!
 //! The safety ellipse around the other's plan is a soft constraint with an exact penalty, as for the conservative planner.
@@ -28,7 +28,7 @@ use crate::conservative;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::Drive;
 use crate::encounter::{PartnerChoice, PartnerSequence};
-use crate::solo::Solved;
+use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
@@ -51,7 +51,7 @@ impl Bayesian {
     pub fn new(settings: Settings) -> Self {
         Bayesian {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
+            optimiser: Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders),
             partner: PartnerSequence::default(),
             belief: PersuasionBelief::initial(&settings),
             partner_plan: None,
@@ -71,7 +71,7 @@ impl Drive for Bayesian {
         self.observe(&choice, outlook);
         let problem = problem(scene, choice.partner, self.last.as_ref(), &self.belief, &self.settings);
         let Solved { problem, optimum, event } =
-            conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref())?;
+            conservative::solve_or_fall_back(&mut self.optimiser, scene, problem, self.last.as_ref())?;
         let diagnostics = self.diagnostics(&problem, &optimum);
         let trajectory = optimum.trajectory(0);
         if let Some(before) = &self.last {

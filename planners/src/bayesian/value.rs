@@ -1,8 +1,8 @@
-//! What the other's best reply is worth to the ego (eq. 7.18, 7.19).
+//! What the other's best response is worth to the ego (eq. 7.18, 7.19).
 //!
-//! To the other, its reply `x_s` costs `A‖x_s − x_sᴾ‖² − w_4‖x_s − x_e‖²` with `A = (1 + Σ_ω γ + ω) w_1`: it would like to
+//! To the other, its response `x_s` costs `A‖x_s − x_sᴾ‖² − w_4‖x_s − x_e‖²` with `A = (1 + Σ_ω γ + ω) w_1`: it would like to
 //! keep its plan `x_sᴾ` and to keep away from the ego at `x_e`. Norms are those of `ω`, i.e. weighted with `I′ᵀI′`, so that
-//! `‖x_sᴾ − x_e‖ = ω`. (With any other weight the division below is not possible.) The best reply is
+//! `‖x_sᴾ − x_e‖ = ω`. (With any other weight the division below is not possible.) The best response is
 //!
 //! ```text
 //! x_s* = (A x_sᴾ − w_4 x_e)/(A − w_4),     A > w_4                                            (7.18)
@@ -66,9 +66,9 @@ mod tests {
             prop_assert_eq!(k_3 < 0.0, (1.0 + spread) * w_1 < 3.0 * w_4);
         }
 
-        /// On the line through plan and ego, `r` being how far the reply is from the plan, away from the ego.
+        /// On the line through plan and ego, `r` being how far the response is from the plan, away from the ego.
         #[test]
-        fn nothing_serves_the_other_better_than_its_best_reply((w_1, w_4, spread, omega) in numbers(), r in -5.0..5.0) {
+        fn nothing_serves_the_other_better_than_its_best_response((w_1, w_4, spread, omega) in numbers(), r in -5.0..5.0) {
             let a = (1.0 + spread + omega) * w_1;
             let cost = |r: f64| a * r * r - w_4 * (omega + r) * (omega + r);
             let best = cost(w_4 * omega / (a - w_4));

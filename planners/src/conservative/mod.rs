@@ -4,16 +4,16 @@
 //! constraint with an exact penalty ([`Penalty::EXACT`](crate::trajectory::Penalty::EXACT)), so it holds wherever it can.
 
 pub mod diagnostics;
-mod retreat;
+mod fallback;
 mod settings;
 
-pub(crate) use retreat::{retreat, solve_or_retreat};
+pub(crate) use fallback::{fall_back, solve_or_fall_back};
 pub use settings::Settings;
 
 use crate::belief::Outlook;
 use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::Drive;
-use crate::solo::{self, Solved};
+use crate::receding_horizon::{self, Solved};
 use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
@@ -38,7 +38,7 @@ impl Conservative {
     pub fn new(settings: Settings) -> Self {
         Conservative {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
+            optimiser: Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders),
             last: None,
         }
     }
@@ -70,7 +70,7 @@ impl Conservative {
         let scene = &self.settings.prediction.applied_to(scene);
         let others: Vec<&Agent> = scene.others.iter().collect();
         let problem = problem(scene, &others);
-        let solved = solo::solve_or_improve(&mut self.optimiser, problem, self.last.as_ref())?;
+        let solved = receding_horizon::solve_or_improve(&mut self.optimiser, problem, self.last.as_ref())?;
         self.last = Some(solved.optimum.trajectory(0));
         Ok(solved)
     }

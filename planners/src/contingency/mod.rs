@@ -61,7 +61,7 @@ impl Contingency {
     pub fn new(settings: Settings) -> Self {
         Contingency {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
+            optimiser: Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders),
             last: Vec::new(),
         }
     }
@@ -86,7 +86,7 @@ impl Drive for Contingency {
             Err(error) => {
                 let last = std::mem::take(&mut self.last);
                 let last = last.first().map(|(_, motion)| motion);
-                Ok(conservative::answer(conservative::retreat(&mut self.optimiser, scene, last, &error)?))
+                Ok(conservative::answer(conservative::fall_back(&mut self.optimiser, scene, last, &error)?))
             }
         }
     }

@@ -64,7 +64,7 @@ impl Cooperative {
     pub fn new(settings: Settings) -> Self {
         Cooperative {
             settings,
-            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
+            optimiser: Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders),
             last: Vec::new(),
         }
     }
@@ -96,7 +96,7 @@ impl Drive for Cooperative {
             Err(error) => {
                 let last = std::mem::take(&mut self.last);
                 let last = last.get(own).map(|(_, trajectory)| trajectory);
-                Ok(conservative::answer(conservative::retreat(&mut self.optimiser, scene, last, &error)?))
+                Ok(conservative::answer(conservative::fall_back(&mut self.optimiser, scene, last, &error)?))
             }
         }
     }

@@ -1,21 +1,21 @@
 //! The game's two solutions.
 //!
 //! [`leader_follower`] is the source's procedure (eq. 8.8, 8.9), which it calls a Nash equilibrium: the ego chooses the
-//! `p_e` that serves it best when the other answers with its best reply. That is Stackelberg's solution.
+//! `p_e` that serves it best when the other answers with its best response. That is Stackelberg's solution.
 //!
 //! [`nash`] is a pair from which neither gains by deviating alone: a fixed point of `p ↦ reply_e(reply_s(p))`. As
-//! utilities are not concave in the own probability, replies may jump, so that an equilibrium need not exist; with the
+//! utilities are not concave in the own probability, responses may jump, so that an equilibrium need not exist; with the
 //! stakes that occur one nearly always does. The map is followed over the grid, and where it crosses the diagonal the
 //! crossing is refined and checked. Of several equilibria the source wants the mixed one: that with more
 //! intentions off their bounds wins, then the risk-dominant one (Harsanyi and Selten: the larger product of what the
 //! players lose by turning to the other end). Should there be none, the pair on the grid that tempts least is returned;
 //! [`GameSolution::temptation`] tells.
 
-use super::payoff::Player;
-use super::reply::{
-    GRID_CELL, GRID_POINTS, MAX_INTENTION, MIN_INTENTION, best_of, best_reply, grid_reply, intention, maximum,
+use super::best_response::{
+    GRID_CELL, GRID_POINTS, MAX_INTENTION, MIN_INTENTION, best_of, best_response, grid_response, intention, maximum,
     reply_near,
 };
+use super::payoff::Player;
 
 /// Utilities closer than this are equal.
 const MAX_EQUILIBRIUM_TEMPTATION: f64 = 1e-9;
@@ -39,16 +39,16 @@ pub struct GameSolution {
 
 /// The ego leads, the other follows (eq. 8.8, 8.9).
 ///
-/// The grid finds where maxima are. It rounds replies, and utilities may be steep in them, so that which maximum is the
-/// highest is told by exact replies.
+/// The grid finds where maxima are. It rounds responses, and utilities may be steep in them, so that which maximum is the
+/// highest is told by exact responses.
 pub fn leader_follower(ego: &Player, other: &Player) -> GameSolution {
     let rough: [f64; GRID_POINTS] =
-        std::array::from_fn(|own| ego.utility(intention(own), intention(grid_reply(other, own))));
-    let led = |own: f64| ego.utility(own, best_reply(other, own));
+        std::array::from_fn(|own| ego.utility(intention(own), intention(grid_response(other, own))));
+    let led = |own: f64| ego.utility(own, best_response(other, own));
     let peaks: Vec<f64> = (0..GRID_POINTS).filter(|own| is_peak(&rough, *own)).map(intention).collect();
     let highest = peaks.get(best_of(peaks.iter().map(|own| led(*own)))).copied().unwrap_or(MIN_INTENTION);
     let own = maximum(led, highest, GRID_CELL, LEADER_REFINEMENT_STEPS);
-    solution(ego, other, own, best_reply(other, own))
+    solution(ego, other, own, best_response(other, own))
 }
 
 /// Whether no neighbour has a larger value.
@@ -59,7 +59,7 @@ fn is_peak(values: &[f64], index: usize) -> bool {
 
 /// A mixed equilibrium.
 pub fn nash(ego: &Player, other: &Player) -> GameSolution {
-    let answers = [ego, other].map(|player| std::array::from_fn(|point| intention(grid_reply(player, point))));
+    let answers = [ego, other].map(|player| std::array::from_fn(|point| intention(grid_response(player, point))));
     let around = |own: f64| {
         let theirs = reply_near(other, own, between(&answers[1], own));
         reply_near(ego, theirs, between(&answers[0], theirs)) - own
@@ -67,7 +67,7 @@ pub fn nash(ego: &Player, other: &Player) -> GameSolution {
     let mut best: Option<(Rank, GameSolution)> = None;
     for bracket in crossings(&answers) {
         let own = root(around, bracket);
-        let found = solution(ego, other, own, best_reply(other, own));
+        let found = solution(ego, other, own, best_response(other, own));
         let rank = Rank::of(ego, other, &found);
         let tempting = found.temptation.iter().any(|gain| *gain > MAX_EQUILIBRIUM_TEMPTATION);
         if !tempting && best.as_ref().is_none_or(|(held, _)| rank.beats(held)) {
@@ -80,12 +80,12 @@ pub fn nash(ego: &Player, other: &Player) -> GameSolution {
 /// What a pair of intentions is worth to both, and how much it tempts them.
 pub(super) fn solution(ego: &Player, other: &Player, own: f64, theirs: f64) -> GameSolution {
     let utilities = [ego.utility(own, theirs), other.utility(theirs, own)];
-    let best = [ego.utility(best_reply(ego, theirs), theirs), other.utility(best_reply(other, own), own)];
+    let best = [ego.utility(best_response(ego, theirs), theirs), other.utility(best_response(other, own), own)];
     let temptation = [best[0] - utilities[0], best[1] - utilities[1]].map(|gain| gain.max(0.0));
     GameSolution { ego: own, other: theirs, utilities, temptation }
 }
 
-/// A reply between two grid points, if replies do not jump there.
+/// A response between two grid points, if responses do not jump there.
 fn between(answers: &[f64; GRID_POINTS], to: f64) -> f64 {
     let scaled = ((to - MIN_INTENTION) / GRID_CELL).clamp(0.0, (GRID_POINTS - 1) as f64);
     let point = (scaled as usize).min(GRID_POINTS - 2);
@@ -93,10 +93,10 @@ fn between(answers: &[f64; GRID_POINTS], to: f64) -> f64 {
     (1.0 - share) * answers[point] + share * answers[point + 1]
 }
 
-/// Where the replies to replies cross the diagonal: intervals of the ego's intention.
+/// Where the responses to responses cross the diagonal: intervals of the ego's intention.
 fn crossings([ego, other]: &[[f64; GRID_POINTS]; 2]) -> Vec<[f64; 2]> {
     let above = |point: usize| between(ego, other[point]) - intention(point);
-    // What a grid reply says is true to half a cell.
+    // What a grid response says is true to half a cell.
     let touches = |point: usize| above(point).abs() < GRID_CELL;
     let mut found: Vec<[f64; 2]> = Vec::new();
     for point in 0..GRID_POINTS {
@@ -170,10 +170,10 @@ impl Rank {
 fn least_tempting(ego: &Player, other: &Player) -> GameSolution {
     let mut best = GameSolution { temptation: [f64::INFINITY; 2], ..GameSolution::default() };
     let worst = |at: &GameSolution| at.temptation[0].max(at.temptation[1]);
-    let replies = |player: &Player| -> [f64; GRID_POINTS] {
-        std::array::from_fn(|point| player.utility(best_reply(player, intention(point)), intention(point)))
+    let responses = |player: &Player| -> [f64; GRID_POINTS] {
+        std::array::from_fn(|point| player.utility(best_response(player, intention(point)), intention(point)))
     };
-    let (ego_best, other_best) = (replies(ego), replies(other));
+    let (ego_best, other_best) = (responses(ego), responses(other));
     for i in 0..GRID_POINTS {
         for j in 0..GRID_POINTS {
             let (own, theirs) = (intention(i), intention(j));
@@ -245,9 +245,9 @@ mod tests {
             let [ego, other] = stakes.map(|stakes| THEORY.player(stakes));
             let led = leader_follower(&ego, &other);
             prop_assert_eq!(led.temptation[1], 0.0, "the follower follows");
-            // The optimum on the grid may miss a maximum next to a jump of the replies by part of a cell.
+            // The optimum on the grid may miss a maximum next to a jump of the responses by part of a cell.
             let margin = 2e-2 * (1.0 + stakes[0].turn);
-            prop_assert!(ego.utility(instead, best_reply(&other, instead)) <= led.utilities[0] + margin);
+            prop_assert!(ego.utility(instead, best_response(&other, instead)) <= led.utilities[0] + margin);
         }
     }
 

@@ -1,8 +1,8 @@
 //! Intention expression: the mean speeds at which the other reads the ego's intention (eq. 8.11-8.15).
 
 use super::Settings;
+use super::best_response::{MAX_INTENTION, MIN_INTENTION};
 use super::meeting::{Meeting, ObservedBehaviour};
-use super::reply::{MAX_INTENTION, MIN_INTENTION};
 use crate::Scene;
 use crate::trajectory::Penalty;
 use crate::trajectory::terms::{MeanSpeed, SpeedMeasure};

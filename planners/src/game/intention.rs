@@ -14,7 +14,7 @@
 //! Eq. 8.1 repeated reaches 1 exactly after some 37 steps, and then 8.12 has the logarithm of 0: posteriors are clipped to
 //! [0.05, 0.95] and forget a share towards ½ at every step.
 
-use super::reply::{MAX_INTENTION, MIN_INTENTION};
+use super::best_response::{MAX_INTENTION, MIN_INTENTION};
 
 /// What is expected of a vehicle that yields and of one that passes.
 #[derive(Clone, Copy, Debug, PartialEq)]

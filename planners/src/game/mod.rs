@@ -14,6 +14,7 @@
 //!
 //! [`GameForm`] chooses between the game as printed and the corrected one, which differs in steps 2 and 3.
 
+pub mod best_response;
 pub mod diagnostics;
 pub mod equilibrium;
 pub mod expression;
@@ -22,7 +23,6 @@ pub mod logit;
 pub mod meeting;
 pub mod payoff;
 pub mod prospect;
-pub mod reply;
 mod settings;
 
 pub use settings::{ExpressedBounds, ExpressedSpeed, GameForm, Settings, SolutionConcept};
@@ -32,18 +32,18 @@ use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::Drive;
 use crate::driver_estimate::{DriverEstimate, DriverModel};
 use crate::encounter::{PartnerChoice, PartnerSequence};
-use crate::solo::Solved;
+use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::{MeanSpeed, SpeedMeasure};
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Agent, Axes, Diagnostic, Plan, PlanError, Scene, Trajectory, conservative};
+use best_response::{MAX_INTENTION, MIN_INTENTION};
 use diagnostics as reported;
 use equilibrium::{GameSolution, leader_follower, nash, solution};
 use intention::forget;
 use logit::quantal_response;
 use meeting::{Meeting, ObservedBehaviour};
 use payoff::{Stakes, TabulatedTheory};
-use reply::{MAX_INTENTION, MIN_INTENTION};
 
 /// A planner that plays, with what it remembers.
 #[derive(Clone, Debug)]
@@ -94,7 +94,7 @@ impl Game {
         Game {
             settings,
             theory: TabulatedTheory::new(settings.prospect),
-            optimiser: Optimiser::resuming(Robust::default()).searching(settings.passing_orders),
+            optimiser: Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders),
             partner: PartnerSequence::default(),
             intentions: Intentions::at_first(&settings, 0.5),
             fastest_mps: [0.0; 2],
@@ -130,7 +130,7 @@ impl Drive for Game {
         }
         let problem = problem(scene, expressed.as_ref());
         let Solved { problem, optimum, event } =
-            conservative::solve_or_retreat(&mut self.optimiser, scene, problem, self.last.as_ref())?;
+            conservative::solve_or_fall_back(&mut self.optimiser, scene, problem, self.last.as_ref())?;
         let expressed = expressed.filter(|_| event.is_none());
         let diagnostics = self.diagnostics(scene, round.as_ref(), expressed.as_ref(), &problem, &optimum);
         let trajectory = optimum.trajectory(0);
@@ -207,8 +207,8 @@ impl Game {
         let [ego, other] = stakes.map(|stakes| self.theory.player(stakes));
         let played = match (settings.form, settings.solution) {
             (GameForm::Corrected, _) => {
-                let [reply, theirs] = quantal_response(&ego, &other, settings.temperature);
-                let damped = own + settings.damping * (reply - own);
+                let [response, theirs] = quantal_response(&ego, &other, settings.temperature);
+                let damped = own + settings.damping * (response - own);
                 solution(&ego, &other, damped.clamp(MIN_INTENTION, MAX_INTENTION), theirs)
             }
             (GameForm::AsPrinted, SolutionConcept::LeaderFollower) => leader_follower(&ego, &other),

@@ -188,7 +188,7 @@ impl Player<'_> {
         utility
     }
 
-    /// Of some intentions in hundredths, the best reply to `other` hundredths; the first of equals.
+    /// Of some intentions in hundredths, the best response to `other` hundredths; the first of equals.
     #[inline(always)]
     pub fn best_of(&self, own: impl Iterator<Item = i32>, other: i32) -> i32 {
         // A cumulated probability is `base + own · slope` ten-thousandths.

@@ -87,7 +87,7 @@ pub struct Human {
 impl Human {
     /// A driver who has not planned yet.
     pub fn new(settings: Settings) -> Self {
-        let mut optimiser = Optimiser::resuming(Robust::default()).searching(settings.passing_orders);
+        let mut optimiser = Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders);
         // Discomfort begins without a slope, so that two classes often cost nearly the same; and small problems are solved soon.
         optimiser.tolerances.exploration_share = 0.0;
         Human {

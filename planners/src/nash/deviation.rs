@@ -20,7 +20,7 @@ impl Deviation {
     /// The best one of a player that a solution of its own problem finds, and how that was found; the player's own motion where there
     /// is none.
     pub(super) fn of<S: StageSolver>(
-        replies: &mut Optimiser<S>,
+        responses: &mut Optimiser<S>,
         problem: &Problem,
         iterate: &Iterate,
         player: usize,
@@ -28,11 +28,11 @@ impl Deviation {
         let alone = problem.alone(player, iterate);
         let kept = vec![iterate.inputs[player].clone()];
         let cost = alone.cost_of(&kept);
-        let Ok(mut reply) = replies.optimise(&alone, &kept) else {
+        let Ok(mut response) = responses.optimise(&alone, &kept) else {
             let inputs = iterate.inputs[player].clone();
             return (Deviation { player, gain: 0.0, inputs }, None);
         };
-        let inputs = std::mem::take(&mut reply.iterate.inputs[0]);
-        (Deviation { player, gain: (cost - reply.cost.total).max(0.0), inputs }, Some(reply.statistics))
+        let inputs = std::mem::take(&mut response.iterate.inputs[0]);
+        (Deviation { player, gain: (cost - response.cost.total).max(0.0), inputs }, Some(response.statistics))
     }
 }

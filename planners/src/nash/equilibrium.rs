@@ -14,15 +14,15 @@
 //! `1/Z_i` in the costs, give the other ones.
 //!
 //! The descent of the sum takes long for two reasons. Inside an ellipse it is caught: the linear rows of stages before the centre
-//! point one way out and those behind it the other. So it begins outside (`Problem::start_outside`). Near a saddle, where two classes
-//! of motion part, the QP subproblem is not convex and the descent creeps. There it is cut short, and the players plan anew in turn from
-//! where it has come to, each against the plans of the others, until nobody gains (`best_replies.rs`).
+//! point one way out and those behind it the other. So it begins outside (`Problem::start_outside`). Near a saddle, where two homotopy classes
+//! part, the QP subproblem is not convex and the descent creeps. There it is cut short, and the players best-respond in turn from
+//! where it has come to, each against the plans of the others, until nobody gains (`best_responses.rs`).
 //!
 //! A local optimum of the sum is an equilibrium against small deviations. Whether it is one against all, the certificate says: each
 //! player's own problem is solved anew, from the equilibrium and in the other homotopy classes. A player who gains leaves, and
 //! the joint descent goes on from there; since the potential falls each time, this ends.
 
-use super::best_replies::best_replies;
+use super::best_responses::best_responses;
 use super::deviation::{Deviation, TOLERATED_GAIN};
 use super::prioritised::prioritised;
 use crate::Input;
@@ -40,8 +40,8 @@ pub struct Equilibrium {
     pub gains: Vec<f64>,
     /// How often a player who gained left before.
     pub departures: usize,
-    /// Whether replies settled here, since the descent of the joint problem did not end.
-    pub by_replies: bool,
+    /// Whether best responses settled here, since the descent of the joint problem did not end.
+    pub by_best_responses: bool,
 }
 
 impl Equilibrium {
@@ -59,7 +59,7 @@ impl Equilibrium {
 /// Finds an equilibrium of the players of a joint problem from a guess (per player, inputs); from an empty one, by letting the players
 /// plan one after the other first.
 ///
-/// `joint` solves the joint problem, and `replies` the problem of each player alone; where it compares the homotopy classes, the
+/// `joint` solves the joint problem, and `responses` the problem of each player alone; where it compares the homotopy classes, the
 /// certificate holds against deviations into other classes too. The result need not be certified: see
 /// [`Equilibrium::is_certified`].
 ///
@@ -67,16 +67,16 @@ impl Equilibrium {
 /// [`DescentError`] if the joint problem has no optimum.
 pub fn equilibrium<S: StageSolver>(
     joint: &mut Optimiser<S>,
-    replies: &mut Optimiser<S>,
+    responses: &mut Optimiser<S>,
     problem: &Problem,
     guess: &[Vec<Input>],
 ) -> Result<Equilibrium, DescentError> {
-    let first = guess.is_empty().then(|| prioritised(replies, problem));
+    let first = guess.is_empty().then(|| prioritised(responses, problem));
     let guess = first.as_deref().unwrap_or(guess);
-    let (mut optimum, by_replies) = joint_optimum(joint, replies, problem, guess)?;
+    let (mut optimum, by_best_responses) = joint_optimum(joint, responses, problem, guess)?;
     let mut departures = 0;
     loop {
-        let deviations = deviations(replies, problem, &optimum);
+        let deviations = deviations(responses, problem, &optimum);
         let best = deviations.iter().max_by(|a, b| a.gain.total_cmp(&b.gain));
         let next = match best {
             Some(best) if best.gain > TOLERATED_GAIN && departures < MOST_DEPARTURES => {
@@ -88,7 +88,7 @@ pub fn equilibrium<S: StageSolver>(
         };
         let Some(mut next) = next else {
             let gains = deviations.into_iter().map(|deviation| deviation.gain).collect();
-            return Ok(Equilibrium { optimum, gains, departures, by_replies });
+            return Ok(Equilibrium { optimum, gains, departures, by_best_responses });
         };
         next.statistics.add(&optimum.statistics);
         optimum = next;
@@ -96,11 +96,11 @@ pub fn equilibrium<S: StageSolver>(
     }
 }
 
-/// The optimum of the joint problem; where its descent does not end, the motions at which replies settle, from what it has come to or
+/// The optimum of the joint problem; where its descent does not end, the motions at which best responses settle, from what it has come to or
 /// from the guess, and whether they did.
 fn joint_optimum<S: StageSolver>(
     joint: &mut Optimiser<S>,
-    replies: &mut Optimiser<S>,
+    responses: &mut Optimiser<S>,
     problem: &Problem,
     guess: &[Vec<Input>],
 ) -> Result<(Optimum, bool), DescentError> {
@@ -111,15 +111,15 @@ fn joint_optimum<S: StageSolver>(
         Err(DescentError::NotConverged(reached)) => Some(reached.as_ref()),
         Err(_) => None,
     };
-    let nearby = reached.and_then(|reached| best_replies(replies, problem, &reached.iterate.inputs));
-    match nearby.or_else(|| best_replies(replies, problem, guess)) {
+    let nearby = reached.and_then(|reached| best_responses(responses, problem, &reached.iterate.inputs));
+    match nearby.or_else(|| best_responses(responses, problem, guess)) {
         Some(settled) => Ok((settled, true)),
         None => outcome.map(|optimum| (optimum, false)),
     }
 }
 
 /// The best deviation of each player that a solution of its own problem finds; of no gain where there is none.
-fn deviations<S: StageSolver>(replies: &mut Optimiser<S>, problem: &Problem, optimum: &Optimum) -> Vec<Deviation> {
+fn deviations<S: StageSolver>(responses: &mut Optimiser<S>, problem: &Problem, optimum: &Optimum) -> Vec<Deviation> {
     let players = 0..problem.participants.len();
-    players.map(|player| Deviation::of(replies, problem, &optimum.iterate, player).0).collect()
+    players.map(|player| Deviation::of(responses, problem, &optimum.iterate, player).0).collect()
 }

@@ -5,7 +5,7 @@
 //! the ego supposes that they want to stay where their predicted motions lead, at the highest speed at which it saw them.
 //! Whoever does not play is an obstacle on its predicted way.
 
-mod best_replies;
+mod best_responses;
 mod deviation;
 pub mod diagnostics;
 mod equilibrium;
@@ -36,7 +36,7 @@ use refusals::Refusals;
 pub struct Nash {
     settings: Settings,
     joint: Optimiser<Robust>,
-    replies: Optimiser<Robust>,
+    responses: Optimiser<Robust>,
     seen: SeenSpeeds,
     refusals: Refusals,
     /// The last trajectory of each player, with its name; the ego is the first.
@@ -44,7 +44,7 @@ pub struct Nash {
 }
 
 /// Most [work](crate::trajectory::Statistics::work) of a descent of the joint problem. One that takes more creeps past a saddle, and
-/// replies settle sooner.
+/// best responses settle sooner.
 const JOINT_WORK_LIMIT: usize = 500;
 /// A full step of a descent of the joint problem is compared with the worst of this many iterates and the last one: where two vehicles
 /// both turn along an ellipse, steps that enter it a little and leave it with the next one lead on much faster than those that stay outside.
@@ -52,7 +52,7 @@ const REMEMBERED_COSTS: usize = 7;
 
 /// What solves the joint problem of a game.
 pub fn joint_optimiser(search: HomotopySearch) -> Optimiser<Robust> {
-    let mut joint = Optimiser::resuming(Robust::default()).searching(search);
+    let mut joint = Optimiser::receding_horizon(Robust::default()).searching(search);
     joint.tolerances.work_limit = JOINT_WORK_LIMIT;
     joint.tolerances.remembered_costs = REMEMBERED_COSTS;
     joint
@@ -65,7 +65,7 @@ impl Nash {
             settings,
             joint: joint_optimiser(settings.passing_orders),
             // The comparison of the joint problem looks into the other homotopy classes.
-            replies: Optimiser::new(Robust::default()).searching(HomotopySearch::Off),
+            responses: Optimiser::new(Robust::default()).searching(HomotopySearch::Off),
             seen: SeenSpeeds::default(),
             refusals: Refusals::default(),
             last: Vec::new(),
@@ -86,7 +86,7 @@ impl Drive for Nash {
         let players = players(scene, &self.seen, &self.settings, plays);
         let problem = joint_problem(scene, &players);
         let guess = self.guess(&players);
-        match equilibrium(&mut self.joint, &mut self.replies, &problem, &guess) {
+        match equilibrium(&mut self.joint, &mut self.responses, &problem, &guess) {
             Ok(equilibrium) => {
                 let named = players.iter().enumerate();
                 self.last =
@@ -96,7 +96,7 @@ impl Drive for Nash {
             Err(error) => {
                 let last = std::mem::take(&mut self.last);
                 let last = last.first().map(|(_, trajectory)| trajectory);
-                Ok(conservative::answer(conservative::retreat(&mut self.joint, scene, last, &error)?))
+                Ok(conservative::answer(conservative::fall_back(&mut self.joint, scene, last, &error)?))
             }
         }
     }

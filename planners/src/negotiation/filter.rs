@@ -11,7 +11,7 @@ use crate::{Agent, Scene};
 
 /// Slack that a conservative plan may need after the step.
 pub(super) const MAX_VIOLATION: f64 = 2e-3;
-/// It may also need this much more than the retreat needs now.
+/// It may also need this much more than the fallback needs now.
 const MAX_VIOLATION_GROWTH: f64 = 1.2;
 /// A proposal that itself violates safety by this much is refused. So is one that leaves the road by this many metres, or falls
 /// short of persuasion by this many square metres, at 1/10 scale: its descent has ended where nothing is solved.
@@ -24,13 +24,13 @@ pub(super) struct Filter {
 
 impl Default for Filter {
     fn default() -> Self {
-        Filter { optimiser: Optimiser::resuming(Robust::default()).searching(HomotopySearch::Off) }
+        Filter { optimiser: Optimiser::receding_horizon(Robust::default()).searching(HomotopySearch::Off) }
     }
 }
 
 impl Filter {
     /// Whether the first input of `optimum` may be applied.
-    pub(super) fn admits(&mut self, scene: &Scene, optimum: &Optimum, retreat: &Optimum) -> bool {
+    pub(super) fn admits(&mut self, scene: &Scene, optimum: &Optimum, fallback: &Optimum) -> bool {
         let scale = scene.ego.body.scale;
         let scales = [(Violation::Safety, 1.0), (Violation::RoadEdge, scale), (Violation::Persuasion, scale * scale)];
         if scales.iter().any(|(kind, unit)| optimum.cost.violation(*kind) > MAX_OWN_VIOLATION * unit) {
@@ -38,8 +38,8 @@ impl Filter {
         }
         let next = successor(scene, optimum);
         let others: Vec<&Agent> = next.others.iter().collect();
-        let keep = retreat.trajectory(0).shifted().inputs;
-        let allowed = MAX_VIOLATION.max(MAX_VIOLATION_GROWTH * retreat.cost.violation(Violation::Safety));
+        let keep = fallback.trajectory(0).shifted().inputs;
+        let allowed = MAX_VIOLATION.max(MAX_VIOLATION_GROWTH * fallback.cost.violation(Violation::Safety));
         self.optimiser
             .optimise(&problem(&next, &others), &[keep])
             .is_ok_and(|optimum| optimum.cost.violation(Violation::Safety) <= allowed)

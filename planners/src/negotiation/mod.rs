@@ -2,11 +2,11 @@
 //!
 //! At every step the planner
 //!
-//! 1. makes a conservative plan (eq. 6.13), its retreat;
+//! 1. makes a conservative plan (eq. 6.13), its fallback;
 //! 2. chooses whom to ask (`partner_selection`): one vehicle as in the source, or with `partners_at_most` up to three at once;
 //! 3. reads from the other's new prediction how far the last proposal was accepted ([`Acceptance`], eq. 6.19);
 //! 4. concedes: lowers the weight of its own cost the less it was accepted (`concession`, eq. 6.18);
-//! 5. stays nearer to what it first proposed than to its first retreat, the more the better it was received
+//! 5. stays nearer to what it first proposed than to its first fallback, the more the better it was received
 //!    ([`persuasion()`], eq. 6.20-6.23);
 //! 6. solves for its own plan and a proposal to each other that is asked at once (`proposal`, eq. 6.24);
 //! 7. applies the first input only if a conservative plan still exists after it (`filter`).
@@ -35,7 +35,7 @@ use crate::diagnostic::{COST, RUNNER_UP_COST, SAFETY_SLACK};
 use crate::drive::Drive;
 use crate::encounter::partner_event;
 use crate::homotopy::{PassingSide, homotopy_class};
-use crate::solo::Solved;
+use crate::receding_horizon::Solved;
 use crate::trajectory::activity::Activity;
 use crate::trajectory::terms::Persuasion;
 use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
@@ -45,14 +45,14 @@ use filter::Filter;
 use partner_selection::PartnerSelection;
 use state::{NegotiationRound, NegotiationState};
 
-/// Most work of a descent of the retreat. One that takes more goes to and fro.
-const RETREAT_WORK_LIMIT: usize = 1000;
+/// Most work of a descent of the fallback. One that takes more goes to and fro.
+const FALLBACK_WORK_LIMIT: usize = 1000;
 
 /// A negotiating planner with what it remembers.
 #[derive(Clone, Debug)]
 pub struct Negotiation {
     settings: Settings,
-    retreat: Conservative,
+    fallback: Conservative,
     filter: Filter,
     optimiser: Optimiser<Robust>,
     selection: PartnerSelection,
@@ -66,8 +66,8 @@ impl Negotiation {
         let passing_orders = settings.passing_orders;
         Negotiation {
             settings,
-            retreat: Conservative::new(conservative::Settings { passing_orders, ..Default::default() })
-                .limited_to(RETREAT_WORK_LIMIT),
+            fallback: Conservative::new(conservative::Settings { passing_orders, ..Default::default() })
+                .limited_to(FALLBACK_WORK_LIMIT),
             filter: Filter::default(),
             optimiser: optimiser(&settings),
             selection: PartnerSelection::default(),
@@ -83,14 +83,17 @@ impl Drive for Negotiation {
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.
     fn plan(&mut self, scene: &Scene, _: &Outlook) -> Result<Plan, PlanError> {
         let scene = &self.settings.prediction.applied_to(scene);
-        let retreat = self.retreat.optimise(scene).map_err(PlanError::from);
+        let fallback = self.fallback.optimise(scene).map_err(PlanError::from);
         let mut events = Vec::new();
-        let partners = self.choose(scene, &passed_by(scene, &retreat), &mut events);
+        let partners = self.choose(scene, &passed_by(scene, &fallback), &mut events);
         if partners.is_empty() {
-            return Ok(Plan { events, ..conservative::answer(retreat?) });
+            return Ok(Plan { events, ..conservative::answer(fallback?) });
         }
-        let accepted =
-            self.update_acceptance(scene, &partners, retreat.as_ref().ok().map(|retreat| retreat.optimum.cost.total));
+        let accepted = self.update_acceptance(
+            scene,
+            &partners,
+            fallback.as_ref().ok().map(|fallback| fallback.optimum.cost.total),
+        );
         let persuasion = self.persuasion(&accepted, scene.ego.body.scale);
         let outcome = self.propose(scene, &partners, persuasion.clone());
         let Solved { problem, optimum, .. } = match outcome {
@@ -98,16 +101,16 @@ impl Drive for Negotiation {
             Err(error) => {
                 let text = "finds no proposal".to_owned();
                 events.push(PlanEvent { kind: PlanEventKind::NoProposal(error.to_string()), text });
-                return Ok(Plan { events, ..conservative::answer(retreat?) });
+                return Ok(Plan { events, ..conservative::answer(fallback?) });
             }
         };
-        self.remember(&optimum, &retreat, &partners);
+        self.remember(&optimum, &fallback, &partners);
         let mut plan = self.to_plan(scene, (&optimum, &partners), &accepted, persuasion.as_ref());
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         plan.problem = Some(Box::new(problem));
-        self.filter(scene, &retreat, &optimum, &mut plan);
+        self.filter(scene, &fallback, &optimum, &mut plan);
         Ok(plan)
     }
 
@@ -117,7 +120,7 @@ impl Drive for Negotiation {
 }
 
 impl Negotiation {
-    /// Chooses the vehicles to negotiate with, none of those that the retreat has `passed`; notes a change as an event. What is
+    /// Chooses the vehicles to negotiate with, none of those that the fallback has `passed`; notes a change as an event. What is
     /// known of a negotiation that goes on stays.
     fn choose<'a>(&mut self, scene: &'a Scene, passed: &[String], events: &mut Vec<PlanEvent>) -> Vec<&'a Agent> {
         let partners = self.selection.choose(scene, &self.settings, passed);
@@ -137,7 +140,7 @@ impl Negotiation {
     }
 
     /// How far each of the last proposals was accepted; the ego concedes accordingly. Before the first proposal it is 1.
-    fn update_acceptance(&mut self, scene: &Scene, partners: &[&Agent], retreat_cost: Option<f64>) -> Vec<f64> {
+    fn update_acceptance(&mut self, scene: &Scene, partners: &[&Agent], fallback_cost: Option<f64>) -> Vec<f64> {
         let settings = &self.settings;
         let pairs = self.negotiations.iter_mut().zip(partners);
         let answer = |((_, negotiation), partner): (&mut (String, NegotiationState), &&Agent)| {
@@ -148,7 +151,7 @@ impl Negotiation {
             Some(accepted)
         };
         let answers: Vec<Option<f64>> = pairs.map(answer).collect();
-        self.selection.record(&answers, retreat_cost, settings);
+        self.selection.record(&answers, fallback_cost, settings);
         answers.into_iter().map(|accepted| accepted.unwrap_or(1.0)).collect()
     }
 
@@ -192,8 +195,8 @@ impl Negotiation {
     }
 
     /// Keeps what this round led to for the next one.
-    fn remember(&mut self, optimum: &Optimum, retreat: &Result<Solved, PlanError>, partners: &[&Agent]) {
-        let conservative = retreat.as_ref().ok().map(|retreat| retreat.optimum.trajectory(0));
+    fn remember(&mut self, optimum: &Optimum, fallback: &Result<Solved, PlanError>, partners: &[&Agent]) {
+        let conservative = fallback.as_ref().ok().map(|fallback| fallback.optimum.trajectory(0));
         for (index, ((_, negotiation), partner)) in self.negotiations.iter_mut().zip(partners).enumerate() {
             negotiation.remember(NegotiationRound {
                 cooperative: optimum.trajectory(0),
@@ -237,25 +240,25 @@ impl Negotiation {
         }
     }
 
-    /// Replaces the plan by the retreat where the filter demands it.
-    fn filter(&mut self, scene: &Scene, retreat: &Result<Solved, PlanError>, optimum: &Optimum, plan: &mut Plan) {
-        let Ok(Solved { optimum: retreat, .. }) = retreat else {
+    /// Replaces the plan by the fallback where the filter demands it.
+    fn filter(&mut self, scene: &Scene, fallback: &Result<Solved, PlanError>, optimum: &Optimum, plan: &mut Plan) {
+        let Ok(Solved { optimum: fallback, .. }) = fallback else {
             plan.events.push(PlanEvent::note("has no cautious plan to retreat to"));
             return;
         };
-        plan.statistics.add(&retreat.statistics);
-        let refused = self.settings.safety_filter && !self.filter.admits(scene, optimum, retreat);
+        plan.statistics.add(&fallback.statistics);
+        let refused = self.settings.safety_filter && !self.filter.admits(scene, optimum, fallback);
         if refused {
-            plan.trajectory = retreat.trajectory(0);
+            plan.trajectory = fallback.trajectory(0);
             plan.events.push(PlanEvent::note("drives cautiously: its safety filter asks for it"));
         }
         plan.diagnostics.push(SAFETY_FILTER.is(f64::from(u8::from(refused))));
     }
 }
 
-/// The names of the vehicles that a retreat passes ahead of, if it is safe.
-fn passed_by(scene: &Scene, retreat: &Result<Solved, PlanError>) -> Vec<String> {
-    let Ok(Solved { optimum, .. }) = retreat else { return Vec::new() };
+/// The names of the vehicles that a fallback passes ahead of, if it is safe.
+fn passed_by(scene: &Scene, fallback: &Result<Solved, PlanError>) -> Vec<String> {
+    let Ok(Solved { optimum, .. }) = fallback else { return Vec::new() };
     if optimum.cost.violation(Violation::Safety) > filter::MAX_VIOLATION {
         return Vec::new();
     }

@@ -2,12 +2,12 @@
 //!
 //! The source asks the front vehicle first and the rear one when the front one has refused for too long ([`Patience`]). A
 //! vehicle with which nothing is left to negotiate is skipped: one that drives ahead in the ego's target lane, or that has
-//! crossed, or that the ego has crossed before. With one that a safe retreat passes ahead of no negotiation is begun: it need not be
+//! crossed, or that the ego has crossed before. With one that a safe fallback passes ahead of no negotiation is begun: it need not be
 //! asked for what the ego can have without its consent, and waiting for its answer could cost the way. A driver who takes notice of
 //! nobody outside its own lane is never asked: the ego keeps out of its predicted way. With `partners_at_most` above 1 the next ones in this order are asked at the same time.
-//! When all have refused nobody is asked: the ego drives by its retreat.
+//! When all have refused nobody is asked: the ego drives by its fallback.
 
-use super::patience::{Patience, RetreatPrice};
+use super::patience::{FallbackPrice, Patience};
 use super::settings::Settings;
 use crate::encounter::{from_front_to_rear, is_settled};
 use crate::{Agent, Scene};
@@ -20,7 +20,7 @@ pub(super) struct PartnerSelection {
     /// Vehicles that refused for too long and are no longer asked.
     refused: Vec<String>,
     asked: Vec<AskedVehicle>,
-    retreat: RetreatPrice,
+    fallback: FallbackPrice,
 }
 
 /// A vehicle that is asked, and the patience with it.
@@ -57,9 +57,9 @@ impl PartnerSelection {
     }
 
     /// Records the latest acceptances of those that are asked, in their order (`None` of one that has not answered yet), and what the
-    /// retreat costs now. Who has been asked long enough is not asked again.
-    pub(super) fn record(&mut self, accepted: &[Option<f64>], retreat_cost: Option<f64>, settings: &Settings) {
-        let dearer = self.retreat.dearer(retreat_cost);
+    /// fallback costs now. Who has been asked long enough is not asked again.
+    pub(super) fn record(&mut self, accepted: &[Option<f64>], fallback_cost: Option<f64>, settings: &Settings) {
+        let dearer = self.fallback.dearer(fallback_cost);
         for (asked, accepted) in self.asked.iter_mut().zip(accepted) {
             if accepted.is_some_and(|accepted| asked.patience.ends(accepted, dearer, settings)) {
                 self.refused.push(asked.name.clone());

@@ -2,8 +2,8 @@
 //!
 //! The source asks the next vehicle when the acceptance probability has not risen by more than `ε` five times in a row
 //! (section 6.5). That also happens at steady acceptance, so a low probability is required too. Beside this count there is a price:
-//! an ego that asks drives as if it were granted what it asks for, and with each refusal the retreat that it will need becomes dearer.
-//! Where that goes beyond a share of what the cheapest retreat cost since the first question to anybody, it asks no longer. Both are
+//! an ego that asks drives as if it were granted what it asks for, and with each refusal the fallback that it will need becomes dearer.
+//! Where that goes beyond a share of what the cheapest fallback cost since the first question to anybody, it asks no longer. Both are
 //! free of units and scale.
 
 use super::settings::Settings;
@@ -19,7 +19,7 @@ pub(super) struct Patience {
 }
 
 impl Patience {
-    /// Whether the vehicle is not to be asked any more, after an answer and where the retreat has become `dearer` by this share.
+    /// Whether the vehicle is not to be asked any more, after an answer and where the fallback has become `dearer` by this share.
     pub(super) fn ends(&mut self, accepted: f64, dearer: f64, settings: &Settings) -> bool {
         let no_progress = accepted < REFUSAL_ACCEPTANCE
             && self.last_acceptance.is_some_and(|last| accepted - last <= settings.epsilon);
@@ -30,14 +30,14 @@ impl Patience {
     }
 }
 
-/// By which share the retreat has become dearer than the cheapest one since somebody was first asked.
+/// By which share the fallback has become dearer than the cheapest one since somebody was first asked.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct RetreatPrice {
+pub(super) struct FallbackPrice {
     least_cost: Option<f64>,
 }
 
-impl RetreatPrice {
-    /// The share, with what the retreat costs now; 0 without a retreat.
+impl FallbackPrice {
+    /// The share, with what the fallback costs now; 0 without a fallback.
     pub(super) fn dearer(&mut self, cost: Option<f64>) -> f64 {
         let Some(cost) = cost else { return 0.0 };
         let least = self.least_cost.map_or(cost, |least| least.min(cost));
@@ -50,9 +50,9 @@ impl RetreatPrice {
 mod tests {
     use super::*;
 
-    /// The answer at which patience ends, of acceptances and costs of the retreat.
+    /// The answer at which patience ends, of acceptances and costs of the fallback.
     fn ends_at(settings: &Settings, answers: &[(f64, f64)]) -> Option<usize> {
-        let (mut patience, mut price) = (Patience::default(), RetreatPrice::default());
+        let (mut patience, mut price) = (Patience::default(), FallbackPrice::default());
         answers.iter().position(|(accepted, cost)| patience.ends(*accepted, price.dearer(Some(*cost)), settings))
     }
 
@@ -67,21 +67,21 @@ mod tests {
     }
 
     #[test]
-    fn a_refusal_that_makes_the_retreat_dearer_ends_it_at_once() {
+    fn a_refusal_that_makes_the_fallback_dearer_ends_it_at_once() {
         let settings = Settings::default();
         let growing = |accepted: f64| [(accepted, 2.0), (accepted, 2.19), (accepted, 2.21), (accepted, 2.4)];
         assert_eq!(ends_at(&settings, &growing(0.0)), Some(2));
-        assert_eq!(ends_at(&settings, &growing(0.9)), None, "who accepts is asked on, whatever a retreat would cost");
+        assert_eq!(ends_at(&settings, &growing(0.9)), None, "who accepts is asked on, whatever a fallback would cost");
         let unmoved = Settings { retreat_dearer_at_most: 1e6, ..settings };
         assert_eq!(ends_at(&unmoved, &growing(0.0)), None);
     }
 
     #[test]
-    fn the_price_is_counted_from_the_cheapest_retreat() {
-        let mut price = RetreatPrice::default();
+    fn the_price_is_counted_from_the_cheapest_fallback() {
+        let mut price = FallbackPrice::default();
         let dearer =
             [Some(2.0), Some(3.0), Some(1.0), None, Some(1.5), Some(0.0), Some(0.0)].map(|cost| price.dearer(cost));
         assert_eq!(dearer, [0.0, 0.5, 0.0, 0.0, 0.5, 0.0, 0.0]);
-        assert_eq!(price.dearer(Some(1.0)), f64::INFINITY, "dearer than a retreat that cost nothing");
+        assert_eq!(price.dearer(Some(1.0)), f64::INFINITY, "dearer than a fallback that cost nothing");
     }
 }

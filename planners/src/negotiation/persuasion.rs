@@ -1,4 +1,4 @@
-//! Persuasion: a constraint that keeps the plan nearer to cooperation than to retreat (eq. 6.20-6.23).
+//! Persuasion: a constraint that keeps the plan nearer to cooperation than to the fallback (eq. 6.20-6.23).
 
 use super::settings::Settings;
 use super::state::NegotiationState;
@@ -14,8 +14,8 @@ const PENALTY: Penalty = Penalty { linear: 100.0, quadratic: 0.0 };
 /// The persuasion constraint `‖trj − con‖² ≥ α ‖trj − coop‖²`, `α = 1 + γ p_a` (eq. 6.23, corrected: as printed the right
 /// norm is not squared). It starts with the second round, and is left out where the two references nearly coincide.
 ///
-/// With the references of the last round the constraint only limits the rate of a retreat: up to `1/(1 + √α)` of the way in
-/// each step. With those of the first round it limits the retreat itself, until the negotiation ends.
+/// With the references of the last round the constraint only limits the rate at which the ego falls back: up to `1/(1 + √α)` of the way in
+/// each step. With those of the first round it limits how far it falls back, until the negotiation ends.
 pub(super) fn next_constraint(
     settings: &Settings,
     negotiation: &NegotiationState,
@@ -98,8 +98,8 @@ mod tests {
         (0..step).fold(from_start, |motion, _| motion.shifted())
     }
 
-    /// How far an ego goes back that in each step plans the farthest retreat that the constraint allows.
-    fn farthest_retreat(references: References, accepted: f64) -> f64 {
+    /// How far an ego goes back that in each step plans the farthest step towards the fallback that the constraint allows.
+    fn farthest_fallback(references: References, accepted: f64) -> f64 {
         let settings = Settings { references, ..Settings::default() };
         let mut negotiation = NegotiationState::default();
         let mut share = 0.0;
@@ -121,12 +121,12 @@ mod tests {
     }
 
     proptest! {
-        /// References of the last round let the ego retreat nearly completely, those of the first only up to their boundary.
+        /// References of the last round let the ego fall back nearly completely, those of the first only up to their boundary.
         #[test]
-        fn only_the_first_round_s_references_limit_the_retreat(accepted in 0.0..1.0) {
+        fn only_the_first_round_s_references_limit_the_fallback(accepted in 0.0..1.0) {
             let boundary = 1.0 / (1.0 + libm::sqrt(1.0 + accepted));
-            prop_assert!((farthest_retreat(References::FirstRound, accepted) - boundary).abs() < 1e-9);
-            prop_assert!(farthest_retreat(References::LastRound, accepted) > 0.98);
+            prop_assert!((farthest_fallback(References::FirstRound, accepted) - boundary).abs() < 1e-9);
+            prop_assert!(farthest_fallback(References::LastRound, accepted) > 0.98);
         }
     }
 }

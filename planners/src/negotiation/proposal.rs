@@ -38,7 +38,7 @@ const COMPARISON_WORK_LIMIT: usize = 200;
 
 /// What solves the negotiation problem.
 pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
-    let mut optimiser = Optimiser::resuming(Robust::default()).searching(settings.passing_orders);
+    let mut optimiser = Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders);
     optimiser.tolerances.work_limit = WORK_LIMIT;
     optimiser.tolerances.comparison_work_limit = COMPARISON_WORK_LIMIT;
     optimiser

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum References {
-    /// The first: the ego keeps nearer to what it first proposed than to its first retreat, however long it is refused.
+    /// The first: the ego keeps nearer to what it first proposed than to its first fallback, however long it is refused.
     FirstRound,
-    /// The one before (eq. 6.23): the ego may retreat by about half of the way in each step.
+    /// The one before (eq. 6.23): the ego may fall back by about half of the way in each step.
     #[default]
     LastRound,
 }

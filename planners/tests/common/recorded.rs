@@ -33,7 +33,7 @@ pub const CURVED: &str = "curved-";
 pub fn optimiser(kind: &str) -> Optimiser<Robust> {
     match kind.strip_prefix(CURVED).unwrap_or(kind) {
         "negotiation" => negotiation::optimiser(&Default::default()),
-        _ => Optimiser::resuming(Robust::default()),
+        _ => Optimiser::receding_horizon(Robust::default()),
     }
 }
 

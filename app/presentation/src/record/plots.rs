@@ -196,7 +196,7 @@ impl Plots {
     fn reasons_in_words(&mut self, stream: &RecordingStream, frame: &Frame) -> RecordingStreamResult<()> {
         for vehicle in &frame.vehicles {
             for event in &vehicle.plan.events {
-                if let PlanEventKind::NoProposal(reason) | PlanEventKind::Retreat(reason) = &event.kind {
+                if let PlanEventKind::NoProposal(reason) | PlanEventKind::Fallback(reason) = &event.kind {
                     let text = said(frame, &vehicle.name, &format!("{}: {reason}", event.text));
                     self.seen.insert(REASONS.to_owned(), String::new());
                     stream.log(REASONS, &TextLog::new(text).with_level(TextLogLevel::INFO))?;

@@ -101,7 +101,7 @@ impl<S: StageSolver> Descent<S> {
             let share = self.search.advance(&mut self.steps, problem, &mut now, predicted, last);
             self.search.remember(cost, tolerances.remembered_costs);
             if warm {
-                self.steps.step.retreat(&self.previous_step, share);
+                self.steps.step.shorten(&self.previous_step, share);
             }
             damping = match next_damping(share, damped_by, last) {
                 Some(damping) => damping,

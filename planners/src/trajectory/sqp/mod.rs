@@ -20,7 +20,7 @@
 //! dynamics a third of the curvature is tried, then none: Gauss-Newton again. Steps that had to be cut very short are
 //! followed by damped ones (Levenberg and Marquardt).
 //!
-//! A planner that plans anew at every step resumes ([`WarmStart`]): with the multipliers of its last optimum, a stage later, the
+//! With a receding horizon each descent starts warm ([`WarmStart`]): with the multipliers of its last optimum, a stage later, the
 //! first step has the exact Hessian already, and where the shifted plan is optimal there is no step. Steps also tell the next
 //! one how far to look for rows that matter ([`Reach`](super::Reach)).
 //!

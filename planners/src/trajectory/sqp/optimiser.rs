@@ -16,8 +16,8 @@ use crate::trajectory::stage::StageSolver;
 pub struct Optimiser<S> {
     /// When to stop.
     pub tolerances: Tolerances,
-    /// Whether a descent begins with what the one before has left, if the problem has the same shape.
-    pub resumes: bool,
+    /// Whether a descent starts warm: with the multipliers that the one before has left, if the problem has the same shape.
+    pub starts_warm: bool,
     /// How far [`Optimiser::optimise`] looks for a cheaper homotopy class.
     pub homotopy_search: HomotopySearch,
     /// What the descent whose optimum was kept last has left.
@@ -35,11 +35,11 @@ impl<S: StageSolver + Default> Optimiser<S> {
         optimiser
     }
 
-    /// An optimiser for somebody who plans anew at every step: it resumes, and it stops where the next plan will differ by
-    /// more than what is left to gain.
-    pub fn resuming(solver: S) -> Self {
+    /// An optimiser for a receding horizon, where a new plan is made at every step: it starts warm, and stops where the next plan
+    /// will differ by more than what is left to gain.
+    pub fn receding_horizon(solver: S) -> Self {
         let tolerances = Tolerances { residual: 1e-7, decrease: 1e-9, ..Tolerances::default() };
-        Optimiser { tolerances, resumes: true, ..Optimiser::new(solver) }
+        Optimiser { tolerances, starts_warm: true, ..Optimiser::new(solver) }
     }
 
     /// This optimiser, looking so far for a cheaper homotopy class.
@@ -96,7 +96,7 @@ impl<S: StageSolver> Optimiser<S> {
 
     fn resume(&mut self, problem: &Problem, guess: &[Vec<Input>]) -> Result<Optimum, DescentError> {
         let mut now = self.descent.begin(problem, problem.start(guess))?;
-        let warm = self.resumes && self.warm_start.fits(&self.descent.steps.problem.qp);
+        let warm = self.starts_warm && self.warm_start.fits(&self.descent.steps.problem.qp);
         if warm && self.descent.resume(&self.warm_start, &mut now, &self.tolerances) {
             return Ok(now);
         }

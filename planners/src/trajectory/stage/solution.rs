@@ -25,7 +25,7 @@ pub struct StageSolution {
 impl StageSolution {
     /// Leaves the multipliers a share of the way from `before` to where they are: a step cut short has not reached the rows
     /// that its end would touch.
-    pub(crate) fn retreat(&mut self, before: &StageSolution, share: f64) {
+    pub(crate) fn shorten(&mut self, before: &StageSolution, share: f64) {
         let mix = |now: &mut f64, was: &f64| *now = was + share * (*now - was);
         let bounds = self.bound_multipliers.iter_mut().flatten().flatten().flatten();
         bounds.zip(before.bound_multipliers.iter().flatten().flatten().flatten()).for_each(|(now, was)| mix(now, was));

@@ -137,7 +137,7 @@ impl<S: StageSolver> Optimiser<S> {
         let mut work_left = self.work_of_a_plan(&best);
         while self.bar(&best) > 0.0 {
             // (With a bar of 0 the plan cannot be beaten by more than the hysteresis: costs are not negative, but with the exact
-            // value of Bayesian replies, which is not compared then.)
+            // value of Bayesian responses, which is not compared then.)
             if work_left == 0 && (round.unfinished.is_some() || candidates.peek().is_some()) {
                 self.comparison.round = round;
                 self.comparison.plans_at_rest = 0;

@@ -1,4 +1,4 @@
-//! Best replies: the intention that serves a player best, given the other's.
+//! Best responses: the intention that serves a player best, given the other's.
 //!
 //! Intentions are probabilities to pass in [0.05, 0.95] ("the extreme events are eliminated"). A utility may have two local
 //! maxima in the own probability (it does in some 3 % of games), so a gradient ascent, as the source proposes, may stop at
@@ -27,14 +27,14 @@ pub(super) fn intention(point: usize) -> f64 {
     f64::from(HUNDREDTHS[0] + point as i32) / 100.0
 }
 
-/// The best reply to an intention of the other.
-pub fn best_reply(player: &Player, other: f64) -> f64 {
+/// The best response to an intention of the other.
+pub fn best_response(player: &Player, other: f64) -> f64 {
     let best = best_of((0..GRID_POINTS).step_by(COARSE_STRIDE).map(|point| player.utility(intention(point), other)));
     reply_near(player, other, intention(COARSE_STRIDE * best))
 }
 
-/// The best reply on the grid to the grid's intention `other`, as an index.
-pub(super) fn grid_reply(player: &Player, other: usize) -> usize {
+/// The best response on the grid to the grid's intention `other`, as an index.
+pub(super) fn grid_response(player: &Player, other: usize) -> usize {
     let [lowest, highest] = HUNDREDTHS;
     let (other, stride) = (lowest + other as i32, COARSE_STRIDE as i32);
     let first = player.best_of((lowest..=highest).step_by(COARSE_STRIDE), other);
@@ -42,7 +42,7 @@ pub(super) fn grid_reply(player: &Player, other: usize) -> usize {
     (player.best_of(around, other) - lowest) as usize
 }
 
-/// The best reply within a stride of a guess.
+/// The best response within a stride of a guess.
 pub(super) fn reply_near(player: &Player, other: f64, guess: f64) -> f64 {
     maximum(|own| player.utility(own, other), guess, COARSE_STRIDE as f64 * GRID_CELL, SECTION_STEPS)
 }
@@ -94,31 +94,31 @@ mod tests {
         #[test]
         fn nothing_on_a_finer_grid_is_better(turn in 0.05..19.0, accident in 0.5..5.0, other in 0.05..0.95) {
             let player = THEORY.player(Stakes { turn, accident });
-            let best = player.utility(best_reply(&player, other), other);
+            let best = player.utility(best_response(&player, other), other);
             for own in (0..=9000).map(|i| MIN_INTENTION + f64::from(i) * 1e-4) {
                 prop_assert!(player.utility(own, other) <= best + 1e-9 * (1.0 + best.abs()), "{own}");
             }
         }
 
         #[test]
-        fn the_grid_s_reply_is_the_best_one_in_its_cell(turn in 0.05..19.0, accident in 0.5..5.0, other in 0_usize..91) {
+        fn the_grid_s_response_is_the_best_one_in_its_cell(turn in 0.05..19.0, accident in 0.5..5.0, other in 0_usize..91) {
             let player = THEORY.player(Stakes { turn, accident });
-            let (on_grid, exact) = (grid_reply(&player, other), best_reply(&player, intention(other)));
+            let (on_grid, exact) = (grid_response(&player, other), best_response(&player, intention(other)));
             let loss = player.utility(exact, intention(other)) - player.utility(intention(on_grid), intention(other));
             prop_assert!((0.0..1e-3 * (1.0 + turn)).contains(&loss), "{loss}");
         }
     }
 
-    /// Without distortion of probabilities utilities are linear in the own probability, so replies are bounds, and they
+    /// Without distortion of probabilities utilities are linear in the own probability, so responses are bounds, and they
     /// change where both bounds are worth the same: `(1 − o) 3x = o (M − x)`.
     #[test]
-    fn undistorted_replies_change_where_the_other_makes_one_indifferent() {
+    fn undistorted_responses_change_where_the_other_makes_one_indifferent() {
         let theory = TabulatedTheory::new(ProspectTheory::EXPECTED);
         for (turn, accident) in [(1.0, 2.0), (0.5, 3.0), (2.0, 4.0)] {
             let player = theory.player(Stakes { turn, accident });
             let indifferent = 3.0 * turn / (2.0 * turn + accident);
-            assert_eq!(best_reply(&player, indifferent - 0.01), MAX_INTENTION);
-            assert_eq!(best_reply(&player, indifferent + 0.01), MIN_INTENTION);
+            assert_eq!(best_response(&player, indifferent - 0.01), MAX_INTENTION);
+            assert_eq!(best_response(&player, indifferent + 0.01), MIN_INTENTION);
         }
     }
 }

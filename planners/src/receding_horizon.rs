@@ -1,4 +1,4 @@
-//! Plans of one vehicle: the starting guess is the last plan.
+//! Model predictive control (MPC) in a receding horizon: each plan begins at the last one, shifted by one step.
 
 use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, Robust};
 use crate::{Input, PlanEvent, Trajectory};
