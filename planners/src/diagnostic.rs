@@ -8,40 +8,40 @@ pub struct DiagnosticQuantity {
     pub name: &'static str,
     /// Its unit; empty for a number without dimension.
     pub unit: &'static str,
-    /// The values that it takes.
+    /// The values that the quantity can take.
     pub values: ValueSet,
 }
 
-/// The values that a quantity takes.
+/// The set of values that a quantity can take, which decides how its curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueSet {
-    /// Any number.
+    /// Any real number.
     Real,
-    /// Numbers from 0 on.
+    /// Real numbers from 0 on.
     NonNegative,
     /// Natural numbers and 0.
     Count,
-    /// Probabilities.
+    /// Probabilities, from 0 to 1.
     Probability,
     /// Numbers from 0 to 1 that are no probabilities.
     Share,
-    /// 0 for no and 1 for yes.
+    /// 0 for false and 1 for true.
     Switch,
 }
 
-/// What a planner reports of one quantity.
+/// A quantity with the value that a planner reports of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// The quantity.
+    /// The reported quantity.
     pub quantity: DiagnosticQuantity,
-    /// Its value, in its unit.
+    /// The value, in the quantity's unit.
     pub value: f64,
 }
 
 /// Quantities that are shown together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiagnosticPanel {
-    /// What stands above or beside them.
+    /// The title above or beside the curves.
     pub title: &'static str,
     /// The quantities, in the order of their colours.
     pub quantities: &'static [DiagnosticQuantity],
@@ -61,12 +61,12 @@ pub struct Explanation {
 }
 
 impl DiagnosticQuantity {
-    /// A quantity by name, unit and values.
+    /// A quantity with its name, its unit and the values that it can take.
     pub const fn new(name: &'static str, unit: &'static str, values: ValueSet) -> Self {
         DiagnosticQuantity { name, unit, values }
     }
 
-    /// Reports a value of the quantity, in its unit.
+    /// This quantity with a value, in its unit.
     pub const fn is(self, value: f64) -> Diagnostic {
         Diagnostic { quantity: self, value }
     }
@@ -86,7 +86,7 @@ impl ValueSet {
         }
     }
 
-    /// Whether a number is one of the values.
+    /// Whether a number belongs to the set of values.
     pub fn contains(self, value: f64) -> bool {
         match self {
             ValueSet::Real => !value.is_nan(),
@@ -114,7 +114,7 @@ impl DiagnosticPanel {
 }
 
 impl Explanation {
-    /// For a planner with nothing to show but what all planners show.
+    /// The explanation of a planner that reports nothing but [`COMMON_QUANTITIES`].
     pub const NONE: Explanation = Explanation { quantities: &[], panels: &[], plots: &[], guide: "" };
 }
 
@@ -133,7 +133,7 @@ pub const STEPS_AT_INPUT_BOUND: DiagnosticQuantity = steps("steps at an input bo
 /// At how many steps of a plan the speed is at a bound.
 pub const STEPS_AT_SPEED_BOUND: DiagnosticQuantity = steps("steps at a speed bound");
 
-/// What any planner may report that optimises a trajectory.
+/// The quantities that any planner may report that optimises a trajectory.
 pub const COMMON_QUANTITIES: &[DiagnosticQuantity] =
     &[COST, RUNNER_UP_COST, SAFETY_SLACK, STEPS_AT_ELLIPSE, STEPS_AT_EDGE, STEPS_AT_INPUT_BOUND, STEPS_AT_SPEED_BOUND];
 

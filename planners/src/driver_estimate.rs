@@ -12,11 +12,11 @@ pub const SAFETY_WEIGHT_EDGES: [f64; 4] = [0.0, 0.2, 16.0, 100.0];
 /// A kind of driver; the humans come in the order of their safety weights, from tough to nice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriverModel {
-    /// Our human driver with safety weight 0.
+    /// A human driver with safety weight 0.
     Tough,
-    /// Our human driver with safety weight 8.
+    /// A human driver with safety weight 8.
     Normal,
-    /// Our human driver with safety weight 50.
+    /// A human driver with safety weight 50.
     Nice,
     /// The intelligent driver model.
     Idm,
@@ -59,10 +59,10 @@ const CREDIBLE_PROBABILITY: f64 = 0.9;
 /// Rounding of a sum of probabilities.
 const ROUNDING: f64 = 1e-12;
 
-/// What is believed of one observed driver.
+/// The belief about one observed driver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriverEstimate {
-    /// The name of the vehicle.
+    /// The name of the driver's vehicle.
     pub vehicle: String,
     /// The kind of driver whose plan is used as the prediction.
     pub model: DriverModel,

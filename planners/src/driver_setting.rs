@@ -10,11 +10,11 @@ pub enum DriverSettingError {
     /// A number of steps reaches to the end of the horizon or beyond.
     #[error("({steps}) must be below `horizon_steps` ({horizon_steps})")]
     BeyondHorizon {
-        /// The setting.
+        /// The key of the setting, as a scenario file calls it.
         key: &'static str,
-        /// Its value.
+        /// The value of the setting.
         steps: usize,
-        /// Steps of a plan.
+        /// Number of steps of a plan.
         horizon_steps: usize,
         /// Why a plan has to reach further.
         because: &'static str,
@@ -22,23 +22,23 @@ pub enum DriverSettingError {
     /// A lower bound is above its upper bound.
     #[error("({lower}) is above `{upper_key}` ({upper})")]
     BoundsCrossed {
-        /// The lower bound.
+        /// The key of the lower bound.
         key: &'static str,
-        /// Its value.
+        /// The value of the setting.
         lower: f64,
-        /// The upper bound.
+        /// The key of the upper bound.
         upper_key: &'static str,
-        /// Its value.
+        /// The value of the setting.
         upper: f64,
     },
     /// Any other setting that does not fit.
     #[error("{reason}")]
     Unfit {
-        /// The setting.
+        /// The key of the setting, as a scenario file calls it.
         key: &'static str,
         /// What is wrong, as the end of a sentence that begins with the setting's path.
         reason: String,
-        /// What would work.
+        /// What to state instead, as the help of an error message.
         remedy: String,
     },
 }
@@ -62,7 +62,7 @@ impl DriverSettingError {
         }
     }
 
-    /// What would work.
+    /// What to state instead, as the help of an error message.
     pub fn remedy(&self) -> String {
         match self {
             DriverSettingError::BeyondHorizon { because, .. } => (*because).to_owned(),

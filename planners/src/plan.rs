@@ -8,26 +8,28 @@ use crate::homotopy::PlannedPassing;
 use crate::trajectory::{Problem, Statistics};
 use crate::{PlanViolation, Trajectory};
 
-/// What a vehicle will do, what it asks of another, and why.
+/// The answer of a planner: a planned motion, proposals to other vehicles, and the numbers and events that explain
+/// them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
-    /// The planned motion; its first input is applied.
+    /// The planned motion from the present state on; its first input is applied.
     pub trajectory: Trajectory,
-    /// What it will do instead if things go on otherwise; of plans that branch.
+    /// Other continuations of a plan that branches, one for each other future; empty for plans that do not.
     pub branches: Vec<PlanBranch>,
-    /// What the planner asks of others, whom it asks first at first.
+    /// The motions that the planner proposes to other vehicles, in the order in which it asks them.
     pub proposals: Vec<Proposal>,
     /// Its homotopy class: how it passes each vehicle that it comes near; empty for planners that keep out of no ellipses.
     pub homotopy_class: Vec<PlannedPassing>,
-    /// Numbers that explain it, in a fixed order for one planner.
+    /// Numbers that explain the plan, in a fixed order for each planner.
     pub diagnostics: Vec<Diagnostic>,
-    /// What is believed of the others, where their plans are inferred.
+    /// The beliefs about the other drivers; empty where their plans are told.
     pub beliefs: Vec<DriverEstimate>,
-    /// What it violates, by its certificate.
+    /// The conditions that the plan violates, by its certificate.
     pub violations: Vec<PlanViolation>,
-    /// What happened in this step.
+    /// What happened while this plan was made.
     pub events: Vec<PlanEvent>,
-    /// The trajectory problem that the plan solves, for whoever checks it; none of a planner that poses none.
+    /// The trajectory problem that the plan solves, so that it can be checked; `None` from a planner that optimises
+    /// nothing.
     pub problem: Option<Box<Problem>>,
     /// The work of all optimisations behind the plan.
     pub statistics: Statistics,
@@ -36,9 +38,9 @@ pub struct Plan {
 /// A continuation of a plan that branches, from now on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanBranch {
-    /// How likely the future is for which it is made.
+    /// Probability of the future for which this continuation is made.
     pub probability: f64,
-    /// The motion.
+    /// The motion from the present state on.
     pub trajectory: Trajectory,
 }
 
@@ -76,11 +78,12 @@ impl PlanEvent {
 /// The motion that a planner would like another vehicle to choose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proposal {
-    /// Whom it is made to.
+    /// The name of the vehicle to which the proposal is made.
     pub to: String,
-    /// The motion.
+    /// The motion from the present state on.
     pub trajectory: Trajectory,
-    /// How far the vehicle accepted the proposal before this one, from 0 to 1; none where the planner does not judge it.
+    /// How far the vehicle accepted the proposal before this one, from 0 to 1; `None` where the planner does not
+    /// measure it.
     pub acceptance: Option<f64>,
 }
 
@@ -92,7 +95,7 @@ impl Plan {
     }
 }
 
-/// Why there is no plan.
+/// Why a planner has no plan.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum PlanError {
     /// No input sequence satisfies the hard bounds.
@@ -101,9 +104,9 @@ pub enum PlanError {
     /// The optimiser gave up.
     #[error("unsolved after {iterations} iterations: {status}")]
     Unsolved {
-        /// What it said.
+        /// The optimiser's status.
         status: String,
-        /// Quadratic programmes solved.
+        /// Number of quadratic programmes that were solved.
         iterations: usize,
     },
     /// The driver's inputs come from outside, and none has come.
@@ -118,9 +121,9 @@ pub enum PlanError {
     /// There is a plan, but it took more work than its deadline allows.
     #[error("the plan is late: it took {work} units of work, and {most_work} were allowed")]
     Late {
-        /// The work that it took.
+        /// The work that the plan took.
         work: usize,
-        /// The most that it may take.
+        /// The largest work that the deadline allows.
         most_work: usize,
     },
 }

@@ -2,16 +2,16 @@
 
 use std::fmt;
 
-/// Something that a plan violates.
+/// A condition that a plan violates, with the first stage at which it does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanViolation {
-    /// What.
+    /// The violated condition.
     pub condition: PlanCondition,
-    /// When first \[steps from now\].
+    /// The first stage at which it is violated \[steps from the present\].
     pub stage: usize,
 }
 
-/// What a plan must keep.
+/// A condition that a plan must keep.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlanCondition {
     /// Its states are numbers and follow from its inputs.

@@ -5,30 +5,30 @@ use std::sync::Arc;
 use crate::road::centre_line::FrenetPoint;
 use crate::{Axes, Bicycle, Body, Input, Limits, Route, SafetyEllipse, State, Trajectory};
 
-/// A vehicle as anyone sees it.
+/// A vehicle as the others see it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Agent {
-    /// Its name in the scenario.
+    /// Name of the vehicle in the scenario.
     pub name: String,
-    /// Where it is.
+    /// Present position, heading and speed.
     pub state: State,
-    /// What it did last.
+    /// The input that it applied last.
     pub previous_input: Input,
-    /// What it covers.
+    /// Body and axles.
     pub body: Body,
-    /// What it can do.
+    /// Limits of its inputs and speed.
     pub limits: Limits,
-    /// The road it uses.
+    /// The route that it follows.
     pub route: Arc<Route>,
-    /// What it is expected to do: its current plan where that is known, else constant velocity. Starts at `state`.
+    /// Predicted motion, beginning at `state`: its current plan where that is known, else constant velocity.
     pub prediction: Trajectory,
-    /// What it wants, if it tells: vehicles that cooperate share their goals.
+    /// Its goal, if it publishes one, as vehicles do that cooperate.
     pub shared_goal: Option<Goal>,
     /// Whether its driver may give way to somebody outside its own lane ([`DriverKind::can_be_asked`](crate::DriverKind::can_be_asked)).
     pub can_be_asked: bool,
 }
 
-/// What a vehicle wants and how it weighs it.
+/// The goal of a vehicle: a desired state, and the weights of its costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
     /// Desired state, `x_des` of eq. 6.6.
@@ -41,10 +41,10 @@ pub struct Goal {
     pub safety: SafetyEllipse,
 }
 
-/// A moment, seen by one vehicle.
+/// What one vehicle knows at a moment: all that a planner is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// How many plans were made before.
+    /// Index of the plan: the number of ticks since the run began.
     pub tick: usize,
     /// Time step of the plan \[s\].
     pub step_s: f64,
@@ -52,21 +52,21 @@ pub struct Scene {
     pub horizon: usize,
     /// The planning vehicle.
     pub ego: Agent,
-    /// What it wants.
+    /// The goal of the planning vehicle.
     pub goal: Goal,
-    /// Everybody else, in the scenario's order.
+    /// All other vehicles, in the scenario's order.
     pub others: Vec<Agent>,
 }
 
 impl Goal {
-    /// Along the target's heading, which is that of the road, and across.
+    /// The axes along the target's heading, which is that of the road, and across it.
     pub fn axes(&self) -> Axes {
         Axes::along(self.target.heading_rad)
     }
 }
 
 impl Scene {
-    /// The bicycle of the planning vehicle.
+    /// The bicycle model of the planning vehicle, with the plan's time step.
     pub fn model(&self) -> Bicycle {
         Bicycle::new(&self.ego.body, self.step_s)
     }

@@ -25,12 +25,13 @@ pub struct PersuasionBelief {
     pub variance: f64,
     /// Weight that the other puts on its own plan, `w_1`.
     pub w_1: f64,
-    /// By how much the other has strayed from its prediction in the last step, `γ` (squared, weighted with `w_1`).
+    /// Squared deviation of the other from its prediction in the last step, weighted with `w_1`: `γ` of eq. 7.27.
     pub deviation: f64,
 }
 
 impl PersuasionBelief {
-    /// Before anything was seen: the geometric middle of what `w_1` may be, and a signal without doubt.
+    /// The belief before anything was observed: `w_1` at the geometric mean of its bounds, and a signal without
+    /// variance.
     pub fn initial(settings: &Settings) -> Self {
         let w_1 = (settings.w_1_min * settings.w_1_max).sqrt();
         PersuasionBelief { alpha: 0.0, beta_m: 0.0, variance: 0.0, w_1, deviation: 0.0 }

@@ -34,20 +34,20 @@ use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Term, Violation};
 use crate::{Diagnostic, Plan, PlanError, Scene, Trajectory};
 use diagnostics::{ATTRACTION, BELIEF_VARIANCE, CONSERVATIVENESS, LOYALTY, OTHER_CHANGE, OWN_CHANGE};
 
-/// A Bayesian planner with what it remembers.
+/// The planner of Bayesian persuasion (chapter 7) with its beliefs and its last plan.
 #[derive(Clone, Debug)]
 pub struct Bayesian {
     settings: Settings,
     optimiser: Optimiser<Robust>,
     partner: PartnerSequence,
     belief: PersuasionBelief,
-    /// What the partner planned a step ago.
+    /// The partner's plan of one step before.
     partner_plan: Option<Trajectory>,
     last: Option<Trajectory>,
 }
 
 impl Bayesian {
-    /// A planner that has not met anyone yet.
+    /// A planner that has interacted with nobody yet.
     pub fn new(settings: Settings) -> Self {
         Bayesian {
             settings,
@@ -61,7 +61,7 @@ impl Bayesian {
 }
 
 impl Drive for Bayesian {
-    /// Plans the next move.
+    /// Makes a plan for the scene: chooses a partner, updates the beliefs about it, and solves the trajectory problem.
     ///
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.

@@ -26,7 +26,9 @@
 use super::settings::{ReplyValue, Settings};
 use crate::trajectory::terms::DistancePrice;
 
-/// `k_1` of eq. 7.19.
+/// The weight `k_1` (eq. 7.19) with which the ego's cost counts its distance `ω` from the other's plan: `w_1` is the
+/// weight that
+/// the other puts on its own plan, `w_4` that of its wish to keep away.
 pub fn attraction(w_1: f64, w_4: f64) -> f64 {
     w_4 * w_4 / w_1
 }

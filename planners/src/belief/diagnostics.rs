@@ -12,16 +12,16 @@ pub const PROBABILITIES: [DiagnosticQuantity; 5] = [
     probability("belief: IDM"),
     probability("belief: none of these"),
 ];
-/// Mean of the safety weight.
+/// Mean of the believed safety weight of a human driver.
 pub const SAFETY_WEIGHT: DiagnosticQuantity = weight("believed safety weight");
 /// Lower end of the interval that holds the safety weight with a probability of at least 0.9.
 pub const SAFETY_WEIGHT_FROM: DiagnosticQuantity = weight("believed safety weight, from");
-/// Upper end of the same interval.
+/// Upper end of the interval that holds the safety weight with a probability of at least 0.9.
 pub const SAFETY_WEIGHT_TO: DiagnosticQuantity = weight("believed safety weight, to");
 /// Entropy of the probabilities \[nat\].
 pub const ENTROPY: DiagnosticQuantity = DiagnosticQuantity::new("entropy of the belief", "", ValueSet::NonNegative);
 
-/// Everything that is reported.
+/// All quantities that are reported of a belief.
 pub const QUANTITIES: &[DiagnosticQuantity] = &[
     PROBABILITIES[0],
     PROBABILITIES[1],
@@ -34,7 +34,7 @@ pub const QUANTITIES: &[DiagnosticQuantity] = &[
     ENTROPY,
 ];
 
-/// The panels of a recording.
+/// The panels in which a recording shows a belief.
 pub const PANELS: &[DiagnosticPanel] = &[
     DiagnosticPanel { title: "What the nearest driver is believed to be [–]", quantities: &PROBABILITIES },
     DiagnosticPanel {

@@ -47,11 +47,11 @@ use observed_driver::{ObservedDriver, later};
 pub struct DriverBeliefs {
     settings: Settings,
     observed: Vec<ObservedDriver>,
-    /// The observer itself by tick, as far back as the oldest sighting.
+    /// The observing vehicle at each tick since the oldest sighting.
     own: VecDeque<(usize, Agent)>,
 }
 
-/// What is inferred from a scene.
+/// A scene with predictions that are inferred from observed motions, and the beliefs behind them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InferredScene {
     /// The scene with the predictions that follow from the beliefs.
@@ -60,7 +60,7 @@ pub struct InferredScene {
     pub estimates: Vec<DriverEstimate>,
     /// The belief about the nearest vehicle that the observer may meet, as numbers.
     pub diagnostics: Vec<Diagnostic>,
-    /// Drivers who are taken for another kind than before.
+    /// An event for each driver whose likeliest kind has changed.
     pub events: Vec<PlanEvent>,
 }
 
@@ -77,12 +77,12 @@ impl DriverBeliefs {
         others.collect()
     }
 
-    /// Nobody has been observed yet.
+    /// Beliefs about nobody: no driver has been observed yet.
     pub fn new(settings: Settings) -> DriverBeliefs {
         DriverBeliefs { settings, observed: Vec::new(), own: VecDeque::new() }
     }
 
-    /// Observes the others and predicts them. To be called once a tick.
+    /// Updates the beliefs with one observation of all others, and predicts their motions. Call it once a tick.
     pub fn infer(&mut self, sensed: &SensedScene) -> InferredScene {
         let SensedScene { scene, sightings } = sensed;
         self.own.push_back((scene.tick, scene.ego.clone()));

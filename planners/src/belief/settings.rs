@@ -10,7 +10,7 @@ pub enum Prior {
     /// Nice 0.6, normal 0.3, tough 0.1.
     #[default]
     Nice,
-    /// A third each.
+    /// Nice, normal and tough with a probability of a third each.
     Even,
     /// Nice 0.1, normal 0.3, tough 0.6.
     Tough,
@@ -20,13 +20,13 @@ pub enum Prior {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StyleOdds {
-    /// Of safety weight 0.
+    /// Odds of a human with safety weight 0.
     #[schemars(extend("exclusiveMinimum" = 0.0), extend("x-unit" = "dimensionless"), example = 1.0)]
     pub tough: f64,
-    /// Of safety weight 8.
+    /// Odds of a human with safety weight 8.
     #[schemars(extend("exclusiveMinimum" = 0.0), extend("x-unit" = "dimensionless"), example = 1.0)]
     pub normal: f64,
-    /// Of safety weight 50.
+    /// Odds of a human with safety weight 50.
     #[schemars(extend("exclusiveMinimum" = 0.0), extend("x-unit" = "dimensionless"), example = 2.0)]
     pub nice: f64,
 }

@@ -14,7 +14,7 @@ const SHOULDER: f64 = 0.1;
 /// Impacts that differ by less are equally harmful \[m/s\].
 const IMPACT_TOLERANCE_MPS: f64 = 1e-6;
 
-/// What a motion does to others and to itself, if everybody else does what is expected.
+/// The harm of a motion if everybody else moves as predicted: the first impact, and leaving the road.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Harm {
     /// The largest relative speed at which it first touches somebody \[m/s\]; none if it touches nobody.
@@ -24,7 +24,7 @@ pub struct Harm {
 }
 
 impl Harm {
-    /// The harm of a motion of the planning vehicle.
+    /// Measures the harm of a motion of the planning vehicle.
     pub fn of(scene: &Scene, motion: &Trajectory) -> Harm {
         let impacts = scene.others.iter().filter_map(|other| {
             let stage = first_contact(scene, motion, other)?;
@@ -63,7 +63,7 @@ fn relative_speed_mps(one: &State, other: &State) -> f64 {
     libm::hypot(a - c, b - d)
 }
 
-/// The motions that need no planner: from full braking to full acceleration, straight on or to a lateral position.
+/// Simple motions that need no planner: from full braking to full acceleration, straight on or to a lateral position.
 pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
     let (ego, limits) = (&scene.ego, scene.ego.limits);
     let here_m = ego.route.across(ego.state.position());
@@ -82,7 +82,7 @@ pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
     straight_on.chain(aside)
 }
 
-/// The first of some motions than which none is less harmful, with its number; none of no motions.
+/// The least harmful of some motions with its index, the first of equals; `None` without motions.
 pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory>) -> Option<(usize, Trajectory)> {
     let mut best: Option<(usize, Trajectory, Harm)> = None;
     for (number, motion) in motions.into_iter().enumerate() {

@@ -21,7 +21,9 @@ pub use violation::violations;
 
 use crate::{PlanCondition, PlanViolation, Scene, Trajectory};
 
-/// Of what a plan violates, that for which it must not be driven.
+/// The violation for which a plan must not be driven, if there is one: a fault of the plan itself, or a contact with
+/// which it gives
+/// away the last way out.
 pub fn refused<'a>(scene: &Scene, plan: &Trajectory, violations: &'a [PlanViolation]) -> Option<&'a PlanViolation> {
     let contact = violations.iter().find(|violation| matches!(violation.condition, PlanCondition::Clear(_)));
     let fault = violations.iter().find(|violation| violation.is_fault());

@@ -10,7 +10,8 @@ const LIMIT_TOLERANCE: f64 = 1e-6;
 /// Bodies may overlap, and corners be beyond the edge, by this share of the vehicle's length: planners see both as soft.
 const PLACE_TOLERANCE: f64 = 5e-3;
 
-/// What a plan of the planning vehicle violates: each condition once, with its first stage.
+/// Checks a plan of the planning vehicle. Returns each violated condition once, with the first stage at which it is
+/// violated.
 pub fn violations(scene: &Scene, plan: &Trajectory) -> Vec<PlanViolation> {
     let clear =
         scene.others.iter().map(|other| (PlanCondition::Clear(other.name.clone()), first_contact(scene, plan, other)));

@@ -18,7 +18,7 @@ use crate::trajectory::activity::Activity;
 use crate::trajectory::{DescentError, Optimiser, Problem, Robust, Violation};
 use crate::{Agent, Diagnostic, Plan, PlanError, Scene, Trajectory};
 
-/// A conservative planner, with its last plan.
+/// The conservative planner (eq. 6.13) with its last plan.
 #[derive(Clone, Debug)]
 pub struct Conservative {
     settings: Settings,
@@ -26,7 +26,9 @@ pub struct Conservative {
     last: Option<Trajectory>,
 }
 
-/// The conservative problem of the planning vehicle, with the predictions of `others` as constraints.
+/// The conservative problem (eq. 6.13) of the planning vehicle: it keeps out of the safety ellipses around the
+/// predictions of
+/// `others`.
 pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
     let mut terms = scene.own_terms(0, &scene.goal);
     terms.extend(scene.exact_keep_outs(others.iter().copied()));
@@ -34,7 +36,7 @@ pub fn problem(scene: &Scene, others: &[&Agent]) -> Problem {
 }
 
 impl Conservative {
-    /// A planner without a last plan.
+    /// A planner that has not planned yet.
     pub fn new(settings: Settings) -> Self {
         Conservative {
             settings,
@@ -51,7 +53,7 @@ impl Conservative {
 }
 
 impl Drive for Conservative {
-    /// Plans with the predictions of all other vehicles as constraints.
+    /// Makes a plan that keeps out of the safety ellipses around the predictions of all other vehicles.
     ///
     /// # Errors
     /// [`PlanError`] if no starting guess leads to an optimum.

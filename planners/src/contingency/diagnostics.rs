@@ -4,9 +4,9 @@ use crate::diagnostic::{DiagnosticPanel, DiagnosticQuantity, Explanation, ValueS
 
 /// The number of futures that are planned for.
 pub const FUTURES: DiagnosticQuantity = DiagnosticQuantity::new("futures", "", ValueSet::Count);
-/// The probability of the likeliest of them.
+/// The probability of the likeliest future that is planned for.
 pub const LIKELIEST: DiagnosticQuantity = DiagnosticQuantity::new("likeliest future", "", ValueSet::Probability);
-/// In how many first steps the inputs are the same in all of them.
+/// The number of first steps whose inputs are the same in all futures.
 pub const SHARED_STEPS: DiagnosticQuantity = DiagnosticQuantity::new("shared steps", "", ValueSet::Count);
 
 /// How the planner explains its plans.

@@ -4,12 +4,13 @@ use super::settings::Settings;
 use crate::belief::Alternative;
 use crate::{Scene, Trajectory};
 
-/// One way in which things may go on.
+/// A possible future: one motion of each other vehicle, with its probability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Future {
-    /// Which hypothesis about each of the others it stands for, in the order of the scene: it is the same in the next plan.
+    /// The hypothesis about the driver of each other vehicle, in the order of the scene; a future has the same ones in
+    /// the next plan.
     pub hypotheses: Vec<usize>,
-    /// How likely it is.
+    /// Probability of this future.
     pub probability: f64,
     /// The motion of each of the others, in the order of the scene.
     pub predictions: Vec<Trajectory>,

@@ -31,16 +31,18 @@ use crate::trajectory::{Optimiser, Optimum, Penalty, Problem, Robust, Term, Viol
 use crate::{Diagnostic, Goal, Input, Plan, PlanBranch, PlanError, Scene, Trajectory};
 use diagnostics::{FUTURES, LIKELIEST, SHARED_STEPS};
 
-/// A contingency planner, with its last plan.
+/// The contingency planner, whose plan branches into one continuation a future, with its last plan.
 #[derive(Clone, Debug)]
 pub struct Contingency {
     settings: Settings,
     optimiser: Optimiser<Robust>,
-    /// The last motion in each future, with its hypotheses.
+    /// The last motion in each future, with the hypotheses of that future.
     last: Vec<(Vec<usize>, Trajectory)>,
 }
 
-/// The problem of the planning vehicle in several futures, one participant each.
+/// The trajectory problem of the planning vehicle in several futures: one participant a future, with equal inputs in
+/// the first
+/// `shared_steps` steps.
 pub fn problem(scene: &Scene, futures: &[Future], shared_steps: usize) -> Problem {
     let mut terms = Vec::new();
     for (vehicle, future) in futures.iter().enumerate() {
@@ -57,7 +59,7 @@ pub fn problem(scene: &Scene, futures: &[Future], shared_steps: usize) -> Proble
 }
 
 impl Contingency {
-    /// A planner without a last plan.
+    /// A planner that has not planned yet.
     pub fn new(settings: Settings) -> Self {
         Contingency {
             settings,
@@ -68,7 +70,7 @@ impl Contingency {
 }
 
 impl Drive for Contingency {
-    /// Plans for the futures that follow from what the others may do.
+    /// Makes a plan with a continuation for each of the likeliest futures.
     ///
     /// # Errors
     /// [`PlanError`] if neither this problem nor the conservative one can be solved.

@@ -31,7 +31,8 @@ use crate::trajectory::{Optimiser, Optimum, Problem, Robust, Violation};
 use crate::{Diagnostic, Goal, Input, Plan, PlanError, Proposal, Scene, Trajectory};
 use diagnostics::{COOPERATING_VEHICLES, OWN_COST};
 
-/// The vehicles of the joint problem, sorted by name. Each of them computes a bit-identical list.
+/// The vehicles of the joint problem with their goals, sorted by name: each of these vehicles computes a bit-identical
+/// list.
 pub fn cooperators(scene: &Scene, own: Goal) -> Vec<JointVehicle> {
     let others = scene.others.iter().filter_map(|agent| Some((agent, agent.shared_goal?)));
     let everybody = others.chain([(&scene.ego, own)]);
@@ -41,7 +42,7 @@ pub fn cooperators(scene: &Scene, own: Goal) -> Vec<JointVehicle> {
     found
 }
 
-/// A cooperative planner, with its last joint plan.
+/// The cooperative planner (eq. 6.12) with its last joint plan.
 #[derive(Clone, Debug)]
 pub struct Cooperative {
     settings: Settings,
@@ -60,7 +61,7 @@ impl Settings {
 }
 
 impl Cooperative {
-    /// A planner without a last plan.
+    /// A planner that has not planned yet.
     pub fn new(settings: Settings) -> Self {
         Cooperative {
             settings,

@@ -6,9 +6,9 @@
 
 use super::payoff::Player;
 
-/// The lowest intention.
+/// The lowest intention, a probability to pass.
 pub const MIN_INTENTION: f64 = 0.05;
-/// The highest intention.
+/// The highest intention, a probability to pass.
 pub const MAX_INTENTION: f64 = 0.95;
 /// Number of grid points from [`MIN_INTENTION`] to [`MAX_INTENTION`].
 pub(super) const GRID_POINTS: usize = 91;
@@ -27,7 +27,7 @@ pub(super) fn intention(point: usize) -> f64 {
     f64::from(HUNDREDTHS[0] + point as i32) / 100.0
 }
 
-/// The best response to an intention of the other.
+/// The intention that serves `player` best if the other passes with probability `other`.
 pub fn best_response(player: &Player, other: f64) -> f64 {
     let best = best_of((0..GRID_POINTS).step_by(COARSE_STRIDE).map(|point| player.utility(intention(point), other)));
     reply_near(player, other, intention(COARSE_STRIDE * best))

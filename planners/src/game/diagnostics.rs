@@ -20,16 +20,16 @@ pub const EGO_PAYOFFS: [DiagnosticQuantity; 3] =
 /// The other's payoffs: both yield, the other yields alone, the other passes alone.
 pub const OTHER_PAYOFFS: [DiagnosticQuantity; 3] =
     [payoff("payoff other: both yield"), payoff("payoff other: yields alone"), payoff("payoff other: passes alone")];
-/// Either's payoff if both pass.
+/// The payoff of each player if both pass.
 pub const ACCIDENT_PAYOFF: DiagnosticQuantity = payoff("payoff: accident");
 /// The lowest mean speed that expresses the intention (eq. 8.11).
 pub const EXPRESSED_FROM: DiagnosticQuantity = speed("expressed speed from");
 /// The highest mean speed that expresses the intention (eq. 8.11).
 pub const EXPRESSED_TO: DiagnosticQuantity = speed("expressed speed to");
-/// By how much the plan's mean speed misses this interval.
+/// By how much the plan's mean speed misses the interval from [`EXPRESSED_FROM`] to [`EXPRESSED_TO`].
 pub const EXPRESSION_SLACK: DiagnosticQuantity =
     DiagnosticQuantity::new("expression slack", "m/s", ValueSet::NonNegative);
-/// The plan's mean speed.
+/// The mean speed of the plan.
 pub const MEAN_SPEED: DiagnosticQuantity = speed("mean speed");
 
 /// How the planner explains its plans.

@@ -24,7 +24,7 @@ const LEADER_REFINEMENT_STEPS: usize = 10;
 /// Most steps towards a crossing.
 const CROSSING_BISECTION_STEPS: usize = 24;
 
-/// A pair of intentions.
+/// The solution of a game: an intention of each player, with what it is worth to them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GameSolution {
     /// Probability with which the ego passes, `p_e`.
@@ -57,7 +57,7 @@ fn is_peak(values: &[f64], index: usize) -> bool {
     [before, values.get(index + 1).copied()].into_iter().flatten().all(|beside| beside <= values[index])
 }
 
-/// A mixed equilibrium.
+/// A Nash equilibrium in mixed strategies: no player gains by another intention while the other keeps its own.
 pub fn nash(ego: &Player, other: &Player) -> GameSolution {
     let answers = [ego, other].map(|player| std::array::from_fn(|point| intention(grid_response(player, point))));
     let around = |own: f64| {

@@ -16,14 +16,16 @@
 
 use super::best_response::{MAX_INTENTION, MIN_INTENTION};
 
-/// What is expected of a vehicle that yields and of one that passes.
+/// The observed quantity as it is expected of a vehicle that yields and of one that passes: normal distributions with
+/// one standard
+/// deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Behaviour {
-    /// Mean if it yields, `μ_y`.
+    /// Mean if the vehicle yields, `μ_y`.
     pub yielding: f64,
-    /// Mean if it passes, `μ_p`.
+    /// Mean if the vehicle passes, `μ_p`.
     pub passing: f64,
-    /// Standard deviation, `σ`.
+    /// Standard deviation in both cases, `σ`.
     pub deviation: f64,
 }
 
@@ -36,7 +38,7 @@ impl Behaviour {
         (1.0 / (1.0 + libm::exp(-odds))).clamp(MIN_INTENTION, MAX_INTENTION)
     }
 
-    /// The behaviour that turns a prior into a posterior.
+    /// The observation that turns a prior probability of passing into a posterior one, by Bayes' rule.
     pub fn expressing(&self, posterior: f64, prior: f64) -> f64 {
         let evidence = logit(posterior) - logit(prior);
         let spread = self.deviation * self.deviation / (self.passing - self.yielding);

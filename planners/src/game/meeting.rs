@@ -6,29 +6,29 @@ use crate::encounter::distance_to_path;
 use crate::relation::Relation;
 use crate::{Agent, Scene};
 
-/// How ego and other meet.
+/// The geometry in which two vehicles meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Meeting {
     /// On one road: how far the ego is ahead of the other, `d` \[m\].
     Alongside {
-        /// `d`.
+        /// How far the ego is ahead of the other, `d` \[m\].
         lead_m: f64,
     },
     /// Where roads cross: how far the ego and the other are from the conflict zone, `d_c`; negative inside \[m\].
     Crossing {
-        /// The ego's distance.
+        /// Distance of the ego from the conflict zone \[m\].
         ego_m: f64,
-        /// The other's distance.
+        /// Distance of the other from the conflict zone \[m\].
         other_m: f64,
     },
 }
 
-/// What one vehicle shows, and what it would show if it yielded or passed.
+/// An observation of one vehicle, with what would be observed if it yielded or passed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObservedBehaviour {
     /// Mean speed \[m/s\], or time of arrival \[s\].
     pub observed: f64,
-    /// What is expected.
+    /// The observations that are expected of one that yields and of one that passes.
     pub behaviour: Behaviour,
 }
 
@@ -45,7 +45,7 @@ impl Meeting {
         Some(Meeting::Crossing { ego_m, other_m: distance_to_path(other, ego)? - settings.conflict_edge_m })
     }
 
-    /// Whether both still have the conflict before them.
+    /// Whether neither vehicle has passed the conflict zone.
     pub fn is_open(&self) -> bool {
         match *self {
             Meeting::Alongside { .. } => true,

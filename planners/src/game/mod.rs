@@ -45,7 +45,7 @@ use logit::quantal_response;
 use meeting::{Meeting, ObservedBehaviour};
 use payoff::{Stakes, TabulatedTheory};
 
-/// A planner that plays, with what it remembers.
+/// The planner of the persuasion game (chapter 8) with its beliefs and its last plan.
 #[derive(Clone, Debug)]
 pub struct Game {
     settings: Settings,
@@ -89,7 +89,7 @@ struct Round {
 }
 
 impl Game {
-    /// A planner that has not met anyone yet.
+    /// A planner that has interacted with nobody yet.
     pub fn new(settings: Settings) -> Self {
         Game {
             settings,
@@ -104,7 +104,8 @@ impl Game {
 }
 
 impl Drive for Game {
-    /// Plans the next move.
+    /// Makes a plan for the scene: updates the beliefs, plays the game with the nearest partner, and expresses its
+    /// solution by speed.
     ///
     /// # Errors
     /// [`PlanError`] if not even the conservative problem can be solved.

@@ -27,28 +27,28 @@ const TABLE_NODES: usize = 10_000;
 /// Closer to 0 or 1 than this the weights are too steep for the tables.
 const STEEP_END: f64 = 2e-3;
 
-/// What one player has at stake.
+/// The stakes of one player, from which its payoffs follow (Table 8.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stakes {
-    /// `x`: gained by passing first, lost by waiting.
+    /// What passing first gains and waiting loses, `x`.
     pub turn: f64,
-    /// `M`: lost in the accident.
+    /// What the accident loses, `M`.
     pub accident: f64,
 }
 
 /// The three ways to lose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Loss {
-    /// Both yield.
+    /// Both players yield.
     Stalemate,
-    /// Only the other passes.
+    /// The player yields and the other passes.
     Wait,
-    /// Both pass.
+    /// Both players pass: the accident.
     Accident,
 }
 
 impl Stakes {
-    /// Stakes as printed: `x` is the ratio of the intentions.
+    /// The stakes as the source prints them: `x` is the ratio of the intentions.
     pub fn of_ratio(ratio: f64, accident: f64) -> Self {
         Stakes { turn: ratio, accident }
     }

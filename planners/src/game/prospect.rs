@@ -18,10 +18,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProspectTheory {
-    /// Exponent of gains, `α`.
+    /// Exponent of the value of gains, `α`.
     #[schemars(range(min = 0.1, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub alpha: f64,
-    /// Exponent of losses, `β`.
+    /// Exponent of the value of losses, `β`.
     #[schemars(range(min = 0.1, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub beta: f64,
     /// Loss aversion, `λ`.
@@ -38,9 +38,9 @@ pub struct ProspectTheory {
 /// One outcome of a lottery.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// What it pays.
+    /// Payoff of the outcome.
     pub payoff: f64,
-    /// How probable it is.
+    /// Probability of the outcome.
     pub probability: f64,
 }
 
@@ -54,7 +54,7 @@ impl ProspectTheory {
     /// The parameters that make [`ProspectTheory::utility`] the expected payoff.
     pub const EXPECTED: ProspectTheory = ProspectTheory { alpha: 1.0, beta: 1.0, lambda: 1.0, gamma: 1.0, eta: 1.0 };
 
-    /// What a payoff is worth, `v` (eq. 8.5).
+    /// The value `v` of a payoff (eq. 8.5).
     pub fn value(&self, payoff: f64) -> f64 {
         if payoff >= 0.0 { libm::pow(payoff, self.alpha) } else { -self.lambda * libm::pow(-payoff, self.beta) }
     }

@@ -73,7 +73,7 @@ const LEADER_LENGTH_RATIO: f64 = 0.7;
 /// it yields to nobody.
 const LEADER_WIDTH_RATIO: f64 = 4.0;
 
-/// A human driver with the plan it made last and what it remembers of the others.
+/// A human driver with its last plan and what it remembers of the other vehicles.
 #[derive(Clone, Debug)]
 pub struct Human {
     settings: Settings,
@@ -115,7 +115,8 @@ impl Human {
 }
 
 impl Drive for Human {
-    /// Plans the next move.
+    /// Makes a plan for the scene as this driver sees it: late by its reaction time, and with the last decision while
+    /// it hesitates.
     ///
     /// # Errors
     /// [`PlanError`] if none of the guesses leads to an optimum.
@@ -178,7 +179,7 @@ fn wait_at(problem: &mut Problem, scene: &Scene, line_m: f64) {
     problem.terms.push(Term::StopLine(ego.stop_line(0, line_m)));
 }
 
-/// The guess of keeping on: the last plan one step later, or at first a little braking.
+/// The starting guess of an optimisation: the last plan one step later, or before the first plan a little braking.
 pub fn guess(scene: &Scene, last: Option<&Trajectory>) -> Vec<Input> {
     last.map_or_else(|| steadily(scene, -FIRST_BRAKING_RATIO), Trajectory::later_inputs)
 }

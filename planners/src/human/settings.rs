@@ -15,11 +15,11 @@ use crate::trajectory::HomotopySearch;
 pub enum Style {
     /// Yields to whoever threatens to enter its safety ellipse: weight 50.
     Nice,
-    /// Weight 20.
+    /// Safety weight 20.
     Considerate,
-    /// Weight 8.
+    /// Safety weight 8.
     Normal,
-    /// Weight 2.
+    /// Safety weight 2.
     Assertive,
     /// Yields to nobody who cuts in or crosses: weight 0. It still brakes for the vehicle ahead in its lane.
     Tough,
@@ -29,7 +29,7 @@ impl Style {
     /// All styles, from the highest weight to the lowest.
     pub const ALL: [Style; 5] = [Style::Nice, Style::Considerate, Style::Normal, Style::Assertive, Style::Tough];
 
-    /// The word for it in a scenario file.
+    /// The word for the style in a scenario file.
     pub fn name(self) -> &'static str {
         match self {
             Style::Nice => "nice",
@@ -40,7 +40,7 @@ impl Style {
         }
     }
 
-    /// The safety weight that the word stands for.
+    /// The safety weight of the style.
     pub fn safety_weight(self) -> f64 {
         match self {
             Style::Nice => 50.0,

@@ -2,9 +2,9 @@
 
 use crate::diagnostic::{DiagnosticQuantity, Explanation, ValueSet};
 
-/// The lane that it drives in or changes to, counted from the right.
+/// The lane that the driver drives in or changes to, counted from the right.
 pub const LANE: DiagnosticQuantity = DiagnosticQuantity::new("lane", "", ValueSet::Count);
-/// By how much the best other lane is better than staying, threshold included.
+/// By how much acceleration the best other lane is better than staying, less the threshold of a change.
 pub const INCENTIVE: DiagnosticQuantity = DiagnosticQuantity::new("incentive", "m/s²", ValueSet::Real);
 /// Gap between bumpers to the vehicle ahead.
 pub const GAP: DiagnosticQuantity = DiagnosticQuantity::new("gap", "m", ValueSet::Real);

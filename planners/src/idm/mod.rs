@@ -22,7 +22,7 @@ use car_following::Leader;
 use diagnostics::{GAP, INCENTIVE, LANE};
 use lanes::{Lanes, leader};
 
-/// A driver after the model.
+/// A driver that follows the intelligent driver model (IDM) and changes lanes by MOBIL.
 #[derive(Clone, Debug)]
 pub struct Idm {
     settings: Settings,
@@ -40,7 +40,7 @@ impl Idm {
 }
 
 impl Drive for Idm {
-    /// Chooses a lane and plans the next moves.
+    /// Chooses a lane and makes a plan along it.
     ///
     /// # Errors
     /// Never.

@@ -27,7 +27,7 @@ pub struct Settings {
     /// How sharply acceleration ends at the wanted speed, `δ`.
     #[schemars(range(min = 0.1), extend("x-unit" = "dimensionless"))]
     pub exponent: f64,
-    /// When to change lanes.
+    /// When the driver changes lanes (MOBIL).
     pub mobil: Mobil,
     /// What the others are expected to do.
     pub prediction: Prediction,
@@ -47,7 +47,7 @@ impl Default for Settings {
     }
 }
 
-/// When to change lanes.
+/// When the driver changes lanes (MOBIL).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mobil {

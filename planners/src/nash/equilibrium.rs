@@ -31,21 +31,21 @@ use crate::trajectory::{DescentError, Optimiser, Optimum, Problem, StageSolver};
 /// Most times that a player who gains leaves in search of an equilibrium.
 const MOST_DEPARTURES: usize = 6;
 
-/// A solution of the game with its certificate.
+/// A candidate for a generalised Nash equilibrium with its certificate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
     /// The motions of all players.
     pub optimum: Optimum,
     /// What each player gains by its best deviation, as far as one was found.
     pub gains: Vec<f64>,
-    /// How often a player who gained left before.
+    /// How many times a player that gained by deviating left before this solution was reached.
     pub departures: usize,
     /// Whether best responses settled here, since the descent of the joint problem did not end.
     pub by_best_responses: bool,
 }
 
 impl Equilibrium {
-    /// The most that one player gains by leaving.
+    /// The largest gain of a player that deviates alone.
     pub fn largest_gain(&self) -> f64 {
         self.gains.iter().copied().fold(0.0, f64::max)
     }

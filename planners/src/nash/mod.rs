@@ -31,7 +31,7 @@ use diagnostics::{DEVIATION_GAIN, EGO_COST, PLAYERS};
 use players::{SeenSpeeds, players};
 use refusals::Refusals;
 
-/// A player of the general-sum game, with its last equilibrium.
+/// The planner of the general-sum game with its last equilibrium.
 #[derive(Clone, Debug)]
 pub struct Nash {
     settings: Settings,
@@ -50,7 +50,7 @@ const JOINT_WORK_LIMIT: usize = 500;
 /// both turn along an ellipse, steps that enter it a little and leave it with the next one lead on much faster than those that stay outside.
 const REMEMBERED_COSTS: usize = 7;
 
-/// What solves the joint problem of a game.
+/// An optimiser for the joint problem of a game, whose optima are candidates for equilibria.
 pub fn joint_optimiser(search: HomotopySearch) -> Optimiser<Robust> {
     let mut joint = Optimiser::receding_horizon(Robust::default()).searching(search);
     joint.tolerances.work_limit = JOINT_WORK_LIMIT;

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use crate::vehicle::OrientedEllipse;
 use crate::{State, Trajectory};
 
-/// What the planner takes for acceptance.
+/// How the planner measures whether another vehicle accepts a proposal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Acceptance {

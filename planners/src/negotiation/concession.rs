@@ -13,7 +13,7 @@ impl Default for Concession {
 }
 
 impl Concession {
-    /// The present weight.
+    /// The present weight `w` of the ego's cost.
     pub fn weight(&self) -> f64 {
         self.weight
     }

@@ -48,7 +48,7 @@ use state::{NegotiationRound, NegotiationState};
 /// Most work of a descent of the fallback. One that takes more goes to and fro.
 const FALLBACK_WORK_LIMIT: usize = 1000;
 
-/// A negotiating planner with what it remembers.
+/// The planner of negotiation (chapter 6) with its last plans and the state of each negotiation.
 #[derive(Clone, Debug)]
 pub struct Negotiation {
     settings: Settings,
@@ -56,7 +56,7 @@ pub struct Negotiation {
     filter: Filter,
     optimiser: Optimiser<Robust>,
     selection: PartnerSelection,
-    /// What is remembered of those who are asked, by name, in their order.
+    /// The state of the negotiation with each vehicle that is asked, by name, in the order of asking.
     negotiations: Vec<(String, NegotiationState)>,
 }
 
@@ -77,7 +77,7 @@ impl Negotiation {
 }
 
 impl Drive for Negotiation {
-    /// Plans the next move and the next proposals.
+    /// Makes a plan and proposals for the scene.
     ///
     /// # Errors
     /// [`PlanError`] if neither the negotiation nor the conservative problem can be solved.

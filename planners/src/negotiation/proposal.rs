@@ -36,7 +36,7 @@ const WORK_LIMIT: usize = 300;
 /// several; a planner that asks nobody decides by its comparison and makes it at once.
 const COMPARISON_WORK_LIMIT: usize = 200;
 
-/// What solves the negotiation problem.
+/// An optimiser for the negotiation problem.
 pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
     let mut optimiser = Optimiser::receding_horizon(Robust::default()).searching(settings.passing_orders);
     optimiser.tolerances.work_limit = WORK_LIMIT;
@@ -44,10 +44,10 @@ pub fn optimiser(settings: &Settings) -> Optimiser<Robust> {
     optimiser
 }
 
-/// A vehicle that is asked.
+/// A vehicle to which a proposal is made.
 #[derive(Clone, Copy, Debug)]
 pub struct AskedPartner<'a> {
-    /// The vehicle.
+    /// The asked vehicle.
     pub agent: &'a Agent,
     /// The weight `w` that concession to it has left to the ego's cost.
     pub weight: f64,

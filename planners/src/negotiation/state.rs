@@ -10,9 +10,9 @@ use crate::{Agent, Scene, Trajectory};
 pub(super) struct NegotiationState {
     /// The weight of the ego's own cost.
     pub concession: Concession,
-    /// What the first step of the negotiation led to, continued to the step before.
+    /// The plans of the first step of the negotiation, continued to the step before.
     pub first: Option<NegotiationRound>,
-    /// What the step before led to.
+    /// The plans of the step before.
     pub last: Option<NegotiationRound>,
 }
 
@@ -41,7 +41,7 @@ impl NegotiationState {
         round.map(NegotiationRound::continued)
     }
 
-    /// Keeps what a step led to.
+    /// Stores the plans of a step for the next ones.
     pub fn remember(&mut self, round: NegotiationRound) {
         self.first = Some(self.first.as_ref().map_or_else(|| round.clone(), NegotiationRound::continued));
         self.last = Some(round);
@@ -55,9 +55,9 @@ pub(super) struct NegotiationRound {
     pub cooperative: Trajectory,
     /// The ego's conservative plan.
     pub conservative: Option<Trajectory>,
-    /// What was proposed to the other.
+    /// The motion that was proposed to the other.
     pub proposal: Trajectory,
-    /// What the other was expected to do.
+    /// The motion that was predicted of the other.
     pub prediction: Trajectory,
 }
 

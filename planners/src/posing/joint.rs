@@ -7,9 +7,9 @@ use crate::{Agent, Goal, Scene};
 /// A vehicle that decides in a joint problem, with its goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointVehicle {
-    /// The vehicle.
+    /// The deciding vehicle.
     pub agent: Agent,
-    /// Its goal. Its weights `Q` and `R` are divided by the vehicle's normaliser `Z_i`.
+    /// The vehicle's goal, with weights `Q` and `R` that are divided by its normaliser `Z_i`.
     pub goal: Goal,
 }
 

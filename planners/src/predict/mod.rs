@@ -25,7 +25,7 @@ pub enum Prediction {
 }
 
 impl Prediction {
-    /// The predicted motion of a vehicle. What is inferred stands in the scene already.
+    /// The predicted motion of a vehicle. An inferred motion is already in the scene.
     pub fn of(self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
         match self {
             Prediction::Plan | Prediction::Inferred => agent.prediction.clone(),

@@ -11,10 +11,10 @@ pub struct Axes {
 const RIGHT_ANGLE: f64 = 1e-12;
 
 impl Axes {
-    /// Those of the world: x and y.
+    /// The axes x and y of the world.
     pub const WORLD: Axes = Axes { cos: 1.0, sin: 0.0 };
 
-    /// Along a heading \[rad\]; exact where that is a multiple of a right angle.
+    /// The axes along and across a heading \[rad\]; exact where it is a multiple of a right angle.
     pub fn along(heading_rad: f64) -> Axes {
         let (sin, cos) = libm::sincos(heading_rad);
         if sin.abs() < RIGHT_ANGLE {

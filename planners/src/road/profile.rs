@@ -41,21 +41,21 @@ pub enum ProfileError {
     /// A number of a knot is infinite or not a number (NaN).
     #[error("knot {knot} has a number that is not finite")]
     NotFinite {
-        /// The number of the knot.
+        /// Index of the knot.
         knot: usize,
     },
     /// The arc lengths do not increase.
     #[error("knot {knot} at {along_m} m does not lie beyond the knot before it")]
     NotIncreasing {
-        /// The number of the later knot.
+        /// Index of the later knot.
         knot: usize,
-        /// Its arc length \[m\].
+        /// Arc length of the later knot \[m\].
         along_m: f64,
     },
     /// A stretch does not begin with the arc length, value, slope and bend of the end before it.
     #[error("stretch {stretch} does not continue the one before it")]
     Gap {
-        /// The number of the stretch.
+        /// Index of the stretch.
         stretch: usize,
     },
 }
@@ -64,7 +64,7 @@ pub enum ProfileError {
 const JOINT_TOLERANCE: f64 = 1e-9;
 
 impl Profile {
-    /// The same value everywhere.
+    /// A profile with the same value everywhere.
     pub fn constant(value: f64) -> Profile {
         Profile(Form::Constant(value))
     }

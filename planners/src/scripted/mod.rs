@@ -14,19 +14,19 @@ use crate::predict::Prediction;
 use crate::steering::{admissible, roll_out, steer};
 use crate::{Input, Plan, PlanError, Scene};
 
-/// What to do, and when.
+/// The settings of a scripted driver: what to do, and when.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// The orders.
+    /// The orders, each with the time at which it begins.
     pub script: Vec<Order>,
 }
 
-/// One order.
+/// An order of the script.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Order {
-    /// When it begins, since the start of the run \[s\].
+    /// Time at which the order begins, since the start of the run \[s\].
     #[schemars(range(min = 0.0), example = 2.0)]
     pub from_s: f64,
     /// The speed to drive at \[m/s\].
@@ -65,7 +65,7 @@ impl DriverKind for Settings {
     }
 }
 
-/// A driver at its script.
+/// A driver that follows a script.
 #[derive(Clone, Debug)]
 pub struct Scripted {
     settings: Settings,
@@ -77,14 +77,14 @@ pub struct Scripted {
 const TIME_TOLERANCE_S: f64 = 1e-9;
 
 impl Scripted {
-    /// A driver at the beginning of its script.
+    /// A driver that has not planned yet.
     pub fn new(settings: Settings) -> Self {
         Scripted { settings, kept: None }
     }
 }
 
 impl Drive for Scripted {
-    /// The next moves of the script.
+    /// Makes a plan that follows the script.
     ///
     /// # Errors
     /// Never.

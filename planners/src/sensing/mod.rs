@@ -45,21 +45,21 @@ struct Track {
 /// The last measurement of a vehicle.
 #[derive(Clone, Copy, Debug)]
 struct Measured {
-    /// When it was made.
+    /// Tick of the measurement.
     tick: usize,
     state: State,
-    /// The estimate after it.
+    /// The estimated state after the measurement.
     filter: Filter,
 }
 
-/// How one vehicle was seen last.
+/// The last measurement of one vehicle, and the estimate that follows from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sighting {
     /// The tick of the last measurement.
     pub tick: usize,
     /// The measured state.
     pub measured: State,
-    /// The estimate after it.
+    /// The estimated state after the measurement.
     pub estimate: State,
     /// Standard deviation of a measured speed \[m/s\].
     pub measured_speed_sd_mps: f64,
@@ -72,7 +72,7 @@ pub struct Sighting {
 }
 
 impl Sighting {
-    /// A vehicle that is seen as it is.
+    /// A sighting without error or delay.
     pub fn perfect(tick: usize, state: &State) -> Sighting {
         Sighting {
             tick,
@@ -86,17 +86,17 @@ impl Sighting {
     }
 }
 
-/// A scene as it is sensed.
+/// A scene as a driver senses it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensedScene {
     /// The scene with the others at their estimated states, driven on to the present; who is not seen is missing.
     pub scene: Scene,
-    /// How each of the others was seen last, in the order of the scene.
+    /// The last sighting of each other vehicle, in the order of the scene.
     pub sightings: Vec<Sighting>,
 }
 
 impl SensedScene {
-    /// A scene in which everybody is seen as it is.
+    /// A scene in which everybody is sensed without error or delay.
     pub fn perfect(scene: &Scene) -> SensedScene {
         let sightings = scene.others.iter().map(|other| Sighting::perfect(scene.tick, &other.state)).collect();
         SensedScene { scene: scene.clone(), sightings }
@@ -115,7 +115,7 @@ impl Sensor {
         Sensor { settings, seed, tracks: Vec::new() }
     }
 
-    /// Measures the others of a scene. To be called once a tick, with scenes whose ticks follow each other.
+    /// Measures the other vehicles of a scene. Call it once a tick, with scenes of consecutive ticks.
     pub fn sense(&mut self, scene: &Scene) -> SensedScene {
         for index in 0..scene.others.len() {
             self.measure(scene, index);

@@ -18,7 +18,7 @@ pub struct CommittedPlan {
 /// Where a plan comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
-    /// The planner found it.
+    /// The planner found the plan.
     #[default]
     Planned,
     /// The planner failed: the previous plan goes on.
@@ -27,7 +27,7 @@ pub enum Origin {
     Braking,
     /// The planner failed, and another acceleration is less harmful than both.
     Evading,
-    /// It has crashed: full braking, and nobody is asked.
+    /// The vehicle has crashed: full braking, and its planner is not asked.
     Crashed,
 }
 

@@ -3,12 +3,12 @@
 use super::committed::CommittedPlan;
 use crate::{Agent, Goal};
 
-/// One vehicle with all that the loop keeps of it.
+/// One vehicle of the closed loop: how the others see it, its goal, and its committed plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadUser {
     /// The vehicle as everybody sees it.
     pub agent: Agent,
-    /// What it wants.
+    /// The goal of the vehicle.
     pub goal: Goal,
     /// Whether it plans before, and publishes its plan to, those who do not.
     pub goes_first: bool,
@@ -16,7 +16,7 @@ pub struct RoadUser {
     pub knows_plans: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
     pub is_crashed: bool,
-    /// What it decided last.
+    /// The plan that it decided on last.
     pub committed: CommittedPlan,
 }
 

@@ -21,9 +21,9 @@ const KINDS: usize = Violation::MeanSpeed as usize + 1;
 /// The cost of an iterate, and the largest violation of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {
-    /// Everything, penalties included.
+    /// Total cost, with the penalties of violations.
     pub total: f64,
-    /// The part of it that is linear in violations of stage rows, `Σ linear·s`.
+    /// The part of the total that is linear in violations of stage rows, `Σ linear·s`.
     pub linear_penalties: f64,
     violations: [f64; KINDS],
 }

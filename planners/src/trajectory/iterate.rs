@@ -10,7 +10,8 @@ pub struct Iterate {
     pub inputs: Vec<Vec<Input>>,
     /// Per vehicle, `N + 1` states.
     pub states: Vec<Vec<State>>,
-    /// Per vehicle on a curved route, where its states at `t = 1…N` are beside it; empty for a vehicle on a straight one.
+    /// Per vehicle, the Frenet coordinates of its states at `t = 1…N` on a curved route; empty for a vehicle on a
+    /// straight one.
     pub frenet: Vec<Vec<FrenetExpansion>>,
 }
 

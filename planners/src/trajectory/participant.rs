@@ -4,12 +4,13 @@ use super::route_start::RouteStart;
 use crate::road::centre_line::FrenetExpansion;
 use crate::{Bicycle, Input, Limits, State};
 
-/// One vehicle whose inputs are decided. What it wants and avoids is said by the problem's terms.
+/// A vehicle whose inputs are decision variables: its model, bounds and start. The terms of the problem say what it
+/// wants and avoids.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Participant {
-    /// Its motion.
+    /// The vehicle's model of motion.
     pub model: Bicycle,
-    /// Its hard bounds.
+    /// Hard bounds on inputs and speed.
     pub limits: Limits,
     /// Largest steering angles at `t = 0…N−1` where they depend on the speed, which is the expected one; `N` long, or empty where
     /// `limits` alone bound the steering \[rad\].

@@ -3,9 +3,9 @@
 /// What a violation `s ≥ 0` costs: `linear·s + quadratic·s²`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Penalty {
-    /// Weight of `s`.
+    /// Weight `linear` of the violation `s`.
     pub linear: f64,
-    /// Weight of `s²`.
+    /// Weight `quadratic` of the squared violation `s²`.
     pub quadratic: f64,
 }
 

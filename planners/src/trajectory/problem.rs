@@ -14,7 +14,7 @@ use super::terms::{MAX_ROWS_PER_STAGE, RowTerm, Shape, Subject, Term, Trajectory
 use crate::Input;
 use crate::vehicle::PoseExpansion;
 
-/// A whole trajectory problem.
+/// A trajectory problem: deciding vehicles, and the list of terms that make its cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// Number of steps `N`.
@@ -24,7 +24,7 @@ pub struct Problem {
     /// In how many first steps all participants have the same inputs. 0 for different vehicles; otherwise they are one vehicle, in
     /// as many futures, with the same start, model and bounds.
     pub shared_steps: usize,
-    /// What they want and avoid. Terms name vehicles by their index.
+    /// Costs and soft constraints of the vehicles, which they name by their index.
     pub terms: Vec<Term>,
 }
 
@@ -64,7 +64,7 @@ impl Problem {
         self.row_terms().any(|rows| rows.subject().other.is_some())
     }
 
-    /// What a guess costs, made admissible.
+    /// The cost of a guess after it was made admissible.
     pub fn cost_of(&self, guess: &[Vec<Input>]) -> f64 {
         self.cost(&self.start(guess)).total
     }
@@ -89,7 +89,7 @@ impl Problem {
         cost
     }
 
-    /// What one vehicle's own terms cost, without those that couple it to another deciding vehicle.
+    /// The cost of one vehicle's own terms, without those that couple it to another deciding vehicle.
     pub fn own_cost(&self, vehicle: usize, iterate: &Iterate) -> f64 {
         let mut cost = Cost::default();
         self.add_vehicle_cost(vehicle, iterate, &mut StageRows::default(), &mut cost);

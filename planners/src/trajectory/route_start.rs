@@ -8,7 +8,7 @@ use crate::{Bicycle, Input, Route, State};
 /// A curved route, and where a vehicle starts beside it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RouteStart {
-    /// The route.
+    /// The curved route.
     pub route: Arc<Route>,
     /// Frenet coordinates of the start, with derivatives.
     pub at: FrenetExpansion,

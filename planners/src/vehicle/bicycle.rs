@@ -54,20 +54,20 @@ pub struct Jacobian {
 /// Lagrangian.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DynamicsCurvature {
-    /// Heading twice.
+    /// Second derivative over the heading, `∂²/∂θ²`.
     pub heading_heading: f64,
-    /// Heading and speed.
+    /// Mixed derivative over heading and speed, `∂²/∂θ∂v`.
     pub heading_speed: f64,
-    /// Heading and steering.
+    /// Mixed derivative over heading and steering, `∂²/∂θ∂δ`.
     pub heading_steering: f64,
-    /// Speed and steering.
+    /// Mixed derivative over speed and steering, `∂²/∂v∂δ`.
     pub speed_steering: f64,
-    /// Steering twice.
+    /// Second derivative over the steering angle, `∂²/∂δ²`.
     pub steering_steering: f64,
 }
 
 impl DynamicsCurvature {
-    /// A share of it.
+    /// These derivatives times a number.
     pub fn scaled(&self, share: f64) -> DynamicsCurvature {
         DynamicsCurvature {
             heading_heading: share * self.heading_heading,

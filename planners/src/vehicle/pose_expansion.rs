@@ -3,7 +3,7 @@
 /// Value, gradient and Hessian of a function of position and heading `(x, y, θ)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PoseExpansion {
-    /// The value.
+    /// Value of the function.
     pub value: f64,
     /// First derivatives over `(x, y, θ)`.
     pub gradient: [f64; 3],

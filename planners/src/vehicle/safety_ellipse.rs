@@ -56,7 +56,7 @@ impl SafetyEllipse {
 }
 
 impl OrientedEllipse {
-    /// The half axes.
+    /// The half axes of the ellipse.
     pub fn shape(&self) -> SafetyEllipse {
         self.shape
     }

@@ -17,9 +17,9 @@ pub enum CentreLineError {
     /// A piece has no positive length.
     #[error("piece {piece} is {length_m} m long; lengths are positive")]
     NoLength {
-        /// The number of the piece.
+        /// Index of the piece.
         piece: usize,
-        /// Its length \[m\].
+        /// Length of the piece \[m\].
         length_m: f64,
     },
     /// The curvature jumps between two pieces.
@@ -28,7 +28,7 @@ pub enum CentreLineError {
          transition length"
     )]
     CurvatureJump {
-        /// The number of the second piece.
+        /// Index of the second piece.
         piece: usize,
         /// Curvature at the end of the first piece \[1/m\].
         from_1pm: f64,
@@ -38,9 +38,9 @@ pub enum CentreLineError {
     /// A piece is shorter than the transitions that replace its ends.
     #[error("piece {piece} is {length_m} m long, but its transitions need more than {needed_m} m of it")]
     NoRoomForTransition {
-        /// The number of the piece.
+        /// Index of the piece.
         piece: usize,
-        /// Its length \[m\].
+        /// Length of the piece \[m\].
         length_m: f64,
         /// The part of it that the transitions replace \[m\].
         needed_m: f64,
@@ -51,15 +51,15 @@ pub enum CentreLineError {
     /// A line is turned by so much, or so sharply, that its arc length cannot be computed.
     #[error("the curve has a cusp or a corner near ({x_m:.3} m, {y_m:.3} m)")]
     Cusp {
-        /// Where \[m\].
+        /// Coordinate of the cusp \[m\].
         x_m: f64,
-        /// Where \[m\].
+        /// Coordinate of the cusp \[m\].
         y_m: f64,
     },
     /// A polynomial does not begin with the position, tangent and second derivative of the end before it.
     #[error("polynomial {piece} does not continue the one before it")]
     Gap {
-        /// The number of the polynomial.
+        /// Index of the polynomial.
         piece: usize,
     },
     /// The section of a line that was asked for is empty or not on the line.

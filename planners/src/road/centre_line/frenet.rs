@@ -53,9 +53,9 @@ pub struct FrenetExpansion {
     pub across_hessian: [f64; 3],
     /// Heading `ψ` of the line at the nearest point \[rad\].
     pub heading_rad: f64,
-    /// `ψ′ = κ v` \[rad/m\].
+    /// First derivative of the heading over `s`, `ψ′ = κ v` \[rad/m\].
     pub heading_slope_radpm: f64,
-    /// `ψ″ = κ′ v + κ v′` \[rad/m²\].
+    /// Second derivative of the heading over `s`, `ψ″ = κ′ v + κ v′` \[rad/m²\].
     pub heading_bend_radpm2: f64,
     /// Curvature `κ` of the line at the nearest point \[1/m\].
     pub curvature_1pm: f64,

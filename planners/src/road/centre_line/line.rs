@@ -31,7 +31,7 @@ pub(super) enum Shape {
 /// A point of a centre line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinePoint {
-    /// Where it is \[m\].
+    /// Position of the point \[m\].
     pub position: [f64; 2],
     /// Direction of the line, without jumps of a full turn along the line \[rad\].
     pub heading_rad: f64,

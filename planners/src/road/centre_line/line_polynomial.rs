@@ -7,6 +7,6 @@ pub struct LinePolynomial {
     pub length_m: f64,
     /// Coefficients of x over the distance `u` from the first knot, from the constant to `u⁵`.
     pub x: [f64; 6],
-    /// Coefficients of y.
+    /// Coefficients of y over the distance `u`, from the constant to `u⁵`.
     pub y: [f64; 6],
 }

@@ -6,24 +6,24 @@ use super::line::CentreLine;
 use super::reparametrisation::MAX_SPEED_ERROR;
 use super::segment::{Knot, MAX_HALF_TURN_RAD, Segment};
 
-/// A piece of a centre line.
+/// A piece of a centre line, given by its curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Piece {
-    /// Without curvature.
+    /// A straight piece.
     Straight {
-        /// Its length \[m\].
+        /// Length of the piece \[m\].
         length_m: f64,
     },
-    /// With a constant curvature.
+    /// A circular arc.
     Arc {
-        /// Its length \[m\].
+        /// Length of the piece \[m\].
         length_m: f64,
-        /// Its curvature, positive to the left \[1/m\].
+        /// Curvature of the arc, positive to the left \[1/m\].
         curvature_1pm: f64,
     },
-    /// With a curvature that changes evenly along it.
+    /// A clothoid: the curvature changes linearly with the arc length.
     Clothoid {
-        /// Its length \[m\].
+        /// Length of the piece \[m\].
         length_m: f64,
         /// Curvature at its begin \[1/m\].
         from_1pm: f64,
@@ -36,14 +36,14 @@ pub enum Piece {
 const CURVATURE_TOLERANCE: f64 = 1e-9;
 
 impl Piece {
-    /// Its length \[m\].
+    /// Length of the piece \[m\].
     pub fn length_m(&self) -> f64 {
         match *self {
             Piece::Straight { length_m } | Piece::Arc { length_m, .. } | Piece::Clothoid { length_m, .. } => length_m,
         }
     }
 
-    /// Curvature at its begin and at its end \[1/m\].
+    /// Curvature at the begin and at the end of the piece \[1/m\].
     pub fn curvatures_1pm(&self) -> [f64; 2] {
         match *self {
             Piece::Straight { .. } => [0.0; 2],

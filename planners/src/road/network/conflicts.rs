@@ -10,7 +10,7 @@ pub struct Conflict {
     pub on_a: [f64; 2],
     /// Where the second route is on the lanes of the first one \[m\].
     pub on_b: [f64; 2],
-    /// What the routes do there.
+    /// Whether the routes cross, merge, part or run against each other there.
     pub kind: ConflictKind,
 }
 

@@ -14,7 +14,7 @@ pub struct RoadNetworkError {
     pub index: usize,
     /// The field of [`Lane`](super::Lane) that is wrong.
     pub field: &'static str,
-    /// What is wrong.
+    /// What is wrong with the field.
     pub fault: LaneFault,
 }
 
@@ -33,9 +33,9 @@ pub enum LaneFault {
     /// A width, or a speed limit, is not a positive finite number.
     #[error("{value} at {along_m:.2} m is not a positive finite number")]
     NotPositive {
-        /// The value.
+        /// The value that is not positive.
         value: f64,
-        /// Where along the lane \[m\].
+        /// Arc length of the lane at which the fault is \[m\].
         along_m: f64,
     },
     /// The curve is so tight for the width that an edge crosses itself: `|κ| w/2 ≥ 1`.
@@ -44,44 +44,44 @@ pub enum LaneFault {
          edge crosses itself"
     )]
     EdgesCross {
-        /// Where along the lane \[m\].
+        /// Arc length of the lane at which the fault is \[m\].
         along_m: f64,
-        /// Width there \[m\].
+        /// Width of the lane at that arc length \[m\].
         width_m: f64,
-        /// Radius of the centre line there \[m\].
+        /// Radius of the centre line at that arc length \[m\].
         radius_m: f64,
     },
-    /// It names a lane that does not exist.
+    /// The lane names a lane that does not exist.
     #[error("there is no lane `{other}`")]
     UnknownLane {
-        /// The name.
+        /// The name that is wrong.
         other: String,
     },
-    /// It names a lane twice among its successors.
+    /// The lane names a lane twice among its successors.
     #[error("lane `{other}` is named twice")]
     NamedTwice {
-        /// The name.
+        /// The name that is wrong.
         other: String,
     },
-    /// It names itself as its neighbour.
+    /// The lane names itself as its neighbour.
     #[error("a lane is not its own neighbour")]
     OwnNeighbour,
-    /// It does not touch its successor.
+    /// The lane does not end where its successor begins.
     #[error("its end is {gap_m:.2} m from the begin of its successor `{other}`, more than {most_m:.2} m")]
     Gap {
-        /// The successor.
+        /// Name of the successor.
         other: String,
         /// Distance between both \[m\].
         gap_m: f64,
         /// Largest distance that is accepted \[m\].
         most_m: f64,
     },
-    /// Its successor begins in another direction.
+    /// The successor of the lane begins in another direction.
     #[error(
         "its end and the begin of its successor `{other}` differ by {turn_deg:.1}° in direction, more than {most_deg:.0}°"
     )]
     Kink {
-        /// The successor.
+        /// Name of the successor.
         other: String,
         /// How much the directions differ \[deg\].
         turn_deg: f64,
@@ -91,29 +91,29 @@ pub enum LaneFault {
     /// A neighbour runs in the other direction than it should.
     #[error("its neighbour `{other}` does not run in the direction that is said of it")]
     WrongDirection {
-        /// The neighbour.
+        /// Name of the neighbour.
         other: String,
     },
     /// The lane comes back onto itself.
     #[error("after {again_m:.2} m it is where it was after {first_m:.2} m")]
     MeetsItself {
-        /// Where it is first \[m\].
+        /// Arc length at which the lane is there first \[m\].
         first_m: f64,
-        /// Where it is again \[m\].
+        /// Arc length at which the lane is there again \[m\].
         again_m: f64,
     },
     /// A neighbour changes to the other side.
     #[error("its neighbour `{other}` is on the other side of it {along_m:.2} m along it")]
     ChangesSides {
-        /// The neighbour.
+        /// Name of the neighbour.
         other: String,
-        /// Where along the lane \[m\].
+        /// Arc length of the lane at which the fault is \[m\].
         along_m: f64,
     },
     /// A neighbour lies nowhere side by side with the lane.
     #[error("its neighbour `{other}` is nowhere beside it: {space_m:.2} m are between both at {along_m:.2} m")]
     NotSideBySide {
-        /// The neighbour.
+        /// Name of the neighbour.
         other: String,
         /// Where along the lane they come nearest to lying side by side \[m\].
         along_m: f64,
@@ -123,12 +123,12 @@ pub enum LaneFault {
     /// A neighbour is not on the side that is said of it.
     #[error("its neighbour `{other}` is not on this side of it")]
     WrongSide {
-        /// The neighbour.
+        /// Name of the neighbour.
         other: String,
     },
 }
 
-/// Why lanes are no route.
+/// Why a list of lanes is no route.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RouteError {
     /// No lanes are named.
@@ -137,13 +137,13 @@ pub enum RouteError {
     /// There is no lane of this name.
     #[error("there is no lane `{lane}`")]
     UnknownLane {
-        /// The name.
+        /// The name that is wrong.
         lane: String,
     },
     /// A lane of the route is neither a successor of the one before nor a neighbour into which one may change.
     #[error("lane `{to}` is no successor of lane `{from}`, and no neighbour into which one may change")]
     NotConnected {
-        /// The lane before.
+        /// Name of the lane before.
         from: String,
         /// The lane that cannot be reached from it.
         to: String,
@@ -151,9 +151,9 @@ pub enum RouteError {
     /// Two lanes do not run side by side for long enough to change from one to the other.
     #[error("lane `{from}` leaves {room_m:.2} m for a change into lane `{to}`, which needs {needed_m:.2} m")]
     NoRoomToChange {
-        /// The lane before.
+        /// Name of the lane before.
         from: String,
-        /// The lane beside it.
+        /// Name of the lane beside it.
         to: String,
         /// Length of the stretch in which the change must end \[m\].
         room_m: f64,
@@ -163,17 +163,17 @@ pub enum RouteError {
     /// No sequence of lanes leads from one lane to another.
     #[error("no route leads from lane `{from}` to lane `{to}`")]
     NoWay {
-        /// Where the route would begin.
+        /// Name of the lane at which the route would begin.
         from: String,
-        /// Where it would end.
+        /// Name of the lane at which the route would end.
         to: String,
     },
     /// The centre lines of lanes cannot be joined.
     #[error("the centre lines of {} cannot be joined: {source}", lanes.join(", "))]
     Centre {
-        /// The lanes of the route.
+        /// Names of the lanes of the route.
         lanes: Vec<String>,
-        /// Why.
+        /// Why the lines cannot be joined.
         source: CentreLineError,
     },
     /// A curve is tighter than a vehicle can turn.
@@ -181,11 +181,11 @@ pub enum RouteError {
         "lane `{lane}` has a radius of {radius_m:.2} m, {along_m:.2} m along the route; the vehicle needs {smallest_m:.2} m"
     )]
     TooTight {
-        /// The lane.
+        /// Name of the lane.
         lane: String,
-        /// Where along the route \[m\].
+        /// Arc length of the route \[m\].
         along_m: f64,
-        /// Radius of the centre line there \[m\].
+        /// Radius of the centre line at that arc length \[m\].
         radius_m: f64,
         /// The vehicle's smallest turning radius \[m\].
         smallest_m: f64,

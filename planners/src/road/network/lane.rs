@@ -9,30 +9,30 @@ use super::super::profile::Profile;
 /// A lane of a road, driven in the direction of its centre line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lane {
-    /// Its name, unique in a network.
+    /// Name of the lane, unique in a network.
     pub name: String,
-    /// Its centre line; it has two ends.
+    /// Centre line of the lane, with two ends.
     pub centre: CentreLine,
-    /// Its width over the arc length of the centre line \[m\].
+    /// Width of the lane over the arc length of its centre line \[m\].
     pub width: Profile,
-    /// Names of the lanes that begin where it ends.
+    /// Names of the lanes that begin where this one ends.
     pub successors: Vec<String>,
-    /// The lane to the left of it.
+    /// The neighbouring lane on the left.
     pub left: Option<LaneNeighbour>,
-    /// The lane to the right of it.
+    /// The neighbouring lane on the right.
     pub right: Option<LaneNeighbour>,
-    /// Highest permitted speed \[m/s\].
+    /// Speed limit; `None` without one \[m/s\].
     pub speed_limit_mps: Option<f64>,
-    /// Who goes first at its end.
+    /// Who goes first at the end of this lane.
     pub right_of_way: RightOfWay,
 }
 
-/// A lane beside another one.
+/// The reference of a lane to a neighbouring one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LaneNeighbour {
-    /// Its name.
+    /// Name of the neighbouring lane.
     pub lane: String,
-    /// In which direction it is driven.
+    /// The direction in which the neighbouring lane is driven.
     pub relation: NeighbourRelation,
     /// Whether a vehicle may change into it.
     pub may_change: bool,
@@ -41,9 +41,9 @@ pub struct LaneNeighbour {
 /// In which direction a neighbouring lane is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NeighbourRelation {
-    /// In the same direction.
+    /// The neighbouring lane is driven in the same direction.
     SameDirection,
-    /// In the opposite direction.
+    /// The neighbouring lane is driven in the opposite direction.
     Oncoming,
 }
 
@@ -51,14 +51,14 @@ pub enum NeighbourRelation {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RightOfWay {
-    /// The vehicles on this lane.
+    /// The vehicles on this lane go first.
     #[default]
     Priority,
-    /// The vehicles on lanes that it crosses or joins.
+    /// The vehicles on lanes that this one crosses or joins go first.
     Yield,
-    /// The same, and each vehicle on this lane stops at its end.
+    /// As [`RightOfWay::Yield`], and each vehicle on this lane stops at its end.
     Stop,
-    /// Each vehicle stops, and they go in the order of their arrival.
+    /// Each vehicle stops, and vehicles go in the order of their arrival.
     AllWayStop,
 }
 

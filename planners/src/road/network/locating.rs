@@ -8,9 +8,9 @@ use super::road_network::{RoadNetwork, turn_rad};
 pub struct LanePlace {
     /// The name of the lane.
     pub lane: String,
-    /// Where on the lane.
+    /// Frenet coordinates on the lane.
     pub point: FrenetPoint,
-    /// Heading less that of the lane there, between −π and π \[rad\].
+    /// Heading minus that of the lane at this place, between −π and π \[rad\].
     pub heading_error_rad: f64,
 }
 

@@ -7,11 +7,12 @@ use super::lane::Lane;
 use super::neighbours::is_beside;
 use super::self_overlap::self_overlap_m;
 
-/// Lanes that exist, touch and do not cross themselves.
+/// Lanes that form a valid network: every lane that is named exists, successors touch, and no lane comes back onto
+/// itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadNetwork {
     lanes: Vec<Lane>,
-    /// The place of each lane in the list, by name.
+    /// Index of each lane by its name.
     numbers: BTreeMap<String, usize>,
 }
 
@@ -27,7 +28,7 @@ const MAX_KINK_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 const CHECKS_PER_KNOT: usize = 4;
 
 impl RoadNetwork {
-    /// A network of these lanes.
+    /// Checks lanes and makes a network of them.
     ///
     /// # Errors
     /// The first fault that is found, in the order of the lanes, with the lane and the field:
@@ -65,12 +66,12 @@ impl RoadNetwork {
         Ok(network)
     }
 
-    /// All lanes.
+    /// All lanes, in the order in which they were stated.
     pub fn lanes(&self) -> &[Lane] {
         &self.lanes
     }
 
-    /// The lane of a name, if there is one.
+    /// The lane with this name, if there is one.
     pub fn lane(&self, name: &str) -> Option<&Lane> {
         self.numbers.get(name).map(|number| &self.lanes[*number])
     }

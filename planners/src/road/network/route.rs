@@ -48,7 +48,7 @@ pub struct RouteLeg {
     pub lane: String,
     /// Where the leg begins on the route \[m\].
     pub from_m: f64,
-    /// Where it ends on the route \[m\].
+    /// Where the leg ends on the route \[m\].
     pub to_m: f64,
     /// Arc length of the route less that of the lane, where both run together \[m\].
     pub offset_m: f64,
@@ -58,14 +58,14 @@ pub struct RouteLeg {
     pub right_of_way: RightOfWay,
 }
 
-/// The place of a route with the largest curvature.
+/// The place of a route at which its centre line has the largest curvature.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TightestTurn {
-    /// The lane there.
+    /// Name of the lane at this place.
     pub lane: String,
-    /// Where along the route \[m\].
+    /// Arc length of the route \[m\].
     pub along_m: f64,
-    /// Curvature of the centre line there \[1/m\].
+    /// Curvature of the centre line at this place \[1/m\].
     pub curvature_1pm: f64,
 }
 
@@ -122,7 +122,7 @@ impl Route {
         self.straight.as_ref()
     }
 
-    /// Where the route ends \[m\].
+    /// Arc length at which the route ends \[m\].
     pub fn end_m(&self) -> f64 {
         self.centre.length_m()
     }

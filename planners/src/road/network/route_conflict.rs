@@ -17,32 +17,32 @@ pub struct RouteConflict {
     pub own_meeting_m: f64,
     /// Where the centre lines meet, on the other one \[m\].
     pub their_meeting_m: f64,
-    /// What the routes do there.
+    /// Whether the routes cross, merge, part or run against each other there.
     pub kind: ConflictKind,
-    /// Who goes first.
+    /// Who goes first at the conflict.
     pub precedence: Precedence,
 }
 
 /// Who goes first where two routes meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precedence {
-    /// The vehicles on this route.
+    /// The vehicles on this route go first.
     Own,
-    /// The vehicles on the other route.
+    /// The vehicles on the other route go first.
     Other,
-    /// Whoever arrives first.
+    /// Whoever arrives first goes first.
     ByArrival,
 }
 
 /// What two routes do where they overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConflictKind {
-    /// They come from different lanes and go on to different lanes.
+    /// The routes come from different lanes and go on to different lanes.
     Crossing,
-    /// They go on to the same lane.
+    /// The routes go on to the same lane.
     Merging,
-    /// They come from the same lane and go on to different lanes.
+    /// The routes come from the same lane and go on to different lanes.
     Diverging,
-    /// They use the same strip in opposite directions.
+    /// The routes use the same strip in opposite directions.
     HeadOn,
 }

@@ -129,7 +129,7 @@ impl Route {
         }
     }
 
-    /// The end of the rightmost lane, if it ends.
+    /// The end of the rightmost lane, if that lane ends on this road.
     pub fn lane_end(&self) -> Option<LaneEnd> {
         self.right.end()
     }

@@ -14,13 +14,13 @@ use crate::trajectory::stage::StageSolver;
 /// A trajectory optimiser: a stage solver and the memory that a descent needs.
 #[derive(Clone, Debug, Default)]
 pub struct Optimiser<S> {
-    /// When to stop.
+    /// Tolerances and limits of a descent.
     pub tolerances: Tolerances,
     /// Whether a descent starts warm: with the multipliers that the one before has left, if the problem has the same shape.
     pub starts_warm: bool,
     /// How far [`Optimiser::optimise`] looks for a cheaper homotopy class.
     pub homotopy_search: HomotopySearch,
-    /// What the descent whose optimum was kept last has left.
+    /// Multipliers of the last descent whose optimum was kept, for the next one.
     pub warm_start: WarmStart,
     /// How far the comparison of classes has got.
     pub(super) comparison: Comparison,

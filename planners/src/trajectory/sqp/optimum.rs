@@ -7,7 +7,7 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::stage::StageError;
 use crate::{PlanError, Trajectory};
 
-/// When to stop.
+/// Tolerances and limits at which a descent stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// Largest KKT residual of a converged solution.
@@ -52,14 +52,14 @@ impl Tolerances {
     }
 }
 
-/// What a descent did.
+/// The work of one or several descents, and how they ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Starting guesses tried.
+    /// Number of starting guesses that were tried.
     pub starts: usize,
-    /// Quadratic programmes posed; those refused as not convex cost little.
+    /// Number of quadratic programmes that were posed; those refused as not convex cost little.
     pub programmes: usize,
-    /// Iterations inside them.
+    /// Number of interior-point iterations in these programmes.
     pub inner_iterations: usize,
     /// KKT residual at the end, by the independent check.
     pub residual: f64,
@@ -73,11 +73,11 @@ pub struct Statistics {
 /// A local optimum.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Optimum {
-    /// Inputs and states.
+    /// Inputs and states at the optimum.
     pub iterate: Iterate,
-    /// Its cost.
+    /// Cost of the iterate.
     pub cost: Cost,
-    /// How it was found.
+    /// The work by which it was found.
     pub statistics: Statistics,
     /// The cost of the cheapest optimum of another homotopy class, if one was looked for and reached.
     pub runner_up_cost: Option<f64>,
@@ -89,9 +89,9 @@ pub enum DescentError {
     /// A QP subproblem had no solution.
     #[error("step {step}: {source}")]
     Step {
-        /// Which step.
+        /// Index of the step.
         step: usize,
-        /// What the stage solver said.
+        /// The error of the stage solver.
         source: StageError,
     },
     /// The limit of steps or of work was reached at this iterate, which violates something.
@@ -104,7 +104,7 @@ pub enum DescentError {
         bar: f64,
         /// The cost that the last step promised.
         expected: f64,
-        /// The work that it took.
+        /// The work that the exploration took.
         statistics: Statistics,
     },
     /// An exploration that was given up: it entered a homotopy class whose optimum is known.

@@ -22,7 +22,7 @@ const TOLERANCE: f64 = 1e-9;
 /// iterate to the next.
 #[derive(Clone, Debug, Default)]
 pub struct QpSubproblem {
-    /// The programme.
+    /// The quadratic programme in stage form.
     pub qp: StageQp,
     /// Per block and stage, `∇²c` over `(xx, xy, xθ, yy, yθ, θθ)`.
     row_hessians: Vec<Vec<[f64; 6]>>,

@@ -11,18 +11,18 @@ use crate::trajectory::penalty::Penalty;
 /// Largest violation of each optimality condition.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
-    /// Derivative of the Lagrangian over the inputs.
+    /// Largest derivative of the Lagrangian over the inputs.
     pub stationarity: f64,
-    /// Boxes, rows and dynamics.
+    /// Largest violation of boxes, rows and dynamics.
     pub primal: f64,
-    /// Negative multipliers.
+    /// Magnitude of the most negative multiplier.
     pub dual: f64,
-    /// Multiplier times distance to its bound.
+    /// Largest product of a multiplier and the distance to its bound.
     pub complementarity: f64,
 }
 
 impl Residual {
-    /// The largest of the four.
+    /// The largest of the four residuals.
     pub fn largest(&self) -> f64 {
         self.stationarity.max(self.primal).max(self.dual).max(self.complementarity)
     }

@@ -37,41 +37,41 @@ pub struct StateCost {
     pub gradient: [f64; 4],
     /// Diagonal of the Hessian over `(x, y, θ, v)`.
     pub hessian: [f64; 4],
-    /// Its entry xy. With the diagonal and `heading_cross` it is positive semi-definite.
+    /// Entry xy of the Hessian, which with its diagonal and `heading_cross` is positive semi-definite.
     pub cross: f64,
-    /// Its entries xθ and yθ.
+    /// Entries xθ and yθ of the Hessian.
     pub heading_cross: [f64; 2],
     /// What an exact Hessian adds over `(xx, xy, yy)` although it is not convex; zero for Gauss-Newton.
     pub curvature: [f64; 3],
 }
 
-/// One vehicle's stages.
+/// Dynamics, costs and bounds of one vehicle at every stage.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VehicleStages {
-    /// First stage whose input is free.
+    /// Index of the first stage whose input is free.
     pub first: usize,
-    /// `A_k, B_k`; `N` long.
+    /// Jacobians `A_k, B_k` of the dynamics; `N` long.
     pub jacobians: Vec<Jacobian>,
-    /// `g_k, H_k` on `d_{k+1}`; `N` long.
+    /// Gradients and Hessians `g_k, H_k` of the cost over `d_{k+1}`; `N` long.
     pub state_costs: Vec<StateCost>,
-    /// `C_k` on `(d_k, w_k)`; `N` long, all zero for a Gauss-Newton step.
+    /// Curvatures `C_k` of the dynamics over `(d_k, w_k)`; `N` long, all zero for a Gauss-Newton step.
     pub curvatures: Vec<DynamicsCurvature>,
-    /// `r` on `(a, δ)`.
+    /// Weights `r` of the squared changes of `(a, δ)`.
     pub change_weights: [f64; 2],
-    /// `Δū_k`; `N` long.
+    /// Changes of input `Δū_k` at the iterate; `N` long.
     pub changes: Vec<[f64; 2]>,
-    /// Box on `w_k = (δa, δδ)`; `N` long.
+    /// Bounds of the input deviations `w_k = (δa, δδ)`; `N` long.
     pub input_boxes: Vec<[Interval; 2]>,
-    /// Box on `δv_{k+1}`; `N` long.
+    /// Bounds of the speed deviations `δv_{k+1}`; `N` long.
     pub speed_boxes: Vec<Interval>,
 }
 
-/// One row at one stage.
+/// One inequality row at one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Row {
     /// Whether the row exists at this stage.
     pub active: bool,
-    /// `c` at the iterate.
+    /// Value `c` of the row at the iterate.
     pub value: f64,
     /// `∇c` over `(x, y, θ)` of the vehicle; a row of a pair depends on the difference of positions, so its gradient
     /// over the other vehicle's `(x, y)` is the negative.
@@ -84,9 +84,9 @@ pub struct Row {
 /// The same soft row at every stage.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RowBlock {
-    /// Whose position the row concerns.
+    /// Index of the vehicle whose pose the row constrains.
     pub vehicle: usize,
-    /// For a pair: the vehicle whose position is subtracted.
+    /// For a row of a pair, the index of the vehicle whose position is subtracted.
     pub other: Option<usize>,
     /// What a violation costs; `None` for a hard row.
     pub penalty: Option<Penalty>,
@@ -97,9 +97,9 @@ pub struct RowBlock {
 /// A convex quadratic row over the whole trajectory of a vehicle: `value + Σ b_k·(x, y, v)_{k+1} + Σ β_k‖p_{k+1}‖² ≤ s`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrajectoryRow {
-    /// Whose trajectory.
+    /// Index of the vehicle whose trajectory is constrained.
     pub vehicle: usize,
-    /// `c₀`.
+    /// Value `c₀` of the row at the iterate.
     pub value: f64,
     /// `b_k` over `(x, y, v)` at stage `k`; `N` long.
     pub gradients: Vec<[f64; 3]>,
@@ -126,9 +126,9 @@ pub struct StageQp {
     pub horizon: usize,
     /// In how many first stages all vehicles have the same inputs.
     pub shared_steps: usize,
-    /// The vehicles.
+    /// The deciding vehicles.
     pub vehicles: Vec<VehicleStages>,
-    /// The soft rows.
+    /// Blocks of rows over single stages.
     pub blocks: Vec<RowBlock>,
     /// The rows over whole trajectories.
     pub trajectory_rows: Vec<TrajectoryRow>,
@@ -146,9 +146,9 @@ pub struct StageQp {
 /// How far deviations are expected to go to either side, over all vehicles and stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
-    /// Of `(δx, δy, δθ, δv)`.
+    /// Largest deviations `(δx, δy, δθ, δv)` of a state.
     pub state: [f64; 4],
-    /// Of `(δa, δδ)`.
+    /// Largest deviations `(δa, δδ)` of an input.
     pub input: [f64; 2],
 }
 

@@ -8,17 +8,17 @@ pub(crate) const ACTIVE_MULTIPLIER: f64 = 1e-6;
 /// The optimum of a [`StageQp`] with its multipliers (all non-negative).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StageSolution {
-    /// Per vehicle and stage, `w_k`.
+    /// Input deviations `w_k`, by vehicle and stage.
     pub inputs: Vec<Vec<[f64; 2]>>,
-    /// Per vehicle and stage, `d_{k+1}`.
+    /// State deviations `d_{k+1}`, by vehicle and stage.
     pub states: Vec<Vec<[f64; 4]>>,
     /// Per vehicle and stage: multipliers of the lower and upper bounds of `δa`, `δδ` and `δv`, in that order.
     pub bound_multipliers: Vec<Vec<[[f64; 2]; 3]>>,
-    /// Per block and stage.
+    /// Multipliers of the rows over single stages, by block and stage.
     pub row_multipliers: Vec<Vec<f64>>,
-    /// Of the rows over whole trajectories.
+    /// Multipliers of the rows over whole trajectories.
     pub trajectory_multipliers: Vec<f64>,
-    /// Iterations that the solver took.
+    /// Number of iterations that the solver took.
     pub iterations: usize,
 }
 

@@ -11,21 +11,21 @@ pub enum StageError {
     /// No point satisfies the boxes and hard rows.
     #[error("the boxes and hard rows contradict each other ({iterations} iterations)")]
     Infeasible {
-        /// Iterations taken.
+        /// Number of iterations that were taken.
         iterations: usize,
     },
     /// The Hessian is not positive definite on the dynamics.
     #[error("the problem is not convex at stage {stage}")]
     NotConvex {
-        /// Where the factorisation failed.
+        /// Stage at which the factorisation failed.
         stage: usize,
     },
-    /// The iteration limit or a numerical breakdown.
+    /// The solver reached its iteration limit, or broke down numerically.
     #[error("not solved after {iterations} iterations: {status}")]
     Unsolved {
-        /// What the solver said.
+        /// The solver's status.
         status: String,
-        /// Iterations taken.
+        /// Number of iterations that were taken.
         iterations: usize,
     },
 }

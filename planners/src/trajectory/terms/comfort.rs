@@ -6,7 +6,7 @@
 /// The comfort cost of one vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comfort {
-    /// Whose inputs.
+    /// Index of the vehicle whose inputs it concerns.
     pub vehicle: usize,
     /// Diagonal of `R` on (Δa, Δδ).
     pub weights: [f64; 2],

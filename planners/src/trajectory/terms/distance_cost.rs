@@ -20,13 +20,13 @@ const CONE_SMOOTHING: f64 = 1e-4;
 /// The cost of a trajectory's distances from a moving centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceCost {
-    /// Whose distance.
+    /// Index of the vehicle whose distance it prices.
     pub vehicle: usize,
     /// Centres at `t = 1…N` \[m\].
     pub centres: Vec<[f64; 2]>,
     /// Entries xx, xy, yy of `M` at `t = 1…N`; `N` long.
     pub metrics: Vec<[f64; 3]>,
-    /// `φ`.
+    /// The price `φ` of a distance.
     pub price: DistancePrice,
 }
 
@@ -35,16 +35,16 @@ pub struct DistanceCost {
 pub enum DistancePrice {
     /// `weight · ω`: attracts.
     Linear {
-        /// `k_1` of eq. 7.19.
+        /// Weight `k_1` of eq. 7.19.
         weight: f64,
     },
     /// `−A w_4/(A − w_4) · ω²` with `A = (base + ω) w_1`: repels. `base · w_1 > w_4` keeps it smooth.
     Exact {
-        /// `1 + Σ_ω γ`.
+        /// The number `1 + Σ_ω γ` of eq. 7.18.
         base: f64,
-        /// `w_1`.
+        /// Weight `w_1` that the other puts on its own plan.
         loyalty: f64,
-        /// `w_4`.
+        /// Weight `w_4` with which the other keeps away from the ego.
         aversion: f64,
     },
 }
@@ -93,7 +93,7 @@ impl DistanceCost {
         (omega, [mx / omega, my / omega])
     }
 
-    /// `ω` at stage `k` (`t = k + 1`).
+    /// The distance `ω` of a position from the centre at stage `k` (`t = k + 1`).
     pub fn omega(&self, k: usize, position: [f64; 2]) -> f64 {
         self.distance(k, position).0
     }

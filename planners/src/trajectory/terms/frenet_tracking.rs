@@ -14,7 +14,7 @@ use crate::trajectory::stage::StateCost;
 /// The tracking cost of one vehicle on a curved road: that of its participant's [`RouteStart`](crate::trajectory::RouteStart).
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrenetTracking {
-    /// Whose states.
+    /// Index of the vehicle whose states it concerns.
     pub vehicle: usize,
     /// Diagonal of `Q` on (position along the road, across it, θ, v).
     pub weights: [f64; 4],
@@ -27,14 +27,14 @@ pub struct FrenetTracking {
     pub slips_rad: Vec<f64>,
 }
 
-/// What a vehicle on a curved road wants.
+/// Desired place and speed of a vehicle on a curved road.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrenetTarget {
-    /// Arc length \[m\].
+    /// Desired arc length `s` \[m\].
     pub along_m: f64,
-    /// Lateral coordinate, positive to the left \[m\].
+    /// Desired lateral coordinate `n`, positive to the left \[m\].
     pub across_m: f64,
-    /// Speed \[m/s\].
+    /// Desired speed \[m/s\].
     pub speed_mps: f64,
 }
 

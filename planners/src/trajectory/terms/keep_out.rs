@@ -12,16 +12,16 @@ use crate::vehicle::{OrientedEllipse, PoseExpansion};
 /// Rows of this value and more (`d² ≥ 25`) are left out of QP subproblems.
 pub(super) const FAR_VALUE: f64 = 24.0;
 
-/// A moving ellipse.
+/// A moving ellipse that a vehicle must keep out of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeepOut {
-    /// Who keeps out.
+    /// Index of the vehicle that keeps out.
     pub vehicle: usize,
     /// Centres at `t = 1…N`; `N` long \[m\].
     pub centres: Vec<[f64; 2]>,
-    /// The ellipse around each; `N` long.
+    /// The ellipse around each centre; `N` long.
     pub ellipses: Vec<OrientedEllipse>,
-    /// What entering costs.
+    /// Cost of entering the ellipse.
     pub penalty: Penalty,
 }
 

@@ -15,17 +15,17 @@ use crate::trajectory::cost::Violation;
 use crate::trajectory::penalty::Penalty;
 use crate::trajectory::stage::TrajectoryRow;
 
-/// What a mean speed is the mean of.
+/// The speeds of which a mean is taken.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum SpeedMeasure {
     /// The speeds of all states.
     #[default]
     Speeds,
-    /// The way along the road.
+    /// The progress along the road in each step, by time.
     AlongRoad {
         /// Unit vectors `τ_t` along the road; `N` long.
         directions: Vec<[f64; 2]>,
-        /// `T` \[s\].
+        /// Time step `T` \[s\].
         step_s: f64,
     },
 }
@@ -33,28 +33,28 @@ pub enum SpeedMeasure {
 /// An interval for the mean speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanSpeed {
-    /// What it is the mean of.
+    /// The speeds of which the mean is taken.
     pub measure: SpeedMeasure,
     /// Lower bound, if any \[m/s\].
     pub lower_mps: Option<f64>,
     /// Upper bound, if any \[m/s\].
     pub upper_mps: Option<f64>,
-    /// What falling outside costs.
+    /// Cost of a mean speed outside the bounds.
     pub penalty: Penalty,
 }
 
 /// One bound on the mean speed of a vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanSpeedBound {
-    /// Whose mean speed.
+    /// Index of the vehicle whose mean speed is bounded.
     pub vehicle: usize,
-    /// What it is the mean of.
+    /// The speeds of which the mean is taken.
     pub measure: SpeedMeasure,
     /// The bound \[m/s\].
     pub speed_mps: f64,
-    /// Whether it is the upper one.
+    /// Whether it is an upper bound.
     pub is_upper: bool,
-    /// What falling outside costs.
+    /// Cost of a mean speed outside the bounds.
     pub penalty: Penalty,
 }
 

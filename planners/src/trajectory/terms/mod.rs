@@ -38,25 +38,25 @@ pub use tracking::Tracking;
 /// A cost or soft constraint of a trajectory problem.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Term {
-    /// Distance from a desired motion.
+    /// Cost of the deviation from a desired motion.
     Tracking(Tracking),
-    /// Distance from a desired place and speed on a curved road.
+    /// Cost of the deviation from a desired place and speed on a curved road.
     FrenetTracking(FrenetTracking),
-    /// Changes of the input.
+    /// Cost of changes of the input.
     Comfort(Comfort),
-    /// Corners that stay on the road.
+    /// Constraint that the corners of the body stay on the road.
     RoadEdge(RoadEdge),
-    /// A line that a vehicle waits at.
+    /// Constraint that the front stays before a line.
     StopLine(StopLine),
-    /// An ellipse around a predicted motion that a vehicle keeps out of.
+    /// Constraint that a vehicle keeps out of an ellipse around a predicted motion.
     KeepOut(KeepOut),
-    /// Two deciding vehicles that keep apart.
+    /// Constraint that two deciding vehicles keep apart.
     Separation(Separation),
-    /// A trajectory nearer to one reference than to another.
+    /// Constraint that a trajectory is nearer to one reference than to another.
     Persuasion(Persuasion),
-    /// A bound on a mean speed.
+    /// Constraint on a mean speed.
     MeanSpeed(MeanSpeedBound),
-    /// A price of the distance from a predicted motion.
+    /// Cost that depends on the distance from a predicted motion.
     DistanceCost(DistanceCost),
 }
 

@@ -14,18 +14,18 @@ use crate::trajectory::cost::Violation;
 use crate::trajectory::penalty::Penalty;
 use crate::trajectory::stage::TrajectoryRow;
 
-/// The persuasion row.
+/// The persuasion constraint: a trajectory is nearer to one reference than to another (eq. 6.20-6.23).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Persuasion {
-    /// Who persuades.
+    /// Index of the vehicle whose trajectory is constrained.
     pub vehicle: usize,
     /// Reference to approach at `t = 0…N−1` \[m\].
     pub toward: Vec<[f64; 2]>,
     /// Reference to leave at `t = 0…N−1` \[m\].
     pub away: Vec<[f64; 2]>,
-    /// `α ≥ 1`.
+    /// Strength `α ≥ 1` of the persuasion.
     pub strength: f64,
-    /// What falling short costs.
+    /// Cost of violating the constraint.
     pub penalty: Penalty,
 }
 

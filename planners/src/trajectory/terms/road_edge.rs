@@ -16,21 +16,21 @@ use crate::{Body, Corridor, Route};
 /// QP subproblems. The rows of an optimum that hold it back are zero there, so they are exact.
 const EXACT_WIDTHS: f64 = 1.0;
 
-/// The road that a vehicle may use.
+/// The constraint that the four corners of a vehicle stay on its road (eq. 6.7).
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadEdge {
-    /// Whose corners.
+    /// Index of the vehicle whose corners stay on the road.
     pub vehicle: usize,
-    /// Its body.
+    /// Body of that vehicle.
     pub body: Body,
     /// The road; if it is curved, that of the participant's [`RouteStart`](crate::trajectory::RouteStart).
     pub route: Arc<Route>,
-    /// What leaving it costs.
+    /// Cost of a corner beyond the edge.
     pub penalty: Penalty,
 }
 
 impl RoadEdge {
-    /// The edges of a straight road.
+    /// The constraint of a straight road.
     pub fn straight(vehicle: usize, body: Body, corridor: Corridor, penalty: Penalty) -> RoadEdge {
         RoadEdge { vehicle, body, route: corridor.into(), penalty }
     }

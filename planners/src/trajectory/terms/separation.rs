@@ -7,16 +7,16 @@ use crate::trajectory::iterate::Iterate;
 use crate::trajectory::penalty::Penalty;
 use crate::vehicle::{OrientedEllipse, PoseExpansion};
 
-/// An ellipse around a deciding vehicle.
+/// An ellipse around a deciding vehicle that another deciding vehicle keeps out of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Separation {
-    /// The vehicle that keeps out.
+    /// Index of the vehicle that keeps out.
     pub vehicle: usize,
-    /// The vehicle in the ellipse's centre.
+    /// Index of the vehicle in the ellipse's centre.
     pub from: usize,
     /// The ellipse at `t = 1…N`, along the road of the vehicle in its centre; `N` long.
     pub ellipses: Vec<OrientedEllipse>,
-    /// What entering costs.
+    /// Cost of entering the ellipse.
     pub penalty: Penalty,
 }
 

@@ -14,15 +14,15 @@ use crate::vehicle::PoseExpansion;
 /// A line that the front of a vehicle stays before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StopLine {
-    /// Whose front.
+    /// Index of the vehicle that waits.
     pub vehicle: usize,
-    /// Distance from its mass centre to its front \[m\].
+    /// Distance from the vehicle's mass centre to its front \[m\].
     pub front_m: f64,
-    /// The road.
+    /// The route along which the line's place is measured.
     pub route: Arc<Route>,
-    /// Where the line is, along the road \[m\].
+    /// Arc length of the line on the route \[m\].
     pub line_m: f64,
-    /// What crossing it costs.
+    /// Cost of crossing the line.
     pub penalty: Penalty,
 }
 

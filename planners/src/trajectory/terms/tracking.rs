@@ -12,7 +12,7 @@ use crate::{Axes, State};
 /// The tracking cost of one vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracking {
-    /// Whose states.
+    /// Index of the vehicle whose states it concerns.
     pub vehicle: usize,
     /// Diagonal of `Q` on (position along `axes`, across them, θ, v).
     pub weights: [f64; 4],
