@@ -306,7 +306,7 @@ fn plans_say_in_which_order_they_pass() {
         let [own, other] = [run.first(0, |at| at.x_m > 0.0), run.first(1, |at| at.y_m > LANES[0])];
         let goes_first = own.expect("the ego crosses") < other.expect("the other crosses");
         let happened = if goes_first { PassingSide::Ahead } else { PassingSide::Behind };
-        assert_eq!((last.of.as_str(), last.position), ("crossing", happened), "{name}");
+        assert_eq!((last.of.as_str(), last.side), ("crossing", happened), "{name}");
         let mut events = run.plans.iter().flat_map(|plan| &plan.events);
         assert!(events.any(|event| event.kind == PlanEventKind::Passing(last.clone())), "{name}: no event");
     }

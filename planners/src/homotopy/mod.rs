@@ -21,9 +21,9 @@ pub(crate) use log::HomotopyLog;
 pub use planned_passing::{PassingSide, PlannedPassing};
 
 use crate::encounter::PARALLEL_RAD;
+use crate::posing::ellipses;
 use crate::relation::Relation;
 use crate::road::network::RouteConflict;
-use crate::scene::ellipses;
 use crate::{Agent, Axes, Plan, Scene, State};
 
 /// A vehicle is relevant if the plan comes nearer to it than this many half axes of the safety ellipse.

@@ -56,9 +56,9 @@ use std::borrow::Cow;
 
 use crate::belief::Outlook;
 use crate::drive::Drive;
+use crate::posing::ellipses;
 use crate::predict::steady_inputs;
 use crate::right_of_way::ArrivalMemory;
-use crate::scene::ellipses;
 use crate::trajectory::terms::KeepOut;
 use crate::trajectory::{Optimiser, Penalty, Problem, Robust, Term};
 use crate::{Agent, Input, Plan, PlanError, SafetyEllipse, Scene, Trajectory};

@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use interplay_planners::posing::{JointVehicle, joint_problem};
+use interplay_planners::posing::{self, JointVehicle};
 use interplay_planners::trajectory::Problem;
 use interplay_planners::{Corridor, Driver, Route, Scene, State, conservative};
 
@@ -42,7 +42,7 @@ pub fn game(random: &mut SplitMix64, players: usize) -> (Scene, Vec<JointVehicle
 /// The joint problem of a random game.
 pub fn joint_problem(random: &mut SplitMix64, players: usize) -> Problem {
     let (scene, players) = game(random, players);
-    joint_problem(&scene, &players)
+    posing::joint_problem(&scene, &players)
 }
 
 fn driver() -> Driver {

@@ -8,7 +8,7 @@ pub mod starts;
 pub mod wilson;
 pub mod world;
 
-use interplay_common::random::SplitMix64;
+pub use interplay_common::random::SplitMix64;
 use interplay_planners::trajectory::terms::{Comfort, KeepOut, Persuasion, RoadEdge, Separation, Tracking};
 use interplay_planners::trajectory::{Iterate, Participant, Penalty, Problem, QpSubproblem, StageQp, Term};
 use interplay_planners::{Axes, Bicycle, Body, Corridor, Input, Limits, SafetyEllipse, State};
