@@ -4,6 +4,13 @@
 //!   reads the unit of a number from its key
 //! - [`spelling`]: the known word that an unknown one was probably meant to be
 //! - [`random`]: the random streams of runs, the same on every machine
+//!
+//! ```
+//! use interplay_common::{spelling, units};
+//!
+//! assert_eq!(units::unit_of("speed_mps"), Some("m/s"));
+//! assert_eq!(spelling::nearest("spede_mps", ["speed_mps", "heading_deg"]), Some("speed_mps"));
+//! ```
 
 pub mod bounds;
 pub mod json_schema;

@@ -20,6 +20,48 @@
 //!
 //! Equation numbers are those of C. Peng, *Optimization Based Control for Multi-agent System with Interaction* (Berkeley,
 //! 2019); "corrected" marks where the printed equation is in error.
+//!
+//! # A plan
+//!
+//! A driver that looks ahead brakes for a slower vehicle in its lane:
+//!
+//! ```
+//! use interplay_planners::belief::Outlook;
+//! use interplay_planners::predict::constant_velocity;
+//! use interplay_planners::{
+//!     Agent, Body, Corridor, DriverKind, Goal, Input, Limits, SafetyEllipse, Scene, State, conservative,
+//! };
+//!
+//! let (step_s, horizon) = (0.1, 30);
+//! let agent = |name: &str, x_m: f64, speed_mps: f64| {
+//!     let state = State { x_m, y_m: 0.185, heading_rad: 0.0, speed_mps };
+//!     Agent {
+//!         name: name.to_owned(),
+//!         state,
+//!         previous_input: Input::default(),
+//!         body: Body::default(),
+//!         limits: Limits::default(),
+//!         route: Corridor { heading_rad: 0.0, right_m: 0.0, left_m: 0.37, end: None }.into(),
+//!         prediction: constant_velocity(&state, horizon, step_s),
+//!         shared_goal: None,
+//!         can_be_asked: true,
+//!     }
+//! };
+//! let (ego, leader) = (agent("ego", 0.0, 1.2), agent("leader", 1.2, 0.4));
+//! let goal = Goal {
+//!     target: ego.state,
+//!     tracking: [0.0, 1.0, 0.5, 1.0],
+//!     comfort: [0.1, 0.1],
+//!     safety: SafetyEllipse::default(),
+//! };
+//! let scene = Scene { tick: 0, step_s, horizon, ego, goal, others: vec![leader] };
+//!
+//! let plan = conservative::Settings::default().driver().plan(&scene, &Outlook::default())?;
+//! assert_eq!(plan.trajectory.inputs.len(), horizon);
+//! let slowest_mps = plan.trajectory.states.iter().map(|state| state.speed_mps).fold(f64::INFINITY, f64::min);
+//! assert!(slowest_mps < 0.8, "it brakes to {slowest_mps} m/s");
+//! # Ok::<(), interplay_planners::PlanError>(())
+//! ```
 
 pub mod bayesian;
 pub mod belief;
