@@ -22,8 +22,8 @@ use crate::weather_file::is_embedded_weather;
 const WIDTH: usize = 110;
 
 impl Registry {
-    /// The scenario of that name or path as a commented file that means the same, for a file in `folder`: a path to a weather
-    /// file that would lead elsewhere from there is made absolute. Its figure is left out, since a variant is another picture.
+    /// The scenario of that name or path as a commented file that means the same, for a file in `folder`: a path to a file that
+    /// would lead elsewhere from there is made absolute. Its figure is left out, since a variant is another picture.
     ///
     /// # Errors
     ///
@@ -31,37 +31,46 @@ impl Registry {
     pub fn commented(&self, name_or_path: &str, folder: &Path) -> Result<String, LoadError> {
         let scenario = self.load(name_or_path, &[])?;
         let mut tree = tree(self, name_or_path)?;
-        make_weather_path_absolute(&mut tree, folder);
+        make_paths_absolute(&mut tree, folder);
         let Json::Object(mut stated) = tree.to_json() else { return Ok(String::new()) };
         stated.remove("figure");
         let [vehicles, building] = [!scenario.vehicles.is_empty(), scenario.building.is_some()];
-        let mut writer = Writer { text: String::new(), explained: BTreeSet::new(), vehicles, building };
+        let mut writer = Writer { text: String::new(), explained: Some(BTreeSet::new()), vehicles, building };
         writer.table("", self.complete(), &stated, true);
         Ok(writer.text)
     }
 }
 
-/// Makes a relative path to a weather file absolute if it starts from another folder than `folder`.
-fn make_weather_path_absolute(tree: &mut TomlNode, folder: &Path) {
+/// A file that states `stated`, without comments.
+pub(crate) fn plain(stated: &Map<String, Json>) -> String {
+    let mut writer = Writer { text: String::new(), explained: None, vehicles: true, building: true };
+    writer.table("", Registry::standard().complete(), stated, true);
+    writer.text
+}
+
+/// Makes the relative paths to files that a scenario names absolute, if they start from another folder than `folder`.
+pub(crate) fn make_paths_absolute(tree: &mut TomlNode, folder: &Path) {
     let TomlValue::Table(root) = &mut tree.value else { return };
-    let Some(TomlValue::Table(weather)) = root.get_mut("weather").map(|entry| &mut entry.node.value) else { return };
-    let Some(file) = weather.get_mut("file").map(|entry| &mut entry.node) else { return };
-    let beside = Path::new(&file.place.document.name).parent().unwrap_or(Path::new("")).to_owned();
-    let TomlValue::Text(name) = &mut file.value else { return };
-    let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
-    let same = matches!((real(&beside), real(folder)), (Ok(one), Ok(other)) if one == other);
-    if !is_embedded_weather(name)
-        && !same
-        && let Ok(path) = real(&beside.join(&*name))
-    {
-        *name = path.to_string_lossy().into_owned();
+    for key in ["weather", "tariff"] {
+        let Some(TomlValue::Table(table)) = root.get_mut(key).map(|entry| &mut entry.node.value) else { continue };
+        let Some(file) = table.get_mut("file").map(|entry| &mut entry.node) else { continue };
+        let beside = Path::new(&file.place.document.name).parent().unwrap_or(Path::new("")).to_owned();
+        let TomlValue::Text(name) = &mut file.value else { continue };
+        let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
+        let same = matches!((real(&beside), real(folder)), (Ok(one), Ok(other)) if one == other);
+        if !is_embedded_weather(name)
+            && !same
+            && let Ok(path) = real(&beside.join(&*name))
+        {
+            *name = path.to_string_lossy().into_owned();
+        }
     }
 }
 
 struct Writer {
     text: String,
-    /// Tables that have been explained, by definition and kind.
-    explained: BTreeSet<String>,
+    /// Tables that have been explained, by definition and kind; none if nothing is explained.
+    explained: Option<BTreeSet<String>>,
     vehicles: bool,
     building: bool,
 }
@@ -77,7 +86,7 @@ struct Section<'a> {
 impl Writer {
     /// Writes the keys of a table, then the tables below it. Unless `live`, all of it is a comment.
     fn table(&mut self, path: &str, schema: SchemaNode, value: &Map<String, Json>, live: bool) {
-        let first = self.explained.insert(table_type(schema, value));
+        let first = self.explained.as_mut().is_some_and(|explained| explained.insert(table_type(schema, value)));
         let mut sections = Vec::new();
         for (key, property) in keys(schema, value) {
             let below = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
@@ -86,7 +95,10 @@ impl Writer {
             let is_written = stated.is_some() || !property.is_deprecated();
             let Some(shown) = shown.filter(|_| is_written && self.concerns(property)) else { continue };
             let live = live && stated.is_some();
-            let is_new = |table: &Map<String, Json>| !self.explained.contains(&table_type(property, table));
+            if self.explained.is_none() && says_nothing(property, shown) {
+                continue;
+            }
+            let is_new = |table: &Map<String, Json>| !self.is_explained(&table_type(property, table));
             let is_list = property.table_entries().is_some();
             let is_inline = property.holds_paths() || property.forms().next().is_some();
             if !is_list && !is_inline && shown.as_object().is_some_and(is_new) || is_list && (first || !is_empty(shown))
@@ -116,17 +128,21 @@ impl Writer {
         };
         let is_list = schema.table_entries().is_some();
         let live = *live && !(is_list && is_empty(value));
-        if !live && is_list && self.explained.contains(&table_type(table, &empty)) {
+        if !live && is_list && self.is_explained(&table_type(table, &empty)) {
             return;
         }
         for (index, value) in values.into_iter().enumerate() {
             self.text.push('\n');
-            if index == 0 {
+            if index == 0 && self.explained.is_some() {
                 self.explain(*schema);
             }
             self.line(&header, live);
             self.table(path, table, value, live);
         }
+    }
+
+    fn is_explained(&self, table: &str) -> bool {
+        self.explained.as_ref().is_some_and(|explained| explained.contains(table))
     }
 
     /// Whether a key has to do with anything in this scenario.
@@ -184,6 +200,15 @@ fn table_type(schema: SchemaNode, value: &Map<String, Json>) -> String {
 
 fn is_empty(value: &Json) -> bool {
     value.as_array().is_some_and(Vec::is_empty)
+}
+
+/// Whether a key may be left out: a list or a table without entries that is so by default.
+fn says_nothing(property: SchemaNode, value: &Json) -> bool {
+    match value {
+        Json::Array(items) => items.is_empty() && property.is_default(value),
+        Json::Object(table) => table.is_empty() && property.default().is_some(),
+        _ => false,
+    }
 }
 
 /// A value as TOML, on one line, a table in the order of its schema.

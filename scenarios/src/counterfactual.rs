@@ -5,11 +5,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json, json};
 
 use crate::expect::CounterfactualExpect;
+use crate::scenario::Scenario;
 
 /// A second run of the scenario in which something is changed, and what is then expected.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Counterfactual {
+#[schemars(rename = "Counterfactual")]
+pub struct CounterfactualConfig {
     /// What it claims, in a few words; unique in the file.
     #[schemars(length(min = 1), example = &"Who asks nobody goes second")]
     pub name: String,
@@ -25,4 +27,13 @@ pub struct Counterfactual {
     #[serde(default)]
     #[schemars(example = json!({ "order_differs": true }))]
     pub expect: CounterfactualExpect,
+}
+
+/// A counterfactual with the scenario that is run for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counterfactual {
+    /// What it claims, what it changes, and what it expects of that.
+    pub stated: CounterfactualConfig,
+    /// The changed scenario; its expectations are the counterfactual's.
+    pub scenario: Scenario,
 }

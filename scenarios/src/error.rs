@@ -17,11 +17,13 @@ const CONTEXT_BYTES: usize = 60;
 /// How much of a long text is underlined \[bytes\].
 const MAX_UNDERLINED_BYTES: usize = 100;
 
-/// A text in which an error may lie: a file, or the argument of a flag.
+/// A text in which an error may lie: a file, the argument of a flag, or a key of a scenario that code made.
 #[derive(Debug)]
 pub(crate) struct Document {
     /// The name that errors give it.
     pub name: String,
+    /// Whether it is a key, whose path is its name, and not a text with lines.
+    is_key: bool,
     /// The text with control characters masked, byte for byte as long as the original.
     text: String,
     /// Errors are listed by rank of their document: flags first, then the file, then what it extends.
@@ -30,12 +32,17 @@ pub(crate) struct Document {
 
 impl Document {
     pub fn new(name: impl Into<String>, text: &str, rank: usize) -> Arc<Document> {
-        Arc::new(Document { name: name.into(), text: text.chars().map(masked).collect(), rank })
+        Arc::new(Document { name: name.into(), is_key: false, text: text.chars().map(masked).collect(), rank })
+    }
+
+    /// A key of a scenario that code made, with its value.
+    pub fn of_key(path: &str, text: &str, rank: usize) -> Arc<Document> {
+        Arc::new(Document { name: path.to_owned(), is_key: true, text: text.chars().map(masked).collect(), rank })
     }
 
     /// The same text with another rank.
     pub fn ranked(&self, rank: usize) -> Arc<Document> {
-        Arc::new(Document { name: self.name.clone(), text: self.text.clone(), rank })
+        Arc::new(Document { name: self.name.clone(), is_key: self.is_key, text: self.text.clone(), rank })
     }
 
     fn has_same_text(&self, other: &Document) -> bool {
@@ -193,18 +200,28 @@ impl Fault {
         &self.message
     }
 
-    /// The file, or the flag, in which the error lies; `None` if there is no text to blame.
+    /// The file, or the flag, in which the error lies; in a scenario that code made, the path of the key, such as
+    /// `vehicle.ego.start.lane`. `None` if there is nothing to blame.
     pub fn file(&self) -> Option<&str> {
         self.place.as_ref().map(|place| place.document.name.as_str())
     }
 
     /// Line and column of the error, both from 1; `None` if there is no text to blame.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
-        self.place.as_ref().map(|place| place.document.line_and_column(place.span.start))
+        self.place
+            .as_ref()
+            .filter(|place| !place.document.is_key)
+            .map(|place| place.document.line_and_column(place.span.start))
     }
 
     fn order(&self) -> (usize, usize) {
         self.place.as_ref().map_or((0, 0), |place| (place.document.rank, place.span.start))
+    }
+}
+
+impl From<Fault> for Vec<Fault> {
+    fn from(fault: Fault) -> Vec<Fault> {
+        vec![fault]
     }
 }
 

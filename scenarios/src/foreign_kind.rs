@@ -44,10 +44,8 @@ impl ForeignKind {
     }
 
     /// The driver that a table of a scenario file describes; its `kind` is known to be this one.
-    pub fn driver(&self, mut table: Json) -> Result<Driver, Error> {
-        if let Some(table) = table.as_object_mut() {
-            table.remove("kind");
-        }
-        (self.read)(table).map(Driver::Foreign)
+    pub fn driver(&self, mut table: Map<String, Json>) -> Result<Driver, Error> {
+        table.remove("kind");
+        (self.read)(Json::Object(table)).map(Driver::Foreign)
     }
 }

@@ -30,3 +30,15 @@ impl LaneReference {
         }
     }
 }
+
+impl From<usize> for LaneReference {
+    fn from(number: usize) -> Self {
+        LaneReference::Number(number)
+    }
+}
+
+impl From<&str> for LaneReference {
+    fn from(name: &str) -> Self {
+        LaneReference::Name(name.to_owned())
+    }
+}

@@ -1,20 +1,31 @@
 //! From a name to a checked [`Scenario`]; see the crate's documentation for the way.
 
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value as Json};
+
+use crate::commented::make_paths_absolute;
+use crate::counterfactual::{Counterfactual, CounterfactualConfig};
 use crate::error::{Document, Fault, LoadError, Place, quoted};
 use crate::expansion::{expand, with_defaults};
 use crate::merge::merge_tables;
 use crate::overrides::Override;
-use crate::placement::{KnownRoads, resolve_starts};
+use crate::placement::KnownRoads;
 use crate::registry::Registry;
+use crate::resolve::resolve;
 use crate::scenario::Scenario;
+use crate::scenario_file::ScenarioFile;
 use crate::schema::SchemaNode;
 use crate::source::Source;
 use crate::tree::{self, Table, TomlNode, TomlValue};
-use crate::weather::WeatherConfig;
-use crate::{budget, changed, consistency, degrees, remarks, schema_check, tariff_file, weather_file};
+use crate::{budget, changed, consistency, degrees, schema_check};
 
 /// How many files may extend one another.
 const MAX_CHAIN_LENGTH: usize = 16;
+
+/// How errors call a scenario without title.
+const UNTITLED: &str = "without title";
 
 /// [`Registry::load`] with what Interplay has.
 ///
@@ -34,6 +45,32 @@ pub fn from_text(name: &str, text: &str, overrides: &[Override]) -> Result<Scena
     Registry::standard().from_text(name, text, overrides)
 }
 
+impl ScenarioFile {
+    /// [`Registry::file`] with what Interplay has.
+    ///
+    /// # Errors
+    /// As [`Registry::file`].
+    pub fn load(name_or_path: &str, overrides: &[Override]) -> Result<ScenarioFile, LoadError> {
+        Registry::standard().file(name_or_path, overrides)
+    }
+
+    /// [`Registry::file_from_json`] with what Interplay has.
+    ///
+    /// # Errors
+    /// As [`Registry::file_from_json`].
+    pub fn from_json(table: &Map<String, Json>) -> Result<ScenarioFile, LoadError> {
+        Registry::standard().file_from_json(table)
+    }
+
+    /// [`Registry::resolve`] with what Interplay has.
+    ///
+    /// # Errors
+    /// As [`Registry::resolve`].
+    pub fn resolve(&self) -> Result<Scenario, LoadError> {
+        Registry::standard().resolve(self)
+    }
+}
+
 impl Registry {
     /// Loads the authored scenario of that name, otherwise the file at that path, changed by `overrides` in their order.
     ///
@@ -51,11 +88,40 @@ impl Registry {
     ///
     /// As [`Registry::load`].
     pub fn from_text(&self, name: &str, text: &str, overrides: &[Override]) -> Result<Scenario, LoadError> {
-        let (source, document) = (Source::File(name.into()), Document::new(name, text, 1));
-        let tree = tree::parse(&document, text)
-            .and_then(|node| extended(&source, node, &mut vec![source.clone()], self.complete()))
-            .map_err(|faults| LoadError::new(name, faults))?;
-        finish(self, name, tree, overrides)
+        let document = Document::new(name, text, 1);
+        let tree = tree::parse(&document, text).and_then(|tree| whole(name, tree, self.complete()));
+        finish(self, name, tree.map_err(|faults| LoadError::new(name, faults))?, overrides)
+    }
+
+    /// The authored scenario of that name, otherwise the file at that path, as it is written: changed by `overrides`, laid over what
+    /// it extends, and nothing added to it. Files that it names are named by paths that start from the current folder.
+    ///
+    /// # Errors
+    /// What [`Registry::load`] refuses, as far as it is seen from the keys and their values alone.
+    pub fn file(&self, name_or_path: &str, overrides: &[Override]) -> Result<ScenarioFile, LoadError> {
+        let mut tree = tree(self, name_or_path)?;
+        let changed = apply(overrides, &mut tree, self.complete());
+        changed.and_then(|()| as_stated(tree, self.complete())).map_err(|faults| LoadError::new(name_or_path, faults))
+    }
+
+    /// The file that a table of JSON states, `extends` included, as if it were in the current folder.
+    ///
+    /// # Errors
+    /// As [`Registry::file`]; each names the path of its key.
+    pub fn file_from_json(&self, table: &Map<String, Json>) -> Result<ScenarioFile, LoadError> {
+        let tree = whole("", tree::of_value(&Json::Object(table.clone())), self.complete());
+        let name = table.get("title").and_then(Json::as_str).unwrap_or(UNTITLED);
+        tree.and_then(|tree| as_stated(tree, self.complete())).map_err(|faults| LoadError::new(name, faults))
+    }
+
+    /// The scenario that a file describes: what it leaves out is added, the road is built, the vehicles are placed on it, the files
+    /// that it names are read, and all of it is checked.
+    ///
+    /// # Errors
+    /// Everything that keeps it from being run. Each error names the path of its key.
+    pub fn resolve(&self, file: &ScenarioFile) -> Result<Scenario, LoadError> {
+        let name = if file.title.is_empty() { UNTITLED } else { &file.title };
+        finish(self, name, tree::of_value(&Json::Object(file.stated())), &[])
     }
 }
 
@@ -65,26 +131,43 @@ pub(crate) fn tree(registry: &Registry, name_or_path: &str) -> Result<TomlNode, 
     read.map_err(|faults| LoadError::new(name_or_path, faults))
 }
 
+/// A tree laid over what it extends; `name` is the path from which that starts.
+fn whole(name: &str, tree: TomlNode, schema: SchemaNode) -> Result<TomlNode, Vec<Fault>> {
+    let source = Source::File(PathBuf::from(name));
+    extended(&source, tree, &mut vec![source.clone()], schema)
+}
+
+/// What a whole tree states, and no more.
+fn as_stated(mut tree: TomlNode, schema: SchemaNode) -> Result<ScenarioFile, Vec<Fault>> {
+    make_paths_absolute(&mut tree, Path::new(""));
+    let faults = schema_check::check(&tree, schema);
+    if faults.is_empty() { Ok(read(tree.to_json(), &tree)?) } else { Err(faults) }
+}
+
+/// What a value of the format, which the schema has admitted, states.
+fn read<T: DeserializeOwned>(stated: Json, tree: &TomlNode) -> Result<T, Fault> {
+    serde_json::from_value(stated).map_err(|error| Fault::at(&tree.place, "in this file", error.to_string()))
+}
+
+/// Lays overrides over a tree, in their order.
+fn apply(overrides: &[Override], tree: &mut TomlNode, schema: SchemaNode) -> Result<(), Vec<Fault>> {
+    let TomlValue::Table(root) = &mut tree.value else { return Ok(()) };
+    let faults: Vec<Fault> = overrides.iter().filter_map(|change| change.apply(root, schema).err()).collect();
+    if faults.is_empty() { Ok(()) } else { Err(faults) }
+}
+
 fn finish(registry: &Registry, name: &str, mut tree: TomlNode, overrides: &[Override]) -> Result<Scenario, LoadError> {
     let refused = |faults| LoadError::new(name, faults);
     let as_written = tree.clone();
-    if let TomlValue::Table(root) = &mut tree.value {
-        let changes = overrides.iter();
-        let faults: Vec<Fault> = changes.filter_map(|change| change.apply(root, registry.complete()).err()).collect();
-        if !faults.is_empty() {
-            return Err(refused(faults));
-        }
-    }
+    apply(overrides, &mut tree, registry.complete()).map_err(refused)?;
     let mut scenario = assemble(registry, &tree).map_err(refused)?;
     let as_written = Some(&as_written).filter(|_| !overrides.is_empty());
-    let mut faults = assemble_counterfactuals(registry, &mut scenario, &tree, as_written);
-    if faults.is_empty() {
-        faults = budget::check_all(&scenario, &tree);
-    }
+    add_counterfactuals(registry, &mut scenario, &tree, as_written).map_err(refused)?;
+    let faults = budget::check_all(&scenario, &tree);
     if faults.is_empty() { Ok(scenario) } else { Err(refused(faults)) }
 }
 
-/// The scenario that a whole tree describes, but for what its counterfactuals run.
+/// The scenario that a whole tree describes, without its counterfactuals.
 pub(crate) fn assemble(registry: &Registry, tree: &TomlNode) -> Result<Scenario, Vec<Fault>> {
     assemble_on(registry, tree, &KnownRoads::default())
 }
@@ -104,65 +187,51 @@ pub(crate) fn assemble_on(
     let mut stated = tree.to_json();
     degrees::to_radians(schema, &mut stated);
     expand(&mut stated, schema);
-    let placed = resolve_starts(&mut stated, tree, schema, known_roads)?;
-    let foreign_drivers = registry.take_foreign_drivers(&mut stated, tree)?;
-    let mut scenario: Scenario = serde_json::from_value(stated)
-        .map_err(|error| vec![Fault::at(&tree.place, "in this file", error.to_string())])?;
-    scenario.network = placed.network;
-    for (vehicle, route) in scenario.vehicles.iter_mut().zip(placed.routes) {
-        vehicle.route = route;
-    }
-    for (index, driver) in foreign_drivers {
-        scenario.vehicles[index].driver = driver;
-    }
-    let days = scenario.days();
-    let unread = match &mut scenario.weather {
-        Some(WeatherConfig::Epw(file)) => weather_file::attach(file, days, tree).err(),
-        Some(WeatherConfig::Synthetic(_)) | None => None,
-    };
-    let unpriced = scenario.tariff.as_mut().and_then(|tariff| tariff_file::attach(tariff, tree).err());
-    let faults = consistency::check(&scenario, tree, schema);
-    let faults: Vec<Fault> = faults.into_iter().chain(unread).chain(unpriced).collect();
-    scenario.remarks = remarks::of(&scenario, tree, schema);
-    if faults.is_empty() { Ok(scenario) } else { Err(faults) }
+    resolve(registry, read(stated, tree)?, tree, known_roads)
 }
 
-/// Makes the scenario that each counterfactual runs; returns what is wrong with them. One that flags have made impossible is
-/// left out: `as_written` is the tree without these flags, if there are any.
-fn assemble_counterfactuals(
+/// The counterfactuals that a tree states, which the schema has admitted.
+pub(crate) fn stated_counterfactuals(tree: &TomlNode) -> Result<Vec<CounterfactualConfig>, Fault> {
+    tree.at("counterfactual").map_or_else(|| Ok(Vec::new()), |stated| read(stated.to_json(), stated))
+}
+
+/// Gives a scenario the counterfactuals that its tree states, each with the scenario that is run for it. One that flags have made
+/// impossible is left out: `as_written` is the tree without these flags, if there are any.
+fn add_counterfactuals(
     registry: &Registry,
     scenario: &mut Scenario,
     tree: &TomlNode,
     as_written: Option<&TomlNode>,
-) -> Vec<Fault> {
+) -> Result<(), Vec<Fault>> {
     let assembled = |tree: &TomlNode, index: usize| {
         let stated = tree.at(&format!("counterfactual.{index}")).and_then(TomlNode::table);
         let changed = |stated| changed::tree(tree, stated, registry.complete());
         stated.map_or_else(|| Err(Vec::new()), |stated| assemble(registry, &changed(stated)?))
     };
-    let (mut faults, mut changed) = (Vec::new(), Vec::new());
-    for (index, counterfactual) in scenario.counterfactuals.iter().enumerate() {
+    let stated = stated_counterfactuals(tree)?;
+    let (mut faults, mut runs) = (Vec::new(), Vec::new());
+    for (index, counterfactual) in stated.iter().enumerate() {
         match assembled(tree, index) {
-            Ok(scenario) => changed.push(Ok(scenario)),
+            Ok(scenario) => runs.push(Ok(scenario)),
             Err(found) if as_written.is_some_and(|tree| assembled(tree, index).is_ok()) => {
-                changed.push(Err(found.first().map(|fault| fault.message().to_owned()).unwrap_or_default()));
+                runs.push(Err(found.first().map(|fault| fault.message().to_owned()).unwrap_or_default()));
             }
             Err(found) => faults.extend(found.into_iter().map(|fault| fault.in_counterfactual(&counterfactual.name))),
         }
     }
-    if faults.is_empty() {
-        scenario.changed = changed.iter().flatten().cloned().collect();
+    let changed = if faults.is_empty() { runs.iter().flatten().collect() } else { Vec::new() };
+    let as_written = as_written.is_none().then_some(changed.as_slice());
+    faults.extend(consistency::counterfactual::check(scenario, &stated, tree, as_written));
+    if !faults.is_empty() {
+        return Err(faults);
     }
-    faults.extend(consistency::counterfactual::check(scenario, tree, as_written.is_none()));
-    if faults.is_empty() {
-        for (counterfactual, outcome) in std::mem::take(&mut scenario.counterfactuals).into_iter().zip(changed) {
-            match outcome {
-                Ok(_) => scenario.counterfactuals.push(counterfactual),
-                Err(reason) => scenario.left_out.push([counterfactual.name, reason]),
-            }
+    for (stated, run) in stated.into_iter().zip(runs) {
+        match run {
+            Ok(scenario_run) => scenario.counterfactuals.push(Counterfactual { stated, scenario: scenario_run }),
+            Err(reason) => scenario.left_out.push([stated.name, reason]),
         }
     }
-    faults
+    Ok(())
 }
 
 /// Reads a source and all that it extends.

@@ -9,11 +9,10 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use thiserror::Error;
 
-use crate::error::Fault;
 use crate::foreign_kind::ForeignKind;
 use crate::name;
 use crate::schema::{self, SchemaNode};
-use crate::tree::TomlNode;
+use crate::stated::Stated;
 
 /// What a scenario file may name: the kinds of drivers, and with them the JSON Schema that files are checked against.
 ///
@@ -126,25 +125,13 @@ impl Registry {
         SchemaNode::of(&self.schema)
     }
 
-    /// Takes the drivers of other crates out of the vehicles of a scenario; returns each with the index of its vehicle.
+    /// The driver that a table of a scenario file describes.
     ///
     /// # Errors
-    /// What keeps a table from being the settings of its kind, although it fits the schema.
-    pub(crate) fn take_foreign_drivers(
-        &self,
-        scenario: &mut Json,
-        tree: &TomlNode,
-    ) -> Result<Vec<(usize, Driver)>, Vec<Fault>> {
-        let vehicles = scenario.get_mut("vehicle").and_then(Json::as_array_mut).into_iter().flatten().enumerate();
-        let taken = vehicles.filter_map(|(index, vehicle)| {
-            let kind = vehicle.get("driver")?.get("kind")?.as_str()?;
-            let foreign = self.drivers.iter().find(|foreign| foreign.kind == kind)?;
-            let table = vehicle.as_object_mut()?.remove("driver")?;
-            let place = || tree.place_of(&format!("vehicle.{index}.driver"));
-            let refused = |error: serde_json::Error| vec![Fault::at(place(), "in this table", error.to_string())];
-            Some(foreign.driver(table).map(|driver| (index, driver)).map_err(refused))
-        });
-        taken.collect()
+    /// What keeps the table from being the settings of its kind, although it fits the schema.
+    pub(crate) fn driver(&self, table: Stated<Driver>) -> Result<Driver, serde_json::Error> {
+        let foreign = self.drivers.iter().find(|foreign| table.get("kind").is_some_and(|kind| kind == foreign.kind));
+        foreign.map_or_else(|| table.settings(), |foreign| foreign.driver(table.clone().into_keys()))
     }
 
     /// The versions of the kinds of other crates; empty without any.

@@ -36,8 +36,10 @@ impl ScenarioRemark {
 impl fmt::Display for ScenarioRemark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0.message())?;
-        if let (Some(file), Some((line, _))) = (self.0.file(), self.0.line_and_column()) {
-            write!(f, " ({file}:{line})")?;
+        match (self.0.file(), self.0.line_and_column()) {
+            (Some(file), Some((line, _))) => write!(f, " ({file}:{line})")?,
+            (Some(key), None) => write!(f, " ({key})")?,
+            (None, _) => {}
         }
         if let Some(help) = self.0.hint() {
             write!(f, "; {help}")?;

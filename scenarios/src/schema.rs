@@ -1,6 +1,6 @@
 //! The JSON Schema of a scenario file: what editors complete from, and what the loader checks against.
 //!
-//! It is generated from [`Scenario`]. Whatever is said of a setting stands on its field: description, type and default, and as
+//! It is generated from [`ScenarioFile`]. Whatever is said of a setting stands on its field: description, type and default, and as
 //! `schemars` attributes its bounds, its example, and
 //!
 //! - `x-unit`: the unit of a number whose key does not end with one ([`interplay_common::units`]),
@@ -25,7 +25,7 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::foreign_kind::ForeignKind;
 use crate::registry::Registry;
-use crate::scenario::Scenario;
+use crate::scenario_file::ScenarioFile;
 
 pub(crate) use node::{Concern, SchemaNode};
 pub(crate) use twins::{TWIN_OF, in_degrees, rounded};
@@ -46,7 +46,7 @@ pub fn schema() -> Json {
 /// The schema of a whole scenario, all that it extends included, whose vehicles may have drivers of `foreign` kinds.
 pub(crate) fn complete(foreign: &[ForeignKind]) -> Json {
     let mut generator = SchemaSettings::draft2020_12().into_generator();
-    let mut schema = generator.root_schema_for::<Scenario>().to_value();
+    let mut schema = generator.root_schema_for::<ScenarioFile>().to_value();
     let drivers: Vec<Json> = foreign.iter().map(|foreign| foreign.schema(&mut generator)).collect();
     if let Some(definitions) = schema["$defs"].as_object_mut() {
         for (name, definition) in generator.take_definitions(true) {

@@ -4,7 +4,7 @@ use interplay_building::weather::Forecast;
 
 use crate::building_plant::BuildingPlant;
 use crate::scenario::{Scenario, Vehicle};
-use crate::weather::WeatherConfig;
+use crate::weather::WeatherSource;
 
 impl Scenario {
     /// Whether runs with different seeds may differ. Where it is false, they are the same bit for bit.
@@ -20,9 +20,8 @@ impl Scenario {
 
     fn has_random_surroundings(&self) -> bool {
         let Some(building) = &self.building else { return false };
-        let weather = self.weather.clone().unwrap_or_default();
-        let is_synthetic = matches!(weather, WeatherConfig::Synthetic(_));
-        let is_uncertain = matches!(weather.forecast(), Forecast::Uncertain { .. });
+        let is_synthetic = matches!(self.weather, WeatherSource::Synthetic(_));
+        let is_uncertain = matches!(self.weather.forecast(), Forecast::Uncertain { .. });
         // Of another program nobody knows.
         let is_foreign = !matches!(building.plant, BuildingPlant::Network(_));
         is_synthetic || is_uncertain || is_foreign || self.occupancy.unwrap_or_default().depends_on_seed()

@@ -1,15 +1,15 @@
 //! Where a vehicle starts: in a lane, or in world coordinates.
 
+use interplay_planners::State;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::lane_reference::LaneReference;
 
-// A loaded scenario has a `State` in its place.
 /// Where a vehicle starts, in a lane (`lane`, `along_m`) or in world coordinates (`x_m`, `y_m`), and its speed there.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct StartConfig {
+pub struct StartConfig {
     /// Position of the mass centre along the world's x axis \[m\].
     #[schemars(range(min = -100_000.0, max = 100_000.0), example = 0.0)]
     pub x_m: Option<f64>,
@@ -47,4 +47,24 @@ pub(crate) struct StartConfig {
     /// Speed of the mass centre \[m/s\].
     #[schemars(example = 1.0)]
     pub speed_mps: f64,
+}
+
+impl StartConfig {
+    /// In the centre of a lane, along it \[m\], at a speed \[m/s\].
+    pub fn in_lane(lane: impl Into<LaneReference>, along_m: f64, speed_mps: f64) -> StartConfig {
+        StartConfig { lane: Some(lane.into()), along_m: Some(along_m), speed_mps, ..StartConfig::default() }
+    }
+}
+
+/// In world coordinates.
+impl From<State> for StartConfig {
+    fn from(state: State) -> StartConfig {
+        StartConfig {
+            x_m: Some(state.x_m),
+            y_m: Some(state.y_m),
+            heading_rad: Some(state.heading_rad),
+            speed_mps: state.speed_mps,
+            ..StartConfig::default()
+        }
+    }
 }

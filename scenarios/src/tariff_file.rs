@@ -18,9 +18,9 @@ const MAX_PRICE_PER_KWH: f64 = 1000.0;
 const RANK: usize = 1001;
 const HEADER: &str = "hour,price_per_kwh";
 
-/// Reads the table of prices that a tariff names, if it names one.
-pub(crate) fn attach(tariff: &mut Tariff, tree: &TomlNode) -> Result<(), Fault> {
-    let Some(file) = &tariff.file else { return Ok(()) };
+/// The tariff with the prices of the table that it names, if it names one.
+pub(crate) fn read(tariff: &Tariff, tree: &TomlNode) -> Result<Tariff, Fault> {
+    let Some(file) = &tariff.file else { return Ok(tariff.clone()) };
     let place = tree.place_of("tariff.file");
     let path = path_beside(place, file);
     let title = path.display().to_string();
@@ -31,12 +31,12 @@ pub(crate) fn attach(tariff: &mut Tariff, tree: &TomlNode) -> Result<(), Fault> 
     let bytes = read_regular(&path, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;
     let bytes = bytes.ok_or_else(|| refused("it is larger than 16 MiB, and no table of prices is".to_owned()))?;
     let text = String::from_utf8(bytes).map_err(|_| refused("it is no text in UTF-8".to_owned()))?;
-    tariff.file_prices_per_kwh = parse(&text).map_err(|(line, problem)| {
+    let prices_per_kwh = parse(&text).map_err(|(line, problem)| {
         let message = format!("{} is no table of prices: line {line}: {problem}", quoted(&title));
         let help = format!("the first line is `{HEADER}`, then there is a row an hour from 0 on, such as `0,0.31`");
         Fault::at(&line_of(&title, &text, line, RANK), "this line", message).help(help)
     })?;
-    Ok(())
+    Ok(Tariff { prices_per_kwh, file: None, currency: tariff.currency.clone() })
 }
 
 /// The prices of a table; or the line, from 1, and what is wrong with it.

@@ -28,8 +28,7 @@ impl Scenario {
     /// [`TimetableError`]; never for a scenario that was loaded.
     pub fn timetable(&self) -> Result<Timetable, TimetableError> {
         let Some(building) = &self.building else { return Ok(Timetable::default()) };
-        let weather_weekday = self.weather.as_ref().and_then(|weather| weather.first_weekday());
-        let days = self.calendar.clone().unwrap_or_default().days(weather_weekday)?;
+        let days = self.calendar.clone().unwrap_or_default().days(self.weather.first_weekday())?;
         let network = building.network()?;
         Ok(Timetable::new(&self.schedules, &network.names()[..network.zone_count()], days)?)
     }

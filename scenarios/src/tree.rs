@@ -2,9 +2,11 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
+use serde_json::Value as Json;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::commented::toml;
 use crate::error::{Document, Fault, Place};
 
 /// A value and where it is written.
@@ -107,6 +109,47 @@ fn from_value(document: &Arc<Document>, offset: usize, value: Spanned<DeValue<'_
     TomlNode { place, value }
 }
 
+/// The most characters of a value that an error shows.
+const MAX_SHOWN: usize = 100;
+
+/// The tree of a scenario that code made. It is written nowhere: the place of a value is the path of its key.
+pub(crate) fn of_value(value: &Json) -> TomlNode {
+    node_of_value("", "scenario", value).node
+}
+
+fn node_of_value(parent: &str, key: &str, value: &Json) -> TomlEntry {
+    let path = if parent.is_empty() { key.to_owned() } else { format!("{parent}.{key}") };
+    let shown: String = format!("{key} = {}", toml(value)).chars().take(MAX_SHOWN).collect();
+    let document = Document::of_key(&path, &shown, 1);
+    let below = if parent.is_empty() && key == "scenario" { "" } else { path.as_str() };
+    let value = match value {
+        Json::Object(table) => {
+            let stated = table.iter().filter(|(_, value)| !value.is_null());
+            TomlValue::Table(stated.map(|(key, value)| (key.clone(), node_of_value(below, key, value))).collect())
+        }
+        Json::Array(items) => {
+            let label = |index: usize, item: &Json| {
+                let name = ["name", "vehicle"].iter().find_map(|key| item.get(key)?.as_str());
+                name.map_or_else(|| index.to_string(), str::to_owned)
+            };
+            let entries = items.iter().enumerate();
+            let nodes = entries.map(|(index, item)| node_of_value(below, &label(index, item), item).node);
+            TomlValue::Array(nodes.collect())
+        }
+        Json::Number(number) => match number.as_i128() {
+            Some(integer) => TomlValue::Integer(integer),
+            None => TomlValue::Float(number.as_f64().unwrap_or(f64::NAN)),
+        },
+        Json::String(text) => TomlValue::Text(text.clone()),
+        Json::Bool(truth) => TomlValue::Bool(*truth),
+        Json::Null => TomlValue::Text(String::new()),
+    };
+    let span = (key.len() + 3).min(shown.len())..shown.len();
+    // Of a table, an error then points at the whole and not at the first key.
+    let key_place = Place::new(&document.ranked(2), 0..key.len().min(shown.len()));
+    TomlEntry { key: key_place, node: TomlNode { place: Place::new(&document, span), value } }
+}
+
 /// An integer of any length; one beyond all bounds becomes the largest of its sign.
 fn widened(digits: &str, radix: u32) -> i128 {
     let extreme = if digits.starts_with('-') { i128::MIN } else { i128::MAX };
@@ -170,8 +213,8 @@ impl TomlNode {
     }
 
     /// The same value as JSON, for serde. A number that JSON cannot hold becomes null; the check has refused it before.
-    pub fn to_json(&self) -> serde_json::Value {
-        use serde_json::{Number, Value as Json};
+    pub fn to_json(&self) -> Json {
+        use serde_json::Number;
         match &self.value {
             TomlValue::Text(text) => Json::String(text.clone()),
             TomlValue::Integer(integer) => Number::from_i128(*integer).map_or(Json::Null, Json::Number),

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::classes::VehicleClass;
+use crate::stated::Stated;
 use crate::weights::Weights;
 
 /// What holds for every vehicle that does not state it.
@@ -20,19 +21,19 @@ pub struct VehicleDefaults {
     pub goal: Option<GoalDefaults>,
     /// Weights of deviations from the goal and of changes of the inputs.
     #[schemars(example = json!({ "y": 1.0 }))]
-    pub weights: Option<Weights>,
+    pub weights: Option<Stated<Weights>>,
     /// Size and axles.
     #[schemars(example = json!({ "width_m": 0.19 }))]
-    pub body: Option<Body>,
+    pub body: Option<Stated<Body>>,
     /// The bounds of inputs and speed.
     #[schemars(example = json!({ "speed_max_mps": 1.5 }))]
-    pub limits: Option<Limits>,
+    pub limits: Option<Stated<Limits>>,
     /// The ellipse around each other vehicle that a vehicle keeps out of.
     #[schemars(example = json!({ "along_m": 0.75 }))]
-    pub safety: Option<SafetyEllipse>,
+    pub safety: Option<Stated<SafetyEllipse>>,
     /// The driver. A vehicle with a driver of another `kind` takes nothing from it.
     #[schemars(example = json!({ "kind": "human", "style": "nice" }))]
-    pub driver: Option<Driver>,
+    pub driver: Option<Stated<Driver>>,
 }
 
 /// What the goals of vehicles have in common.

@@ -52,9 +52,6 @@ pub struct EpwFile {
     /// How a day's temperatures are forecast at its start; by default without error.
     #[serde(default)]
     pub forecast: Forecast,
-    /// What the file says, once it was read.
-    #[serde(skip)]
-    pub(crate) content: Option<Arc<Epw>>,
 }
 
 impl EpwFile {
@@ -67,33 +64,67 @@ impl EpwFile {
     }
 }
 
-impl WeatherConfig {
+/// The weather around a building: how it is drawn, or the rows of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WeatherSource {
+    /// Synthetic weather, drawn from the scenario's seed.
+    Synthetic(Synthetic),
+    /// The rows of an EPW file.
+    Epw(EpwWeather),
+}
+
+/// An EPW file that was read, and the first day that is simulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EpwWeather {
+    /// What is stated of the file.
+    pub stated: EpwFile,
+    /// Where the file was found: an absolute path, or its name in the binary.
+    pub found: String,
+    /// What it says.
+    pub rows: Arc<Epw>,
+    /// Midnight at the start of the first day, as time after that of the file's first \[s\].
+    pub start_s: f64,
+}
+
+impl Default for WeatherSource {
+    fn default() -> Self {
+        WeatherSource::Synthetic(Synthetic::default())
+    }
+}
+
+impl WeatherSource {
     /// How a day's temperatures are forecast.
     pub fn forecast(&self) -> Forecast {
         match self {
-            WeatherConfig::Synthetic(synthetic) => synthetic.forecast,
-            WeatherConfig::Epw(file) => file.forecast,
+            WeatherSource::Synthetic(synthetic) => synthetic.forecast,
+            WeatherSource::Epw(weather) => weather.stated.forecast,
         }
     }
 
-    /// The weekday of the first day, if a weather file that was read states one.
+    /// The weekday of the first day, if a weather file states one.
     pub fn first_weekday(&self) -> Option<Weekday> {
-        let WeatherConfig::Epw(file) = self else { return None };
-        let epw = file.content.as_ref()?;
-        epw.weekday(file.start_s(epw)?)
+        let WeatherSource::Epw(weather) = self else { return None };
+        weather.rows.weekday(weather.start_s)
     }
 
-    /// Returns the weather over `days` days as functions of the time since the first midnight. `None` only for an EPW
-    /// file of a scenario that was not loaded.
-    pub fn days(&self, days: usize, seed: u64) -> Option<Weather> {
+    /// Returns the weather over `days` days as functions of the time since the first midnight.
+    pub fn days(&self, days: usize, seed: u64) -> Weather {
         match self {
-            WeatherConfig::Synthetic(synthetic) => Some(synthetic.climate.weather(seed, days)),
-            WeatherConfig::Epw(file) => {
-                let epw = file.content.as_ref()?;
-                let start_s = file.start_s(epw)?;
-                let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - start_s, ..series };
-                let Weather { ambient_c, sun_w_per_m2 } = epw.weather();
-                Some(Weather { ambient_c: shifted(ambient_c), sun_w_per_m2: shifted(sun_w_per_m2) })
+            WeatherSource::Synthetic(synthetic) => synthetic.climate.weather(seed, days),
+            WeatherSource::Epw(weather) => {
+                let shifted = |series: TimeSeries| TimeSeries { first_s: series.first_s - weather.start_s, ..series };
+                let Weather { ambient_c, sun_w_per_m2 } = weather.rows.weather();
+                Weather { ambient_c: shifted(ambient_c), sun_w_per_m2: shifted(sun_w_per_m2) }
+            }
+        }
+    }
+
+    /// What a file states of it.
+    pub(crate) fn config(&self) -> WeatherConfig {
+        match self {
+            WeatherSource::Synthetic(synthetic) => WeatherConfig::Synthetic(*synthetic),
+            WeatherSource::Epw(weather) => {
+                WeatherConfig::Epw(EpwFile { file: weather.found.clone(), ..weather.stated.clone() })
             }
         }
     }

@@ -11,7 +11,7 @@ use crate::regular_file::read_regular;
 use crate::stated_path::{base_in_words, path_beside};
 use crate::text_line::line_of;
 use crate::tree::TomlNode;
-use crate::weather::EpwFile;
+use crate::weather::{EpwFile, EpwWeather};
 
 /// Weather files in the binary, by the name that a scenario gives as `file`.
 static EMBEDDED: &[(&str, &str)] = &[("tropical-july.epw", include_str!("../weather/tropical-july.epw"))];
@@ -21,9 +21,9 @@ const MAX_FILE_BYTES: u64 = 1 << 27;
 const RANK: usize = 1000;
 
 /// Reads an EPW file and checks that it covers `days` days of simulation.
-pub(crate) fn attach(file: &mut EpwFile, days: usize, tree: &TomlNode) -> Result<(), Fault> {
-    let place = tree.place_of("weather.file");
-    let (title, text) = read(&file.file, place)?;
+pub(crate) fn read(stated: EpwFile, days: usize, tree: &TomlNode) -> Result<EpwWeather, Fault> {
+    let (place, file) = (tree.place_of("weather.file"), &stated);
+    let EpwText { title, found, text } = text_of(&file.file, place)?;
     let epw = Epw::parse(&text).map_err(|error| located(&title, &text, error.line, &error.problem.to_string()))?;
     let Some(start_s) = file.start_s(&epw) else {
         let (month, day) = (file.month.unwrap_or(1), file.day.unwrap_or(1));
@@ -37,8 +37,7 @@ pub(crate) fn attach(file: &mut EpwFile, days: usize, tree: &TomlNode) -> Result
         let fault = Fault::at(place, "too short", message);
         return Err(fault.help("lower `iterations`, start earlier, or take a file of a whole year, which repeats"));
     }
-    file.content = Some(Arc::new(epw));
-    Ok(())
+    Ok(EpwWeather { stated, found, rows: Arc::new(epw), start_s })
 }
 
 /// Whether a file of weather of that name is in the binary.
@@ -46,10 +45,20 @@ pub(crate) fn is_embedded_weather(name: &str) -> bool {
     EMBEDDED.iter().any(|(known, _)| *known == name)
 }
 
-/// Title and text of the EPW file that is called `file` at `place`.
-fn read(file: &str, place: &Place) -> Result<(String, String), Fault> {
+/// The text of an EPW file.
+struct EpwText {
+    /// How errors call the file.
+    title: String,
+    /// Its absolute path, or its name in the binary.
+    found: String,
+    text: String,
+}
+
+/// The EPW file that is called `file` at `place`.
+fn text_of(file: &str, place: &Place) -> Result<EpwText, Fault> {
     if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == file) {
-        return Ok(((*name).to_owned(), (*text).to_owned()));
+        let name = (*name).to_owned();
+        return Ok(EpwText { title: name.clone(), found: name, text: (*text).to_owned() });
     }
     let path = path_beside(place, file);
     let title = path.display().to_string();
@@ -61,7 +70,8 @@ fn read(file: &str, place: &Place) -> Result<(String, String), Fault> {
     let bytes = read_regular(&path, MAX_FILE_BYTES).map_err(|error| refused(error.to_string()))?;
     let too_large = || refused("it is larger than 128 MiB, and no weather file is".to_owned());
     let bytes = bytes.ok_or_else(too_large)?;
-    Ok((title, String::from_utf8_lossy(&bytes).into_owned()))
+    let found = std::path::absolute(&path).unwrap_or(path).to_string_lossy().into_owned();
+    Ok(EpwText { title, found, text: String::from_utf8_lossy(&bytes).into_owned() })
 }
 
 /// A fault in a line of an EPW file, counted from 1.

@@ -21,7 +21,7 @@ fn loaded(text: &str, overrides: &[Override]) -> Scenario {
 /// The scenario that the only counterfactual runs.
 fn changed(stated: &str, overrides: &[Override]) -> Scenario {
     let scenario = loaded(&variant(stated), overrides);
-    let (_, changed) = scenario.counterfactual_runs().next().expect("one counterfactual");
+    let changed = &scenario.counterfactuals.first().expect("one counterfactual").scenario;
     changed.clone()
 }
 
@@ -71,9 +71,10 @@ fn flags_change_counterfactuals_too_and_their_own_changes_win() {
     let found = changed("set = { duration_s = 2.0 }", &flags);
     assert_eq!((found.seed, found.duration_s, style(&found)), (9, 2.0, Some(Style::Nice)));
     let kept = loaded(&variant("planner = 'idm'"), &[Override::Planner("conservative".to_owned())]);
-    let kinds: Vec<&str> = [&kept, &kept.changed[0]].map(|scenario| scenario.vehicles[0].driver.kind()).into();
+    let kinds: Vec<&str> =
+        [&kept, &kept.counterfactuals[0].scenario].map(|scenario| scenario.vehicles[0].driver.kind()).into();
     assert_eq!(kinds, ["conservative", "idm"]);
-    assert!(loaded(&variant("planner = 'idm'"), &[set("counterfactual=[]")]).changed.is_empty());
+    assert!(loaded(&variant("planner = 'idm'"), &[set("counterfactual=[]")]).counterfactuals.is_empty());
 }
 
 /// A counterfactual of a mechanism that the planner of a flag does not have is no error of the file.
@@ -82,7 +83,7 @@ fn what_flags_have_made_impossible_is_left_out() {
     let text = variant("set = { vehicle.ego.driver.persuasion = false }");
     assert_eq!(loaded(&text, &[]).counterfactuals.len(), 1);
     let scenario = loaded(&text, &[Override::Planner("idm".to_owned())]);
-    assert_eq!((scenario.counterfactuals.len(), scenario.changed.len()), (0, 0));
+    assert_eq!(scenario.counterfactuals, []);
     let [[name, reason]] = scenario.left_out.as_slice() else { panic!("{:?}", scenario.left_out) };
     assert_eq!((name.as_str(), reason.as_str()), ("what if", "unknown key `persuasion` in `vehicle.ego.driver`"));
     let broken = text.replace("persuasion", "persuation");
@@ -97,15 +98,14 @@ fn a_variant_has_its_own_counterfactuals_only() {
     assert_eq!(load(&base.to_string_lossy(), &[]).expect("sound").counterfactuals.len(), 1);
     let more = format!("extends = '{}'\ntitle = 'A variant'", base.to_string_lossy());
     let scenario = loaded(&more, &[]);
-    assert_eq!((scenario.counterfactuals.len(), scenario.changed.len()), (0, 0));
+    assert_eq!(scenario.counterfactuals, []);
 }
 
 /// What is written out reads back, and `interplay new` keeps it.
 #[test]
 fn a_counterfactual_survives_writing() {
     let scenario = loaded(&variant("set = { 'vehicle.crossing.driver.style' = 'nice', vehicle.ego.limits = {} }"), &[]);
-    let text = toml::to_string(&scenario).expect("plain data");
-    assert_eq!(loaded(&text, &[]), scenario);
+    assert_eq!(loaded(&scenario.to_file().to_toml(), &[]), scenario);
 }
 
 #[test]
@@ -169,7 +169,8 @@ fn a_building_has_counterfactuals_too() {
     };
     let sound = stated("set = { 'controller.kind' = 'thermostat' }\nexpect = { building.cost_never_rises = true }");
     let sound = sound.unwrap_or_else(|error| panic!("{:?}", error.faults()));
-    assert_eq!((sound.changed[0].controller().kind(), sound.changed[0].days()), ("thermostat", 2));
+    let changed = &sound.counterfactuals[0].scenario;
+    assert_eq!((changed.controller().kind(), changed.days()), ("thermostat", 2));
     let mut errors = Catalogue::default();
     let order = "set = { 'controller.kind' = 'thermostat' }\nexpect.order_differs = true";
     errors.error("order", stated(order), &["mine.toml:7:", "there are no vehicles"]);

@@ -10,7 +10,7 @@ use interplay_common::bounds::Bound;
 use interplay_planners::trajectory::HomotopySearch;
 use interplay_planners::{Driver, human::Style};
 use interplay_scenarios::{
-    Override, ParallelLanes, Registry, Road, Scenario, Source, embedded, from_text, load, schema,
+    Override, ParallelLanes, Registry, Road, Scenario, ScenarioFile, Source, embedded, from_text, load, schema,
 };
 use least::{LEAST, least, set};
 use serde_json::{Map, Value as Json};
@@ -42,8 +42,10 @@ fn every_file_on_disk_is_embedded_and_loads_from_both() {
 fn a_written_scenario_reads_back_the_same() {
     for file in embedded() {
         let scenario = load(file.name, &[]).expect("authored files load");
-        let text = toml::to_string(&scenario).expect("plain data");
-        assert_eq!(from_text("copy.toml", &text, &[]).expect("what was written"), scenario);
+        for text in [scenario.to_file().to_toml(), ScenarioFile::load(file.name, &[]).expect("authored").to_toml()] {
+            let again = from_text("copy.toml", &text, &[]).unwrap_or_else(|error| panic!("{error:?}\n{text}"));
+            assert!(again == scenario, "{} is another scenario:\n{text}", file.name);
+        }
     }
 }
 

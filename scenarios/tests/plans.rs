@@ -116,7 +116,7 @@ fn counterfactuals_are_planners_of_their_scenario_alone() {
     let points = points(&plan);
     assert_eq!(points.len(), 2 * 3 * (2 * 2 + counts[0] + 3));
     for (scenario, of) in [(&one, "lane-keeping/conservative-nice"), (&other, "intersection/nice")] {
-        let names: Vec<&str> = scenario.counterfactuals.iter().map(|one| one.name.as_str()).collect();
+        let names: Vec<&str> = scenario.counterfactuals.iter().map(|one| one.stated.name.as_str()).collect();
         let of_scenario: Vec<&SweepPoint> = points.iter().filter(|point| point.scenario == of).collect();
         for pair in of_scenario.chunks(2 + names.len()) {
             let planners: Vec<&str> = pair.iter().map(|point| point.planner.as_str()).collect();
@@ -206,7 +206,7 @@ fn paths_lead_through_lists_below_tables() {
         let text = format!("scenario = ['building/office-and-flat']\n[set]\n{path} = 5.5\nbuilding.step_s = 900.0\n");
         let plan = SweepPlan::from_text("plan.toml", &text, Path::new("")).expect("sound");
         let scenario = plan.scenario(&plan.point(0)).expect("sound");
-        let text = serde_json::to_string(&scenario).expect("text");
-        assert!(text.contains("\"heating_limit_kw\":5.5"), "{path}: {}", &text[..200]);
+        let text = scenario.to_file().to_toml();
+        assert!(text.contains("heating_limit_kw = 5.5"), "{path}: {}", &text[..200]);
     }
 }

@@ -265,7 +265,7 @@ fn prices_come_from_a_table() {
         interplay_scenarios::load(path.to_str().expect("a plain path"), &[])
     };
     let scenario = load("hour,price_per_kwh\n0,0.25\n1,0.5\n").expect("two prices");
-    assert_eq!(scenario.tariff.expect("a tariff").prices(), [0.25, 0.5]);
+    assert_eq!(scenario.tariff.expect("a tariff").prices_per_kwh, [0.25, 0.5]);
     let error = load("hour,price_per_kwh\n0,0.25\n1,cheap\n").expect_err("no number");
     let error = common::rendered(&error, 2000);
     assert!(error.contains("prices.csv:3:1") && error.contains("`cheap`"), "{error}");

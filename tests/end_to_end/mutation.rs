@@ -1,7 +1,7 @@
 //! What authored scenarios claim about changes of themselves: each counterfactual does as it claims. The suite judges them too
 //! (`suite`); here each that does not is listed with what it did instead.
 
-use interplay_scenarios::{Scenario, embedded, load};
+use interplay_scenarios::{Counterfactual, Scenario, embedded, load};
 use interplay_simulation::report::{CounterfactualReport, Report};
 use interplay_simulation::run::{run, run_with_counterfactuals};
 use rayon::prelude::*;
@@ -19,8 +19,8 @@ fn judged(name: &str, scenario: &Scenario) -> Vec<CounterfactualReport> {
     let Some(film) = FILMS.iter().find(|film| film.name() == name) else {
         return run_with_counterfactuals(name, scenario, Vec::new()).expect("the runs can be finished").counterfactuals;
     };
-    let changed = |scenario: &Scenario| run(name, scenario, Vec::new()).expect("the run can be finished");
-    let runs: Vec<Report> = scenario.changed.par_iter().map(changed).collect();
+    let changed = |one: &Counterfactual| run(name, &one.scenario, Vec::new()).expect("the run can be finished");
+    let runs: Vec<Report> = scenario.counterfactuals.par_iter().map(changed).collect();
     let mut report = film.report.clone();
     report.judge_counterfactuals(scenario, runs);
     report.counterfactuals
@@ -66,10 +66,9 @@ fn figures_carry_the_counterfactuals_that_prove_them() {
         let (kind, order) = (own.vehicles[ego].driver.kind(), own.expect.order.as_ref());
         // Of each counterfactual the changed scenario, and whether the ego's place in the order is said to change.
         let changes: Vec<(&Scenario, bool)> = own
-            .changed
+            .counterfactuals
             .iter()
-            .zip(&own.counterfactuals)
-            .map(|(changed, stated)| {
+            .map(|Counterfactual { stated, scenario: changed }| {
                 let other_order = changed.expect.order.as_ref().is_some_and(|changed| Some(changed) != order);
                 (changed, other_order || stated.expect.order_differs == Some(true))
             })

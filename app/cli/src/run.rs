@@ -191,7 +191,7 @@ impl Run {
         print_error(
             "counterfactuals are left out: they are claims about the scenario's own planner, not that of --planner",
         );
-        Scenario { counterfactuals: Vec::new(), changed: Vec::new(), left_out: Vec::new(), ..scenario }
+        Scenario { counterfactuals: Vec::new(), left_out: Vec::new(), ..scenario }
     }
 
     /// What is run, as it was asked for.

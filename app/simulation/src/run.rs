@@ -87,13 +87,13 @@ pub fn run_with_counterfactuals(
     watchers: Vec<Box<dyn Watcher>>,
 ) -> Result<Report, RunError> {
     let mut report = run(name, scenario, watchers)?;
-    let pairs: Vec<(&Counterfactual, &Scenario)> = scenario.counterfactual_runs().collect();
-    let other = |(counterfactual, changed): &(&Counterfactual, &Scenario)| {
+    let other = |counterfactual: &Counterfactual| {
         let unfinished =
-            |reason| RunError::Counterfactual { name: counterfactual.name.clone(), reason: Box::new(reason) };
-        run(name, changed, Vec::new()).map_err(unfinished)
+            |reason| RunError::Counterfactual { name: counterfactual.stated.name.clone(), reason: Box::new(reason) };
+        run(name, &counterfactual.scenario, Vec::new()).map_err(unfinished)
     };
-    let runs = pairs.par_iter().with_max_len(1).map(other).collect::<Result<Vec<Report>, RunError>>()?;
+    let runs =
+        scenario.counterfactuals.par_iter().with_max_len(1).map(other).collect::<Result<Vec<Report>, RunError>>()?;
     report.judge_counterfactuals(scenario, runs);
     Ok(report)
 }

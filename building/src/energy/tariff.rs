@@ -30,14 +30,11 @@ pub struct Tariff {
     /// on, counted from 0. The path is relative to the scenario or plan that states it, and in a flag to the current folder.
     #[schemars(example = &"prices.csv", extend("x-excludes" = ["prices_per_kwh"]))]
     pub file: Option<String>,
-    /// The prices of the file, once it was read \[currency/kWh\].
-    #[serde(skip)]
-    pub file_prices_per_kwh: Vec<f64>,
 }
 
 impl Default for Tariff {
     fn default() -> Self {
-        Self { currency: "EUR".to_owned(), prices_per_kwh: Vec::new(), file: None, file_prices_per_kwh: Vec::new() }
+        Self { currency: "EUR".to_owned(), prices_per_kwh: Vec::new(), file: None }
     }
 }
 
@@ -61,41 +58,35 @@ impl Tariff {
         if let Err(error) = setting::check(self) {
             return Err(TariffError { key: error.key.clone(), problem: error.to_string() });
         }
-        // A file that was not read has its own error.
-        if self.file.is_some() && self.file_prices_per_kwh.is_empty() {
+        // Whoever reads the file puts its prices in the place of its name.
+        if self.file.is_some() {
             return Ok(());
         }
-        if self.prices().is_empty() {
+        if self.prices_per_kwh.is_empty() {
             let problem = "there are no prices: state `prices_per_kwh`, such as `[0.3]`, or a `file`".to_owned();
             return refused("prices_per_kwh", problem);
         }
         let mean = self.mean_per_kwh();
         if mean.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
-            let key = if self.file.is_some() { "file" } else { "prices_per_kwh" };
-            return refused(key, format!("the mean price is {:.6}; it must be above 0", mean));
+            return refused("prices_per_kwh", format!("the mean price is {:.6}; it must be above 0", mean));
         }
         Ok(())
     }
 
-    /// The price of each hour \[currency/kWh\].
-    pub fn prices(&self) -> &[f64] {
-        if self.file.is_some() { &self.file_prices_per_kwh } else { &self.prices_per_kwh }
-    }
-
     /// The mean of all prices \[currency/kWh\].
     pub fn mean_per_kwh(&self) -> f64 {
-        self.prices().iter().sum::<f64>() / self.prices().len().max(1) as f64
+        self.prices_per_kwh.iter().sum::<f64>() / self.prices_per_kwh.len().max(1) as f64
     }
 
     /// Whether one day has other prices than the next.
     pub fn days_differ(&self) -> bool {
-        24 % self.prices().len().max(1) != 0
+        24 % self.prices_per_kwh.len().max(1) != 0
     }
 
     /// The price in each step of a day, counted from zero \[currency/kWh\]: the mean over the step.
     pub fn day_per_kwh(&self, day: usize, step_s: f64, steps: usize) -> Vec<f64> {
         let first_h = day * 24;
-        let price = |hour: usize| self.prices()[(first_h + hour) % self.prices().len()];
+        let price = |hour: usize| self.prices_per_kwh[(first_h + hour) % self.prices_per_kwh.len()];
         let step_price = |step: usize| {
             let (from_s, to_s) = (step as f64 * step_s, (step + 1) as f64 * step_s);
             let hour = (from_s / HOUR_S + 1e-9).floor() as usize;

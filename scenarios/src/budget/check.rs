@@ -18,7 +18,8 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
 /// Everything of which the run and its counterfactuals together would make too much, where none does by itself.
 pub(crate) fn check_all(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
     let fault = |excess: Excess| {
-        let message = format!("with its {} counterfactuals the scenario makes {excess}", scenario.changed.len());
+        let message =
+            format!("with its {} counterfactuals the scenario makes {excess}", scenario.counterfactuals.len());
         Fault::at(tree.place_of("counterfactual"), "too much together", message)
             .help(format!("state fewer counterfactuals, or allow it: {}", excess.allowance()))
     };

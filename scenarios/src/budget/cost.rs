@@ -84,7 +84,8 @@ fn plots_bytes(zones: usize, building_steps: u64) -> f64 {
 impl Scenario {
     /// What a run of the scenario will make, its counterfactuals included; nothing of those is recorded.
     pub fn cost(&self) -> RunCost {
-        self.changed.iter().map(RunCost::of).fold(RunCost::of(self), RunCost::with_unrecorded)
+        let others = self.counterfactuals.iter().map(|other| RunCost::of(&other.scenario));
+        others.fold(RunCost::of(self), RunCost::with_unrecorded)
     }
 }
 

@@ -3,21 +3,26 @@
 use interplay_common::spelling::suggestion;
 
 use super::checker::Checker;
-use crate::counterfactual::Counterfactual;
+use crate::counterfactual::CounterfactualConfig;
 use crate::error::{Fault, quoted};
 use crate::expect::{CounterfactualExpect, Expect};
 use crate::scenario::Scenario;
 use crate::tree::TomlNode;
 
-/// Everything that is wrong with the counterfactuals of a scenario, but for what they change. Unless it is `as_written`, flags
-/// may have removed what they refer to.
-pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, as_written: bool) -> Vec<Fault> {
+/// Everything that is wrong with the counterfactuals of a scenario, but for what they change. `as_written` are the scenarios that
+/// are run for them, where no flags were laid over the file; these may have removed what the counterfactuals refer to.
+pub(crate) fn check(
+    scenario: &Scenario,
+    all: &[CounterfactualConfig],
+    tree: &TomlNode,
+    as_written: Option<&[&Scenario]>,
+) -> Vec<Fault> {
     let mut checker = Checker::new(scenario, tree);
-    for (index, counterfactual) in scenario.counterfactuals.iter().enumerate() {
-        checker.name(index, counterfactual);
-        checker.purpose(index, counterfactual, as_written);
+    for (index, counterfactual) in all.iter().enumerate() {
+        checker.counterfactual_name(index, all);
+        checker.purpose(index, counterfactual, as_written.and_then(|runs| runs.get(index).copied()));
         checker.shifts(index, counterfactual);
-        if as_written {
+        if as_written.is_some() {
             checker.breaks(index, counterfactual);
         }
     }
@@ -25,10 +30,10 @@ pub(crate) fn check(scenario: &Scenario, tree: &TomlNode, as_written: bool) -> V
 }
 
 impl Checker<'_> {
-    fn name(&mut self, index: usize, counterfactual: &Counterfactual) {
-        let earlier = self.scenario.counterfactuals[..index].iter().position(|other| other.name == counterfactual.name);
-        if let Some(first) = earlier {
-            let message = format!("two counterfactuals are called {}", quoted(&counterfactual.name));
+    fn counterfactual_name(&mut self, index: usize, all: &[CounterfactualConfig]) {
+        let name = &all[index].name;
+        if let Some(first) = all[..index].iter().position(|other| other.name == *name) {
+            let message = format!("two counterfactuals are called {}", quoted(name));
             let fault = Fault::at(self.place(&format!("counterfactual.{index}.name")), "the second", message);
             let fault = fault.also(self.place(&format!("counterfactual.{first}.name")), "the first");
             self.faults.push(fault.help("give each counterfactual a name of its own"));
@@ -36,14 +41,13 @@ impl Checker<'_> {
     }
 
     /// Whether it changes something, and expects something of that.
-    fn purpose(&mut self, index: usize, counterfactual: &Counterfactual, as_written: bool) {
+    fn purpose(&mut self, index: usize, counterfactual: &CounterfactualConfig, run: Option<&Scenario>) {
         let (path, name) = (format!("counterfactual.{index}"), quoted(&counterfactual.name));
-        let changed = self.scenario.changed.get(index);
         if counterfactual.planner.is_none() && counterfactual.set.is_empty() {
             let help =
                 "state `planner = \"conservative\"`, or `set = { \"vehicle.ego.goal.speed_mps\" = 1.2 }`, for example";
             self.refuse(&path, "no change", format!("the counterfactual {name} changes nothing"), help);
-        } else if as_written && changed.is_some_and(|changed| is_same_run(changed, self.scenario)) {
+        } else if run.is_some_and(|run| is_same_run(run, self.scenario)) {
             let help = "the scenario has these values already";
             self.refuse(&path, "no change", format!("the counterfactual {name} changes nothing"), help);
         }
@@ -58,7 +62,7 @@ impl Checker<'_> {
     }
 
     /// Whether the vehicles of `later` and `earlier` exist.
-    fn shifts(&mut self, index: usize, counterfactual: &Counterfactual) {
+    fn shifts(&mut self, index: usize, counterfactual: &CounterfactualConfig) {
         let expect = &counterfactual.expect;
         for (key, shifts) in [("later", &expect.later), ("earlier", &expect.earlier)] {
             for (entry, shift) in shifts.iter().enumerate() {
@@ -74,7 +78,7 @@ impl Checker<'_> {
     }
 
     /// Whether the scenario states the expectations that are to fail.
-    fn breaks(&mut self, index: usize, counterfactual: &Counterfactual) {
+    fn breaks(&mut self, index: usize, counterfactual: &CounterfactualConfig) {
         let names = self.scenario.expect.names();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         for (entry, name) in counterfactual.expect.breaks.iter().flatten().enumerate() {
@@ -87,15 +91,8 @@ impl Checker<'_> {
     }
 }
 
-/// Whether both scenarios are run alike, whatever is expected of them.
+/// Whether both scenarios, neither with counterfactuals, are run alike, whatever is expected of them.
 fn is_same_run(one: &Scenario, other: &Scenario) -> bool {
-    let run = |scenario: &Scenario| Scenario {
-        figure: None,
-        expect: Expect::default(),
-        counterfactuals: Vec::new(),
-        changed: Vec::new(),
-        left_out: Vec::new(),
-        ..scenario.clone()
-    };
+    let run = |scenario: &Scenario| Scenario { figure: None, expect: Expect::default(), ..scenario.clone() };
     run(one) == run(other)
 }

@@ -9,7 +9,7 @@ use crate::error::{Fault, quoted};
 use crate::scenario::Scenario;
 use crate::timetable::TimetableError;
 use crate::tree::TomlNode;
-use crate::weather::WeatherConfig;
+use crate::weather::{EpwWeather, WeatherSource};
 
 /// Everything about zones, hours and prices that does not fit the building.
 pub(super) fn check(scenario: &Scenario, tree: &TomlNode, network: &Network) -> Vec<Fault> {
@@ -25,7 +25,7 @@ impl Checker<'_> {
     /// Whether the calendar and the weather file begin on the same day.
     fn calendar(&mut self) {
         let Some(calendar) = &self.scenario.calendar else { return };
-        let Some(WeatherConfig::Epw(file)) = &self.scenario.weather else { return };
+        let WeatherSource::Epw(EpwWeather { stated: file, .. }) = &self.scenario.weather else { return };
         let Ok(Some((month, day))) = calendar.first_month_and_day() else { return };
         let stated =
             (file.month.is_some() || file.day.is_some()).then(|| (file.month.unwrap_or(1), file.day.unwrap_or(1)));
@@ -62,7 +62,9 @@ impl Checker<'_> {
     /// Whether prices and coefficients of performance make sense.
     fn energy(&mut self) {
         if let Some(Err(error)) = self.scenario.tariff.as_ref().map(Tariff::check) {
-            self.refuse(&format!("tariff.{}", error.key), "here", format!("`tariff`: {error}"), "");
+            let is_read = error.key.as_str() == "prices_per_kwh" && self.tree.at("tariff.file").is_some();
+            let key = if is_read { "file" } else { error.key.as_str() };
+            self.refuse(&format!("tariff.{key}"), "here", format!("`tariff`: {error}"), "");
         }
         if let Some(Err(error)) = self.scenario.heat_pump.as_ref().map(|heat_pump| heat_pump.check()) {
             let help = "write the points of a curve at rising outdoor temperatures";

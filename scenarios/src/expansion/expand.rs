@@ -4,7 +4,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::fill::{fill_key, scaled};
 use crate::classes::{FULL_SCALE, NamedScale, ScenarioScale, VehicleClass};
-use crate::road::Road;
+use crate::road::StatedRoad;
 use crate::schema::SchemaNode;
 
 /// What of a scenario is scaled besides its vehicles.
@@ -16,18 +16,20 @@ const SCALED_KEYS: [&str; 5] = ["duration_s", "step_s", "plant", "road", "start_
 pub(crate) fn expand(scenario: &mut Json, schema: SchemaNode) {
     let Some(root) = scenario.as_object_mut() else { return };
     root.remove("defaults");
-    let size = size(root);
-    if let Some(Size { scale, .. }) = size {
+    let size = size(root, schema);
+    if let Some(Size { scale, is_full }) = size {
+        // Where it is not stated, it is one of these two.
+        root.entry("scale").or_insert_with(|| json!(if is_full { NamedScale::Full } else { NamedScale::Tenth }));
         if !root.contains_key("road") {
             root.insert("road".to_owned(), json!({ "kind": "lanes" }));
         }
         for (key, property) in schema.properties().filter(|(key, _)| SCALED_KEYS.contains(&key.as_str())) {
-            let native = if key == "road" { native_scale_of_road(root) } else { 1.0 };
+            // Networks of lanes are those of real cars by default.
+            let native = if key == "road" && StatedRoad::of(root, schema).is_network() { FULL_SCALE } else { 1.0 };
             fill_key(key, property, root, scale / native);
         }
     }
-    let road = root.get("road").cloned().map_or_else(|| Ok(Road::default()), serde_json::from_value);
-    let lane_width_m = road.ok().map(|road: Road| road.lane_width_m());
+    let lane_width_m = StatedRoad::of(root, schema).lane_widths_m().next();
     let vehicles = root.get_mut("vehicle").and_then(Json::as_array_mut).into_iter().flatten();
     for vehicle in vehicles.filter_map(Json::as_object_mut) {
         if let Some(lane_width_m) = lane_width_m {
@@ -46,23 +48,14 @@ struct Size {
     is_full: bool,
 }
 
-/// The scale of the defaults of the stated kind of road: networks of lanes are those of real cars.
-fn native_scale_of_road(root: &Map<String, Json>) -> f64 {
-    if is_network(root) { FULL_SCALE } else { 1.0 }
-}
-
-fn is_network(root: &Map<String, Json>) -> bool {
-    root.get("road").and_then(read::<Road>).is_some_and(|road| road.is_network())
-}
-
 /// The stated scale, or else that of the largest class, or else that of the road; none where nothing is said of it.
-fn size(root: &Map<String, Json>) -> Option<Size> {
+fn size(root: &Map<String, Json>, schema: SchemaNode) -> Option<Size> {
     if let Some(stated) = root.get("scale").and_then(read::<ScenarioScale>) {
         return Some(Size { scale: stated.ratio(), is_full: stated == ScenarioScale::Named(NamedScale::Full) });
     }
     let vehicles = root.get("vehicle").and_then(Json::as_array).into_iter().flatten();
     let scales = vehicles.filter_map(|vehicle| read::<VehicleClass>(vehicle.get("class")?).map(VehicleClass::scale));
-    let of_road = || root.get("road").and_then(read::<Road>).and_then(|road| scale_of_road(&road, states_a_body(root)));
+    let of_road = || scale_of_road(&StatedRoad::of(root, schema), states_a_body(root));
     scales
         .max_by(f64::total_cmp)
         .or_else(of_road)
@@ -76,8 +69,8 @@ const MAX_SCALED_LANE_M: f64 = 1.0;
 
 /// The scale that a road says: networks of lanes are those of real cars, parallel lanes those of 1/10 scale cars, unless their
 /// width says otherwise. Where a vehicle states its `body`, the width says nothing. None for parallel lanes of 1/10 scale cars.
-fn scale_of_road(road: &Road, states_a_body: bool) -> Option<f64> {
-    let widest_m = road.widest_lane_m();
+fn scale_of_road(road: &StatedRoad, states_a_body: bool) -> Option<f64> {
+    let widest_m = road.lane_widths_m().fold(0.0, f64::max);
     match (road.is_network(), states_a_body) {
         (true, false) if widest_m < MAX_SCALED_LANE_M => Some(VehicleClass::ScaleCar.scale()),
         (true, _) => Some(FULL_SCALE),

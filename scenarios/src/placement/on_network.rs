@@ -24,13 +24,13 @@ const MAX_NAMES: usize = 12;
 /// For a start that is on no lane, and where no route leads to the goal.
 pub(super) fn place(written: &VehicleAsWritten<'_>, known: &KnownNetwork) -> Result<Start, Fault> {
     let vehicle = NetworkVehicle { written, known };
-    if written.start.is_in_lane() {
+    if written.stated.start.is_in_lane() {
         let lane = vehicle.start_lane()?;
         let along_m = vehicle.along_m(lane)?;
         let offset_m = written.offset_within(lane.half_width_m(along_m))?;
         let [x_m, y_m] = lane.centre.position(along_m, offset_m);
-        let heading_rad = lane.centre.at(along_m).heading_rad + written.start.heading_error_rad();
-        let state = State { x_m, y_m, heading_rad, speed_mps: written.start.speed_mps };
+        let heading_rad = lane.centre.at(along_m).heading_rad + written.stated.start.heading_error_rad();
+        let state = State { x_m, y_m, heading_rad, speed_mps: written.stated.start.speed_mps };
         return Ok(vehicle.on_route(state, along_m, vehicle.route(lane)?));
     }
     vehicle.in_world()
@@ -44,13 +44,13 @@ struct NetworkVehicle<'a> {
 impl NetworkVehicle<'_> {
     /// The lane in which the vehicle starts, as it is named.
     fn start_lane(&self) -> Result<&Lane, Fault> {
-        let stated = self.written.start.lane.as_ref().ok_or_else(|| self.written.missing("lane"))?;
+        let stated = self.written.stated.start.lane.as_ref().ok_or_else(|| self.written.missing("lane"))?;
         self.known("start.lane", stated)
     }
 
     /// The lane that a key names.
     fn known(&self, key: &str, stated: &LaneReference) -> Result<&Lane, Fault> {
-        let shown = format!("`{}.{key}`", self.written.shown);
+        let shown = format!("`{}.{key}`", self.written.shown());
         let name = match stated {
             LaneReference::Name(name) => name,
             LaneReference::Number(number) => {
@@ -79,13 +79,13 @@ impl NetworkVehicle<'_> {
 
     /// The distance along the lane at which the vehicle starts \[m\].
     fn along_m(&self, lane: &Lane) -> Result<f64, Fault> {
-        let (along_m, length_m) = (self.written.start.along_m, lane.centre.length_m());
+        let (along_m, length_m) = (self.written.stated.start.along_m, lane.centre.length_m());
         let along_m = along_m.ok_or_else(|| self.written.missing("along_m"))?;
         if (0.0..=length_m).contains(&along_m) {
             return Ok(along_m);
         }
         let message =
-            format!("`{}.start.along_m` ({along_m}) is not on lane {}", self.written.shown, quoted(&lane.name));
+            format!("`{}.start.along_m` ({along_m}) is not on lane {}", self.written.shown(), quoted(&lane.name));
         let help = format!("the lane is {} m long", to_centimetres(length_m));
         Err(self.written.fault("start.along_m", "not on the lane", message).help(help))
     }
@@ -94,8 +94,8 @@ impl NetworkVehicle<'_> {
     /// reached.
     fn in_world(&self) -> Result<Start, Fault> {
         let [x_m, y_m] = self.written.position()?;
-        let heading_rad = self.written.start.heading_rad();
-        let state = State { x_m, y_m, heading_rad, speed_mps: self.written.start.speed_mps };
+        let heading_rad = self.written.stated.start.heading_rad();
+        let state = State { x_m, y_m, heading_rad, speed_mps: self.written.stated.start.speed_mps };
         let places = self.known.network.locate([x_m, y_m], heading_rad);
         let mut refused = None;
         for place in places.iter().filter(|place| libm::cos(place.heading_error_rad) >= MIN_COS_OF_START) {
@@ -107,13 +107,13 @@ impl NetworkVehicle<'_> {
         }
         Err(refused.unwrap_or_else(|| match places.first() {
             Some(place) => {
-                let message = format!("the start of {} is not along a lane", quoted(&self.written.shown));
+                let message = format!("the start of {} is not along a lane", quoted(&self.written.shown()));
                 let heading_deg = (10.0 * place.point.heading_rad.to_degrees()).round() / 10.0;
                 let help = format!("lane `{}` runs at `heading_deg = {heading_deg}` there", place.lane);
                 self.written.at_start("heads elsewhere", message).help(help)
             }
             None => {
-                let message = format!("the start of {} is on no lane", quoted(&self.written.shown));
+                let message = format!("the start of {} is on no lane", quoted(&self.written.shown()));
                 let help = format!("`lane` and `along_m` place a vehicle on a lane; there are {}", self.some_names());
                 self.written.at_start("beside the lanes", message).help(help)
             }
@@ -128,27 +128,27 @@ impl NetworkVehicle<'_> {
 
     /// The route from the begin of a lane on: along the stated lanes, or to the lane of the goal, or the only one there is.
     fn route(&self, lane: &Lane) -> Result<Arc<Route>, Fault> {
-        let goal = self.written.goal_lane.as_ref().map(|goal| format!("{goal:?}")).unwrap_or_default();
-        let words = [&[lane.name.clone(), goal], self.written.lanes.as_slice()].concat();
+        let goal = self.written.stated.goal.lane.as_ref().map(|goal| format!("{goal:?}")).unwrap_or_default();
+        let words = [&[lane.name.clone(), goal], self.written.stated.route.as_slice()].concat();
         self.known.route(words, || self.new_route(lane))
     }
 
     fn new_route(&self, lane: &Lane) -> Result<Route, Fault> {
         let refused = |error| self.no_route(error);
-        let goal = self.written.goal_lane.as_ref().map(|goal| self.known("goal.lane", goal)).transpose()?;
-        let Some(first) = self.written.lanes.first() else {
+        let goal = self.written.stated.goal.lane.as_ref().map(|goal| self.known("goal.lane", goal)).transpose()?;
+        let Some(first) = self.written.stated.route.first() else {
             return match goal {
                 Some(goal) => self.known.network.shortest_route(&lane.name, &goal.name).map_err(refused),
                 None => self.known.network.route(&self.only_way(lane)?).map_err(refused),
             };
         };
-        for (index, name) in self.written.lanes.iter().enumerate() {
+        for (index, name) in self.written.stated.route.iter().enumerate() {
             self.known(&format!("route.{index}"), &LaneReference::Name(name.clone()))?;
         }
         if *first != lane.name {
             let message = format!(
                 "the route of {} begins on lane {}, but the vehicle starts on lane `{}`",
-                quoted(&self.written.shown),
+                quoted(&self.written.shown()),
                 quoted(first),
                 lane.name
             );
@@ -157,16 +157,17 @@ impl NetworkVehicle<'_> {
                 .fault("route.0", "not the lane of the start", message)
                 .help("a route begins with the lane on which the vehicle starts"));
         }
-        let last = self.written.lanes.last().unwrap_or(first);
+        let last = self.written.stated.route.last().unwrap_or(first);
         if let Some(goal) = goal.filter(|goal| goal.name != *last) {
-            let message = format!("the route of {} does not end on the lane of its goal", quoted(&self.written.shown));
-            let key = format!("route.{}", self.written.lanes.len() - 1);
+            let message =
+                format!("the route of {} does not end on the lane of its goal", quoted(&self.written.shown()));
+            let key = format!("route.{}", self.written.stated.route.len() - 1);
             return Err(self
                 .written
                 .fault(&key, "the last lane", message)
                 .help(format!("leave the `lane` of its goal out, or add the lanes from `{last}` to `{}`", goal.name)));
         }
-        self.known.network.route(&self.written.lanes).map_err(refused)
+        self.known.network.route(&self.written.stated.route).map_err(refused)
     }
 
     /// The lanes from a lane on, as long as each has one successor.
@@ -181,7 +182,7 @@ impl NetworkVehicle<'_> {
         if last.successors.len() < 2 {
             return Ok(names);
         }
-        let message = format!("nothing says where {} goes: lane `{}` forks", quoted(&self.written.shown), last.name);
+        let message = format!("nothing says where {} goes: lane `{}` forks", quoted(&self.written.shown()), last.name);
         let help = format!("its goal may have one of these lanes: {}", some(&self.ends_from(lane)));
         Err(self.written.fault("name", "without a goal lane", message).help(help))
     }
@@ -211,12 +212,12 @@ impl NetworkVehicle<'_> {
 
     /// Where a lane of the route is written.
     fn key_of(&self, lane: &str) -> String {
-        let place = self.written.lanes.iter().position(|name| name == lane);
+        let place = self.written.stated.route.iter().position(|name| name == lane);
         place.map_or_else(|| "goal.lane".to_owned(), |place| format!("route.{place}"))
     }
 
     fn no_route(&self, error: RouteError) -> Fault {
-        let of = format!("the route of {}", quoted(&self.written.shown));
+        let of = format!("the route of {}", quoted(&self.written.shown()));
         match error {
             RouteError::NotConnected { from, to } => {
                 let ahead = self.known.network.lane(&from).map(|lane| lane.successors.as_slice()).unwrap_or_default();

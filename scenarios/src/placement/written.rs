@@ -3,83 +3,60 @@
 use std::sync::Arc;
 
 use interplay_planners::{Route, State};
-use serde_json::Value as Json;
 
 use crate::error::{Fault, quoted};
-use crate::lane_reference::LaneReference;
-use crate::road::Branch;
 use crate::schema::SchemaNode;
 use crate::start::StartConfig;
 use crate::tree::TomlNode;
+use crate::vehicle_config::VehicleConfig;
 
 /// The state in which a vehicle starts, and its route.
-pub(super) type Start = (State, Arc<Route>);
+pub(crate) type Start = (State, Arc<Route>);
 
-/// What a file says of the place of a vehicle and of its way.
+/// A vehicle of a file, and where it is written.
 pub(super) struct VehicleAsWritten<'a> {
-    pub branch: Branch,
-    pub start: StartConfig,
-    pub goal_lane: Option<LaneReference>,
-    /// The lanes of its route, if they are stated.
-    pub lanes: Vec<String>,
-    /// The path of the vehicle, as the tree has it.
-    pub path: String,
-    /// The path of the vehicle, as errors show it.
-    pub shown: String,
-    tree: &'a TomlNode,
-    schema: SchemaNode<'a>,
+    /// What is stated of it.
+    pub stated: &'a VehicleConfig,
+    pub index: usize,
+    pub tree: &'a TomlNode,
+    pub schema: SchemaNode<'a>,
 }
 
-impl<'a> VehicleAsWritten<'a> {
-    /// None if the table is no vehicle with a start.
-    pub(super) fn new(
-        vehicle: &Json,
-        index: usize,
-        tree: &'a TomlNode,
-        schema: SchemaNode<'a>,
-    ) -> Option<VehicleAsWritten<'a>> {
-        let name = vehicle.get("name").and_then(Json::as_str).unwrap_or_default();
-        let goal_lane = vehicle.get("goal").and_then(|goal| goal.get("lane")).cloned();
-        Some(VehicleAsWritten {
-            branch: parsed(vehicle.get("road").cloned())?.unwrap_or_default(),
-            start: parsed(vehicle.get("start").cloned())??,
-            goal_lane: parsed(goal_lane)?,
-            lanes: parsed(vehicle.get("route").cloned())?.unwrap_or_default(),
-            path: format!("vehicle.{index}"),
-            shown: format!("vehicle.{name}"),
-            tree,
-            schema,
-        })
+impl VehicleAsWritten<'_> {
+    /// The path of the vehicle, as errors show it.
+    pub(super) fn shown(&self) -> String {
+        format!("vehicle.{}", self.stated.name)
     }
 
     /// A fault of a key of the vehicle.
     pub(super) fn fault(&self, key: &str, label: &str, message: String) -> Fault {
-        Fault::at(self.tree.place_of(&format!("{}.{key}", self.path)), label, message)
+        Fault::at(self.tree.place_of(&format!("vehicle.{}.{key}", self.index)), label, message)
     }
 
     /// The refusal of a start without a key that it needs.
     pub(super) fn missing(&self, key: &str) -> Fault {
         let start = self.schema.property("vehicle").and_then(SchemaNode::entries);
         let property = start.and_then(|vehicle| vehicle.property("start")).and_then(|start| start.property(key));
-        let message = format!("{} is missing", quoted(&format!("{}.start.{key}", self.shown)));
+        let message = format!("{} is missing", quoted(&format!("{}.start.{key}", self.shown())));
         self.at_start(&format!("has no `{key}`"), message)
             .help(property.map(SchemaNode::description).unwrap_or_default())
     }
 
     /// A fault of the whole start.
     pub(super) fn at_start(&self, label: &str, message: String) -> Fault {
-        let place = self.tree.at(&format!("{}.start", self.path)).map_or(&self.tree.place, |start| &start.place);
+        let place =
+            self.tree.at(&format!("vehicle.{}.start", self.index)).map_or(&self.tree.place, |start| &start.place);
         Fault::at(place, label, message)
     }
 
     /// The stated position in world coordinates \[m\].
     pub(super) fn position(&self) -> Result<[f64; 2], Fault> {
-        match (self.start.x_m, self.start.y_m) {
+        match (self.stated.start.x_m, self.stated.start.y_m) {
             (Some(x_m), Some(y_m)) => Ok([x_m, y_m]),
             (Some(_), None) => Err(self.missing("y_m")),
             (None, Some(_)) => Err(self.missing("x_m")),
             (None, None) => {
-                let message = format!("{} does not say where", quoted(&format!("{}.start", self.shown)));
+                let message = format!("{} does not say where", quoted(&format!("{}.start", self.shown())));
                 let help = "state `lane` and `along_m`, or `x_m` and `y_m`";
                 Err(self.at_start("no place", message).help(help))
             }
@@ -88,9 +65,9 @@ impl<'a> VehicleAsWritten<'a> {
 
     /// Refuses an offset beyond half of the width of the lane \[m\].
     pub(super) fn offset_within(&self, most_m: f64) -> Result<f64, Fault> {
-        let offset_m = self.start.lateral_offset_m.unwrap_or_default();
+        let offset_m = self.stated.start.lateral_offset_m.unwrap_or_default();
         if offset_m.abs() > most_m {
-            let message = format!("`{}.start.lateral_offset_m` ({offset_m}) leads out of the lane", self.shown);
+            let message = format!("`{}.start.lateral_offset_m` ({offset_m}) leads out of the lane", self.shown());
             let help = format!("it may be at most {most_m} m to either side; `lane` chooses another lane");
             return Err(self.fault("start.lateral_offset_m", "out of the lane", message).help(help));
         }
@@ -123,9 +100,4 @@ impl StartConfig {
 pub(super) fn next_to(heading_rad: f64, along_rad: f64) -> f64 {
     let turns = ((along_rad - heading_rad) / std::f64::consts::TAU).round();
     heading_rad + turns * std::f64::consts::TAU
-}
-
-/// A value of the format, or nothing where there is none; none for what is not of the format.
-fn parsed<Value: serde::de::DeserializeOwned>(stated: Option<Json>) -> Option<Option<Value>> {
-    stated.map(serde_json::from_value).transpose().ok()
 }

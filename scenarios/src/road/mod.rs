@@ -17,6 +17,7 @@ mod lanes;
 mod network;
 mod piece;
 mod ramp_merge;
+mod stated_road;
 
 use std::sync::Arc;
 
@@ -37,6 +38,7 @@ pub use network::{LaneConfig, LaneNetwork, LanePlaceConfig, LaneWidth, Neighbour
 pub use piece::CurvePiece;
 pub(crate) use piece::PieceFault;
 pub use ramp_merge::RampMerge;
+pub(crate) use stated_road::StatedRoad;
 
 /// A road; `kind` chooses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -95,6 +97,11 @@ impl Default for Road {
 }
 
 impl Road {
+    /// The kind of road where none is stated.
+    pub(crate) const DEFAULT_KIND: &'static str = "lanes";
+    /// The kinds with parallel lanes; the others are networks.
+    pub(crate) const PARALLEL_KINDS: [&'static str; 4] = ["lanes", "ramp-merge", "intersection", "curve"];
+
     /// The way along a road of parallel lanes, from one edge to the other; none on a network, where each vehicle has its own,
     /// and on a curve with a fault.
     ///
@@ -236,14 +243,6 @@ impl Road {
                 "passage_width_m".to_owned()
             }
             _ => "lane_width_m".to_owned(),
-        }
-    }
-
-    /// Width of the widest lane where it begins \[m\].
-    pub(crate) fn widest_lane_m(&self) -> f64 {
-        match self {
-            Road::Network(network) => network.lanes.iter().map(|lane| lane.width_m.first_m()).fold(0.0, f64::max),
-            _ => self.lane_width_m(),
         }
     }
 

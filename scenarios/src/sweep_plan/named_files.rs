@@ -1,7 +1,7 @@
 //! What the files say that a scenario only names: whoever compares scenarios must compare it, too.
 
 use crate::scenario::Scenario;
-use crate::weather::WeatherConfig;
+use crate::weather::WeatherSource;
 
 /// The settings that name such files, by their first key.
 pub(super) const SETTINGS: [&str; 2] = ["weather", "tariff"];
@@ -10,10 +10,9 @@ pub(super) const SETTINGS: [&str; 2] = ["weather", "tariff"];
 /// have the same.
 pub(super) fn contents(scenario: &Scenario) -> String {
     let weather = match &scenario.weather {
-        Some(WeatherConfig::Epw(file)) => format!("{file:?}"),
-        Some(WeatherConfig::Synthetic(_)) | None => String::new(),
+        WeatherSource::Epw(weather) => format!("{:?}{:?}", weather.stated, weather.rows),
+        WeatherSource::Synthetic(_) => String::new(),
     };
-    let prices = scenario.tariff.iter().filter(|tariff| tariff.file.is_some());
-    let prices: String = prices.map(|tariff| format!("{:?}", tariff.file_prices_per_kwh)).collect();
+    let prices: String = scenario.tariff.iter().map(|tariff| format!("{:?}", tariff.prices_per_kwh)).collect();
     weather + &prices
 }

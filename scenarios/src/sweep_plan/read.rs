@@ -14,7 +14,7 @@ use super::names::{NamedScenario, find};
 use super::plan::{PlannedScenario, SweepPlan};
 use super::samples;
 use crate::error::{Document, Fault, LoadError, Place, quoted};
-use crate::load;
+use crate::load::{self, stated_counterfactuals};
 use crate::overrides::settings_of;
 use crate::placement::KnownRoads;
 use crate::plan_file::PlanFile;
@@ -286,7 +286,7 @@ fn planned(
 /// The counterfactuals of a scenario as planners.
 fn counterfactuals(registry: &Registry, tree: &TomlNode) -> Result<Vec<Arm>, Vec<Fault>> {
     let scenario = load::assemble(registry, tree)?;
-    let faults = crate::consistency::counterfactual::check(&scenario, tree, false);
+    let faults = crate::consistency::counterfactual::check(&scenario, &stated_counterfactuals(tree)?, tree, None);
     if !faults.is_empty() {
         return Err(faults);
     }

@@ -38,9 +38,6 @@ pub enum BuildingError {
     /// The program that is the building cannot be reached.
     #[error(transparent)]
     Plant(#[from] PlantError),
-    /// The weather file was not read.
-    #[error("the weather file of the scenario was not read: load the scenario from a file")]
-    NoWeather,
 }
 
 /// Adds the building of a scenario, if it has one.
@@ -53,7 +50,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     let model = Model::new(&network, described.method, described.step_s)?;
     let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
     let zones = network.zone_count();
-    let surroundings = surroundings_of(scenario, zones)?;
+    let surroundings = surroundings_of(scenario, zones);
     let regulator = scenario.controller().regulator(&believed, steps)?;
     let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
     for (index, initial_c) in plant.start()?.into_iter().enumerate() {
@@ -85,17 +82,13 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
 }
 
 /// Weather and people of a scenario with `zones` zones.
-///
-/// # Errors
-/// [`BuildingError::NoWeather`], for a scenario that was not loaded.
-pub fn surroundings_of(scenario: &Scenario, zones: usize) -> Result<Surroundings, BuildingError> {
-    let weather = scenario.weather.clone().unwrap_or_default();
-    Ok(Surroundings {
-        weather: weather.days(scenario.days(), scenario.seed).ok_or(BuildingError::NoWeather)?,
-        forecast: weather.forecast(),
+pub fn surroundings_of(scenario: &Scenario, zones: usize) -> Surroundings {
+    Surroundings {
+        weather: scenario.weather.days(scenario.days(), scenario.seed),
+        forecast: scenario.weather.forecast(),
         forecast_seed: scenario.seed ^ FORECAST_SEED_BIT,
         people: people(scenario, zones),
-    })
+    }
 }
 
 /// What the heat of the equipment acts on. `models` are the network and what the controller takes it for.

@@ -1,6 +1,6 @@
 //! Whether a counterfactual did what is expected of it, by itself and beside the scenario's own run.
 
-use interplay_scenarios::{CompletionShift, Counterfactual, Scenario};
+use interplay_scenarios::{CompletionShift, CounterfactualConfig, Scenario};
 use serde_json::json;
 
 use super::expectation::Expectation;
@@ -12,7 +12,7 @@ const TIME_TOLERANCE_S: f64 = 1e-9;
 
 /// Judges a counterfactual of `scenario`: `main` is the scenario's own run, `run` that of the counterfactual.
 pub(super) fn judge_counterfactual(
-    counterfactual: &Counterfactual,
+    counterfactual: &CounterfactualConfig,
     (scenario, main): (&Scenario, &Report),
     run: Report,
 ) -> CounterfactualReport {

@@ -63,7 +63,7 @@ impl Report {
     pub fn judge_counterfactuals(&mut self, scenario: &Scenario, runs: Vec<Report>) {
         let counterfactuals = scenario.counterfactuals.iter().zip(runs);
         self.counterfactuals = counterfactuals
-            .map(|(stated, run)| counterfactual::judge_counterfactual(stated, (scenario, self), run))
+            .map(|(one, run)| counterfactual::judge_counterfactual(&one.stated, (scenario, self), run))
             .collect();
         self.passed &= self.counterfactuals.iter().all(|counterfactual| counterfactual.passed);
     }

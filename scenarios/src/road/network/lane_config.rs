@@ -62,6 +62,25 @@ pub struct LaneConfig {
     pub right_of_way: RightOfWay,
 }
 
+impl LaneConfig {
+    /// A lane through points, each `[x, y]` \[m\], of a constant width \[m\], with no lane after it or beside it.
+    pub fn through(name: &str, points: &[[f64; 2]], width_m: f64) -> LaneConfig {
+        LaneConfig {
+            name: name.to_owned(),
+            start: None,
+            pieces: Vec::new(),
+            points: points.to_vec(),
+            tolerance_m: defaults::tolerance_m(),
+            width_m: LaneWidth::Constant(width_m),
+            successors: Vec::new(),
+            left: None,
+            right: None,
+            speed_limit_mps: None,
+            right_of_way: RightOfWay::default(),
+        }
+    }
+}
+
 mod defaults {
     pub fn tolerance_m() -> f64 {
         0.02

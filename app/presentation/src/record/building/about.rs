@@ -1,15 +1,15 @@
 //! The text beside the pictures of a building.
 
-use interplay_scenarios::{Scenario, WeatherConfig};
+use interplay_scenarios::{Scenario, WeatherSource};
 
 use super::super::markdown::code;
 
 /// What one is looking at, and for what to look.
 pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
     let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
-    let weather = match scenario.weather.clone().unwrap_or_default() {
-        WeatherConfig::Synthetic(synthetic) => format!("synthetic weather around {} °C", synthetic.climate.mean_c),
-        WeatherConfig::Epw(file) => format!("the file {}", code(&file.file)),
+    let weather = match &scenario.weather {
+        WeatherSource::Synthetic(synthetic) => format!("synthetic weather around {} °C", synthetic.climate.mean_c),
+        WeatherSource::Epw(weather) => format!("the file {}", code(&weather.stated.file)),
     };
     format!(
         "**{title}**\n\n{shows}.{again}\n\n**Look for**: {look}.\n\n\
