@@ -138,11 +138,7 @@ pub use reference::key_reference;
 pub use registry::{Registry, RegistryError};
 pub use regular_file::{open_regular, read_regular};
 pub use remark::{ScenarioRemark, ScenarioRemarks};
-pub use road::{
-    AllWayStop, Branch, Crossing, CurveLaneEnd, CurvePiece, DrivingDirection, Intersection, LaneConfig, LaneNetwork,
-    LanePlaceConfig, LaneWidth, Lanes, MinorRoadRule, NarrowPassage, NeighbourConfig, NeighbourTable, OnRamp,
-    ParallelLanes, RampMerge, Road, RoadCurve, Roundabout, TJunction, TwoWayRoad,
-};
+pub use road::*;
 pub use scenario::{GoalConfig, Scenario, Vehicle};
 pub use scenario_file::ScenarioFile;
 pub use schema::schema;

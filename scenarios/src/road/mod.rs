@@ -30,9 +30,7 @@ pub(crate) use curve::{CurveFault, Turn};
 pub use curve::{CurveLaneEnd, RoadCurve};
 pub(crate) use fault::{RoadFault, to_centimetres};
 pub use intersection::Intersection;
-pub use junctions::{
-    AllWayStop, Crossing, DrivingDirection, MinorRoadRule, NarrowPassage, OnRamp, Roundabout, TJunction, TwoWayRoad,
-};
+pub use junctions::*;
 pub use lanes::Lanes;
 pub use network::{LaneConfig, LaneNetwork, LanePlaceConfig, LaneWidth, NeighbourConfig, NeighbourTable};
 pub use piece::CurvePiece;
@@ -40,35 +38,55 @@ pub(crate) use piece::PieceFault;
 pub use ramp_merge::RampMerge;
 pub(crate) use stated_road::StatedRoad;
 
-/// A road; `kind` chooses.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum Road {
-    /// A straight road along x with parallel lanes; its right edge is y = 0.
-    Lanes(Lanes),
-    /// The same, but lane 0 is a ramp that ends: who drives on it must merge into lane 1 before, or stop.
-    RampMerge(RampMerge),
-    /// Two roads that cross, each with lanes in one direction; a vehicle says by its `road` on which it drives.
-    Intersection(Intersection),
-    /// A road of straight and curved pieces with parallel lanes, of which lane 0 may end.
-    Curve(RoadCurve),
-    /// Lanes with names, each with its line, its width, and the lanes after and beside it.
-    Network(LaneNetwork),
-    /// A ring with three to six arms.
-    Roundabout(Roundabout),
-    /// A minor road that ends at a main one.
-    TJunction(TJunction),
-    /// Two roads with both directions that cross, the main one with priority.
-    Crossing(Crossing),
-    /// Two roads with both directions that cross, where everybody stops.
-    AllWayStop(AllWayStop),
-    /// A motorway that a ramp joins with an acceleration lane.
-    OnRamp(OnRamp),
-    /// A road with both directions that narrows to the width of one lane.
-    NarrowPassage(NarrowPassage),
-    /// A straight road with a lane in each direction.
-    TwoWay(TwoWayRoad),
+/// Declares [`Road`] with the forms in `junctions`, and what is asked of every form.
+macro_rules! road {
+    ($($file:ident::$Form:ident: $about:literal;)*) => {
+        /// A road; `kind` chooses.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(tag = "kind", rename_all = "kebab-case")]
+        pub enum Road {
+            /// A straight road along x with parallel lanes; its right edge is y = 0.
+            Lanes(Lanes),
+            /// The same, but lane 0 is a ramp that ends: who drives on it must merge into lane 1 before, or stop.
+            RampMerge(RampMerge),
+            /// Two roads that cross, each with lanes in one direction; a vehicle says by its `road` on which it drives.
+            Intersection(Intersection),
+            /// A road of straight and curved pieces with parallel lanes, of which lane 0 may end.
+            Curve(RoadCurve),
+            /// Lanes with names, each with its line, its width, and the lanes after and beside it.
+            Network(LaneNetwork),
+            $(#[doc = $about] $Form($Form),)*
+        }
+
+        impl Road {
+            /// The lanes of a network, unchecked; none on a road of parallel lanes.
+            ///
+            /// # Errors
+            /// For lanes that have no line or no width.
+            pub(crate) fn network_lanes(&self) -> Option<Result<Vec<Lane>, RoadFault>> {
+                match self {
+                    Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_) | Road::Curve(_) => None,
+                    Road::Network(network) => Some(network.lanes()),
+                    $(Road::$Form(form) => Some(form.lanes()),)*
+                }
+            }
+
+            /// Width of one lane; where lanes differ, of the first of them where it begins \[m\].
+            pub fn lane_width_m(&self) -> f64 {
+                match self {
+                    Road::Lanes(lanes) => lanes.lane_width_m,
+                    Road::RampMerge(ramp) => ramp.lane_width_m,
+                    Road::Intersection(crossing) => crossing.lane_width_m,
+                    Road::Curve(curve) => curve.lane_width_m,
+                    Road::Network(network) => network.lanes.first().map_or(0.0, |lane| lane.width_m.first_m()),
+                    $(Road::$Form(form) => form.lane_width_m,)*
+                }
+            }
+        }
+    };
 }
+
+junctions::forms!(road);
 
 /// The road that a vehicle drives on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -194,42 +212,6 @@ impl Road {
             _ => return None,
         };
         Some(ParallelLanes { count, width_m })
-    }
-
-    /// The lanes of a network, unchecked; none on a road of parallel lanes.
-    ///
-    /// # Errors
-    /// For lanes that have no line or no width.
-    pub(crate) fn network_lanes(&self) -> Option<Result<Vec<Lane>, RoadFault>> {
-        match self {
-            Road::Lanes(_) | Road::RampMerge(_) | Road::Intersection(_) | Road::Curve(_) => None,
-            Road::Network(network) => Some(network.lanes()),
-            Road::Roundabout(roundabout) => Some(roundabout.lanes()),
-            Road::TJunction(junction) => Some(junction.lanes()),
-            Road::Crossing(crossing) => Some(crossing.lanes()),
-            Road::AllWayStop(crossing) => Some(crossing.lanes()),
-            Road::OnRamp(ramp) => Some(ramp.lanes()),
-            Road::NarrowPassage(passage) => Some(passage.lanes()),
-            Road::TwoWay(road) => Some(road.lanes()),
-        }
-    }
-
-    /// Width of one lane; where lanes differ, of the first of them where it begins \[m\].
-    pub fn lane_width_m(&self) -> f64 {
-        match self {
-            Road::Lanes(lanes) => lanes.lane_width_m,
-            Road::RampMerge(ramp) => ramp.lane_width_m,
-            Road::Intersection(crossing) => crossing.lane_width_m,
-            Road::Curve(curve) => curve.lane_width_m,
-            Road::Network(network) => network.lanes.first().map_or(0.0, |lane| lane.width_m.first_m()),
-            Road::Roundabout(roundabout) => roundabout.lane_width_m,
-            Road::TJunction(junction) => junction.lane_width_m,
-            Road::Crossing(crossing) => crossing.lane_width_m,
-            Road::AllWayStop(crossing) => crossing.lane_width_m,
-            Road::OnRamp(ramp) => ramp.lane_width_m,
-            Road::NarrowPassage(passage) => passage.lane_width_m,
-            Road::TwoWay(road) => road.lane_width_m,
-        }
     }
 
     /// The key of the road that states the width of a lane, or of the narrowest lanes.

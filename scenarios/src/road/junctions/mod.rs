@@ -2,30 +2,40 @@
 //!
 //! Traffic keeps to the right. The middle of a junction is the origin, x leads to the east and y to the north.
 
-mod all_way_stop;
 mod arms;
 mod connector;
-mod crossing;
-mod narrow_passage;
-mod on_ramp;
 mod ring;
-mod roundabout;
-mod t_junction;
-mod two_way;
 
 use interplay_planners::road::centre_line::{CentreLineError, Piece};
 use interplay_planners::road::network::{Lane, LaneNeighbour, NeighbourRelation};
 use interplay_planners::{CentreLine, Profile};
 
-pub use all_way_stop::AllWayStop;
-pub use crossing::Crossing;
-pub use narrow_passage::{DrivingDirection, NarrowPassage};
-pub use on_ramp::OnRamp;
-pub use roundabout::Roundabout;
-pub use t_junction::{MinorRoadRule, TJunction};
-pub use two_way::TwoWayRoad;
-
 use super::fault::RoadFault;
+
+/// The forms: file, type, and what the schema says of the kind. A type has a `lane_width_m`, and `lanes`, which makes the lanes of a
+/// network of it. To add a form, write its file and a line here.
+macro_rules! forms {
+    ($declare:ident) => {
+        $declare! {
+            roundabout::Roundabout: "A ring with three to six arms.";
+            t_junction::TJunction: "A minor road that ends at a main one.";
+            crossing::Crossing: "Two roads with both directions that cross, the main one with priority.";
+            all_way_stop::AllWayStop: "Two roads with both directions that cross, where everybody stops.";
+            on_ramp::OnRamp: "A motorway that a ramp joins with an acceleration lane.";
+            narrow_passage::NarrowPassage: "A road with both directions that narrows to the width of one lane.";
+            two_way::TwoWay: "A straight road with a lane in each direction.";
+        }
+    };
+}
+
+macro_rules! modules {
+    ($($file:ident::$Form:ident: $about:literal;)*) => {
+        $(mod $file; pub use $file::*;)*
+    };
+}
+
+forms!(modules);
+pub(super) use forms;
 
 /// Sideways acceleration of a vehicle that drives through a turn at its speed limit \[m/s²\].
 const ACCELERATION_IN_TURNS_MPS2: f64 = 2.0;

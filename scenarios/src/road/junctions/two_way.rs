@@ -12,7 +12,8 @@ use super::{beside, lane, straight};
 /// A straight road along x with its middle at the origin. Lane `east` leads to the east and lane `west` to the west.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct TwoWayRoad {
+#[schemars(rename = "TwoWayRoad")]
+pub struct TwoWay {
     /// Length of the road \[m\].
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub length_m: f64,
@@ -26,19 +27,19 @@ pub struct TwoWayRoad {
     pub overtaking: bool,
 }
 
-impl Default for TwoWayRoad {
+impl Default for TwoWay {
     fn default() -> Self {
-        TwoWayRoad { length_m: 600.0, lane_width_m: 3.5, speed_limit_mps: 27.8, overtaking: true }
+        TwoWay { length_m: 600.0, lane_width_m: 3.5, speed_limit_mps: 27.8, overtaking: true }
     }
 }
 
-impl TwoWayRoad {
+impl TwoWay {
     /// Both lanes.
     ///
     /// # Errors
     /// For sizes that are no numbers.
     pub(crate) fn lanes(&self) -> Result<Vec<Lane>, RoadFault> {
-        let TwoWayRoad { length_m, lane_width_m, speed_limit_mps, overtaking } = *self;
+        let TwoWay { length_m, lane_width_m, speed_limit_mps, overtaking } = *self;
         let (begin_m, side_m) = (-0.5 * length_m, -0.5 * lane_width_m);
         let east = straight([begin_m, side_m], 0.0, length_m)?;
         let west = straight([-begin_m, -side_m], PI, length_m)?;
