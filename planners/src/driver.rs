@@ -3,7 +3,7 @@
 use std::ops::Deref;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::drive::DriverKind;
 use crate::foreign_driver::ForeignDriver;
@@ -16,14 +16,24 @@ use crate::{
 macro_rules! drivers {
     ($($(#[$doc:meta])* $kind:ident($settings:ty),)*) => {
         /// The driver of a vehicle with its settings; `kind` in a scenario file chooses.
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
         #[serde(tag = "kind", rename_all = "kebab-case")]
         pub enum Driver {
             $($(#[$doc])* $kind($settings),)*
-            /// A kind of another crate.
-            #[serde(untagged, skip_deserializing)]
-            #[schemars(skip, !untagged)]
+            /// A kind of another crate. It is read by the registry that knows the kind.
+            #[serde(skip)]
             Foreign(ForeignDriver),
+        }
+
+        /// A table with the `kind` and the settings, as a scenario file has it.
+        impl Serialize for Driver {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let kind = self.kind();
+                match self {
+                    $(Driver::$kind(settings) => DriverTable { kind, settings }.serialize(serializer),)*
+                    Driver::Foreign(foreign) => foreign.serialize(serializer),
+                }
+            }
         }
 
         /// What its kind says of a driver.
@@ -38,6 +48,13 @@ macro_rules! drivers {
             }
         }
     };
+}
+
+#[derive(Serialize)]
+struct DriverTable<'a, S> {
+    kind: &'a str,
+    #[serde(flatten)]
+    settings: &'a S,
 }
 
 drivers! {

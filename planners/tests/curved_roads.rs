@@ -4,13 +4,12 @@ mod common;
 
 use std::sync::Arc;
 
-use common::derivatives::check;
 use common::world::{Run, begin, egos, lane_change, moved_to, run};
 use common::{HORIZON, SplitMix64, iterate, lane_change as change_of_lanes};
 use interplay_planners::human::Style::{Nice, Tough};
 use interplay_planners::road::centre_line::{Piece, smooth};
 use interplay_planners::trajectory::terms::{Comfort, FrenetTarget, FrenetTracking, RoadEdge, StopLine};
-use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, Term};
+use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, Term, check_derivatives};
 use interplay_planners::{Body, CentreLine, Driver, Profile, Route, State, idm};
 
 /// A road of two lanes of 0.37 m along a line.
@@ -72,7 +71,7 @@ fn derivatives_agree_with_finite_differences() {
     for seed in 0..20 {
         let random = &mut SplitMix64::new(seed);
         let problem = off_the_road(random);
-        let seen = check(&problem, &iterate(&problem, random), random);
+        let seen = check_derivatives(&problem, &iterate(&problem, random)).unwrap_or_else(|error| panic!("{error}"));
         assert!(seen.first > 1.0 && seen.second > 1.0, "nothing costs anything here");
     }
 }

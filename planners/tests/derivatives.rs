@@ -2,13 +2,16 @@
 
 mod common;
 
-use common::derivatives::check;
 use common::{HORIZON, SplitMix64, Vehicle, follower, iterate, lane_change, problem};
 use interplay_planners::trajectory::terms::{
-    DistanceCost, DistancePrice, KeepOut, MeanSpeed, Persuasion, Separation, SpeedMeasure,
+    CostOfState, DistanceCost, DistancePrice, ForeignTerm, KeepOut, MeanSpeed, Persuasion, RowOnPose, RowOnTrajectory,
+    Separation, SpeedMeasure,
 };
-use interplay_planners::trajectory::{Participant, Penalty, Problem, Term};
-use interplay_planners::vehicle::OrientedEllipse;
+use interplay_planners::trajectory::{
+    DerivativeError, Optimiser, Participant, Penalty, Problem, Robust, StateCost, Term, TrajectoryRow,
+    check_derivatives,
+};
+use interplay_planners::vehicle::{OrientedEllipse, PoseExpansion};
 use interplay_planners::{Axes, Corridor, LaneEnd, SafetyEllipse, State};
 
 const SEEDS: u64 = 20;
@@ -35,7 +38,7 @@ fn check_all(pose: impl Fn(&mut SplitMix64) -> Problem) {
     for seed in 0..SEEDS {
         let random = &mut SplitMix64::new(seed);
         let problem = pose(random);
-        let seen = check(&problem, &iterate(&problem, random), random);
+        let seen = check_derivatives(&problem, &iterate(&problem, random)).unwrap_or_else(|error| panic!("{error}"));
         (first, second) = (first.max(seen.first), second.max(seen.second));
     }
     assert!(first > 1e-3 && second > 1e-3, "nothing costs anything here");
@@ -142,4 +145,118 @@ fn distances() {
             problem(&[indifferent(random)], [Term::DistanceCost(cost)])
         });
     }
+}
+
+/// `w (v − v_0)² + w x y`: a cost that another crate might have, with a Hessian that is not convex.
+#[derive(Debug)]
+struct OwnCost {
+    weight: f64,
+    /// What is added to the stated slope over the speed.
+    error: f64,
+}
+
+impl CostOfState for OwnCost {
+    fn value(&self, t: usize, state: &State) -> f64 {
+        let excess_mps = state.speed_mps - 0.1 * t as f64;
+        self.weight * (excess_mps * excess_mps + state.x_m * state.y_m)
+    }
+
+    fn expand(&self, t: usize, state: &State) -> StateCost {
+        let slope = 2.0 * (state.speed_mps - 0.1 * t as f64);
+        StateCost {
+            gradient: [state.y_m, state.x_m, 0.0, slope + self.error].map(|slope| self.weight * slope),
+            hessian: [0.0, 0.0, 0.0, 2.0 * self.weight],
+            curvature: [0.0, self.weight, 0.0],
+            ..StateCost::default()
+        }
+    }
+}
+
+/// `y + cos θ ≥ 3`, which is violated everywhere here.
+#[derive(Debug)]
+struct OwnRow;
+
+impl RowOnPose for OwnRow {
+    fn penalty(&self) -> Penalty {
+        Penalty { linear: 2.0, quadratic: 0.5 }
+    }
+
+    fn expand(&self, _: usize, state: &State) -> PoseExpansion {
+        let (sin, cos) = libm::sincos(state.heading_rad);
+        PoseExpansion {
+            value: state.y_m + cos - 3.0,
+            gradient: [0.0, 1.0, -sin],
+            hessian: [0.0, 0.0, 0.0, 0.0, 0.0, -cos],
+        }
+    }
+}
+
+/// `Σ (x² + y²)/2 ≤ 0`.
+#[derive(Debug)]
+struct OwnTrajectoryRow;
+
+impl RowOnTrajectory for OwnTrajectoryRow {
+    fn penalty(&self) -> Penalty {
+        Penalty { linear: 0.3, quadratic: 0.01 }
+    }
+
+    fn excess(&self, states: &[State]) -> f64 {
+        let later = states.iter().skip(1);
+        later.map(|state| (state.x_m * state.x_m + state.y_m * state.y_m) / 2.0).sum::<f64>()
+    }
+
+    fn expand(&self, states: &[State], row: &mut TrajectoryRow) {
+        for ((state, gradient), bend) in states.iter().skip(1).zip(&mut row.gradients).zip(&mut row.bends) {
+            (*gradient, *bend) = ([state.x_m, state.y_m, 0.0], 0.5);
+        }
+    }
+}
+
+#[test]
+fn terms_of_another_crate() {
+    check_all(|random| {
+        let cost = OwnCost { weight: random.between(0.5, 2.0), error: 0.0 };
+        problem(&[indifferent(random)], [Term::Foreign(ForeignTerm::cost(0, cost))])
+    });
+    check_all(|random| problem(&[indifferent(random)], [Term::Foreign(ForeignTerm::row(0, OwnRow))]));
+    check_all(|random| {
+        problem(&[indifferent(random)], [Term::Foreign(ForeignTerm::trajectory_row(0, OwnTrajectoryRow))])
+    });
+}
+
+#[test]
+fn a_wrong_derivative_of_another_crate_is_found() {
+    let random = &mut SplitMix64::new(1);
+    let wrong = OwnCost { weight: 1.0, error: 0.1 };
+    let problem = problem(&[indifferent(random)], [Term::Foreign(ForeignTerm::cost(0, wrong))]);
+    let found = check_derivatives(&problem, &iterate(&problem, random));
+    assert!(matches!(found, Err(DerivativeError::Differs { which: "first", .. })), "{found:?}");
+}
+
+/// A vehicle that pays for its place to the left drives further right, also as the second of two that decide.
+#[test]
+fn terms_of_another_crate_move_the_optimum_of_their_vehicle() {
+    let random = &mut SplitMix64::new(2);
+    let vehicles = [follower(random, 0), lane_change(random)];
+    let plain = problem(&vehicles, []);
+    let left_m = |problem: &Problem| {
+        let optimum = Optimiser::new(Robust::default()).descend(problem, &[]).expect("an optimum");
+        [0, 1].map(|vehicle| optimum.trajectory(vehicle).states.iter().map(|state| state.y_m).sum::<f64>())
+    };
+    #[derive(Debug)]
+    struct PriceOfLeft;
+    impl CostOfState for PriceOfLeft {
+        fn value(&self, _: usize, state: &State) -> f64 {
+            state.y_m
+        }
+        fn expand(&self, _: usize, _: &State) -> StateCost {
+            StateCost { gradient: [0.0, 1.0, 0.0, 0.0], ..StateCost::default() }
+        }
+    }
+    let priced = problem(&vehicles, [Term::Foreign(ForeignTerm::cost(1, PriceOfLeft))]);
+    let (before, after) = (left_m(&plain), left_m(&priced));
+    assert!(after[1] < before[1] - 0.1 && (after[0] - before[0]).abs() < 1e-3, "{before:?} {after:?}");
+    let own = priced.alone(1, &priced.start(&[]));
+    assert_eq!(own.terms.iter().filter(|term| matches!(term, Term::Foreign(_))).count(), 1);
+    assert!(priced.alone(0, &priced.start(&[])).terms.iter().all(|term| !matches!(term, Term::Foreign(_))));
 }

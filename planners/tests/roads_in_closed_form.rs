@@ -4,12 +4,11 @@ mod common;
 
 use std::sync::Arc;
 
-use common::derivatives::model;
 use common::{HORIZON, SplitMix64, iterate, lane_change};
 use interplay_planners::predict::steadily_along;
 use interplay_planners::road::centre_line::Piece;
 use interplay_planners::trajectory::terms::{Comfort, FrenetTarget, FrenetTracking, RoadEdge, Tracking};
-use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, StageQp, Term};
+use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, StageQp, Term, exact_model};
 use interplay_planners::{Axes, Body, CentreLine, Corridor, Profile, Route, State, Trajectory};
 
 const WEIGHTS: [f64; 4] = [0.4, 1.0, 0.7, 2.0];
@@ -76,7 +75,7 @@ fn terms_on_a_straight_line_of_pieces_are_those_of_a_straight_road() {
         let problems = twins(random);
         let [straight, pieced] = problems.map(|problem| {
             let iterate = iterate(&problem, &mut random.clone());
-            (problem.cost(&iterate).total, numbers(&model(&problem, &iterate, true)))
+            (problem.cost(&iterate).total, numbers(&exact_model(&problem, &iterate)))
         });
         assert!((straight.0 - pieced.0).abs() <= 1e-12 * straight.0, "{} and {}", straight.0, pieced.0);
         assert_eq!(straight.1.len(), pieced.1.len());

@@ -7,6 +7,7 @@
 pub(crate) mod activity;
 mod alone;
 mod cost;
+mod derivatives;
 mod iterate;
 mod participant;
 mod penalty;
@@ -17,6 +18,7 @@ mod stage;
 pub mod terms;
 
 pub use cost::{Cost, Violation};
+pub use derivatives::{DerivativeError, LargestDerivatives, check_derivatives, exact_model};
 pub use iterate::Iterate;
 pub use participant::Participant;
 pub use penalty::Penalty;

@@ -1,7 +1,6 @@
 //! Random problems for the tests: what planners meet, and worse.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
-pub mod derivatives;
 pub mod games;
 pub mod junction;
 pub mod starts;

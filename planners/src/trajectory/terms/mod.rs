@@ -9,10 +9,12 @@
 //! | `RowTerm` | the penalty of `c_t(x_t) + s ≥ 0` at every stage | [`RoadEdge`], [`StopLine`], [`KeepOut`], [`Separation`] |
 //! | `TrajectoryTerm` | the penalty of one row over all states of a vehicle | [`Persuasion`], [`MeanSpeed`] |
 //!
-//! To add a term: a file here, which implements a shape, and a variant of [`Term`] below.
+//! To add a term: a file here, which implements a shape, and a variant of [`Term`] below. Another crate adds its own as a
+//! [`ForeignTerm`], without a change here.
 
 mod comfort;
 mod distance_cost;
+mod foreign;
 mod frenet_tracking;
 mod keep_out;
 mod mean_speed;
@@ -25,6 +27,7 @@ mod tracking;
 
 pub use comfort::Comfort;
 pub use distance_cost::{DistanceCost, DistancePrice};
+pub use foreign::{CostOfState, ForeignTerm, RowOnPose, RowOnTrajectory};
 pub use frenet_tracking::{FrenetTarget, FrenetTracking};
 pub use keep_out::KeepOut;
 pub use mean_speed::{MeanSpeed, MeanSpeedBound, SpeedMeasure};
@@ -58,6 +61,8 @@ pub enum Term {
     MeanSpeed(MeanSpeedBound),
     /// Cost that depends on the distance from a predicted motion.
     DistanceCost(DistanceCost),
+    /// A cost or constraint of another crate.
+    Foreign(ForeignTerm),
 }
 
 impl Term {
@@ -74,6 +79,7 @@ impl Term {
             Term::Persuasion(term) => &mut term.vehicle,
             Term::MeanSpeed(term) => &mut term.vehicle,
             Term::DistanceCost(term) => &mut term.vehicle,
+            Term::Foreign(term) => term.vehicle_mut(),
             Term::Separation(_) => return None,
         };
         let is_own = std::mem::replace(number, 0) == vehicle;
@@ -93,6 +99,7 @@ impl Term {
             Term::Persuasion(term) => Shape::Trajectory(term),
             Term::MeanSpeed(term) => Shape::Trajectory(term),
             Term::DistanceCost(term) => Shape::StateCost(term),
+            Term::Foreign(term) => term.shape(),
         }
     }
 }
