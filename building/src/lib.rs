@@ -41,14 +41,14 @@
 //!     forecast_seed: 1,
 //!     people: Occupancy::default().people(4, 1),
 //! };
-//! let mut regulator = Controller::IterativeLearning(Default::default()).regulator(&model, steps)?;
+//! let mut controller = Controller::IterativeLearning(Default::default()).controller(&model, steps)?;
 //!
 //! let mut temperatures_c = vec![28.0; 4];
 //! let mut costs = Vec::new();
 //! for day in 0..5 {
 //!     let forecast = surroundings.forecast(&model, steps, day);
 //!     let actual = surroundings.actual(&model, steps, day);
-//!     let record = run_day(&model, &mut temperatures_c, &mut regulator, &targets, &forecast, &actual)?;
+//!     let record = run_day(&model, &mut temperatures_c, &mut *controller, &targets, &forecast, &actual)?;
 //!     costs.push(KeyFigures::of(&record, &targets, model.network().limits(), step_s).cost);
 //! }
 //! assert!(costs[4] < 0.5 * costs[0], "it has learned: {costs:?}");

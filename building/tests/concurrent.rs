@@ -131,8 +131,8 @@ fn it_tracks_better_than_pid_without_a_forecast_on_every_seed() {
     for seed in 1..=8 {
         let days = synthetic(seed, 5, 4);
         let figures = |controller: Controller| -> (f64, f64) {
-            let mut regulator = controller.regulator(&model, STEPS).expect("valid");
-            let records = run(&model, 28.5, &mut regulator, &targets, &days);
+            let mut controller = controller.controller(&model, STEPS).expect("valid");
+            let records = run(&model, 28.5, &mut *controller, &targets, &days);
             assert!(records.iter().all(|record| record.requested_kw.iter().all(|kw| kw.abs() <= 2.0)));
             let later =
                 records[1..].iter().map(|r| KeyFigures::of(r, &targets, &PowerLimits::symmetric(&[2.0; 4]), STEP_S));

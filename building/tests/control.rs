@@ -11,7 +11,7 @@ use interplay_building::control::pid::PidSettings;
 use interplay_building::control::thermostat::ThermostatSettings;
 use interplay_building::control::uncertainty::UncertaintySettings;
 use interplay_building::control::{
-    Control, ControlError, Controller, DayAhead, DayRecord, Disturbance, Observation, Regulator, optimum,
+    Control, ControlError, Controller, DayAhead, DayRecord, Disturbance, Observation, optimum,
 };
 use interplay_building::day::{KeyFigures, Surroundings, run_day};
 use interplay_building::discretise::Model;
@@ -28,8 +28,8 @@ fn testbed() -> Model {
     Model::exact(&Network::testbed(), STEP_S).expect("valid")
 }
 
-fn start(controller: Controller, model: &Model) -> Regulator {
-    controller.regulator(model, STEPS).expect("valid settings")
+fn start(controller: Controller, model: &Model) -> Box<dyn Control> {
+    controller.controller(model, STEPS).expect("valid settings")
 }
 
 fn targets(setpoints: &Setpoints, zones: usize) -> Targets {
@@ -54,9 +54,9 @@ fn one_zone(limit_kw: f64) -> Model {
 
 /// What a controller asks for at given temperatures of a single zone, one a step.
 fn answers(controller: Controller, targets: &Targets, temperatures_c: &[f64]) -> Vec<f64> {
-    let mut regulator = start(controller, &one_zone(2.0));
+    let mut controller = start(controller, &one_zone(2.0));
     let act = |(i, temperature_c): (usize, &f64)| {
-        regulator.act(&Observation { step: i + 1, temperatures_c: &[*temperature_c], targets })[0]
+        controller.act(&Observation { step: i + 1, temperatures_c: &[*temperature_c], targets })[0]
     };
     temperatures_c.iter().enumerate().map(act).collect()
 }
@@ -93,7 +93,7 @@ fn integral_action_leaves_no_error_against_a_constant_disturbance() {
         let mut pid = start(Controller::Pid(settings), &model);
         let mut temperatures_c = vec![27.0; 4];
         for _ in 0..10 {
-            run_day(&model, &mut temperatures_c, &mut pid, &targets, &day, &day).expect("runs");
+            run_day(&model, &mut temperatures_c, &mut *pid, &targets, &day, &day).expect("runs");
         }
         temperatures_c[0] - 22.0
     };
@@ -112,7 +112,7 @@ fn a_pid_controller_does_not_wind_up() {
     day.ambient_c[24..].fill(20.0);
     day.gains_kw[24..].fill(0.0);
     let mut pid = start(Controller::Pid(PidSettings::default()), &model);
-    let record = run_day(&model, &mut [26.0], &mut pid, &targets, &day, &day).expect("runs");
+    let record = run_day(&model, &mut [26.0], &mut *pid, &targets, &day, &day).expect("runs");
     assert!(record.heat_kw[..24].iter().all(|u| (u + 0.3).abs() < 1e-12), "at its limit all morning");
     let lowest_c = record.temperatures_c.iter().copied().fold(f64::MAX, f64::min);
     assert!(lowest_c > 21.0, "wound up, it would go on cooling until {lowest_c}");
@@ -133,7 +133,7 @@ fn learning_follows_the_law_of_its_errors() {
     let (targets, day) = (targets(&always(), 4), steady(24.0, 0.1, 4));
     let mut errors_k: Vec<Vec<f64>> = Vec::new();
     for _ in 0..12 {
-        let record = run_day(&model, &mut [22.5; 4], &mut learning, &targets, &day, &day).expect("runs");
+        let record = run_day(&model, &mut [22.5; 4], &mut *learning, &targets, &day, &day).expect("runs");
         errors_k.push(record.temperatures_c.iter().map(|t| 22.0 - t).collect());
     }
     for pair in errors_k.windows(2) {
@@ -178,13 +178,13 @@ impl World {
         let model = testbed();
         let lifted = Lifted::new(&model, STEPS);
         let targets = targets(&Setpoints { other_c: Some(30.0), ..Setpoints::default() }, 4);
-        let mut regulator = start(controller, &model);
+        let mut controller = start(controller, &model);
         let mut temperatures_c = vec![28.5; 4];
         (0..5)
             .map(|day| {
                 let (forecast, actual) = (self.0.forecast(&model, STEPS, day), self.0.actual(&model, STEPS, day));
                 let initial_c = temperatures_c.clone();
-                let record = run_day(&model, &mut temperatures_c, &mut regulator, &targets, &forecast, &actual);
+                let record = run_day(&model, &mut temperatures_c, &mut *controller, &targets, &forecast, &actual);
                 let record = record.expect("runs");
                 let figures = KeyFigures::of(&record, &targets, model.network().limits(), STEP_S);
                 assert_eq!(figures.input_violation_kw, 0.0);
@@ -213,7 +213,7 @@ fn nobody_beats_the_clairvoyant_and_the_clairvoyant_has_no_regret() {
                 assert!(regret > 0.0, "{} {cost} {regret}", controller.kind());
             }
         }
-        for (cost, regret) in world.run(Controller::Clairvoyant) {
+        for (cost, regret) in world.run(Controller::Clairvoyant(Default::default())) {
             assert!(regret.abs() < 1e-6 * cost, "{regret}");
         }
     }
@@ -283,7 +283,7 @@ fn targets_are_wanted_at_the_ends_of_steps() {
 #[test]
 fn wrong_settings_are_refused() {
     let model = testbed();
-    let refused = |controller: Controller| match controller.regulator(&model, STEPS) {
+    let refused = |controller: Controller| match controller.controller(&model, STEPS) {
         Err(ControlError::Setting(error)) => error.key.to_string(),
         other => panic!("{other:?}"),
     };
@@ -324,10 +324,10 @@ fn a_day_of_another_building_is_refused_and_changes_nothing() {
     let mut pid = start(Controller::Pid(PidSettings::default()), &model);
     let (right, wrong) = (steady(30.0, 0.1, 4), steady(30.0, 0.1, 3));
     let mut temperatures_c = vec![25.0; 4];
-    let error = run_day(&model, &mut temperatures_c, &mut pid, &targets, &right, &wrong).expect_err("refused");
+    let error = run_day(&model, &mut temperatures_c, &mut *pid, &targets, &right, &wrong).expect_err("refused");
     assert!(matches!(error, ControlError::Shape { what: "the heat gains", .. }), "{error}");
     assert_eq!(temperatures_c, [25.0; 4]);
-    let mut clairvoyant = start(Controller::Clairvoyant, &model);
+    let mut clairvoyant = start(Controller::Clairvoyant(Default::default()), &model);
     let day_ahead = DayAhead { initial_c: &temperatures_c, targets: &targets, forecast: &right, actual: None };
     assert_eq!(clairvoyant.start_of_day(&day_ahead), Err(ControlError::NotClairvoyant));
 }
@@ -336,7 +336,7 @@ fn a_day_of_another_building_is_refused_and_changes_nothing() {
 fn controllers_are_read_by_their_kind() {
     let read = |text: &str| toml::from_str::<Controller>(text);
     let designs = [
-        Controller::Clairvoyant,
+        Controller::Clairvoyant(Default::default()),
         Controller::Iterative(Default::default()),
         Controller::Concurrent(Default::default()),
         Controller::Distributed(Default::default()),
@@ -356,9 +356,9 @@ fn random_temperatures_never_make_a_baseline_ask_for_more_than_there_is() {
     let model = testbed();
     let targets = targets(&Setpoints::default(), 4);
     for controller in baselines() {
-        let mut regulator = start(controller, &model);
+        let mut controller = start(controller, &model);
         for (step, temperatures_c) in numbers(4 * STEPS, 20.0).chunks_exact(4).enumerate() {
-            let asked = regulator.act(&Observation { step, temperatures_c, targets: &targets });
+            let asked = controller.act(&Observation { step, temperatures_c, targets: &targets });
             assert!(asked.iter().all(|u| u.abs() <= 2.0), "{asked:?}");
         }
     }

@@ -237,8 +237,8 @@ fn zones_that_can_solve_nothing_repeat_the_day_before() {
     let mut days: Vec<_> = (0..4).map(day).collect();
     days[1].0.ambient_c[20] = f64::MAX;
     for kind in [Controller::Distributed(Default::default()), Controller::Centralised(Default::default())] {
-        let mut regulator = kind.regulator(&model, STEPS).expect("valid");
-        let records = run(&model, 28.5, &mut regulator, &targets, &days);
+        let mut controller = kind.controller(&model, STEPS).expect("valid");
+        let records = run(&model, 28.5, &mut *controller, &targets, &days);
         let costs: Vec<f64> =
             records.iter().map(|record| targets.cost(&record.temperatures_c, &record.heat_kw)).collect();
         assert!(records[1].design.fallback.is_some(), "{}", kind.kind());

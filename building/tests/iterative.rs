@@ -46,6 +46,7 @@ fn expected_costs_are_those_of_independent_code() {
 
 /// The iterative design with the first day of the independent code, whose initial feedback acts at night too, where
 /// temperatures are free.
+#[derive(Debug)]
 struct FeedbackAtNight {
     iterative: Iterative,
     day: usize,

@@ -8,7 +8,7 @@ use interplay_building::comfort::{Setpoints, Targets};
 use interplay_building::control::pid::PidSettings;
 use interplay_building::control::predictive::PredictiveSettings;
 use interplay_building::control::{
-    BandPenalty, Control, ControlError, Controller, DayAhead, DayRecord, Disturbance, Observation, Regulator, optimum,
+    BandPenalty, Control, ControlError, Controller, DayAhead, DayRecord, Disturbance, Observation, optimum,
 };
 use interplay_building::day::run_day;
 use interplay_building::discretise::Model;
@@ -44,16 +44,16 @@ fn day(more_kw: f64) -> Disturbance {
     }
 }
 
-fn regulator(controller: Controller, model: &Model) -> Regulator {
-    controller.regulator(model, STEPS).expect("valid")
+fn before_first_day(controller: Controller, model: &Model) -> Box<dyn Control> {
+    controller.controller(model, STEPS).expect("valid")
 }
 
-fn predictive(settings: PredictiveSettings, model: &Model) -> Regulator {
-    regulator(Controller::ModelPredictive(settings), model)
+fn predictive(settings: PredictiveSettings, model: &Model) -> Box<dyn Control> {
+    before_first_day(Controller::ModelPredictive(settings), model)
 }
 
 /// Runs equal days, of which the controller is told `forecast`.
-fn run(days: usize, controller: &mut Regulator, forecast: &Disturbance, actual: &Disturbance) -> Vec<DayRecord> {
+fn run(days: usize, controller: &mut dyn Control, forecast: &Disturbance, actual: &Disturbance) -> Vec<DayRecord> {
     let model = building();
     let mut temperatures_c = vec![26.0; model.network().node_count()];
     (0..days)
@@ -85,10 +85,10 @@ fn a_plan_for_a_day_is_the_optimum_of_the_day() {
 #[test]
 fn with_an_exact_forecast_it_costs_little_more_than_the_optimum() {
     let (model, exact) = (building(), day(0.0));
-    let of = |controller: Controller| cost(&run(3, &mut regulator(controller, &model), &exact, &exact)[2]);
+    let of = |controller: Controller| cost(&run(3, &mut *before_first_day(controller, &model), &exact, &exact)[2]);
     let [predictive, best, pid] = [
         Controller::ModelPredictive(PredictiveSettings::default()),
-        Controller::Clairvoyant,
+        Controller::Clairvoyant(Default::default()),
         Controller::Pid(PidSettings::default()),
     ]
     .map(of);
@@ -102,9 +102,9 @@ fn unforecast_heat_is_learned_within_a_day() {
     let (told, actual) = (day(0.0), day(0.4));
     let last_cost = |learning_rate: f64| {
         let settings = PredictiveSettings { learning_rate, ..PredictiveSettings::default() };
-        cost(&run(2, &mut predictive(settings, &building()), &told, &actual)[1])
+        cost(&run(2, &mut *predictive(settings, &building()), &told, &actual)[1])
     };
-    let knowing = cost(&run(2, &mut predictive(PredictiveSettings::default(), &building()), &actual, &actual)[1]);
+    let knowing = cost(&run(2, &mut *predictive(PredictiveSettings::default(), &building()), &actual, &actual)[1]);
     let (learning, ignorant) = (last_cost(0.3), last_cost(0.0));
     assert!(learning < 1.02 * knowing, "{learning} and {knowing}");
     assert!(ignorant > 1.1 * knowing, "{ignorant} and {knowing}");
@@ -120,7 +120,7 @@ fn a_step_without_a_plan_follows_the_last_one_and_says_why() {
     let model = building();
     let mut temperatures_c = vec![26.0; model.network().node_count()];
     let mut one_day = |forecast: &Disturbance| {
-        run_day(&model, &mut temperatures_c, &mut controller, &targets(), forecast, &actual).expect("runs")
+        run_day(&model, &mut temperatures_c, &mut *controller, &targets(), forecast, &actual).expect("runs")
     };
     let (good, bad, after) = (one_day(&actual), one_day(&told), one_day(&actual));
     assert_eq!((good.design.fallbacks, bad.design.fallbacks, after.design.fallbacks), (0, 1, 1));
@@ -137,7 +137,7 @@ fn buildings_that_are_too_large_and_settings_out_of_range_are_refused() {
     let chain: Vec<Zone> = (0..50).map(|i| Zone::named(format!("z{i}"))).collect();
     let model = Model::exact(&Network::new(&chain, &[]).expect("valid"), STEP_S).expect("valid");
     let refused = |settings: PredictiveSettings| {
-        Controller::ModelPredictive(settings).regulator(&model, STEPS).map(|_| ()).expect_err("refused")
+        Controller::ModelPredictive(settings).controller(&model, STEPS).map(|_| ()).expect_err("refused")
     };
     let error = refused(PredictiveSettings::default());
     assert_eq!((error.key().as_str(), error.to_string().contains("1200 unknowns")), ("horizon_h", true), "{error}");

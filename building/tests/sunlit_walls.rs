@@ -44,10 +44,10 @@ fn a_forecast_without_error_is_planned_with_to_the_last_digit() {
         "centralised",
     ] {
         let controller: Controller = toml::from_str(&format!("kind = '{kind}'")).expect("a kind");
-        let mut regulator = controller.regulator(&model, STEPS).expect("valid");
+        let mut sunlit = controller.controller(&model, STEPS).expect("valid");
         let mut nodes_c = vec![26.0; network.node_count()];
         for number in 0..3 {
-            let record = run_day(&model, &mut nodes_c, &mut regulator, &targets, &day, &day).expect("runs");
+            let record = run_day(&model, &mut nodes_c, &mut *sunlit, &targets, &day, &day).expect("runs");
             assert_eq!(record.design.fallback, None, "{kind}");
             if number == 2 && controller.plans() {
                 planning += 1;

@@ -1,7 +1,7 @@
 //! A day to be planned ahead, on which the time of a design is measured.
 
 use interplay_building::comfort::{Setpoints, Targets};
-use interplay_building::control::{Control, Controller, DayAhead, Disturbance, Regulator};
+use interplay_building::control::{Control, Controller, DayAhead, Disturbance};
 use interplay_building::day::run_day;
 use interplay_building::discretise::Model;
 use interplay_building::network::Network;
@@ -12,7 +12,7 @@ const STEPS: usize = 48;
 /// A controller after its first day, and its second day.
 pub struct Case {
     /// The controller.
-    pub regulator: Regulator,
+    pub controller: Box<dyn Control>,
     targets: Targets,
     initial_c: Vec<f64>,
     day: Disturbance,
@@ -30,18 +30,18 @@ impl Case {
         let gains_kw =
             (0..n * STEPS).map(|k| if (16..38).contains(&(k / n)) { 0.3 + 0.03 * (k % n % 5) as f64 } else { 0.0 });
         let day = Disturbance { ambient_c, gains_kw: gains_kw.collect() };
-        let mut regulator = controller.regulator(&model, STEPS).expect("valid");
+        let mut controller = controller.controller(&model, STEPS).expect("valid");
         let mut initial_c = vec![27.5; n];
-        run_day(&model, &mut initial_c, &mut regulator, &targets, &day, &day).expect("runs");
-        Self { regulator, targets, initial_c: vec![27.0; n], day }
+        run_day(&model, &mut initial_c, &mut *controller, &targets, &day, &day).expect("runs");
+        Self { controller, targets, initial_c: vec![27.0; n], day }
     }
 
     /// Plans the second day; what it is expected to cost.
-    pub fn plan_day_ahead(&self, regulator: &mut Regulator) -> f64 {
+    pub fn plan_day_ahead(&self, controller: &mut dyn Control) -> f64 {
         let day_ahead =
             DayAhead { initial_c: &self.initial_c, targets: &self.targets, forecast: &self.day, actual: None };
-        regulator.start_of_day(&day_ahead).expect("shapes fit");
-        let design = regulator.design();
+        controller.start_of_day(&day_ahead).expect("shapes fit");
+        let design = controller.design();
         assert!(design.fallback.is_none(), "{:?}", design.fallback);
         design.objective.expect("planned")
     }

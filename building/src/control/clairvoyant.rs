@@ -1,14 +1,18 @@
 //! A controller that knows the disturbances of the day in advance. The cost of the other controllers is compared with its.
 
-use super::optimum::check_size;
-use super::regulator::{ControllerKind, Regulator};
+use super::optimum::{check_size, operations_of_optimum};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::interface::ControllerKind;
 use super::{Control, ControlError, DayAhead, DayRecord, Observation, optimum};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 
 /// The clairvoyant controller has no settings.
-#[derive(Clone, Copy, Debug)]
-pub struct ClairvoyantSettings;
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ClairvoyantSettings {}
 
 /// Applies the optimum of the day under its actual disturbances.
 #[derive(Clone, Debug)]
@@ -34,9 +38,13 @@ impl ControllerKind for ClairvoyantSettings {
         "it knows the day in advance and cools before people come; no controller can be cheaper"
     }
 
-    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+    fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError> {
         check_size(model)?;
-        Ok(Regulator::new(Clairvoyant::new(Lifted::new(model, steps))))
+        Ok(Box::new(Clairvoyant::new(Lifted::new(model, steps))))
+    }
+
+    fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
+        operations_of_optimum(zones, steps)
     }
 }
 
@@ -57,5 +65,9 @@ impl Control for Clairvoyant {
 
     fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
         Ok(())
+    }
+
+    fn fork(&self) -> Option<Box<dyn Control>> {
+        Some(Box::new(self.clone()))
     }
 }

@@ -1,8 +1,13 @@
-//! The interface of a controller: its inputs, its outputs, and the record of a day.
+//! What every controller provides, its settings, [`ControllerKind`], and what acts with them, [`Control`]; and what a controller
+//! is given and told of a day.
+
+use std::fmt;
 
 use super::design::Design;
 use super::error::ControlError;
 use crate::comfort::Targets;
+use crate::discretise::Model;
+use crate::lifted::Lifted;
 use crate::network::Network;
 
 /// What acts on a building besides its equipment, over the steps of a day.
@@ -81,8 +86,52 @@ impl Disturbance {
     }
 }
 
-/// A controller with its state.
-pub trait Control {
+/// The settings of one kind of controller, with all that is known of such a controller before its first day.
+pub trait ControllerKind: fmt::Debug + Send + Sync {
+    /// The word for this kind in a scenario file.
+    fn kind(&self) -> &'static str;
+
+    /// A controller of this kind before its first day. `model` is the controller's model of the building, `steps` the number
+    /// of steps of a day.
+    ///
+    /// # Errors
+    /// [`ControlError::Setting`] if a setting is out of range.
+    fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError>;
+
+    /// Whether this kind plans each day, and describes the plan in a [`Design`].
+    fn plans(&self) -> bool {
+        false
+    }
+
+    /// The key of a setting, and the reason, because of which all days must have the same targets and people; `None` if
+    /// weekdays may differ.
+    fn needs_equal_days(&self) -> Option<(&'static str, &'static str)> {
+        None
+    }
+
+    /// About how many operations it takes to design a day of `zones` zones and `steps` steps.
+    ///
+    /// Leading terms, with factors that fit the times of `docs/building-benchmarks.md` at about 5e8 operations a second. They tell
+    /// a second from an hour, and not one second from two.
+    fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
+        zones * steps
+    }
+
+    /// What to look for in a run, as the end of a sentence that begins with "Look for:".
+    fn look_for(&self) -> &'static str;
+
+    /// The spectral radius of the map from the errors of one day to those of the next, for equal days and no feedback.
+    /// Below 1 the errors vanish in the end. `lifted` is the model of a day.
+    ///
+    /// Returns `None` if the settings do not determine it: the kind does not learn, or it describes each day's
+    /// convergence in its [`Design`]. Takes time in the cube of zones times steps.
+    fn spectral_radius(&self, _lifted: &Lifted) -> Option<f64> {
+        None
+    }
+}
+
+/// A controller with all that it remembers.
+pub trait Control: fmt::Debug + Send + Sync {
     /// Plans the day.
     ///
     /// # Errors
@@ -107,5 +156,10 @@ pub trait Control {
     /// Describes the plan of the day.
     fn design(&self) -> Design {
         Design::default()
+    }
+
+    /// A copy that remembers the same, for snapshots of a run. `None` for a controller that cannot be copied.
+    fn fork(&self) -> Option<Box<dyn Control>> {
+        None
     }
 }

@@ -20,9 +20,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::cooperative::{Conditions, LearnedErrors, block_radius};
+use super::interface::ControllerKind;
 use super::pid::{Pid, PidSettings};
 use super::powers::largest_singular_value;
-use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
 use crate::lifted::Lifted;
@@ -157,8 +157,8 @@ impl ControllerKind for LearningSettings {
         Some(self.convergence(lifted).spectral_radius)
     }
 
-    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
-        Ok(Regulator::new(Learning::new(*self, Lifted::new(model, steps))?))
+    fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError> {
+        Ok(Box::new(Learning::new(*self, Lifted::new(model, steps))?))
     }
 }
 
@@ -205,5 +205,9 @@ impl Control for Learning {
         self.learned_kw =
             Some(record.heat_kw.iter().zip(&correction_kw).map(|(u, correction)| u + correction).collect());
         Ok(())
+    }
+
+    fn fork(&self) -> Option<Box<dyn Control>> {
+        Some(Box::new(self.clone()))
     }
 }

@@ -8,7 +8,8 @@
 //! a day that is known beforehand. The designs of the source are [`iterative`] (chapter 3), [`concurrent`] (chapter 4) and [`distributed`]
 //! (chapter 5, with its centralised counterpart). They plan each day with what earlier days taught, and follow the plan
 //! with feedback; what they say of it is a [`Design`]. When a design fails, its controller repeats the day before, says
-//! why, and goes on. A new controller is one folder and one variant of [`Controller`].
+//! why, and goes on. [`ControllerKind`] is what the settings of each provide, [`Control`] what acts with them; [`Controller`] lists
+//! them, a line each.
 //!
 //! # What the printed designs lack
 //!
@@ -33,15 +34,13 @@ pub mod pid;
 mod planning;
 mod powers;
 pub mod predictive;
-mod regulator;
 pub mod stability;
 pub mod thermostat;
 pub mod uncertainty;
 
-pub use clairvoyant::Clairvoyant;
+pub use clairvoyant::{Clairvoyant, ClairvoyantSettings};
 pub use controller::Controller;
 pub use design::{Design, Exchange};
 pub use error::ControlError;
-pub use interface::{Control, DayAhead, DayRecord, Disturbance, Observation};
+pub use interface::{Control, ControllerKind, DayAhead, DayRecord, Disturbance, Observation};
 pub use optimum::{BandPenalty, DayOptimum, optimum};
-pub use regulator::Regulator;

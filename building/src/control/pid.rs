@@ -12,7 +12,7 @@ use interplay_common::setting::{self, SettingError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::regulator::{ControllerKind, Regulator};
+use super::interface::ControllerKind;
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
 use crate::network::PowerLimits;
@@ -98,8 +98,8 @@ impl ControllerKind for PidSettings {
         "the controller has no memory: it is equally late every morning, and the cost does not fall"
     }
 
-    fn regulator(&self, model: &Model, _: usize) -> Result<Regulator, ControlError> {
-        Ok(Regulator::new(Pid::new(*self, model.network().limits(), model.step_s())?))
+    fn controller(&self, model: &Model, _: usize) -> Result<Box<dyn Control>, ControlError> {
+        Ok(Box::new(Pid::new(*self, model.network().limits(), model.step_s())?))
     }
 }
 
@@ -114,5 +114,9 @@ impl Control for Pid {
 
     fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
         Ok(())
+    }
+
+    fn fork(&self) -> Option<Box<dyn Control>> {
+        Some(Box::new(self.clone()))
     }
 }

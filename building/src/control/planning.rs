@@ -1,5 +1,7 @@
 //! The loop of the designs that plan each day, and their fallback when no plan is found.
 
+use std::fmt;
+
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
 use super::{Control, ControlError, DayAhead, DayOptimum, DayRecord, Design, Observation};
 use crate::network::Network;
@@ -96,7 +98,7 @@ fn check_shapes(day_ahead: &DayAhead<'_>, network: &Network, size: usize) -> Res
 }
 
 /// A design that plans each day from the estimated disturbance, and follows the plan with feedback.
-pub(super) trait PlanningDesign {
+pub(super) trait PlanningDesign: Clone + fmt::Debug + Send + Sync + 'static {
     /// The estimator of the disturbance, and the plans.
     fn parts(&mut self) -> (&mut DisturbanceEstimator, &mut PlanHistory);
 
@@ -141,5 +143,9 @@ impl<L: PlanningDesign> Control for L {
 
     fn design(&self) -> Design {
         self.history().design().clone()
+    }
+
+    fn fork(&self) -> Option<Box<dyn Control>> {
+        Some(Box::new(self.clone()))
     }
 }

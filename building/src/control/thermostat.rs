@@ -4,7 +4,7 @@ use interplay_common::setting;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::regulator::{ControllerKind, Regulator};
+use super::interface::ControllerKind;
 use super::{Control, ControlError, DayAhead, DayRecord, Observation};
 use crate::discretise::Model;
 use crate::network::PowerLimits;
@@ -55,8 +55,8 @@ impl ControllerKind for ThermostatSettings {
         "equipment runs at full power or not at all, and temperatures oscillate about the wanted ones"
     }
 
-    fn regulator(&self, model: &Model, _: usize) -> Result<Regulator, ControlError> {
-        Ok(Regulator::new(Thermostat::new(*self, model.network().limits())?))
+    fn controller(&self, model: &Model, _: usize) -> Result<Box<dyn Control>, ControlError> {
+        Ok(Box::new(Thermostat::new(*self, model.network().limits())?))
     }
 }
 
@@ -86,5 +86,9 @@ impl Control for Thermostat {
 
     fn end_of_day(&mut self, _: &DayRecord) -> Result<(), ControlError> {
         Ok(())
+    }
+
+    fn fork(&self) -> Option<Box<dyn Control>> {
+        Some(Box::new(self.clone()))
     }
 }

@@ -71,7 +71,7 @@ impl Day {
     ///
     /// # Errors
     /// [`ControlError`] if the controller cannot work on this day.
-    pub fn plan(&mut self, controller: &mut impl Control, targets: &Targets) -> Result<(), ControlError> {
+    pub fn plan(&mut self, controller: &mut dyn Control, targets: &Targets) -> Result<(), ControlError> {
         self.expected_targets = match targets.under(&self.forecast.ambient_c) {
             Cow::Borrowed(_) => None,
             Cow::Owned(targets) => Some(targets),
@@ -89,7 +89,7 @@ impl Day {
     pub fn control(
         &mut self,
         plant: &Model,
-        controller: &mut impl Control,
+        controller: &mut dyn Control,
         targets: &Targets,
         step: usize,
         zones_c: &[f64],
@@ -133,7 +133,7 @@ impl Day {
     ///
     /// # Errors
     /// [`ControlError::Shape`] if the day is not one of the controller's building.
-    pub fn learn(&self, controller: &mut impl Control) -> Result<(), ControlError> {
+    pub fn learn(&self, controller: &mut dyn Control) -> Result<(), ControlError> {
         controller.end_of_day(&self.record)
     }
 }
@@ -146,7 +146,7 @@ impl Day {
 pub fn run_day(
     plant: &Model,
     temperatures_c: &mut [f64],
-    controller: &mut impl Control,
+    controller: &mut dyn Control,
     targets: &Targets,
     forecast: &Disturbance,
     actual: &Disturbance,

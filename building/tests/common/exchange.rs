@@ -9,7 +9,7 @@ use interplay_building::lifted::Lifted;
 use super::reference::STEPS;
 
 /// Gives a controller a day of experience that teaches nothing: as forecast, from rest, without equipment.
-pub fn experienced(controller: &mut impl Control, model: &Model, targets: &Targets, day: &Disturbance) {
+pub fn experienced(controller: &mut dyn Control, model: &Model, targets: &Targets, day: &Disturbance) {
     let initial_c = vec![27.5; model.network().node_count()];
     let lifted = Lifted::new(model, STEPS);
     let day_ahead = DayAhead { initial_c: &initial_c, targets, forecast: day, actual: None };
@@ -21,7 +21,7 @@ pub fn experienced(controller: &mut impl Control, model: &Model, targets: &Targe
 }
 
 /// The design of a day that starts at 27 °C, after one that taught nothing.
-pub fn designed(controller: &mut impl Control, model: &Model, targets: &Targets, day: &Disturbance) -> Design {
+pub fn designed(controller: &mut dyn Control, model: &Model, targets: &Targets, day: &Disturbance) -> Design {
     experienced(controller, model, targets, day);
     let initial_c = vec![27.0; model.network().node_count()];
     controller

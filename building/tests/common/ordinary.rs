@@ -1,7 +1,7 @@
 //! Random light, heavy and mixed buildings, and days in them.
 
 use interplay_building::comfort::{Setpoints, Targets};
-use interplay_building::control::{Control, ControlError, Controller, DayRecord, Disturbance};
+use interplay_building::control::{ControlError, Controller, DayRecord, Disturbance};
 use interplay_building::day::{Surroundings, run_day};
 use interplay_building::discretise::Model;
 use interplay_building::network::{AMBIENT, Network, Wall, Zone};
@@ -82,15 +82,15 @@ impl OrdinaryBuilding {
 
     /// The same day some times over, which a controller learns to know; the forecast is wrong in the same way each day.
     pub fn run(&self, controller: Controller, days: usize) -> DesignOutcome {
-        let mut regulator = controller.regulator(&self.model, STEPS)?;
+        let mut controller = controller.controller(&self.model, STEPS)?;
         let mut temperatures_c = vec![27.0; self.model.network().node_count()];
         let mut costs = Vec::new();
         let mut fallbacks = 0;
         for _ in 0..days {
             let record: DayRecord =
-                run_day(&self.model, &mut temperatures_c, &mut regulator, &self.targets, &self.day.0, &self.day.1)?;
+                run_day(&self.model, &mut temperatures_c, &mut *controller, &self.targets, &self.day.0, &self.day.1)?;
             costs.push(self.targets.cost(&record.temperatures_c, &record.heat_kw));
-            fallbacks = regulator.design().fallbacks;
+            fallbacks = controller.design().fallbacks;
         }
         Ok((costs, fallbacks))
     }

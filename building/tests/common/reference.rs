@@ -94,7 +94,7 @@ pub fn chapter_5(wanted_c: Vec<f64>, zones: usize) -> Targets {
 pub fn run(
     plant: &Model,
     initial_c: f64,
-    controller: &mut impl Control,
+    controller: &mut dyn Control,
     targets: &Targets,
     days: &[(Disturbance, Disturbance)],
 ) -> Vec<DayRecord> {

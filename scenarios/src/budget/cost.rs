@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::design::operations_per_day;
 use crate::plant::Plant;
 use crate::scenario::Scenario;
 
@@ -48,7 +47,8 @@ impl RunCost {
         let zones = scenario.building.as_ref().map_or(0, |building| building.zone_count());
         let steps_per_day = scenario.building.as_ref().map_or(0, |building| building.steps_per_day());
         let building_steps = (scenario.days() * steps_per_day) as u64;
-        let operations = operations_per_day(&scenario.controller(), zones, steps_per_day) * scenario.days() as f64;
+        let operations =
+            scenario.controller().operations_per_day(zones as f64, steps_per_day as f64) * scenario.days() as f64;
         let zone_steps = building_steps.saturating_mul(zones as u64);
         let bytes = EMPTY_RECORDING_BYTES
             + (plans as f64) * scenario.horizon_steps as f64 * BYTES_PER_STAGE

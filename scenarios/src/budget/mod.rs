@@ -5,7 +5,6 @@
 
 mod check;
 mod cost;
-mod design;
 
 pub use cost::RunCost;
 

@@ -182,7 +182,7 @@ impl Checker<'_> {
             Ok(model) => model,
             Err(error) => return self.refuse("building.believed", "here", error.to_string(), ""),
         };
-        if let Err(error) = self.scenario.controller().regulator(&model, steps) {
+        if let Err(error) = self.scenario.controller().controller(&model, steps) {
             self.refuse(&format!("controller.{}", error.key()), "here", format!("`controller`: {error}"), "");
         }
     }

@@ -4,6 +4,7 @@
 use interplay_building::control::{Control, ControlError, DayAhead, DayRecord, Observation};
 
 /// Heat in proportion to what is missing, for what will be wanted some steps ahead.
+#[derive(Debug)]
 struct Early {
     gain_kw_per_k: f64,
     steps_ahead: usize,

@@ -48,11 +48,11 @@ pub fn control(
 
 /// Plans at midnight, and asks for the heat of the step.
 fn heat(building: &mut Building, step: usize, temperatures_c: &[f64]) -> Result<Heat, ControlError> {
-    let Building { model, regulator, targets, today, design_s, .. } = building;
+    let Building { model, controller, targets, today, design_s, .. } = building;
     if step == 0 {
         let began = Instant::now();
-        today.plan(regulator, targets)?;
+        today.plan(&mut **controller, targets)?;
         *design_s += began.elapsed().as_secs_f64();
     }
-    Ok(today.control(model, regulator, targets, step, temperatures_c))
+    Ok(today.control(model, &mut **controller, targets, step, temperatures_c))
 }

@@ -11,8 +11,8 @@ pub fn learn(mut building: ResMut<Building>) {
     let (_, step) = building.date();
     if step + 1 == building.steps_per_day() && building.failure.is_none() {
         let began = Instant::now();
-        let Building { regulator, today, design_s, failure, .. } = &mut *building;
-        *failure = today.learn(regulator).err().map(Into::into);
+        let Building { controller, today, design_s, failure, .. } = &mut *building;
+        *failure = today.learn(&mut **controller).err().map(Into::into);
         *design_s += began.elapsed().as_secs_f64();
     }
     building.step += 1;

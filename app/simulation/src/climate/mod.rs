@@ -18,7 +18,7 @@ mod spawn;
 
 use bevy_ecs::prelude::*;
 use interplay_building::comfort::{Agenda, Targets};
-use interplay_building::control::Regulator;
+use interplay_building::control::Control;
 use interplay_building::day::{Day, Surroundings};
 use interplay_building::discretise::Model;
 
@@ -70,7 +70,7 @@ pub struct Building {
     /// The weather and the people.
     pub surroundings: Surroundings,
     /// The controller at work.
-    pub regulator: Regulator,
+    pub controller: Box<dyn Control>,
     /// Steps done.
     pub step: usize,
     /// The day in progress.

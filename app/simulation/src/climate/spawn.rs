@@ -51,7 +51,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
     let believed = Model::new(&described.believed_network()?, described.method, described.step_s)?;
     let zones = network.zone_count();
     let surroundings = surroundings_of(scenario, zones);
-    let regulator = scenario.controller().regulator(&believed, steps)?;
+    let controller = scenario.controller().controller(&believed, steps)?;
     let mut plant = plant(scenario, described, [&model, &believed], &surroundings)?;
     for (index, initial_c) in plant.start()?.into_iter().enumerate() {
         let mut node = world.spawn((Node { index }, Temperature(initial_c)));
@@ -68,7 +68,7 @@ pub fn spawn(world: &mut World, scenario: &Scenario) -> Result<(), BuildingError
         targets: agenda.of_day(0),
         agenda,
         surroundings,
-        regulator,
+        controller,
         step: 0,
         today: Day::new(Vec::new(), nothing(), nothing()),
         design_s: 0.0,

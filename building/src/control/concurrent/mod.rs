@@ -18,10 +18,10 @@ pub mod youla;
 pub use settings::ConcurrentSettings;
 
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
+use super::interface::{Control, ControllerKind};
 use super::iterative::rows;
 use super::optimum::{ConstraintTightening, margins_kw, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
-use super::regulator::{ControllerKind, Regulator};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
 use super::{ControlError, DayAhead, Design, Observation};
 use crate::comfort::Targets;
@@ -113,8 +113,13 @@ impl ControllerKind for ConcurrentSettings {
         true
     }
 
-    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
-        Ok(Regulator::new(Concurrent::new(*self, Lifted::new(model, steps))?))
+    fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError> {
+        Ok(Box::new(Concurrent::new(*self, Lifted::new(model, steps))?))
+    }
+
+    fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
+        let unknowns = self.taps as f64 * zones * zones;
+        20.0 * unknowns.powi(3) + zones * steps * unknowns
     }
 }
 

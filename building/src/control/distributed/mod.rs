@@ -20,9 +20,9 @@ pub use settings::{CentralisedSettings, DistributedSettings, Scheme};
 
 use super::cooperative::{Conditions, LearningLaw, cooperative_error};
 use super::disturbance_estimate::DisturbanceEstimator;
-use super::optimum::{ConstraintTightening, check_size, plan};
+use super::interface::{Control, ControllerKind};
+use super::optimum::{ConstraintTightening, check_size, operations_of_optimum, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
-use super::regulator::{ControllerKind, Regulator};
 use super::{ControlError, DayAhead, Design, Exchange, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
@@ -175,11 +175,17 @@ impl ControllerKind for DistributedSettings {
         true
     }
 
-    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+    fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError> {
         if self.compare {
             check_size(model)?;
         }
-        Ok(Regulator::new(Distributed::new(*self, model, steps)?))
+        Ok(Box::new(Distributed::new(*self, model, steps)?))
+    }
+
+    fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
+        let compared = if self.compare { operations_of_optimum(zones, steps) } else { 0.0 };
+        let exchange = 4.0 * self.rounds as f64 * zones * steps.powi(2);
+        20.0 * zones * steps.powi(3) + exchange + compared
     }
 }
 
@@ -283,9 +289,13 @@ impl ControllerKind for CentralisedSettings {
         true
     }
 
-    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
+    fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError> {
         check_size(model)?;
-        Ok(Regulator::new(Centralised::new(*self, Lifted::new(model, steps))?))
+        Ok(Box::new(Centralised::new(*self, Lifted::new(model, steps))?))
+    }
+
+    fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
+        operations_of_optimum(zones, steps)
     }
 }
 

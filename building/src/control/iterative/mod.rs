@@ -31,9 +31,9 @@ pub use size::{MOST_LINEAR_TEMPERATURES, MOST_LMI_TEMPERATURES, MOST_UNKNOWNS};
 pub use static_feedback::StaticFeedback;
 
 use super::disturbance_estimate::{DisturbanceEstimator, PredictionError};
+use super::interface::{Control, ControllerKind};
 use super::optimum::{ConstraintTightening, ErrorBound, margins_kw, plan};
 use super::planning::{DayPlan, PlanHistory, PlanningDesign};
-use super::regulator::{ControllerKind, Regulator};
 use super::uncertainty::{Uncertainty, factor, normal_quantile};
 use super::{ControlError, DayAhead, Design, Observation};
 use crate::comfort::Targets;
@@ -175,8 +175,12 @@ impl ControllerKind for IterativeSettings {
         true
     }
 
-    fn regulator(&self, model: &Model, steps: usize) -> Result<Regulator, ControlError> {
-        Ok(Regulator::new(Iterative::new(*self, Lifted::new(model, steps))?))
+    fn controller(&self, model: &Model, steps: usize) -> Result<Box<dyn Control>, ControlError> {
+        Ok(Box::new(Iterative::new(*self, Lifted::new(model, steps))?))
+    }
+
+    fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
+        10.0 * (zones * steps).powi(3)
     }
 }
 

@@ -15,8 +15,8 @@ mod settings;
 
 pub use settings::PredictiveSettings;
 
+use super::interface::ControllerKind;
 use super::optimum::{ConstraintTightening, plan};
-use super::regulator::{ControllerKind, Regulator};
 use super::{Control, ControlError, DayAhead, DayRecord, Design, Disturbance, Observation};
 use crate::comfort::Targets;
 use crate::discretise::Model;
@@ -110,8 +110,14 @@ impl ControllerKind for PredictiveSettings {
         "it heats or cools before people come, and what the forecast missed is corrected within hours"
     }
 
-    fn regulator(&self, model: &Model, _steps: usize) -> Result<Regulator, ControlError> {
-        Ok(Regulator::new(Predictive::new(*self, model)?))
+    fn controller(&self, model: &Model, _steps: usize) -> Result<Box<dyn Control>, ControlError> {
+        Ok(Box::new(Predictive::new(*self, model)?))
+    }
+
+    fn operations_per_day(&self, zones: f64, steps: f64) -> f64 {
+        // A plan of 1024 inputs takes some tenths of a second, and there is one at each step.
+        let horizon = self.horizon(86_400.0 / steps) as f64;
+        steps * 0.15 * (zones * horizon).powi(3)
     }
 }
 
@@ -157,5 +163,9 @@ impl Control for Predictive {
 
     fn trouble(&self) -> Option<&ControlError> {
         self.trouble.as_ref()
+    }
+
+    fn fork(&self) -> Option<Box<dyn Control>> {
+        Some(Box::new(self.clone()))
     }
 }
