@@ -215,7 +215,7 @@ impl RowOnTrajectory for OwnTrajectoryRow {
 #[test]
 fn terms_of_another_crate() {
     check_all(|random| {
-        let cost = OwnCost { weight: random.between(0.5, 2.0), error: 0.0 };
+        let cost = OwnCost { weight: random.uniform(0.5, 2.0), error: 0.0 };
         problem(&[indifferent(random)], [Term::Foreign(ForeignTerm::cost(0, cost))])
     });
     check_all(|random| problem(&[indifferent(random)], [Term::Foreign(ForeignTerm::row(0, OwnRow))]));

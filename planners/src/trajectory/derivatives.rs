@@ -1,6 +1,6 @@
 //! One checker of derivatives for every cost and constraint, those of another crate included.
 //!
-//! It compares the cost of a trajectory problem with the model that [`StepProblem`] makes of it, along a
+//! It compares the cost of a trajectory problem with the model that [`QpSubproblem`] makes of it, along a
 //! direction `w` of the inputs. With the rows' multipliers set to the slopes of their penalties, the model's odd and even parts
 //! must be the first and second derivatives of the cost:
 //!
@@ -9,12 +9,13 @@
 //! (J(u + εw) − 2J(u) + J(u − εw))/ε²  →  second derivative along w
 //! ```
 
+use interplay_common::random::SplitMix64;
 use thiserror::Error;
 
 use super::iterate::Iterate;
 use super::penalty::Penalty;
 use super::problem::Problem;
-use super::sqp::StepProblem;
+use super::sqp::QpSubproblem;
 use super::stage::{StageQp, StageSolution};
 use crate::Input;
 
@@ -54,7 +55,7 @@ pub enum DerivativeError {
     NotConvex(f64),
 }
 
-/// Checks the first and second derivatives that the terms of a problem state, at an iterate along eight directions.
+/// Checks the first and second derivatives that the terms of a problem state, at an iterate along eight random directions, every time the same ones.
 ///
 /// The states of the iterate are rolled out ([`Problem::start`]). Rows should not be within a ten-thousandth of their bound: there
 /// the penalty has a kink.
@@ -64,8 +65,9 @@ pub enum DerivativeError {
 pub fn check_derivatives(problem: &Problem, iterate: &Iterate) -> Result<LargestDerivatives, DerivativeError> {
     let (exact, convex) = (exact_model(problem, iterate), linearized(problem, iterate).qp);
     let mut largest = LargestDerivatives::default();
-    for number in 0..DIRECTIONS {
-        let direction = direction(problem, number);
+    let mut random = SplitMix64::new(0);
+    for _ in 0..DIRECTIONS {
+        let direction = direction(problem, &mut random);
         let cost = |share: f64| problem.cost(&moved(problem, iterate, &direction, share)).total;
         let change = |qp: &StageQp, share: f64| qp.change(&deviation(qp, &direction, share));
         let here = cost(0.0);
@@ -91,7 +93,7 @@ fn compare(which: &'static str, numeric: f64, stated: f64, tolerance: f64) -> Re
     if is_close { Ok(()) } else { Err(DerivativeError::Differs { which, numeric, stated }) }
 }
 
-/// The step problem at an iterate with the exact Hessian of the cost, penalties included.
+/// The QP subproblem at an iterate with the exact Hessian of the cost, penalties included.
 pub fn exact_model(problem: &Problem, iterate: &Iterate) -> StageQp {
     let mut step = linearized(problem, iterate);
     let mut multipliers = StageSolution::default();
@@ -108,9 +110,9 @@ pub fn exact_model(problem: &Problem, iterate: &Iterate) -> StageQp {
     step.qp
 }
 
-/// The step problem at an iterate with the Hessian of Gauss and Newton.
-fn linearized(problem: &Problem, iterate: &Iterate) -> StepProblem {
-    let mut step = StepProblem::default();
+/// The QP subproblem at an iterate with the Hessian of Gauss and Newton.
+fn linearized(problem: &Problem, iterate: &Iterate) -> QpSubproblem {
+    let mut step = QpSubproblem::default();
     step.linearize(problem, iterate);
     step
 }
@@ -120,26 +122,14 @@ fn slope(penalty: Penalty, violation: f64) -> f64 {
     if violation > 0.0 { penalty.linear + 2.0 * penalty.quadratic * violation } else { 0.0 }
 }
 
-/// Per vehicle and stage, a direction of the inputs, evenly spread over −1…1; zero where the inputs are known.
-fn direction(problem: &Problem, number: usize) -> Vec<Vec<[f64; 2]>> {
-    let mut count = (number * problem.horizon * problem.participants.len() * 2) as u64;
-    let mut next = || {
-        count += 1;
-        spread(count)
-    };
+/// Per vehicle and stage, a random direction of the inputs; zero where the inputs are known.
+fn direction(problem: &Problem, random: &mut SplitMix64) -> Vec<Vec<[f64; 2]>> {
+    let mut next = || random.uniform(-1.0, 1.0);
     let stages = problem.participants.iter().map(|participant| {
         let stage = |k: usize| if k < participant.first() { [0.0; 2] } else { [next(), next()] };
         (0..problem.horizon).map(stage).collect()
     });
     stages.collect()
-}
-
-/// A number from −1 to 1 for each count, as if drawn (the mixing function of SplitMix64: Steele et al. 2014).
-fn spread(count: u64) -> f64 {
-    let mixed = count.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    (mixed ^ (mixed >> 31)) as i64 as f64 / i64::MAX as f64
 }
 
 fn moved(problem: &Problem, iterate: &Iterate, direction: &[Vec<[f64; 2]>], share: f64) -> Iterate {
