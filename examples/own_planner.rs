@@ -1,14 +1,11 @@
 //! A planner of one's own, in one's own crate: a kind of driver with a setting, which scenario files may name like ours.
-//!
-//! ```text
-//! cargo run --release -p interplay-examples --example own_planner
-//! ```
+//! `cargo run --release -p interplay-examples --example own_planner`
 
 #![allow(clippy::print_stdout, reason = "an example prints what it found")]
 
 use interplay_planners::belief::Outlook;
-use interplay_planners::predict::steady;
-use interplay_planners::{Bicycle, Drive, DriverKind, Plan, PlanError, Scene, Trajectory};
+use interplay_planners::predict::steady_inputs;
+use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene, Trajectory};
 use interplay_scenarios::{Override, Registry};
 use interplay_simulation::run::run;
 use schemars::JsonSchema;
@@ -45,19 +42,10 @@ impl Drive for Careful {
         let ahead = scene.others.iter().filter(|other| ego.shares_lane_with(other) && ego.lead_of(other) > 0.0);
         let gap_m = ahead.map(|other| ego.lead_of(other) - ego.body.front_m - other.body.rear_m).min_by(f64::total_cmp);
         let allowed_mps = gap_m.map_or(f64::INFINITY, |gap_m| gap_m.max(0.0) / self.headway_s);
-        let wanted_mps = scene.goal.target.speed_mps.min(allowed_mps);
-        let inputs = steady(
-            &ego.state,
-            (wanted_mps - ego.state.speed_mps) / scene.step_s,
-            &ego.limits,
-            scene.horizon,
-            scene.step_s,
-        );
-        let model = Bicycle::new(&ego.body, scene.step_s);
-        let mut states = vec![ego.state];
-        for input in &inputs {
-            states.extend(states.last().map(|state| model.step(state, input)));
-        }
+        let wanted_mps = allowed_mps.min(scene.goal.target.speed_mps);
+        let inputs = steady_inputs(scene, (wanted_mps - ego.state.speed_mps) / scene.step_s);
+        let mut states = Vec::new();
+        scene.model().roll_out(&ego.state, &inputs, &mut states);
         Ok(Plan { trajectory: Trajectory { states, inputs }, ..Plan::default() })
     }
 }
