@@ -127,6 +127,7 @@ fn is_path(word: &str) -> bool {
         "app/",
         "assets/",
         "building/experiments/",
+        "common/",
         "convex/",
         "docs/",
         "examples/",
