@@ -16,31 +16,31 @@ use crate::weather::TimeSeries;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Occupancy {
-    /// When work begins \[h\].
+    /// Hour of the day at which work begins \[h\].
     #[schemars(range(min = 0, max = 24))]
     pub from_h: f64,
-    /// When work ends \[h\].
+    /// Hour of the day at which work ends \[h\].
     #[schemars(range(min = 0, max = 24))]
     pub to_h: f64,
     /// How long it takes until all have come, or gone \[h\].
     #[schemars(range(min = 0.0))]
     pub ramp_h: f64,
-    /// When most are at lunch \[h\].
+    /// Hour of the day at which most are at lunch \[h\].
     #[schemars(range(min = 0, max = 24))]
     pub lunch_h: f64,
-    /// Share of the heat that is missing then.
+    /// Share of the heat that is missing at lunch.
     #[schemars(range(min = 0, max = 1), extend("x-unit" = "dimensionless"))]
     pub lunch_dip: f64,
-    /// Least peak of a zone \[kW\]; each zone's is drawn between the two.
+    /// Least peak of a zone's heat \[kW\]; each zone's is drawn between the least and the greatest.
     #[schemars(range(min = 0.0))]
     pub least_peak_kw: f64,
-    /// Greatest peak of a zone \[kW\].
+    /// Greatest peak of a zone's heat \[kW\].
     #[schemars(range(min = 0.0))]
     pub greatest_peak_kw: f64,
     /// Heat at all times \[kW\].
     #[schemars(range(min = 0.0))]
     pub base_kw: f64,
-    /// How reality deviates.
+    /// How real occupancy deviates from the schedule.
     pub deviation: Deviation,
 }
 
@@ -98,7 +98,7 @@ impl Default for Deviation {
 }
 
 impl Deviation {
-    /// Reality as scheduled.
+    /// No deviation: real occupancy is as scheduled.
     pub const NONE: Self = Self {
         least_bias: 0.0,
         greatest_bias: 0.0,

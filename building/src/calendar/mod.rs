@@ -52,10 +52,10 @@ const WEEK: [Weekday; 7] = [
     Weekday::Sunday,
 ];
 
-/// What a day is: a holiday, whatever its weekday, or else its weekday.
+/// The kind of a day: a holiday, whatever its weekday, or else its weekday.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DayKind {
-    /// No holiday.
+    /// A day of the week that is no holiday.
     Plain(Weekday),
     /// A holiday.
     Holiday,
@@ -69,7 +69,7 @@ pub struct RunDays {
     holidays: Vec<usize>,
 }
 
-/// A calendar that names no days.
+/// A calendar whose dates cannot be read or are missing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{problem}")]
 pub struct CalendarError {
@@ -104,7 +104,7 @@ impl DayKind {
         WEEK.into_iter().map(Self::Plain).chain([Self::Holiday])
     }
 
-    /// The place of this kind in [`DayKind::all`].
+    /// Index of this kind in [`DayKind::all`].
     pub fn index(self) -> usize {
         match self {
             Self::Plain(weekday) => weekday as usize,

@@ -26,13 +26,13 @@ impl Agenda {
         Ok(Self { common, setpoints, timetable: Timetable::default(), tariff: None, heat_pump: None, step_s })
     }
 
-    /// With the schedules of a timetable.
+    /// These targets with the schedules of a timetable.
     #[must_use]
     pub fn following(self, timetable: Timetable) -> Self {
         Self { timetable, ..self }
     }
 
-    /// With electricity at the prices of a tariff that was checked, and a heat pump that was.
+    /// These targets with the prices of a checked tariff and a checked heat pump.
     #[must_use]
     pub fn supplied(self, tariff: Option<Tariff>, heat_pump: Option<HeatPump>) -> Self {
         Self { tariff, heat_pump, ..self }

@@ -17,22 +17,22 @@ pub struct Setpoints {
     /// one.
     #[schemars(inner(range(min = -50.0, max = 100.0)), length(min = 1))]
     pub occupied_c: Vec<f64>,
-    /// When occupation begins \[h\].
+    /// Hour of the day at which occupation begins \[h\].
     #[schemars(range(min = 0.0, max = 24.0))]
     pub from_h: f64,
-    /// When occupation ends \[h\].
+    /// Hour of the day at which occupation ends \[h\].
     #[schemars(range(min = 0.0, max = 24.0))]
     pub to_h: f64,
     /// Wanted temperature at other times \[°C\]. Without it, or with `other_weight` 0, the temperature is then free.
     #[schemars(range(min = -50.0, max = 100.0), example = 28.0)]
     pub other_c: Option<f64>,
-    /// W_e while occupied: cost of a squared kelvin for a step.
+    /// Weight W_e while occupied: cost of a squared kelvin of deviation in a step.
     #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub occupied_weight: f64,
-    /// W_e at other times.
+    /// Weight W_e at other times: cost of a squared kelvin of deviation in a step.
     #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub other_weight: f64,
-    /// W_u: cost of a squared kilowatt for a step.
+    /// Weight W_u: cost of a squared kilowatt of heat in a step.
     #[schemars(range(min = 0.0), extend("x-unit" = "1/kW²"))]
     pub input_weight: f64,
     /// Deviations up to this are comfortable \[K\].
@@ -63,12 +63,12 @@ impl Default for Setpoints {
 /// Setpoints that are out of range, or do not fit a building.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SetpointsError {
-    /// Neither one temperature for all zones nor one for each.
+    /// The number of wanted temperatures is neither 1 nor that of the zones.
     #[error("occupied_c has {found} temperatures for {zones} zones: give one for each, or one for all")]
     Count {
-        /// How many temperatures there are.
+        /// Number of stated temperatures.
         found: usize,
-        /// How many zones there are.
+        /// Number of zones.
         zones: usize,
     },
     /// A setting is out of range.
@@ -80,19 +80,19 @@ pub enum SetpointsError {
 /// steps, time-major: entry (t − 1)·n + i is zone i at the end of step t.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Targets {
-    /// n, how many zones there are.
+    /// Number of zones, n.
     pub zones: usize,
     /// Wanted temperatures \[°C\], stacked; also where the weight is zero.
     pub reference_c: Vec<f64>,
-    /// W_e, stacked: cost of a squared kelvin; zero where the temperature is free.
+    /// Weights W_e, stacked: cost of a squared kelvin of deviation; zero where the temperature is free.
     pub error_weight: Vec<f64>,
     /// Whether the zone is occupied, stacked.
     pub occupied: Vec<bool>,
-    /// W_u, stacked: entry t·n + i is the cost of a squared kilowatt in zone i during step t.
+    /// Weights W_u, stacked: entry t·n + i is the cost of a squared kilowatt in zone i during step t.
     pub input_weight: Vec<f64>,
     /// Deviations up to this are comfortable while occupied \[K\], stacked.
     pub band_k: Vec<f64>,
-    /// What heat takes and costs.
+    /// Prices and equipment: the electricity that heat takes and what it costs.
     pub supply: EnergySupply,
     /// The targets of the next day, where it differs; without them the next day is like this one.
     pub tomorrow: Option<Box<Targets>>,
@@ -154,7 +154,7 @@ impl Setpoints {
 }
 
 impl Targets {
-    /// N, how many steps the day has.
+    /// Number of steps of the day, N.
     pub fn steps(&self) -> usize {
         self.reference_c.len() / self.zones.max(1)
     }
@@ -185,7 +185,7 @@ impl Targets {
         &self.reference_c[self.row(t)]
     }
 
-    /// W_e at the start of step t, one per zone.
+    /// Weights W_e at the start of step t, one per zone.
     ///
     /// # Panics
     /// When t is not below N.
@@ -251,7 +251,7 @@ impl Targets {
         row * self.zones..(row + 1) * self.zones
     }
 
-    /// J = Σ W_e e² + W_u u² (eq. 3.2), for stacked temperatures and inputs.
+    /// The cost J = Σ W_e e² + W_u u² (eq. 3.2) of stacked temperatures and inputs.
     ///
     /// # Panics
     /// When a slice has not n·N numbers.

@@ -39,13 +39,13 @@ macro_rules! controllers {
 }
 
 controllers! {
-    /// Full power or none, with a dead band.
+    /// A thermostat per zone: full power or none, with a dead band.
     Thermostat(ThermostatSettings),
     /// A PID controller per zone.
     Pid(PidSettings),
     /// Plain iterative learning of P- or PD-type on top of a PID controller, with or without a forecast.
     IterativeLearning(LearningSettings),
-    /// The cheapest inputs over a horizon, anew at every step.
+    /// Model predictive control: the cheapest inputs over a horizon, planned anew at every step.
     ModelPredictive(PredictiveSettings),
     /// The day's optimum, computed from the actual disturbances: for comparison.
     Clairvoyant(ClairvoyantSettings),

@@ -25,12 +25,13 @@ use crate::lifted::Lifted;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LearnedErrors {
-    /// Its own.
+    /// The zone's own errors.
     #[default]
     Own,
-    /// Its own, and how much worse it fares than each of its neighbours (eq. 5.1).
+    /// The zone's own errors, and the difference to those of each neighbour (eq. 5.1).
     Neighbours,
-    /// Its own and those of its neighbours, added up: Ω as the source words it, the adjacency matrix with ones on its diagonal.
+    /// The sum of the zone's own errors and those of its neighbours: Ω as the source words it, the adjacency matrix
+    /// with ones on its diagonal.
     NeighboursAsPrinted,
 }
 
@@ -61,7 +62,7 @@ impl LearnedErrors {
     }
 }
 
-/// Ω, zones by zones.
+/// The matrix Ω that combines the errors of zones, zones by zones.
 pub fn omega(lifted: &Lifted) -> DMatrix<f64> {
     let n = lifted.zones();
     let mut omega = DMatrix::identity(n, n);
@@ -74,7 +75,7 @@ pub fn omega(lifted: &Lifted) -> DMatrix<f64> {
     omega
 }
 
-/// Ω E, for stacked errors: what (5.1) asks of neighbours.
+/// The cooperative errors Ω E of stacked errors E (eq. 5.1).
 pub fn cooperative_error(lifted: &Lifted, errors_k: &[f64]) -> Vec<f64> {
     LearnedErrors::Neighbours.of_all(lifted, errors_k)
 }
@@ -83,17 +84,18 @@ pub fn cooperative_error(lifted: &Lifted, errors_k: &[f64]) -> Vec<f64> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LearningLaw(pub Vec<DMatrix<f64>>);
 
-/// What a learning law does to the errors of days that are all the same.
+/// The convergence of a learning law from day to day, if all days are equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditions {
-    /// Below one, errors vanish in the end (eq. 5.6, corrected).
+    /// Spectral radius of the map of errors from one day to the next; below one, errors vanish in the end (eq. 5.6,
+    /// corrected).
     pub spectral_radius: f64,
-    /// At most one, they never grow on the way.
+    /// Largest singular value of that map; at most one, errors never grow on the way.
     pub largest_singular_value: f64,
 }
 
 impl LearningLaw {
-    /// l (I − aZ) in every zone, Z the delay by a step: P-type for a = 0.
+    /// The law l (I − aZ) in every zone, with the delay Z of a step; it is of P-type for a = 0.
     pub fn uniform(zones: usize, steps: usize, l: f64, a: f64) -> Self {
         let law = DMatrix::from_fn(steps, steps, |t, s| match t.checked_sub(s) {
             Some(0) => l,
@@ -123,7 +125,7 @@ impl LearningLaw {
         Self((0..zones).map(law).collect())
     }
 
-    /// L e, for stacked cooperative errors.
+    /// The change L e of the inputs, for stacked cooperative errors e.
     pub fn product(&self, cooperative_k: &[f64]) -> Vec<f64> {
         let n = self.0.len();
         let mut out = vec![0.0; cooperative_k.len()];
@@ -137,7 +139,7 @@ impl LearningLaw {
         out
     }
 
-    /// E_k+1 = (I + GC)⁻¹ (I − G L Ω) E_k, for a feedback of each zone on its own error.
+    /// The errors of the next day, E_k+1 = (I + GC)⁻¹ (I − G L Ω) E_k, with a feedback of each zone on its own error.
     pub fn next_errors_k(&self, lifted: &Lifted, gain_kw_per_k: f64, errors_k: &[f64]) -> Vec<f64> {
         let n = lifted.zones();
         let learned = self.product(&cooperative_error(lifted, errors_k));

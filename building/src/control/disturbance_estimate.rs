@@ -55,10 +55,10 @@ struct Today {
     forecast_c: Vec<f64>,
 }
 
-/// By how much a prediction was wrong.
+/// The error of a day's predicted disturbance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictionError {
-    /// D_k − (D̂_k + bias) \[kW\], stacked.
+    /// The measured disturbance minus the prediction, D_k − (D̂_k + bias) \[kW\], stacked.
     pub error_kw: Vec<f64>,
 }
 
@@ -69,7 +69,7 @@ impl DisturbanceEstimator {
         Self { lifted, prediction, rate, bias_kw, measured_kw: None, today: None }
     }
 
-    /// The model of a day.
+    /// The lifted model of a day.
     pub fn lifted(&self) -> &Lifted {
         &self.lifted
     }

@@ -20,21 +20,21 @@ pub enum ControlError {
     /// A series has another length than the day.
     #[error("{what} has {found} numbers; a day of this building needs {wanted}")]
     Shape {
-        /// The series.
+        /// Name of the series.
         what: &'static str,
-        /// Its length.
+        /// Length of the series.
         found: usize,
-        /// The right length.
+        /// Length that it must have.
         wanted: usize,
     },
     /// A series holds a NaN, or an implausibly large number.
     #[error("{what} is {value} at place {index}; a day can only be planned with numbers of less than a million")]
     NotFinite {
-        /// The series.
+        /// Name of the series.
         what: &'static str,
         /// Index of the number, from zero.
         index: usize,
-        /// The number.
+        /// The number that is refused.
         value: f64,
     },
     /// A covariance is not positive definite.
@@ -42,25 +42,25 @@ pub enum ControlError {
         "the covariance of the disturbance, {order} by {order}, is not positive definite: its correlations contradict"
     )]
     Covariance {
-        /// Its rows.
+        /// Number of rows of the matrix.
         order: usize,
     },
     /// No feedback satisfies a robust bound.
     #[error("{bound} is {value}, but no feedback gets below {floor:.4}; choose a larger bound")]
     BelowFloor {
-        /// The setting.
+        /// Key of the setting.
         bound: &'static str,
-        /// Its value.
+        /// Value of the setting.
         value: f64,
-        /// The least that is possible.
+        /// The least value that is possible.
         floor: f64,
     },
     /// A design with dense matrices was asked for a building that is too large for them.
     #[error("the {design} design has {found} unknowns for this building, at most {most}: use the distributed one")]
     TooManyUnknowns {
-        /// The design.
+        /// Name of the design.
         design: &'static str,
-        /// How many it would need.
+        /// Number of unknowns that the design would need.
         found: usize,
         /// The largest number that is solved in reasonable time.
         most: usize,
@@ -71,13 +71,13 @@ pub enum ControlError {
          {remedy}"
     )]
     TooManyTemperatures {
-        /// The certificate.
+        /// Name of the certificate.
         certificate: &'static str,
-        /// What works instead.
+        /// What to state instead.
         remedy: &'static str,
-        /// How many zones there are.
+        /// Number of zones.
         zones: usize,
-        /// How many temperatures there are, of zones and walls.
+        /// Number of temperatures, of zones and walls.
         nodes: usize,
         /// The largest number for which it is solved in reasonable time.
         most: usize,
@@ -104,7 +104,7 @@ pub enum ControlError {
         wanted: f64,
         /// The rate that is certified.
         certified: f64,
-        /// Why it was not found.
+        /// Why the wanted one was not found.
         reason: Box<ControlError>,
     },
     /// The feedback that was found is not stable.
@@ -122,17 +122,17 @@ pub enum ControlError {
          not finite; set `input_weight` above 0, and look for huge numbers in the forecast"
     )]
     NoZonePlans {
-        /// How many zones there are.
+        /// Number of zones.
         zones: usize,
         /// The round of the exchange, from 1.
         round: usize,
     },
-    /// A step of a controller that plans at every step.
+    /// A controller that plans at every step found no plan in one of them.
     #[error("step {step} has no plan of its own: {why}")]
     StepWithoutPlan {
         /// The step, counted from midnight.
         step: usize,
-        /// Why not.
+        /// Why there is no plan.
         why: Box<ControlError>,
     },
     /// The clairvoyant controller did not get the actual disturbance.
@@ -144,7 +144,7 @@ pub enum ControlError {
          forward Euler"
     )]
     TooLarge {
-        /// How many temperatures the network has.
+        /// Number of temperatures of the network.
         nodes: usize,
         /// The largest number of temperatures with matrices.
         most: usize,

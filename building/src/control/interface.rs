@@ -10,7 +10,7 @@ use crate::discretise::Model;
 use crate::lifted::Lifted;
 use crate::network::Network;
 
-/// What acts on a building besides its equipment, over the steps of a day.
+/// The disturbance of a building over the steps of a day: all that acts on it besides its equipment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disturbance {
     /// Outdoor temperature \[°C\], one per step.
@@ -25,7 +25,7 @@ pub struct Disturbance {
 pub struct DayAhead<'a> {
     /// Temperatures of the nodes at midnight \[°C\], zones first.
     pub initial_c: &'a [f64],
-    /// The targets.
+    /// The targets of the day.
     pub targets: &'a Targets,
     /// The forecast disturbance.
     pub forecast: &'a Disturbance,
@@ -44,7 +44,7 @@ pub struct Observation<'a> {
     pub targets: &'a Targets,
 }
 
-/// What happened on a day. Temperatures are those at the ends of the steps; all series are stacked, time-major.
+/// The record of a day. Temperatures are those at the ends of the steps; all series are stacked, time-major.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DayRecord {
     /// Temperatures of the zones T(1) … T(N) \[°C\].

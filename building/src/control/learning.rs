@@ -34,7 +34,7 @@ pub struct LearningSettings {
     /// Heat that the next day adds per kelvin that the zone was too cold one step later, `l_p` \[kW/K\].
     #[schemars(range(min = 0.0))]
     pub proportional_kw_per_k: f64,
-    /// l_d \[kW/K\] per change of the error over a step; 0 for P-type. It suits one step and capacity.
+    /// Gain l_d of the change of the error over a step \[kW/K\]; 0 for P-type. It suits one step and capacity.
     #[schemars(range(min = 0.0))]
     pub derivative_kw_per_k: f64,
     /// Which errors a zone learns from. With those of its neighbours the same gains act more strongly: with two neighbours up to
@@ -42,7 +42,7 @@ pub struct LearningSettings {
     pub errors: LearnedErrors,
     /// Whether inputs are corrected for the change of the forecast from yesterday to today.
     pub forecast: bool,
-    /// The feedback C.
+    /// The gains of the feedback C, a PID controller per zone.
     pub feedback: PidSettings,
 }
 

@@ -25,22 +25,22 @@ const SOLVER_TOLERANCE: f64 = 1e-10;
 /// Cost of a kelvin beyond the comfort band while occupied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandPenalty {
-    /// c₁, per kelvin and step.
+    /// Cost c₁ per kelvin beyond the band and step.
     pub linear: f64,
-    /// c₂, per squared kelvin and step.
+    /// Cost c₂ per squared kelvin beyond the band and step.
     pub quadratic: f64,
 }
 
-/// The optimum of a day.
+/// The optimal inputs of a day with their temperatures and costs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DayOptimum {
     /// Inputs u(0) … u(N−1) \[kW\], stacked.
     pub heat_kw: Vec<f64>,
-    /// Temperatures of the zones T(1) … T(N) under them \[°C\], stacked.
+    /// Temperatures of the zones T(1) … T(N) under these inputs \[°C\], stacked.
     pub temperatures_c: Vec<f64>,
-    /// J (eq. 3.2) without the penalty of the comfort band.
+    /// Cost J (eq. 3.2) without the penalty of the comfort band.
     pub cost: f64,
-    /// The objective: J with the penalty.
+    /// Objective: J with the penalty of the comfort band.
     pub objective: f64,
     /// Multipliers of the input limits: decrease of the objective per kilowatt of wider limits, stacked.
     pub limit_price: Vec<f64>,

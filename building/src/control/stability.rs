@@ -27,11 +27,11 @@ use super::ControlError;
 /// A form of the matrix inequality.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lmi {
-    /// (3.23) as printed.
+    /// The inequality (3.23) as printed.
     Printed,
-    /// With the decay rate r.
+    /// The corrected inequality with the decay rate r.
     Corrected {
-        /// r, at most 1.
+        /// The decay rate r per step, at most 1.
         decay: f64,
     },
 }
@@ -69,7 +69,8 @@ fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     product
 }
 
-/// A − BK, nodes by nodes; `b` is nodes by zones and `gain` zones by zones: walls are not measured.
+/// The matrix A − BK of the closed loop, nodes by nodes; `b` is nodes by zones and `gain` zones by zones, since walls
+/// are not measured.
 pub fn closed_loop(a: &DMatrix<f64>, b: &DMatrix<f64>, gain: &DMatrix<f64>) -> DMatrix<f64> {
     let mut closed = a.clone();
     for j in 0..gain.ncols() {

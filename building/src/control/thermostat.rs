@@ -16,7 +16,7 @@ pub struct ThermostatSettings {
     /// Equipment starts when the error exceeds this \[K\], and stops when the wanted temperature is reached.
     #[schemars(range(min = 0.0))]
     pub dead_band_k: f64,
-    /// Power while it runs, as a share of the limit.
+    /// Power while the equipment runs, as a share of its limit.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub power: f64,
 }

@@ -78,7 +78,7 @@ impl Uncertainty {
         Ok(Self { settings, seen: [(0.0, 0.0); 3] })
     }
 
-    /// σ_w, σ_o while occupied, σ_o otherwise \[kW\].
+    /// The standard deviations σ_w, σ_o while occupied, and σ_o otherwise \[kW\].
     pub fn deviations_kw(&self) -> [f64; 3] {
         let UncertaintySettings { common_kw, zone_kw, zone_other_kw, prior_days, .. } = self.settings;
         let mut deviations_kw = [common_kw, zone_kw, zone_other_kw];
@@ -90,7 +90,7 @@ impl Uncertainty {
         deviations_kw
     }
 
-    /// Σ, n·N by n·N \[kW²\].
+    /// The covariance Σ of a day's disturbance, n·N by n·N \[kW²\].
     pub fn covariance(&self, targets: &Targets) -> DMatrix<f64> {
         let (n, steps) = (targets.zones, targets.steps());
         let [common_kw, zone_kw, other_kw] = self.deviations_kw();
@@ -173,7 +173,7 @@ impl Targets {
     }
 }
 
-/// L with Σ = LLᵀ, lower triangular.
+/// The Cholesky factor L of a covariance: Σ = LLᵀ, lower triangular.
 ///
 /// # Errors
 /// [`ControlError::Covariance`] if Σ is not positive definite, or an entry is not finite.
@@ -186,7 +186,7 @@ pub fn factor(covariance: DMatrix<f64>) -> Result<DMatrix<f64>, ControlError> {
     }
 }
 
-/// Φ⁻¹(p): the quantile of the standard normal distribution, for 0 < p < 1.
+/// The quantile Φ⁻¹(p) of the standard normal distribution, for 0 < p < 1.
 pub fn normal_quantile(p: f64) -> f64 {
     // Φ(x) = erfc(−x/√2)/2, by bisection to the last digit.
     let (mut low, mut high) = (-40.0, 40.0);

@@ -14,10 +14,10 @@ use crate::network::PowerLimits;
 /// Shortest time over which a peak is averaged \[s\].
 const PEAK_WINDOW_S: f64 = 900.0;
 
-/// How a day turned out.
+/// The key figures of a building's day: cost, comfort and energy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct KeyFigures {
-    /// J (eq. 3.2).
+    /// Cost J (eq. 3.2).
     pub cost: f64,
     /// Root of the mean squared error over zones and occupied steps \[K\]; 0 if none is occupied.
     pub tracking_rmse_c: f64,
@@ -25,7 +25,7 @@ pub struct KeyFigures {
     pub discomfort_k_h: f64,
     /// Heat brought in and taken out by the equipment \[kWh\].
     pub energy_kwh: f64,
-    /// Electricity that the equipment took for it \[kWh\]; without a heat pump as much as the heat.
+    /// Electricity that the equipment took for this heat \[kWh\]; without a heat pump as much as the heat.
     pub electricity_kwh: f64,
     /// What the electricity cost \[currency\]; none without a tariff.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -39,11 +39,11 @@ pub const MAX_REGRET_INPUTS: usize = 500;
 pub struct Day {
     /// Temperatures of the nodes at midnight \[°C\], zones first.
     pub initial_c: Vec<f64>,
-    /// What is forecast.
+    /// The forecast disturbance of the day.
     pub forecast: Disturbance,
-    /// What happens.
+    /// The actual disturbance of the day.
     pub actual: Disturbance,
-    /// What happened so far.
+    /// The record of the steps so far.
     pub record: DayRecord,
     /// The targets under the forecast, where it changes them.
     expected_targets: Option<Targets>,
@@ -52,14 +52,14 @@ pub struct Day {
 /// Heat from the equipment in a step, one number per zone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heat {
-    /// What the controller asked for \[kW\].
+    /// Heat that the controller requested \[kW\].
     pub requested_kw: Vec<f64>,
-    /// What the equipment gives: the request within its limits \[kW\].
+    /// Heat that the equipment gives: the request within its limits \[kW\].
     pub applied_kw: Vec<f64>,
 }
 
 impl Day {
-    /// A day of which nothing has happened yet.
+    /// A day at its midnight, before its first step.
     pub fn new(initial_c: Vec<f64>, forecast: Disturbance, actual: Disturbance) -> Self {
         let empty = || Vec::with_capacity(actual.gains_kw.len());
         let record =

@@ -8,7 +8,7 @@ use crate::weather::{Forecast, Weather};
 /// A day \[s\].
 const DAY_S: f64 = 86_400.0;
 
-/// What acts on a building from outside its equipment, on every day of a run.
+/// Weather and people on every day of a run, from which disturbances follow.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
     /// The weather since the first midnight.
@@ -35,7 +35,7 @@ impl Surroundings {
         }
     }
 
-    /// What happens on day `day`, counted from zero.
+    /// The actual disturbance of day `day`, counted from zero.
     pub fn actual(&self, model: &Model, steps: usize, day: usize) -> Disturbance {
         let (start_s, step_s) = (day as f64 * DAY_S, model.step_s());
         Disturbance {

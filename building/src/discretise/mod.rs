@@ -49,7 +49,7 @@ pub enum Discretisation {
     Euler,
 }
 
-/// How the exact discretisation is kept.
+/// How the matrices of the exact discretisation are represented.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// As matrices.
@@ -58,13 +58,13 @@ pub enum Form {
     Series,
 }
 
-/// A step for which there is no discretisation.
+/// Why a step has no discretisation.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// The step is no positive duration.
     #[error("the step is {step_s} s; it must be a positive number of seconds, at most a year")]
     BadStep {
-        /// The step.
+        /// Duration of the step \[s\].
         step_s: f64,
     },
     /// Forward Euler would grow without end.
@@ -74,14 +74,14 @@ pub enum ModelError {
          kJ/K)"
     )]
     Unstable {
-        /// The step.
+        /// Duration of the step \[s\].
         step_s: f64,
         /// Twice the inverse of the network's fastest rate.
         largest_step_s: f64,
     },
 }
 
-/// A network with its step: everything needed to simulate it.
+/// A thermal network in steps of time: all that is needed to simulate it.
 #[derive(Clone, Debug)]
 pub struct Model {
     network: Network,
@@ -96,11 +96,11 @@ pub struct Model {
 /// Where the heat of one step went \[kWh\]; `heat_in = lost + stored`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
-    /// From equipment, people, sun and machines.
+    /// Heat from equipment, people, sun and machines.
     pub heat_in_kwh: f64,
-    /// To the air outside.
+    /// Heat lost to the air outside.
     pub lost_kwh: f64,
-    /// In zones and walls.
+    /// Heat stored in zones and walls.
     pub stored_kwh: f64,
 }
 
@@ -232,7 +232,7 @@ impl Model {
         }
     }
 
-    /// B x for any x over the nodes.
+    /// The product B x, for any x over the nodes.
     ///
     /// # Panics
     /// When `x` has not one number per node.
@@ -241,7 +241,7 @@ impl Model {
         self.end.product(&self.network, x)
     }
 
-    /// A x = x − B L x for any x over the nodes.
+    /// The product A x = x − B L x, for any x over the nodes.
     ///
     /// # Panics
     /// When `x` has not one number per node.
@@ -250,7 +250,7 @@ impl Model {
         x.iter().zip(fallen).map(|(x, fallen)| x - fallen).collect()
     }
 
-    /// Aᵀ x = x − L B x for any x over the nodes.
+    /// The product Aᵀ x = x − L B x, for any x over the nodes.
     ///
     /// # Panics
     /// When `x` has not one number per node.
@@ -259,12 +259,13 @@ impl Model {
         x.iter().zip(fallen).map(|(x, fallen)| x - fallen).collect()
     }
 
-    /// A, nodes by nodes (eq. 2.16).
+    /// The matrix A, nodes by nodes (eq. 2.16).
     pub fn state_matrix(&self) -> DMatrix<f64> {
         self.columns(self.network.node_count(), |unit| self.state_product(unit))
     }
 
-    /// B, nodes by zones \[K/kW\] (eq. 2.16). The columns of wall nodes are left out: no equipment heats a wall.
+    /// The matrix B, nodes by zones \[K/kW\] (eq. 2.16). The columns of wall nodes are left out: no equipment heats a
+    /// wall.
     pub fn gain_matrix(&self) -> DMatrix<f64> {
         self.columns(self.network.zone_count(), |unit| self.gain_product(unit))
     }

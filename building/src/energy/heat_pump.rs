@@ -14,7 +14,7 @@ pub struct HeatPump {
     /// a constant COP; none is 1, as of an electric heater.
     #[schemars(length(max = 100))]
     pub heating: Vec<CopPoint>,
-    /// COP while it cools, likewise.
+    /// COP while it cools, in the same form as `heating`.
     #[schemars(length(max = 100))]
     pub cooling: Vec<CopPoint>,
 }

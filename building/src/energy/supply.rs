@@ -11,7 +11,8 @@ pub struct EnergySupply {
     pub heat_pump: Option<HeatPump>,
     /// The outdoor temperature of each step \[°C\]; empty as long as it is not known.
     pub outdoor_c: Vec<f64>,
-    /// W_u with the prices and without the heat pump, stacked; empty without a heat pump, and where energy has no weight.
+    /// Weights W_u with the prices and without the heat pump, stacked; empty without a heat pump, and where energy has
+    /// no weight.
     pub price_weight: Vec<f64>,
 }
 

@@ -76,7 +76,7 @@ impl CheckedEstimate {
 }
 
 impl OtherEstimate {
-    /// The result for a coefficient.
+    /// The estimate of a coefficient by this cross-check.
     pub fn check(&self, index: usize) -> CrossCheck {
         let (value, error) = of_coefficient(&self.estimate, index);
         let known = error.is_finite();

@@ -11,7 +11,7 @@ pub enum IdentifyError {
     /// A zone has neither walls nor heat nor sun.
     #[error("zone `{zone}` has no wall, no heat and no sun: give it at least one, or there is nothing to identify")]
     NothingToIdentify {
-        /// The zone.
+        /// Name of the zone.
         zone: String,
     },
     /// There are too few rows.
@@ -19,9 +19,9 @@ pub enum IdentifyError {
         "{rows} usable steps are too few for {parameters} parameters: at least {wanted} are needed; add rows, raise `train_days`, or lower `harmonics` or `autoregressive_order`"
     )]
     TooFewRows {
-        /// Usable steps.
+        /// Number of usable steps.
         rows: usize,
-        /// Parameters to fit.
+        /// Number of parameters to fit.
         parameters: usize,
         /// The number of rows that is needed.
         wanted: usize,
@@ -31,15 +31,15 @@ pub enum IdentifyError {
         "{zones} zones are too many: at most {most} can be identified together; identify groups of zones, with the others as boundaries"
     )]
     TooManyZones {
-        /// The zones.
+        /// Number of zones.
         zones: usize,
-        /// The most.
+        /// Largest number of zones.
         most: usize,
     },
     /// A temperature is missing, which only the method `state-space` allows.
     #[error("a temperature of zone `{zone}` is missing: set `gaps = \"split\"`, or use the method `state-space`")]
     MissingTemperature {
-        /// The zone.
+        /// Name of the zone.
         zone: String,
     },
     /// A fit has no finite error.

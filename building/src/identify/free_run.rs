@@ -16,9 +16,9 @@ use super::telemetry::Telemetry;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ResidualForecast {
-    /// As zero: the network alone.
+    /// The term is zero: the network alone.
     None,
-    /// As constant.
+    /// The term is constant.
     Constant,
     /// By a constant and ARMA(r,1), the source's residual model.
     Arma,
@@ -29,7 +29,7 @@ pub enum ResidualForecast {
 }
 
 impl ResidualForecast {
-    /// All of them.
+    /// All forecasts, in the order of a report.
     pub const ALL: [Self; 5] = [Self::None, Self::Constant, Self::Arma, Self::Profile, Self::ProfileArma];
 }
 

@@ -9,21 +9,21 @@ pub struct IdentifiedNetwork {
     pub zones: Vec<Zone>,
     /// The walls, as estimated; the first boundary, and any other, is the air outside.
     pub walls: Vec<Wall>,
-    /// By how much it may be wrong.
+    /// The uncertainty of the estimates.
     pub uncertainty: NetworkUncertainty,
     /// Mean temperature of the zones and of the first boundary over the record \[°C\].
     pub mean_c: (f64, Option<f64>),
-    /// What a reader must know of it.
+    /// Remarks that a reader must know before using the network.
     pub remarks: Vec<String>,
 }
 
 /// Ends of 95 % intervals as multiples of the estimates; of several zones or walls the widest one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NetworkUncertainty {
-    /// Of heat capacities.
+    /// Interval of heat capacities.
     pub capacity: (f64, f64),
-    /// Of resistances between zones.
+    /// Interval of resistances between zones.
     pub inner_resistance: (f64, f64),
-    /// Of resistances to the air outside.
+    /// Interval of resistances to the air outside.
     pub outer_resistance: (f64, f64),
 }

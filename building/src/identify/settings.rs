@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::discretise;
 
-/// How to identify. Every field has a default.
+/// The settings of an identification. Every field has a default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct IdentifySettings {
@@ -27,7 +27,7 @@ pub struct IdentifySettings {
     /// How a step is understood when rates become capacities and time constants: `exact` for measured buildings, which do
     /// not live in steps; `euler` for data simulated by eq. 2.3 itself. `state-space` is always exact.
     pub discretisation: discretise::Discretisation,
-    /// r, the autoregressive order of the residual model.
+    /// Autoregressive order r of the residual model.
     #[schemars(range(min = 1, max = 10))]
     pub autoregressive_order: usize,
     /// How many daily harmonics the residual model and `prediction-error` hold.
@@ -77,11 +77,11 @@ pub enum Estimator {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum HiddenTemperature {
-    /// Of the mass in a wall to a boundary.
+    /// The temperature of the mass in a wall to a boundary.
     Wall,
-    /// Of a mass that exchanges heat with the air alone: furniture, floors, inner walls.
+    /// The temperature of a mass that exchanges heat with the air alone: furniture, floors, inner walls.
     Interior,
-    /// Of the heater, through which the heat comes.
+    /// The temperature of the heater, through which the heat comes.
     Heater,
 }
 

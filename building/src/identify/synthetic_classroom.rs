@@ -23,21 +23,21 @@ const BEYOND_C: f64 = 24.5;
 /// Steps of a day of 86,400 s, each of `STEP_S`.
 const STEPS_PER_DAY: usize = 96;
 
-/// What to simulate.
+/// The settings of a simulated classroom.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Classroom {
-    /// How long.
+    /// Number of simulated days.
     pub days: usize,
-    /// What all chance depends on.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Standard deviation of the noise of each temperature sensor \[K\].
     pub sensor_noise_k: f64,
-    /// What disturbs the room beside the sun.
+    /// The disturbance of the room besides the sun.
     pub disturbance: RoomDisturbance,
 }
 
-/// The disturbance beside the sun.
+/// The kind of disturbance of the room besides the sun.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RoomDisturbance {

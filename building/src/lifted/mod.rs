@@ -24,7 +24,7 @@ use nalgebra::DMatrix;
 use crate::discretise::Model;
 use zone_gain::ZoneGain;
 
-/// A model over a horizon.
+/// The lifted form of a model: the temperatures of a whole horizon as a linear map of its inputs, T = T_free + G U.
 #[derive(Clone, Debug)]
 pub struct Lifted {
     model: Model,
@@ -38,27 +38,27 @@ impl Lifted {
         Self { model: model.clone(), steps, zone_gain: ZoneGain::of(model) }
     }
 
-    /// The model.
+    /// The model of one step.
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// N, the number of steps.
+    /// Number of steps, N.
     pub fn steps(&self) -> usize {
         self.steps
     }
 
-    /// n, the number of zones.
+    /// Number of zones, n.
     pub fn zones(&self) -> usize {
         self.model.network().zone_count()
     }
 
-    /// n·N, the length of stacked inputs and of stacked temperatures.
+    /// Length of stacked inputs and of stacked temperatures, n·N.
     pub fn size(&self) -> usize {
         self.steps * self.zones()
     }
 
-    /// T_free: temperatures without equipment \[°C\], stacked.
+    /// The free response T_free: temperatures without equipment \[°C\], stacked.
     ///
     /// `initial_c` has one number per node, `ambient_c` one per step, and `gains_kw` is stacked, one number for each step and each
     /// node that gets any.
@@ -69,7 +69,8 @@ impl Lifted {
         self.response(initial_c, &vec![0.0; self.size()], ambient_c, gains_kw)
     }
 
-    /// T = T_free + G U by simulation \[°C\], stacked. Shapes as for [`Lifted::free_response`]; `heat_kw` is stacked.
+    /// The temperatures T = T_free + G U by simulation \[°C\], stacked. Shapes are those of [`Lifted::free_response`];
+    /// `heat_kw` is stacked.
     ///
     /// # Panics
     /// When a slice has another length.
@@ -89,7 +90,7 @@ impl Lifted {
         stacked
     }
 
-    /// G u, for a stacked u.
+    /// The product G u, for a stacked u.
     ///
     /// # Panics
     /// When `u` has not n·N numbers.
@@ -105,7 +106,7 @@ impl Lifted {
         stacked
     }
 
-    /// Gᵀ y, for a stacked y.
+    /// The product Gᵀ y, for a stacked y.
     ///
     /// # Panics
     /// When `y` has not n·N numbers.
@@ -146,7 +147,8 @@ impl Lifted {
         stacked
     }
 
-    /// h₁ … h_N, zones by zones each \[K/kW\].
+    /// The Markov parameters h₁ … h_N: the response of the zones to an impulse after each step, zones by zones
+    /// \[K/kW\].
     pub fn markov(&self) -> Vec<DMatrix<f64>> {
         let n = self.zones();
         let mut blocks = vec![DMatrix::zeros(n, n); self.steps];
@@ -162,7 +164,7 @@ impl Lifted {
         blocks
     }
 
-    /// G, n·N by n·N \[K/kW\].
+    /// The matrix G, n·N by n·N \[K/kW\].
     pub fn dense(&self) -> DMatrix<f64> {
         let n = self.zones();
         let mut matrix = DMatrix::zeros(self.size(), self.size());

@@ -13,7 +13,7 @@ pub enum Part {
     Wall(usize),
 }
 
-/// Zones and walls that make no network.
+/// Why zones and walls make no network.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NetworkError {
     /// There is nothing to heat or cool.
@@ -26,7 +26,7 @@ pub enum NetworkError {
     BadName {
         /// Position of the zone, from zero.
         zone: usize,
-        /// Its name.
+        /// Name of the zone.
         name: String,
     },
     /// Two zones have the same name.
@@ -74,7 +74,7 @@ pub enum NetworkError {
         part: Part,
         /// The zone or wall, in words.
         called: String,
-        /// The setting.
+        /// The error of the setting.
         error: SettingError,
     },
     /// A factor of the believed building is out of range.

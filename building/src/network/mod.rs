@@ -34,9 +34,9 @@ pub use settings::{AMBIENT, Wall, Zone};
 /// A conductance between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
-    /// One node.
+    /// Index of one node.
     pub from: usize,
-    /// The other node.
+    /// Index of the other node.
     pub to: usize,
     /// Heat per kelvin of difference \[kW/K\].
     pub conductance_kw_per_k: f64,
@@ -120,12 +120,12 @@ impl Network {
         }
     }
 
-    /// How many zones there are.
+    /// Number of zones.
     pub fn zone_count(&self) -> usize {
         self.zone_count
     }
 
-    /// How many temperatures there are: zones and walls that store heat.
+    /// Number of temperatures: zones and walls that store heat.
     pub fn node_count(&self) -> usize {
         self.capacities_kj_per_k.len()
     }
@@ -135,7 +135,7 @@ impl Network {
         &self.names
     }
 
-    /// The zone of a name.
+    /// Index of the zone with this name.
     pub fn zone(&self, name: &str) -> Option<usize> {
         self.names[..self.zone_count].iter().position(|zone| zone == name)
     }
@@ -178,7 +178,8 @@ impl Network {
         &self.adjacent
     }
 
-    /// L x for any x over the nodes: heat that leaves each node when outdoors is at zero \[kW\].
+    /// The product L x with the Laplacian, for any x over the nodes: heat that leaves each node when outdoors is at
+    /// zero \[kW\].
     ///
     /// # Panics
     /// When `x` has not one number per node.
@@ -193,7 +194,7 @@ impl Network {
         out
     }
 
-    /// L as a matrix \[kW/K\].
+    /// The Laplacian L of the network as a matrix \[kW/K\].
     pub fn laplacian(&self) -> DMatrix<f64> {
         let mut laplacian = DMatrix::from_diagonal(&self.ambient_kw_per_k.clone().into());
         for &Link { from, to, conductance_kw_per_k } in &self.links {

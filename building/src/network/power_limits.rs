@@ -15,7 +15,7 @@ impl PowerLimits {
         Self { heating_kw: limits_kw.to_vec(), cooling_kw: limits_kw.to_vec() }
     }
 
-    /// How many zones there are.
+    /// Number of zones.
     pub fn zones(&self) -> usize {
         self.heating_kw.len()
     }

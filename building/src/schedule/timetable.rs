@@ -18,11 +18,11 @@ pub struct Timetable {
     days: RunDays,
 }
 
-/// Schedules that contradict one another, or fit no building.
+/// Why schedules contradict one another, or do not fit a building.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{problem}")]
 pub struct ScheduleError {
-    /// Which schedule, from zero.
+    /// Index of the schedule, from zero.
     pub schedule: usize,
     /// The key at fault, in the table of that schedule.
     pub key: SettingKey,

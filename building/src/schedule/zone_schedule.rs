@@ -43,10 +43,10 @@ fn everyday() -> Vec<DayChoice> {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Period {
-    /// When it begins \[h\].
+    /// Hour of the day at which the period begins \[h\].
     #[schemars(range(min = 0.0, max = 24.0), example = 8.0)]
     pub from_h: f64,
-    /// When it ends; a night is two periods, up to 24 and from 0 \[h\].
+    /// Hour of the day at which the period ends; a night is two periods, up to 24 and from 0 \[h\].
     #[schemars(range(min = 0.0, max = 24.0), example = 18.0)]
     pub to_h: f64,
     /// Wanted temperature \[°C\].
@@ -91,7 +91,7 @@ pub enum DayChoice {
 }
 
 impl DayChoice {
-    /// Whether it chooses days of this kind.
+    /// Whether the choice includes days of this kind.
     pub fn includes(self, kind: DayKind) -> bool {
         let DayKind::Plain(weekday) = kind else { return matches!(self, Self::Everyday | Self::Holiday) };
         let is_weekend = matches!(weekday, Weekday::Saturday | Weekday::Sunday);
@@ -112,7 +112,7 @@ impl DayChoice {
 }
 
 impl ZoneSchedule {
-    /// Whether it applies on days of this kind.
+    /// Whether the schedule applies on days of this kind.
     pub fn applies_on(&self, kind: DayKind) -> bool {
         self.days.iter().any(|days| days.includes(kind))
     }

@@ -24,7 +24,7 @@ const NOON_H: f64 = 13.1;
 /// Radiation on a horizontal plane under the highest sun and a clear sky \[W/m²\].
 const CLEAR_SUN_W_PER_M2: f64 = 950.0;
 
-/// A synthetic climate.
+/// A synthetic climate, from which a seed makes weather.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Climate {

@@ -18,44 +18,44 @@ use super::{TimeSeries, Weather};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Forecast {
-    /// Without error.
+    /// The forecast has no error.
     #[default]
     Exact,
-    /// With an error of BOPTEST's kind.
+    /// The forecast has a random error as BOPTEST defines it.
     Uncertain {
-        /// How large the error is.
+        /// Size of the error.
         #[schemars(example = &"low")]
         level: ErrorLevel,
     },
-    /// Like yesterday.
+    /// The forecast is the weather of the day before.
     Persistence,
 }
 
-/// BOPTEST's sizes of the forecast error.
+/// Sizes of the forecast error that BOPTEST defines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ErrorLevel {
-    /// 0.6 K at first, 1.0 K later.
+    /// Standard deviation 0.6 K at first, 1.0 K later.
     Low,
-    /// 1.2 K at first, 1.6 K later.
+    /// Standard deviation 1.2 K at first, 1.6 K later.
     #[default]
     Medium,
-    /// 1.5 K at first, 2.2 K later, and too cold on average.
+    /// Standard deviation 1.5 K at first, 2.2 K later, and too cold on average.
     High,
 }
 
-/// Parameters of the error.
+/// Parameters of the forecast error, an autoregressive process of first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorModel {
-    /// F₀, mean of the first error \[K\].
+    /// Mean of the first error, F₀ \[K\].
     pub first_mean_k: f64,
-    /// K₀, standard deviation of the first error \[K\].
+    /// Standard deviation of the first error, K₀ \[K\].
     pub first_deviation_k: f64,
-    /// F, how much of an error is left an hour later.
+    /// Share of an error that is left an hour later, F.
     pub correlation: f64,
-    /// μ, what is added each hour \[K\].
+    /// Drift that is added each hour, μ \[K\].
     pub drift_k: f64,
-    /// K, standard deviation of what is new each hour \[K\].
+    /// Standard deviation of what is new each hour, K \[K\].
     pub deviation_k: f64,
 }
 

@@ -37,14 +37,14 @@ const DEFAULT_GAMMA_2_RATIO: f64 = 4.6 / 3.6;
 /// The default of γ₂ where no taps within γ_q satisfy that, as a multiple of the least that they do.
 const GAMMA_2_ABOVE_FLOOR_RATIO: f64 = 1.02;
 
-/// A designed Q.
+/// A designed Youla filter Q with its cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilterDesign {
-    /// Q.
+    /// The filter Q.
     pub filter: YoulaFilter,
-    /// The coloured H₂ cost.
+    /// The coloured H₂ cost: the expected cost of a day under random disturbances with the covariance Σ.
     pub cost: f64,
-    /// The same without feedback.
+    /// The coloured H₂ cost without feedback.
     pub open_cost: f64,
 }
 

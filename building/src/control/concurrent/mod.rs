@@ -30,7 +30,7 @@ use crate::lifted::Lifted;
 use filter::FilterDesign;
 use youla::StateSpace;
 
-/// The concurrent design with its state.
+/// The controller of the concurrent design (chapter 4) with its state.
 #[derive(Clone, Debug)]
 pub struct Concurrent {
     settings: ConcurrentSettings,
@@ -47,7 +47,7 @@ pub struct Concurrent {
 /// A designed feedback, and the deviations that remain under it.
 #[derive(Clone, Debug)]
 pub struct FilterFeedback {
-    /// Q and its cost.
+    /// The filter Q and its cost.
     pub design: FilterDesign,
     /// Standard deviations of the inputs \[kW\], stacked.
     pub input_deviation_kw: Vec<f64>,
@@ -56,7 +56,7 @@ pub struct FilterFeedback {
 }
 
 impl Concurrent {
-    /// The design before its first day. `lifted` is its model of a day.
+    /// A controller before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
     /// [`ControlError::Setting`] if a setting is out of range; [`ControlError::TooManyUnknowns`] if the building is too large

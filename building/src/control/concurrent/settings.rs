@@ -12,7 +12,7 @@ use crate::control::uncertainty::UncertaintySettings;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ConcurrentSettings {
-    /// How many taps Q has.
+    /// Number of taps of the Youla filter Q.
     #[schemars(range(min = 1, max = 48))]
     pub taps: usize,
     /// γ_q: the largest sum of magnitudes in a row of the taps \[kW/K\] (eq. 4.27).
@@ -32,10 +32,10 @@ pub struct ConcurrentSettings {
     /// Cost of a squared kelvin beyond the comfort band, per step.
     #[schemars(range(min = 0.0), extend("x-unit" = "1/K²"))]
     pub discomfort_quadratic: f64,
-    /// K of the first day, as a multiple of the identity \[kW/K\].
+    /// Feedback gain K of the first day, as a multiple of the identity \[kW/K\].
     #[schemars(range(min = 0.0))]
     pub initial_gain_kw_per_k: f64,
-    /// λ of the learned bias.
+    /// Learning rate λ of the bias: the share of a day's prediction error that the bias takes up.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.

@@ -14,12 +14,12 @@ use crate::control::iterative::feedback::Response;
 use crate::discretise::Model;
 use crate::lifted::Lifted;
 
-/// Q as its taps, zones by zones each \[kW/K\].
+/// The Youla filter Q, given by its taps; each is a matrix, zones by zones \[kW/K\].
 #[derive(Clone, Debug, PartialEq)]
 pub struct YoulaFilter(pub Vec<DMatrix<f64>>);
 
 impl YoulaFilter {
-    /// Q y, for a stacked y.
+    /// The product Q y, for a stacked y.
     pub fn product(&self, y: &[f64]) -> Vec<f64> {
         let n = self.zones();
         let mut out = vec![0.0; y.len()];
@@ -115,13 +115,13 @@ pub struct StateSpace {
 }
 
 impl StateSpace {
-    /// At rest.
+    /// A controller at rest: all its states are zero.
     pub fn new(filter: YoulaFilter, model: &Model) -> Self {
         let (nodes, count, n) = (model.network().node_count(), filter.0.len(), filter.zones());
         Self { filter, model: model.clone(), state: vec![0.0; nodes], past: vec![vec![0.0; n]; count] }
     }
 
-    /// u_fb(t) for the error e(t) \[K\]; at t = 0 there is none, and zeros are to be given.
+    /// The feedback u_fb(t) for the error e(t) \[K\]; at t = 0 there is no error yet: pass zeros.
     pub fn answer(&mut self, error_k: &[f64]) -> Vec<f64> {
         let y = error_k.iter().zip(&self.state).map(|(e, x)| x + e).collect();
         self.past.rotate_right(1);
@@ -137,7 +137,7 @@ impl StateSpace {
         heat_kw
     }
 
-    /// Moves on, with the feedback that was applied \[kW\].
+    /// Advances the state by a step, with the feedback that was applied \[kW\].
     pub fn advance(&mut self, applied_kw: &[f64]) {
         self.model.step_by_heat(&mut self.state, applied_kw);
     }

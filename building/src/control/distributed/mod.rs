@@ -34,7 +34,7 @@ use messages::Messages;
 use settings::penalty;
 use zone_models::ZoneModels;
 
-/// The distributed design with its state.
+/// The controller of the distributed design (chapter 5) with its state.
 #[derive(Clone, Debug)]
 pub struct Distributed {
     settings: DistributedSettings,
@@ -47,7 +47,7 @@ pub struct Distributed {
     zone_models: Option<(Targets, ZoneModels)>,
 }
 
-/// The centralised design with its state.
+/// The controller that solves the problem of the distributed design centrally (eq. 5.12), with its state.
 #[derive(Clone, Debug)]
 pub struct Centralised {
     settings: CentralisedSettings,
@@ -261,7 +261,7 @@ impl PlanningDesign for Distributed {
 }
 
 impl Centralised {
-    /// The design before its first day. `lifted` is its model of a day.
+    /// A controller before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
     /// [`ControlError::Setting`] if a setting is out of range.

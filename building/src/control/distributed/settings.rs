@@ -12,9 +12,9 @@ use crate::control::disturbance_estimate::DisturbancePrediction;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
-    /// A share 1/n of each (Algorithm 1).
+    /// A share 1/n of each zone's proposal, with n zones (Algorithm 1).
     Jacobi,
-    /// A common share, the best between 1/n and 1.
+    /// A common share of all proposals: the best between 1/n and 1.
     LineSearch,
     /// The best combination of the proposals and the step before.
     #[default]
@@ -40,7 +40,7 @@ pub struct DistributedSettings {
     /// conductances, so that its error does not change its sign within a step.
     #[schemars(range(min = 0.0))]
     pub gain_kw_per_k: f64,
-    /// λ of the learned bias.
+    /// Learning rate λ of the bias: the share of a day's prediction error that the bias takes up.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.
@@ -49,7 +49,7 @@ pub struct DistributedSettings {
     /// round, at most eight times.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub loss: f64,
-    /// Rounds by which messages are late.
+    /// Number of rounds by which messages are late.
     pub delay_rounds: usize,
     /// A zone that has stopped answering: it keeps its last inputs, and its neighbours keep its last messages.
     /// Zones are numbered from 0.
@@ -86,7 +86,7 @@ impl DistributedSettings {
     }
 }
 
-/// The same day in one problem (eq. 5.12).
+/// The day's plan of all zones in one problem (eq. 5.12).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CentralisedSettings {
@@ -96,7 +96,7 @@ pub struct CentralisedSettings {
     /// Feedback of each zone on its own error \[kW/K\].
     #[schemars(range(min = 0.0))]
     pub gain_kw_per_k: f64,
-    /// λ of the learned bias.
+    /// Learning rate λ of the bias: the share of a day's prediction error that the bias takes up.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.

@@ -23,14 +23,14 @@ use crate::lifted::Lifted;
 /// The response to a disturbance of unit covariance in each of q directions under feedback. Both n·N by q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// Temperatures G Y L \[K\]; errors are their negatives.
+    /// Responses of the temperatures, G Y L \[K\]; errors are their negatives.
     pub temperatures_k: DMatrix<f64>,
-    /// Inputs −(I − Y) L \[kW\].
+    /// Responses of the inputs, −(I − Y) L \[kW\].
     pub inputs_kw: DMatrix<f64>,
 }
 
 impl Response {
-    /// The expected cost beyond the nominal one.
+    /// The expected cost that the disturbance adds to the nominal cost.
     pub fn cost(&self, targets: &Targets) -> f64 {
         let mut cost = 0.0;
         for (temperatures_k, inputs_kw) in self.temperatures_k.column_iter().zip(self.inputs_kw.column_iter()) {

@@ -35,20 +35,20 @@ const MAX_FINAL_COST_CHANGE_RATIO: f64 = 1e-7;
 /// Standard deviations below this are treated as zero, and have no price \[kW\].
 const LEAST_DEVIATION_KW: f64 = 1e-9;
 
-/// Feedback and plan.
+/// Feedback and plan that are designed together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// What is added to W_u for each input in the design of the feedback, stacked.
     pub price: Vec<f64>,
     /// The response under the feedback.
     pub response: Response,
-    /// The plan.
+    /// The plan of the day.
     pub plan: DayOptimum,
     /// The expected cost: that of the plan, and that added by the disturbance.
     pub cost: f64,
-    /// The same of the two-stage design.
+    /// The expected cost of the two-stage design.
     pub two_stage_cost: f64,
-    /// Rounds.
+    /// Number of rounds of the design.
     pub rounds: usize,
 }
 

@@ -45,7 +45,7 @@ use joint::Joint;
 /// temperatures and heat, so that errors grow only where they must.
 const ERROR_GROWTH_COST_PER_K: f64 = 1e3;
 
-/// The iterative design with its state.
+/// The controller of the iterative design (chapter 3) with its state.
 #[derive(Clone, Debug)]
 pub struct Iterative {
     settings: IterativeSettings,
@@ -55,12 +55,12 @@ pub struct Iterative {
     gain: DMatrix<f64>,
     /// The feedback for these targets, as long as Σ stays the same.
     feedback: Option<(Targets, StaticFeedback)>,
-    /// Targets of the day.
+    /// The targets of the day in progress.
     targets: Option<Targets>,
 }
 
 impl Iterative {
-    /// The design before its first day. `lifted` is its model of a day.
+    /// A controller before its first day. `lifted` is its model of a day.
     ///
     /// # Errors
     /// [`ControlError::Setting`] if a setting is out of range; [`ControlError::TooManyUnknowns`] or

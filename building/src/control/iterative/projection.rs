@@ -30,7 +30,7 @@ const LMI_MARGIN: f64 = 1e-4;
 /// S is at least this times the identity.
 const LEAST_S: f64 = 1e-3;
 
-/// The regression of inputs on errors.
+/// The projection of the optimal causal feedback on static gains: a regression of inputs on errors.
 pub struct Projection<'a> {
     lifted: &'a Lifted,
     response: &'a Response,
@@ -53,7 +53,7 @@ impl<'a> Projection<'a> {
         Self { lifted, response, busy }
     }
 
-    /// K by least squares.
+    /// The gain K by least squares.
     ///
     /// # Errors
     /// [`ControlError::Covariance`] if the errors of the zones are linearly dependent.
@@ -74,7 +74,7 @@ impl<'a> Projection<'a> {
         Ok(factor.solve(&cross.transpose()).transpose())
     }
 
-    /// K by the corrected matrix inequality with a decay rate.
+    /// The gain K by the corrected matrix inequality, with a decay rate.
     ///
     /// # Errors
     /// [`ControlError::Solve`] if no gain has this decay rate, or the solver fails.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::control::disturbance_estimate::DisturbancePrediction;
 use crate::control::uncertainty::UncertaintySettings;
 
-/// What is minimised.
+/// The objective that the design minimises.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Objective {
@@ -28,7 +28,7 @@ pub enum Stability {
     /// By a linear programme for positive systems, which scales to many zones; each zone uses its own error and those of
     /// its neighbours.
     Linear,
-    /// By least squares; the matrix inequality is used only if that is not stable.
+    /// By least squares; the matrix inequality is used only if the result is not stable.
     LeastSquares,
     /// The initial gain is kept.
     Fixed,
@@ -54,11 +54,11 @@ pub enum ErrorGrowth {
     Soft,
     /// Growth is forbidden: on a harder day there is no plan, and the day before is repeated (Remark 1).
     Hard,
-    /// It is not enforced.
+    /// The condition is not enforced.
     Off,
 }
 
-/// What the confidence refers to.
+/// The event to which the confidence refers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Chance {
@@ -73,7 +73,7 @@ pub enum Chance {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct IterativeSettings {
-    /// What is minimised.
+    /// The objective that the design minimises.
     pub objective: Objective,
     /// How feedback and plan share the limits.
     pub coordination: Coordination,
@@ -90,11 +90,11 @@ pub struct IterativeSettings {
     /// η: how likely inputs stay within their limits.
     #[schemars(range(min = 0.5, max = 0.999999), extend("x-unit" = "dimensionless"))]
     pub confidence: f64,
-    /// What the confidence refers to.
+    /// The event to which the confidence refers.
     pub chance: Chance,
     /// How the condition that errors do not grow from day to day (eq. 3.8) is enforced.
     pub convergence: ErrorGrowth,
-    /// λ of the learned bias.
+    /// Learning rate λ of the bias: the share of a day's prediction error that the bias takes up.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "dimensionless"))]
     pub learning_rate: f64,
     /// What the disturbance is predicted from.

@@ -9,7 +9,7 @@ pub const MOST_UNKNOWNS: usize = 1200;
 /// The largest number of temperatures, of zones and walls, for which the matrix inequality is solved. Its time grows with the
 /// sixth power of that number: a design of 24 takes some ten seconds.
 pub const MOST_LMI_TEMPERATURES: usize = 24;
-/// The same for the linear certificate.
+/// The largest number of temperatures, of zones and walls, for which the linear certificate is computed.
 pub const MOST_LINEAR_TEMPERATURES: usize = 256;
 
 /// Refuses a building that is too large for dense matrices.

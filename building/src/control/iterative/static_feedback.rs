@@ -13,16 +13,16 @@ use crate::lifted::Lifted;
 /// Shares of the way from the wanted decay rate to 1 at which a certificate is tried after it was not found at the wanted one.
 const RELAXATIONS: [f64; 3] = [0.0, 0.5, 0.75];
 
-/// A designed feedback.
+/// A designed static feedback with its certificate and its expected cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StaticFeedback {
-    /// K, zones by zones \[kW/K\].
+    /// Gain K, zones by zones \[kW/K\].
     pub gain_kw_per_k: DMatrix<f64>,
-    /// Spectral radius of A − BK.
+    /// Spectral radius of the closed loop A − BK.
     pub spectral_radius: f64,
     /// The expected cost beyond the nominal one, under the best causal feedback.
     pub causal_cost: f64,
-    /// The same under K.
+    /// The expected cost beyond the nominal one under K.
     pub cost: f64,
     /// Standard deviations of the inputs under K \[kW\], stacked.
     pub input_deviation_kw: Vec<f64>,

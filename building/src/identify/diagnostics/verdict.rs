@@ -34,9 +34,9 @@ pub enum Confidence {
 /// Whether the data determine a coefficient, and in words.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ParameterVerdict {
-    /// The class.
+    /// How well the coefficient is determined.
     pub confidence: Confidence,
-    /// In words.
+    /// The verdict in words.
     pub words: String,
 }
 

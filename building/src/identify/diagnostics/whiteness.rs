@@ -12,7 +12,7 @@ use crate::identify::normal::dot;
 /// The most lags that are looked at.
 const MOST_LAGS: usize = 48;
 
-/// What structure is left in residuals.
+/// Tests of whether residuals are white noise.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Whiteness {
     /// Autocorrelation at lags 1, 2, …
@@ -23,18 +23,18 @@ pub struct Whiteness {
     pub ljung_box: LjungBox,
     /// Mean excess of the cumulated periodogram over its 95 % band, of the longest segment (nCPBES); 0 for white residuals.
     pub periodogram_excess: Option<f64>,
-    /// In words.
+    /// The result in words.
     pub words: String,
 }
 
 /// Ljung and Box's test: Q = n (n+2) Σ_k ρ_k²/(n−k) is chi-squared if the residuals are white.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LjungBox {
-    /// Q.
+    /// The statistic Q.
     pub statistic: f64,
     /// Degrees of freedom: lags less the coefficients of the residual model.
     pub degrees: usize,
-    /// How probable so large a Q is for white residuals.
+    /// Probability of so large a Q for white residuals.
     pub p_value: f64,
 }
 

@@ -35,7 +35,7 @@ pub enum TelemetryProblem {
     /// The mapping is not TOML.
     #[error("not valid TOML: {reason}")]
     Syntax {
-        /// The TOML reader's words.
+        /// The message of the TOML reader.
         reason: String,
     },
     /// A table of the mapping has a key that is not known.
@@ -43,7 +43,7 @@ pub enum TelemetryProblem {
     UnknownKey {
         /// The table; entries of lists are called by their `name`, else by their number, as `zone.living.heat.0`.
         table: SettingKey,
-        /// The key.
+        /// The unknown key.
         key: String,
         /// The keys that the table may have.
         known: Vec<String>,
@@ -53,7 +53,7 @@ pub enum TelemetryProblem {
     MissingKey {
         /// The key, its table as in [`TelemetryProblem::UnknownKey`].
         key: SettingKey,
-        /// What its value must be.
+        /// The form that its value must have.
         wanted: ValueShape,
     },
     /// The value of a key is of the wrong type.
@@ -61,9 +61,9 @@ pub enum TelemetryProblem {
     WrongType {
         /// The key, its table as in [`TelemetryProblem::UnknownKey`].
         key: SettingKey,
-        /// What its value must be.
+        /// The form that its value must have.
         wanted: ValueShape,
-        /// What it is.
+        /// The form that the value has.
         found: String,
     },
     /// The value of a key is none of the words that it may be.
@@ -71,9 +71,9 @@ pub enum TelemetryProblem {
     UnknownWord {
         /// The key, its table as in [`TelemetryProblem::UnknownKey`].
         key: SettingKey,
-        /// Its value.
+        /// The stated value.
         word: String,
-        /// The words that it may be.
+        /// The words that are admissible.
         known: Vec<String>,
     },
     /// A number of the mapping breaks its bounds.
@@ -81,9 +81,9 @@ pub enum TelemetryProblem {
     Setting {
         /// The key, its table as in [`TelemetryProblem::UnknownKey`].
         key: SettingKey,
-        /// Its value.
+        /// The stated value.
         value: f64,
-        /// What it breaks.
+        /// The bound that it breaks.
         bound: Bound,
     },
     /// The value of a key does not go together with that of another.
@@ -91,9 +91,9 @@ pub enum TelemetryProblem {
     Conflict {
         /// The key, its table as in [`TelemetryProblem::UnknownKey`].
         key: SettingKey,
-        /// Its value.
+        /// The stated value.
         value: String,
-        /// What would work.
+        /// What to state instead.
         wanted: &'static str,
     },
     /// The mapping names a zone or boundary that it does not declare, or declares one twice.
@@ -101,7 +101,7 @@ pub enum TelemetryProblem {
     Name {
         /// The field, as `walls`.
         field: &'static str,
-        /// The name.
+        /// The name at fault.
         name: String,
         /// `unknown`, or `used twice`.
         fault: &'static str,
@@ -114,19 +114,19 @@ pub enum TelemetryProblem {
     /// The mapping names a column that the table has not, or has twice.
     #[error("column `{name}`, wanted as {role}, is {fault}")]
     Column {
-        /// The column.
+        /// Name of the column.
         name: String,
-        /// What it is to be, as `temperature of zone living`.
+        /// The quantity that the column is to hold, as `temperature of zone living`.
         role: String,
         /// `not in the header`, or `in the header twice`.
         fault: &'static str,
-        /// The header.
+        /// The titles of the header.
         header: Vec<String>,
     },
     /// A row is broken: wrong number of fields, or bytes that are no text.
     #[error("the row cannot be read: {reason}")]
     Row {
-        /// Why.
+        /// Why the row cannot be read.
         reason: String,
     },
     /// A field is not a number.
@@ -134,7 +134,7 @@ pub enum TelemetryProblem {
     Number {
         /// The field's text.
         text: String,
-        /// The column.
+        /// Name of the column.
         column: String,
     },
     /// A field is not a time of the expected form.
@@ -142,7 +142,7 @@ pub enum TelemetryProblem {
     Time {
         /// The field's text.
         text: String,
-        /// The column.
+        /// Name of the column.
         column: String,
         /// The form that the mapping states.
         format: String,
@@ -162,7 +162,7 @@ pub enum TelemetryProblem {
     Missing {
         /// The field's text.
         text: String,
-        /// The column.
+        /// Name of the column.
         column: String,
     },
     /// A physical quantity is out of the range of any building.
@@ -170,9 +170,9 @@ pub enum TelemetryProblem {
     Range {
         /// The value after conversion.
         value: f64,
-        /// Its unit.
+        /// Unit of the value.
         unit: &'static str,
-        /// The column.
+        /// Name of the column.
         column: String,
         /// The lowest value accepted.
         low: f64,
@@ -187,7 +187,7 @@ impl TelemetryProblem {
         Self::Setting { key: table.key(error.key.as_str()), value: error.value, bound: error.bound }
     }
 
-    /// What would work instead.
+    /// What to state or do instead, as the help of an error message.
     pub fn remedy(&self) -> String {
         match self {
             Self::Syntax { .. } | Self::WrongType { .. } => {

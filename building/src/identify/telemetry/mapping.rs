@@ -35,7 +35,7 @@ use super::measurements::Hold;
 use super::units::{AirFlowUnit, IrradianceUnit, PowerUnit, TemperatureUnit, WaterFlowUnit};
 use crate::identify::IdentifySettings;
 
-/// Which column is which quantity. Unknown keys are refused.
+/// A mapping: which column of a table is which quantity. Unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mapping {
@@ -65,7 +65,7 @@ pub struct Mapping {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TableForm {
-    /// What stands between fields: an ASCII character other than the decimal sign.
+    /// The separator of fields: an ASCII character other than the decimal sign.
     #[schemars(extend("x-ascii" = true))]
     pub separator: char,
     /// The decimal sign.
@@ -99,7 +99,7 @@ pub enum DecimalSign {
 }
 
 impl DecimalSign {
-    /// The sign.
+    /// The character of the sign.
     pub fn character(self) -> char {
         match self {
             Self::Point => '.',
@@ -166,11 +166,11 @@ pub enum Gaps {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoundaryColumns {
-    /// Its name.
+    /// Name by which walls refer to it.
     pub name: String,
     /// The column of its temperature.
     pub temperature: String,
-    /// How it goes on between rows.
+    /// How the series goes on between rows.
     #[serde(default = "Hold::first_order")]
     pub hold: Hold,
 }
@@ -179,7 +179,7 @@ pub struct BoundaryColumns {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ZoneColumns {
-    /// Its name.
+    /// Name by which walls refer to it.
     pub name: String,
     /// The column of its temperature.
     pub temperature: String,
@@ -247,7 +247,7 @@ pub struct SolarColumn {
     #[serde(default = "one")]
     #[schemars(extend("not" = { "const": 0.0 }))]
     pub factor: f64,
-    /// How it goes on between rows.
+    /// How the series goes on between rows.
     #[serde(default = "Hold::first_order")]
     pub hold: Hold,
 }

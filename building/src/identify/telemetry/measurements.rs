@@ -20,14 +20,14 @@ pub struct Telemetry {
     pub zones: Vec<MeasuredZone>,
     /// Temperatures that act on zones and are not modelled.
     pub boundaries: Vec<Boundary>,
-    /// Where heat flows.
+    /// The pairs of places between which heat flows.
     pub walls: Vec<MeasuredWall>,
 }
 
 /// Measurements of a zone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredZone {
-    /// Its name.
+    /// Name in the mapping.
     pub name: String,
     /// Its temperature T_i \[°C\]; NaN where it is missing, which only [`Gaps::Bridge`](super::Gaps::Bridge) leaves in.
     pub temperature_c: Vec<f64>,
@@ -48,20 +48,20 @@ pub struct MeasuredZone {
 /// Air blown into a zone: heat ṁ c_p (T_supply − T_i), eq. 2.2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SupplyAir {
-    /// ṁ c_p \[kW/K\].
+    /// Heat that the flow carries per kelvin, ṁ c_p \[kW/K\].
     pub conductance_kw_per_k: Vec<f64>,
-    /// T_supply \[°C\].
+    /// Temperature of the supplied air, T_supply \[°C\].
     pub temperature_c: Vec<f64>,
 }
 
 /// A measured temperature that is not modelled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boundary {
-    /// Its name.
+    /// Name in the mapping.
     pub name: String,
     /// The temperature \[°C\].
     pub temperature_c: Vec<f64>,
-    /// How it goes on between rows.
+    /// How the temperature goes on between rows.
     pub hold: Hold,
 }
 
@@ -92,26 +92,26 @@ impl Hold {
 pub struct MeasuredWall {
     /// A zone, by its position in [`Telemetry::zones`].
     pub zone: usize,
-    /// What is on the other side.
+    /// The place on the other side of the wall.
     pub other: Neighbour,
 }
 
 /// The other side of a wall, by its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Neighbour {
-    /// In [`Telemetry::zones`].
+    /// A zone, by its index in [`Telemetry::zones`].
     Zone(usize),
-    /// In [`Telemetry::boundaries`].
+    /// A boundary, by its index in [`Telemetry::boundaries`].
     Boundary(usize),
 }
 
 impl Telemetry {
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.time_s.len()
     }
 
-    /// What acts on a zone through its walls, in the order of [`Telemetry::walls`].
+    /// The places that exchange heat with a zone through its walls, in the order of [`Telemetry::walls`].
     pub fn neighbours(&self, zone: usize) -> Vec<Neighbour> {
         self.walls
             .iter()

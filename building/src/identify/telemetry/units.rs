@@ -46,7 +46,7 @@ pub enum PowerUnit {
 }
 
 impl PowerUnit {
-    /// How many kW one is; 1 where that is unknown.
+    /// This unit in kW; 1 where the factor is unknown.
     pub fn kw(self) -> f64 {
         match self {
             Self::Kw | Self::Unknown => 1.0,
@@ -66,7 +66,7 @@ pub enum IrradianceUnit {
 }
 
 impl IrradianceUnit {
-    /// How many kW/m² one is.
+    /// This unit in kW/m².
     pub fn kw_per_m2(self) -> f64 {
         match self {
             Self::WPerM2 => 1e-3,

@@ -15,7 +15,7 @@ pub enum ValueShape {
     },
     /// A table whose `kind` says which other keys it has.
     TableOfAKind {
-        /// The kinds.
+        /// The words that `kind` may be.
         kinds: Vec<String>,
     },
     /// A list.

@@ -2,7 +2,7 @@
 
 use super::calendar::Stamp;
 
-/// A file that is no EPW file, or not a whole one.
+/// Why a file is no complete EPW file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct EpwError {
@@ -32,9 +32,9 @@ pub enum EpwProblem {
     Header {
         /// The field.
         field: &'static str,
-        /// Its text.
+        /// The text that was found.
         found: String,
-        /// What would work.
+        /// The form that it must have.
         wanted: &'static str,
     },
     /// A row has too few columns.
@@ -42,9 +42,9 @@ pub enum EpwProblem {
         "the row has {found} columns, and the wind and clouds stand in the first {wanted}: it is cut off or no EPW row"
     )]
     ShortRow {
-        /// How many columns there are.
+        /// Number of columns that the row has.
         found: usize,
-        /// How many are needed.
+        /// Number of columns that are needed.
         wanted: usize,
     },
     /// A column holds no number.
@@ -52,9 +52,9 @@ pub enum EpwProblem {
     NotANumber {
         /// Position of the column, from one.
         column: usize,
-        /// Its name.
+        /// Name of the column.
         field: &'static str,
-        /// Its text.
+        /// The text that was found.
         found: String,
     },
     /// A column holds an impossible value.
@@ -62,15 +62,15 @@ pub enum EpwProblem {
     Impossible {
         /// Position of the column, from one.
         column: usize,
-        /// Its name.
+        /// Name of the column.
         field: &'static str,
-        /// Its value.
+        /// The value that was found.
         found: f64,
         /// Least possible value.
         least: f64,
         /// Greatest possible value.
         greatest: f64,
-        /// What marks a missing value.
+        /// The value that marks a missing one.
         missing: f64,
     },
     /// A row is not the one that follows.
@@ -84,7 +84,7 @@ pub enum EpwProblem {
     /// Rows are missing at the end.
     #[error("the file ends here, with {found} rows; its header promises data up to {wanted}")]
     CutOff {
-        /// How many rows there are.
+        /// Number of rows that the file has.
         found: usize,
         /// The last row that should be there.
         wanted: Stamp,

@@ -13,13 +13,13 @@ pub struct Location {
     pub country: String,
     /// Where the data come from, as the file writes it.
     pub source: String,
-    /// Degrees north.
+    /// Latitude, positive to the north \[°\].
     pub latitude_deg: f64,
-    /// Degrees east.
+    /// Longitude, positive to the east \[°\].
     pub longitude_deg: f64,
-    /// Hours ahead of Greenwich.
+    /// Time zone, hours ahead of Greenwich \[h\].
     pub time_zone_h: f64,
-    /// Metres above the sea.
+    /// Elevation above the sea \[m\].
     pub elevation_m: f64,
 }
 

@@ -85,7 +85,7 @@ impl Epw {
         self.columns[field as usize].as_deref()
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.columns[Field::DryBulb as usize].as_ref().map_or(0, Vec::len)
     }
