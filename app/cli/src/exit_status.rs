@@ -5,11 +5,11 @@ use std::process::ExitCode;
 /// How a command ended, from well to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ExitStatus {
-    /// All well.
+    /// Everything that was asked for was done and held.
     Well,
     /// An expectation failed.
     Failed,
-    /// Bad input.
+    /// The input was wrong.
     BadInput,
     /// A run could not be finished.
     Unfinished,

@@ -9,7 +9,7 @@ use thiserror::Error;
 /// A scenario to be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ScenarioArgument {
-    /// What its run is called: see [`short_name`]; in a folder, its path below that folder, without the extension.
+    /// Name of its run ([`short_name`]); in a folder, its path below that folder, without the extension.
     pub name: String,
     /// Name of the embedded scenario, or path of the file.
     pub scenario: String,

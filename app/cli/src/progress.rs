@@ -12,7 +12,7 @@ use crate::output::print_error;
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
-    /// Shows that nothing of `total` is done yet.
+    /// A progress line at the beginning: nothing of `total` is done yet.
     pub fn of(total: usize) -> Progress {
         let bar = ProgressBar::new(total as u64);
         // The template is a constant, and sound: a test draws with it.
@@ -23,7 +23,7 @@ impl Progress {
         Progress(bar)
     }
 
-    /// The same, and says how long the rest takes at the speed so far.
+    /// A progress line that also says how long the rest takes at the speed so far.
     pub fn with_time_left(total: usize) -> Progress {
         let Progress(bar) = Progress::of(total);
         if let Ok(style) = style_with_time_left() {
@@ -32,12 +32,12 @@ impl Progress {
         Progress(bar)
     }
 
-    /// One more is done; may be called from any thread.
+    /// Counts one more as done; may be called from any thread.
     pub fn advance(&self) {
         self.0.inc(1);
     }
 
-    /// Leaves an empty line.
+    /// Removes the progress line.
     pub fn clear(self) {
         self.0.finish_and_clear();
     }
@@ -55,12 +55,12 @@ pub(crate) struct CheckProgress {
 const SILENCE: Duration = Duration::from_secs(1);
 
 impl CheckProgress {
-    /// Nothing of so many runs is checked yet.
+    /// A progress line at the beginning: none of these runs is checked yet.
     pub fn of(runs: u64) -> CheckProgress {
         CheckProgress { began: Instant::now(), runs, checked: AtomicU64::new(0), bar: OnceLock::new() }
     }
 
-    /// One more is checked; may be called from any thread.
+    /// Counts one more as checked; may be called from any thread.
     pub fn advance(&self) {
         let checked = 1 + self.checked.fetch_add(1, Ordering::Relaxed);
         if self.began.elapsed() < SILENCE || checked == self.runs {
@@ -77,7 +77,7 @@ impl CheckProgress {
         bar.set_position(checked);
     }
 
-    /// Leaves an empty line.
+    /// Removes the progress line.
     pub fn clear(&self) {
         if let Some(bar) = self.bar.get() {
             bar.finish_and_clear();

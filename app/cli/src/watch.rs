@@ -17,7 +17,7 @@ pub(crate) struct WatchedFiles {
 }
 
 impl WatchedFiles {
-    /// Looks at a scenario and all of which it is made.
+    /// Notes the present state of the files of a scenario: its own, and those that it extends or names.
     pub fn look(registry: &Registry, scenario: &str) -> WatchedFiles {
         let state = |path: &PathBuf| {
             let found = std::fs::metadata(path).ok()?;

@@ -18,7 +18,7 @@ impl NewFolders {
         Ok(folders)
     }
 
-    /// Lets the folders stay.
+    /// Keeps the folders.
     pub fn keep(mut self) {
         self.0.clear();
     }

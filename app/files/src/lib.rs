@@ -29,7 +29,7 @@ pub use whole::{WholeFile, folder_of};
 /// Checks that a file can be written to `target`, and leaves no trace of that.
 ///
 /// # Errors
-/// What is in the way.
+/// The system's reason why the file cannot be written.
 pub fn check(target: &Path) -> io::Result<()> {
     if target.file_name().is_none() {
         return Err(io::Error::other("it names no file"));

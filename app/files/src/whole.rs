@@ -15,10 +15,10 @@ pub struct WholeFile {
 
 #[derive(Debug)]
 enum Unplaced {
-    /// Vanishes with the process, however that ends.
+    /// A file without a name, which vanishes with the process, however that ends.
     #[cfg(target_os = "linux")]
     Unnamed(File),
-    /// Vanishes when it is dropped.
+    /// A file with a temporary name, which is removed when it is dropped.
     Named(NamedTempFile),
 }
 
@@ -43,7 +43,7 @@ impl WholeFile {
         })
     }
 
-    /// Gives the file its place, where another may stand.
+    /// Moves the file to its place, replacing a file that stands there.
     ///
     /// # Errors
     /// What the disk says. The other stands as it was, unless only its folder could not be forced onto the disk.
@@ -51,7 +51,7 @@ impl WholeFile {
         self.place(true)
     }
 
-    /// Gives the file its place unless it is taken.
+    /// Moves the file to its place unless a file stands there.
     ///
     /// # Errors
     /// [`io::ErrorKind::AlreadyExists`], and what the disk says. Then nothing was made.

@@ -39,7 +39,7 @@ impl CallbackFunctions {
 pub mod status {
     use std::ffi::c_int;
 
-    /// All well.
+    /// The call succeeded.
     pub const OK: c_int = 0;
     /// The call failed; the instance can go on being asked.
     pub const ERROR: c_int = 3;

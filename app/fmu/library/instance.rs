@@ -10,14 +10,14 @@ use super::plant::DiscretePlant;
 /// How far the importer's time may be from that of a step, as a share of the step.
 const MAX_TIME_ERROR_SHARE: f64 = 1e-6;
 
-/// An instance.
+/// An instance of the FMU: a plant with its callbacks.
 #[derive(Debug)]
 pub struct Instance {
-    /// Its name, for the log.
+    /// Name of the instance, for the log.
     pub name: CString,
-    /// Where errors are told.
+    /// Callbacks through which errors are logged.
     pub callbacks: CallbackFunctions,
-    /// What it simulates.
+    /// The simulated building.
     pub plant: DiscretePlant,
 }
 
@@ -106,7 +106,7 @@ impl Instance {
         (is_whole && steps < 1e12).then(|| steps.round().max(0.0) as usize)
     }
 
-    /// The value of a variable.
+    /// Returns the value of a variable.
     ///
     /// # Errors
     /// If there is none with this value reference.

@@ -106,7 +106,7 @@ pub extern "C" fn fmi2SetDebugLogging(
     status::OK
 }
 
-/// Begins at a start time.
+/// Sets the start time, a whole number of steps after the first midnight.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2SetupExperiment(
     component: *mut c_void,
@@ -125,13 +125,13 @@ pub extern "C" fn fmi2EnterInitializationMode(component: *mut c_void) -> c_int {
     with_instance(component, |_| Ok(()))
 }
 
-/// As before.
+/// There is nothing to do at the end of the initialisation.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2ExitInitializationMode(component: *mut c_void) -> c_int {
     with_instance(component, |_| Ok(()))
 }
 
-/// Ends; outputs can still be asked for.
+/// Ends the simulation; outputs can still be read.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2Terminate(component: *mut c_void) -> c_int {
     with_instance(component, |_| Ok(()))
@@ -146,7 +146,7 @@ pub extern "C" fn fmi2Reset(component: *mut c_void) -> c_int {
     })
 }
 
-/// Values of variables.
+/// Reads the values of variables.
 ///
 /// # Safety
 /// Both lists have `count` entries.
@@ -199,7 +199,7 @@ pub unsafe extern "C" fn fmi2SetReal(
     })
 }
 
-/// Moves on by whole steps.
+/// Advances the simulation by whole steps.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2DoStep(
     component: *mut c_void,

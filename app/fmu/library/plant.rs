@@ -10,34 +10,34 @@
 /// The first line of the file.
 pub const HEADER: &str = "interplay-plant 1";
 
-/// A network with its weather, and where it stands.
+/// A thermal network in discrete time with its weather and its present state.
 #[derive(Clone, Debug)]
 pub struct DiscretePlant {
     /// The identity of the FMU, which its description repeats.
     pub guid: String,
     /// Time from one step to the next \[s\].
     pub step_s: f64,
-    /// How many zones there are.
+    /// Number of zones.
     pub zones: usize,
     nodes: usize,
-    /// How many nodes get heat of people, sun or machines, zones first.
+    /// Number of nodes that get heat of people, sun or machines, zones first.
     gained: usize,
     initial_c: Vec<f64>,
-    /// A, row by row.
+    /// State matrix A, row by row.
     state: Vec<f64>,
-    /// B, nodes by nodes that get heat, row by row \[K/kW\].
+    /// Input matrix B, nodes by nodes that get heat, row by row \[K/kW\].
     gain: Vec<f64>,
-    /// b, one number per node.
+    /// Effect b of the outdoor temperature, one number per node.
     outdoor: Vec<f64>,
-    /// T₀ of each step \[°C\].
+    /// Outdoor temperature T₀ of each step \[°C\].
     ambient_c: Vec<f64>,
-    /// w, stacked: entry t·m + i is node i of the m that get any, in step t \[kW\].
+    /// Heat w of people, sun and machines, stacked: entry t·m + i is node i of the m that get any, in step t \[kW\].
     gains_kw: Vec<f64>,
     /// Temperatures of the nodes \[°C\].
     pub nodes_c: Vec<f64>,
-    /// u: heat of the equipment, held until it is set anew \[kW\].
+    /// Heat u of the equipment, held until it is set anew \[kW\].
     pub heat_kw: Vec<f64>,
-    /// Steps done since the first midnight.
+    /// Number of steps since the first midnight.
     pub step: usize,
 }
 
@@ -119,17 +119,18 @@ impl DiscretePlant {
         self.step = 0;
     }
 
-    /// Steps for which there is weather.
+    /// Number of steps for which there is weather.
     pub fn steps(&self) -> usize {
         self.ambient_c.len()
     }
 
-    /// T₀ of the step that comes, or of the last one \[°C\].
+    /// Outdoor temperature of the next step, or of the last one \[°C\].
     pub fn ambient_c(&self) -> f64 {
         self.ambient_c[self.step.min(self.steps() - 1)]
     }
 
-    /// w of the step that comes, or of the last one, one number per node that gets any, zones first \[kW\].
+    /// Heat of people, sun and machines in the next step, or in the last one, one number per node that gets any, zones
+    /// first \[kW\].
     pub fn gains_kw(&self) -> &[f64] {
         let step = self.step.min(self.steps() - 1);
         &self.gains_kw[step * self.gained..(step + 1) * self.gained]

@@ -8,7 +8,7 @@ use thiserror::Error;
 /// Why a scenario cannot be exported.
 #[derive(Debug, Error)]
 pub enum FmuError {
-    /// There is nothing to export.
+    /// The scenario has no building.
     #[error(
         "the scenario has no building; an FMU is that of a building (`interplay list` shows scenarios of buildings)"
     )]
@@ -21,9 +21,9 @@ pub enum FmuError {
     /// The matrices would be too large.
     #[error("the network has {nodes} nodes (zones, and walls that store heat); an FMU has at most {limit}")]
     TooManyNodes {
-        /// How many nodes there are.
+        /// Number of nodes.
         nodes: usize,
-        /// The most.
+        /// Largest number that can be exported.
         limit: usize,
     },
     /// The weather would be too large.
@@ -31,24 +31,24 @@ pub enum FmuError {
         "{numbers} numbers of weather and people (steps times zones) are more than the {limit} of an FMU; lower `iterations`"
     )]
     TooMuchWeather {
-        /// How many numbers there are.
+        /// Number of numbers that the weather has.
         numbers: usize,
-        /// The most.
+        /// Largest number that can be exported.
         limit: usize,
     },
     /// The compiler made no library for this system.
     #[error("this build of interplay has no FMU library: the compiler made none for {platform}, as its warnings said")]
     NoLibrary {
-        /// The system.
+        /// Name of the system.
         platform: String,
     },
-    /// The network makes no sense.
+    /// Zones and walls make no network.
     #[error("the building cannot be exported: {0}")]
     Network(#[from] NetworkError),
     /// The network has no discrete form.
     #[error("the building cannot be exported: {0}")]
     Model(#[from] ModelError),
-    /// What acts on the building is unknown.
+    /// The weather of the building is not known.
     #[error("the building cannot be exported: {0}")]
     Building(#[from] BuildingError),
 }

@@ -8,9 +8,9 @@ use interplay_building::discretise::Model;
 /// What acts on a building over a run, stacked over all steps.
 #[derive(Clone, Debug)]
 pub(crate) struct OutsideSeries {
-    /// T₀ \[°C\].
+    /// Outdoor temperature T₀ of each step \[°C\].
     pub ambient_c: Vec<f64>,
-    /// w, one number per step and node that gets any \[kW\].
+    /// Heat w of people, sun and machines, one number per step and node that gets any \[kW\].
     pub gains_kw: Vec<f64>,
 }
 

@@ -28,7 +28,7 @@ const NOTHING_NEW_WIDTHS: f64 = 0.5;
 pub struct Requests(Vec<Vec<(String, bool)>>);
 
 impl Requests {
-    /// Takes note of a tick, which must be the next one.
+    /// Observes a tick, which must be the next one.
     pub fn tick(&mut self, scenario: &Scenario, frame: &Frame) {
         let before = std::mem::take(&mut self.0);
         let now = |(index, vehicle): (usize, &VehicleFrame)| {

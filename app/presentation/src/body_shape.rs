@@ -5,19 +5,19 @@ use interplay_planners::Body;
 use crate::body_style::BodyStyle;
 use crate::palette::{Colour, GLASS, TYRE};
 
-/// What a part of a vehicle is painted with.
+/// The material of a part of a vehicle, which decides its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyPaint {
-    /// The colour of the vehicle.
+    /// Paint in the vehicle's colour.
     Own,
-    /// Windows.
+    /// Glass of windows.
     Glass,
-    /// Gaps and tyres.
+    /// Dark material of gaps and tyres.
     Tyre,
 }
 
 impl BodyPaint {
-    /// Its colour on a vehicle of some colour.
+    /// The colour of the material on a vehicle of colour `own`.
     pub fn colour(self, own: Colour) -> Colour {
         match self {
             BodyPaint::Own => own,
@@ -34,7 +34,7 @@ pub struct BodyPart {
     pub ring: Vec<[f64; 2]>,
     /// Radius of the corners, by the width of the body.
     pub radius: f64,
-    /// What it is painted with.
+    /// The material of the part.
     pub paint: BodyPaint,
 }
 

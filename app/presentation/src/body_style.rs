@@ -8,7 +8,7 @@ const MAX_SCALE_MODEL_M: f64 = 1.7;
 /// The scale of vehicles of full size.
 const FULL_SIZE_SCALE: f64 = 10.0;
 
-/// What a vehicle looks like.
+/// The look of a vehicle in pictures and recordings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyStyle {
     /// A car with bonnet and boot.

@@ -35,9 +35,9 @@ pub struct ViewFormat {
 /// A part of the world that is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraView {
-    /// What is in the middle \[m\].
+    /// The position in the middle of the view \[m\].
     pub centre_m: [f64; 2],
-    /// Scale.
+    /// Scale of the view.
     pub px_per_m: f64,
     /// Width and height \[px\].
     pub size_px: [f64; 2],

@@ -22,7 +22,7 @@ pub fn star([x, y]: [f64; 2], size: f64) -> Vec<[f64; 2]> {
     (0..16).map(|point| (at(point), radius(point))).map(|((sin, cos), r)| [x + r * cos, y + r * sin]).collect()
 }
 
-/// The numbers of two vehicles by their names.
+/// The indices of two vehicles, by their names.
 pub fn numbers(scenario: &Scenario, between: &[String; 2]) -> Option<[usize; 2]> {
     Some([scenario.index_of(&between[0])?, scenario.index_of(&between[1])?])
 }

@@ -13,7 +13,7 @@ const MAX_POINTS: f64 = 4000.0;
 /// A line of points of the world \[m\].
 pub type WorldLine = Vec<[f64; 2]>;
 
-/// A road that turns.
+/// The lines of a road that turns.
 pub struct CurvedRoad<'a> {
     road: &'a Road,
     route: Arc<Route>,

@@ -11,18 +11,18 @@ const INSET_PX: f64 = 12.0;
 /// A mark for a vehicle out of view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EdgeMark {
-    /// The vehicle, by its number.
+    /// Index of the vehicle.
     pub vehicle: usize,
-    /// Where the mark is \[px\].
+    /// Place of the mark \[px\].
     pub at: [f64; 2],
-    /// In which direction the vehicle is; length 1, y downwards.
+    /// Direction in which the vehicle is, a vector of length 1 with y downwards.
     pub toward: [f64; 2],
-    /// Its name and its distance from the ego.
+    /// Name of the vehicle and its distance from the ego.
     pub words: String,
 }
 
 impl EdgeMark {
-    /// The arrow that is nearest to its direction, as a letter.
+    /// The arrow letter that is nearest to the direction of the vehicle.
     pub fn arrow(&self) -> char {
         let [x, y] = self.toward;
         match (x.abs() >= y.abs(), x > 0.0, y > 0.0) {

@@ -22,7 +22,7 @@ const MIN_PIECE_RATIO: f64 = 0.5;
 /// Length of the dashes across a lane that yields at its end, and of the spaces between them, by its width.
 const YIELD_DASH_RATIO: f64 = 0.125;
 
-/// A network to be drawn.
+/// The lines of a network of lanes, for drawing.
 pub struct NetworkLines<'a> {
     lanes: &'a [Lane],
     numbers: BTreeMap<&'a str, usize>,

@@ -9,7 +9,7 @@ const TURN_RAD: f64 = 0.6;
 /// At how many places the direction of a route is looked at.
 const PLACES: usize = 64;
 
-/// Whether an order of a vehicle, by its number, is said.
+/// Whether the way in which a vehicle (its index) passes another one is put into words.
 ///
 /// On a network that leads around corners the left and the right of another vehicle are elsewhere a moment later: there
 /// only who goes ahead and who stays behind is said.
@@ -20,7 +20,7 @@ pub fn is_said(scenario: &Scenario, vehicle: usize, passing: &PlannedPassing) ->
     !is_sideways || scenario.network.is_none() || !turn()
 }
 
-/// Whether an event is said: all are, but for passings that are not.
+/// Whether an event is shown: all are, but for passings that are not put into words.
 pub fn is_event_said(scenario: &Scenario, frame: &Frame, event: &Event) -> bool {
     let Some(index) = scenario.index_of(&event.vehicle) else { return true };
     let Some(vehicle) = frame.vehicles.get(index) else { return true };

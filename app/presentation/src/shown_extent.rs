@@ -25,12 +25,13 @@ pub const LEAST_MARGIN_CARS: f64 = 0.35;
 /// Least and greatest coordinates \[m\].
 pub type Extent = [[f64; 2]; 2];
 
-/// What the camera must know of a moment.
+/// The vehicles at a moment, as far as the camera needs them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraMoment {
     /// Every vehicle, in the scenario's order.
     pub states: Vec<State>,
-    /// With whom the ego deals: whom it asks first, then those to whom its order is open.
+    /// The vehicles with which the ego interacts, by index: first those that it asks, then those with which the passing
+    /// is open.
     pub partners: Vec<usize>,
     /// Two vehicles that the camera shows alone, as large as it can.
     pub close_up: Option<[usize; 2]>,
@@ -38,9 +39,9 @@ pub struct CameraMoment {
 
 /// The largest extents that are shown \[m\].
 pub struct Largest {
-    /// Of those who are near anyway.
+    /// Largest extent with vehicles that are near anyway.
     pub usual_m: [f64; 2],
-    /// With somebody who is spoken of.
+    /// Largest extent with a vehicle that the caption names.
     pub spoken_of_m: [f64; 2],
 }
 
@@ -49,7 +50,8 @@ pub fn car_m(scenario: &Scenario) -> f64 {
     CAR_M * scenario.ego().map_or(1.0, |ego| scale(&ego.body))
 }
 
-/// With whom a vehicle deals: whom it asks first, then those to whom its order is open.
+/// The vehicles with which a vehicle interacts, by index: first those that it asks, then those with which the passing
+/// is open.
 pub fn partners(scenario: &Scenario, vehicle: &VehicleFrame) -> Vec<usize> {
     let asked = vehicle.plan.proposals.iter().map(|proposal| &proposal.to);
     let mut partners = Vec::new();

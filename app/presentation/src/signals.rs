@@ -17,9 +17,9 @@ const TURN_AHEAD_LANES: f64 = 5.0;
 /// The side to which a vehicle is going to move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// To the left.
+    /// The vehicle moves to the left.
     Left,
-    /// To the right.
+    /// The vehicle moves to the right.
     Right,
 }
 

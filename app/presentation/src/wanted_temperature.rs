@@ -21,7 +21,7 @@ pub fn usual_wanted_c(scenario: &Scenario, names: &[String]) -> Vec<f64> {
     names.iter().enumerate().map(of_zone).collect()
 }
 
-/// The mean of what the zones usually have to have \[°C\].
+/// The mean over the zones of their usual wanted temperature \[°C\].
 pub fn middle_c(usual_c: &[f64]) -> f64 {
     usual_c.iter().sum::<f64>() / usual_c.len().max(1) as f64
 }

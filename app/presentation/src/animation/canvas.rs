@@ -67,7 +67,7 @@ impl Ink {
     }
 }
 
-/// The picture.
+/// The picture that is drawn on.
 pub struct Canvas {
     pixels: Pixmap,
 }

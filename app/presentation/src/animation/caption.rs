@@ -14,12 +14,12 @@ const EVENT_SHOWN_S: f64 = 1.2;
 /// How long the place of a contact is marked \[s\] at 1/10 scale.
 const CONTACT_SHOWN_S: f64 = 0.35;
 
-/// What is said at a moment.
+/// The two lines below a picture: a negotiation or a collision, and the last event.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Caption {
-    /// Who asks whom, and the answer; or who collided.
+    /// First line: who asks whom with the answer, or who collided.
     pub first: String,
-    /// What happened last.
+    /// Second line: the last event.
     pub second: String,
     /// Whether the first line is about a collision.
     pub alarms: bool,
@@ -57,7 +57,7 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
     Caption { first, second, alarms: false }
 }
 
-/// Who began to touch a short while ago, by their numbers.
+/// The indices of the vehicles that began to touch a short while ago.
 pub fn contacts(run: &DrivingRun, time_s: f64) -> Vec<[usize; 2]> {
     let ratio = run.scenario.ego().map_or(1.0, |ego| ego.body.time_ratio());
     let hits = run.frames.iter().flat_map(|frame| &frame.collisions);

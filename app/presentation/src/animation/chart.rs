@@ -23,7 +23,7 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// Where a point is \[px\].
+    /// The pixel of a point \[px\].
     pub fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [left, top, right, bottom] = self.place;
         let share = (x - self.across[0]) / (self.across[1] - self.across[0]);
@@ -33,7 +33,7 @@ impl Chart {
         [left + share * (right - left), bottom - height * (bottom - top)]
     }
 
-    /// Title, grid and numbers.
+    /// Draws title, grid and numbers.
     pub fn draw_axes(&self, canvas: &mut Canvas, title: &str) {
         let [left, top, right, bottom] = self.place;
         canvas.text([left - 34.0, top - 13.0], Align::Left, SIZE_PX + 1.0, title, WORDS);
@@ -49,7 +49,7 @@ impl Chart {
         }
     }
 
-    /// A curve until an hour, with a dot at its end.
+    /// Draws a curve until an hour, with a dot at its end.
     pub fn draw_past(&self, canvas: &mut Canvas, points: &[[f64; 2]], hour: f64, colour: Colour) {
         let past: Vec<[f64; 2]> =
             points.iter().filter(|[at, _]| *at <= hour + 1e-9).map(|point| self.pixel(*point)).collect();
@@ -59,7 +59,7 @@ impl Chart {
         }
     }
 
-    /// A dashed curve.
+    /// Draws a dashed curve.
     pub fn dashed(&self, canvas: &mut Canvas, points: &[[f64; 2]], width: f64, colour: Colour) {
         let (mut run, mut dash) = (0.0, Vec::new());
         for point in points.windows(2).flat_map(|pair| between(self.pixel(pair[0]), self.pixel(pair[1]))) {
@@ -78,7 +78,7 @@ impl Chart {
         }
     }
 
-    /// The present.
+    /// Draws an upright line at the present.
     pub fn draw_cursor(&self, canvas: &mut Canvas, hour: f64) {
         let [x, _] = self.pixel([hour, self.up[0]]);
         canvas.line(&[[x, self.place[1]], [x, self.place[3]]], 1.0, LineEnd::Flat, CURSOR);

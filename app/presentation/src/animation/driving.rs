@@ -41,7 +41,7 @@ pub struct DrivingPictures<'a> {
     road: RoadShapes,
     /// Rows of the legend: index of a vehicle, its words, and where they begin.
     legend: Vec<Vec<(usize, String, f64)>>,
-    /// What the marks on the road are.
+    /// Words that explain the marks on the road.
     key: String,
 }
 

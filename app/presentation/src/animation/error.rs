@@ -7,7 +7,7 @@ use thiserror::Error;
 /// Why an animation was not written. What stood at its place is as it was.
 #[derive(Debug, Error)]
 pub enum AnimationError {
-    /// There is nothing to be seen.
+    /// The run has neither vehicles nor a building to draw.
     #[error("there is nothing to animate: the run has neither vehicles nor rooms")]
     Nothing,
     /// An encoder refused.
@@ -19,9 +19,9 @@ pub enum AnimationError {
     /// The file cannot be written.
     #[error("cannot write the animation {}: {reason}; choose another place for it", path.display())]
     Unwritable {
-        /// The file.
+        /// Path of the file.
         path: std::path::PathBuf,
-        /// What is in the way.
+        /// The system's reason.
         reason: io::Error,
     },
 }

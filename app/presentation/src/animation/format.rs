@@ -30,27 +30,27 @@ pub struct AnimationFile {
 /// Why no animation can be written to a file of that name.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum AnimationFormatError {
-    /// Its ending stands for no format.
+    /// The ending of the file's name stands for no format.
     #[error("`{path}` has no ending of an animation; use .gif, .webp, .png (a filmstrip) or .mp4 (through ffmpeg)")]
     UnknownEnding {
-        /// The file.
+        /// Path of the file.
         path: String,
     },
     /// MP4 needs a program that is not there.
     #[error("`{path}` needs the program ffmpeg, which is not on the path; use .gif, .webp or .png (a filmstrip)")]
     NoFfmpeg {
-        /// The file.
+        /// Path of the file.
         path: String,
     },
 }
 
 impl AnimationFile {
-    /// A GIF.
+    /// A file that is written as GIF, whatever its name.
     pub fn gif(path: PathBuf) -> AnimationFile {
         AnimationFile { path, format: AnimationFormat::Gif }
     }
 
-    /// Where it is.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }

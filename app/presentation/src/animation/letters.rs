@@ -16,7 +16,7 @@ static FONT: LazyLock<Option<FontRef<'static>>> = LazyLock::new(|| FontRef::try_
 pub struct Word<'a> {
     words: &'a str,
     size: f64,
-    /// How wide they are \[px\].
+    /// Width of the words \[px\].
     pub width: f64,
 }
 
@@ -46,7 +46,7 @@ impl<'a> Word<'a> {
     }
 }
 
-/// How wide words are \[px\].
+/// The width of words \[px\].
 pub fn width_of(words: &str, size: f64) -> f64 {
     let Some(font) = FONT.as_ref() else { return 0.0 };
     let scaled = font.as_scaled(PxScale::from(size as f32));

@@ -20,9 +20,9 @@ const NEAR_CARS: f64 = 30.0;
 /// A vehicle at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenVehicle {
-    /// Where it is.
+    /// Present position, heading and speed.
     pub state: State,
-    /// Angle of its front wheels \[rad\].
+    /// Steering angle of the front wheels \[rad\].
     pub steering_rad: f64,
     /// Whether its brake lights are on.
     pub brakes: bool,
@@ -34,19 +34,19 @@ pub struct SeenVehicle {
     pub plan: Vec<[f64; 2]>,
     /// The colour of the plan: its own, or that of a failure if the plan is a fallback.
     pub plan_colour: Colour,
-    /// What it may do instead, of plans that branch \[m\].
+    /// Positions of the other continuations of a plan that branches \[m\].
     pub branches: Vec<Vec<[f64; 2]>>,
-    /// The motions that it asks other vehicles for \[m\].
+    /// Positions of the motions that it proposes to other vehicles \[m\].
     pub proposals: Vec<Vec<[f64; 2]>>,
 }
 
 /// All ticks of a run with vehicles.
 pub struct DrivingRun<'a> {
-    /// What was run.
+    /// The scenario of the run.
     pub scenario: &'a Scenario,
     /// One colour a vehicle.
     pub colours: Vec<Colour>,
-    /// Its ticks with vehicles.
+    /// The ticks with vehicles.
     pub frames: Vec<&'a Frame>,
     /// What was asked until each tick.
     requests: Vec<Requests>,
@@ -77,7 +77,7 @@ impl<'a> DrivingRun<'a> {
         RunTimes { ego: self.scenario.ego_index(), end_s: self.end_s(), settled_s: self.settled_s(), time_ratio }
     }
 
-    /// When it ends \[s\].
+    /// The time at which the run ends \[s\].
     pub fn end_s(&self) -> f64 {
         self.end.0
     }
@@ -113,12 +113,12 @@ impl<'a> DrivingRun<'a> {
         last.filter(|tick| tick + 1 < self.frames.len()).map(|tick| self.frames[tick].time_s)
     }
 
-    /// What was asked until a tick.
+    /// The requests of vehicles until a tick.
     pub fn requests(&self, frame: &Frame) -> &Requests {
         &self.requests[self.tick(frame.time_s)]
     }
 
-    /// With whom the ego deals at a time.
+    /// The vehicles with which the ego interacts at a time, by index.
     pub fn partners(&self, time_s: f64) -> Vec<usize> {
         partners(self.scenario, &self.frame(time_s).vehicles[self.scenario.ego_index()])
     }

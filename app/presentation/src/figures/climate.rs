@@ -141,7 +141,7 @@ fn name(recorded: &RecordedRun, zone: usize) -> String {
     named.unwrap_or_else(|| format!("zone {}", zone + 1))
 }
 
-/// What a day cost, day by day, of one run or of several.
+/// The cost of each day, of one run or of several.
 pub fn costs(title: &str, recorded_runs: &[&RecordedRun]) -> Panels {
     let curve = |(recorded, style): (&&RecordedRun, LineStyle)| {
         let days = recorded.report.building.iter().flat_map(|building| &building.iterations);

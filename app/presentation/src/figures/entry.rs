@@ -6,12 +6,12 @@ use super::error::FigureError;
 use super::recorded_run::{RecordedRun, RunOutcome, RunSpec};
 use crate::plot::{Drawing, TextTable};
 
-/// What an entry is in the source.
+/// The kind of an entry in the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A figure.
+    /// A figure of the source.
     Figure,
-    /// A table.
+    /// A table of the source.
     Table,
 }
 
@@ -20,33 +20,33 @@ pub enum Kind {
 pub struct Entry {
     /// Whether it is a figure or a table.
     pub kind: Kind,
-    /// Its number, such as `6.1`.
+    /// Number in the source, such as `6.1`.
     pub number: &'static str,
-    /// What it shows, in a line.
+    /// What the entry shows, in a line.
     pub title: &'static str,
-    /// What the source says of it.
+    /// What the source says about the entry.
     pub says: &'static str,
-    /// What the source has wrong that concerns it, and what that does.
+    /// The error of the source that concerns this entry and its effect, if there is one.
     pub erratum: Option<&'static str>,
     /// The runs that are drawn.
     pub runs: &'static [RunSpec],
     /// Runs that are measured beside them, such as another planner or the equations as printed.
     pub beside: &'static [RunSpec],
-    /// How it is drawn from the runs of `runs`.
+    /// The function that draws the entry from its `runs`.
     pub draw: Draw,
 }
 
-/// How an entry is drawn from its runs.
+/// A function that draws an entry from its runs.
 pub type Draw = fn(&Entry, &[&RecordedRun]) -> Result<FigureContent, FigureError>;
 
-/// What came of an entry, or of a run: pictures, and tables of what was measured.
+/// The content of an entry or of a page about a run: pictures, and tables of measures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FigureContent {
     /// The pictures.
     pub pictures: Vec<Drawing>,
-    /// What was measured.
+    /// Tables of measures.
     pub tables: Vec<TextTable>,
-    /// What came of it, in sentences with a word in front of each.
+    /// Results in sentences, with a word in front of each.
     pub words: Vec<(String, String)>,
 }
 
@@ -57,7 +57,7 @@ impl From<Drawing> for FigureContent {
 }
 
 impl Entry {
-    /// The name of its files, and what the command line calls it: `fig-6.1`, `table-6.1`.
+    /// The name of the entry's files and on the command line: `fig-6.1`, `table-6.1`.
     pub fn id(&self) -> String {
         let kind = match self.kind {
             Kind::Figure => "fig",
@@ -77,12 +77,12 @@ impl fmt::Display for Entry {
     }
 }
 
-/// What became of an entry.
+/// An entry with its content, or with the reason why it was not made.
 #[derive(Debug)]
 pub struct EntryOutcome {
     /// The entry.
     pub entry: &'static Entry,
-    /// What was drawn and measured, or why not.
+    /// Pictures and tables, or why there are none.
     pub outcome: Result<FigureContent, FigureError>,
     /// How each run went that was asked of it and could be finished.
     pub runs: Vec<RunOutcome>,

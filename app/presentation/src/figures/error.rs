@@ -24,9 +24,9 @@ pub enum FigureError {
     /// A run that several figures share failed.
     #[error("{scenario}: {reason}")]
     Shared {
-        /// The scenario.
+        /// Name of the scenario.
         scenario: &'static str,
-        /// Why.
+        /// Why the run failed.
         reason: Arc<FigureError>,
     },
     /// A run that the figure needs was not made.
@@ -47,9 +47,9 @@ pub enum FigureError {
     /// The page cannot be written.
     #[error("cannot write {}: {reason}; name another folder with --report", path.display())]
     Page {
-        /// Where it should be.
+        /// Path of the page.
         path: PathBuf,
-        /// What the system says.
+        /// The system's reason.
         reason: io::Error,
     },
 }

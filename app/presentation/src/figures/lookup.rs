@@ -5,13 +5,13 @@ use thiserror::Error;
 
 use super::{Entry, registry};
 
-/// Words that no figure has.
+/// Why words name no figure or table.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("there is no figure or table `{words}`: {help}")]
 pub struct UnknownFigure {
-    /// What was asked for.
+    /// The words that were given.
     pub words: String,
-    /// What would work.
+    /// What to write instead.
     pub help: String,
 }
 

@@ -13,40 +13,40 @@ use super::error::FigureError;
 /// A run that a figure needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RunSpec {
-    /// What distinguishes it from the others of its figure.
+    /// Label that distinguishes this run from the others of its figure.
     pub label: &'static str,
     /// Name of the authored scenario.
     pub scenario: &'static str,
-    /// What is changed in it, as `--set` has it.
+    /// Changes of the scenario, in the form of `--set`.
     pub sets: &'static [&'static str],
 }
 
-/// How a run went.
+/// The command of a run and whether its expectations held.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunOutcome {
-    /// The words of the command that runs the same.
+    /// Words of the command that repeats the run.
     pub command: Vec<String>,
     /// Whether its expectations held; `None` if the scenario was changed or expects nothing.
     pub held: Option<bool>,
 }
 
-/// A run and all that was seen of it.
+/// A finished run with all its frames and its report.
 #[derive(Clone, Debug)]
 pub struct RecordedRun {
-    /// What distinguishes it from others beside it.
+    /// Label that distinguishes this run from others beside it.
     pub label: String,
-    /// The words of the command that runs the same.
+    /// Words of the command that repeats the run.
     pub command: Vec<String>,
-    /// What was run.
+    /// The scenario of the run.
     pub scenario: Scenario,
-    /// Every tick.
+    /// The frames of all ticks.
     pub frames: Vec<Frame>,
-    /// What it amounts to.
+    /// The report of the run.
     pub report: Report,
 }
 
 impl RunSpec {
-    /// Runs it.
+    /// Runs the scenario and keeps all frames.
     ///
     /// # Errors
     /// [`FigureError`], if the scenario cannot be loaded or its run cannot be finished.
@@ -72,12 +72,12 @@ impl RecordedRun {
 }
 
 impl RecordedRun {
-    /// Whether it was changed, so that the authored expectations may not hold.
+    /// Whether the scenario was changed, so that the authored expectations may not hold.
     pub fn changed(&self) -> bool {
         self.command.iter().any(|word| word == "--set" || word == "--planner")
     }
 
-    /// How it went.
+    /// The command of the run and whether its expectations held.
     pub fn ran(&self) -> RunOutcome {
         let judged = !self.changed() && !self.report.expectations.is_empty();
         RunOutcome { command: self.command.clone(), held: judged.then_some(self.report.passed) }

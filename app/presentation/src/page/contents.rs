@@ -2,25 +2,25 @@
 
 use crate::plot::TextTable;
 
-/// A page.
+/// The content of a page, from which HTML is made.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {
-    /// Its title.
+    /// Title of the page.
     pub title: String,
-    /// What stands below the title, a paragraph each.
+    /// Paragraphs below the title.
     pub opening: Vec<String>,
-    /// What it shows.
+    /// Parts of the page.
     pub sections: Vec<Section>,
 }
 
 /// A part of a page.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
-    /// Where links lead, unique on the page.
+    /// Anchor of the part for links, unique on the page.
     pub id: String,
-    /// Its heading.
+    /// Heading of the part.
     pub heading: String,
-    /// How it turned out.
+    /// Whether what was expected of the part came true.
     pub verdict: SectionStatus,
     /// Paragraphs with a word in front of each.
     pub words: Vec<(String, String)>,
@@ -34,22 +34,22 @@ pub struct Section {
     pub files: Vec<(String, String)>,
 }
 
-/// How a part turned out.
+/// Whether what was expected of a part came true.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SectionStatus {
-    /// Nothing was expected.
+    /// Nothing was expected of this part.
     #[default]
     Shown,
     /// All that was expected came true.
     Held,
     /// Something that was expected did not come true.
     Missed,
-    /// It could not be made, and why.
+    /// The part could not be made; the reason.
     Broken(String),
 }
 
 impl SectionStatus {
-    /// The words for it.
+    /// The status in words.
     pub fn word(&self) -> &'static str {
         match self {
             SectionStatus::Shown => "shown",

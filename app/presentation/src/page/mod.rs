@@ -10,7 +10,7 @@ use std::path::Path;
 pub use contents::{Page, Section, SectionStatus};
 
 impl Page {
-    /// The whole as HTML.
+    /// The page as one HTML file.
     pub fn html(&self) -> String {
         html::page(self)
     }

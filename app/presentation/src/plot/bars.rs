@@ -24,9 +24,9 @@ const MARGIN_PX: f64 = 24.0;
 /// Bars in groups. A bar begins at 0; the line on it is its interval.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IntervalBars {
-    /// What is shown.
+    /// Title of the picture.
     pub title: String,
-    /// What the axis measures, with its unit.
+    /// Quantity of the axis, with its unit.
     pub axis: String,
     /// The end of the axis, where it is known beforehand, such as 1 of shares.
     pub end: Option<f64>,
@@ -34,14 +34,14 @@ pub struct IntervalBars {
     pub groups: Vec<(String, Vec<IntervalBar>)>,
 }
 
-/// One bar.
+/// A bar with its interval.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IntervalBar {
-    /// What it is of.
+    /// Name of the bar.
     pub name: String,
-    /// Its length; none where there is nothing to show.
+    /// Length of the bar; `None` where there is nothing to show.
     pub value: Option<f64>,
-    /// Lower and upper bound.
+    /// Lower and upper bound of the interval.
     pub interval: Option<[f64; 2]>,
 }
 

@@ -27,7 +27,7 @@ const PATCH_MARGIN_PX: f64 = 4.0;
 /// draw spikes on wide lines.
 const MIN_UNSPLIT_TURN_COS: f64 = 0.7;
 
-/// A picture to be saved.
+/// A picture as a list of marks, which can be saved as SVG and PNG.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     pub(super) size: (u32, u32),
@@ -129,7 +129,7 @@ impl Drawing {
         found
     }
 
-    /// How many marks there are.
+    /// Number of marks.
     pub fn mark_count(&self) -> usize {
         self.marks.len()
     }

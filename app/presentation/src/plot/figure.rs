@@ -24,7 +24,7 @@ pub enum PlotError {
     /// A file or folder cannot be written.
     #[error("cannot write the plots to {}: {reason}; name another folder", folder.display())]
     Unwritable {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
         /// The message of the operating system.
         reason: io::Error,
@@ -32,7 +32,7 @@ pub enum PlotError {
     /// The drawing itself failed.
     #[error("cannot draw {name}: {reason}")]
     Drawing {
-        /// The figure.
+        /// Name of the figure.
         name: String,
         /// The message of Plotters.
         reason: String,

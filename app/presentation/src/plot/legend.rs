@@ -35,7 +35,7 @@ impl Legend {
         }
     }
 
-    /// Both together.
+    /// This legend with the names of another one added.
     pub fn with(mut self, other: &Legend) -> Legend {
         other.entries.iter().for_each(|(sample, name)| self.add(*sample, name));
         self
@@ -62,12 +62,12 @@ impl Legend {
         self.entries.iter().map(place).collect()
     }
 
-    /// Its height in pixels if its width is at most `width`.
+    /// Height of the legend in pixels if its width is at most `width`.
     pub fn height(&self, width: f64) -> f64 {
         self.places(width).last().map_or(0.0, |(row, _)| (row + 1) as f64 * ROW_HEIGHT_PX + GAP_PX)
     }
 
-    /// Draws it with its upper left corner at the given place.
+    /// Draws the legend with its upper left corner at the given place.
     pub fn draw(&self, drawing: &mut Drawing, [left, top]: [f64; 2], width: f64) {
         for ((sample, name), (row, x)) in self.entries.iter().zip(self.places(width)) {
             let (x, y) = (left + x, top + (row as f64 + 0.5) * ROW_HEIGHT_PX);

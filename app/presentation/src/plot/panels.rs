@@ -37,7 +37,7 @@ pub struct Panels {
     pub panels: Vec<Panel>,
 }
 
-/// One plot.
+/// A plot of curves over the common x axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
     /// The name of the y axis with its unit.
@@ -59,22 +59,22 @@ pub struct Panel {
 /// How the points of a curve are marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marks {
-    /// Not at all: a line.
+    /// Points are not marked: a line.
     None,
-    /// By a disc each, on the line.
+    /// Each point is a disc on the line.
     OnLine,
-    /// By a small dot each, without a line.
+    /// Each point is a small dot, without a line.
     Alone,
 }
 
 /// A curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Its name in the legend; none if it is empty.
+    /// Name in the legend; an empty one has no entry.
     pub name: String,
-    /// Its points; one that is not finite breaks it.
+    /// Points of the curve; one that is not finite breaks the line.
     pub points: Vec<[f64; 2]>,
-    /// How it is drawn.
+    /// Style of the line.
     pub style: LineStyle,
     /// Whether each point is marked, and how its points are joined.
     pub marks: Marks,
@@ -86,12 +86,12 @@ impl Curve {
         Curve { name: name.into(), points, style, marks: Marks::None }
     }
 
-    /// The same with a mark on each point.
+    /// This curve with a mark on each point.
     pub fn marked(self) -> Curve {
         Curve { marks: Marks::OnLine, ..self }
     }
 
-    /// Every `nth` point as a small dot, without a line: what lies below is seen.
+    /// This curve with every `nth` point as a small dot and no line, so that what lies below is seen.
     pub fn dotted(self, nth: usize) -> Curve {
         let points = self.points.iter().copied().step_by(nth.max(1)).collect();
         Curve { marks: Marks::Alone, points, ..self }

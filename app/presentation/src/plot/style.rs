@@ -4,21 +4,21 @@
 use crate::palette;
 pub use crate::palette::Colour;
 
-/// Text and axes.
+/// Colour of text and axes.
 pub const BLACK: Colour = [0x1A, 0x1A, 0x1A];
-/// Less important things: forecasts, the past, the shoulder of the road.
+/// Colour of less important things: forecasts, the past, the shoulder of the road.
 pub const GREY: Colour = [0x80, 0x80, 0x80];
-/// Grid lines.
+/// Colour of grid lines.
 pub const PALE: Colour = [0xDD, 0xDD, 0xDD];
-/// Behind bodies: the surface of the road; behind curves: working hours.
+/// Colour of the surface of the road, and of working hours behind curves.
 pub const SURFACE: Colour = [0xEE, 0xEE, 0xEE];
-/// Behind everything.
+/// Colour of the background.
 pub const PAPER: Colour = [0xFF, 0xFF, 0xFF];
-/// Limits, and the path of the ego as the source draws it.
+/// Colour of limits, and of the path of the ego as the source draws it.
 pub const VERMILLION: Colour = palette::VERMILLION.rgb;
-/// The ego.
+/// Colour of the ego.
 pub const ORANGE: Colour = palette::ORANGE.rgb;
-/// The first of the others.
+/// Colour of the first of the other vehicles.
 pub const BLUE: Colour = palette::BLUE.rgb;
 
 /// The dash pattern of a line.
@@ -50,11 +50,11 @@ impl Dash {
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineStyle {
-    /// Its colour.
+    /// Colour of the line.
     pub colour: Colour,
-    /// Its dash pattern.
+    /// Dash pattern of the line.
     pub dash: Dash,
-    /// Its width \[px\].
+    /// Width of the line \[px\].
     pub width: u32,
 }
 
@@ -75,9 +75,9 @@ impl LineStyle {
     }
 }
 
-/// A limit that must not be passed.
+/// Style of a limit that must not be passed.
 pub const LIMIT: LineStyle = LineStyle::new(VERMILLION, Dash::Short).thin();
-/// A reference or a prediction, drawn beside the actual value.
+/// Style of a reference or a prediction, drawn beside the actual value.
 pub const WANTED: LineStyle = LineStyle::new(BLACK, Dash::Long).thin();
 
 /// Line styles of several curves of one kind, which differ in colour and dashes; the sequence repeats after the last.

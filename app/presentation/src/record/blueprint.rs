@@ -25,7 +25,7 @@ pub enum LayoutNode {
     Column(Vec<(f32, LayoutNode)>),
     /// One behind the other, the first in front, with words on the tabs; those of a view are its title.
     Tabs(Vec<(&'static str, LayoutNode)>),
-    /// A view.
+    /// A single view.
     View(View),
 }
 
@@ -45,7 +45,7 @@ impl View {
         View { class, title: title.to_owned(), origin: "/".to_owned(), contents, properties: Vec::new() }
     }
 
-    /// What is written above it.
+    /// The title above the view.
     #[cfg(test)]
     pub fn title(&self) -> &str {
         &self.title

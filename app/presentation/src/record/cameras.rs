@@ -31,11 +31,11 @@ use crate::extent::extent;
 use crate::palette::{FLASH, VERMILLION};
 use crate::rectangle::{Rectangle, rectangle_around};
 
-/// The camera from above, the one from the side, and the one that sees the whole road.
+/// Path of the camera from above.
 pub const TOP: &str = "world/camera/top";
-/// See [`TOP`].
+/// Path of another camera of the run, from the side or of the whole road.
 pub const SIDE: &str = "world/camera/side";
-/// See [`TOP`].
+/// Path of another camera of the run, from the side or of the whole road.
 pub const WHOLE: &str = "world/camera/whole";
 
 /// The star that marks a contact.
@@ -159,7 +159,7 @@ impl Cameras {
         [WHOLE_PX, WHOLE_PX * extent_m[1] / extent_m[0]]
     }
 
-    /// Takes note of a tick.
+    /// Stores a tick for [`Cameras::log_all`].
     pub fn note(&mut self, scenario: &Scenario, frame: &Frame) {
         let Some(ego) = frame.vehicles.get(scenario.ego_index()) else { return };
         let states: Vec<State> = frame.vehicles.iter().map(|vehicle| vehicle.state).collect();

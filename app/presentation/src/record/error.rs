@@ -12,9 +12,9 @@ pub enum RecordError {
     /// The file cannot be written.
     #[error("cannot write the recording {}: {reason}; name another file with --record, or do without (--no-record)", path.display())]
     Unwritable {
-        /// The file that was asked for.
+        /// Path of the file.
         path: PathBuf,
-        /// What is in the way.
+        /// The system's reason.
         reason: io::Error,
     },
     /// No viewer listens.
@@ -22,9 +22,9 @@ pub enum RecordError {
         "no Rerun viewer listens on {address} ({reason}); start one first (`rerun`), or record into a file instead of --connect"
     )]
     NoViewer {
-        /// Where one was looked for.
+        /// Address at which a viewer was expected.
         address: String,
-        /// What the system says.
+        /// The system's reason.
         reason: io::Error,
     },
     /// The address that Rerun names itself is none.

@@ -55,7 +55,7 @@ impl Mesh {
         self.add_solid([ring, ring], heights_m, [colour; 2]);
     }
 
-    /// What the viewer draws.
+    /// The mesh as a component of the viewer.
     pub fn to_component(&self) -> Mesh3D {
         Mesh3D::new(self.positions.iter().copied())
             .with_vertex_colors(self.colours.iter().copied())

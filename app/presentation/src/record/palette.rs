@@ -7,9 +7,9 @@ pub use crate::palette::{NamedColour, vehicle_colours};
 
 /// Something went wrong: a plan that is only a fallback. Vermillion, which no vehicle has.
 pub const FAILURE: NamedColour = palette::VERMILLION;
-/// Bounds of what is wanted.
+/// Colour of the bounds of what is wanted.
 pub const MARKING: NamedColour = NamedColour { rgb: [0xA8, 0xAC, 0xB3], word: "light grey" };
-/// What belongs to nobody.
+/// Colour of what belongs to no vehicle or zone.
 pub const NEUTRAL: NamedColour = NamedColour { rgb: [0xDD, 0xDD, 0xDD], word: "white" };
 /// One more curve on a dark ground.
 const YELLOW: NamedColour = NamedColour { rgb: [0xF0, 0xE4, 0x42], word: "yellow" };

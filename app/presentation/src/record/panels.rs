@@ -8,23 +8,23 @@ use super::plots;
 use super::status;
 use super::timelines::{SIM_TIME, TICK};
 
-/// What the recording is, and what to look for.
+/// The panel that says what the recording is and what to look for.
 pub fn about() -> LayoutNode {
     LayoutNode::View(View::new("TextDocument", "What this is", vec!["/about".to_owned()]))
 }
 
-/// What each driver wants and does.
+/// The panel that says what each driver wants and does.
 pub fn status() -> LayoutNode {
     let contents = vec![format!("/{}", status::STATUS)];
     LayoutNode::View(View::new("TextDocument", "What each driver does now", contents))
 }
 
-/// What happened, in words. The texts begin with their time, which the viewer's own column would cut off.
+/// The panel of events in words. The texts begin with their time, which the viewer's own column would cut off.
 pub fn events(path: &str) -> LayoutNode {
     log("What happens", path)
 }
 
-/// Why optimisers found nothing, in their own terms.
+/// The panel of the optimisers' reasons for finding nothing.
 pub fn reasons() -> LayoutNode {
     log("Why optimisers found nothing", plots::REASONS)
 }

@@ -14,13 +14,13 @@ use super::re_sdk_types::archetypes::{Scalars, SeriesLines, TextLog};
 use super::re_sdk_types::components::{Color, InterpolationMode, TextLogLevel};
 use crate::passing_words::is_event_said;
 
-/// The events of all vehicles.
+/// Path of the events of all vehicles.
 pub const LOG: &str = "log";
-/// The same of a building and its controller, which have another clock.
+/// Path of the events of a building and its controller, which have another clock.
 pub const BUILDING_LOG: &str = "building/log";
-/// Why optimisers found nothing, in their own terms.
+/// Path of the optimisers' reasons for finding nothing.
 pub const REASONS: &str = "plots/reasons";
-/// Smallest distance of the ego to another vehicle.
+/// Path of the smallest distance of the ego to another vehicle.
 pub const GAP: &str = "plots/gap";
 /// What is plotted for every vehicle: the folder below `plots`, and the number.
 type Quantity = (&'static str, fn(&VehicleFrame) -> f64);
@@ -95,7 +95,7 @@ impl Plots {
         self.speeds_mps.filter(|_| self.is_over)
     }
 
-    /// Says that nothing more comes.
+    /// Marks the run as over: ranges are final.
     pub fn end(&mut self) {
         self.is_over = true;
     }

@@ -14,7 +14,7 @@ use crate::answer::Requests;
 use crate::passing_words::is_said;
 use crate::signals::is_braking;
 
-/// Where the lines are.
+/// Path of the status lines.
 pub const STATUS: &str = "status";
 /// Slower than this share of its wanted speed a vehicle stands.
 const STANDS_SHARE: f64 = 0.08;

@@ -1,6 +1,6 @@
 //! The timelines of every recording.
 
-/// Simulated time.
+/// Name of the timeline of simulated time.
 pub const SIM_TIME: &str = "sim_time";
-/// Ticks.
+/// Name of the timeline of ticks.
 pub const TICK: &str = "tick";

@@ -10,9 +10,9 @@ use super::columns::{Align, lines};
 /// One run of a suite: its report, or why it could not be finished.
 #[derive(Debug)]
 pub struct Case {
-    /// What the run is called.
+    /// Name of the run.
     pub name: String,
-    /// How it ended.
+    /// The report of the run, or why it could not be finished.
     pub outcome: Result<Report, RunError>,
 }
 

@@ -45,12 +45,12 @@ impl Film {
         Some(Film { size: pictures.size(), colours: table.colours, pictures: drawn })
     }
 
-    /// How many pictures there are.
+    /// Number of pictures.
     pub fn count(&self) -> usize {
         self.pictures.len()
     }
 
-    /// What changes with a picture; of the first one, everything.
+    /// The part of a picture that differs from the one before; of the first one, all of it.
     pub fn change(&self, index: usize) -> Change {
         let [width, height] = self.size.map(|part| part as usize);
         let now = &self.pictures[index];

@@ -25,7 +25,7 @@ pub(super) const PATH: LineStyle = LineStyle::new(VERMILLION, Dash::Solid);
 /// Vehicles at equal steps of time. Lengths are in metres of the world; the x axis runs along the main road.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FootprintPlot {
-    /// What it shows.
+    /// Title of the picture.
     pub title: String,
     /// The road.
     pub road: RoadShapes,
@@ -35,25 +35,25 @@ pub struct FootprintPlot {
     pub vehicles: Vec<FootprintVehicle>,
     /// The snapshots, in order of time.
     pub snapshots: Vec<FootprintSnapshot>,
-    /// Where the ego's centre was, with the time \[s\].
+    /// Positions of the ego's centre, each with its time \[s\].
     pub path: Vec<(f64, [f64; 2])>,
 }
 
 /// A vehicle that leaves footprints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FootprintVehicle {
-    /// What the legend calls it.
+    /// Name of the vehicle in the legend.
     pub label: String,
-    /// Its colour.
+    /// Colour of the footprints.
     pub colour: Colour,
-    /// What it looks like.
+    /// Look of the vehicle.
     pub style: BodyStyle,
 }
 
 /// The vehicles at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FootprintSnapshot {
-    /// When it is \[s\].
+    /// Time of the snapshot \[s\].
     pub time_s: f64,
     /// The corners of each vehicle's body: front right, front left, rear right, rear left.
     pub bodies: Vec<[[f64; 2]; 4]>,

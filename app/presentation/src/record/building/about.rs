@@ -4,7 +4,7 @@ use interplay_scenarios::{Scenario, WeatherSource};
 
 use super::super::markdown::code;
 
-/// What one is looking at, and for what to look.
+/// The text of a recording of a building: what it shows and what to look for.
 pub fn about(scenario: &Scenario, command: Option<&str>) -> String {
     let again = command.map(|command| format!(" Again: {}", code(command))).unwrap_or_default();
     let weather = match &scenario.weather {

@@ -21,29 +21,29 @@ use super::super::re_sdk_types::components::TensorData;
 use super::super::re_sdk_types::datatypes;
 use super::series::style;
 
-/// The learned bias.
+/// Path of the learned bias.
 pub const LEARNED: &str = "building/learned";
-/// K.
+/// Path of the feedback gain K.
 pub const GAIN: &str = "building/feedback/gain";
-/// Q.
+/// Path of the taps of the filter Q.
 pub const TAPS: &str = "building/feedback/tap";
-/// Spectral radius and largest singular value.
+/// Path of spectral radius and largest singular value.
 pub const CONVERGENCE: &str = "building/convergence";
-/// J by round.
+/// Path of the cost J by round.
 pub const COST: &str = "building/exchange/cost";
-/// Messages by zone.
+/// Path of the messages by zone.
 pub const MESSAGES: &str = "building/exchange/messages";
 
-/// What is known of the controller's plans so far.
+/// The plots of a controller's plans, with what they have shown so far.
 #[derive(Default)]
 pub struct DesignPlots {
     /// Whether this controller plans at all.
     learns: bool,
-    /// What was said of the day's plan.
+    /// The description of the day's plan.
     design: Design,
     /// Messages sent so far, by zone.
     messages: Vec<usize>,
-    /// What there was something to show of.
+    /// The plots that have anything to show.
     seen: BTreeSet<&'static str>,
 }
 

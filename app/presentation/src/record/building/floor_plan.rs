@@ -22,7 +22,7 @@ const MAX_NAMED_ROOMS: usize = 16;
 /// In more rooms than this there is no space for labels.
 const MAX_LABELLED_ROOMS: usize = 144;
 
-/// How the floor plan is drawn.
+/// The floor plan of a building in a recording.
 pub struct FloorPlanLayer {
     rooms: FloorPlan,
     /// The temperature of each zone that is neither cold nor warm while none is wanted \[°C\].
@@ -106,7 +106,7 @@ impl FloorPlanLayer {
         (square.round() as usize).clamp(1, floors.max(1))
     }
 
-    /// Picture elements across and down.
+    /// Width and height of the picture \[pixels\].
     pub fn size(&self) -> [usize; 2] {
         let FloorPlan { columns, rows, floors } = self.rooms;
         let along = |blocks: usize, rooms: usize| {

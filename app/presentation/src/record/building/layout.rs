@@ -20,13 +20,13 @@ const HALF_WIDTH: f64 = 600.0;
 /// The words that belong to a recording of a building. Beside vehicles their layout has them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextPanels {
-    /// Elsewhere; nothing has happened.
+    /// The words are elsewhere, and there are no events.
     Elsewhere,
-    /// What happened; the rest is elsewhere.
+    /// The events; the rest is elsewhere.
     Events,
-    /// What this is; nothing has happened.
+    /// The text about the recording; there are no events.
     About,
-    /// What this is, and what happened.
+    /// The text about the recording, and the events.
     AboutAndEvents,
 }
 

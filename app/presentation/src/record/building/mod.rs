@@ -39,7 +39,7 @@ const MAX_SHOWN_ZONES: usize = 16;
 /// Most plots that together show the temperatures of more zones.
 const MAX_GROUPS: usize = 12;
 
-/// What a recording must know of a building.
+/// The building in a recording: its zones, and what is drawn of them.
 pub struct BuildingLayer {
     /// Names of the zones.
     pub names: Vec<String>,
@@ -85,7 +85,7 @@ impl BuildingLayer {
         }))
     }
 
-    /// Says that nothing more comes.
+    /// Marks the run as over: ranges are final.
     pub fn end(&mut self) {
         self.ranges.are_final = true;
     }

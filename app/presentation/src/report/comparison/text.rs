@@ -5,7 +5,7 @@ use interplay_sweep::compare::{Comparison, PairedDifference, VersionComparison};
 use super::rows::{TextRows, differences, figures, heading, version_name, versus};
 use crate::report::columns::{Align, lines};
 
-/// The figures of every planner, and below each group its differences from the baseline.
+/// The figures of every planner as text, and below each group its differences from the baseline.
 pub fn comparison(comparison: &Comparison) -> String {
     let mut text = format!("{} runs, {} of them without a result\n", comparison.runs, comparison.unfinished);
     for group in &comparison.groups {
@@ -21,7 +21,7 @@ pub fn comparison(comparison: &Comparison) -> String {
     text
 }
 
-/// What the second of two folders does differently.
+/// The differences of the second of two folders from the first, as text.
 pub fn version_comparison(comparison: &VersionComparison) -> String {
     let [before, after] = comparison.versions.each_ref().map(|versions| versions.join(", "));
     let VersionComparison { pairs, changed, unpaired: [only_before, only_after], .. } = comparison;
