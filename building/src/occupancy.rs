@@ -183,13 +183,13 @@ impl People {
         let mut stacked = Vec::with_capacity(steps * self.peaks_kw.len());
         for hour in hours(step_s, steps) {
             let share = self.occupancy.share(hour, from_h, to_h);
-            stacked.extend(self.peaks_kw.iter().enumerate().map(
-                |(zone, peak_kw)| match self.timetable.of(zone, day) {
+            stacked.extend(self.peaks_kw.iter().enumerate().map(|(zone, peak_kw)| {
+                match self.timetable.look_up(zone, day) {
                     None => base_kw + peak_kw * share,
                     Some(None) => 0.0,
                     Some(Some(schedule)) => schedule.base_kw + schedule.people_kw(hour, 0.0, 0.0),
-                },
-            ));
+                }
+            }));
         }
         stacked
     }
@@ -200,7 +200,7 @@ impl People {
         let days: Vec<Day> = (0..self.peaks_kw.len()).map(|zone| self.day(zone, day)).collect();
         let mut stacked = Vec::with_capacity(steps * days.len());
         for hour in hours(step_s, steps) {
-            stacked.extend(days.iter().enumerate().map(|(zone, today)| match self.timetable.of(zone, day) {
+            stacked.extend(days.iter().enumerate().map(|(zone, today)| match self.timetable.look_up(zone, day) {
                 None => self.occupancy.base_kw + today.heat_kw(&self.occupancy, hour),
                 Some(None) => 0.0,
                 Some(Some(schedule)) => {

@@ -134,8 +134,9 @@ fn it_tracks_better_than_pid_without_a_forecast_on_every_seed() {
             let mut controller = controller.controller(&model, STEPS).expect("valid");
             let records = run(&model, 28.5, &mut *controller, &targets, &days);
             assert!(records.iter().all(|record| record.requested_kw.iter().all(|kw| kw.abs() <= 2.0)));
-            let later =
-                records[1..].iter().map(|r| KeyFigures::of(r, &targets, &PowerLimits::symmetric(&[2.0; 4]), STEP_S));
+            let later = records[1..]
+                .iter()
+                .map(|r| KeyFigures::compute(r, &targets, &PowerLimits::symmetric(&[2.0; 4]), STEP_S));
             later.fold((0.0, 0.0), |(rmse, beyond), f| (rmse + f.tracking_rmse_c / 4.0, beyond + f.discomfort_k_h))
         };
         let youla = figures(Controller::Concurrent(ConcurrentSettings::default()));

@@ -186,7 +186,7 @@ impl World {
                 let initial_c = temperatures_c.clone();
                 let record = run_day(&model, &mut temperatures_c, &mut *controller, &targets, &forecast, &actual);
                 let record = record.expect("runs");
-                let figures = KeyFigures::of(&record, &targets, model.network().limits(), STEP_S);
+                let figures = KeyFigures::compute(&record, &targets, model.network().limits(), STEP_S);
                 assert_eq!(figures.input_violation_kw, 0.0);
                 let best = optimum(&lifted, &initial_c, &targets, &actual, None).expect("solvable");
                 (figures.cost, figures.cost - best.cost)
@@ -254,7 +254,7 @@ fn key_figures_are_what_they_say() {
         requested_kw: vec![1.0, -2.5, 0.0, 0.0, 0.5, 0.0, -1.0, -1.0],
         design: Default::default(),
     };
-    let figures = KeyFigures::of(&record, &targets, &PowerLimits::symmetric(&[2.0, 2.0]), STEP_S);
+    let figures = KeyFigures::compute(&record, &targets, &PowerLimits::symmetric(&[2.0, 2.0]), STEP_S);
     assert_eq!(figures.cost, 2.0 * (1.0 + 4.0) + 3.0 * (1.0 + 4.0 + 0.25 + 1.0 + 1.0));
     assert!((figures.tracking_rmse_c - (5.0_f64 / 4.0).sqrt()).abs() < 1e-15);
     // Beyond the band: 0.5 K and 1.5 K, half an hour each, two zones.
@@ -262,7 +262,7 @@ fn key_figures_are_what_they_say() {
     assert_eq!((figures.energy_kwh, figures.heating_kwh, figures.cooling_kwh), (2.75, 0.75, 2.0));
     assert_eq!((figures.peak_kw, figures.input_violation_kw), (3.0, 0.5));
     // A peak is a mean over a quarter of an hour.
-    let fast = KeyFigures::of(&record, &targets, &PowerLimits::symmetric(&[2.0, 2.0]), 300.0);
+    let fast = KeyFigures::compute(&record, &targets, &PowerLimits::symmetric(&[2.0, 2.0]), 300.0);
     assert!((fast.peak_kw - 2.0).abs() < 1e-15, "{}", fast.peak_kw);
 }
 

@@ -111,7 +111,7 @@ fn the_cheapest_day_is_that_of_scipy() {
         heat_kw: found.heat_kw,
         design: Default::default(),
     };
-    let figures = KeyFigures::of(&record, &targets, network.limits(), 3600.0);
+    let figures = KeyFigures::compute(&record, &targets, network.limits(), 3600.0);
     assert!((figures.electricity_kwh - number("electricity_kwh")).abs() < 1e-4);
     assert!((figures.energy_cost.expect("priced") - number("money")).abs() < 1e-4);
     let zones = ZoneFigures::of_all(&record, &targets, 3600.0);

@@ -96,7 +96,7 @@ fn with_the_matrix_as_printed_every_gain_diverges() {
 fn nothing_is_learned_where_the_temperature_is_free() {
     let lifted = Lifted::new(&Model::euler(&Network::grid(1, 3), STEP_S).expect("stable"), 1);
     let errors = [Some(1.0), Some(3.0), None];
-    assert_eq!(LearnedErrors::Own.of(&lifted, &errors), [1.0, 3.0, 0.0]);
-    assert_eq!(LearnedErrors::Neighbours.of(&lifted, &errors), [-1.0, 5.0, 0.0]);
-    assert_eq!(LearnedErrors::NeighboursAsPrinted.of(&lifted, &errors), [4.0, 4.0, 0.0]);
+    assert_eq!(LearnedErrors::Own.combine(&lifted, &errors), [1.0, 3.0, 0.0]);
+    assert_eq!(LearnedErrors::Neighbours.combine(&lifted, &errors), [-1.0, 5.0, 0.0]);
+    assert_eq!(LearnedErrors::NeighboursAsPrinted.combine(&lifted, &errors), [4.0, 4.0, 0.0]);
 }

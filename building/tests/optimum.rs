@@ -151,7 +151,7 @@ fn no_perturbation_is_cheaper() {
         let noise = numbers(found.heat_kw.len(), scale);
         let heat_kw: Vec<f64> = found.heat_kw.iter().zip(&noise).map(|(u, du)| (u + du).clamp(-0.8, 0.8)).collect();
         let temperatures_c = lifted.response(&initial_c, &heat_kw, &disturbance.ambient_c, &disturbance.gains_kw);
-        let objective = targets.cost(&temperatures_c, &heat_kw) + penalty.of(&targets, &temperatures_c);
+        let objective = targets.cost(&temperatures_c, &heat_kw) + penalty.evaluate(&targets, &temperatures_c);
         assert!(objective > found.objective, "{objective} at {scale}");
     }
 }

@@ -41,7 +41,7 @@ impl Bound {
     }
 
     /// The bounds that the schema of a number states.
-    pub fn of(schema: &Json) -> impl Iterator<Item = Bound> {
+    pub fn read(schema: &Json) -> impl Iterator<Item = Bound> {
         let bound = |keyword: &str| schema.get(keyword).and_then(Json::as_f64);
         let stated = [
             bound("minimum").map(Self::AtLeast),

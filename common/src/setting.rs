@@ -108,7 +108,7 @@ pub fn check_bound(key: &str, value: f64, bound: Bound) -> Result<(), SettingErr
 fn check_value(root: &Json, schema: &Json, value: &Toml, key: &SettingKey) -> Result<(), SettingError> {
     let schema = description_of(root, schema, value);
     let number = |value: f64| {
-        let mut bounds = Bound::of_every_setting().into_iter().chain(Bound::of(schema));
+        let mut bounds = Bound::of_every_setting().into_iter().chain(Bound::read(schema));
         let broken = bounds.find(|bound| !bound.admits(value));
         broken.map_or(Ok(()), |bound| Err(SettingError { key: key.clone(), value, bound }))
     };

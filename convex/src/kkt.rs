@@ -50,7 +50,7 @@ pub(crate) struct OptimalityCheck {
     pub(crate) objective: f64,
 }
 
-pub(crate) fn of(form: &StandardForm, x: &[f64], z: &[f64]) -> OptimalityCheck {
+pub(crate) fn check(form: &StandardForm, x: &[f64], z: &[f64]) -> OptimalityCheck {
     let px = form.p.symmetric_times(x);
     let ax = form.a.times(x);
     let atz = form.a.transposed_times(z);
@@ -124,7 +124,7 @@ mod tests {
     /// Every term and every scale, by hand.
     #[test]
     fn residuals_have_the_scale_of_their_terms() {
-        let OptimalityCheck { residuals, slack, objective } = of(&form(), &[10.0, 5.0], &[-8.0, 20.0]);
+        let OptimalityCheck { residuals, slack, objective } = check(&form(), &[10.0, 5.0], &[-8.0, 20.0]);
         assert_eq!((slack, objective), (vec![-5.0, 390.0], 200.0 - 1000.0));
         // Px = (40, 0), q = (−100, 0), Aᵀz = (−4, −8).
         assert_eq!(residuals.stationarity, 64.0 / 100.0);

@@ -75,5 +75,5 @@ impl ConicSolution {
 /// When `solution` belongs to a problem of other sizes.
 pub fn residuals(program: &Program, solution: &ConicSolution) -> Result<Residuals, ProblemError> {
     let form = StandardForm::new(program)?;
-    Ok(kkt::of(&form, solution.point(), solution.duals()).residuals)
+    Ok(kkt::check(&form, solution.point(), solution.duals()).residuals)
 }

@@ -161,7 +161,7 @@ impl Solver {
 
     fn solution(&self, almost: bool) -> ConicSolution {
         let result = &self.backend.solution;
-        let report = kkt::of(&self.form, &result.x, &result.z);
+        let report = kkt::check(&self.form, &result.x, &result.z);
         ConicSolution {
             x: result.x.clone(),
             z: result.z.clone(),

@@ -164,13 +164,13 @@ fn where_braking_does_harm_another_acceleration_is_chosen() {
     let users = [agent("ego", [0.0, 0.0, 0.0, 1.0]), crossing].map(|agent| RoadUser::new(agent, goal(), false));
     let mut traffic = Traffic { tick: 0, step_s: STEP_S, horizon: HORIZON, road_users: users.into() };
     let braking = last_resorts(&traffic.scene(0)).next().expect("full braking");
-    assert!(Harm::of(&traffic.scene(0), &braking).impact_mps > Some(0.5));
+    assert!(Harm::measure(&traffic.scene(0), &braking).impact_mps > Some(0.5));
     let decisions = traffic.drive(|index, scene| match index {
         0 => Err(PlanError::Infeasible("on purpose".to_owned())),
         _ => Ok(Plan { trajectory: steadily(scene), ..Plan::default() }),
     });
     assert_eq!(decisions[0].origin, Origin::Evading);
-    assert!(Harm::of(&traffic.scene(0), &decisions[0].plan.trajectory).is_none());
+    assert!(Harm::measure(&traffic.scene(0), &decisions[0].plan.trajectory).is_none());
 }
 
 fn steadily(scene: &Scene) -> Trajectory {
@@ -182,7 +182,8 @@ fn steadily(scene: &Scene) -> Trajectory {
 fn of_harmful_motions_the_one_with_the_weakest_impact_is_the_least() {
     let ego = agent("ego", [0.0, 0.0, 0.0, 1.0]);
     let scene = scene(ego, vec![agent("other", [0.6, 0.0, 0.0, 0.0])]);
-    let impacts: Vec<Option<f64>> = last_resorts(&scene).map(|motion| Harm::of(&scene, &motion).impact_mps).collect();
+    let impacts: Vec<Option<f64>> =
+        last_resorts(&scene).map(|motion| Harm::measure(&scene, &motion).impact_mps).collect();
     assert!(
         impacts[..4].is_sorted() && impacts[0] > Some(0.5),
         "straight on, full braking is the least harmful: {impacts:?}"

@@ -96,7 +96,7 @@ fn a_mean_speed_is_as_binding_as_its_price() {
                 .map(Term::MeanSpeed),
         );
         let optimum = Optimiser::new(Structured::default()).descend(&problem, &guess).expect("an optimum");
-        (SpeedMeasure::Speeds.of(&optimum.iterate.states[0]), optimum.cost.violation(Violation::MeanSpeed))
+        (SpeedMeasure::Speeds.evaluate(&optimum.iterate.states[0]), optimum.cost.violation(Violation::MeanSpeed))
     };
     let (dear, cheap) = (mean(1e3), mean(1e-3));
     assert!((1.25 - 1e-6..=1.3 + 1e-6).contains(&dear.0) && dear.1 < 1e-6, "{dear:?}");

@@ -122,7 +122,7 @@ impl Registry {
 
     /// The schema of a whole scenario, all that it extends included.
     pub(crate) fn complete(&self) -> SchemaNode<'_> {
-        SchemaNode::of(&self.schema)
+        SchemaNode::new(&self.schema)
     }
 
     /// The driver that a table of a scenario file describes.

@@ -25,7 +25,7 @@ const ROUNDING_M: f64 = 1e-6;
 const MAX_START_ANGLE_DEG: f64 = 20.0;
 
 /// Everything to remark on.
-pub(crate) fn of(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> ScenarioRemarks {
+pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) -> ScenarioRemarks {
     let mut faults = degrees::remarks(tree, schema);
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         let remark = |key: &str, label: &str, (message, help): (String, String)| {

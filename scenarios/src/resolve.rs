@@ -30,7 +30,7 @@ pub(crate) fn resolve(
     let (scenario, mut unread) = read(registry, file, tree, known_roads)?;
     let mut faults = consistency::check(&scenario, tree, registry.complete());
     faults.append(&mut unread);
-    let remarks = remarks::of(&scenario, tree, registry.complete());
+    let remarks = remarks::collect(&scenario, tree, registry.complete());
     if faults.is_empty() { Ok(Scenario { remarks, ..scenario }) } else { Err(faults) }
 }
 

@@ -327,7 +327,7 @@ fn defaults_and_examples_are_within_their_bounds() {
     each_property(&root, &root, "", &mut |path, property| {
         let examples = property.get("examples").and_then(Json::as_array).into_iter().flatten();
         for value in examples.chain(property.get("default")).filter_map(Json::as_f64) {
-            for bound in Bound::of(property) {
+            for bound in Bound::read(property) {
                 bounded += 1;
                 assert!(bound.admits(value), "{path}: {value} is not {bound}");
             }

@@ -13,7 +13,7 @@ pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
     /// A progress line at the beginning: nothing of `total` is done yet.
-    pub fn of(total: usize) -> Progress {
+    pub fn start(total: usize) -> Progress {
         let bar = ProgressBar::new(total as u64);
         // The template is a constant, and sound: a test draws with it.
         if let Ok(style) = style() {
@@ -25,7 +25,7 @@ impl Progress {
 
     /// A progress line that also says how long the rest takes at the speed so far.
     pub fn with_time_left(total: usize) -> Progress {
-        let Progress(bar) = Progress::of(total);
+        let Progress(bar) = Progress::start(total);
         if let Ok(style) = style_with_time_left() {
             bar.set_style(style);
         }
@@ -56,7 +56,7 @@ const SILENCE: Duration = Duration::from_secs(1);
 
 impl CheckProgress {
     /// A progress line at the beginning: none of these runs is checked yet.
-    pub fn of(runs: u64) -> CheckProgress {
+    pub fn start(runs: u64) -> CheckProgress {
         CheckProgress { began: Instant::now(), runs, checked: AtomicU64::new(0), bar: OnceLock::new() }
     }
 
@@ -100,18 +100,18 @@ mod tests {
     #[test]
     fn every_step_is_counted_and_the_line_can_be_drawn() {
         style().and_then(|_| style_with_time_left()).expect("sound templates");
-        let progress = Progress::of(4);
+        let progress = Progress::start(4);
         (0..3).for_each(|_| progress.advance());
         assert_eq!((progress.0.position(), progress.0.length()), (3, Some(4)));
     }
 
     #[test]
     fn a_check_is_told_of_when_it_takes_longer_than_a_second() {
-        let quick = CheckProgress::of(3);
+        let quick = CheckProgress::start(3);
         quick.advance();
         assert!(quick.bar.get().is_none());
         let Some(began) = Instant::now().checked_sub(2 * SILENCE) else { return };
-        let slow = CheckProgress { began, ..CheckProgress::of(3) };
+        let slow = CheckProgress { began, ..CheckProgress::start(3) };
         slow.advance();
         slow.advance();
         assert_eq!(slow.bar.get().map(ProgressBar::position), Some(2));

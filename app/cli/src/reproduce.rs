@@ -58,7 +58,7 @@ impl Reproduce {
             return ExitStatus::BadInput;
         }
         let began = Instant::now();
-        let progress = Progress::of(figures::steps(&entries));
+        let progress = Progress::start(figures::steps(&entries));
         let made = make(&entries, &self.out, &|| progress.advance());
         progress.clear();
         if let Err(error) = interplay_files::write(&page, page_of(&made).html().as_bytes()) {

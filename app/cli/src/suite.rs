@@ -128,7 +128,7 @@ impl Suite {
     /// Runs every scenario in a world of its own; the cases come in the order of the scenarios.
     fn run(&self, scenarios: &[(String, Scenario)]) -> Result<Vec<Case>, CommandError> {
         let pool = pool(self.jobs, scenarios.len())?;
-        let progress = Progress::of(scenarios.len());
+        let progress = Progress::start(scenarios.len());
         let case = |(name, scenario): &(String, Scenario)| {
             let outcome = run_with_counterfactuals(name, scenario, Vec::new());
             progress.advance();
@@ -175,7 +175,7 @@ impl Suite {
         let failed = |case: &Case| case.outcome.as_ref().is_ok_and(|report| !report.passed);
         for ((name, scenario), case) in scenarios.iter().zip(cases) {
             let Some(animation) = self.animation(name).filter(|_| failed(case)) else { continue };
-            let recorded = RecordedRun::of(name, scenario.clone(), Vec::new(), "")?;
+            let recorded = RecordedRun::record(name, scenario.clone(), Vec::new(), "")?;
             let unwritten = |reason| CommandError::FailedAnimation { scenario: name.clone(), reason };
             animation.write(&recorded).map_err(unwritten)?;
             print_error(&format!("animation in {}", animation.path().display()));

@@ -168,7 +168,7 @@ impl Sweep {
 
     /// Checks every run and makes none.
     fn check(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<(), SweepError> {
-        let checks = CheckProgress::of(plan.run_count());
+        let checks = CheckProgress::start(plan.run_count());
         let outcome = self.pool(plan)?.install(|| check(plan, shard, folder, &|| checks.advance()));
         checks.clear();
         outcome
@@ -176,7 +176,7 @@ impl Sweep {
 
     fn run(&self, plan: &SweepPlan, shard: Shard, folder: &Path) -> Result<SweepOutcome, SweepError> {
         let pool = self.pool(plan)?;
-        let checks = CheckProgress::of(plan.run_count());
+        let checks = CheckProgress::start(plan.run_count());
         let progress: OnceLock<Progress> = OnceLock::new();
         let keep = |row: &SweepRow, scenario: &Scenario| record(folder, row, scenario);
         let options = SweepOptions {

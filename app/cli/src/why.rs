@@ -88,7 +88,7 @@ impl Why {
 
     fn run(&self, scenario: &Scenario, changes: &[StandardChange]) -> Result<WhyReport, CommandError> {
         let pool = pool(self.jobs, 1 + changes.len())?;
-        let progress = Progress::of(1 + changes.len());
+        let progress = Progress::start(1 + changes.len());
         let name = short_name(&self.scenario);
         let report = pool.install(|| why(&name, scenario, changes, &|| progress.advance()));
         progress.clear();

@@ -38,7 +38,7 @@ enum Variable {
 }
 
 impl Variable {
-    fn of(reference: u32, zones: usize) -> Result<Self, String> {
+    fn parse(reference: u32, zones: usize) -> Result<Self, String> {
         let reference = reference as usize;
         let zone = reference % zones;
         match reference / zones {
@@ -112,7 +112,7 @@ impl Instance {
     /// If there is none with this value reference.
     pub fn value(&self, reference: u32) -> Result<f64, String> {
         let plant = &self.plant;
-        Ok(match Variable::of(reference, plant.zones)? {
+        Ok(match Variable::parse(reference, plant.zones)? {
             Variable::Heat(zone) => plant.heat_kw[zone],
             Variable::Temperature(zone) => plant.nodes_c[zone],
             Variable::Gains(zone) => plant.gains_kw()[zone],
@@ -125,7 +125,7 @@ impl Instance {
     /// # Errors
     /// If the value reference is none of an input, or if the value is no finite number.
     pub fn set_value(&mut self, reference: u32, value: f64) -> Result<(), String> {
-        match Variable::of(reference, self.plant.zones)? {
+        match Variable::parse(reference, self.plant.zones)? {
             Variable::Heat(_) if !value.is_finite() => Err(format!("heat of {value} kW is no finite number")),
             Variable::Heat(zone) => {
                 self.plant.heat_kw[zone] = value;

@@ -16,7 +16,7 @@ pub(crate) struct OutsideSeries {
 
 impl OutsideSeries {
     /// What happens on the days of a run.
-    pub(crate) fn of(surroundings: &Surroundings, model: &Model, steps_per_day: usize, days: usize) -> Self {
+    pub(crate) fn collect(surroundings: &Surroundings, model: &Model, steps_per_day: usize, days: usize) -> Self {
         let actual = (0..days).map(|day| surroundings.actual(model, steps_per_day, day));
         let mut all = Self { ambient_c: Vec::new(), gains_kw: Vec::new() };
         for day in actual {

@@ -91,7 +91,7 @@ mod tests {
     use crate::figures::RecordedRun;
 
     fn sentences(name: &str) -> Vec<String> {
-        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
         let (scenario, mut requests) = (&recorded.scenario, Requests::default());
         let said = recorded.frames.iter().filter_map(|frame| {
             requests.tick(scenario, frame);

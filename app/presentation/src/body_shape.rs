@@ -70,7 +70,7 @@ pub struct Wheels {
 
 impl Wheels {
     /// The wheels of a body; the front ones are turned.
-    pub fn of(body: &Body, style: BodyStyle, steering_rad: f64) -> Wheels {
+    pub fn place(body: &Body, style: BodyStyle, steering_rad: f64) -> Wheels {
         let Body { width_m, front_m, rear_m, front_axle_m, rear_axle_m, .. } = *body;
         let length_m = if style == BodyStyle::Lorry { 0.42 } else { 0.38 } * width_m;
         let thick_m = 0.15 * width_m;

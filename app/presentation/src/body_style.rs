@@ -23,7 +23,7 @@ pub enum BodyStyle {
 
 impl BodyStyle {
     /// The style of a vehicle: by its class, or without one by its size.
-    pub fn of(vehicle: &Vehicle) -> BodyStyle {
+    pub fn choose(vehicle: &Vehicle) -> BodyStyle {
         match vehicle.class {
             Some(VehicleClass::ScaleCar | VehicleClass::Car) => BodyStyle::Car,
             Some(VehicleClass::Van) => BodyStyle::Van,
@@ -62,9 +62,9 @@ mod tests {
     #[test]
     fn vehicles_look_like_their_class_or_size() {
         let full_size = load("full-size/lane-change", &[]).expect("embedded");
-        assert_eq!(BodyStyle::of(&full_size.vehicles[0]), BodyStyle::Car, "without a class");
+        assert_eq!(BodyStyle::choose(&full_size.vehicles[0]), BodyStyle::Car, "without a class");
         let scenario = load("on-ramp/five", &[]).expect("embedded");
-        let style = |name: &str| BodyStyle::of(scenario.vehicle(name).expect("there"));
+        let style = |name: &str| BodyStyle::choose(scenario.vehicle(name).expect("there"));
         assert_eq!((style("lorry"), style("front")), (BodyStyle::Lorry, BodyStyle::Car));
         let size = |front_m: f64, rear_m: f64, width_m: f64| {
             BodyStyle::of_size(&Body { front_m, rear_m, width_m, scale: 10.0, ..Body::default() })

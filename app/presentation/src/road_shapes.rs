@@ -55,7 +55,7 @@ struct Ways {
 
 impl RoadShapes {
     /// The shapes of a scenario's road between least and greatest coordinates.
-    pub fn of(scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> RoadShapes {
+    pub fn trace(scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> RoadShapes {
         let road = &scenario.road;
         let mut shapes = RoadShapes { lane_m: road.lane_width_m(), ..RoadShapes::default() };
         if let Some(network) = &scenario.network {
@@ -301,7 +301,7 @@ mod tests {
     use super::*;
 
     fn shapes(name: &str) -> RoadShapes {
-        RoadShapes::of(&load(name, &[]).expect("embedded"), [[-20.0, -20.0], [20.0, 20.0]])
+        RoadShapes::trace(&load(name, &[]).expect("embedded"), [[-20.0, -20.0], [20.0, 20.0]])
     }
 
     #[test]

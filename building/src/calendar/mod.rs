@@ -92,7 +92,7 @@ impl Weekday {
         WEEK.into_iter().find(|weekday| format!("{weekday:?}").eq_ignore_ascii_case(word))
     }
 
-    fn of(date: Date) -> Self {
+    fn from_date(date: Date) -> Self {
         let since_monday = CivilWeekday::Monday.until(date.weekday());
         WEEK[usize::from(since_monday.unsigned_abs()) % WEEK.len()]
     }
@@ -149,7 +149,7 @@ impl Calendar {
             holidays.extend(usize::try_from(days).ok());
         }
         holidays.sort_unstable();
-        let first = first_day.map(Weekday::of).or(self.first_weekday).or(weather_weekday);
+        let first = first_day.map(Weekday::from_date).or(self.first_weekday).or(weather_weekday);
         Ok(RunDays { first: first.unwrap_or(Weekday::Monday), holidays })
     }
 

@@ -55,7 +55,7 @@ impl Agenda {
     fn alone(&self, day: usize) -> Targets {
         let mut targets = self.common.clone();
         for zone in 0..targets.zones {
-            if let Some(schedule) = self.timetable.of(zone, day) {
+            if let Some(schedule) = self.timetable.look_up(zone, day) {
                 self.follow(&mut targets, zone, schedule);
             }
         }

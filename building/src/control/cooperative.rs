@@ -37,7 +37,7 @@ pub enum LearnedErrors {
 
 impl LearnedErrors {
     /// What is learned from stacked errors \[K\]. An error without a weight does not count, and 0 is learned in its place.
-    pub fn of(self, lifted: &Lifted, errors_k: &[Option<f64>]) -> Vec<f64> {
+    pub fn combine(self, lifted: &Lifted, errors_k: &[Option<f64>]) -> Vec<f64> {
         let n = lifted.zones();
         let mut out: Vec<f64> = errors_k.iter().map(|error_k| error_k.unwrap_or(0.0)).collect();
         for (step, errors_k) in out.chunks_exact_mut(n).zip(errors_k.chunks_exact(n)) {
@@ -58,7 +58,7 @@ impl LearnedErrors {
     /// The same of errors that all have a weight.
     pub(super) fn of_all(self, lifted: &Lifted, errors_k: &[f64]) -> Vec<f64> {
         let weighed: Vec<Option<f64>> = errors_k.iter().copied().map(Some).collect();
-        self.of(lifted, &weighed)
+        self.combine(lifted, &weighed)
     }
 }
 

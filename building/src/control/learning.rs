@@ -200,7 +200,7 @@ impl Control for Learning {
         let errors_k: Vec<Option<f64>> = (self.wanted.iter().zip(&record.temperatures_c))
             .map(|(wanted_c, temperature_c)| wanted_c.map(|wanted_c| wanted_c - temperature_c))
             .collect();
-        let learned_k = self.settings.errors.of(&self.lifted, &errors_k);
+        let learned_k = self.settings.errors.combine(&self.lifted, &errors_k);
         let correction_kw = self.settings.learn(self.lifted.zones(), &learned_k);
         self.learned_kw =
             Some(record.heat_kw.iter().zip(&correction_kw).map(|(u, correction)| u + correction).collect());

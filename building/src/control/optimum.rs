@@ -127,7 +127,7 @@ pub(super) fn plan(
     let temperatures_c: Vec<f64> =
         free_c.iter().zip(lifted.product(&heat_kw)).map(|(free_c, risen_k)| free_c + risen_k).collect();
     let cost = targets.cost(&temperatures_c, &heat_kw);
-    let objective = cost + penalty.map_or(0.0, |penalty| penalty.of(targets, &temperatures_c));
+    let objective = cost + penalty.map_or(0.0, |penalty| penalty.evaluate(targets, &temperatures_c));
     let [most, least] = posed.limits.map(|block| solution.dual(block));
     let limit_price = most.iter().zip(least).map(|(most, least)| most + least).collect();
     Ok(DayOptimum { heat_kw, temperatures_c, cost, objective, limit_price })
@@ -135,7 +135,7 @@ pub(super) fn plan(
 
 impl BandPenalty {
     /// The cost of temperatures beyond the band while occupied.
-    pub fn of(self, targets: &Targets, temperatures_c: &[f64]) -> f64 {
+    pub fn evaluate(self, targets: &Targets, temperatures_c: &[f64]) -> f64 {
         let beyond_k = |(i, temperature_c): (usize, &f64)| targets.beyond_k(i, *temperature_c);
         temperatures_c.iter().enumerate().map(beyond_k).map(|s| self.linear * s + self.quadratic * s * s).sum()
     }

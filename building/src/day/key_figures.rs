@@ -45,7 +45,7 @@ impl KeyFigures {
     ///
     /// # Panics
     /// When the record has not the shape of the targets.
-    pub fn of(record: &DayRecord, targets: &Targets, limits: &PowerLimits, step_s: f64) -> Self {
+    pub fn compute(record: &DayRecord, targets: &Targets, limits: &PowerLimits, step_s: f64) -> Self {
         let hours = step_s / 3600.0;
         let n = targets.zones;
         let energy = |part: fn(f64) -> f64| hours * record.heat_kw.iter().map(|&kw| part(kw)).sum::<f64>();

@@ -29,10 +29,10 @@ impl ZoneFigures {
     /// # Panics
     /// When the record has not the shape of the targets.
     pub fn of_all(record: &DayRecord, targets: &Targets, step_s: f64) -> Vec<Self> {
-        (0..targets.zones).map(|zone| Self::of(record, targets, step_s, zone)).collect()
+        (0..targets.zones).map(|zone| Self::compute(record, targets, step_s, zone)).collect()
     }
 
-    fn of(record: &DayRecord, targets: &Targets, step_s: f64, zone: usize) -> Self {
+    fn compute(record: &DayRecord, targets: &Targets, step_s: f64, zone: usize) -> Self {
         let hours = step_s / 3600.0;
         let mut figures = Self { energy_cost: targets.supply.price_per_kwh.as_ref().map(|_| 0.0), ..Self::default() };
         let (mut squares_k2, mut occupied) = (0.0, 0_usize);

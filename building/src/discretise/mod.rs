@@ -135,7 +135,7 @@ impl Model {
         let mean = |rate_per_s: f64| step_s * phi::mean(rate_per_s * step_s);
         let (end, mean) = match form {
             Form::Dense => {
-                let spectrum = Spectrum::of(network);
+                let spectrum = Spectrum::compute(network);
                 (Gain::dense(&spectrum, end), Gain::dense(&spectrum, mean))
             }
             Form::Series => (Gain::series(network, end), Gain::series(network, mean)),

@@ -17,7 +17,7 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    pub(super) fn of(network: &Network) -> Self {
+    pub(super) fn compute(network: &Network) -> Self {
         let eigen = SymmetricEigen::new(symmetric(network));
         let order = ascending(&eigen.eigenvalues);
         let inverse_root = inverse_root(network);

@@ -35,7 +35,7 @@ pub struct Lifted {
 impl Lifted {
     /// Lifts the model over a horizon of `steps` steps.
     pub fn new(model: &Model, steps: usize) -> Self {
-        Self { model: model.clone(), steps, zone_gain: ZoneGain::of(model) }
+        Self { model: model.clone(), steps, zone_gain: ZoneGain::compute(model) }
     }
 
     /// The model of one step.

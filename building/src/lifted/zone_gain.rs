@@ -14,7 +14,7 @@ pub(super) enum ZoneGain {
 }
 
 impl ZoneGain {
-    pub(super) fn of(model: &Model) -> Self {
+    pub(super) fn compute(model: &Model) -> Self {
         let zones = model.network().zone_count();
         match model.gain() {
             Gain::Diagonal(diagonal) => Self::Diagonal(diagonal[..zones].to_vec()),

@@ -27,7 +27,7 @@ pub(crate) enum Triangle {
 
 impl Triangle {
     /// The triangle that a Fortran argument names by its first letter, `U` or `L`.
-    fn of(letter: u8) -> Option<Self> {
+    fn from_letter(letter: u8) -> Option<Self> {
         match letter.to_ascii_uppercase() {
             b'U' => Some(Self::Upper),
             b'L' => Some(Self::Lower),

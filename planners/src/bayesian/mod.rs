@@ -120,7 +120,7 @@ impl Bayesian {
         }
         diagnostics.extend([COST.is(optimum.cost.total), SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety))]);
         diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
-        diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
+        diagnostics.extend(Activity::count(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
     }
 }

@@ -44,7 +44,7 @@ pub const PANELS: &[DiagnosticPanel] = &[
 ];
 
 /// What is reported of a belief.
-pub(super) fn of(estimate: &DriverEstimate) -> Vec<Diagnostic> {
+pub(super) fn report(estimate: &DriverEstimate) -> Vec<Diagnostic> {
     let kinds = DriverModel::ALL.iter().zip(PROBABILITIES);
     let mut diagnostics: Vec<Diagnostic> =
         kinds.map(|(kind, quantity)| quantity.is(estimate.probability(*kind))).collect();

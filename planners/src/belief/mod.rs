@@ -127,7 +127,7 @@ impl DriverBeliefs {
             .map(|driver| DriverEstimate::new(&driver.name, driver.model, driver.probabilities()))
             .collect();
         let scene = Scene { others, ..scene.clone() };
-        let diagnostics = nearest(&scene).map_or_else(Vec::new, |index| diagnostics::of(&estimates[index]));
+        let diagnostics = nearest(&scene).map_or_else(Vec::new, |index| diagnostics::report(&estimates[index]));
         InferredScene { scene, estimates, diagnostics, events }
     }
 

@@ -25,7 +25,7 @@ pub struct Harm {
 
 impl Harm {
     /// Measures the harm of a motion of the planning vehicle.
-    pub fn of(scene: &Scene, motion: &Trajectory) -> Harm {
+    pub fn measure(scene: &Scene, motion: &Trajectory) -> Harm {
         let impacts = scene.others.iter().filter_map(|other| {
             let stage = first_contact(scene, motion, other)?;
             Some(relative_speed_mps(&motion.states[stage], expected(other, stage)?))
@@ -86,7 +86,7 @@ pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
 pub fn least_harmful(scene: &Scene, motions: impl IntoIterator<Item = Trajectory>) -> Option<(usize, Trajectory)> {
     let mut best: Option<(usize, Trajectory, Harm)> = None;
     for (number, motion) in motions.into_iter().enumerate() {
-        let harm = Harm::of(scene, &motion);
+        let harm = Harm::measure(scene, &motion);
         if harm.is_none() && best.is_none() {
             return Some((number, motion));
         }
@@ -109,7 +109,7 @@ pub fn gives_away_the_last_way_out(scene: &Scene, plan: &Trajectory) -> bool {
     if contact.is_none_or(|stage| stage > could_stand) {
         return false;
     }
-    let is_left = |scene: &Scene| last_resorts(scene).any(|motion| Harm::of(scene, &motion).is_none());
+    let is_left = |scene: &Scene| last_resorts(scene).any(|motion| Harm::measure(scene, &motion).is_none());
     // Who touches somebody with the first step has no way out after it.
     let is_over = contact <= Some(1);
     is_left(scene) && (is_over || !is_left(&after_first_step(scene, plan)))

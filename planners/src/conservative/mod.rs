@@ -84,7 +84,7 @@ pub(crate) fn answer(Solved { problem, optimum, event }: Solved) -> Plan {
     let mut diagnostics: Vec<Diagnostic> =
         vec![COST.is(cost.total), SAFETY_SLACK.is(cost.violation(Violation::Safety))];
     diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
-    diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
+    diagnostics.extend(Activity::count(&problem, &optimum.iterate, 0).diagnostics());
     Plan {
         trajectory: optimum.trajectory(0),
         diagnostics,

@@ -124,7 +124,7 @@ fn answer(problem: Problem, futures: &[Future], likeliest: usize, optimum: &Opti
         SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
     ];
     diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
-    diagnostics.extend(Activity::of(&problem, &optimum.iterate, likeliest).diagnostics());
+    diagnostics.extend(Activity::count(&problem, &optimum.iterate, likeliest).diagnostics());
     let other = (0..futures.len()).filter(|future| *future != likeliest);
     let branches = other
         .map(|future| PlanBranch { probability: futures[future].probability, trajectory: optimum.trajectory(future) });

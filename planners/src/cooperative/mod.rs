@@ -118,7 +118,7 @@ impl Cooperative {
             SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ];
         diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
-        diagnostics.extend(Activity::of(problem, &optimum.iterate, own).diagnostics());
+        diagnostics.extend(Activity::count(problem, &optimum.iterate, own).diagnostics());
         let trajectory = optimum.trajectory(own);
         Plan { trajectory, proposals, diagnostics, statistics: optimum.statistics, ..Plan::default() }
     }

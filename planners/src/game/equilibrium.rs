@@ -68,7 +68,7 @@ pub fn nash(ego: &Player, other: &Player) -> GameSolution {
     for bracket in crossings(&answers) {
         let own = root(around, bracket);
         let found = solution(ego, other, own, best_response(other, own));
-        let rank = Rank::of(ego, other, &found);
+        let rank = Rank::evaluate(ego, other, &found);
         let tempting = found.temptation.iter().any(|gain| *gain > MAX_EQUILIBRIUM_TEMPTATION);
         if !tempting && best.as_ref().is_none_or(|(held, _)| rank.beats(held)) {
             best = Some((rank, found));
@@ -150,7 +150,7 @@ struct Rank {
 }
 
 impl Rank {
-    fn of(ego: &Player, other: &Player, at: &GameSolution) -> Rank {
+    fn evaluate(ego: &Player, other: &Player, at: &GameSolution) -> Rank {
         let inside = |p: f64| p > MIN_INTENTION + GRID_CELL / 10.0 && p < MAX_INTENTION - GRID_CELL / 10.0;
         let turned = |p: f64| if p > 0.5 { MIN_INTENTION } else { MAX_INTENTION };
         let losses = [

@@ -34,7 +34,7 @@ pub struct ObservedBehaviour {
 
 impl Meeting {
     /// How the ego meets `other`; `None` for one that comes head-on on a straight road, or whose way is apart.
-    pub fn of(scene: &Scene, other: &Agent, settings: &Settings) -> Option<Meeting> {
+    pub fn find(scene: &Scene, other: &Agent, settings: &Settings) -> Option<Meeting> {
         let ego = &scene.ego;
         match ego.relation(other) {
             Relation::Alongside => return Some(Meeting::Alongside { lead_m: -ego.lead_of(other) }),
@@ -132,14 +132,14 @@ mod tests {
     #[test]
     fn a_meeting_is_known_by_its_roads() {
         let (scene, settings) = (scene(agent(0.0, 0.0, 0.0, 1.0), Vec::new()), Settings::default());
-        let beside = Meeting::of(&scene, &agent(-0.4, 0.4, 0.0, 1.0), &settings);
+        let beside = Meeting::find(&scene, &agent(-0.4, 0.4, 0.0, 1.0), &settings);
         assert_eq!(beside, Some(Meeting::Alongside { lead_m: 0.4 }));
-        let Some(Meeting::Crossing { ego_m, other_m }) = Meeting::of(&scene, &crossing(2.0, -1.5, 1.0), &settings)
+        let Some(Meeting::Crossing { ego_m, other_m }) = Meeting::find(&scene, &crossing(2.0, -1.5, 1.0), &settings)
         else {
             panic!("the roads cross");
         };
         assert!((ego_m - 1.7).abs() < 1e-12 && (other_m - 1.2).abs() < 1e-12);
-        assert_eq!(Meeting::of(&scene, &agent(3.0, 0.0, std::f64::consts::PI, 1.0), &settings), None);
+        assert_eq!(Meeting::find(&scene, &agent(3.0, 0.0, std::f64::consts::PI, 1.0), &settings), None);
     }
 
     #[test]

@@ -119,7 +119,7 @@ impl Drive for Game {
             let partner_mps = choice.partner.map_or(0.0, |partner| partner.state.speed_mps);
             self.fastest_mps = [scene.ego.state.speed_mps, partner_mps];
         }
-        let meeting = choice.partner.and_then(|other| Some((other, Meeting::of(scene, other, &self.settings)?)));
+        let meeting = choice.partner.and_then(|other| Some((other, Meeting::find(scene, other, &self.settings)?)));
         let (mut round, mut expressed) = (None, None);
         if let Some((other, meeting)) = meeting {
             let ego_behaviour = self.watch(scene, other, usual, &meeting);
@@ -175,7 +175,7 @@ impl Game {
 
     /// The mean speed of a vehicle's motion \[m/s\].
     fn mean_speed_mps(&self, agent: &Agent, motion: &Trajectory, step_s: f64) -> f64 {
-        self.measure(agent, motion, step_s).of(&motion.states)
+        self.measure(agent, motion, step_s).evaluate(&motion.states)
     }
 
     /// What a mean speed is the mean of, with the directions of the road where a motion leads.
@@ -275,7 +275,7 @@ impl Game {
             SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ]);
         diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
-        diagnostics.extend(Activity::of(problem, &optimum.iterate, 0).diagnostics());
+        diagnostics.extend(Activity::count(problem, &optimum.iterate, 0).diagnostics());
         diagnostics
     }
 }

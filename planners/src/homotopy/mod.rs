@@ -55,7 +55,7 @@ fn side(scene: &Scene, other: &Agent, own: &[State], theirs: &[State]) -> Option
         Relation::Apart => return None,
         Relation::Alongside | Relation::CrossingRoads => {}
     }
-    if let Some(crossing) = Crossing::of(&scene.ego, other) {
+    if let Some(crossing) = Crossing::find(&scene.ego, other) {
         return crossing.side(own, theirs);
     }
     let steps = own.len().min(theirs.len());
@@ -76,7 +76,7 @@ struct Crossing {
 
 impl Crossing {
     /// The crossing of the roads of two vehicles; none where they run side by side.
-    fn of(ego: &Agent, other: &Agent) -> Option<Crossing> {
+    fn find(ego: &Agent, other: &Agent) -> Option<Crossing> {
         let [own, their] = [ego, other].map(|agent| agent.route.heading_at(other.state.position()));
         let sin = libm::sin(own - their);
         (sin.abs() > libm::sin(PARALLEL_RAD)).then(|| Crossing {

@@ -218,7 +218,7 @@ fn yielded_to(scene: &Scene, expected: &[Agent], settings: &Settings) -> Vec<Kee
     let pairs = scene.others.iter().zip(expected);
     let concerns = |other: &Agent| ego.may_meet(other) && Some(&other.name) != leader && !behind(&other);
     for (other, expected) in pairs.filter(|(other, _)| concerns(other)) {
-        let predicted = settings.prediction.of(expected, scene.horizon, scene.step_s);
+        let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);
         keep_outs.push(scene.keep_out(&predicted, &other.route, Penalty::hinge(weight)));
         if ego.crosses(other) {
             keep_outs.push(scene.keep_out(&predicted, &ego.route, Penalty::hinge(weight)));

@@ -49,7 +49,7 @@ fn respond_in_turn<S: StageSolver>(
 ) -> Option<Round> {
     let mut round = Round::default();
     for player in 0..problem.participants.len() {
-        let (deviation, statistics) = Deviation::of(responses, problem, iterate, player);
+        let (deviation, statistics) = Deviation::find_best(responses, problem, iterate, player);
         round.statistics.add(&statistics?);
         round.largest_gain = round.largest_gain.max(deviation.gain);
         if deviation.gain > 0.0 {

@@ -19,7 +19,7 @@ pub(super) struct Deviation {
 impl Deviation {
     /// The best one of a player that a solution of its own problem finds, and how that was found; the player's own motion where there
     /// is none.
-    pub(super) fn of<S: StageSolver>(
+    pub(super) fn find_best<S: StageSolver>(
         responses: &mut Optimiser<S>,
         problem: &Problem,
         iterate: &Iterate,

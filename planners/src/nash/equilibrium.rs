@@ -121,5 +121,5 @@ fn joint_optimum<S: StageSolver>(
 /// The best deviation of each player that a solution of its own problem finds; of no gain where there is none.
 fn deviations<S: StageSolver>(responses: &mut Optimiser<S>, problem: &Problem, optimum: &Optimum) -> Vec<Deviation> {
     let players = 0..problem.participants.len();
-    players.map(|player| Deviation::of(responses, problem, &optimum.iterate, player).0).collect()
+    players.map(|player| Deviation::find_best(responses, problem, &optimum.iterate, player).0).collect()
 }

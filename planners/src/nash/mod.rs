@@ -128,7 +128,7 @@ impl Nash {
             SAFETY_SLACK.is(optimum.cost.violation(Violation::Safety)),
         ];
         diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
-        diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
+        diagnostics.extend(Activity::count(&problem, &optimum.iterate, 0).diagnostics());
         let gain = equilibrium.largest_gain();
         let event = (!equilibrium.is_certified())
             .then(|| PlanEvent::note(format!("finds no equilibrium: a player gains {gain:.1e} by leaving")));

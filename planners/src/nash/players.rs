@@ -22,7 +22,7 @@ impl SeenSpeeds {
         }
     }
 
-    fn of(&self, agent: &Agent) -> f64 {
+    fn highest_mps(&self, agent: &Agent) -> f64 {
         self.0.get(&agent.name).copied().unwrap_or(agent.state.speed_mps)
     }
 }
@@ -46,7 +46,7 @@ pub(super) fn players(
     others.sort_by(|a, b| a.name.cmp(&b.name));
     let others = others.into_iter().map(|other| JointVehicle {
         agent: other.clone(),
-        goal: supposed_goal(other, &scene.goal, seen.of(other), settings),
+        goal: supposed_goal(other, &scene.goal, seen.highest_mps(other), settings),
     });
     std::iter::once(JointVehicle { agent: scene.ego.clone(), goal: scene.goal }).chain(others).collect()
 }

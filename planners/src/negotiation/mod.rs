@@ -107,7 +107,7 @@ impl Drive for Negotiation {
         self.remember(&optimum, &fallback, &partners);
         let mut plan = self.to_plan(scene, (&optimum, &partners), &accepted, persuasion.as_ref());
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
-        plan.diagnostics.extend(Activity::of(&problem, &optimum.iterate, 0).diagnostics());
+        plan.diagnostics.extend(Activity::count(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
         plan.problem = Some(Box::new(problem));
         self.filter(scene, &fallback, &optimum, &mut plan);

@@ -26,7 +26,7 @@ pub enum Prediction {
 
 impl Prediction {
     /// The predicted motion of a vehicle. An inferred motion is already in the scene.
-    pub fn of(self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
+    pub fn predict(self, agent: &Agent, horizon: usize, step_s: f64) -> Trajectory {
         match self {
             Prediction::Plan | Prediction::Inferred => agent.prediction.clone(),
             Prediction::ConstantVelocity => steadily_along(&agent.route, &agent.body, &agent.state, horizon, step_s),
@@ -40,7 +40,7 @@ impl Prediction {
             Prediction::ConstantVelocity => {
                 let mut scene = scene.clone();
                 for other in &mut scene.others {
-                    other.prediction = self.of(other, scene.horizon, scene.step_s);
+                    other.prediction = self.predict(other, scene.horizon, scene.step_s);
                 }
                 Cow::Owned(scene)
             }

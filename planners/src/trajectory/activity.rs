@@ -26,7 +26,7 @@ pub(crate) struct Activity {
 
 impl Activity {
     /// The activity of one participant of a problem.
-    pub(crate) fn of(problem: &Problem, iterate: &Iterate, participant: usize) -> Activity {
+    pub(crate) fn count(problem: &Problem, iterate: &Iterate, participant: usize) -> Activity {
         let own = &problem.participants[participant];
         let mut activity = Activity::default();
         for stage in 0..problem.horizon {

@@ -117,8 +117,8 @@ impl Recorded {
             horizon: problem.horizon,
             step_s: problem.participants[0].model.step_s(),
             vehicles: (0..problem.participants.len()).map(|vehicle| Vehicle::new(problem, vehicle)).collect(),
-            separations: find(problem, Apart::of),
-            persuasion: find(problem, PersuasionRow::of).pop(),
+            separations: find(problem, Apart::from_term),
+            persuasion: find(problem, PersuasionRow::from_term).pop(),
             guess: guess.iter().map(|inputs| inputs.iter().map(|input| input.to_array()).collect()).collect(),
             memory: WarmStartRecord::new(memory),
         }

@@ -153,7 +153,7 @@ impl Mean {
 }
 
 impl Apart {
-    pub fn of(term: &Term) -> Option<Self> {
+    pub fn from_term(term: &Term) -> Option<Self> {
         let Term::Separation(of) = term else { return None };
         Some(Apart {
             pair: [of.vehicle, of.from],
@@ -174,7 +174,7 @@ impl Apart {
 }
 
 impl PersuasionRow {
-    pub fn of(term: &Term) -> Option<Self> {
+    pub fn from_term(term: &Term) -> Option<Self> {
         let Term::Persuasion(Persuasion { toward, away, strength, penalty, .. }) = term.clone() else { return None };
         Some(PersuasionRow { toward, away, strength, penalty: penalty.into() })
     }

@@ -11,7 +11,7 @@ const USUAL_STEPS_PER_DAY: usize = 48;
 
 /// Everything of which one run would make too much, blamed on the key that makes it large.
 pub(crate) fn check(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
-    let cost = RunCost::of(scenario);
+    let cost = RunCost::estimate(scenario);
     exceeded(scenario, &cost).into_iter().map(|excess| excess.fault(scenario, tree)).collect()
 }
 

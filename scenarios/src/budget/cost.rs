@@ -36,7 +36,7 @@ pub struct RunCost {
 
 impl RunCost {
     /// What a scenario will make, without its counterfactuals.
-    pub(crate) fn of(scenario: &Scenario) -> RunCost {
+    pub(crate) fn estimate(scenario: &Scenario) -> RunCost {
         let (vehicles, ticks) = (scenario.vehicles.len() as u64, scenario.tick_count() as u64);
         let plans = vehicles * ticks;
         let bodies_and_pairs = vehicles * (vehicles + 1) / 2;
@@ -84,8 +84,8 @@ fn plots_bytes(zones: usize, building_steps: u64) -> f64 {
 impl Scenario {
     /// What a run of the scenario will make, its counterfactuals included; nothing of those is recorded.
     pub fn cost(&self) -> RunCost {
-        let others = self.counterfactuals.iter().map(|other| RunCost::of(&other.scenario));
-        others.fold(RunCost::of(self), RunCost::with_unrecorded)
+        let others = self.counterfactuals.iter().map(|other| RunCost::estimate(&other.scenario));
+        others.fold(RunCost::estimate(self), RunCost::with_unrecorded)
     }
 }
 

@@ -62,24 +62,24 @@ impl VehicleClass {
             // A compact car such as a VW Golf (4.3 m × 1.8 m) or a Toyota Corolla (4.6 m × 1.8 m), wheelbase 2.6 to 2.7 m.
             // Brakes by UN Regulation 13-H (at least 6.43 m/s²), 100 km/h from rest in 9 s, turning circle 10 m. Tyres of passenger
             // cars on dry roads take 0.7 to 0.9 g sideways.
-            VehicleClass::Car => of([2.2, 2.3, 1.8, 1.25, 1.45], [-6.4, 3.0, 7.0, 0.55, 50.0], 12.0),
+            VehicleClass::Car => class_values([2.2, 2.3, 1.8, 1.25, 1.45], [-6.4, 3.0, 7.0, 0.55, 50.0], 12.0),
             // A Mercedes Sprinter (5.9 m × 2.0 m, wheelbase 3.7 m). Brakes by UN Regulation 13 for category N1. Its high centre of mass
             // lets its stability control act earlier than a car's.
-            VehicleClass::Van => of([2.8, 3.2, 2.0, 1.8, 1.9], [-5.0, 2.5, 6.0, 0.6, 40.0], 14.0),
+            VehicleClass::Van => class_values([2.8, 3.2, 2.0, 1.8, 1.9], [-5.0, 2.5, 6.0, 0.6, 40.0], 14.0),
             // The longest and widest rigid lorry of EU Directive 96/53 (12 m × 2.55 m). Brakes by UN Regulation 13 for category
             // N3 (5 m/s²), 1 m/s² as loaded lorries accelerate, and 90 km/h by the limiter of EU Directive 92/6. Loaded lorries roll over
             // from 0.35 to 0.4 g on.
-            VehicleClass::Truck => of([6.5, 5.5, 2.55, 4.0, 2.0], [-5.0, 1.0, 3.5, 0.7, 25.0], 20.0),
+            VehicleClass::Truck => class_values([6.5, 5.5, 2.55, 4.0, 2.0], [-5.0, 1.0, 3.5, 0.7, 25.0], 20.0),
             // Brakes 3.4 m/s² and is 1.8 m long in the design guide of AASHTO; handlebars 0.65 m, wheelbase 1.05 m. Leans by
             // at most 22°.
-            VehicleClass::Bicycle => of([0.9, 0.9, 0.65, 0.55, 0.5], [-3.4, 1.0, 4.0, 0.8, 12.0], 9.0),
+            VehicleClass::Bicycle => class_values([0.9, 0.9, 0.65, 0.55, 0.5], [-3.4, 1.0, 4.0, 0.8, 12.0], 9.0),
         }
     }
 }
 
 /// A vehicle of real roads: front, rear, width, front and rear axle \[m\]; braking, acceleration and lateral acceleration \[m/s²\],
 /// steering \[rad\] and speed \[m/s\]; half axis of its safety ellipse along the road \[m\].
-fn of(
+fn class_values(
     [front_m, rear_m, width_m, front_axle_m, rear_axle_m]: [f64; 5],
     [acceleration_min_mps2, acceleration_max_mps2, lateral_mps2, steering_max_rad, speed_max_mps]: [f64; 5],
     along_m: f64,

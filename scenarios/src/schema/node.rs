@@ -24,7 +24,7 @@ pub(crate) struct SchemaNode<'s> {
 
 impl<'s> SchemaNode<'s> {
     /// The whole schema.
-    pub fn of(root: &'s Json) -> SchemaNode<'s> {
+    pub fn new(root: &'s Json) -> SchemaNode<'s> {
         SchemaNode { root, stated: root, list: None }
     }
 
@@ -63,7 +63,7 @@ impl<'s> SchemaNode<'s> {
 
     /// The bounds of a number.
     pub fn bounds(self) -> impl Iterator<Item = Bound> {
-        Bound::of(self.definition()).chain(Bound::of(self.stated).filter(move |_| self.definition_name().is_some()))
+        Bound::read(self.definition()).chain(Bound::read(self.stated).filter(move |_| self.definition_name().is_some()))
     }
 
     /// The default.

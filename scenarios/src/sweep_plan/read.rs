@@ -118,7 +118,7 @@ fn read(
     tree: &TomlNode,
     folder: &Path,
 ) -> Result<SweepPlan, Vec<Fault>> {
-    let faults = schema_check::check(tree, SchemaNode::of(&SCHEMA));
+    let faults = schema_check::check(tree, SchemaNode::new(&SCHEMA));
     if !faults.is_empty() {
         return Err(faults);
     }

@@ -57,7 +57,7 @@ pub(super) enum Removal {
 
 impl<'s> Rivals<'s> {
     /// Those of a path without `*`.
-    pub fn of(path: &str, schema: SchemaNode<'s>) -> Rivals<'s> {
+    pub fn find(path: &str, schema: SchemaNode<'s>) -> Rivals<'s> {
         let words: Vec<&str> = path.split('.').collect();
         let up_to = |count: usize| words[..count].join(".");
         let mut rivals =

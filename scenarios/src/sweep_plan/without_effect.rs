@@ -171,7 +171,7 @@ impl<'a> Change<'a> {
         for value in values {
             for setting in settings_below(&written, value, schema).into_keys() {
                 let below = setting.strip_prefix(&written).unwrap_or_default();
-                let of = |path: &SettingPath| Rivals::of(&format!("{}{below}", path.written()), schema);
+                let of = |path: &SettingPath| Rivals::find(&format!("{}{below}", path.written()), schema);
                 let rivals = || paths.iter().map(of).collect();
                 settings.entry(setting.clone()).or_insert_with(rivals);
             }

@@ -46,7 +46,7 @@ fn cost(mut controller: impl Control) -> f64 {
     let mut temperatures_c = vec![28.0; 4];
     let mut run = || run_day(&model, &mut temperatures_c, &mut controller, &targets, &day, &day).expect("a day");
     let [_, _, third] = [run(), run(), run()];
-    KeyFigures::of(&third, &targets, model.network().limits(), step_s).cost
+    KeyFigures::compute(&third, &targets, model.network().limits(), step_s).cost
 }
 
 #[test]

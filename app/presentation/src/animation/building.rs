@@ -43,7 +43,7 @@ pub struct BuildingPictures<'a> {
 
 impl<'a> BuildingPictures<'a> {
     /// The pictures of a run; none of a run without a building.
-    pub fn of(recorded: &'a RecordedRun) -> Option<BuildingPictures<'a>> {
+    pub fn from_run(recorded: &'a RecordedRun) -> Option<BuildingPictures<'a>> {
         let scenario = &recorded.scenario;
         let building = scenario.building.as_ref()?;
         let network = building.network().ok()?;
@@ -213,8 +213,8 @@ mod tests {
     #[test]
     fn rooms_have_the_colours_of_their_temperatures() {
         let name = "building/four-room-pid";
-        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
-        let pictures = BuildingPictures::of(&recorded).expect("a building");
+        let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let pictures = BuildingPictures::from_run(&recorded).expect("a building");
         let last = pictures.count() - PICTURES_A_DAY / 2;
         let pixels = pictures.draw(last).expect("a picture");
         let (day, hour) = pictures.time(last);
@@ -235,16 +235,16 @@ mod tests {
     #[test]
     fn a_run_without_a_building_has_no_floor_plan() {
         let name = "lane-change/front-nice";
-        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
-        assert!(BuildingPictures::of(&recorded).is_none());
+        let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        assert!(BuildingPictures::from_run(&recorded).is_none());
     }
 
     /// In winter, too, a room has the colour of its deviation from what is wanted: not every room is as blue as can be.
     #[test]
     fn a_room_near_what_is_wanted_is_grey_in_winter() {
         let name = "building/office-and-flat";
-        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
-        let pictures = BuildingPictures::of(&recorded).expect("a building");
+        let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let pictures = BuildingPictures::from_run(&recorded).expect("a building");
         let zones = pictures.days.iter().flat_map(|(_, steps)| steps).flat_map(|step| step.zones.iter().enumerate());
         let colours: Vec<Colour> =
             zones.map(|(index, zone)| zone_colour(zone, zone.temperature_c, pictures.usual_c[index])).collect();

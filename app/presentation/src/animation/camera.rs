@@ -47,8 +47,9 @@ mod tests {
         for name in
             ["lane-change/front-nice", "roundabout/nice", "intersection/nice", "on-ramp/five", "overtaking/oncoming"]
         {
-            let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
-            let run = DrivingRun::of(&recorded).expect("vehicles");
+            let recorded =
+                RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+            let run = DrivingRun::from_run(&recorded).expect("vehicles");
             let ego = recorded.scenario.ego_index();
             let body = recorded.scenario.vehicles[ego].body;
             let moments = moments(&recorded.report, &run.times());
@@ -73,8 +74,8 @@ mod tests {
 
     /// In how many of a film's pictures a vehicle is wholly in view, as a share.
     fn seen_share(name: &str, vehicle: &str) -> f64 {
-        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
-        let run = DrivingRun::of(&recorded).expect("vehicles");
+        let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let run = DrivingRun::from_run(&recorded).expect("vehicles");
         let index = recorded.scenario.index_of(vehicle).expect("there");
         let moments = moments(&recorded.report, &run.times());
         let views = views(&run, &moments);

@@ -117,8 +117,8 @@ mod tests {
     use crate::figures::RecordedRun;
 
     fn captions(name: &str) -> Vec<Caption> {
-        let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
-        let run = DrivingRun::of(&recorded).expect("vehicles");
+        let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+        let run = DrivingRun::from_run(&recorded).expect("vehicles");
         run.frames.iter().map(|frame| caption(&run, frame.time_s)).collect()
     }
 

@@ -47,14 +47,14 @@ pub struct DrivingPictures<'a> {
 
 impl<'a> DrivingPictures<'a> {
     /// The pictures of a run; none of a run without vehicles.
-    pub fn of(recorded: &'a RecordedRun) -> Option<DrivingPictures<'a>> {
-        let run = DrivingRun::of(recorded)?;
+    pub fn from_run(recorded: &'a RecordedRun) -> Option<DrivingPictures<'a>> {
+        let run = DrivingRun::from_run(recorded)?;
         let moments = moments(&recorded.report, &run.times());
         let views = views(&run, &moments);
         let bounds = views.iter().map(CameraView::bounds_m).reduce(|[a, b], [c, d]| {
             [[0, 1].map(|axis| a[axis].min(c[axis])), [0, 1].map(|axis| b[axis].max(d[axis]))]
         })?;
-        let road = RoadShapes::of(run.scenario, bounds);
+        let road = RoadShapes::trace(run.scenario, bounds);
         let legend = legend(&run);
         let key = key(&run, &moments);
         Some(DrivingPictures { run, moments, views, road, legend, key })
@@ -329,8 +329,9 @@ mod tests {
     #[test]
     fn the_legend_has_what_is_drawn() {
         let key = |name: &str| {
-            let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
-            DrivingPictures::of(&recorded).expect("vehicles").key
+            let recorded =
+                RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+            DrivingPictures::from_run(&recorded).expect("vehicles").key
         };
         assert_eq!(key("roundabout/nice"), "band: plan");
         assert_eq!(key("intersection/nice"), "band: plan   dots: what it asks for");

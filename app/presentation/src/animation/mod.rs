@@ -75,7 +75,7 @@ impl AnimationFile {
 /// # Errors
 /// [`AnimationError::Nothing`] of a run with neither vehicles nor rooms, and what goes wrong in the encoder.
 pub fn encoded(recorded: &RecordedRun, format: AnimationFormat) -> Result<Vec<u8>, AnimationError> {
-    match (DrivingPictures::of(recorded), BuildingPictures::of(recorded)) {
+    match (DrivingPictures::from_run(recorded), BuildingPictures::from_run(recorded)) {
         (Some(road), Some(rooms)) => encode(&PictureSequence::new(&road, &rooms), format),
         (Some(road), None) => encode(&road, format),
         (None, Some(rooms)) => encode(&rooms, format),
@@ -84,7 +84,7 @@ pub fn encoded(recorded: &RecordedRun, format: AnimationFormat) -> Result<Vec<u8
 }
 
 fn encode(pictures: &dyn Pictures, format: AnimationFormat) -> Result<Vec<u8>, AnimationError> {
-    let film = || Film::of(pictures).ok_or(AnimationError::Nothing);
+    let film = || Film::draw(pictures).ok_or(AnimationError::Nothing);
     match format {
         AnimationFormat::Gif => encode::gif(&film()?).map_err(AnimationError::encoding),
         AnimationFormat::WebP => encode::webp(&film()?).map_err(AnimationError::encoding),

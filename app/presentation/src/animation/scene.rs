@@ -56,7 +56,7 @@ pub struct DrivingRun<'a> {
 
 impl<'a> DrivingRun<'a> {
     /// The vehicles of a run; none of a run without them.
-    pub fn of(recorded: &'a RecordedRun) -> Option<DrivingRun<'a>> {
+    pub fn from_run(recorded: &'a RecordedRun) -> Option<DrivingRun<'a>> {
         let frames: Vec<&Frame> = recorded.frames.iter().filter(|frame| !frame.vehicles.is_empty()).collect();
         let last = frames.last()?;
         let scenario = &recorded.scenario;
@@ -205,13 +205,13 @@ mod tests {
 
     fn recorded(name: &str) -> RecordedRun {
         let scenario = load(name, &[]).expect("embedded");
-        RecordedRun::of(name, scenario, Vec::new(), "").expect("a run")
+        RecordedRun::record(name, scenario, Vec::new(), "").expect("a run")
     }
 
     #[test]
     fn states_at_ticks_are_those_of_the_run_and_motion_between_is_smooth() {
         let recorded = recorded("lane-change/front-nice");
-        let run = DrivingRun::of(&recorded).expect("vehicles");
+        let run = DrivingRun::from_run(&recorded).expect("vehicles");
         for frame in &run.frames {
             let seen = run.seen(frame.time_s, 0.0);
             for (seen, vehicle) in seen.iter().zip(&frame.vehicles) {
@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn brake_lights_shine_exactly_while_braking() {
         let recorded = recorded("roundabout/nice");
-        let run = DrivingRun::of(&recorded).expect("vehicles");
+        let run = DrivingRun::from_run(&recorded).expect("vehicles");
         let (mut lit, mut dark) = (0, 0);
         for frame in &run.frames {
             for (seen, vehicle) in run.seen(frame.time_s, 0.0).iter().zip(&frame.vehicles) {
@@ -251,7 +251,7 @@ mod tests {
     fn turns_are_indicated_where_there_is_a_choice() {
         let turns = |name: &str| {
             let recorded = recorded(name);
-            let run = DrivingRun::of(&recorded).expect("vehicles");
+            let run = DrivingRun::from_run(&recorded).expect("vehicles");
             let ego = recorded.scenario.ego_index();
             let mut turns: Vec<Turn> =
                 run.frames.iter().filter_map(|frame| run.seen(frame.time_s, 0.0)[ego].turn).collect();
@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn an_indicator_is_on_before_a_lane_change() {
         let recorded = recorded("lane-change/front-nice");
-        let run = DrivingRun::of(&recorded).expect("vehicles");
+        let run = DrivingRun::from_run(&recorded).expect("vehicles");
         let ego = recorded.scenario.ego_index();
         let first = run.seen(0.0, 0.0)[ego].state.y_m;
         let last = recorded.report.vehicles[ego].last.y_m;

@@ -14,7 +14,7 @@ use crate::palette::{ASPHALT, BLUE, Colour, ORANGE};
 fn recorded(name: &str) -> RecordedRun {
     let mut scenario = load(name, &[]).expect("embedded");
     scenario.duration_s = 2.0;
-    RecordedRun::of(name, scenario, Vec::new(), "").expect("a run")
+    RecordedRun::record(name, scenario, Vec::new(), "").expect("a run")
 }
 
 /// How many pixels of a picture have a colour.
@@ -46,7 +46,7 @@ fn decoded_gif(bytes: &[u8]) -> ([usize; 2], Vec<Vec<u8>>) {
 #[test]
 fn a_gif_shows_every_picture_in_its_colours() {
     let recorded = recorded("lane-change/front-nice");
-    let pictures = DrivingPictures::of(&recorded).expect("vehicles");
+    let pictures = DrivingPictures::from_run(&recorded).expect("vehicles");
     let bytes = encoded(&recorded, AnimationFormat::Gif).expect("a GIF");
     let (size, shown) = decoded_gif(&bytes);
     assert_eq!(size, pictures.size().map(|part| part as usize));
@@ -87,7 +87,7 @@ fn a_webp_shows_the_same_as_a_gif() {
 fn a_filmstrip_has_eight_pictures() {
     let recorded = recorded("intersection/nice");
     let bytes = encoded(&recorded, AnimationFormat::Filmstrip).expect("a PNG");
-    let [width, height] = DrivingPictures::of(&recorded).expect("vehicles").size();
+    let [width, height] = DrivingPictures::from_run(&recorded).expect("vehicles").size();
     let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().expect("a PNG");
     let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
     let info = reader.next_frame(&mut pixels).expect("a picture");
@@ -107,8 +107,8 @@ fn the_same_run_gives_the_same_bytes() {
 #[test]
 fn twelve_seconds_are_at_most_three_megabytes() {
     let name = "roundabout/nice";
-    let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
-    let pictures = DrivingPictures::of(&recorded).expect("vehicles");
+    let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+    let pictures = DrivingPictures::from_run(&recorded).expect("vehicles");
     let bytes = encoded(&recorded, AnimationFormat::Gif).expect("a GIF").len() as f64;
     let shown_s = pictures.count() as f64 * super::timing::PICTURE_S;
     assert!(shown_s > 5.0 && bytes / shown_s * 12.0 < 3e6, "{bytes} bytes for {shown_s} s");
@@ -118,7 +118,7 @@ fn twelve_seconds_are_at_most_three_megabytes() {
 #[test]
 fn a_vehicle_is_where_it_drives() {
     let recorded = recorded("lane-change/front-nice");
-    let pictures = DrivingPictures::of(&recorded).expect("vehicles");
+    let pictures = DrivingPictures::from_run(&recorded).expect("vehicles");
     for index in 0..pictures.count() {
         let drawn = pictures.draw(index).expect("a picture");
         let width = pictures.size()[0] as usize;
@@ -134,8 +134,8 @@ fn a_vehicle_is_where_it_drives() {
 #[test]
 fn a_run_with_a_building_beside_the_road_shows_both() {
     let recorded = recorded("mixed/garage");
-    let road = DrivingPictures::of(&recorded).expect("vehicles");
-    let rooms = BuildingPictures::of(&recorded).expect("a building");
+    let road = DrivingPictures::from_run(&recorded).expect("vehicles");
+    let rooms = BuildingPictures::from_run(&recorded).expect("a building");
     let (_, shown) = decoded_gif(&encoded(&recorded, AnimationFormat::Gif).expect("a GIF"));
     assert_eq!(shown.len(), road.count() + rooms.count());
     assert!(count(&shown[0], BLUE.rgb) > 200 && count(&shown[0], ASPHALT) > 1000);

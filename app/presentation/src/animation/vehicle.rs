@@ -46,7 +46,7 @@ impl Placed<'_> {
 pub fn draw_shadow(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle) {
     let placed = Placed { body: &vehicle.body, state: &seen.state, view };
     let off = placed.px(0.16 * vehicle.body.width_m.min(0.2 * vehicle.body.scale));
-    let thin = if BodyStyle::of(vehicle) == BodyStyle::Bicycle { 0.4 } else { 1.0 };
+    let thin = if BodyStyle::choose(vehicle) == BodyStyle::Bicycle { 0.4 } else { 1.0 };
     let ring = placed.rectangle([-1.0, 1.0, -thin, thin]).map(|[x, y]| [x + off, y + off]);
     canvas.fill_rounded(&ring, placed.px(0.3 * vehicle.body.width_m), Ink::veiled(SHADOW, 0.35));
 }
@@ -54,12 +54,12 @@ pub fn draw_shadow(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, se
 /// Draws a vehicle.
 pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &SeenVehicle, colour: Colour) {
     let placed = Placed { body: &vehicle.body, state: &seen.state, view };
-    let style = BodyStyle::of(vehicle);
+    let style = BodyStyle::choose(vehicle);
     if style == BodyStyle::Bicycle {
         draw_bicycle(canvas, &placed, seen, colour);
         return;
     }
-    let Wheels { size_m, rings_m } = Wheels::of(&vehicle.body, style, seen.steering_rad);
+    let Wheels { size_m, rings_m } = Wheels::place(&vehicle.body, style, seen.steering_rad);
     for ring in rings_m {
         canvas.fill_rounded(&ring.map(|corner| placed.place(corner)), placed.px(0.3 * size_m[1]), TYRE);
     }

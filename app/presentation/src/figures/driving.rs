@@ -51,7 +51,7 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     };
     let line_styles = line_styles(scenario);
     let vehicle =
-        |vehicle: &Vehicle, colour| FootprintVehicle { label: who(vehicle), colour, style: BodyStyle::of(vehicle) };
+        |vehicle: &Vehicle, colour| FootprintVehicle { label: who(vehicle), colour, style: BodyStyle::choose(vehicle) };
     let last = ticks.last().copied().unwrap_or_default();
     let driven_m = extent(frames.iter().flat_map(|frame| &frame.vehicles).map(|vehicle| vehicle.state.position()));
     let lengths_m = scenario.vehicles.iter().map(|vehicle| vehicle.body.front_m + vehicle.body.rear_m);
@@ -59,7 +59,7 @@ pub fn footprints(title: &str, recorded: &RecordedRun) -> FootprintPlot {
     let [low_m, high_m] = driven_m;
     FootprintPlot {
         title: title.to_owned(),
-        road: RoadShapes::of(scenario, [low_m.map(|part| part - beyond_m), high_m.map(|part| part + beyond_m)]),
+        road: RoadShapes::trace(scenario, [low_m.map(|part| part - beyond_m), high_m.map(|part| part + beyond_m)]),
         strip_m,
         vehicles: order.iter().map(|&index| vehicle(&scenario.vehicles[index], line_styles[index].colour)).collect(),
         snapshots: ticks.into_iter().map(snapshot).collect(),

@@ -55,7 +55,7 @@ impl RunSpec {
         let scenario = load(self.scenario, &changes)?;
         let sets = self.sets.iter().flat_map(|set| ["--set", set]);
         let command = ["interplay", "run", self.scenario].into_iter().chain(sets).map(str::to_owned).collect();
-        Ok(RecordedRun::of(self.scenario, scenario, command, self.label)?)
+        Ok(RecordedRun::record(self.scenario, scenario, command, self.label)?)
     }
 }
 
@@ -64,7 +64,7 @@ impl RecordedRun {
     ///
     /// # Errors
     /// [`RunError`].
-    pub fn of(name: &str, scenario: Scenario, command: Vec<String>, label: &str) -> Result<RecordedRun, RunError> {
+    pub fn record(name: &str, scenario: Scenario, command: Vec<String>, label: &str) -> Result<RecordedRun, RunError> {
         let frame_log = FrameLog::default();
         let report = run(name, &scenario, vec![Box::new(frame_log.clone())])?;
         Ok(RecordedRun { label: label.to_owned(), command, scenario, frames: frame_log.frames(), report })

@@ -21,7 +21,7 @@ const BOX_WIDTHS: f64 = 1.35;
 pub fn mesh(vehicle: &Vehicle, colour: Colour) -> Mesh {
     let placed = Placed(&vehicle.body);
     let mut mesh = Mesh::default();
-    let style = BodyStyle::of(vehicle);
+    let style = BodyStyle::choose(vehicle);
     if style != BodyStyle::Bicycle {
         add_wheels(&mut mesh, &vehicle.body, style);
         add_lights(&mut mesh, &placed);
@@ -83,7 +83,7 @@ pub fn indicators(body: &Body, is_left: bool) -> [[f64; 3]; 2] {
 
 /// Height of a vehicle \[m\].
 pub fn height_m(vehicle: &Vehicle) -> f64 {
-    let widths = match BodyStyle::of(vehicle) {
+    let widths = match BodyStyle::choose(vehicle) {
         BodyStyle::Car => ROOF_WIDTHS,
         BodyStyle::Van => VAN_WIDTHS,
         BodyStyle::Lorry => BOX_WIDTHS,
@@ -121,7 +121,7 @@ impl Placed<'_> {
 }
 
 fn add_wheels(mesh: &mut Mesh, body: &Body, style: BodyStyle) {
-    let Wheels { size_m, rings_m } = Wheels::of(body, style, 0.0);
+    let Wheels { size_m, rings_m } = Wheels::place(body, style, 0.0);
     rings_m.iter().for_each(|ring| mesh.add_block(ring, [0.0, 0.9 * size_m[0]], TYRE));
 }
 

@@ -150,7 +150,7 @@ mod tests {
         for name in
             ["ramp-merge/nice", "on-ramp/five", "roundabout/nice", "curve/lane-drop", "intersection/slanted-nice"]
         {
-            let shapes = RoadShapes::of(&load(name, &[]).expect("embedded"), [[-20.0, -20.0], [20.0, 20.0]]);
+            let shapes = RoadShapes::trace(&load(name, &[]).expect("embedded"), [[-20.0, -20.0], [20.0, 20.0]]);
             for ring in &shapes.surfaces {
                 let (found, expected) = (covered(ring), area(ring).abs());
                 assert!((found - expected).abs() < 1e-6 * expected.max(1.0), "{name}: {found} {expected}");

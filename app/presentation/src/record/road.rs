@@ -30,7 +30,7 @@ const GROUND_BEYOND_RATIO: f64 = 3.0;
 pub fn road(stream: &RecordingStream, scenario: &Scenario, bounds_m: [[f64; 2]; 2]) -> RecordingStreamResult<()> {
     let beyond_m = BEYOND_LANES * scenario.road.lane_width_m();
     let bounds_m = [bounds_m[0].map(|part| part - beyond_m), bounds_m[1].map(|part| part + beyond_m)];
-    let shapes = RoadShapes::of(scenario, bounds_m);
+    let shapes = RoadShapes::trace(scenario, bounds_m);
     let mut ground = Mesh::default();
     ground.add_polygon(&around(&shapes, bounds_m), GROUND_LANES * shapes.lane_m, GRASS);
     stream.log_static("world/ground", &ground.to_component())?;

@@ -37,7 +37,7 @@ pub(super) fn write(text: &mut String, building: &BuildingReport) -> std::fmt::R
 /// A line for each day; of many days, the first and the last ones.
 fn write_days(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
     let days = &building.iterations;
-    let supply = Supply::of(building);
+    let supply = Supply::detect(building);
     let titles = ["day", "cost", "regret", "rmse K", "discomfort K·h", "energy kWh", "peak kW", "over limit kW"];
     let more = supply.titles();
     let header = titles.into_iter().chain(["design ms"]).chain(more.iter().map(String::as_str));
@@ -78,7 +78,7 @@ struct Supply {
 }
 
 impl Supply {
-    fn of(building: &BuildingReport) -> Self {
+    fn detect(building: &BuildingReport) -> Self {
         // Beyond rounding: the two are sums in different orders.
         let differs = |DayFigures { figures, .. }: &DayFigures| {
             (figures.electricity_kwh - figures.energy_kwh).abs() > 1e-9 * (1.0 + figures.energy_kwh)
@@ -102,7 +102,7 @@ impl Supply {
 
 /// A line for each zone, over all days; of many zones, the first.
 fn write_zones(text: &mut String, building: &BuildingReport) -> std::fmt::Result {
-    let supply = Supply::of(building);
+    let supply = Supply::detect(building);
     let more = supply.titles();
     let titles = ["cost", "discomfort K·h", "energy kWh"].into_iter().chain(more.iter().map(String::as_str));
     let header: Vec<_> =

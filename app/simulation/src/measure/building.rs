@@ -117,7 +117,7 @@ impl BuildingMeasures {
         // What heat cost is a matter of the real weather, not of its forecast.
         let targets = &*targets.under(&today.actual.ambient_c);
         let limits = model.network().limits();
-        let figures = KeyFigures::of(&today.record, targets, limits, model.step_s());
+        let figures = KeyFigures::compute(&today.record, targets, limits, model.step_s());
         // An optimum that is not found is no reason to give up the run: the regret is then unknown.
         // That of the network is no optimum of another program.
         let lifted = self.lifted.as_ref().filter(|_| !building.plant.is_foreign());

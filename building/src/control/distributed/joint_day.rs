@@ -29,7 +29,7 @@ impl JointDay<'_> {
     }
 
     pub(super) fn cost_of(&self, temperatures_c: &[f64], heat_kw: &[f64]) -> f64 {
-        self.targets.cost(temperatures_c, heat_kw) + self.penalty.of(self.targets, temperatures_c)
+        self.targets.cost(temperatures_c, heat_kw) + self.penalty.evaluate(self.targets, temperatures_c)
     }
 
     /// ∂J/∂T and, without the parts of bounds that are kept now, ∂²J/∂T² of an entry.

@@ -210,7 +210,7 @@ impl Checker {
 
     fn number(&mut self, offset: usize, value: f64, schema: Schema<'_>, key: &SettingKey) {
         // A finite number beyond its own bounds is answered with them, not with the limits of all numbers.
-        let mut bounds = [Bound::Finite].into_iter().chain(Bound::of(schema.stated)).chain(Bound::of_every_setting());
+        let mut bounds = [Bound::Finite].into_iter().chain(Bound::read(schema.stated)).chain(Bound::of_every_setting());
         if let Some(bound) = bounds.find(|bound| !bound.admits(value)) {
             self.problems.push((offset, TelemetryProblem::Setting { key: key.clone(), value, bound }));
         }

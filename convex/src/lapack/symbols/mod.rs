@@ -54,7 +54,7 @@ fn stride(value: c_int) -> usize {
 }
 
 fn triangle(letter: c_char) -> Triangle {
-    let known = Triangle::of(letter as u8);
+    let known = Triangle::from_letter(letter as u8);
     assert!(known.is_some(), "uplo must be U or L");
     known.unwrap_or(Triangle::Upper)
 }

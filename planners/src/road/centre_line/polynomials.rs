@@ -33,7 +33,7 @@ impl CentreLine {
             if part.length_m <= 0.0 {
                 return Err(CentreLineError::NoLength { piece, length_m: part.length_m });
             }
-            let segment = Segment::of(part).placed(0.0, heading_rad);
+            let segment = Segment::from_polynomial(part).placed(0.0, heading_rad);
             let [begin, end] = [0.0, segment.length_m].map(|u| segment.knot(u));
             let turns_rad = [begin, end].map(|[_, tangent, _]| segment.turn_from_middle_rad(tangent));
             if !turns_rad.iter().all(|turn_rad| turn_rad.abs() <= MAX_HALF_TURN_RAD) {

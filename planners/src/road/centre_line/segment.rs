@@ -46,11 +46,11 @@ impl Segment {
             ]
         });
         let [x, y] = polynomials;
-        Segment::of(&LinePolynomial { length_m, x, y })
+        Segment::from_polynomial(&LinePolynomial { length_m, x, y })
     }
 
     /// The segment of a polynomial, at arc length 0.
-    pub fn of(&LinePolynomial { length_m, x, y }: &LinePolynomial) -> Segment {
+    pub fn from_polynomial(&LinePolynomial { length_m, x, y }: &LinePolynomial) -> Segment {
         let coefficients = std::array::from_fn(|power| [x[power], y[power]]);
         Segment { from_m: 0.0, length_m, coefficients, middle: [1.0, 0.0], middle_heading_rad: 0.0 }.with_middle()
     }

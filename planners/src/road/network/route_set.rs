@@ -79,7 +79,7 @@ fn with_all(own: &Route, all: &[Route]) -> Vec<RouteConflict> {
     known
         .map(|(with, other, conflict)| {
             let kind = if is_head_on(own, other, &conflict.on_a) { ConflictKind::HeadOn } else { conflict.kind };
-            let (approach, their_approach) = (Approach::of(own, conflict.on_a), Approach::of(other, conflict.on_b));
+            let (approach, their_approach) = (Approach::find(own, conflict.on_a), Approach::find(other, conflict.on_b));
             let meeting = |route: &Route, partner: &Route, [from_m, to_m]: [f64; 2]| match kind {
                 ConflictKind::Crossing | ConflictKind::Diverging => 0.5 * (from_m + to_m),
                 // The lanes overlap before the centre lines meet.
@@ -122,7 +122,7 @@ struct Approach {
 }
 
 impl Approach {
-    fn of(route: &Route, [from_m, to_m]: [f64; 2]) -> Approach {
+    fn find(route: &Route, [from_m, to_m]: [f64; 2]) -> Approach {
         let middle_m = 0.5 * (from_m + to_m);
         let place = |along_m: f64| route.legs.iter().position(|leg| along_m < leg.to_m);
         let number = place(from_m).unwrap_or_default();

@@ -37,7 +37,7 @@ impl GivesUp<'_> {
         if expected <= self.above {
             return Ok(());
         }
-        let is_settled = step > 0 && self.settled.contains(&HomotopyClass::of(problem, &now.iterate));
+        let is_settled = step > 0 && self.settled.contains(&HomotopyClass::classify(problem, &now.iterate));
         if is_settled {
             return Err(DescentError::Settled(statistics));
         }

@@ -32,7 +32,7 @@ pub(super) struct HomotopyClass {
 
 impl HomotopyClass {
     /// The class of a motion that was rolled out.
-    pub fn of(problem: &Problem, iterate: &Iterate) -> HomotopyClass {
+    pub fn classify(problem: &Problem, iterate: &Iterate) -> HomotopyClass {
         let mut class = HomotopyClass::default();
         for (winding, rows) in class.windings.iter_mut().zip(ellipses(problem)) {
             *winding = winding_round(problem.horizon, rows, iterate);

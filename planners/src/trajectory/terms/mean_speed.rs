@@ -60,7 +60,7 @@ pub struct MeanSpeedBound {
 
 impl SpeedMeasure {
     /// The mean speed of `N + 1` states \[m/s\].
-    pub fn of(&self, states: &[State]) -> f64 {
+    pub fn evaluate(&self, states: &[State]) -> f64 {
         match self {
             SpeedMeasure::Speeds => states.iter().map(|state| state.speed_mps).sum::<f64>() / states.len() as f64,
             SpeedMeasure::AlongRoad { directions, step_s } => {
@@ -112,7 +112,7 @@ impl TrajectoryTerm for MeanSpeedBound {
     }
 
     fn excess(&self, states: &[State]) -> f64 {
-        let mean = self.measure.of(states);
+        let mean = self.measure.evaluate(states);
         if self.is_upper { mean - self.speed_mps } else { self.speed_mps - mean }
     }
 

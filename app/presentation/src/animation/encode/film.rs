@@ -34,11 +34,11 @@ pub struct Change {
 
 impl Film {
     /// Draws all pictures, side by side on the threads there are; none if they have no size.
-    pub fn of(pictures: &dyn Pictures) -> Option<Film> {
+    pub fn draw(pictures: &dyn Pictures) -> Option<Film> {
         let count = pictures.count();
         let samples: Vec<usize> = (0..count).step_by(PALETTE_STRIDE).chain([count - 1]).collect();
         let samples = samples.into_par_iter().map(|index| pictures.draw(index)).collect::<Option<Vec<Vec<u8>>>>()?;
-        let table = ColourTable::of(&samples, &pictures.exact_colours());
+        let table = ColourTable::quantise(&samples, &pictures.exact_colours());
         drop(samples);
         let drawn = |index: usize| Some(table.indices(&pictures.draw(index)?));
         let drawn = (0..count).into_par_iter().map(drawn).collect::<Option<Vec<Vec<u8>>>>()?;

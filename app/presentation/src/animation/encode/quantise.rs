@@ -26,7 +26,7 @@ pub struct ColourTable {
 
 impl ColourTable {
     /// The table of some pictures, with colours that must stay exact.
-    pub fn of(pictures: &[Vec<u8>], exact: &[Colour]) -> ColourTable {
+    pub fn quantise(pictures: &[Vec<u8>], exact: &[Colour]) -> ColourTable {
         let mut counts: BTreeMap<Colour, usize> = BTreeMap::new();
         for pixels in pictures {
             for run in pixels.as_chunks::<3>().0.chunk_by(|a, b| a == b) {
@@ -137,7 +137,7 @@ mod tests {
     fn exact_colours_stay_and_the_others_stay_near() {
         let pixels: Vec<u8> =
             (0..60_000_u32).flat_map(|i| [(i % 251) as u8, (i / 251 % 241) as u8, (i % 97) as u8]).collect();
-        let table = ColourTable::of(std::slice::from_ref(&pixels), &[[230, 159, 0], [1, 2, 3]]);
+        let table = ColourTable::quantise(std::slice::from_ref(&pixels), &[[230, 159, 0], [1, 2, 3]]);
         assert!(table.colours.len() <= 255);
         let exact = table.indices(&[230, 159, 0, 1, 2, 3]);
         assert_eq!(
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn few_colours_are_all_exact() {
         let pixels: Vec<u8> = [[9, 8, 7], [1, 1, 1], [200, 100, 0]].concat().repeat(50);
-        let table = ColourTable::of(std::slice::from_ref(&pixels), &[]);
+        let table = ColourTable::quantise(std::slice::from_ref(&pixels), &[]);
         let shown: Vec<u8> =
             table.indices(&pixels).iter().flat_map(|index| table.colours[usize::from(*index)]).collect();
         assert_eq!(shown, pixels);

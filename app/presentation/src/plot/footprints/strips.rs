@@ -36,7 +36,7 @@ struct Window {
 }
 
 impl Window {
-    fn of(footprints: &FootprintPlot) -> Window {
+    fn choose(footprints: &FootprintPlot) -> Window {
         let [[from, _], [to, _]] = footprints.bounds();
         let edges_m = footprints.strip_m.unwrap_or([0.0, 1.0]);
         let (margin, longest) = (0.5 * footprints.longest_m(), footprints.longest_m());
@@ -59,7 +59,7 @@ impl Window {
 impl FootprintPlot {
     /// Snapshots one below the other, all of the same part of the road, or of the part around the ego.
     pub fn strips(&self) -> Drawing {
-        let window = Window::of(self);
+        let window = Window::choose(self);
         let legend = self.legend();
         let head = TITLE_HEIGHT_PX + legend.height(WIDTH_PX - 2.0 * MARGIN_PX) + 22.0;
         let row = window.height() + STRIP_SPACING_PX;

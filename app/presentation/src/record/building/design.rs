@@ -63,9 +63,15 @@ impl DesignPlots {
         }
         for (place, &index) in shown.iter().enumerate() {
             let (series_colour, name) = (palette::zone(place), &names[index]);
-            style(stream, &of(LEARNED, index), name, series_colour.solid(), 1.5)?;
-            style(stream, &(of(GAIN, index) + "/own"), &format!("{name}: own error"), series_colour.solid(), 2.0)?;
-            style(stream, &(of(GAIN, index) + "/others"), &format!("{name}: others'"), series_colour.veiled(130), 1.5)?;
+            style(stream, &indexed(LEARNED, index), name, series_colour.solid(), 1.5)?;
+            style(stream, &(indexed(GAIN, index) + "/own"), &format!("{name}: own error"), series_colour.solid(), 2.0)?;
+            style(
+                stream,
+                &(indexed(GAIN, index) + "/others"),
+                &format!("{name}: others'"),
+                series_colour.veiled(130),
+                1.5,
+            )?;
         }
         for (name, words, series_colour) in [
             ("one", "limit of convergence", FAILURE),
@@ -105,7 +111,7 @@ impl DesignPlots {
         for &index in shown {
             // Before there was a day, nothing is learned.
             let bias_kw = self.design.bias_kw.get(frame.step * frame.zones.len() + index).copied().unwrap_or(0.0);
-            stream.log(of(LEARNED, index), &Scalars::single(bias_kw))?;
+            stream.log(indexed(LEARNED, index), &Scalars::single(bias_kw))?;
         }
         self.feedback(stream, shown)?;
         self.convergence(stream)
@@ -120,7 +126,7 @@ impl DesignPlots {
         if !taps_kw_per_k.is_empty() && self.seen.insert(TAPS) {
             for delay in 0..taps_kw_per_k.len() {
                 let words = format!("after {delay} steps");
-                style(stream, &of(TAPS, delay), &words, palette::series(delay).solid(), 1.5)?;
+                style(stream, &indexed(TAPS, delay), &words, palette::series(delay).solid(), 1.5)?;
             }
         }
         Ok(())
@@ -131,12 +137,12 @@ impl DesignPlots {
         for (index, row) in shown.iter().filter_map(|&index| Some((index, gain_kw_per_k.get(index)?))) {
             let own = row[index];
             let others = row.iter().sum::<f64>() - own;
-            stream.log(of(GAIN, index) + "/own", &Scalars::single(own))?;
-            stream.log(of(GAIN, index) + "/others", &Scalars::single(others))?;
+            stream.log(indexed(GAIN, index) + "/own", &Scalars::single(own))?;
+            stream.log(indexed(GAIN, index) + "/others", &Scalars::single(others))?;
         }
         for (delay, tap) in taps_kw_per_k.iter().enumerate() {
             let own = tap.iter().enumerate().map(|(zone, row)| row[zone]).sum::<f64>() / tap.len() as f64;
-            stream.log(of(TAPS, delay), &Scalars::single(own))?;
+            stream.log(indexed(TAPS, delay), &Scalars::single(own))?;
         }
         Ok(())
     }
@@ -166,7 +172,7 @@ impl DesignPlots {
 }
 
 /// Where something of a zone, or of a delay, is recorded.
-fn of(part: &str, index: usize) -> String {
+fn indexed(part: &str, index: usize) -> String {
     format!("{part}/{}", index + 1)
 }
 

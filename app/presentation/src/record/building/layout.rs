@@ -90,7 +90,7 @@ fn every_zone(building_layer: &BuildingLayer) -> LayoutNode {
     let grouped = |(number, group): (usize, &Vec<usize>)| {
         let (first, last) = (group.first().copied().unwrap_or(0), group.last().copied().unwrap_or(0));
         let title = format!("{} to {}", building_layer.names[first], building_layer.names[last]);
-        let title = ranged(&title, building_layer.ranges.of(group), "°C");
+        let title = ranged(&title, building_layer.ranges.spanning(group), "°C");
         let plot = TimePlot::new(building_layer.duration_s, &title, vec![format!("/{}", series::group(number))]);
         around(plot, building_layer).alone()
     };
@@ -146,7 +146,7 @@ fn temperatures(building_layer: &BuildingLayer) -> LayoutNode {
 fn temperature(building_layer: &BuildingLayer, index: usize, width: Option<f64>) -> LayoutNode {
     let paths = ["temperature", "reference", "band/**"];
     let paths = paths.map(|what| format!("/building/zone/{}/{what}", index + 1));
-    let title = ranged(&building_layer.names[index], building_layer.ranges.of(&[index]), "°C");
+    let title = ranged(&building_layer.names[index], building_layer.ranges.spanning(&[index]), "°C");
     let plot = around(TimePlot::new(building_layer.duration_s, &title, paths.to_vec()), building_layer);
     match width {
         Some(width) => plot.with_legend("comfort, high".len(), width),

@@ -132,7 +132,7 @@ impl TemperatureRanges {
     }
 
     /// Of some zones, once it is known \[°C\].
-    fn of(&self, zones: &[usize]) -> Option<[f64; 2]> {
+    fn spanning(&self, zones: &[usize]) -> Option<[f64; 2]> {
         let ranges = zones.iter().filter_map(|zone| self.zones_c.get(*zone).copied()).filter(|_| self.are_final);
         ranges.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)])
     }

@@ -9,7 +9,7 @@ use crate::network_lines::expected_bounds_m;
 
 /// The cameras of an authored scenario after its run, and their views.
 fn filmed(name: &str) -> (Scenario, Cameras, Vec<CameraView>) {
-    let recorded = RecordedRun::of(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
+    let recorded = RecordedRun::record(name, load(name, &[]).expect("embedded"), Vec::new(), "").expect("a run");
     let scenario = recorded.scenario;
     let shape = (false, expected_bounds_m(&scenario));
     let stream = RecordingStream::disabled();

@@ -22,7 +22,7 @@ pub(super) enum FollowedRoad<'a> {
 
 impl<'a> FollowedRoad<'a> {
     /// The road of a vehicle; none for a vehicle without a goal.
-    pub fn of(problem: &'a Problem, vehicle: usize) -> Option<FollowedRoad<'a>> {
+    pub fn find(problem: &'a Problem, vehicle: usize) -> Option<FollowedRoad<'a>> {
         let participant = &problem.participants[vehicle];
         let Some(start) = &participant.route_start else {
             return problem.terms.iter().find_map(|term| match term {

@@ -41,7 +41,7 @@ impl<S: StageSolver> Optimiser<S> {
                     replace(&mut best, reached);
                 }
                 Ok(Exploration::Dearer(found)) => best.iter_mut().for_each(|held| {
-                    let class = |optimum: &Optimum| HomotopyClass::of(problem, &optimum.iterate);
+                    let class = |optimum: &Optimum| HomotopyClass::classify(problem, &optimum.iterate);
                     if class(&found) == class(held) {
                         held.add_work(&found.statistics)
                     } else {

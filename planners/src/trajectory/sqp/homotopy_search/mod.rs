@@ -122,7 +122,7 @@ impl<S: StageSolver> Optimiser<S> {
         let mut round = std::mem::take(&mut self.comparison.round);
         // The class of a plan that violates something may hold a better one.
         let trusted = best.as_ref().ok().filter(|_| self.tolerances.trust(&best));
-        let own_class = trusted.map(|optimum| HomotopyClass::of(problem, &optimum.iterate));
+        let own_class = trusted.map(|optimum| HomotopyClass::classify(problem, &optimum.iterate));
         let planned = best.as_ref().ok().map(|optimum| &optimum.iterate);
         let mut candidates = representatives(problem, planned, own_class);
         if problem.has_pairs() {
@@ -189,7 +189,7 @@ impl<S: StageSolver> Optimiser<S> {
         let gives_up = GivesUp { above: self.bar(best), settled: &round.settled };
         let explored = self.explore_class(problem, iterate, gives_up.above, Some(&gives_up), &tolerances);
         if let Ok(Exploration::Cheaper(found) | Exploration::Dearer(found)) = &explored {
-            round.settled.push(HomotopyClass::of(problem, &found.iterate));
+            round.settled.push(HomotopyClass::classify(problem, &found.iterate));
         }
         let statistics = match explored {
             Ok(Exploration::Cheaper(found)) => {
@@ -232,7 +232,7 @@ fn representatives(
 ) -> Vec<Representative> {
     let mut found: Vec<Representative> = Vec::new();
     for_each_motion(problem, planned, |iterate| {
-        let class = HomotopyClass::of(problem, iterate);
+        let class = HomotopyClass::classify(problem, iterate);
         if without == Some(class) {
             return;
         }

@@ -99,7 +99,7 @@ fn motions(problem: &Problem, vehicle: usize) -> Vec<Motion> {
 
 /// The lateral positions on either side of the ellipses along the vehicle's road, as far as the road reaches \[m\].
 fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
-    let Some(road) = FollowedRoad::of(problem, vehicle) else { return Vec::new() };
+    let Some(road) = FollowedRoad::find(problem, vehicle) else { return Vec::new() };
     let on_road = |lateral_m: &f64| {
         problem.terms.iter().all(|term| match term {
             Term::RoadEdge(edge) if edge.vehicle == vehicle => {
@@ -134,7 +134,7 @@ fn laterals_beside(problem: &Problem, vehicle: usize) -> Vec<f64> {
 /// or of now; nothing for a vehicle without a goal, or where the two positions are the same.
 fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -> Option<Motion> {
     let participant = &problem.participants[vehicle];
-    let road = FollowedRoad::of(problem, vehicle)?;
+    let road = FollowedRoad::find(problem, vehicle)?;
     let here = road.at(&participant.start, None).across_m;
     let is_far = |wanted: f64| (wanted - here).abs() > MIN_LATERAL_MOVE_RATIO * participant.model.wheelbase_m();
     let wanted = if to_goal { road.wanted_m().filter(|wanted| is_far(*wanted))? } else { here };
@@ -144,7 +144,7 @@ fn simple_motion(problem: &Problem, vehicle: usize, share: f64, to_goal: bool) -
 /// A share of the strongest acceleration, and a lateral position.
 fn motion_to(problem: &Problem, vehicle: usize, share: f64, lateral_m: f64) -> Option<Motion> {
     let participant = &problem.participants[vehicle];
-    let road = FollowedRoad::of(problem, vehicle)?;
+    let road = FollowedRoad::find(problem, vehicle)?;
     let geometry = SteeringGeometry {
         rear_axle_m: participant.model.rear_axle_m(),
         wheelbase_m: participant.model.wheelbase_m(),
